@@ -1,0 +1,273 @@
+//! `drypoint draw`: photograph to drawing to file.
+
+use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
+use super::failure::Failure;
+use super::layout::{Layout, lay_out};
+use super::progress::{Watcher, is_interrupted};
+use super::toolpaths::{self, Prepared};
+use super::output;
+use crate::drawing::{Drawing, Layer};
+use crate::plot::{InkModel, Nibs, Profile, lower};
+use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use crate::style::{self, Observer, Settings, Style, StyleError};
+use crate::write::{SvgHead, write_svg};
+use serde_json::{Value, json};
+use std::path::Path;
+
+pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
+    let format = toolpaths::format_of(&options.output, options.format)?;
+    if options.reporting.json && options.output == "-" {
+        return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
+    }
+    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
+    toolpaths::check_language(format, profile.as_ref())?;
+    limit_threads(options.picture.threads)?;
+    let watcher = Watcher::new(options.reporting.quiet);
+    let task = Task::new(&options.picture)?;
+    let mut drawing = task.draw(&watcher)?;
+    for layer in &mut drawing.layers {
+        layer.ink = options.ink.clone();
+    }
+    drawing.layers = chosen(drawing.layers, &options.layers)?;
+    watcher.begin("writing");
+    let head = head(options, &task.recipe(options));
+    let files = split_by_layer(&drawing, &options.output);
+    let mut prepared = Vec::new();
+    for (name, drawing) in &files {
+        if is_interrupted() {
+            return Err(Failure::Interrupted);
+        }
+        prepared.extend(write_one(name, drawing, format, profile.as_ref(), options, &head)?);
+    }
+    let seconds = watcher.finish();
+    for prepared in &prepared {
+        toolpaths::warn(prepared, profile.as_ref());
+    }
+    report(options, &drawing, &prepared, &seconds, watcher.elapsed())
+}
+
+/// One file; gives back the plot when it is one.
+fn write_one(name: &str, drawing: &Drawing, format: Format, profile: Option<&Profile>, options: &DrawOptions, head: &SvgHead) -> Result<Option<Prepared>, Failure> {
+    if profile.is_none() {
+        let fill = |mut out: &mut dyn std::io::Write| write_svg(drawing, head, &mut out);
+        if options.dry_run { toolpaths::discard(fill)? } else { output::write(name, fill)? }
+        return Ok(None);
+    }
+    let plot = lower(drawing, InkModel::Ink, &Nibs::all(options.pen), options.toolpaths.tolerance);
+    let prepared = toolpaths::prepare(plot, profile, &options.toolpaths)?;
+    if !options.dry_run {
+        toolpaths::write(name, format, &prepared, profile, head)?;
+    }
+    Ok(Some(prepared))
+}
+
+/// Everything that decides a drawing.
+pub(super) struct Task<'a> {
+    options: &'a PictureOptions,
+    pub style: &'static dyn Style,
+    pub settings: Settings,
+    photograph: Photograph,
+    masks: Vec<(MaskRole, String, Photograph)>,
+    layout: Layout,
+}
+
+impl<'a> Task<'a> {
+    pub(super) fn new(options: &'a PictureOptions) -> Result<Self, Failure> {
+        let style = find_style(&options.style)?;
+        let settings = settings(style, options)?;
+        if options.black >= options.white {
+            return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
+        }
+        let mask_files: Vec<(MaskRole, &str)> = options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
+        let photograph = photograph(&options.photo)?;
+        let masks = mask_files
+            .into_iter()
+            .map(|(role, file)| Ok((role, file.to_owned(), self::photograph(file)?)))
+            .collect::<Result<_, Failure>>()?;
+        let layout = lay_out(options, &photograph)?;
+        Ok(Self { options, style, settings, photograph, masks, layout })
+    }
+
+    pub(super) fn draw(&self, observer: &dyn Observer) -> Result<Drawing, Failure> {
+        for warning in &self.photograph.info.warnings {
+            observer.warn(&format!("{}: {warning}", self.options.photo));
+        }
+        observer.begin("photograph");
+        let portrait = self.portrait()?;
+        self.style.draw(&portrait, &self.settings, self.options.seed, observer).map_err(|error| match error {
+            StyleError::Interrupted => Failure::Interrupted,
+            other => Failure::Work(format!("{}: {other}", self.options.photo)),
+        })
+    }
+
+    fn portrait(&self) -> Result<Portrait, Failure> {
+        let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
+        let placement = Placement::new(self.layout.picture, self.style.pixels_per_mm(&self.settings, &roles));
+        let target = match self.options.tone {
+            Tone::Lightness => ToneTarget::Lightness,
+            Tone::Linear => ToneTarget::Linear,
+        };
+        let curve = ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
+        let about = |name: &str| { let name = name.to_owned(); move |error: crate::source::SourceError| Failure::about(&name)(&error) };
+        let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
+            .map_err(about(&self.options.photo))?;
+        for (role, name, mask) in &self.masks {
+            portrait.add_mask(*role, mask, &self.photograph, self.layout.crop).map_err(about(name))?;
+        }
+        Ok(portrait)
+    }
+
+    /// All that is needed to make the picture again.
+    fn recipe(&self, options: &DrawOptions) -> Value {
+        let set: serde_json::Map<String, Value> = self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
+        let masks: serde_json::Map<String, Value> = self.options.mask.iter().zip(&self.masks).map(|((role, _), (_, name, mask))| {
+            (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 }))
+        }).collect();
+        let picture = self.options;
+        json!({
+            "drypoint": env!("CARGO_PKG_VERSION"),
+            "command": "draw",
+            "source": { "file": file_name(&picture.photo), "sha256": self.photograph.info.sha256 },
+            "masks": masks,
+            "style": self.style.name(),
+            "set": set,
+            "seed": picture.seed,
+            "page_mm": [round(self.layout.page.width), round(self.layout.page.height)],
+            "picture_mm": [round(self.layout.picture.x0), round(self.layout.picture.y0), round(self.layout.picture.width()), round(self.layout.picture.height())],
+            "crop_px": [round(self.layout.crop.x), round(self.layout.crop.y), round(self.layout.crop.width), round(self.layout.crop.height)],
+            "tone": if picture.tone == Tone::Lightness { "lightness" } else { "linear" },
+            "gamma": picture.gamma,
+            "black": picture.black,
+            "white": picture.white,
+            "pen_mm": options.pen,
+            "ink": options.ink.to_string(),
+            "layers": options.layers,
+            "profile": options.profile.as_deref().map(file_name),
+        })
+    }
+}
+
+fn round(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
+
+/// The last part of a path: where a file lay on this machine is nobody's business.
+fn file_name(name: &str) -> &str {
+    Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
+}
+
+fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
+    let names: Vec<&str> = style::STYLES.iter().map(|s| s.name()).collect();
+    style::find(name).ok_or_else(|| Failure::Usage(format!("there is no style '{name}'; there are {}", names.join(", "))))
+}
+
+fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
+    let names: Vec<&str> = MaskRole::ALL.iter().filter(|(_, role)| style.masks().contains(role)).map(|(name, _)| *name).collect();
+    MaskRole::ALL
+        .iter()
+        .find(|(known, role)| *known == name && style.masks().contains(role))
+        .map(|(_, role)| *role)
+        .ok_or_else(|| Failure::Usage(format!("--mask {name}: {} takes {}", style.name(), names.join(", "))))
+}
+
+/// Parameters from the file, then from --pitch, then from --set.
+fn settings(style: &'static dyn Style, options: &PictureOptions) -> Result<Settings, Failure> {
+    let mut given = Vec::new();
+    if let Some(path) = &options.params {
+        given.extend(parameter_file(&path.to_string_lossy())?);
+    }
+    if let Some(pitch) = options.pitch {
+        given.push(("pitch".to_owned(), pitch.to_string()));
+    }
+    given.extend(options.set.iter().cloned());
+    Ok(Settings::resolve(style.name(), style.parameters(), &given)?)
+}
+
+fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
+    let text = String::from_utf8(output::read(name)?).map_err(|_| Failure::Work(format!("{name} is not UTF-8 text")))?;
+    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
+    table
+        .into_iter()
+        .map(|(key, value)| match value {
+            toml::Value::String(text) => Ok((key, text)),
+            toml::Value::Integer(number) => Ok((key, number.to_string())),
+            toml::Value::Float(number) => Ok((key, number.to_string())),
+            other => Err(Failure::Work(format!("{name}: {key} = {other} is neither a number nor a text"))),
+        })
+        .collect()
+}
+
+fn photograph(name: &str) -> Result<Photograph, Failure> {
+    let shown = if name == "-" { "stdin" } else { name };
+    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| Failure::about(shown)(&error))
+}
+
+pub(super) fn limit_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .map_err(|error| Failure::Work(format!("{threads} threads could not be started: {error}")))
+}
+
+/// The layers asked for, in the drawing's order.
+fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> {
+    if wanted.is_empty() {
+        return Ok(layers);
+    }
+    let matches = |layer: &Layer, name: &String| layer.name == *name || layer.pen.to_string() == *name;
+    if let Some(missing) = wanted.iter().find(|name| !layers.iter().any(|layer| matches(layer, name))) {
+        let names: Vec<&str> = layers.iter().map(|l| l.name.as_str()).collect();
+        return Err(Failure::Usage(format!("there is no layer '{missing}'; there are {}", names.join(", "))));
+    }
+    Ok(layers.into_iter().filter(|layer| wanted.iter().any(|name| matches(layer, name))).collect())
+}
+
+/// The whole drawing, or with `{layer}` in the name one drawing for each layer.
+fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
+    if !output.contains("{layer}") {
+        return vec![(output.to_owned(), drawing.clone())];
+    }
+    let one = |layer: &Layer| (output.replace("{layer}", &layer.name), Drawing { page: drawing.page, layers: vec![layer.clone()] });
+    drawing.layers.iter().map(one).collect()
+}
+
+fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {
+    let style = &options.picture.style;
+    SvgHead {
+        title: format!("{} of {}", style, file_name(&options.picture.photo)),
+        description: format!("Drawn by drypoint {} in the style {style}; the recipe is in the metadata.", env!("CARGO_PKG_VERSION")),
+        recipe: recipe.to_string(),
+    }
+}
+
+fn report(options: &DrawOptions, drawing: &Drawing, prepared: &[Prepared], seconds: &[(String, f64)], elapsed: f64) -> Result<(), Failure> {
+    if options.reporting.json {
+        return output::print_json(&report_json(options, drawing, prepared, seconds));
+    }
+    if !options.reporting.quiet {
+        let counts = drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
+        let ink: f64 = drawing.layers.iter().map(Layer::ink_mm2).sum();
+        eprintln!(
+            "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",
+            options.output, drawing.page.width, drawing.page.height, counts[0], counts[1]
+        );
+        for prepared in prepared {
+            eprintln!("{}", toolpaths::summary(&prepared.report));
+        }
+    }
+    Ok(())
+}
+
+fn report_json(options: &DrawOptions, drawing: &Drawing, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
+    let layers: Vec<Value> = drawing.layers.iter().map(|layer| {
+        let [dots, strokes, areas] = layer.counts();
+        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": options.pen, "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2() })
+    }).collect();
+    let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
+    let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });
+    if let Some(prepared) = prepared.first() {
+        value["plot"] = json!(prepared.report);
+    }
+    value
+}

@@ -1,0 +1,64 @@
+//! What went wrong, in the user's words, and the exit status it means.
+
+use std::io;
+use thiserror::Error;
+
+#[derive(Debug, Error)]
+pub(super) enum Failure {
+    /// The command line is wrong.
+    #[error("{0}")]
+    Usage(String),
+    /// It could not be done.
+    #[error("{0}")]
+    Work(String),
+    /// The user stopped it.
+    #[error("interrupted; nothing was written")]
+    Interrupted,
+    /// Whoever read our output has gone.
+    #[error("closed pipe")]
+    ClosedPipe,
+}
+
+impl Failure {
+    pub(super) const fn exit_status(&self) -> u8 {
+        match self {
+            Self::Usage(_) => 2,
+            Self::Work(_) => 1,
+            Self::Interrupted => 130,
+            Self::ClosedPipe => 0,
+        }
+    }
+
+    /// A failure about a file, named first.
+    pub(super) fn about(name: &str) -> impl Fn(&dyn std::fmt::Display) -> Self {
+        move |problem| Self::Work(format!("{name} {problem}"))
+    }
+
+    /// What an error while writing means.
+    pub(super) fn writing(name: &str) -> impl Fn(io::Error) -> Self {
+        move |error| match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ClosedPipe,
+            io::ErrorKind::Interrupted => Self::Interrupted,
+            io::ErrorKind::StorageFull => Self::Work(format!("{name} cannot be written: the disk is full; free some space or choose another place")),
+            io::ErrorKind::PermissionDenied => Self::Work(format!("{name} cannot be written: permission denied; choose another place with -o")),
+            io::ErrorKind::NotFound => Self::Work(format!("{name} cannot be written: its folder does not exist; make it first")),
+            _ => Self::Work(format!("{name} cannot be written: {error}")),
+        }
+    }
+}
+
+macro_rules! usage_errors {
+    ($($error:ty),*) => { $(impl From<$error> for Failure {
+        fn from(error: $error) -> Self {
+            Self::Usage(error.to_string())
+        }
+    })* };
+}
+
+usage_errors!(crate::style::ParameterError, crate::plot::ProfileError);
+
+impl From<crate::plot::MountingError> for Failure {
+    fn from(error: crate::plot::MountingError) -> Self {
+        Self::Work(error.to_string())
+    }
+}

@@ -1,0 +1,71 @@
+//! The command line: the only place with files, stdout, progress and exit codes.
+
+mod arguments;
+mod draw;
+mod failure;
+mod inspect;
+mod layout;
+mod lists;
+mod output;
+mod plot;
+mod progress;
+mod stages;
+mod toolpaths;
+
+use arguments::{Arguments, Command};
+use clap::{CommandFactory, Parser};
+use failure::Failure;
+use std::process::ExitCode;
+
+/// Runs the command with the process's arguments.
+///
+/// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted. A closed pipe ends quietly.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    progress::catch_interrupts();
+    match run(arguments) {
+        Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("drypoint: {failure}");
+            ExitCode::from(failure.exit_status())
+        }
+    }
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command {
+        Command::Draw(options) => draw::run(&options),
+        Command::Plot(options) => plot::run(&options),
+        Command::Stages(options) => stages::run(&options),
+        Command::Inspect(options) => inspect::run(&options),
+        Command::Styles(options) => lists::styles(&options),
+        Command::Profiles(options) => lists::profiles(&options),
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "drypoint", &mut text);
+            output::to_stdout(&text)
+        }
+        Command::Man => {
+            let mut text = Vec::new();
+            manual(&mut text).map_err(Failure::writing("stdout"))?;
+            output::to_stdout(&text)
+        }
+    }
+}
+
+/// One page with every subcommand after the main one.
+fn manual(text: &mut Vec<u8>) -> std::io::Result<()> {
+    let command = Arguments::command();
+    clap_mangen::Man::new(command.clone()).render(text)?;
+    for subcommand in command.get_subcommands() {
+        let named = subcommand.clone().name(format!("drypoint-{}", subcommand.get_name()));
+        clap_mangen::Man::new(named).render(text)?;
+    }
+    Ok(())
+}

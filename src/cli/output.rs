@@ -1,0 +1,81 @@
+//! Files appear whole or not at all.
+
+use super::failure::Failure;
+use super::progress::is_interrupted;
+use std::fs;
+use std::io::{self, Read, Write};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+
+/// The bytes of a file, or of stdin for `-`.
+pub(super) fn read(name: &str) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    open(name)?.read_to_end(&mut bytes).map_err(|error| Failure::Work(format!("{name} cannot be read: {error}")))?;
+    Ok(bytes)
+}
+
+/// A reader of a file, or of stdin for `-`.
+pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
+    if name == "-" {
+        return Ok(Box::new(io::stdin().lock()));
+    }
+    let refuse = |problem: &str| Failure::Work(format!("{name} {problem}"));
+    let file = fs::File::open(name).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => refuse("does not exist; check its name"),
+        io::ErrorKind::PermissionDenied => refuse("cannot be read: permission denied"),
+        _ => refuse(&format!("cannot be opened: {error}")),
+    })?;
+    if file.metadata().is_ok_and(|m| m.is_dir()) {
+        return Err(refuse("is a folder; give a file"));
+    }
+    Ok(Box::new(file))
+}
+
+/// Writes a file by way of a temporary one beside it; `-` is stdout, and what is no regular file (a device, a pipe) is written in
+/// place.
+pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    if name == "-" {
+        let mut stdout = io::BufWriter::new(io::stdout().lock());
+        return fill(&mut stdout).and_then(|()| stdout.flush()).map_err(Failure::writing("stdout"));
+    }
+    let fail = Failure::writing(name);
+    let path = Path::new(name);
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => return Err(Failure::Work(format!("{name} is a folder; give a file name with -o"))),
+        Ok(found) if !found.is_file() => {
+            let file = fs::OpenOptions::new().write(true).open(path).map_err(&fail)?;
+            let mut out = io::BufWriter::new(file);
+            return fill(&mut out).and_then(|()| out.flush()).map_err(fail);
+        }
+        // A file that may not be written is not replaced behind its owner's back.
+        Ok(found) if found.permissions().readonly() => return Err(fail(io::ErrorKind::PermissionDenied.into())),
+        _ => {}
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut temporary = tempfile::Builder::new()
+        .prefix(".drypoint-")
+        .permissions(fs::Permissions::from_mode(0o666))
+        .tempfile_in(folder)
+        .map_err(|error| Failure::writing(name)(io::Error::from(error.kind())))?;
+    {
+        let mut out = io::BufWriter::new(temporary.as_file_mut());
+        fill(&mut out).and_then(|()| out.flush()).map_err(&fail)?;
+    }
+    if is_interrupted() {
+        return Err(Failure::Interrupted);
+    }
+    temporary.persist(path).map_err(|error| fail(error.error))?;
+    Ok(())
+}
+
+/// Writes data to stdout.
+pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
+    write("-", |out| out.write_all(bytes))
+}
+
+/// Prints one JSON object.
+pub(super) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    let mut text = serde_json::to_vec_pretty(value).expect("a value is JSON");
+    text.push(b'\n');
+    to_stdout(&text)
+}

@@ -1,0 +1,141 @@
+//! `drypoint plot`: any SVG to ordered tool paths.
+
+use super::arguments::{InkModelOption, PlotFit, PlotOptions, Rotate};
+use super::draw::limit_threads;
+use super::failure::Failure;
+use super::{layout, output, toolpaths};
+use crate::drawing::{Drawing, Mark, Page};
+use crate::geometry::{Affine, Rect};
+use crate::plot::{InkModel, Nibs, lower};
+use crate::read::{Imported, read_svg};
+use crate::write::SvgHead;
+use serde_json::json;
+
+pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
+    let format = toolpaths::format_of(&options.output, options.format)?;
+    if options.reporting.json && options.output == "-" {
+        return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
+    }
+    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
+    toolpaths::check_language(format, profile.as_ref())?;
+    limit_threads(options.threads)?;
+    let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
+    let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
+    choose_layers(&mut imported, &options.layers)?;
+    let model = ink_model(options, &imported);
+    if model == InkModel::Lines {
+        count_fills(&mut imported);
+    }
+    let drawing = place(&imported.drawing(), options)?;
+    let plot = lower(&drawing, model, &Nibs::all(options.pen), options.toolpaths.tolerance);
+    if plot.pens.iter().all(|pen| pen.paths.is_empty()) {
+        let dropped = if imported.dropped.is_empty() { String::new() } else { format!(" (it holds {})", imported.dropped.summary()) };
+        return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}; fills are drawn only with --ink-model ink")));
+    }
+    let prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
+    let head = SvgHead {
+        title: format!("Tool paths of {}", std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown)),
+        description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
+        recipe: json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "plot", "pen_mm": options.pen }).to_string(),
+    };
+    if !options.dry_run {
+        toolpaths::write(&options.output, format, &prepared, profile.as_ref(), &head)?;
+    }
+    if !imported.dropped.is_empty() {
+        eprintln!("drypoint: warning: not drawn: {}", imported.dropped.summary());
+    }
+    toolpaths::warn(&prepared, profile.as_ref());
+    if options.reporting.json {
+        let mut value = json!(prepared.report);
+        value["dropped"] = json!(imported.dropped);
+        return output::print_json(&value);
+    }
+    if !options.reporting.quiet {
+        eprintln!("{}: {}", options.output, toolpaths::summary(&prepared.report));
+    }
+    Ok(())
+}
+
+fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
+    match options.ink_model {
+        _ if imported.is_toolpaths => InkModel::Lines,
+        Some(InkModelOption::Ink) => InkModel::Ink,
+        Some(InkModelOption::Lines) => InkModel::Lines,
+        None if imported.recipe.is_some() => InkModel::Ink,
+        None => InkModel::Lines,
+    }
+}
+
+fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
+    if wanted.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<String> = imported.layers.iter().map(|l| format!("{} {}", l.layer.pen, l.layer.name)).collect();
+    for name in wanted {
+        if !imported.layers.iter().any(|l| l.layer.name == *name || l.layer.pen.to_string() == *name) {
+            return Err(Failure::Usage(format!("there is no layer '{name}'; there are {}", names.join(", "))));
+        }
+    }
+    imported.layers.retain(|l| wanted.iter().any(|name| l.layer.name == *name || l.layer.pen.to_string() == *name));
+    Ok(())
+}
+
+/// Under `lines`, fills are not drawn, but not lost in silence either.
+fn count_fills(imported: &mut Imported) {
+    let fills = imported.layers.iter().flat_map(|l| &l.layer.marks).filter(|m| !matches!(m, Mark::Stroke(_))).count();
+    imported.dropped.add("fill", fills);
+}
+
+/// Turns, scales and moves the drawing on its sheet.
+fn place(drawing: &Drawing, options: &PlotOptions) -> Result<Drawing, Failure> {
+    let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
+    let turned = turn(drawing, turn_degrees(options.rotate, drawing, sheet));
+    let page = sheet.map_or(turned.page, |(width, height)| Page { width, height, ..turned.page });
+    let scaled = turned.transformed(Affine::scale(options.scale));
+    let Some(bounds) = scaled.bounding_box() else { return Ok(Drawing { page, ..scaled }) };
+    let moved = match (options.fit, options.center) {
+        (PlotFit::Page, _) => {
+            let frame = page.rect().inset(-options.margin);
+            if frame.width() <= 0.0 || frame.height() <= 0.0 {
+                return Err(Failure::Usage(format!("a margin of {} mm leaves nothing of the page", options.margin)));
+            }
+            let factor = (frame.width() / bounds.width().max(1e-6)).min(frame.height() / bounds.height().max(1e-6));
+            scaled.transformed(centring(bounds, page.rect(), factor))
+        }
+        (PlotFit::None, true) => scaled.transformed(centring(bounds, page.rect(), 1.0)),
+        (PlotFit::None, false) => scaled,
+    };
+    Ok(Drawing { page, ..moved })
+}
+
+fn centring(bounds: Rect, page: Rect, factor: f64) -> Affine {
+    Affine::translate(page.center().to_vec2()) * Affine::scale(factor) * Affine::translate(-bounds.center().to_vec2())
+}
+
+fn turn_degrees(rotate: Rotate, drawing: &Drawing, sheet: Option<(f64, f64)>) -> u32 {
+    match rotate {
+        Rotate::None => 0,
+        Rotate::Quarter => 90,
+        Rotate::Half => 180,
+        Rotate::ThreeQuarters => 270,
+        Rotate::Auto => {
+            let Page { width, height, .. } = drawing.page;
+            let fits = |w: f64, h: f64| sheet.is_none_or(|(sw, sh)| w <= sw + 0.5 && h <= sh + 0.5);
+            if !fits(width, height) && fits(height, width) { 90 } else { 0 }
+        }
+    }
+}
+
+/// Clockwise by a multiple of 90 degrees; the page turns along.
+fn turn(drawing: &Drawing, degrees: u32) -> Drawing {
+    let Page { width, height, .. } = drawing.page;
+    let (matrix, width, height) = match degrees {
+        90 => (Affine::new([0.0, 1.0, -1.0, 0.0, height, 0.0]), height, width),
+        180 => (Affine::new([-1.0, 0.0, 0.0, -1.0, width, height]), width, height),
+        270 => (Affine::new([0.0, -1.0, 1.0, 0.0, 0.0, width]), height, width),
+        _ => (Affine::IDENTITY, width, height),
+    };
+    let mut turned = drawing.transformed(matrix);
+    turned.page = Page { width, height, ..drawing.page };
+    turned
+}

@@ -1,0 +1,106 @@
+//! `drypoint stages`: every intermediate result, numbered and named.
+
+use super::arguments::StagesOptions;
+use super::draw::{Task, limit_threads};
+use super::failure::Failure;
+use super::output;
+use super::progress::Watcher;
+use crate::drawing::Drawing;
+use crate::raster::Raster;
+use crate::style::{Observer, Picture};
+use crate::write::{SvgHead, write_svg};
+use image::{GrayImage, ImageFormat, RgbImage};
+use std::io::Cursor;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
+    limit_threads(options.picture.threads)?;
+    let task = Task::new(&options.picture)?;
+    let folder = options.output.to_string_lossy().into_owned();
+    std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be made: {error}")))?;
+    let recorder = Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };
+    task.draw(&recorder)?;
+    recorder.watcher.finish();
+    let taken = recorder.taken.into_inner().expect("no stage panics while it is written");
+    if let Some(failure) = taken.failure {
+        return Err(failure);
+    }
+    if !options.quiet {
+        eprintln!("{folder}: {} stages of {}", taken.count, task.style.name());
+    }
+    Ok(())
+}
+
+/// Writes each picture as it comes.
+struct Recorder {
+    watcher: Watcher,
+    folder: PathBuf,
+    taken: Mutex<Taken>,
+}
+
+#[derive(Default)]
+struct Taken {
+    count: usize,
+    failure: Option<Failure>,
+}
+
+impl Observer for Recorder {
+    fn begin(&self, step: &str) {
+        self.watcher.begin(step);
+    }
+
+    fn progress(&self, fraction: f64) {
+        self.watcher.progress(fraction);
+    }
+
+    fn picture(&self, name: &str, make: &dyn Fn() -> Picture) {
+        let mut taken = self.taken.lock().expect("no stage panics while it is written");
+        if taken.failure.is_some() {
+            return;
+        }
+        taken.count += 1;
+        let stem = self.folder.join(format!("{:02}-{name}", taken.count)).to_string_lossy().into_owned();
+        let written = match make() {
+            Picture::Drawing(drawing) => svg(&format!("{stem}.svg"), &drawing, name),
+            Picture::Grey(raster) => png(&format!("{stem}.png"), &grey(&raster)),
+            Picture::Mask(raster) => png(&format!("{stem}.png"), &grey(&raster.map(|v| if v == 0 { 1.0 } else { 0.0 }))),
+            Picture::Labels(raster) => png(&format!("{stem}.png"), &coloured(&raster)),
+        };
+        taken.failure = written.err();
+    }
+
+    fn warn(&self, message: &str) {
+        self.watcher.warn(message);
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.watcher.is_interrupted() || self.taken.lock().is_ok_and(|taken| taken.failure.is_some())
+    }
+}
+
+fn svg(name: &str, drawing: &Drawing, title: &str) -> Result<(), Failure> {
+    let head = SvgHead { title: title.to_owned(), ..SvgHead::default() };
+    output::write(name, |mut out| write_svg(drawing, &head, &mut out))
+}
+
+fn png(name: &str, picture: &image::DynamicImage) -> Result<(), Failure> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, ImageFormat::Png).map_err(|error| Failure::Work(format!("{name}: {error}")))?;
+    output::write(name, |out| out.write_all(bytes.get_ref()))
+}
+
+fn grey(raster: &Raster<f32>) -> image::DynamicImage {
+    let pixels = raster.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).into_vec();
+    GrayImage::from_raw(raster.width() as u32, raster.height() as u32, pixels).expect("a raster's pixels fill it").into()
+}
+
+/// A colour for each number, neighbours far apart.
+fn coloured(raster: &Raster<i32>) -> image::DynamicImage {
+    let pixels = raster.map(|label| {
+        let hash = (label as u32).wrapping_mul(0x9e37_79b1);
+        [(hash >> 24) as u8 | 0x40, (hash >> 16) as u8 | 0x40, (hash >> 8) as u8 | 0x40]
+    });
+    let bytes = pixels.into_vec().concat();
+    RgbImage::from_raw(raster.width() as u32, raster.height() as u32, bytes).expect("a raster's pixels fill it").into()
+}

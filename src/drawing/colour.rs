@@ -1,0 +1,102 @@
+//! Colours and inks.
+
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// A colour in sRGB, 8 bits a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Colour {
+    /// Red.
+    pub r: u8,
+    /// Green.
+    pub g: u8,
+    /// Blue.
+    pub b: u8,
+}
+
+impl Colour {
+    /// No light.
+    pub const BLACK: Self = Self { r: 0, g: 0, b: 0 };
+    /// Paper.
+    pub const WHITE: Self = Self { r: 255, g: 255, b: 255 };
+}
+
+impl fmt::Display for Colour {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.r, self.g, self.b)
+    }
+}
+
+/// Why a text is not a colour.
+#[derive(Debug, Error, PartialEq)]
+#[error("'{0}' is not a colour; write a CSS colour such as navy, #1a2b3c or rgb(26, 43, 60), or k, or spot:NAME")]
+pub struct ColourError(String);
+
+impl FromStr for Colour {
+    type Err = ColourError;
+
+    fn from_str(text: &str) -> Result<Self, ColourError> {
+        let colour = svgtypes::Color::from_str(text).map_err(|_| ColourError(text.to_owned()))?;
+        Ok(Self { r: colour.red, g: colour.green, b: colour.blue })
+    }
+}
+
+/// What a layer is printed or drawn with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ink {
+    /// The black plate only.
+    Black,
+    /// A colour.
+    Colour(Colour),
+    /// A named ink of its own plate, shown on screen in black.
+    Spot(String),
+}
+
+impl Ink {
+    /// The colour to show it in.
+    pub const fn colour(&self) -> Colour {
+        match self {
+            Self::Colour(colour) => *colour,
+            Self::Black | Self::Spot(_) => Colour::BLACK,
+        }
+    }
+}
+
+impl fmt::Display for Ink {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Black => write!(f, "k"),
+            Self::Colour(colour) => write!(f, "{colour}"),
+            Self::Spot(name) => write!(f, "spot:{name}"),
+        }
+    }
+}
+
+impl FromStr for Ink {
+    type Err = ColourError;
+
+    fn from_str(text: &str) -> Result<Self, ColourError> {
+        match text.strip_prefix("spot:") {
+            Some("") => Err(ColourError(text.to_owned())),
+            Some(name) => Ok(Self::Spot(name.to_owned())),
+            None if text.eq_ignore_ascii_case("k") => Ok(Self::Black),
+            None => text.parse().map(Self::Colour),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inks_are_read_and_written() {
+        assert_eq!("k".parse(), Ok(Ink::Black));
+        assert_eq!("spot:PANTONE 286 C".parse(), Ok(Ink::Spot("PANTONE 286 C".into())));
+        assert_eq!("navy".parse(), Ok(Ink::Colour(Colour { r: 0, g: 0, b: 128 })));
+        assert!("purplish".parse::<Ink>().is_err());
+        assert!("spot:".parse::<Ink>().is_err());
+        assert_eq!(Ink::Colour(Colour { r: 1, g: 2, b: 255 }).to_string(), "#0102ff");
+    }
+}

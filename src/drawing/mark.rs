@@ -1,0 +1,323 @@
+//! Dots, strokes and areas.
+
+use super::Colour;
+use crate::geometry::{
+    Affine, BezPath, Point, Rect, clip_polygon, clip_polyline, curve_length, flatten, polygon_area, swelling_outline,
+};
+use kurbo::{PathEl, Shape};
+
+/// Flattening tolerance where a curve must become a polygon to be cut, in millimetres: a fifth of the smallest written step.
+const CUT_TOLERANCE: f64 = 0.000_2;
+/// How far a swelling stroke's outline may lie from the true one, in millimetres; half of what is written (0.001 mm) would not
+/// be seen, this is a hundredth of a hair.
+pub(super) const OUTLINE_TOLERANCE: f64 = 0.002;
+
+/// One mark of ink.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mark {
+    /// A disc or a blob.
+    Dot(Dot),
+    /// A line with a width.
+    Stroke(Stroke),
+    /// A filled outline.
+    Area(Area),
+}
+
+/// A disc, or a blob with an outline of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dot {
+    /// Where it stands.
+    pub centre: Point,
+    /// The disc's radius in millimetres; for a blob, that of the disc of equal area.
+    pub radius: f64,
+    /// The outline, when it is not a circle.
+    pub outline: Option<Box<BezPath>>,
+    /// Its own colour, instead of the layer's.
+    pub colour: Option<Colour>,
+}
+
+/// A line with a width, along one open or closed curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// One subpath of lines and cubics; closed when it ends with a close.
+    pub curve: BezPath,
+    /// Full width.
+    pub width: Width,
+    /// Its own colour, instead of the layer's.
+    pub colour: Option<Colour>,
+}
+
+/// The full width of a stroke in millimetres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Width {
+    /// The same everywhere, with round ends.
+    Constant(f64),
+    /// At the curve's nodes (its start, then the end of each segment), changing smoothly between them; round ends where not 0.
+    Along(Vec<f64>),
+}
+
+/// A filled outline, by the nonzero rule.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Area {
+    /// Closed subpaths.
+    pub outline: BezPath,
+    /// Its own colour, instead of the layer's.
+    pub colour: Option<Colour>,
+}
+
+impl Dot {
+    /// A disc in the layer's ink.
+    pub const fn circle(centre: Point, radius: f64) -> Self {
+        Self { centre, radius, outline: None, colour: None }
+    }
+
+    /// The outline as a closed curve.
+    pub fn path(&self) -> BezPath {
+        match &self.outline {
+            Some(outline) => (**outline).clone(),
+            None => kurbo::Circle::new(self.centre, self.radius).to_path(1e-4),
+        }
+    }
+
+    fn area(&self) -> f64 {
+        match &self.outline {
+            Some(outline) => outline.area().abs(),
+            None => std::f64::consts::PI * self.radius * self.radius,
+        }
+    }
+
+    fn bounding_box(&self) -> Rect {
+        match &self.outline {
+            Some(outline) => outline.bounding_box(),
+            None => kurbo::Circle::new(self.centre, self.radius).bounding_box(),
+        }
+    }
+
+    fn clipped(&self, rect: Rect) -> Option<Self> {
+        if contains(rect, self.bounding_box()) {
+            return Some(self.clone());
+        }
+        let outline = clip_outline(&self.path(), rect);
+        let area = outline.area().abs();
+        (area > 0.0).then(|| Self {
+            centre: Point::new(self.centre.x.clamp(rect.x0, rect.x1), self.centre.y.clamp(rect.y0, rect.y1)),
+            radius: (area / std::f64::consts::PI).sqrt(),
+            outline: Some(Box::new(outline)),
+            colour: self.colour,
+        })
+    }
+}
+
+impl Stroke {
+    /// Whether the curve returns to its start.
+    pub fn is_closed(&self) -> bool {
+        matches!(self.curve.elements().last(), Some(PathEl::ClosePath))
+    }
+
+    /// Length of the centre line in millimetres.
+    pub fn length(&self) -> f64 {
+        curve_length(&self.curve)
+    }
+
+    /// The outline of a stroke whose width varies; a constant one is stroked by whoever draws it.
+    pub fn outline(&self) -> Option<BezPath> {
+        match &self.width {
+            Width::Constant(_) => None,
+            Width::Along(widths) => Some(swelling_outline(&self.curve, widths, OUTLINE_TOLERANCE)),
+        }
+    }
+
+    /// Length times width plus the two half discs at the ends; a swelling stroke's is that of its outline.
+    fn area(&self) -> f64 {
+        match &self.width {
+            Width::Constant(width) => {
+                let ends = if self.is_closed() { 0.0 } else { std::f64::consts::FRAC_PI_4 * width * width };
+                self.length() * width + ends
+            }
+            Width::Along(_) => self.outline().map_or(0.0, |outline| outline.area().abs()),
+        }
+    }
+
+    /// The greatest width.
+    pub fn widest(&self) -> f64 {
+        match &self.width {
+            Width::Constant(width) => *width,
+            Width::Along(widths) => widths.iter().copied().fold(0.0, f64::max),
+        }
+    }
+
+    fn bounding_box(&self) -> Rect {
+        let half = 0.5 * self.widest();
+        self.curve.bounding_box().inflate(half, half)
+    }
+
+    /// The pieces whose centre line is inside, with the width that they had there.
+    fn clipped(&self, rect: Rect) -> Vec<Self> {
+        if contains(rect, self.curve.bounding_box()) {
+            return vec![self.clone()];
+        }
+        let (points, position) = self.flattened();
+        clip_polyline(&points, rect)
+            .into_iter()
+            .map(|piece| {
+                let mut curve = BezPath::new();
+                curve.move_to(piece[0].0);
+                piece[1..].iter().for_each(|(p, _)| curve.line_to(*p));
+                let width = match &self.width {
+                    Width::Constant(width) => Width::Constant(*width),
+                    Width::Along(widths) => {
+                        Width::Along(piece.iter().map(|&(_, at)| interpolate(widths, interpolate(&position, at))).collect())
+                    }
+                };
+                Self { curve, width, colour: self.colour }
+            })
+            .collect()
+    }
+
+    /// The centre line as points, and for each the place along the curve's nodes (segment plus fraction).
+    fn flattened(&self) -> (Vec<Point>, Vec<f64>) {
+        use kurbo::{ParamCurve, ParamCurveArclen};
+        let (mut points, mut position) = (Vec::new(), Vec::new());
+        for (i, segment) in self.curve.segments().enumerate() {
+            let steps = if matches!(segment, kurbo::PathSeg::Line(_)) { 1 } else { (segment.arclen(1e-3) / 0.05).ceil().clamp(4.0, 256.0) as usize };
+            if points.is_empty() {
+                points.push(segment.start());
+                position.push(0.0);
+            }
+            for step in 1..=steps {
+                let t = step as f64 / steps as f64;
+                points.push(segment.eval(t));
+                position.push(i as f64 + t);
+            }
+        }
+        (points, position)
+    }
+}
+
+impl Area {
+    fn clipped(&self, rect: Rect) -> Option<Self> {
+        if contains(rect, self.outline.bounding_box()) {
+            return Some(self.clone());
+        }
+        let outline = clip_outline(&self.outline, rect);
+        (outline.area().abs() > 0.0).then_some(Self { outline, colour: self.colour })
+    }
+}
+
+impl Mark {
+    /// Area of the ink in square millimetres.
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Dot(dot) => dot.area(),
+            Self::Stroke(stroke) => stroke.area(),
+            Self::Area(area) => area.outline.area().abs(),
+        }
+    }
+
+    /// The smallest rectangle around the ink.
+    pub fn bounding_box(&self) -> Rect {
+        match self {
+            Self::Dot(dot) => dot.bounding_box(),
+            Self::Stroke(stroke) => stroke.bounding_box(),
+            Self::Area(area) => area.outline.bounding_box(),
+        }
+    }
+
+    /// Its own colour, if it has one.
+    pub const fn colour(&self) -> Option<Colour> {
+        match self {
+            Self::Dot(dot) => dot.colour,
+            Self::Stroke(stroke) => stroke.colour,
+            Self::Area(area) => area.colour,
+        }
+    }
+
+    /// The mark moved, turned or evenly scaled; widths and radii scale by the root of the determinant.
+    #[must_use]
+    pub fn transformed(&self, transform: Affine) -> Self {
+        let scale = transform.determinant().abs().sqrt();
+        match self {
+            Self::Dot(dot) => Self::Dot(Dot {
+                centre: transform * dot.centre,
+                radius: dot.radius * scale,
+                outline: dot.outline.as_ref().map(|outline| Box::new(transform * (**outline).clone())),
+                colour: dot.colour,
+            }),
+            Self::Stroke(stroke) => Self::Stroke(Stroke {
+                curve: transform * stroke.curve.clone(),
+                width: match &stroke.width {
+                    Width::Constant(width) => Width::Constant(width * scale),
+                    Width::Along(widths) => Width::Along(widths.iter().map(|w| w * scale).collect()),
+                },
+                colour: stroke.colour,
+            }),
+            Self::Area(area) => {
+                Self::Area(Area { outline: transform * area.outline.clone(), colour: area.colour })
+            }
+        }
+    }
+
+    /// What lies inside a rectangle: a dot or area is cut along the border, a stroke where its centre line crosses it.
+    pub fn clipped(&self, rect: Rect) -> Vec<Self> {
+        match self {
+            Self::Dot(dot) => dot.clipped(rect).map(Self::Dot).into_iter().collect(),
+            Self::Stroke(stroke) => stroke.clipped(rect).into_iter().map(Self::Stroke).collect(),
+            Self::Area(area) => area.clipped(rect).map(Self::Area).into_iter().collect(),
+        }
+    }
+}
+
+fn contains(rect: Rect, inner: Rect) -> bool {
+    inner.x0 >= rect.x0 && inner.y0 >= rect.y0 && inner.x1 <= rect.x1 && inner.y1 <= rect.y1
+}
+
+/// Each subpath of a filled outline cut to a rectangle, as polygons.
+fn clip_outline(outline: &BezPath, rect: Rect) -> BezPath {
+    let mut cut = BezPath::new();
+    for (polygon, _) in flatten(outline, CUT_TOLERANCE) {
+        let inside = clip_polygon(&polygon, rect);
+        if inside.len() < 3 || polygon_area(&inside) == 0.0 {
+            continue;
+        }
+        cut.move_to(inside[0]);
+        inside[1..].iter().for_each(|p| cut.line_to(*p));
+        cut.close_path();
+    }
+    cut
+}
+
+fn interpolate(values: &[f64], at: f64) -> f64 {
+    let last = values.len() - 1;
+    let i = (at.floor().max(0.0) as usize).min(last);
+    let t = at - i as f64;
+    values[i] * (1.0 - t) + values[(i + 1).min(last)] * t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_stroke_s_area_counts_its_round_ends() {
+        let stroke = Mark::Stroke(Stroke {
+            curve: BezPath::from_svg("M0,0 L10,0").unwrap(),
+            width: Width::Constant(1.0),
+            colour: None,
+        });
+        assert!((stroke.area() - (10.0 + std::f64::consts::FRAC_PI_4)).abs() < 1e-9);
+        assert_eq!(stroke.bounding_box(), Rect::new(-0.5, -0.5, 10.5, 0.5));
+    }
+
+    #[test]
+    fn clipping_a_stroke_keeps_its_width_there() {
+        let stroke = Stroke {
+            curve: BezPath::from_svg("M0,0 L10,0").unwrap(),
+            width: Width::Along(vec![0.0, 1.0]),
+            colour: None,
+        };
+        let pieces = stroke.clipped(Rect::new(5.0, -1.0, 20.0, 1.0));
+        assert_eq!(pieces.len(), 1);
+        let Width::Along(widths) = &pieces[0].width else { panic!("it swells") };
+        assert!((widths[0] - 0.5).abs() < 1e-9 && (widths[1] - 1.0).abs() < 1e-9);
+    }
+}

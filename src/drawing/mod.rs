@@ -1,0 +1,159 @@
+//! The stroke model: what a style makes, a press prints and a plotter draws.
+//!
+//! A [`Drawing`] is a page with layers of marks in painting order, in millimetres, y down, origin at the sheet's top left corner.
+//! It knows nothing of pixels, machines or file formats.
+
+mod colour;
+mod mark;
+
+pub use colour::{Colour, ColourError, Ink};
+pub use mark::{Area, Dot, Mark, Stroke, Width};
+
+use crate::geometry::{Affine, Rect};
+
+/// A sheet of paper with layers of ink.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// The sheet.
+    pub page: Page,
+    /// Layers in painting order, the lowest first.
+    pub layers: Vec<Layer>,
+}
+
+/// A sheet of paper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Page {
+    /// Width in millimetres, above 0.
+    pub width: f64,
+    /// Height in millimetres, above 0.
+    pub height: f64,
+    /// The paper's colour; marks of this colour are still ink.
+    pub paper: Colour,
+}
+
+/// Marks that one pen draws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// What the layer is called in files and reports, such as `dots`.
+    pub name: String,
+    /// The pen's number, from 1.
+    pub pen: u32,
+    /// What it is drawn with, unless a mark has a colour of its own.
+    pub ink: Ink,
+    /// How its marks add up with what lies below.
+    pub mixing: Mixing,
+    /// Marks in painting order.
+    pub marks: Vec<Mark>,
+}
+
+/// How ink meets what lies below it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mixing {
+    /// Ink on ink: what lies below stays.
+    Add,
+    /// Opaque: what lies below is hidden, and need not be drawn.
+    Paint,
+}
+
+impl Page {
+    /// A white sheet.
+    pub const fn new(width: f64, height: f64) -> Self {
+        Self { width, height, paper: Colour::WHITE }
+    }
+
+    /// The sheet as a rectangle from (0, 0).
+    pub const fn rect(&self) -> Rect {
+        Rect::new(0.0, 0.0, self.width, self.height)
+    }
+}
+
+impl Layer {
+    /// An empty layer in black.
+    pub fn new(name: &str, pen: u32) -> Self {
+        Self { name: name.to_owned(), pen, ink: Ink::Black, mixing: Mixing::Add, marks: Vec::new() }
+    }
+
+    /// Sum of the marks' areas in square millimetres; marks that overlap count each.
+    pub fn ink_mm2(&self) -> f64 {
+        self.marks.iter().map(Mark::area).sum()
+    }
+
+    /// How many dots, strokes and areas the layer holds.
+    pub fn counts(&self) -> [usize; 3] {
+        self.marks.iter().fold([0; 3], |mut counts, mark| {
+            counts[match mark {
+                Mark::Dot(_) => 0,
+                Mark::Stroke(_) => 1,
+                Mark::Area(_) => 2,
+            }] += 1;
+            counts
+        })
+    }
+}
+
+impl Drawing {
+    /// The smallest rectangle around all ink, or none when there is no mark.
+    pub fn bounding_box(&self) -> Option<Rect> {
+        self.marks().map(Mark::bounding_box).reduce(|a, b| a.union(b))
+    }
+
+    /// Every mark of every layer.
+    pub fn marks(&self) -> impl Iterator<Item = &Mark> {
+        self.layers.iter().flat_map(|layer| &layer.marks)
+    }
+
+    /// The drawing moved, turned or evenly scaled; the page stays as it is.
+    #[must_use]
+    pub fn transformed(&self, transform: Affine) -> Self {
+        let mut moved = self.clone();
+        for layer in &mut moved.layers {
+            layer.marks = layer.marks.iter().map(|mark| mark.transformed(transform)).collect();
+        }
+        moved
+    }
+
+    /// The drawing without what lies outside `rect`. Dots that cross its border become what is left of them.
+    #[must_use]
+    pub fn clipped(&self, rect: Rect) -> Self {
+        let mut cut = self.clone();
+        for layer in &mut cut.layers {
+            layer.marks = layer.marks.iter().flat_map(|mark| mark.clipped(rect)).collect();
+        }
+        cut
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+
+    fn drawing() -> Drawing {
+        let mut layer = Layer::new("dots", 1);
+        layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.0, 1.0), 0.5)));
+        layer.marks.push(Mark::Dot(Dot::circle(Point::new(9.9, 5.0), 0.5)));
+        Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] }
+    }
+
+    #[test]
+    fn ink_is_the_sum_of_the_marks() {
+        assert!((drawing().layers[0].ink_mm2() - 0.5 * std::f64::consts::PI).abs() < 1e-9);
+        assert_eq!(drawing().layers[0].counts(), [2, 0, 0]);
+    }
+
+    #[test]
+    fn clipping_keeps_everything_on_the_page() {
+        let cut = drawing().clipped(Rect::new(0.0, 0.0, 10.0, 10.0));
+        assert_eq!(cut.layers[0].counts(), [2, 0, 0]);
+        let bounds = cut.bounding_box().unwrap();
+        assert!(bounds.x1 <= 10.0 && bounds.x0 >= 0.5 - 1e-9);
+        let whole = drawing().layers[0].ink_mm2();
+        assert!(cut.layers[0].ink_mm2() < whole);
+    }
+
+    #[test]
+    fn scaling_scales_ink_by_its_square() {
+        let twice = drawing().transformed(Affine::scale(2.0));
+        assert!((twice.layers[0].ink_mm2() - 4.0 * drawing().layers[0].ink_mm2()).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,19 @@
+//! Fields: what a style reads from a portrait. Each file computes one field.
+//!
+//! In: rasters and curves in working pixels. Out: one field each. Nothing here knows of styles, pages or files.
+
+mod contour;
+mod distance;
+mod edges;
+mod isophotes;
+mod lanes;
+mod trace;
+mod voronoi;
+
+pub use contour::contours;
+pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
+pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
+pub use isophotes::{IsophoteSteps, detect_isophotes};
+pub use lanes::{LaneParameters, Lanes, offset_lanes};
+pub use trace::{Curve, trace};
+pub use voronoi::{Sites, cell_polygon};

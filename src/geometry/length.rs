@@ -1,0 +1,65 @@
+//! Lengths as a user writes them: `12`, `12mm`, `1.2cm`, `0.5in`, `36pt`; sizes as `90x120mm`.
+
+use thiserror::Error;
+
+/// Why a text is not a length.
+#[derive(Debug, Error, PartialEq)]
+pub enum LengthError {
+    /// No number stands at the start.
+    #[error("'{0}' is not a length; write a number with mm, cm, in or pt, such as 0.6mm (mm when there is no unit)")]
+    NotALength(String),
+    /// The number is NaN or infinite.
+    #[error("'{0}' is not a finite length")]
+    NotFinite(String),
+    /// A size without its `x`.
+    #[error("'{0}' is not a size; write width x height with a unit, such as 90x120mm")]
+    NotASize(String),
+}
+
+/// Units and their length in millimetres.
+const UNITS: [(&str, f64); 4] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
+
+/// A length in millimetres; without a unit it is millimetres. May be negative.
+pub fn parse_length(text: &str) -> Result<f64, LengthError> {
+    let trimmed = text.trim();
+    let (number, scale) = split_unit(trimmed);
+    let value: f64 = number.trim().parse().map_err(|_| LengthError::NotALength(text.to_owned()))?;
+    if value.is_finite() { Ok(value * scale) } else { Err(LengthError::NotFinite(text.to_owned())) }
+}
+
+/// Width and height in millimetres; a unit at the end holds for both: `90x120`, `9x12cm`, `100mm x 4in`.
+pub fn parse_size(text: &str) -> Result<(f64, f64), LengthError> {
+    let (width, height) =
+        text.trim().split_once(['x', 'X', '\u{d7}']).ok_or_else(|| LengthError::NotASize(text.to_owned()))?;
+    let (_, scale) = split_unit(height.trim());
+    let width_has_unit = UNITS.iter().any(|(unit, _)| width.trim().ends_with(unit));
+    let width = parse_length(width)? * if width_has_unit { 1.0 } else { scale };
+    Ok((width, parse_length(height)?))
+}
+
+fn split_unit(text: &str) -> (&str, f64) {
+    UNITS.iter().find_map(|&(unit, scale)| text.strip_suffix(unit).map(|number| (number, scale))).unwrap_or((text, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units() {
+        assert_eq!(parse_length("12"), Ok(12.0));
+        assert_eq!(parse_length("-1.5 cm"), Ok(-15.0));
+        assert_eq!(parse_length("1in"), Ok(25.4));
+        assert!((parse_length("72pt").unwrap() - 25.4).abs() < 1e-12);
+        assert!(matches!(parse_length("NaN"), Err(LengthError::NotFinite(_))));
+        assert!(matches!(parse_length("wide"), Err(LengthError::NotALength(_))));
+    }
+
+    #[test]
+    fn sizes() {
+        assert_eq!(parse_size("90x120"), Ok((90.0, 120.0)));
+        assert_eq!(parse_size("9x12cm"), Ok((90.0, 120.0)));
+        assert_eq!(parse_size("10mm x 1in"), Ok((10.0, 25.4)));
+        assert!(matches!(parse_size("90"), Err(LengthError::NotASize(_))));
+    }
+}

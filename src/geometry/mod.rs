@@ -1,0 +1,25 @@
+//! Geometry on the page: curves, clipping, areas, lengths. Millimetres, x right, y down.
+//!
+//! In and out: points, polygons and `kurbo` curves. Nothing here knows of photographs, styles or machines.
+
+mod blob;
+mod blue_noise;
+mod clip;
+mod disc;
+mod length;
+mod polyline;
+mod region;
+mod smooth;
+mod swell;
+
+pub use blob::blob;
+pub use blue_noise::blue_noise_order;
+pub use clip::{clip_polygon, clip_polyline, half_plane};
+pub use disc::{disc_area_in, radius_for_area};
+pub use length::{LengthError, parse_length, parse_size};
+pub use polyline::{flatten, polygon_area, polyline_length, resample, simplify};
+pub use region::Region;
+pub use smooth::{catmull_rom, smooth_polyline};
+pub use swell::{curve_length, swelling_outline};
+
+pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};

@@ -1,0 +1,125 @@
+//! Polylines and polygons: length, area, even spacing, simplification, flattening of curves.
+
+use kurbo::{BezPath, PathEl, Point};
+
+/// Length of an open polyline.
+pub fn polyline_length(points: &[Point]) -> f64 {
+    points.windows(2).map(|w| w[0].distance(w[1])).sum()
+}
+
+/// Signed area of a closed polygon; positive when it runs from x towards y (clockwise on a page with y down).
+pub fn polygon_area(points: &[Point]) -> f64 {
+    let Some(&origin) = points.first() else { return 0.0 };
+    // Relative to a corner, so that a small polygon far from the page's corner keeps its digits.
+    let twice: f64 = (0..points.len())
+        .map(|i| (points[i] - origin).cross(points[(i + 1) % points.len()] - origin))
+        .sum();
+    0.5 * twice
+}
+
+/// Points at even arc length along a polyline, about `spacing` apart, with both ends kept.
+pub fn resample(points: &[Point], spacing: f64) -> Vec<Point> {
+    let length = polyline_length(points);
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return Vec::new() };
+    let steps = (length / spacing).round().max(1.0) as usize;
+    let mut out = Vec::with_capacity(steps + 1);
+    out.push(first);
+    let (mut travelled, mut next) = (0.0, 1);
+    for pair in points.windows(2) {
+        let piece = pair[0].distance(pair[1]);
+        while next < steps {
+            let wanted = length * next as f64 / steps as f64;
+            if wanted > travelled + piece || piece == 0.0 {
+                break;
+            }
+            out.push(pair[0].lerp(pair[1], (wanted - travelled) / piece));
+            next += 1;
+        }
+        travelled += piece;
+    }
+    out.push(last);
+    out
+}
+
+/// Drops vertices that lie within `tolerance` of the line left without them (Douglas and Peucker 1973). Ends are kept.
+pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
+    if points.len() < 3 {
+        return points.to_vec();
+    }
+    let mut keep = vec![false; points.len()];
+    keep[0] = true;
+    keep[points.len() - 1] = true;
+    let mut ranges = vec![(0, points.len() - 1)];
+    while let Some((first, last)) = ranges.pop() {
+        let farthest = (first + 1..last)
+            .map(|i| (distance_to_segment(points[i], points[first], points[last]), i))
+            .fold((0.0, 0), |best, next| if next.0 > best.0 { next } else { best });
+        if farthest.0 > tolerance {
+            keep[farthest.1] = true;
+            ranges.push((first, farthest.1));
+            ranges.push((farthest.1, last));
+        }
+    }
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
+}
+
+fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let d = b - a;
+    let t = if d.hypot2() > 0.0 { ((p - a).dot(d) / d.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+    p.distance(a + d * t)
+}
+
+/// Each subpath as points no farther than `tolerance` from it; the flag says whether it is closed (the first point is then
+/// not repeated). A bare move gives one point.
+pub fn flatten(path: &BezPath, tolerance: f64) -> Vec<(Vec<Point>, bool)> {
+    let mut out: Vec<(Vec<Point>, bool)> = Vec::new();
+    kurbo::flatten(path.elements().iter().copied(), tolerance, |element| match element {
+        PathEl::MoveTo(p) => out.push((vec![p], false)),
+        PathEl::LineTo(p) => {
+            if let Some((points, _)) = out.last_mut() {
+                points.push(p);
+            }
+        }
+        PathEl::ClosePath => {
+            if let Some((points, closed)) = out.last_mut() {
+                *closed = true;
+                if points.len() > 1 && points.first() == points.last() {
+                    points.pop();
+                }
+            }
+        }
+        _ => unreachable!("flattening leaves only lines"),
+    });
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resampling_keeps_ends_and_spacing() {
+        let line = [Point::new(0.0, 0.0), Point::new(3.0, 0.0), Point::new(3.0, 4.0)];
+        let even = resample(&line, 0.5);
+        assert_eq!(even.len(), 15);
+        assert_eq!(even[0], line[0]);
+        assert_eq!(even[14], line[2]);
+        assert_eq!(even[6], Point::new(3.0, 0.0));
+    }
+
+    #[test]
+    fn simplify_keeps_corners() {
+        let line: Vec<Point> =
+            (0..=10).map(|i| Point::new(f64::from(i), 0.0)).chain((1..=10).map(|i| Point::new(10.0, f64::from(i)))).collect();
+        assert_eq!(simplify(&line, 0.01), vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0), Point::new(10.0, 10.0)]);
+    }
+
+    #[test]
+    fn flatten_tells_closed_from_open() {
+        let path = BezPath::from_svg("M0,0 L1,0 L1,1 Z M5,5 L6,6").unwrap();
+        let pieces = flatten(&path, 0.01);
+        assert_eq!(pieces.len(), 2);
+        assert!(pieces[0].1 && pieces[0].0.len() == 3);
+        assert!(!pieces[1].1);
+    }
+}

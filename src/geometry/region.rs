@@ -1,0 +1,128 @@
+//! Clipping by any outline: lines parametrically, so that they keep their order and direction; areas by boolean intersection.
+
+use super::polyline::flatten;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay;
+use kurbo::{BezPath, Point, Rect, Shape};
+
+/// A filled region of the page, by the nonzero rule.
+#[derive(Clone, Debug)]
+pub struct Region {
+    polygons: Vec<Vec<Point>>,
+    bounds: Rect,
+}
+
+impl Region {
+    /// The inside of closed subpaths, curves flattened to `tolerance`.
+    pub fn new(outline: &BezPath, tolerance: f64) -> Self {
+        let polygons = flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
+        Self { polygons, bounds: outline.bounding_box() }
+    }
+
+    /// Whether a point lies inside (winding number not 0).
+    pub fn contains(&self, p: Point) -> bool {
+        let mut winding = 0;
+        for [a, b] in self.edges() {
+            if (a.y <= p.y) != (b.y <= p.y) {
+                let side = (b - a).cross(p - a);
+                if b.y > a.y && side > 0.0 {
+                    winding += 1;
+                } else if b.y < a.y && side < 0.0 {
+                    winding -= 1;
+                }
+            }
+        }
+        winding != 0
+    }
+
+    fn edges(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
+        self.polygons.iter().flat_map(|polygon| (0..polygon.len()).map(move |i| [polygon[i], polygon[(i + 1) % polygon.len()]]))
+    }
+
+    /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside.
+    pub fn clip_line(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        if let [p] = points {
+            return if self.contains(*p) { vec![points.to_vec()] } else { Vec::new() };
+        }
+        let mut pieces: Vec<Vec<Point>> = Vec::new();
+        let mut is_open = false;
+        for pair in points.windows(2) {
+            let mut cuts = self.cuts(pair[0], pair[1]);
+            cuts.sort_by(f64::total_cmp);
+            for span in cuts.windows(2).filter(|span| span[1] > span[0]) {
+                let at = |t: f64| pair[0].lerp(pair[1], t);
+                if !self.contains(at(0.5 * (span[0] + span[1]))) {
+                    is_open = false;
+                    continue;
+                }
+                if !is_open {
+                    pieces.push(vec![at(span[0])]);
+                }
+                pieces.last_mut().expect("one was pushed").push(at(span[1]));
+                is_open = true;
+            }
+        }
+        pieces
+    }
+
+    /// Parameters at which a segment meets the outline, its own ends included.
+    fn cuts(&self, a: Point, b: Point) -> Vec<f64> {
+        let mut cuts = vec![0.0, 1.0];
+        if !Rect::from_points(a, b).inflate(1e-9, 1e-9).overlaps(self.bounds) {
+            return cuts;
+        }
+        let d = b - a;
+        for [p, q] in self.edges() {
+            let e = q - p;
+            let denominator = d.cross(e);
+            if denominator != 0.0 {
+                let (t, u) = ((p - a).cross(e) / denominator, (p - a).cross(d) / denominator);
+                if (0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u) {
+                    cuts.push(t);
+                }
+            }
+        }
+        cuts
+    }
+
+    /// What of another region lies in this one.
+    pub fn clip_area(&self, area: &Self) -> BezPath {
+        let contours = |region: &Self| -> Vec<Vec<[f64; 2]>> {
+            region.polygons.iter().map(|polygon| polygon.iter().map(|p| [p.x, p.y]).collect()).collect()
+        };
+        let shapes = contours(area).overlay(&contours(self), OverlayRule::Intersect, FillRule::NonZero);
+        let mut path = BezPath::new();
+        for contour in shapes.into_iter().flatten() {
+            for (i, [x, y]) in contour.into_iter().enumerate() {
+                if i == 0 { path.move_to((x, y)) } else { path.line_to((x, y)) }
+            }
+            path.close_path();
+        }
+        path
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring() -> Region {
+        // A 10 x 10 square with a 4 x 4 hole, wound the other way.
+        Region::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z M3,3 V7 H7 V3 Z").unwrap(), 0.01)
+    }
+
+    #[test]
+    fn a_line_across_a_ring_gives_two_pieces_in_order() {
+        let pieces = ring().clip_line(&[Point::new(12.0, 5.0), Point::new(-2.0, 5.0)]);
+        assert_eq!(pieces.len(), 2);
+        assert!(pieces[0][0].distance(Point::new(10.0, 5.0)) < 1e-9 && pieces[0][1].distance(Point::new(7.0, 5.0)) < 1e-9);
+        assert!(pieces[1][0].distance(Point::new(3.0, 5.0)) < 1e-9 && pieces[1][1].distance(Point::new(0.0, 5.0)) < 1e-9);
+    }
+
+    #[test]
+    fn an_area_is_cut() {
+        let area = Region::new(&BezPath::from_svg("M-5,-5 H5 V5 H-5 Z").unwrap(), 0.01);
+        assert!((ring().clip_area(&area).area().abs() - 21.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,55 @@
+//! **drypoint** turns a photograph into vector stroke art and takes it to ink.
+//!
+//! ```text
+//! bytes --source--> Portrait --style--> Drawing --plot--> Plot --write--> SVG | HP-GL | G-code
+//!                      |  ^                 \---------------write--> SVG (print)
+//!                      raster, field                          ^--read-- SVG
+//! ```
+//!
+//! | module | in | out |
+//! |---|---|---|
+//! | [`source`] | bytes of an image | [`source::Portrait`]: light, tone, masks at a style's working resolution |
+//! | [`raster`] | rasters | rasters: filters that know of nothing else |
+//! | [`field`] | rasters, curves | edges, isophotes, distances, lanes, Voronoi cells, traced lines |
+//! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
+//! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
+//! | [`geometry`] | | curves, clipping, areas, lengths |
+//! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
+//! | [`write`] | a drawing or a plot | bytes |
+//! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
+//! | [`cli`] | arguments | the only place with files, stdout and exit codes |
+//!
+//! The page is in millimetres, x right, y down, from the sheet's upper left corner; pixels exist only left of [`style`]. Tone is
+//! the fraction of paper left white. The same input, options and seed give the same bytes on any number of threads.
+//!
+//! ```
+//! use drypoint::{source::*, style, geometry::Rect, drawing::Page};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let mut png = std::io::Cursor::new(Vec::new());
+//! # image::DynamicImage::ImageLuma8(image::GrayImage::from_fn(40, 40, |x, _| image::Luma([x as u8 * 5])))
+//! #     .write_to(&mut png, image::ImageFormat::Png)?;
+//! # let bytes = png.into_inner();
+//! let photograph = Photograph::decode(&bytes, Limits::default())?;
+//! let hedcut = style::find("hedcut").ok_or("no such style")?;
+//! let settings = style::Settings::resolve("hedcut", hedcut.parameters(), &[("pitch".into(), "1mm".into())])?;
+//! let placement = Placement::new(Rect::new(0.0, 0.0, 30.0, 30.0), hedcut.pixels_per_mm(&settings, &[]));
+//! let portrait = Portrait::new(
+//!     &photograph, Crop::all(&photograph), Page::new(30.0, 30.0), placement, ToneTarget::Lightness, ToneCurve::default(),
+//! )?;
+//! let drawing = hedcut.draw(&portrait, &settings, 0, &style::Silent)?;
+//! assert!(drawing.layers[0].ink_mm2() > 100.0);
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod cli;
+pub mod drawing;
+pub mod field;
+pub mod geometry;
+pub mod plot;
+pub mod raster;
+pub mod read;
+pub mod source;
+pub mod style;
+pub mod write;

@@ -1,0 +1,171 @@
+//! Exchanging k links of a tour for k others: whether that leaves one tour, and how its segments then lie.
+
+use super::sites::End;
+use super::tour::Tour;
+
+/// Most links in one exchange.
+pub(super) const MAX_LINKS: usize = 8;
+
+/// A piece of tour between two cut links, and where it goes.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Segment {
+    /// Its first seat now.
+    pub(super) first: usize,
+    /// Number of paths in it.
+    pub(super) len: usize,
+    /// Whether it is to be drawn backwards.
+    pub(super) reversed: bool,
+    /// Its first seat afterwards, which may count on past the last seat.
+    pub(super) to: usize,
+}
+
+/// The segments of a tour in their new order.
+///
+/// ```text
+///      before:  == A == t1--t2 == B == t4--t3 == (A)      cut t1-t2 and t3-t4, join t2-t3 and t4-t1
+///      after:   == A == t1--t4 == B == t2--t3 == (A)      B reversed; A, the longest, stays where it is
+/// ```
+pub(super) struct Rearrangement {
+    segments: [Segment; MAX_LINKS],
+    count: usize,
+}
+
+impl Rearrangement {
+    /// Cuts the links `ends[0] - ends[1]`, `ends[2] - ends[3]` ... and joins `ends[1]` with `ends[2]`, `ends[3]` with `ends[4]` ... and
+    /// the last one with the first. `None` if that would fall apart into several rings. O(k^2) for k links.
+    pub(super) fn new(tour: &Tour, ends: &[End]) -> Option<Self> {
+        let count = ends.len() / 2;
+        let (cuts, sides) = cut(tour, ends);
+        let mut joined = [0; 2 * MAX_LINKS];
+        for i in 0..count {
+            let (a, b) = (sides[2 * i + 1], sides[(2 * i + 2) % (2 * count)]);
+            joined[a] = b;
+            joined[b] = a;
+        }
+        // Walk the new tour from segment 0, which keeps its direction.
+        let mut walked = [(0, false); MAX_LINKS];
+        let mut steps = 1;
+        let mut side = joined[1];
+        while side >> 1 != 0 {
+            walked[steps] = (side >> 1, side & 1 == 1);
+            steps += 1;
+            side = joined[side ^ 1];
+        }
+        (steps == count)
+            .then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
+    }
+
+    /// Puts the segments of these lengths behind a seat in reverse order, each still drawn the same way.
+    ///
+    /// ```text
+    ///      before:  == A == B == C == D == (A)
+    ///      after:   == A == D == C == B == (A)
+    /// ```
+    pub(super) fn reverse_order(paths: usize, seat: usize, lengths: &[usize]) -> Self {
+        let mut segments = [Segment::default(); MAX_LINKS];
+        let mut first = seat + 1;
+        let mut to = first + lengths.iter().sum::<usize>();
+        for (segment, &len) in segments[1..].iter_mut().zip(lengths) {
+            to -= len;
+            *segment = Segment {
+                first: first % paths,
+                len,
+                reversed: false,
+                to: to % paths,
+            };
+            first += len;
+        }
+        Self {
+            segments,
+            count: lengths.len() + 1,
+        }
+    }
+
+    /// The pieces that change their seats or direction. The longest never does.
+    pub(super) fn moved(&self) -> impl Iterator<Item = &Segment> {
+        self.segments[1..self.count]
+            .iter()
+            .filter(|segment| segment.reversed || segment.first != segment.to)
+    }
+
+    /// Number of paths that change their seats or direction.
+    pub(super) fn cost(&self) -> usize {
+        self.moved().map(|segment| segment.len).sum()
+    }
+
+    fn around_longest(paths: usize, cuts: &[usize], walked: &mut [(usize, bool)]) -> Self {
+        let segment = |index: usize| {
+            let before = cuts[if index == 0 {
+                cuts.len() - 1
+            } else {
+                index - 1
+            }];
+            let first = if before + 1 == paths { 0 } else { before + 1 };
+            (first, (cuts[index] + paths - before - 1) % paths + 1)
+        };
+        let longest = (0..walked.len())
+            .max_by_key(|&i| segment(walked[i].0).1)
+            .unwrap_or(0);
+        walked.rotate_left(longest);
+        if walked[0].1 {
+            // The same ring, walked the other way.
+            walked[1..].reverse();
+            for (_, reversed) in walked.iter_mut() {
+                *reversed = !*reversed;
+            }
+        }
+        let mut segments = [Segment::default(); MAX_LINKS];
+        let mut to = segment(walked[0].0).0;
+        for (slot, &(index, reversed)) in segments.iter_mut().zip(walked.iter()) {
+            let (first, len) = segment(index);
+            *slot = Segment {
+                first,
+                len,
+                reversed,
+                to,
+            };
+            to = (to + len) % paths;
+        }
+        Self {
+            segments,
+            count: walked.len(),
+        }
+    }
+}
+
+/// The cut links as the seats before them, ascending; and for each end its side of a segment: `2 s` for the first end of
+/// segment `s`, `2 s + 1` for its last one, where segment `s` ends at cut `s`.
+fn cut(tour: &Tour, ends: &[End]) -> ([usize; MAX_LINKS], [usize; 2 * MAX_LINKS]) {
+    let count = ends.len() / 2;
+    let mut cuts = [usize::MAX; MAX_LINKS];
+    let mut seats = [0; MAX_LINKS];
+    for i in 0..count {
+        let (a, b) = (tour.position(ends[2 * i]), tour.position(ends[2 * i + 1]));
+        // The one that is left is the one before the cut.
+        seats[i] = (if a & 1 == 1 { a } else { b }) as usize >> 1;
+        let mut rank = i;
+        while rank > 0 && cuts[rank - 1] > seats[i] {
+            cuts[rank] = cuts[rank - 1];
+            rank -= 1;
+        }
+        cuts[rank] = seats[i];
+    }
+    let mut sides = [0; 2 * MAX_LINKS];
+    for i in 0..count {
+        let rank = cuts[..count]
+            .iter()
+            .position(|&cut| cut == seats[i])
+            .unwrap_or(0);
+        let (before, behind) = (
+            2 * rank + 1,
+            if rank + 1 == count { 0 } else { 2 * rank + 2 },
+        );
+        let first_is_before = tour.position(ends[2 * i]) & 1 == 1;
+        (sides[2 * i], sides[2 * i + 1]) = if first_is_before {
+            (before, behind)
+        } else {
+            (behind, before)
+        };
+    }
+    (cuts, sides)
+}

@@ -1,0 +1,106 @@
+//! The first tour: the shortest links first, as long as they make no fork and no ring.
+
+use rayon::prelude::*;
+
+use super::Direction;
+use super::neighbours::{Neighbours, nearest_ends};
+use super::sites::{End, Sites};
+
+/// Neighbours of each loose end that are looked at in later rounds. With fewer, more rounds are needed.
+const LATER_NEIGHBOURS: usize = 6;
+
+/// A link that might be made: length, then the two ends. Lengths are kept as the bits of an `f32`, whose order is the same.
+type Candidate = (u32, End, End);
+
+/// Orders all paths greedily and returns the end at which each is entered, beginning with the home path. About 16 % above the
+/// optimum on uniform dots; O(n log n).
+pub(super) fn greedy_tour(
+    sites: &Sites,
+    neighbours: &Neighbours,
+    direction: Direction,
+) -> Vec<End> {
+    let mut fragments = Fragments::new(sites);
+    let all = (0..sites.end_count() as End).into_par_iter();
+    let candidates = all.flat_map_iter(|end| {
+        neighbours
+            .of(end)
+            .iter()
+            .map(move |&other| candidate(sites, end, other))
+    });
+    fragments.join_shortest(candidates.collect());
+    while fragments.count > 1 {
+        let loose = fragments.loose_ends(sites);
+        let root: Vec<u32> = (0..sites.path_count() as u32)
+            .map(|path| fragments.root(path))
+            .collect();
+        let apart = |a: End, b: End| root[a as usize >> 1] != root[b as usize >> 1];
+        let found = nearest_ends(sites, &loose, LATER_NEIGHBOURS, direction, apart);
+        let pairs = loose
+            .iter()
+            .zip(&found)
+            .flat_map(|(&end, others)| others.iter().map(move |&other| (end, other)));
+        fragments.join_shortest(
+            pairs
+                .map(|(end, other)| candidate(sites, end, other))
+                .collect(),
+        );
+    }
+    fragments.walk_from(sites.free_end())
+}
+
+fn candidate(sites: &Sites, a: End, b: End) -> Candidate {
+    ((sites.distance(a, b) as f32).to_bits(), a.min(b), a.max(b))
+}
+
+/// Pieces of tour that grow together, as a union-find forest over paths.
+struct Fragments {
+    count: usize,
+    parent: Vec<u32>,
+    link: Vec<Option<End>>,
+}
+
+impl Fragments {
+    fn new(sites: &Sites) -> Self {
+        Self {
+            count: sites.path_count(),
+            parent: (0..sites.path_count() as u32).collect(),
+            link: vec![None; sites.end_count()],
+        }
+    }
+
+    fn root(&mut self, mut path: u32) -> u32 {
+        while self.parent[path as usize] != path {
+            let grandparent = self.parent[self.parent[path as usize] as usize];
+            self.parent[path as usize] = grandparent;
+            path = grandparent;
+        }
+        path
+    }
+
+    fn join_shortest(&mut self, mut candidates: Vec<Candidate>) {
+        candidates.par_sort_unstable();
+        for (_, a, b) in candidates {
+            if self.link[a as usize].is_some() || self.link[b as usize].is_some() {
+                continue;
+            }
+            let (root_a, root_b) = (self.root(a >> 1), self.root(b >> 1));
+            if root_a != root_b {
+                self.parent[root_a as usize] = root_b;
+                self.link[a as usize] = Some(b);
+                self.link[b as usize] = Some(a);
+                self.count -= 1;
+            }
+        }
+    }
+
+    /// Both ends of every fragment, but for the free end, which closes the tour when all else is joined.
+    fn loose_ends(&self, sites: &Sites) -> Vec<End> {
+        (0..sites.end_count() as End)
+            .filter(|&end| self.link[end as usize].is_none() && end != sites.free_end())
+            .collect()
+    }
+
+    fn walk_from(&self, end: End) -> Vec<End> {
+        std::iter::successors(Some(end), |&entered| self.link[(entered ^ 1) as usize]).collect()
+    }
+}

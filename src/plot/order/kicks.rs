@@ -1,0 +1,71 @@
+//! Getting out of a local optimum: small random changes, each repaired on the spot and taken back if it did not pay.
+
+use super::exchange::Rearrangement;
+use super::lin_kernighan::LinKernighan;
+use super::random::SplitMix;
+use super::sites::End;
+
+/// Links cut by a kick.
+const CUTS: usize = 4;
+
+/// Random steps from neighbour to neighbour between the first cut and each other one. Tuned on 10,000 dots, segments and hatch lines:
+/// with 3, most kicks are repaired to what was there before; cuts 30 paths apart along the tour (and so far apart on paper) bring
+/// a little more each and take five times as long.
+const STEPS: usize = 10;
+
+/// Kicks the tour this many times and returns the millimetres gained. One kick takes about 25 microseconds, however long the tour,
+/// as long as the changes to its array stay short.
+pub(super) fn kick(search: &mut LinKernighan, times: usize, random: &mut SplitMix) -> f64 {
+    (0..times).filter_map(|_| kick_once(search, random)).sum()
+}
+
+/// Makes one kick and keeps it if the repaired tour is no longer than before. `None` if there was no room for it.
+fn kick_once(search: &mut LinKernighan, random: &mut SplitMix) -> Option<f64> {
+    let seats = nearby_seats(search, random)?;
+    let tour = &search.tour;
+    let lengths: [usize; CUTS - 1] = std::array::from_fn(|i| seats[i + 1] - seats[i]);
+    let ends: [End; 2 * CUTS] = std::array::from_fn(|i| {
+        if i % 2 == 0 {
+            tour.entry(seats[i / 2]) ^ 1
+        } else {
+            tour.entry(seats[i / 2] + 1)
+        }
+    });
+    let before = search.length_at(&ends);
+    search.tour.rearrange(&Rearrangement::reverse_order(
+        search.tour.len(),
+        seats[0],
+        &lengths,
+    ));
+    let loss = search.length_at(&ends) - before;
+    for end in ends {
+        search.look_at(end);
+    }
+    let gain = search.improve(|_| ()) - loss;
+    if gain >= 0.0 {
+        search.tour.keep();
+        Some(gain)
+    } else {
+        search.tour.take_back();
+        Some(0.0)
+    }
+}
+
+/// The seats before the cuts, ascending: all near a random path on paper, wherever in the tour.
+fn nearby_seats(search: &LinKernighan, random: &mut SplitMix) -> Option<[usize; CUTS]> {
+    let start = random.below(2 * search.tour.len()) as End;
+    let mut seats = [search.tour.seat_of(start); CUTS];
+    for seat in &mut seats[1..] {
+        let mut end = start;
+        for _ in 0..STEPS {
+            let neighbours = search.neighbours.of(end);
+            end = *neighbours.get(random.below(neighbours.len()))?;
+        }
+        *seat = search.tour.seat_of(end);
+    }
+    seats.sort_unstable();
+    seats
+        .windows(2)
+        .all(|pair| pair[0] < pair[1])
+        .then_some(seats)
+}

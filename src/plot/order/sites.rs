@@ -1,0 +1,122 @@
+//! The problem as the search sees it: numbered path ends and the distances between them.
+
+use kurbo::Point;
+
+use super::PathEnds;
+use super::kd_tree::KdTree;
+
+/// One end of one path. Path `p` owns the ends `2 p` (its start) and `2 p + 1` (its end), so that `end ^ 1` is the
+/// other end of the same path and `end >> 1` the path. The numbering is the internal one of [`Sites`].
+pub(super) type End = u32;
+
+/// Coordinates are clamped to this, so that squares and sums of distances stay finite.
+const FARTHEST: f64 = 1e150;
+
+/// Path ends with their places, and one path for the pen's home among them.
+///
+/// The home path turns the open tour into a closed one, which spares the search every special case:
+///
+/// ```text
+///      free end ==== home end ---- first path ---- ... ---- last path ---- (back to the free end)
+///                at home                                                0 mm from everywhere
+/// ```
+///
+/// The free end has an even number like every start, and the home end an odd one like every end; so "links only join
+/// an odd with an even end" means "every path is drawn forwards" without an exception for home.
+pub(super) struct Sites {
+    at: Vec<Point>,
+    free: End,
+    tolerance: f64,
+}
+
+/// Numbers the paths along a k-d tree of their middles, so that neighbours on paper are close in memory. Returns
+/// the caller's number of each; the home path is the last one and not among these.
+pub(super) fn numbering(paths: &[PathEnds]) -> Vec<usize> {
+    let middles = paths
+        .iter()
+        .map(|path| clamped(path.start).midpoint(clamped(path.end)));
+    KdTree::new(middles.zip(0..).collect())
+        .into_labels()
+        .map(|path| path as usize)
+        .collect()
+}
+
+impl Sites {
+    /// The ends of all paths in this numbering, and of the home path.
+    pub(super) fn new(paths: &[PathEnds], numbering: &[usize], home: Point) -> Self {
+        let ends = numbering
+            .iter()
+            .flat_map(|&path| [paths[path].start, paths[path].end]);
+        let at: Vec<Point> = ends.chain([home, home]).map(clamped).collect();
+        let corner = |pick: fn(f64, f64) -> f64| {
+            at.iter()
+                .copied()
+                .reduce(|p, q| Point::new(pick(p.x, q.x), pick(p.y, q.y)))
+                .unwrap_or(home)
+        };
+        // A sum of a dozen distances is wrong by some 1e-15 of the extent at most: whatever the search takes for a gain
+        // above this is one, so it never walks in circles.
+        let tolerance = 1e-12 * corner(f64::min).distance(corner(f64::max));
+        Self {
+            at,
+            free: 2 * numbering.len() as End,
+            tolerance,
+        }
+    }
+
+    /// Some of these ends under new numbers, two and two those of a path.
+    pub(super) fn part(&self, ends: &[End]) -> Self {
+        let at = ends.iter().map(|&end| self.place(end)).collect();
+        let free = ends
+            .iter()
+            .position(|&end| end == self.free)
+            .map_or(End::MAX, |end| end as End);
+        Self {
+            at,
+            free,
+            tolerance: self.tolerance,
+        }
+    }
+
+    /// Number of paths with the home path.
+    pub(super) fn path_count(&self) -> usize {
+        self.at.len() / 2
+    }
+
+    /// Number of ends with both of the home path.
+    pub(super) fn end_count(&self) -> usize {
+        self.at.len()
+    }
+
+    /// The end of the home path that is 0 mm from everywhere; `End::MAX` if it is not among these ends.
+    pub(super) fn free_end(&self) -> End {
+        self.free
+    }
+
+    /// Where an end is. The place of the free end means nothing.
+    pub(super) fn place(&self, end: End) -> Point {
+        self.at[end as usize]
+    }
+
+    /// Gains up to this many millimetres are rounding errors.
+    pub(super) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Pen-up distance between two ends in millimetres.
+    #[inline]
+    pub(super) fn distance(&self, a: End, b: End) -> f64 {
+        if a == self.free || b == self.free {
+            return 0.0;
+        }
+        // Not `hypot`, which takes five times as long to be safe from an overflow that the clamping rules out.
+        (self.at[a as usize] - self.at[b as usize]).hypot2().sqrt()
+    }
+}
+
+fn clamped(p: Point) -> Point {
+    Point::new(
+        p.x.clamp(-FARTHEST, FARTHEST),
+        p.y.clamp(-FARTHEST, FARTHEST),
+    )
+}

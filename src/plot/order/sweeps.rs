@@ -1,0 +1,112 @@
+//! Which patch of the tour is kicked when: once along the tour on all threads, and once across the paper.
+
+use kurbo::Point;
+use rayon::prelude::*;
+
+use super::kd_tree;
+use super::kicks::kick;
+use super::lin_kernighan::LinKernighan;
+use super::neighbours::Neighbours;
+use super::patch::Patch;
+use super::random::SplitMix;
+use super::sites::{End, Sites};
+use super::tour::Tour;
+
+/// Most paths in a patch. Tuned on 10,000 and 100,000 dots: with 1000, a third of the gain of [`along_the_tour`] is lost at the
+/// rims of its patches; with many more, patches are too few for all threads and do not fit in the cache.
+const PATCH: usize = 5000;
+
+/// A tour and all that is needed to improve it.
+pub(super) struct Workpiece<'a> {
+    pub(super) sites: &'a Sites,
+    pub(super) neighbours: &'a Neighbours,
+    pub(super) tour: Tour,
+}
+
+impl Workpiece<'_> {
+    /// Kicks the tour `kicks_per_path` times the number of paths, in patches that are consecutive pieces of the tour. They do not touch
+    /// each other, so they are worked on at the same time; but links from one to another cannot be made. Another
+    /// `sequence` makes other kicks.
+    pub(super) fn along_the_tour(&mut self, kicks_per_path: f64, sequence: u64) {
+        let len = self.tour.len();
+        let count = len.div_ceil(PATCH);
+        let scratch = || vec![End::MAX; self.sites.end_count()];
+        let windows = (0..count)
+            .into_par_iter()
+            .map_init(scratch, |renumbered, window| {
+                let seats: Vec<usize> =
+                    (window * len / count..(window + 1) * len / count).collect();
+                let patch = Patch::new(self.sites, self.neighbours, &self.tour, &seats, renumbered);
+                let (small, _) = kicked(
+                    &patch,
+                    kicks_per_path * seats.len() as f64,
+                    &mut SplitMix::new((sequence << 32) + window as u64),
+                );
+                // The bundle of all else is the last piece: it is left out, and the rest follows in its direction.
+                let outside = usize::from(patch.piece_count() > seats.len());
+                patch.spread(
+                    &self.tour,
+                    small
+                        .entries_from(patch.last_piece())
+                        .into_iter()
+                        .skip(outside),
+                )
+            });
+        let windows: Vec<Vec<End>> = windows.collect();
+        self.tour = Tour::new(windows.concat());
+    }
+
+    /// Kicks the tour as often as [`Workpiece::along_the_tour`], in patches that are compact on paper, one after the other: each may turn
+    /// round whatever the tour does outside of it.
+    pub(super) fn across_the_paper(&mut self, kicks_per_path: f64) {
+        let mut random = SplitMix::new(u64::MAX);
+        let mut renumbered = vec![End::MAX; self.sites.end_count()];
+        let middle = |path: u32| {
+            self.sites
+                .place(2 * path)
+                .midpoint(self.sites.place(2 * path + 1))
+        };
+        let mut paths: Vec<(Point, u32)> = (0..self.sites.path_count() as u32)
+            .map(|path| (middle(path), path))
+            .collect();
+        for tile in tiles(&mut paths) {
+            let mut seats: Vec<usize> = tile
+                .iter()
+                .map(|&(_, path)| self.tour.seat_of(2 * path))
+                .collect();
+            seats.sort_unstable();
+            let patch = Patch::new(
+                self.sites,
+                self.neighbours,
+                &self.tour,
+                &seats,
+                &mut renumbered,
+            );
+            let (small, gained) = kicked(&patch, kicks_per_path * seats.len() as f64, &mut random);
+            if gained > 0.0 {
+                self.tour =
+                    Tour::new(patch.spread(&self.tour, small.entries_from(patch.last_piece())));
+            }
+        }
+    }
+}
+
+/// The small tour of a patch after some kicks, and the millimetres gained.
+fn kicked(patch: &Patch, kicks: f64, random: &mut SplitMix) -> (Tour, f64) {
+    let mut search = LinKernighan::new(&patch.sites, &patch.neighbours, patch.tour());
+    let gained = kick(&mut search, kicks.round() as usize, random);
+    (search.tour, gained)
+}
+
+/// Halves the paths across the longer side of their bounds until no part is too large.
+fn tiles(paths: &mut [(Point, u32)]) -> Vec<&mut [(Point, u32)]> {
+    if paths.len() <= PATCH {
+        return vec![paths];
+    }
+    let middle = paths.len() / 2;
+    kd_tree::split(paths, middle);
+    let (low, high) = paths.split_at_mut(middle);
+    let mut all = tiles(low);
+    all.append(&mut tiles(high));
+    all
+}

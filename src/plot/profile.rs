@@ -1,0 +1,260 @@
+//! Machines as data: `plot-profiles/*.toml`, compiled in, or a file of the user's.
+
+use include_dir::{Dir, include_dir};
+use serde::Deserialize;
+use thiserror::Error;
+
+static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/plot-profiles");
+
+/// One machine.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// Its name on the command line.
+    pub name: String,
+    /// One line for a list.
+    pub description: String,
+    /// What it understands.
+    pub language: Language,
+    /// Machine units a millimetre.
+    pub units_per_mm: f64,
+    /// Sheets that the machine knows; without any, the page lies with its lower left corner at machine zero.
+    #[serde(default)]
+    pub paper: Vec<Paper>,
+    /// The machine's reach where it knows no sheets, in machine units.
+    pub area: Option<Area>,
+    /// Its pens.
+    pub pens: Pens,
+    /// Speeds and times.
+    pub motion: Motion,
+    /// How G-code is written for it.
+    pub gcode: Option<GcodeDialect>,
+    /// How HP-GL is written for it.
+    pub hpgl: Option<HpglDialect>,
+}
+
+/// A plotter's language.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Language {
+    /// HP-GL.
+    Hpgl,
+    /// G-code.
+    Gcode,
+}
+
+/// A sheet with its own hard clip.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Paper {
+    /// The page's name, such as `a4`.
+    pub name: String,
+    /// Along the machine's x axis, in millimetres.
+    pub width: f64,
+    /// Along the machine's y axis, in millimetres.
+    pub height: f64,
+    /// Hard clip along x, in machine units.
+    pub x: [f64; 2],
+    /// Hard clip along y, in machine units.
+    pub y: [f64; 2],
+    /// Machine zero in millimetres from the sheet's upper left corner, x right, y down.
+    pub zero: [f64; 2],
+    /// What the machine is told to use this sheet.
+    #[serde(default)]
+    pub setup: String,
+}
+
+/// A reach without sheets, in machine units.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Area {
+    /// Along x.
+    pub x: [f64; 2],
+    /// Along y, up.
+    pub y: [f64; 2],
+}
+
+/// Pens and how they are changed.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub struct Pens {
+    /// How many the machine holds.
+    pub count: u32,
+    /// How it gets another.
+    pub change: PenChange,
+}
+
+/// How a pen is changed.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum PenChange {
+    /// The machine takes it from its carousel.
+    Machine,
+    /// The file pauses, and the user changes it.
+    Pause,
+}
+
+/// Speeds and times.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Pen down, mm/s.
+    pub draw_speed: f64,
+    /// The fastest that the machine can be told to draw, mm/s.
+    pub draw_speed_limit: Option<f64>,
+    /// Pen up, mm/s.
+    pub travel_speed: f64,
+    /// mm/s^2.
+    pub acceleration: f64,
+    /// GRBL's `$11` in millimetres: how far a corner may be rounded in thought, which sets its speed.
+    pub junction_deviation: f64,
+    /// Time to lift the pen.
+    pub pen_up_seconds: f64,
+    /// Time to lower the pen.
+    pub pen_down_seconds: f64,
+}
+
+/// G-code for one machine.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct GcodeDialect {
+    /// Comment lines at the top.
+    #[serde(default)]
+    pub header: Vec<String>,
+    /// Lines before anything moves.
+    pub start: Vec<String>,
+    /// Lifts the pen.
+    pub pen_up: String,
+    /// Lowers the pen.
+    pub pen_down: String,
+    /// Where the pen waits at the end, in machine units.
+    pub park: [f64; 2],
+    /// Waits for the user.
+    pub pause: String,
+    /// Waits for a time; `{seconds}` or `{milliseconds}` is replaced.
+    pub dwell: String,
+    /// Greatest length of a line.
+    pub line_length: usize,
+}
+
+/// HP-GL for one machine.
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub struct HpglDialect {
+    /// Greatest length of one instruction in bytes.
+    pub chunk: usize,
+}
+
+/// Why a profile could not be used.
+#[derive(Debug, Error, PartialEq)]
+pub enum ProfileError {
+    /// No such name.
+    #[error("there is no plotter profile '{name}'; there are {known}, or give the path of a .toml file")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// All built-in names.
+        known: String,
+    },
+    /// Not TOML, or a key or value that is not a profile's.
+    #[error("{name}, line {line}: {message}")]
+    Syntax {
+        /// The profile's file or name.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong there.
+        message: String,
+    },
+    /// A value that cannot be.
+    #[error("{name}: {key} {problem}")]
+    Value {
+        /// The profile's file or name.
+        name: String,
+        /// The key.
+        key: &'static str,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+impl Profile {
+    /// Reads a profile from TOML; `name` stands in messages.
+    pub fn parse(name: &str, text: &str) -> Result<Self, ProfileError> {
+        let profile: Self = toml::from_str(text).map_err(|error| {
+            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+            ProfileError::Syntax { name: name.to_owned(), line, message: error.message().to_owned() }
+        })?;
+        profile.check(name)?;
+        Ok(profile)
+    }
+
+    fn check(&self, name: &str) -> Result<(), ProfileError> {
+        let refuse = |key, problem: &str| Err(ProfileError::Value { name: name.to_owned(), key, problem: problem.to_owned() });
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        let motion = &self.motion;
+        if !positive(self.units_per_mm) {
+            return refuse("units_per_mm", "must be above 0");
+        }
+        if self.paper.is_empty() == self.area.is_none() {
+            return refuse("paper", "or area must be given, and not both");
+        }
+        for (key, value) in [
+            ("motion.draw_speed", motion.draw_speed),
+            ("motion.travel_speed", motion.travel_speed),
+            ("motion.acceleration", motion.acceleration),
+            ("motion.junction_deviation", motion.junction_deviation),
+        ] {
+            if !positive(value) {
+                return refuse(key, "must be above 0");
+            }
+        }
+        match self.language {
+            Language::Gcode if self.gcode.is_none() => refuse("gcode", "is missing, and the language is gcode"),
+            Language::Hpgl if self.hpgl.is_none() => refuse("hpgl", "is missing, and the language is hpgl"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Names of the profiles that are compiled in, sorted.
+pub fn built_in_names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = BUILT_IN.files().filter_map(|f| f.path().file_stem()?.to_str()).collect();
+    names.sort_unstable();
+    names
+}
+
+/// The TOML of a profile that is compiled in.
+pub fn built_in(name: &str) -> Result<&'static str, ProfileError> {
+    BUILT_IN
+        .get_file(format!("{name}.toml"))
+        .and_then(include_dir::File::contents_utf8)
+        .ok_or_else(|| ProfileError::Unknown { name: name.to_owned(), known: built_in_names().join(", ") })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_profile_is_sound_and_named_like_its_file() {
+        for name in built_in_names() {
+            assert_eq!(Profile::parse(name, built_in(name).unwrap()).unwrap().name, name);
+        }
+    }
+
+    #[test]
+    fn a_wrong_profile_says_where() {
+        let text = built_in("grbl-servo").unwrap().replace("travel_speed", "travelspeed");
+        let line = text.lines().position(|l| l.starts_with("travelspeed")).unwrap() + 1;
+        match Profile::parse("mine.toml", &text) {
+            Err(ProfileError::Syntax { line: found, message, .. }) => {
+                assert_eq!(found, line);
+                assert!(message.contains("travelspeed"), "{message}");
+            }
+            other => panic!("{other:?}"),
+        }
+        let text = built_in("grbl-servo").unwrap().replace("acceleration = 250", "acceleration = 0");
+        assert!(matches!(Profile::parse("mine.toml", &text), Err(ProfileError::Value { key: "motion.acceleration", .. })));
+    }
+}

@@ -1,0 +1,76 @@
+//! What a plot will take, per pen and in all.
+
+use super::profile::Motion;
+use super::{Plot, pen_up_length};
+use super::order::{PathEnds, Visit};
+use super::time::clock;
+use crate::geometry::Point;
+use serde::Serialize;
+
+/// One pen's share.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PenReport {
+    /// The pen's number.
+    pub pen: u32,
+    /// What it draws.
+    pub name: String,
+    /// The nib's width in millimetres.
+    pub nib_mm: f64,
+    /// Pen-down paths.
+    pub paths: usize,
+    /// Millimetres drawn.
+    pub pen_down_mm: f64,
+    /// Millimetres travelled with the pen up, from the last pen's end or home.
+    pub pen_up_mm: f64,
+    /// The same before ordering.
+    pub pen_up_mm_before: f64,
+    /// How often the pen is lifted.
+    pub pen_lifts: usize,
+    /// Time, when the machine is known.
+    pub seconds: Option<f64>,
+}
+
+/// All pens.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PlotReport {
+    /// Each pen.
+    pub pens: Vec<PenReport>,
+    /// All together; its name is `all`.
+    pub total: PenReport,
+}
+
+/// Measures a plot; `before` is the pen-up travel of each pen before ordering, if it is known.
+pub fn report(plot: &Plot, home: Point, motion: Option<&Motion>, before: Option<&[f64]>) -> PlotReport {
+    let clocks = motion.map(|motion| clock(plot, home, motion));
+    let mut at = home;
+    let mut pens = Vec::new();
+    for (i, pen) in plot.pens.iter().enumerate() {
+        let ends: Vec<PathEnds> = pen.paths.iter().map(super::Toolpath::ends).collect();
+        let visits: Vec<Visit> = (0..ends.len()).map(|path| Visit { path, reversed: false }).collect();
+        let pen_up_mm = pen_up_length(&ends, &visits, at);
+        at = ends.last().map_or(at, |last| last.end);
+        pens.push(PenReport {
+            pen: pen.number,
+            name: pen.name.clone(),
+            nib_mm: pen.nib,
+            paths: pen.paths.len(),
+            pen_down_mm: pen.paths.iter().map(super::Toolpath::length).sum(),
+            pen_up_mm,
+            pen_up_mm_before: before.and_then(|b| b.get(i).copied()).unwrap_or(pen_up_mm),
+            pen_lifts: pen.paths.len(),
+            seconds: clocks.as_ref().map(|c| c[i].total()),
+        });
+    }
+    let total = PenReport {
+        pen: 0,
+        name: "all".to_owned(),
+        nib_mm: pens.first().map_or(0.0, |p| p.nib_mm),
+        paths: pens.iter().map(|p| p.paths).sum(),
+        pen_down_mm: pens.iter().map(|p| p.pen_down_mm).sum(),
+        pen_up_mm: pens.iter().map(|p| p.pen_up_mm).sum(),
+        pen_up_mm_before: pens.iter().map(|p| p.pen_up_mm_before).sum(),
+        pen_lifts: pens.iter().map(|p| p.pen_lifts).sum(),
+        seconds: motion.map(|_| pens.iter().filter_map(|p| p.seconds).sum()),
+    };
+    PlotReport { pens, total }
+}

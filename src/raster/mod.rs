@@ -1,0 +1,172 @@
+//! Rasters and the filters on them.
+//!
+//! In: a [`Raster`]; out: a [`Raster`] of the same size. Nothing here knows of pages, millimetres or photographs.
+//! Every filter clamps at the border (the edge pixel is repeated), runs parallel by rows, and gives the same bits
+//! on any number of threads.
+
+mod bilateral;
+mod binary;
+mod blur;
+mod canny;
+mod thin;
+
+pub use bilateral::bilateral;
+pub use binary::{components, dilate, majority, remove_components};
+pub use blur::{box_blur, gaussian_blur};
+pub use canny::{Thresholds, canny};
+pub use thin::thin;
+
+use rayon::prelude::*;
+
+/// A rectangle of pixels in row order; pixel `(x, y)` has its centre at `(x + 0.5, y + 0.5)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster<T> {
+    width: usize,
+    height: usize,
+    data: Vec<T>,
+}
+
+impl<T> Raster<T> {
+    /// Wraps pixels that are already in row order.
+    ///
+    /// # Panics
+    /// If `data` does not hold `width * height` pixels.
+    pub fn from_vec(width: usize, height: usize, data: Vec<T>) -> Self {
+        assert_eq!(data.len(), width * height, "a raster's pixels must fill it");
+        Self { width, height, data }
+    }
+
+    /// Number of columns.
+    pub const fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Number of rows.
+    pub const fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Number of pixels.
+    pub fn len(&self) -> usize {
+        self.data.len()
+    }
+
+    /// Whether there is no pixel at all.
+    pub fn is_empty(&self) -> bool {
+        self.data.is_empty()
+    }
+
+    /// All pixels in row order.
+    pub fn pixels(&self) -> &[T] {
+        &self.data
+    }
+
+    /// All pixels in row order, to change.
+    pub fn pixels_mut(&mut self) -> &mut [T] {
+        &mut self.data
+    }
+
+    /// The pixels, without the shape.
+    pub fn into_vec(self) -> Vec<T> {
+        self.data
+    }
+
+    /// One row.
+    pub fn row(&self, y: usize) -> &[T] {
+        &self.data[y * self.width..(y + 1) * self.width]
+    }
+
+    /// Whether `(x, y)` is a pixel of this raster.
+    pub const fn contains(&self, x: isize, y: isize) -> bool {
+        x >= 0 && y >= 0 && (x as usize) < self.width && (y as usize) < self.height
+    }
+}
+
+impl<T: Copy + Send + Sync> Raster<T> {
+    /// A raster of one value.
+    pub fn filled(width: usize, height: usize, value: T) -> Self {
+        Self { width, height, data: vec![value; width * height] }
+    }
+
+    /// A raster whose pixel `(x, y)` is `pixel(x, y)`, made parallel by rows.
+    pub fn from_fn(width: usize, height: usize, pixel: impl Fn(usize, usize) -> T + Sync) -> Self {
+        let mut data = Vec::with_capacity(width * height);
+        (0..width * height).into_par_iter().with_min_len(4096).map(|i| pixel(i % width, i / width)).collect_into_vec(&mut data);
+        Self { width, height, data }
+    }
+
+    /// A raster of the same size, pixel by pixel.
+    pub fn map<U: Copy + Send + Sync>(&self, pixel: impl Fn(T) -> U + Sync) -> Raster<U> {
+        let data = self.data.par_iter().with_min_len(4096).map(|&v| pixel(v)).collect();
+        Raster { width: self.width, height: self.height, data }
+    }
+
+    /// A raster of the same size from two of them.
+    ///
+    /// # Panics
+    /// If the sizes differ.
+    pub fn zip_map<U: Copy + Send + Sync, V: Copy + Send + Sync>(
+        &self,
+        other: &Raster<U>,
+        pixel: impl Fn(T, U) -> V + Sync,
+    ) -> Raster<V> {
+        assert_eq!((self.width, self.height), (other.width, other.height), "rasters must have one size");
+        let data = self.data.par_iter().with_min_len(4096).zip(&other.data).map(|(&a, &b)| pixel(a, b)).collect();
+        Raster { width: self.width, height: self.height, data }
+    }
+
+    /// The pixel at `(x, y)`, which must be inside.
+    pub fn get(&self, x: usize, y: usize) -> T {
+        self.data[y * self.width + x]
+    }
+
+    /// Sets the pixel at `(x, y)`, which must be inside.
+    pub fn set(&mut self, x: usize, y: usize, value: T) {
+        self.data[y * self.width + x] = value;
+    }
+
+    /// The pixel at `(x, y)`, or the border pixel nearest to it.
+    pub fn clamped(&self, x: isize, y: isize) -> T {
+        let x = x.clamp(0, self.width as isize - 1) as usize;
+        let y = y.clamp(0, self.height as isize - 1) as usize;
+        self.get(x, y)
+    }
+
+    /// Rows and columns exchanged.
+    pub fn transposed(&self) -> Self {
+        Self::from_fn(self.height, self.width, |x, y| self.get(y, x))
+    }
+}
+
+impl Raster<f32> {
+    /// The value at a place in pixel units (`0.5, 0.5` is the centre of the first pixel), bilinear between centres.
+    pub fn sample(&self, x: f64, y: f64) -> f32 {
+        let (fx, fy) = (x - 0.5, y - 0.5);
+        let (x0, y0) = (fx.floor(), fy.floor());
+        let (tx, ty) = ((fx - x0) as f32, (fy - y0) as f32);
+        let (x0, y0) = (x0 as isize, y0 as isize);
+        let top = self.clamped(x0, y0) * (1.0 - tx) + self.clamped(x0 + 1, y0) * tx;
+        let bottom = self.clamped(x0, y0 + 1) * (1.0 - tx) + self.clamped(x0 + 1, y0 + 1) * tx;
+        top * (1.0 - ty) + bottom * ty
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sample_is_exact_on_a_plane() {
+        let plane = Raster::from_fn(9, 7, |x, y| (x as f32 + 0.5) * 2.0 - (y as f32 + 0.5));
+        for (x, y) in [(1.5, 2.5), (3.25, 4.75), (7.9, 1.1)] {
+            assert!((f64::from(plane.sample(x, y)) - (2.0 * x - y)).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn transposing_twice_is_nothing() {
+        let raster = Raster::from_fn(5, 3, |x, y| x * 10 + y);
+        assert_eq!(raster.transposed().transposed(), raster);
+        assert_eq!(raster.transposed().get(2, 4), raster.get(4, 2));
+    }
+}

@@ -1,0 +1,32 @@
+//! Light and lightness.
+
+/// The linear light (0 to 1) of an sRGB-encoded value (0 to 1), IEC 61966-2-1.
+pub fn srgb_to_linear(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Luminance Y (0 to 1) of linear sRGB.
+pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// CIE L*/100 (0 to 1) of a luminance: `1.16 f(Y) - 0.16`, `f` the cube root above 0.008856, else `7.787 Y + 16/116`
+/// (Bruehl 2023, appendix A, as corrected: the scan shows a power for the product).
+pub fn lightness(luminance: f32) -> f32 {
+    let f = if luminance > 0.008_856 { luminance.cbrt() } else { 7.787 * luminance + 16.0 / 116.0 };
+    (1.16 * f - 0.16).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_values() {
+        assert!((srgb_to_linear(0.5) - 0.214_041).abs() < 1e-5);
+        assert!((lightness(0.184_187) - 0.5).abs() < 1e-4);
+        assert!((lightness(1.0) - 1.0).abs() < 1e-6);
+        assert!(lightness(0.0).abs() < 1e-4);
+        assert!((lightness(0.008_855) - lightness(0.008_857)).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,147 @@
+//! Decoding with limits that are checked before anything is allocated.
+
+use super::error::SourceError;
+use super::jpeg;
+use super::linear::Lineariser;
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
+use sha2::{Digest, Sha256};
+use std::io::{Cursor, Read};
+
+/// How much a picture may ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Pixels of the picture.
+    pub pixels: u64,
+    /// Bytes of the file, and bytes of its decoded pixels.
+    pub bytes: u64,
+}
+
+impl Default for Limits {
+    /// 200 megapixels and 2 GB.
+    fn default() -> Self {
+        Self { pixels: 200_000_000, bytes: 2_000_000_000 }
+    }
+}
+
+/// What is known of a picture's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceInfo {
+    /// The format found by content, such as `JPEG`.
+    pub format: &'static str,
+    /// SHA-256 of the file's bytes, in hexadecimal.
+    pub sha256: String,
+    /// Things a user should know, such as a colour profile that could not be used.
+    pub warnings: Vec<String>,
+}
+
+/// A decoded picture, upright, in its own encoding.
+#[derive(Debug)]
+pub struct Photograph {
+    pub(super) pixels: DynamicImage,
+    pub(super) lineariser: Lineariser,
+    /// What is known of its file.
+    pub info: SourceInfo,
+}
+
+impl Photograph {
+    /// Reads and decodes a picture: format by content, EXIF orientation applied.
+    pub fn read(mut reader: impl Read, limits: Limits) -> Result<Self, SourceError> {
+        let mut bytes = Vec::new();
+        reader.by_ref().take(limits.bytes + 1).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > limits.bytes {
+            return Err(SourceError::TooManyBytes(limits.bytes / 1_000_000));
+        }
+        Self::decode(&bytes, limits)
+    }
+
+    /// Decodes a picture that is already in memory.
+    pub fn decode(bytes: &[u8], limits: Limits) -> Result<Self, SourceError> {
+        if bytes.is_empty() {
+            return Err(SourceError::Empty);
+        }
+        let kind = image::guess_format(bytes).map_err(|_| SourceError::Unrecognised(first_bytes(bytes)))?;
+        let format = format_name(kind).ok_or_else(|| SourceError::Unrecognised(first_bytes(bytes)))?;
+        let mut decoder = ImageReader::with_format(Cursor::new(bytes), kind)
+            .into_decoder()
+            .map_err(|error| describe(format, &error))?;
+        check_limits(format, &decoder, limits)?;
+        if kind == ImageFormat::Jpeg && !jpeg::is_whole(bytes) {
+            return Err(SourceError::Truncated { format });
+        }
+        let orientation = decoder.orientation().unwrap_or(image::metadata::Orientation::NoTransforms);
+        let profile = decoder.icc_profile().unwrap_or(None);
+        let is_cmyk = matches!(decoder.original_color_type(), image::ExtendedColorType::Cmyk8 | image::ExtendedColorType::Cmyk16);
+        let mut pixels = DynamicImage::from_decoder(decoder).map_err(|error| describe(format, &error))?;
+        pixels.apply_orientation(orientation);
+        let (lineariser, warnings) = match profile {
+            Some(profile) if !is_cmyk => (Lineariser::from_profile(&profile, &pixels)?, Vec::new()),
+            Some(_) => (
+                Lineariser::srgb(),
+                vec!["its CMYK profile is not used: the inks are taken as ideal; convert it to RGB for exact tone".to_owned()],
+            ),
+            None => (Lineariser::srgb(), Vec::new()),
+        };
+        let info = SourceInfo { format, sha256: hexadecimal(&Sha256::digest(bytes)), warnings };
+        Ok(Self { pixels, lineariser, info })
+    }
+
+    /// Columns, after the EXIF turn.
+    pub fn width(&self) -> u32 {
+        self.pixels.width()
+    }
+
+    /// Rows, after the EXIF turn.
+    pub fn height(&self) -> u32 {
+        self.pixels.height()
+    }
+
+    /// Whether the picture has an alpha channel.
+    pub fn has_alpha(&self) -> bool {
+        self.pixels.color().has_alpha()
+    }
+}
+
+fn check_limits(format: &'static str, decoder: &impl ImageDecoder, limits: Limits) -> Result<(), SourceError> {
+    let (width, height) = decoder.dimensions();
+    let too_large = |limit: String| SourceError::TooLarge { format, width, height, limit };
+    if width == 0 || height == 0 {
+        Err(SourceError::NoPixels { format, width, height })
+    } else if u64::from(width) * u64::from(height) > limits.pixels {
+        Err(too_large(format!("{} megapixels", limits.pixels / 1_000_000)))
+    } else if decoder.total_bytes() > limits.bytes {
+        Err(too_large(format!("{} MB of pixels", limits.bytes / 1_000_000)))
+    } else {
+        Ok(())
+    }
+}
+
+const fn format_name(format: ImageFormat) -> Option<&'static str> {
+    Some(match format {
+        ImageFormat::Jpeg => "JPEG",
+        ImageFormat::Png => "PNG",
+        ImageFormat::WebP => "WebP",
+        ImageFormat::Tiff => "TIFF",
+        ImageFormat::Bmp => "BMP",
+        ImageFormat::Gif => "GIF",
+        ImageFormat::Pnm => "PNM",
+        ImageFormat::Qoi => "QOI",
+        ImageFormat::Hdr => "Radiance HDR",
+        _ => return None,
+    })
+}
+
+fn describe(format: &'static str, error: &ImageError) -> SourceError {
+    let reason = error.to_string();
+    let is_early_end = matches!(error, ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof)
+        || ["unexpected end", "UnexpectedEof", "failed to fill whole buffer", "unexpected EOF"].iter().any(|words| reason.contains(words));
+    if is_early_end { SourceError::Truncated { format } } else { SourceError::Damaged { format, reason } }
+}
+
+fn first_bytes(bytes: &[u8]) -> String {
+    let shown: Vec<String> = bytes.iter().take(8).map(|b| format!("{b:02x}")).collect();
+    shown.join(" ")
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| format!("{b:02x}")).collect()
+}

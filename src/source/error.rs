@@ -1,0 +1,97 @@
+//! What can be wrong with an image file.
+
+use thiserror::Error;
+
+/// Why an image could not be used. The caller adds the file's name.
+#[derive(Debug, Error)]
+pub enum SourceError {
+    /// The bytes could not be read.
+    #[error("cannot be read: {0}")]
+    Io(#[from] std::io::Error),
+    /// There is nothing in it.
+    #[error("is empty; give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
+    Empty,
+    /// The first bytes are those of no known image format.
+    #[error("is not an image that drypoint knows (it begins with {0}); give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
+    Unrecognised(String),
+    /// The header is damaged or asks for something the decoder does not do.
+    #[error("is a {format} image that cannot be decoded: {reason}")]
+    Damaged {
+        /// The format found by content.
+        format: &'static str,
+        /// The decoder's words.
+        reason: String,
+    },
+    /// The file ends early.
+    #[error("is a {format} image that ends too early: the file is truncated; copy it again from its source")]
+    Truncated {
+        /// The format found by content.
+        format: &'static str,
+    },
+    /// No pixel.
+    #[error("is a {format} image of {width} x {height} px, which has no pixels")]
+    NoPixels {
+        /// The format found by content.
+        format: &'static str,
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// More pixels or bytes than allowed.
+    #[error(
+        "is a {format} image of {width} x {height} px, beyond the limit of {limit}; scale it down first (drypoint never needs more than about 6 pixels per dot)"
+    )]
+    TooLarge {
+        /// The format found by content.
+        format: &'static str,
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// What is allowed.
+        limit: String,
+    },
+    /// More bytes in the file than allowed.
+    #[error("is larger than the limit of {0} MB; scale it down or save it as JPEG")]
+    TooManyBytes(u64),
+    /// A colour profile that cannot be used.
+    #[error("has a colour profile that cannot be used ({0}); convert the picture to sRGB first")]
+    Profile(String),
+    /// A mask or depth map on another pixel grid.
+    #[error("is {width} x {height} px, but the photograph is {expected_width} x {expected_height} px; a mask needs the photograph's pixel grid (after its EXIF turn)")]
+    OtherSize {
+        /// Columns of the mask.
+        width: u32,
+        /// Rows of the mask.
+        height: u32,
+        /// Columns of the photograph.
+        expected_width: u32,
+        /// Rows of the photograph.
+        expected_height: u32,
+    },
+    /// A crop without pixels, or outside the picture.
+    #[error("has no pixel inside the crop {x},{y},{w},{h}: the picture is {width} x {height} px")]
+    EmptyCrop {
+        /// Left border of the crop in pixels.
+        x: f64,
+        /// Upper border.
+        y: f64,
+        /// Width.
+        w: f64,
+        /// Height.
+        h: f64,
+        /// Columns of the picture.
+        width: u32,
+        /// Rows of the picture.
+        height: u32,
+    },
+    /// The working raster would be too large.
+    #[error("would need {pixels} working pixels on this page at this pitch, beyond the limit of {limit}; use a larger --pitch or a smaller --size")]
+    WorkTooLarge {
+        /// Pixels needed.
+        pixels: u64,
+        /// Pixels allowed.
+        limit: u64,
+    },
+}

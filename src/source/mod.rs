@@ -1,0 +1,16 @@
+//! From bytes to a [`Portrait`]: decoding, orientation, colour management, alpha, resampling, tone.
+//!
+//! In: a reader with an image file of any supported kind. Out: a [`Photograph`] (the file's pixels, upright), and from it a
+//! [`Portrait`] at the working resolution that a style asks for. Nothing here opens files or knows of styles.
+
+mod colour;
+mod decode;
+mod error;
+mod jpeg;
+mod linear;
+mod portrait;
+
+pub use colour::{lightness, luminance, srgb_to_linear};
+pub use decode::{Limits, Photograph, SourceInfo};
+pub use error::SourceError;
+pub use portrait::{Crop, MaskRole, Placement, Portrait, ToneCurve, ToneTarget, fill_box};

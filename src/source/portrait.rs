@@ -1,0 +1,264 @@
+//! A photograph placed on a page, at a style's working resolution.
+
+use super::colour::{lightness, luminance};
+use super::decode::Photograph;
+use super::error::SourceError;
+use crate::drawing::Page;
+use crate::geometry::{Point, Rect};
+use crate::raster::Raster;
+use fast_image_resize::images::{TypedImage, TypedImageRef};
+use fast_image_resize::pixels::F32x4;
+use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Working pixels beyond which a page is refused; each costs about 60 bytes.
+const WORK_LIMIT: u64 = 120_000_000;
+/// Rows of the working raster resampled at a time.
+const BAND: usize = 64;
+
+/// What a mask means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum MaskRole {
+    /// What is drawn; the rest is background.
+    Subject,
+    /// Where finer detail is wanted.
+    Detail,
+    /// Hair.
+    Hair,
+    /// The face.
+    Face,
+    /// Clothing.
+    Clothing,
+    /// Hand-made edges, as white lines.
+    Edges,
+    /// Hand-made isophotes, as white lines.
+    Isophotes,
+    /// One colour for each region.
+    Scribbles,
+}
+
+impl MaskRole {
+    /// Every role and its name on the command line.
+    pub const ALL: [(&'static str, Self); 8] = [
+        ("subject", Self::Subject),
+        ("detail", Self::Detail),
+        ("hair", Self::Hair),
+        ("face", Self::Face),
+        ("clothing", Self::Clothing),
+        ("edges", Self::Edges),
+        ("isophotes", Self::Isophotes),
+        ("scribbles", Self::Scribbles),
+    ];
+}
+
+/// What the ink must match.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneTarget {
+    /// CIE L*/100: equal steps look equal.
+    #[default]
+    Lightness,
+    /// Luminance Y: the light that the sheet reflects.
+    Linear,
+}
+
+/// Levels, then power: `((t - black) / (white - black)) ^ (1 / gamma)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToneCurve {
+    /// Tones up to this become 0, full ink; from 0 to below `white`.
+    pub black: f32,
+    /// Tones from this become 1, bare paper; up to 1.
+    pub white: f32,
+    /// Above 1 lightens the middle tones; above 0.
+    pub gamma: f32,
+}
+
+impl Default for ToneCurve {
+    fn default() -> Self {
+        Self { black: 0.0, white: 1.0, gamma: 1.0 }
+    }
+}
+
+impl ToneCurve {
+    fn apply(self, tone: f32) -> f32 {
+        let level = ((tone - self.black) / (self.white - self.black)).clamp(0.0, 1.0);
+        if (self.gamma - 1.0).abs() < 1e-6 { level } else { level.powf(1.0 / self.gamma) }
+    }
+}
+
+/// The used part of a photograph in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crop {
+    /// Left border.
+    pub x: f64,
+    /// Upper border.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Crop {
+    /// The whole of a photograph.
+    pub fn all(photograph: &Photograph) -> Self {
+        Self { x: 0.0, y: 0.0, width: f64::from(photograph.width()), height: f64::from(photograph.height()) }
+    }
+
+    fn within(self, photograph: &Photograph) -> Result<Self, SourceError> {
+        let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
+        let (x0, y0) = (self.x.clamp(0.0, width), self.y.clamp(0.0, height));
+        let (x1, y1) = ((self.x + self.width).clamp(0.0, width), (self.y + self.height).clamp(0.0, height));
+        if x1 - x0 >= 1.0 && y1 - y0 >= 1.0 {
+            Ok(Self { x: x0, y: y0, width: x1 - x0, height: y1 - y0 })
+        } else {
+            let (x, y, w, h) = (self.x, self.y, self.width, self.height);
+            Err(SourceError::EmptyCrop { x, y, w, h, width: photograph.width(), height: photograph.height() })
+        }
+    }
+}
+
+/// Where the working raster lies on the page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The picture's box on the page, in millimetres.
+    pub picture: Rect,
+    /// Working columns.
+    pub columns: usize,
+    /// Working rows.
+    pub rows: usize,
+}
+
+impl Placement {
+    /// A box with `pixels_per_mm` working pixels a millimetre, rounded to whole ones.
+    pub fn new(picture: Rect, pixels_per_mm: f64) -> Self {
+        let count = |length: f64| (length * pixels_per_mm).round().max(1.0) as usize;
+        Self { picture, columns: count(picture.width()), rows: count(picture.height()) }
+    }
+
+    /// Millimetres a pixel, the mean of both directions (they differ by less than a pixel in the whole box).
+    pub fn mm_per_pixel(&self) -> f64 {
+        (self.picture.area() / (self.columns as f64 * self.rows as f64)).sqrt()
+    }
+
+    /// The page's millimetres of a place in working pixels.
+    pub fn to_page(&self, p: Point) -> Point {
+        Point::new(
+            self.picture.x0 + p.x * self.picture.width() / self.columns as f64,
+            self.picture.y0 + p.y * self.picture.height() / self.rows as f64,
+        )
+    }
+}
+
+/// A photograph ready to be drawn: linear light, the tone that ink must match, masks, all on one pixel grid.
+#[derive(Clone, Debug)]
+pub struct Portrait {
+    /// The sheet that it is drawn on.
+    pub page: Page,
+    /// Where it lies on the page.
+    pub placement: Placement,
+    /// Linear sRGB light, composed on white.
+    pub light: Raster<[f32; 3]>,
+    /// Wanted fraction of white paper, 0 to 1.
+    pub tone: Raster<f32>,
+    /// CIE L*/100 before the tone curve; what features are found in.
+    pub lightness: Raster<f32>,
+    /// How much of each pixel belongs to the subject, 0 to 1.
+    pub subject: Raster<f32>,
+    /// Other masks, 0 to 1.
+    pub masks: BTreeMap<MaskRole, Raster<f32>>,
+}
+
+impl Portrait {
+    /// Resamples the crop of a photograph to its placement, once, by Lanczos 3 in linear light.
+    pub fn new(photograph: &Photograph, crop: Crop, page: Page, placement: Placement, target: ToneTarget, curve: ToneCurve) -> Result<Self, SourceError> {
+        let planes = resample(photograph, crop, placement)?;
+        let unit = |v: f32| v.clamp(0.0, 1.0);
+        let light = planes.map(|[r, g, b, _]| [unit(r), unit(g), unit(b)]);
+        let subject = planes.map(|[_, _, _, alpha]| unit(alpha));
+        drop(planes);
+        let lightness = light.map(|rgb| lightness(luminance(rgb)));
+        let tone = match target {
+            ToneTarget::Lightness => lightness.map(|t| curve.apply(t)),
+            ToneTarget::Linear => light.map(|rgb| curve.apply(luminance(rgb))),
+        };
+        Ok(Self { page, placement, light, tone, lightness, subject, masks: BTreeMap::new() })
+    }
+
+    /// Adds a mask, resampled alike; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
+    /// replaces the photograph's alpha.
+    pub fn add_mask(&mut self, role: MaskRole, mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
+        if (mask.width(), mask.height()) != (photograph.width(), photograph.height()) {
+            return Err(SourceError::OtherSize {
+                width: mask.width(),
+                height: mask.height(),
+                expected_width: photograph.width(),
+                expected_height: photograph.height(),
+            });
+        }
+        let planes = resample(mask, crop, self.placement)?;
+        // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
+        let region = planes.map(|[r, g, b, alpha]| {
+            let on_white = luminance([r, g, b]);
+            let on_black = (on_white - (1.0 - alpha)).max(0.0);
+            lightness(on_black)
+        });
+        if role == MaskRole::Subject {
+            self.subject = region;
+        } else {
+            self.masks.insert(role, region);
+        }
+        Ok(())
+    }
+
+    /// The wanted ink of a pixel, 0 to 1: nothing outside the subject.
+    pub fn ink(&self) -> Raster<f32> {
+        self.tone.zip_map(&self.subject, |tone, subject| (1.0 - tone) * subject)
+    }
+}
+
+/// Linear light on white, and alpha, at the working resolution; in bands, so that memory does not grow with the photograph.
+fn resample(photograph: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<[f32; 4]>, SourceError> {
+    let crop = crop.within(photograph)?;
+    let (columns, rows) = (placement.columns, placement.rows);
+    let pixels = columns as u64 * rows as u64;
+    if pixels > WORK_LIMIT {
+        return Err(SourceError::WorkTooLarge { pixels, limit: WORK_LIMIT });
+    }
+    let scale = crop.height / rows as f64;
+    // Lanczos 3 reaches three working pixels, at least three of the photograph's.
+    let reach = (3.0 * scale.max(1.0)).ceil() + 1.0;
+    let bands: Vec<Vec<[f32; 4]>> = (0..rows.div_ceil(BAND))
+        .into_par_iter()
+        .map(|band| {
+            let (first, last) = (band * BAND, ((band + 1) * BAND).min(rows));
+            let (top, bottom) = (crop.y + first as f64 * scale, crop.y + last as f64 * scale);
+            let first_source = (top - reach).floor().max(0.0) as u32;
+            let end_source = ((bottom + reach).ceil() as u32).min(photograph.height());
+            let source = photograph.lineariser.rows(&photograph.pixels, first_source, end_source - first_source);
+            let window = Rect::new(crop.x, top - f64::from(first_source), crop.x + crop.width, bottom - f64::from(first_source));
+            resize_band(&source, photograph.width(), window, columns, last - first)
+        })
+        .collect();
+    Ok(Raster::from_vec(columns, rows, bands.concat()))
+}
+
+fn resize_band(source: &[[f32; 4]], width: u32, window: Rect, columns: usize, rows: usize) -> Vec<[f32; 4]> {
+    let pixels: Vec<F32x4> = source.iter().map(|&p| F32x4::new(p)).collect();
+    let height = (pixels.len() / width as usize) as u32;
+    let view = TypedImageRef::new(width, height, &pixels).expect("the band fills its rows");
+    let mut band = TypedImage::<F32x4>::new(columns as u32, rows as u32);
+    let options = ResizeOptions::new()
+        .resize_alg(ResizeAlg::Convolution(FilterType::Lanczos3))
+        .crop(window.x0, window.y0, window.width(), window.height().min(f64::from(height) - window.y0))
+        .use_alpha(false);
+    Resizer::new().resize_typed(&view, &mut band, &options).expect("the window lies inside the band");
+    band.pixels().iter().map(|p| p.0).collect()
+}
+
+/// The part of a crop that fills a box of this shape, centred (`--fit cover`).
+pub fn fill_box(crop: Crop, box_width: f64, box_height: f64) -> Crop {
+    let shape = box_width / box_height;
+    let (width, height) = if crop.width / crop.height > shape { (crop.height * shape, crop.height) } else { (crop.width, crop.width / shape) };
+    Crop { x: crop.x + 0.5 * (crop.width - width), y: crop.y + 0.5 * (crop.height - height), width, height }
+}

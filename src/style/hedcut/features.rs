@@ -1,0 +1,105 @@
+//! Steps 1, 2 and 12: edges and isophotes, found or hand-made.
+
+use super::Drawer;
+use crate::field::{Curve, EdgeParameters, detect_edges, detect_isophotes, lines_of};
+use crate::raster::{Raster, Thresholds, bilateral, thin};
+use crate::source::MaskRole;
+use crate::style::Picture;
+
+/// The lines that steer the dots, in working pixels.
+pub(super) struct Features {
+    pub edges: Vec<Curve>,
+    pub isophotes: Vec<Curve>,
+    /// Lightness of the subject on white, smoothed within regions.
+    pub smoothed: Raster<f32>,
+}
+
+/// Brightness of a hand-made line above which it counts; low, since a thin line grows faint when the mask is reduced.
+const LINE_BRIGHTNESS: f32 = 0.25;
+
+impl Drawer<'_> {
+    pub(super) fn features(&self) -> Features {
+        self.observer.begin("edges");
+        // The background is taken out first, so that the subject's silhouette is an edge and nothing beyond it is.
+        let lightness = self.portrait.lightness.zip_map(&self.portrait.subject, |l, subject| 1.0 - (1.0 - l) * subject);
+        let edges = match self.portrait.masks.get(&MaskRole::Edges) {
+            Some(mask) => self.hand_made(mask),
+            None => self.found_edges(&lightness),
+        };
+        self.observer.begin("isophotes");
+        let (isophotes, smoothed) = match self.portrait.masks.get(&MaskRole::Isophotes) {
+            Some(mask) => (self.hand_made(mask), bilateral(&lightness, 2.0, 0.08)),
+            None if self.portrait.masks.contains_key(&MaskRole::Edges) && self.parameters.isophotes == 0 => {
+                (Vec::new(), bilateral(&lightness, 2.0, 0.08))
+            }
+            None => self.found_isophotes(&lightness),
+        };
+        self.observer.picture("features", &|| Picture::Drawing(Box::new(self.line_drawing(&edges, &isophotes))));
+        Features { edges, isophotes, smoothed }
+    }
+
+    fn found_edges(&self, lightness: &Raster<f32>) -> Vec<Curve> {
+        let per_pixel = 1.0 / self.pitch();
+        let parameters = EdgeParameters {
+            blur: self.pixels(self.parameters.edge_blur_mm) as f32,
+            thresholds: Thresholds {
+                low: (self.parameters.edge_low.min(self.parameters.edge_high) * per_pixel) as f32,
+                high: (self.parameters.edge_high * per_pixel) as f32,
+            },
+            least_length: self.pixels(self.parameters.edge_length_mm) as f32,
+            smoothing: self.pixels(self.parameters.smoothing_mm) as f32,
+        };
+        let steps = detect_edges(lightness, parameters);
+        self.observer.picture("blurred", &|| Picture::Grey(steps.blurred.clone()));
+        self.observer.picture("canny", &|| Picture::Mask(steps.canny.clone()));
+        self.observer.picture("edges-thickened", &|| Picture::Mask(steps.thickened.clone()));
+        self.observer.picture("edges-kept", &|| Picture::Mask(steps.kept.clone()));
+        self.observer.picture("edges-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
+        lines_of(&steps.skeleton, parameters.smoothing, 0.5 * parameters.least_length)
+    }
+
+    fn found_isophotes(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Raster<f32>) {
+        let smoothing = self.pixels(self.parameters.smoothing_mm).clamp(1.0, 6.0) as f32;
+        let least = self.pixels(self.parameters.edge_length_mm) as f32;
+        let steps = detect_isophotes(lightness, self.parameters.levels, self.parameters.isophotes, smoothing, least);
+        self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
+        self.observer.picture("posterised", &|| Picture::Grey(steps.posterised.clone()));
+        (steps.lines, steps.smoothed)
+    }
+
+    /// The centre lines of white lines on black.
+    fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
+        let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
+        self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
+        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing_mm).min(3.0) as f32, 0.5 * self.pitch() as f32)
+    }
+
+    /// Edges and isophotes as a drawing, for `stages`.
+    fn line_drawing(&self, edges: &[Curve], isophotes: &[Curve]) -> crate::drawing::Drawing {
+        use crate::drawing::{Colour, Drawing, Ink, Layer};
+        let mut drawing = Drawing { page: self.page(), layers: Vec::new() };
+        for (name, curves, colour) in
+            [("edges", edges, Colour { r: 200, g: 30, b: 30 }), ("isophotes", isophotes, Colour { r: 30, g: 90, b: 200 })]
+        {
+            let mut layer = Layer::new(name, drawing.layers.len() as u32 + 1);
+            layer.ink = Ink::Colour(colour);
+            layer.marks = curves.iter().map(|curve| self.thin_line(curve)).collect();
+            drawing.layers.push(layer);
+        }
+        drawing
+    }
+
+    fn thin_line(&self, curve: &Curve) -> crate::drawing::Mark {
+        use crate::drawing::{Mark, Stroke, Width};
+        let mut path = crate::geometry::BezPath::new();
+        for (i, p) in curve.points.iter().enumerate() {
+            let p = self.portrait.placement.to_page(*p);
+            if i == 0 { path.move_to(p) } else { path.line_to(p) }
+        }
+        if curve.closed {
+            path.close_path();
+        }
+        Mark::Stroke(Stroke { curve: path, width: Width::Constant(0.2 * self.parameters.pitch_mm), colour: None })
+    }
+}
+

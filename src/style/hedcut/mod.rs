@@ -1,0 +1,161 @@
+//! The hedcut: dots in rows along the features, sized so that their ink is exactly the tone (Bruehl 2023, after Kim et al.
+//! 2008 and 2010).
+
+mod features;
+mod highlights;
+mod outline;
+mod parameters;
+mod seeds;
+mod size;
+
+use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use crate::drawing::{Dot, Drawing, Layer, Mark, Page};
+use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
+use crate::geometry::{Point, blob};
+use crate::raster::Raster;
+use crate::source::{MaskRole, Portrait};
+use features::Features;
+use parameters::Hedcutting;
+
+/// The style.
+pub(super) struct Hedcut;
+
+impl Style for Hedcut {
+    fn name(&self) -> &'static str {
+        "hedcut"
+    }
+
+    fn summary(&self) -> &'static str {
+        "dots in rows along the features, as in the portraits of the Wall Street Journal"
+    }
+
+    fn source(&self) -> &'static str {
+        "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010"
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        parameters::PARAMETERS
+    }
+
+    fn masks(&self) -> &'static [MaskRole] {
+        &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes]
+    }
+
+    fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
+        Hedcutting::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
+    }
+
+    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+        Drawer { portrait, parameters: Hedcutting::new(settings), seed, observer }.draw()
+    }
+}
+
+/// One drawing in the making.
+struct Drawer<'a> {
+    portrait: &'a Portrait,
+    parameters: Hedcutting,
+    seed: u64,
+    observer: &'a dyn Observer,
+}
+
+/// A dot in working pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SizedDot {
+    centre: Point,
+    radius: f64,
+}
+
+impl Drawer<'_> {
+    /// The thesis' steps in its order.
+    fn draw(&self) -> Result<Drawing, StyleError> {
+        let ink = self.portrait.ink();
+        self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
+        if ink.pixels().iter().all(|&v| v <= 0.0) {
+            return Err(StyleError::NothingToDraw("the picture, or the part inside the subject mask, is white all over".to_owned()));
+        }
+        let features = self.features();
+        let lanes = self.lanes(&features);
+        let sites = seeds::place(self, &lanes)?;
+        let ink = highlights::fade_ink(self, &ink, &features);
+        let dots = match self.parameters.size {
+            parameters::SizeRule::Exact => size::exact(self, &sites, &ink),
+            parameters::SizeRule::Paper => size::paper(self, &sites, &ink),
+        };
+        let dots = highlights::thin_out(self, dots, &features);
+        let mut drawing = Drawing { page: self.page(), layers: vec![self.dot_layer(&dots)] };
+        if self.parameters.has_outline {
+            self.observer.begin("outline");
+            drawing.layers.push(outline::layer(self, &features));
+        }
+        let drawing = drawing.clipped(drawing.page.rect());
+        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
+        Ok(drawing)
+    }
+
+    fn page(&self) -> Page {
+        self.portrait.page
+    }
+
+    /// Steps 3 and 4: distance maps and offset lanes.
+    fn lanes(&self, features: &Features) -> Lanes {
+        self.observer.begin("lanes");
+        let size = self.size();
+        let edges = distance_to_curves(&features.edges, size.0, size.1);
+        let isophotes = distance_to_curves(&features.isophotes, size.0, size.1);
+        for (name, field) in [("distance-to-edges", &edges), ("distance-to-isophotes", &isophotes)] {
+            if let Some(field) = field {
+                let reach = 10.0 * self.pitch() as f32;
+                self.observer.picture(name, &|| Picture::Grey(field.distance.map(|d| (d / reach).min(1.0))));
+            }
+        }
+        let parameters = LaneParameters {
+            pitch: self.pitch() as f32,
+            detail_pitch: (self.pitch() / self.parameters.detail_lanes) as f32,
+            edge_weight: self.parameters.edge_weight,
+            isophote_weight: self.parameters.isophote_weight,
+        };
+        let lanes = offset_lanes(edges.as_ref(), isophotes.as_ref(), self.detail(), size, parameters);
+        self.observer.picture("lanes", &|| Picture::Labels(lanes.lane.clone()));
+        self.observer.picture("offset-lines", &|| Picture::Mask(lanes.line.clone()));
+        lanes
+    }
+
+    /// Step 11 and the change from pixels to millimetres.
+    fn dot_layer(&self, dots: &[SizedDot]) -> Layer {
+        self.observer.begin("dots");
+        let scale = self.portrait.placement.mm_per_pixel();
+        let mut layer = Layer::new("dots", 1);
+        layer.marks = dots
+            .iter()
+            .enumerate()
+            .map(|(i, dot)| {
+                let centre = self.portrait.placement.to_page(dot.centre);
+                let radius = dot.radius * scale;
+                let outline = (self.parameters.blob > 0.0).then(|| {
+                    let mut random = super::random::stream(self.seed, "blobs", i as u64);
+                    Box::new(blob(centre, radius, self.parameters.blob, &mut random))
+                });
+                Mark::Dot(Dot { centre, radius, outline, colour: None })
+            })
+            .collect();
+        layer
+    }
+
+    fn size(&self) -> (usize, usize) {
+        (self.portrait.placement.columns, self.portrait.placement.rows)
+    }
+
+    /// The pitch in working pixels.
+    fn pitch(&self) -> f64 {
+        self.parameters.pitch_mm / self.portrait.placement.mm_per_pixel()
+    }
+
+    /// A length of the page in working pixels.
+    fn pixels(&self, mm: f64) -> f64 {
+        mm / self.portrait.placement.mm_per_pixel()
+    }
+
+    fn detail(&self) -> Option<&Raster<f32>> {
+        self.portrait.masks.get(&MaskRole::Detail)
+    }
+}

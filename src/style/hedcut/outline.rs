@@ -1,0 +1,43 @@
+//! Step 8: the longest edges as strokes that swell in the middle and taper at the ends (Bruehl 2023, section 4.3.2).
+
+use super::Drawer;
+use super::features::Features;
+use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::field::Curve;
+use crate::geometry::{catmull_rom, resample};
+
+/// Distance of an outline's nodes in pitches: far enough for long smooth arcs, near enough for the corner of an eye.
+const NODE_SPACING: f64 = 1.2;
+
+pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
+    let least = drawer.pixels(drawer.parameters.outline_length_mm);
+    let mut layer = Layer::new("outline", 1);
+    layer.marks = features.edges.iter().filter(|edge| edge.length() >= least).filter_map(|edge| stroke(drawer, edge)).collect();
+    layer
+}
+
+fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
+    let spacing = NODE_SPACING * drawer.pitch();
+    let mut nodes = edge.points.clone();
+    if edge.closed {
+        nodes.push(nodes[0]);
+    }
+    let mut nodes = resample(&nodes, spacing);
+    if edge.closed {
+        nodes.pop();
+    }
+    if nodes.len() < 3 {
+        return None;
+    }
+    let page: Vec<_> = nodes.iter().map(|p| drawer.portrait.placement.to_page(*p)).collect();
+    let curve = catmull_rom(&page, edge.closed);
+    let widest = drawer.parameters.outline_width_mm;
+    let count = nodes.len() + usize::from(edge.closed);
+    let widths = (0..count).map(|i| widest * if edge.closed { 1.0 } else { swell(i as f64 / (count - 1) as f64) }).collect();
+    Some(Mark::Stroke(Stroke { curve, width: Width::Along(widths), colour: None }))
+}
+
+/// Width along the stroke, 0 at both ends and 1 in the middle; fuller than a half sine, as a pen's.
+fn swell(along: f64) -> f64 {
+    (std::f64::consts::PI * along).sin().max(0.0).powf(0.7)
+}

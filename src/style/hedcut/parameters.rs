@@ -1,0 +1,230 @@
+//! The hedcut's parameters and their values.
+
+use crate::style::{Default, Kind, Parameter, Settings};
+
+/// Working pixels a pitch, as in the papers (`l = 6`).
+const PIXELS_PER_PITCH: f64 = 6.0;
+/// Least pixels in a lane of a detail region: with fewer, rows break up (errata).
+const LEAST_LANE_PIXELS: f64 = 4.0;
+
+/// All that a user can set.
+pub(super) const PARAMETERS: &[Parameter] = &[
+    Parameter {
+        name: "pitch",
+        kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
+        meaning: "distance of neighbouring dots; smaller gives finer detail and more of them",
+        source: "Bruehl 3.2, l",
+    },
+    Parameter {
+        name: "size",
+        kind: Kind::Choice(&["exact", "paper"]),
+        meaning: "dot size: exact puts the tone's ink into each dot's own cell; paper is s_max (1 - T)^gamma",
+        source: "Bruehl 3.4 and 4.4",
+    },
+    Parameter {
+        name: "size_max",
+        kind: Kind::Length { default: Default::Pitches(0.56), least: 0.01, most: 50.0 },
+        meaning: "with size=paper: radius of the dot for full ink",
+        source: "Bruehl 3.4, s_max",
+    },
+    Parameter {
+        name: "size_gamma",
+        kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 },
+        meaning: "with size=paper: exponent of 1 - tone",
+        source: "Bruehl 3.4, gamma",
+    },
+    Parameter {
+        name: "edge_blur",
+        kind: Kind::Length { default: Default::Pitches(0.4), least: 0.0, most: 50.0 },
+        meaning: "blur before edges are sought; larger finds only the great forms",
+        source: "Bruehl 2.1",
+    },
+    Parameter {
+        name: "edge_high",
+        kind: Kind::Number { default: 0.30, least: 0.0, most: 5.0 },
+        meaning: "an edge needs somewhere this change of lightness (0 to 1) a pitch",
+        source: "Bruehl 2.1, maxVal",
+    },
+    Parameter {
+        name: "edge_low",
+        kind: Kind::Number { default: 0.12, least: 0.0, most: 5.0 },
+        meaning: "an edge ends where the change a pitch falls below this",
+        source: "Bruehl 2.1, minVal",
+    },
+    Parameter {
+        name: "edge_length",
+        kind: Kind::Length { default: Default::Pitches(8.0), least: 0.0, most: 1000.0 },
+        meaning: "edges shorter than this do not steer the dots",
+        source: "Bruehl 2.1.1, threshold",
+    },
+    Parameter {
+        name: "smoothing",
+        kind: Kind::Length { default: Default::Pitches(1.0), least: 0.0, most: 50.0 },
+        meaning: "smoothing along edges and isophotes, so that rows flow",
+        source: "Bruehl 4.3.1 asks for smooth lines",
+    },
+    Parameter {
+        name: "levels",
+        kind: Kind::Count { default: 6, least: 2, most: 64 },
+        meaning: "steps of lightness between which isophotes run",
+        source: "Bruehl 2.2",
+    },
+    Parameter {
+        name: "isophotes",
+        kind: Kind::Count { default: 2, least: 0, most: 63 },
+        meaning: "how many of the lightest steps are outlined by isophotes; 0 for none",
+        source: "Bruehl 2.2, t",
+    },
+    Parameter {
+        name: "edge_weight",
+        kind: Kind::Number { default: 1.0, least: 0.01, most: 100.0 },
+        meaning: "how far edges rule against isophotes",
+        source: "Bruehl 3.1.2, w_e",
+    },
+    Parameter {
+        name: "isophote_weight",
+        kind: Kind::Number { default: 2.0, least: 0.01, most: 100.0 },
+        meaning: "how far isophotes rule against edges",
+        source: "Bruehl 3.1.2, w_i",
+    },
+    Parameter {
+        name: "flow_reach",
+        kind: Kind::Length { default: Default::Pitches(100.0 / 6.0), least: 0.01, most: 10_000.0 },
+        meaning: "distance from a feature at which rows dissolve into even scatter",
+        source: "Kim et al. 2008, D_w = 100 px",
+    },
+    Parameter {
+        name: "plain_rounds",
+        kind: Kind::Count { default: 10, least: 0, most: 1000 },
+        meaning: "rounds of relaxation that only spread the dots",
+        source: "Kim et al. 2008, t1",
+    },
+    Parameter {
+        name: "flow_rounds",
+        kind: Kind::Count { default: 30, least: 0, most: 1000 },
+        meaning: "rounds that draw the dots into rows, every second one, and spread them, the others",
+        source: "Kim et al. 2008, t2",
+    },
+    Parameter {
+        name: "highlights",
+        kind: Kind::Choice(&["on", "off"]),
+        meaning: "leave the lightest regions bare, with a fade",
+        source: "Bruehl 4.3.2",
+    },
+    Parameter {
+        name: "highlight_steps",
+        kind: Kind::Number { default: 1.0, least: 0.0, most: 64.0 },
+        meaning: "how many of the lightest of the levels are left bare",
+        source: "Bruehl 4.3.2",
+    },
+    Parameter {
+        name: "highlight_fade",
+        kind: Kind::Number { default: 0.12, least: 0.0, most: 1.0 },
+        meaning: "lightness over which dots shrink and thin out towards a bare highlight",
+        source: "Bruehl 4.4 asks for a fade",
+    },
+    Parameter {
+        name: "outline",
+        kind: Kind::Choice(&["on", "off"]),
+        meaning: "draw the longest edges as swelling strokes",
+        source: "Bruehl 4.3.2",
+    },
+    Parameter {
+        name: "outline_length",
+        kind: Kind::Length { default: Default::Pitches(16.0), least: 0.0, most: 1000.0 },
+        meaning: "edges at least this long are drawn",
+        source: "Bruehl 4.3.2",
+    },
+    Parameter {
+        name: "outline_width",
+        kind: Kind::Length { default: Default::Pitches(0.4), least: 0.01, most: 50.0 },
+        meaning: "width of an outline at its widest",
+        source: "",
+    },
+    Parameter {
+        name: "detail",
+        kind: Kind::Choice(&["even", "thesis"]),
+        meaning: "lanes in detail regions: even makes them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times",
+        source: "Bruehl 4.3.2, corrected",
+    },
+    Parameter {
+        name: "blob",
+        kind: Kind::Number { default: 0.0, least: 0.0, most: 1.0 },
+        meaning: "irregularity of the dots: 0 draws circles, 1 ragged ink blobs of the same area",
+        source: "Bruehl 4.4",
+    },
+];
+
+/// How dots get their size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SizeRule {
+    Exact,
+    Paper,
+}
+
+/// The parameters' values; lengths in millimetres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hedcutting {
+    pub pitch_mm: f64,
+    pub size: SizeRule,
+    pub size_max_mm: f64,
+    pub size_gamma: f64,
+    pub edge_blur_mm: f64,
+    pub edge_high: f64,
+    pub edge_low: f64,
+    pub edge_length_mm: f64,
+    pub smoothing_mm: f64,
+    pub levels: u32,
+    pub isophotes: u32,
+    pub edge_weight: f32,
+    pub isophote_weight: f32,
+    pub flow_reach_mm: f64,
+    pub plain_rounds: u32,
+    pub flow_rounds: u32,
+    pub has_highlights: bool,
+    pub highlight_steps: f64,
+    pub highlight_fade: f64,
+    pub has_outline: bool,
+    pub outline_length_mm: f64,
+    pub outline_width_mm: f64,
+    /// Lanes of a detail region in the place of one.
+    pub detail_lanes: f64,
+    pub blob: f64,
+}
+
+impl Hedcutting {
+    pub(super) fn new(settings: &Settings) -> Self {
+        let count = |name| settings.number(name) as u32;
+        Self {
+            pitch_mm: settings.number("pitch"),
+            size: if settings.word("size") == "exact" { SizeRule::Exact } else { SizeRule::Paper },
+            size_max_mm: settings.number("size_max"),
+            size_gamma: settings.number("size_gamma"),
+            edge_blur_mm: settings.number("edge_blur"),
+            edge_high: settings.number("edge_high"),
+            edge_low: settings.number("edge_low"),
+            edge_length_mm: settings.number("edge_length"),
+            smoothing_mm: settings.number("smoothing"),
+            levels: count("levels"),
+            isophotes: count("isophotes"),
+            edge_weight: settings.number("edge_weight") as f32,
+            isophote_weight: settings.number("isophote_weight") as f32,
+            flow_reach_mm: settings.number("flow_reach"),
+            plain_rounds: count("plain_rounds"),
+            flow_rounds: count("flow_rounds"),
+            has_highlights: settings.word("highlights") == "on",
+            highlight_steps: settings.number("highlight_steps"),
+            highlight_fade: settings.number("highlight_fade"),
+            has_outline: settings.word("outline") == "on",
+            outline_length_mm: settings.number("outline_length"),
+            outline_width_mm: settings.number("outline_width"),
+            detail_lanes: if settings.word("detail") == "even" { 3.0_f64.sqrt() } else { 3.0 },
+            blob: settings.number("blob"),
+        }
+    }
+
+    /// Working pixels a pitch: the papers' six, more where detail lanes would become too narrow.
+    pub(super) fn pixels_per_pitch(&self, has_detail: bool) -> f64 {
+        if has_detail { PIXELS_PER_PITCH.max(LEAST_LANE_PIXELS * self.detail_lanes) } else { PIXELS_PER_PITCH }
+    }
+}

@@ -1,0 +1,53 @@
+//! Styles: from a [`Portrait`](crate::source::Portrait) to a [`Drawing`](crate::drawing::Drawing).
+//!
+//! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
+//! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
+
+mod hedcut;
+mod observer;
+mod parameter;
+mod random;
+
+pub use observer::{Observer, Picture, Silent};
+pub use parameter::{Default, Kind, Parameter, ParameterError, Settings};
+
+use crate::drawing::Drawing;
+use crate::source::{MaskRole, Portrait};
+use thiserror::Error;
+
+/// One way of drawing.
+pub trait Style: Sync {
+    /// Its name on the command line.
+    fn name(&self) -> &'static str;
+    /// One line for a list of styles.
+    fn summary(&self) -> &'static str;
+    /// The paper or thesis that it follows.
+    fn source(&self) -> &'static str;
+    /// Its parameters, in the order of a help page.
+    fn parameters(&self) -> &'static [Parameter];
+    /// The mask roles that it uses; the others are refused.
+    fn masks(&self) -> &'static [MaskRole];
+    /// Working pixels a millimetre, given the masks at hand.
+    fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
+    /// Draws the portrait.
+    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError>;
+}
+
+/// Every style, the default first.
+pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut];
+
+/// Finds a style by name.
+pub fn find(name: &str) -> Option<&'static dyn Style> {
+    STYLES.iter().copied().find(|style| style.name() == name)
+}
+
+/// Why a portrait could not be drawn.
+#[derive(Debug, Error, PartialEq)]
+pub enum StyleError {
+    /// The user stopped it.
+    #[error("interrupted")]
+    Interrupted,
+    /// Nothing calls for ink.
+    #[error("there is nothing to draw: {0}")]
+    NothingToDraw(String),
+}

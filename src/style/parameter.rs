@@ -1,0 +1,250 @@
+//! Parameters as data: name, unit, range, default, meaning, source; and their values for one drawing.
+
+use crate::geometry::parse_length;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// One parameter of a style.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its key in `--set KEY=VALUE`.
+    pub name: &'static str,
+    /// What values it takes.
+    pub kind: Kind,
+    /// What it does, for a user.
+    pub meaning: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+}
+
+/// What values a parameter takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A length on the page in millimetres.
+    Length {
+        /// When it is not set.
+        default: Default,
+        /// Least value in millimetres.
+        least: f64,
+        /// Greatest value in millimetres.
+        most: f64,
+    },
+    /// A plain number.
+    Number {
+        /// When it is not set.
+        default: f64,
+        /// Least value.
+        least: f64,
+        /// Greatest value.
+        most: f64,
+    },
+    /// A whole number.
+    Count {
+        /// When it is not set.
+        default: u32,
+        /// Least value.
+        least: u32,
+        /// Greatest value.
+        most: u32,
+    },
+    /// One of some words; the first is the default.
+    Choice(&'static [&'static str]),
+}
+
+/// The default of a length.
+#[derive(Clone, Copy, Debug)]
+pub enum Default {
+    /// In millimetres.
+    Millimetres(f64),
+    /// In pitches, so that it follows the pitch.
+    Pitches(f64),
+}
+
+/// Why parameters could not be used.
+#[derive(Debug, Error, PartialEq)]
+pub enum ParameterError {
+    /// No such key.
+    #[error("'{key}' is not a parameter of {style}; it has {known}{hint}")]
+    Unknown {
+        /// What was given.
+        key: String,
+        /// The style.
+        style: String,
+        /// All keys.
+        known: String,
+        /// The nearest key, if one is near.
+        hint: String,
+    },
+    /// A value of the wrong kind or out of range.
+    #[error("{key}={value} cannot be used: {expected}")]
+    Value {
+        /// The key.
+        key: String,
+        /// What was given.
+        value: String,
+        /// What would be accepted.
+        expected: String,
+    },
+}
+
+/// A parameter's value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Value {
+    Number(f64),
+    Word(&'static str),
+}
+
+/// All parameters of one style with their values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    values: BTreeMap<&'static str, Value>,
+}
+
+impl Settings {
+    /// Resolves what a user gave (later ones win) and the defaults.
+    pub fn resolve(style: &str, parameters: &'static [Parameter], given: &[(String, String)]) -> Result<Self, ParameterError> {
+        let mut values = BTreeMap::new();
+        for (key, text) in given {
+            let parameter = parameters.iter().find(|p| p.name == key).ok_or_else(|| unknown(style, parameters, key))?;
+            values.insert(parameter.name, parse(parameter, text)?);
+        }
+        let pitch = parameters.iter().find(|p| p.name == "pitch").map_or(1.0, |p| match (values.get("pitch"), p.kind.default_number(1.0)) {
+            (Some(Value::Number(pitch)), _) => *pitch,
+            (_, default) => default.unwrap_or(1.0),
+        });
+        for parameter in parameters {
+            values.entry(parameter.name).or_insert_with(|| match parameter.kind {
+                Kind::Choice(words) => Value::Word(words[0]),
+                kind => Value::Number(kind.default_number(pitch).unwrap_or(0.0)),
+            });
+        }
+        Ok(Self { values })
+    }
+
+    /// A length in millimetres, a number or a count.
+    ///
+    /// # Panics
+    /// If the style has no such parameter: a fault of the style, not of its user.
+    pub fn number(&self, name: &str) -> f64 {
+        match self.values.get(name) {
+            Some(Value::Number(number)) => *number,
+            other => panic!("{name} is not a number of this style: {other:?}"),
+        }
+    }
+
+    /// A choice.
+    ///
+    /// # Panics
+    /// If the style has no such choice: a fault of the style, not of its user.
+    pub fn word(&self, name: &str) -> &'static str {
+        match self.values.get(name) {
+            Some(Value::Word(word)) => word,
+            other => panic!("{name} is not a choice of this style: {other:?}"),
+        }
+    }
+
+    /// Every key and value as text that `--set` would take.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static str, String)> {
+        self.values.iter().map(|(name, value)| {
+            let text = match value {
+                Value::Number(number) => format!("{}", (number * 1e6).round() / 1e6),
+                Value::Word(word) => (*word).to_owned(),
+            };
+            (*name, text)
+        })
+    }
+}
+
+impl Kind {
+    /// The default as a number, lengths in millimetres at this pitch; none for choices.
+    pub fn default_number(&self, pitch: f64) -> Option<f64> {
+        match *self {
+            Self::Length { default: Default::Millimetres(mm), .. } => Some(mm),
+            Self::Length { default: Default::Pitches(pitches), .. } => Some(pitches * pitch),
+            Self::Number { default, .. } => Some(default),
+            Self::Count { default, .. } => Some(f64::from(default)),
+            Self::Choice(_) => None,
+        }
+    }
+
+    /// The default in words.
+    pub fn default_text(&self) -> String {
+        match *self {
+            Self::Length { default: Default::Millimetres(mm), .. } => format!("{mm} mm"),
+            Self::Length { default: Default::Pitches(pitches), .. } => format!("{pitches} pitch"),
+            Self::Number { default, .. } => default.to_string(),
+            Self::Count { default, .. } => default.to_string(),
+            Self::Choice(words) => words[0].to_owned(),
+        }
+    }
+
+    /// The unit and range in words.
+    pub fn range_text(&self) -> String {
+        match *self {
+            Self::Length { least, most, .. } => format!("length, {least} to {most} mm"),
+            Self::Number { least, most, .. } => format!("number, {least} to {most}"),
+            Self::Count { least, most, .. } => format!("whole number, {least} to {most}"),
+            Self::Choice(words) => format!("one of {}", words.join(", ")),
+        }
+    }
+}
+
+fn parse(parameter: &Parameter, text: &str) -> Result<Value, ParameterError> {
+    let refuse = || ParameterError::Value { key: parameter.name.to_owned(), value: text.to_owned(), expected: parameter.kind.range_text() };
+    let within = |number: f64, least: f64, most: f64| (number >= least && number <= most).then_some(Value::Number(number)).ok_or_else(refuse);
+    match parameter.kind {
+        Kind::Length { least, most, .. } => within(parse_length(text).map_err(|_| refuse())?, least, most),
+        Kind::Number { least, most, .. } => within(text.trim().parse().map_err(|_| refuse())?, least, most),
+        Kind::Count { least, most, .. } => {
+            let count: u32 = text.trim().parse().map_err(|_| refuse())?;
+            within(f64::from(count), f64::from(least), f64::from(most))
+        }
+        Kind::Choice(words) => words.iter().find(|word| **word == text.trim()).map(|word| Value::Word(word)).ok_or_else(refuse),
+    }
+}
+
+fn unknown(style: &str, parameters: &[Parameter], key: &str) -> ParameterError {
+    let known: Vec<&str> = parameters.iter().map(|p| p.name).collect();
+    let near = known.iter().find(|name| name.contains(key) || key.contains(**name) || (name.chars().next() == key.chars().next() && name.len().abs_diff(key.len()) < 3));
+    ParameterError::Unknown {
+        key: key.to_owned(),
+        style: style.to_owned(),
+        known: known.join(", "),
+        hint: near.map(|name| format!("; did you mean {name}?")).unwrap_or_default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PARAMETERS: &[Parameter] = &[
+        Parameter { name: "pitch", kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 20.0 }, meaning: "", source: "" },
+        Parameter { name: "reach", kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 100.0 }, meaning: "", source: "" },
+        Parameter { name: "gamma", kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 }, meaning: "", source: "" },
+        Parameter { name: "size", kind: Kind::Choice(&["exact", "paper"]), meaning: "", source: "" },
+    ];
+
+    fn given(pairs: &[(&str, &str)]) -> Result<Settings, ParameterError> {
+        let pairs: Vec<(String, String)> = pairs.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+        Settings::resolve("hedcut", PARAMETERS, &pairs)
+    }
+
+    #[test]
+    fn defaults_follow_the_pitch_and_later_values_win() {
+        let settings = given(&[("pitch", "1"), ("pitch", "0.1cm"), ("size", "paper")]).unwrap();
+        assert_eq!(settings.number("pitch"), 1.0);
+        assert_eq!(settings.number("reach"), 2.0);
+        assert_eq!(settings.word("size"), "paper");
+    }
+
+    #[test]
+    fn errors_say_what_would_work() {
+        for (key, value) in [("pitch", "NaN"), ("pitch", "-1"), ("gamma", "nan"), ("gamma", "inf"), ("size", "round"), ("pitch", "")] {
+            let error = given(&[(key, value)]).unwrap_err();
+            assert!(matches!(error, ParameterError::Value { .. }), "{key}={value}: {error}");
+        }
+        let error = given(&[("pich", "1")]).unwrap_err().to_string();
+        assert!(error.contains("did you mean pitch"), "{error}");
+    }
+}

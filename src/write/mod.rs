@@ -1,0 +1,14 @@
+//! Writing: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) as the bytes of a file.
+//!
+//! Nothing here knows of styles or file names; numbers are snapped to the format's grid before they are differenced, so that
+//! rounding never drifts.
+
+mod gcode;
+mod hpgl;
+mod number;
+mod svg;
+
+pub use gcode::write_gcode;
+pub use hpgl::write_hpgl;
+pub use number::{decimal, thousandths};
+pub use svg::{SvgHead, write_svg, write_svg_plot};

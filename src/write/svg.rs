@@ -1,0 +1,342 @@
+//! SVG in millimetres: a drawing with its ink, or a plot's tool paths, in the layers that Inkscape and plotter programs know.
+//!
+//! ```text
+//! svg  width="90mm" height="120mm" viewBox="0 0 90 120"
+//!   title, desc, metadata (the recipe)
+//!   g id="layer1" inkscape:groupmode="layer" inkscape:label="1 dots"
+//!     g id="layer1-dots"     circles and blobs
+//!     g id="layer1-lines"    strokes of one width, as stroked paths
+//!     g id="layer1-swells"   strokes of varying width, as outlines
+//!     g id="layer1-areas"    filled outlines
+//! ```
+//!
+//! The group's id tells what its paths are, since readers turn circles into paths; marks stay in painting order, so a kind that
+//! comes again gets a new group (`layer1-dots.2`).
+
+use super::number::{decimal, thousandths};
+use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Page, Stroke, Width};
+use crate::geometry::{BezPath, Point};
+use crate::plot::Plot;
+use kurbo::PathEl;
+use std::fmt::Write as _;
+use std::io;
+use svg::Node;
+use svg::node::Blob;
+use svg::node::element::{Description, Element, Group, Rectangle, SVG, Title};
+
+/// What stands at the head of a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SvgHead {
+    /// A short name of the picture.
+    pub title: String,
+    /// One sentence on what it is.
+    pub description: String,
+    /// All that is needed to make the picture again, as JSON; empty for none.
+    pub recipe: String,
+}
+
+/// Digits of a radius after the point: four, since 0.001 mm of a small dot's radius would be a percent of its ink.
+const RADIUS_DIGITS: u32 = 4;
+const RADIUS_SCALE: f64 = 10_000.0;
+
+/// Writes a drawing with its ink at exact size.
+pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
+    let mut document = document(&drawing.page, head);
+    for (i, layer) in drawing.layers.iter().enumerate() {
+        let name = format!("layer{}", i + 1);
+        let mut group = layer_group(&name, &format!("{} {}", layer.pen, layer.name), layer.ink.colour());
+        for run in runs(&name, layer) {
+            group.append(run);
+        }
+        document.append(group);
+    }
+    svg::write(&mut *out, &document)?;
+    out.write_all(b"\n")
+}
+
+/// Writes the tool paths of a plot as lines of the pen's width.
+pub fn write_svg_plot(plot: &Plot, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
+    let mut document = document(&plot.page, head);
+    for (i, pen) in plot.pens.iter().enumerate() {
+        let name = format!("layer{}", i + 1);
+        let mut group = layer_group(&name, &format!("{} {}", pen.number, pen.name), pen.colour);
+        let mut lines = String::new();
+        for path in &pen.paths {
+            let mut curve = BezPath::new();
+            curve.move_to(path.points[0]);
+            // A touch is a line of no length: with round ends it shows as the nib's dot.
+            path.points[1..].iter().for_each(|p| curve.line_to(*p));
+            if path.points.len() == 1 {
+                curve.line_to(path.points[0]);
+            }
+            lines.push_str("<path d=\"");
+            path_data(&mut lines, &curve);
+            lines.push_str("\"/>\n");
+        }
+        let mut width = String::new();
+        decimal(&mut width, thousandths(pen.nib), 3);
+        group.append(lines_group(&format!("{name}-toolpaths"), &width, pen.colour).add(Blob::new(lines)));
+        document.append(group);
+    }
+    svg::write(&mut *out, &document)?;
+    out.write_all(b"\n")
+}
+
+fn document(page: &Page, head: &SvgHead) -> SVG {
+    let (mut width, mut height) = (String::new(), String::new());
+    decimal(&mut width, thousandths(page.width), 3);
+    decimal(&mut height, thousandths(page.height), 3);
+    let mut document = SVG::new()
+        .set("xmlns:inkscape", "http://www.inkscape.org/namespaces/inkscape")
+        .set("width", format!("{width}mm"))
+        .set("height", format!("{height}mm"))
+        .set("viewBox", format!("0 0 {width} {height}"))
+        .add(Title::new(head.title.as_str()))
+        .add(Description::new().add(svg::node::Text::new(head.description.as_str())));
+    if !head.recipe.is_empty() {
+        let mut recipe = Element::new("drypoint:recipe");
+        recipe.assign("xmlns:drypoint", "urn:drypoint");
+        recipe.append(svg::node::Text::new(head.recipe.as_str()));
+        let mut metadata = Element::new("metadata");
+        metadata.append(recipe);
+        document.append(metadata);
+    }
+    if page.paper != Colour::WHITE {
+        document.append(
+            Rectangle::new()
+                .set("id", "paper")
+                .set("width", width)
+                .set("height", height)
+                .set("fill", page.paper.to_string()),
+        );
+    }
+    document
+}
+
+fn layer_group(id: &str, label: &str, colour: Colour) -> Group {
+    Group::new()
+        .set("id", id)
+        .set("inkscape:groupmode", "layer")
+        .set("inkscape:label", label)
+        .set("fill", colour.to_string())
+        .set("stroke", "none")
+}
+
+fn lines_group(id: &str, width: &str, colour: Colour) -> Group {
+    Group::new()
+        .set("id", id)
+        .set("fill", "none")
+        .set("stroke", colour.to_string())
+        .set("stroke-width", width)
+        .set("stroke-linecap", "round")
+        .set("stroke-linejoin", "round")
+}
+
+/// What a group of paths holds.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Dots,
+    Lines,
+    Swells,
+    Areas,
+}
+
+impl Kind {
+    fn of(mark: &Mark) -> Self {
+        match mark {
+            Mark::Dot(_) => Self::Dots,
+            Mark::Stroke(Stroke { width: Width::Constant(_), .. }) => Self::Lines,
+            Mark::Stroke(_) => Self::Swells,
+            Mark::Area(_) => Self::Areas,
+        }
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Dots => "dots",
+            Self::Lines => "lines",
+            Self::Swells => "swells",
+            Self::Areas => "areas",
+        }
+    }
+}
+
+/// The layer's marks as one group for each run of one kind.
+fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
+    let mut seen = [0_usize; 4];
+    layer
+        .marks
+        .chunk_by(|a, b| Kind::of(a) == Kind::of(b))
+        .map(|run| {
+            let kind = Kind::of(&run[0]);
+            seen[kind as usize] += 1;
+            let again = if seen[kind as usize] > 1 { format!(".{}", seen[kind as usize]) } else { String::new() };
+            let id = format!("{layer_id}-{}{again}", kind.name());
+            let mut text = String::new();
+            if kind == Kind::Lines {
+                let width = constant_width(&run[0]);
+                run.iter().for_each(|mark| line(&mut text, mark, width));
+                let mut width_text = String::new();
+                decimal(&mut width_text, thousandths(width), 3);
+                lines_group(&id, &width_text, layer.ink.colour()).add(Blob::new(text))
+            } else {
+                run.iter().for_each(|mark| filled(&mut text, mark));
+                Group::new().set("id", id).add(Blob::new(text))
+            }
+        })
+        .collect()
+}
+
+fn constant_width(mark: &Mark) -> f64 {
+    match mark {
+        Mark::Stroke(Stroke { width: Width::Constant(width), .. }) => *width,
+        _ => 0.0,
+    }
+}
+
+fn line(text: &mut String, mark: &Mark, usual_width: f64) {
+    let Mark::Stroke(stroke) = mark else { return };
+    text.push_str("<path d=\"");
+    path_data(text, &stroke.curve);
+    text.push('"');
+    if thousandths(constant_width(mark)) != thousandths(usual_width) {
+        text.push_str(" stroke-width=\"");
+        decimal(text, thousandths(constant_width(mark)), 3);
+        text.push('"');
+    }
+    if let Some(colour) = stroke.colour {
+        let _ = write!(text, " stroke=\"{colour}\"");
+    }
+    text.push_str("/>\n");
+}
+
+fn filled(text: &mut String, mark: &Mark) {
+    match mark {
+        Mark::Dot(Dot { centre, radius, outline: None, .. }) => {
+            text.push_str("<circle cx=\"");
+            decimal(text, thousandths(centre.x), 3);
+            text.push_str("\" cy=\"");
+            decimal(text, thousandths(centre.y), 3);
+            text.push_str("\" r=\"");
+            decimal(text, (radius * RADIUS_SCALE).round() as i64, RADIUS_DIGITS);
+            text.push('"');
+        }
+        Mark::Dot(Dot { outline: Some(outline), .. }) => {
+            text.push_str("<path d=\"");
+            path_data(text, outline);
+            text.push('"');
+        }
+        Mark::Stroke(stroke) => {
+            text.push_str("<path d=\"");
+            path_data(text, &stroke.outline().unwrap_or_default());
+            text.push('"');
+        }
+        Mark::Area(Area { outline, .. }) => {
+            text.push_str("<path d=\"");
+            path_data(text, outline);
+            text.push('"');
+        }
+    }
+    if let Some(colour) = mark.colour() {
+        let _ = write!(text, " fill=\"{colour}\"");
+    }
+    text.push_str("/>\n");
+}
+
+/// Path data in relative coordinates on the grid of 0.001 mm.
+fn path_data(text: &mut String, path: &BezPath) {
+    let mut writer = PathData { text, at: (0, 0), start: (0, 0), last: ' ' };
+    for element in path.elements() {
+        match *element {
+            PathEl::MoveTo(p) => writer.move_to(p),
+            PathEl::LineTo(p) => writer.relative('l', &[p]),
+            PathEl::QuadTo(a, p) => writer.relative('q', &[a, p]),
+            PathEl::CurveTo(a, b, p) => writer.relative('c', &[a, b, p]),
+            PathEl::ClosePath => writer.close(),
+        }
+    }
+}
+
+struct PathData<'a> {
+    text: &'a mut String,
+    at: (i64, i64),
+    start: (i64, i64),
+    last: char,
+}
+
+impl PathData<'_> {
+    fn move_to(&mut self, p: Point) {
+        let (x, y) = (thousandths(p.x), thousandths(p.y));
+        self.text.push('M');
+        decimal(self.text, x, 3);
+        self.text.push(' ');
+        decimal(self.text, y, 3);
+        self.at = (x, y);
+        self.start = (x, y);
+        self.last = 'M';
+    }
+
+    /// A command whose points are relative to where the pen is; the letter is left out when it repeats.
+    fn relative(&mut self, command: char, points: &[Point]) {
+        let mut separated = self.last != command;
+        if separated {
+            self.text.push(command);
+            self.last = command;
+        }
+        let mut end = self.at;
+        for p in points {
+            end = (thousandths(p.x), thousandths(p.y));
+            for value in [end.0 - self.at.0, end.1 - self.at.1] {
+                if !separated && value >= 0 {
+                    self.text.push(' ');
+                }
+                decimal(self.text, value, 3);
+                separated = false;
+            }
+        }
+        self.at = end;
+    }
+
+    fn close(&mut self) {
+        self.text.push('z');
+        self.at = self.start;
+        self.last = 'z';
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(drawing: &Drawing) -> String {
+        let mut bytes = Vec::new();
+        let head = SvgHead { title: "A & B".into(), description: "<test>".into(), recipe: "{\"seed\":1}".into() };
+        write_svg(drawing, &head, &mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    fn drawing() -> Drawing {
+        let mut layer = Layer::new("dots", 1);
+        layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.5, 2.25), 0.123_45)));
+        layer.marks.push(Mark::Stroke(Stroke { curve: BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), width: Width::Constant(0.3), colour: None }));
+        layer.marks.push(Mark::Dot(Dot::circle(Point::new(4.0, 4.0), 1.0)));
+        Drawing { page: Page::new(90.0, 120.0), layers: vec![layer] }
+    }
+
+    #[test]
+    fn it_is_short_and_says_what_it_is() {
+        let text = written(&drawing());
+        assert!(text.contains("<circle cx=\"1.5\" cy=\"2.25\" r=\".1235\"/>"), "{text}");
+        assert!(text.contains("width=\"90mm\"") && text.contains("viewBox=\"0 0 90 120\""));
+        assert!(text.contains("inkscape:label=\"1 dots\""));
+        assert!(text.contains("d=\"M0 0l10 0c0 1-1 2-2 2\""), "{text}");
+        assert!(text.contains("id=\"layer1-dots.2\""));
+        assert!(text.contains("A &amp; B") && text.contains("&lt;test&gt;"));
+    }
+
+    #[test]
+    fn it_parses() {
+        let tree = usvg::Tree::from_str(&written(&drawing()), &usvg::Options::default()).unwrap();
+        assert!((f64::from(tree.size().width()) - 90.0 * 96.0 / 25.4).abs() < 0.01);
+    }
+}
