@@ -1,8 +1,7 @@
 //! What the parts of the bust look like on three people.
 
 use crate::figure::{
-    EYE_CENTRE, HEAD_LEAN, HEAD_TURN, MOUTH_HALF, Part, brow_centre, brow_cover, hair, lid_offsets,
-    lip_offsets, strand,
+    EYE_CENTRE, HEAD_LEAN, HEAD_TURN, MOUTH_HALF, Part, brow_centre, brow_cover, hair, lid_offsets, lip_offsets, strand,
 };
 use crate::light::{FILL_LIGHT, Hit, KEY_LIGHT};
 use crate::space::{Vec3, bell, noise, smoothstep, vec3};

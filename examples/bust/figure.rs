@@ -52,10 +52,7 @@ pub fn scene(point: Vec3) -> (f32, Part) {
     } else {
         let mirrored = head.mirrored();
         let face = face(mirrored);
-        offer(
-            smooth_min(face, neck, 0.12),
-            if face < neck { Part::Face } else { Part::Neck },
-        );
+        offer(smooth_min(face, neck, 0.12), if face < neck { Part::Face } else { Part::Neck });
         offer(smooth_min(ear(mirrored), face + 0.02, 0.04), Part::Ear);
         offer((mirrored - EYE_CENTRE).length() - EYE_RADIUS, Part::Eye);
         offer(hair(head), Part::Hair);
@@ -276,11 +273,7 @@ pub fn shirt(point: Vec3, torso: f32) -> (f32, Part) {
     let row = ((p.y + 2.50) / 0.42).round().min(0.0);
     let button = vec3(point.x - 0.03, p.y + 2.50 - row * 0.42, 0.0).length() - 0.045;
     let button = smooth_max(button, (distance - 0.016).abs() - 0.008, 0.008);
-    if button < distance {
-        (button, Part::Button)
-    } else {
-        (distance, Part::Shirt)
-    }
+    if button < distance { (button, Part::Button) } else { (distance, Part::Shirt) }
 }
 
 /// A turned-down collar: a piece of a cone round the neck, cut to two points in front.

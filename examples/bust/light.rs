@@ -1,9 +1,7 @@
 //! Rays, and the light that reaches the points they hit.
 
 use crate::colour::{LOOKS, background, shade};
-use crate::figure::{
-    MOUTH_HALF, Part, brow_cover, head_space, lip_offsets, nose, nose_wing, scene, skull,
-};
+use crate::figure::{MOUTH_HALF, Part, brow_cover, head_space, lip_offsets, nose, nose_wing, scene, skull};
 use crate::space::{Vec3, smoothstep, vec3};
 use crate::{HEIGHT, WIDTH, feature_bit};
 
@@ -107,30 +105,13 @@ pub fn trace(camera: Vec3, direction: Vec3, last: Option<Hit>) -> Option<Hit> {
 
 pub fn light_hit(position: Vec3, direction: Vec3, part: Part, last: Option<Hit>) -> Hit {
     let head = head_space(position);
-    let part = if part == Part::Face {
-        face_part(head.mirrored())
-    } else {
-        part
-    };
+    let part = if part == Part::Face { face_part(head.mirrored()) } else { part };
     let normal = normal(position);
     let (key_visible, openness) = match last {
-        Some(near) if near.part == part && (near.position - position).length() < 0.015 => {
-            (near.key_visible, near.openness)
-        }
-        _ => (
-            key_visible(position + normal * 0.006),
-            openness(position, normal),
-        ),
+        Some(near) if near.part == part && (near.position - position).length() < 0.015 => (near.key_visible, near.openness),
+        _ => (key_visible(position + normal * 0.006), openness(position, normal)),
     };
-    Hit {
-        position,
-        head,
-        normal,
-        view: -direction,
-        part,
-        key_visible,
-        openness,
-    }
+    Hit { position, head, normal, view: -direction, part, key_visible, openness }
 }
 
 pub fn face_part(p: Vec3) -> Part {

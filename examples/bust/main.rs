@@ -51,10 +51,8 @@ const JPEG_QUALITY: u8 = 92;
 fn main() -> Result<(), Box<dyn Error>> {
     let directory = PathBuf::from(std::env::args_os().nth(1).ok_or("usage: bust OUTDIR")?);
     fs::create_dir_all(&directory)?;
-    let pixels: Vec<Pixel> = (0..WIDTH * HEIGHT)
-        .into_par_iter()
-        .map(|index| render_pixel(index % WIDTH, index / WIDTH))
-        .collect();
+    let pixels: Vec<Pixel> =
+        (0..WIDTH * HEIGHT).into_par_iter().map(|index| render_pixel(index % WIDTH, index / WIDTH)).collect();
     for (index, look) in LOOKS.iter().enumerate() {
         save_picture(&directory.join(look.name), &pixels, index)?;
     }
@@ -77,14 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-const FEATURE_NAMES: [&str; 6] = [
-    "left eyebrow",
-    "right eyebrow",
-    "left eye",
-    "right eye",
-    "nose",
-    "mouth",
-];
+const FEATURE_NAMES: [&str; 6] = ["left eyebrow", "right eyebrow", "left eye", "right eye", "nose", "mouth"];
 
 fn feature_bit(hit: &Hit) -> u8 {
     let right = u8::from(hit.head.x > 0.0);

@@ -18,11 +18,7 @@ macro_rules! componentwise {
         impl $operator for Vec3 {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                vec3(
-                    self.x.$method(other.x),
-                    self.y.$method(other.y),
-                    self.z.$method(other.z),
-                )
+                vec3(self.x.$method(other.x), self.y.$method(other.y), self.z.$method(other.z))
             }
         }
     };
@@ -52,11 +48,7 @@ impl Vec3 {
     }
 
     pub fn cross(self, other: Self) -> Self {
-        vec3(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
-        )
+        vec3(self.y * other.z - self.z * other.y, self.z * other.x - self.x * other.z, self.x * other.y - self.y * other.x)
     }
 
     pub fn length(self) -> f32 {
@@ -95,9 +87,8 @@ pub fn bell(offset: f32, width: f32) -> f32 {
 }
 
 pub fn hash(x: i32, y: i32, z: i32) -> f32 {
-    let mut state = (x as u32).wrapping_mul(0x8da6_b343)
-        ^ (y as u32).wrapping_mul(0xd816_3841)
-        ^ (z as u32).wrapping_mul(0xcb1a_b31f);
+    let mut state =
+        (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841) ^ (z as u32).wrapping_mul(0xcb1a_b31f);
     state = (state ^ (state >> 15)).wrapping_mul(0x2c1b_3c6d);
     state = (state ^ (state >> 12)).wrapping_mul(0x297a_2d39);
     (state ^ (state >> 15)) as f32 / u32::MAX as f32

@@ -3,9 +3,9 @@
 use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
 use super::failure::Failure;
 use super::layout::{Layout, lay_out};
+use super::output;
 use super::progress::{Watcher, is_interrupted};
 use super::toolpaths::{self, Prepared};
-use super::output;
 use crate::drawing::{Drawing, Layer};
 use crate::plot::{InkModel, Nibs, Profile, lower};
 use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
@@ -47,10 +47,21 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
 }
 
 /// One file; gives back the plot when it is one.
-fn write_one(name: &str, drawing: &Drawing, format: Format, profile: Option<&Profile>, options: &DrawOptions, head: &SvgHead) -> Result<Option<Prepared>, Failure> {
+fn write_one(
+    name: &str,
+    drawing: &Drawing,
+    format: Format,
+    profile: Option<&Profile>,
+    options: &DrawOptions,
+    head: &SvgHead,
+) -> Result<Option<Prepared>, Failure> {
     if profile.is_none() {
         let fill = |mut out: &mut dyn std::io::Write| write_svg(drawing, head, &mut out);
-        if options.dry_run { toolpaths::discard(fill)? } else { output::write(name, fill)? }
+        if options.dry_run {
+            toolpaths::discard(fill)?
+        } else {
+            output::write(name, fill)?
+        }
         return Ok(None);
     }
     let plot = lower(drawing, InkModel::Ink, &Nibs::all(options.pen), options.toolpaths.tolerance);
@@ -78,7 +89,8 @@ impl<'a> Task<'a> {
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
-        let mask_files: Vec<(MaskRole, &str)> = options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
+        let mask_files: Vec<(MaskRole, &str)> =
+            options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
         let photograph = photograph(&options.photo)?;
         let masks = mask_files
             .into_iter()
@@ -107,8 +119,12 @@ impl<'a> Task<'a> {
             Tone::Lightness => ToneTarget::Lightness,
             Tone::Linear => ToneTarget::Linear,
         };
-        let curve = ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
-        let about = |name: &str| { let name = name.to_owned(); move |error: crate::source::SourceError| Failure::about(&name)(&error) };
+        let curve =
+            ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
+        let about = |name: &str| {
+            let name = name.to_owned();
+            move |error: crate::source::SourceError| Failure::about(&name)(&error)
+        };
         let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
             .map_err(about(&self.options.photo))?;
         for (role, name, mask) in &self.masks {
@@ -119,10 +135,15 @@ impl<'a> Task<'a> {
 
     /// All that is needed to make the picture again.
     fn recipe(&self, options: &DrawOptions) -> Value {
-        let set: serde_json::Map<String, Value> = self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
-        let masks: serde_json::Map<String, Value> = self.options.mask.iter().zip(&self.masks).map(|((role, _), (_, name, mask))| {
-            (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 }))
-        }).collect();
+        let set: serde_json::Map<String, Value> =
+            self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
+        let masks: serde_json::Map<String, Value> = self
+            .options
+            .mask
+            .iter()
+            .zip(&self.masks)
+            .map(|((role, _), (_, name, mask))| (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 })))
+            .collect();
         let picture = self.options;
         json!({
             "drypoint": env!("CARGO_PKG_VERSION"),
@@ -185,7 +206,8 @@ fn settings(style: &'static dyn Style, options: &PictureOptions) -> Result<Setti
 
 fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
     let text = String::from_utf8(output::read(name)?).map_err(|_| Failure::Work(format!("{name} is not UTF-8 text")))?;
-    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
+    let table: toml::Table =
+        text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
     table
         .into_iter()
         .map(|(key, value)| match value {
@@ -228,7 +250,8 @@ fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
     if !output.contains("{layer}") {
         return vec![(output.to_owned(), drawing.clone())];
     }
-    let one = |layer: &Layer| (output.replace("{layer}", &layer.name), Drawing { page: drawing.page, layers: vec![layer.clone()] });
+    let one =
+        |layer: &Layer| (output.replace("{layer}", &layer.name), Drawing { page: drawing.page, layers: vec![layer.clone()] });
     drawing.layers.iter().map(one).collect()
 }
 
@@ -236,17 +259,27 @@ fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {
     let style = &options.picture.style;
     SvgHead {
         title: format!("{} of {}", style, file_name(&options.picture.photo)),
-        description: format!("Drawn by drypoint {} in the style {style}; the recipe is in the metadata.", env!("CARGO_PKG_VERSION")),
+        description: format!(
+            "Drawn by drypoint {} in the style {style}; the recipe is in the metadata.",
+            env!("CARGO_PKG_VERSION")
+        ),
         recipe: recipe.to_string(),
     }
 }
 
-fn report(options: &DrawOptions, drawing: &Drawing, prepared: &[Prepared], seconds: &[(String, f64)], elapsed: f64) -> Result<(), Failure> {
+fn report(
+    options: &DrawOptions,
+    drawing: &Drawing,
+    prepared: &[Prepared],
+    seconds: &[(String, f64)],
+    elapsed: f64,
+) -> Result<(), Failure> {
     if options.reporting.json {
         return output::print_json(&report_json(options, drawing, prepared, seconds));
     }
     if !options.reporting.quiet {
-        let counts = drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
+        let counts =
+            drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
         let ink: f64 = drawing.layers.iter().map(Layer::ink_mm2).sum();
         eprintln!(
             "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",

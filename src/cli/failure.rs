@@ -39,8 +39,12 @@ impl Failure {
         move |error| match error.kind() {
             io::ErrorKind::BrokenPipe => Self::ClosedPipe,
             io::ErrorKind::Interrupted => Self::Interrupted,
-            io::ErrorKind::StorageFull => Self::Work(format!("{name} cannot be written: the disk is full; free some space or choose another place")),
-            io::ErrorKind::PermissionDenied => Self::Work(format!("{name} cannot be written: permission denied; choose another place with -o")),
+            io::ErrorKind::StorageFull => {
+                Self::Work(format!("{name} cannot be written: the disk is full; free some space or choose another place"))
+            }
+            io::ErrorKind::PermissionDenied => {
+                Self::Work(format!("{name} cannot be written: permission denied; choose another place with -o"))
+            }
             io::ErrorKind::NotFound => Self::Work(format!("{name} cannot be written: its folder does not exist; make it first")),
             _ => Self::Work(format!("{name} cannot be written: {error}")),
         }

@@ -14,7 +14,8 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
     let shown = if options.file == "-" { "stdin" } else { &options.file };
     let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &no_overrides())).transpose()?;
     let bytes = output::read(&options.file)?;
-    let text = std::str::from_utf8(&bytes).map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
+    let text = std::str::from_utf8(&bytes)
+        .map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
     let value = match kind_of(shown, text) {
         Kind::Svg => inspect_svg(shown, text, profile.as_ref())?,
         Kind::Hpgl => {
@@ -24,8 +25,12 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
         }
         Kind::Gcode => {
             let profile = profile.map_or_else(|| gcode_profile(text), Ok)?;
-            let dialect = profile.gcode.as_ref().ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
-            let motion = read_gcode(text, &dialect.pen_up, &dialect.pen_down).map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
+            let dialect = profile
+                .gcode
+                .as_ref()
+                .ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
+            let motion = read_gcode(text, &dialect.pen_up, &dialect.pen_down)
+                .map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
             inspect_motion("gcode", &motion, &profile)
         }
         Kind::Unknown => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
@@ -96,7 +101,13 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
     let mut plot = Plot { page: Page::new(1.0, 1.0), pens: Vec::new() };
     for (number, path) in &motion.paths {
         if plot.pens.last().is_none_or(|pen| pen.number != *number) {
-            plot.pens.push(PenPaths { number: *number, name: format!("pen {number}"), colour: Colour::BLACK, nib: 0.0, paths: Vec::new() });
+            plot.pens.push(PenPaths {
+                number: *number,
+                name: format!("pen {number}"),
+                colour: Colour::BLACK,
+                nib: 0.0,
+                paths: Vec::new(),
+            });
         }
         let points = path.iter().map(|p| mm(*p)).collect();
         plot.pens.last_mut().expect("one was pushed").paths.push(Toolpath { points });
@@ -149,11 +160,21 @@ fn lines(text: &mut String, value: &Value, depth: usize) {
 fn scalar(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
-        Value::Number(number) => number.as_f64().filter(|n| n.fract() != 0.0).map_or_else(|| number.to_string(), |n| format!("{n:.2}")),
+        Value::Number(number) => {
+            number.as_f64().filter(|n| n.fract() != 0.0).map_or_else(|| number.to_string(), |n| format!("{n:.2}"))
+        }
         other => other.to_string(),
     }
 }
 
 fn no_overrides() -> ToolpathOptions {
-    ToolpathOptions { tolerance: 0.02, order: Order::None, keep_direction: false, merge: 0.0, clip: false, speed: None, travel_speed: None }
+    ToolpathOptions {
+        tolerance: 0.02,
+        order: Order::None,
+        keep_direction: false,
+        merge: 0.0,
+        clip: false,
+        speed: None,
+        travel_speed: None,
+    }
 }

@@ -36,7 +36,12 @@ pub(super) fn sheet(text: &str) -> Result<(f64, f64), Failure> {
         return Ok(if is_landscape { (height, width) } else { (width, height) });
     }
     let names: Vec<&str> = SHEETS.iter().map(|(name, ..)| *name).collect();
-    let refuse = || Failure::Usage(format!("--page {text} is no sheet; there are {}, each also with -landscape, or give WxH such as 200x250mm", names.join(", ")));
+    let refuse = || {
+        Failure::Usage(format!(
+            "--page {text} is no sheet; there are {}, each also with -landscape, or give WxH such as 200x250mm",
+            names.join(", ")
+        ))
+    };
     let (width, height) = parse_size(text).map_err(|_| refuse())?;
     let sound = |mm: f64| (1.0..=100_000.0).contains(&mm);
     if sound(width) && sound(height) { Ok((width, height)) } else { Err(refuse()) }
@@ -64,7 +69,10 @@ pub(super) fn lay_out(options: &PictureOptions, photograph: &Photograph) -> Resu
     if let Some((width, height)) = sheet
         && (frame.0 > width || frame.1 > height)
     {
-        return Err(Failure::Usage(format!("--size {}x{} mm is larger than the sheet of {width} x {height} mm", frame.0, frame.1)));
+        return Err(Failure::Usage(format!(
+            "--size {}x{} mm is larger than the sheet of {width} x {height} mm",
+            frame.0, frame.1
+        )));
     }
     let mut crop = crop_of(options, photograph);
     if options.fit == Fit::Cover {

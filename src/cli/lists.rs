@@ -11,14 +11,16 @@ use std::fmt::Write;
 pub(super) fn styles(options: &ListOptions) -> Result<(), Failure> {
     let Some(name) = &options.name else {
         if options.json {
-            let list: Vec<Value> = STYLES.iter().map(|s| json!({ "name": s.name(), "summary": s.summary(), "source": s.source() })).collect();
+            let list: Vec<Value> =
+                STYLES.iter().map(|s| json!({ "name": s.name(), "summary": s.summary(), "source": s.source() })).collect();
             return output::print_json(&json!({ "styles": list }));
         }
         let lines: String = STYLES.iter().fold(String::new(), |text, s| text + &format!("{:10} {}\n", s.name(), s.summary()));
         return output::to_stdout(lines.as_bytes());
     };
     let known: Vec<&str> = STYLES.iter().map(|s| s.name()).collect();
-    let style = find(name).ok_or_else(|| Failure::Usage(format!("there is no style '{name}'; there are {}", known.join(", "))))?;
+    let style =
+        find(name).ok_or_else(|| Failure::Usage(format!("there is no style '{name}'; there are {}", known.join(", "))))?;
     if options.json { output::print_json(&style_json(style)) } else { output::to_stdout(style_text(style).as_bytes()) }
 }
 
@@ -26,7 +28,14 @@ fn style_text(style: &dyn Style) -> String {
     let mut text = format!("{}: {}\n{}\n", style.name(), style.summary(), style.source());
     for p in style.parameters() {
         let source = if p.source.is_empty() { String::new() } else { format!(" [{}]", p.source) };
-        let _ = write!(text, "\n{} ({}; default {})\n    {}{source}\n", p.name, p.kind.range_text(), p.kind.default_text(), p.meaning);
+        let _ = write!(
+            text,
+            "\n{} ({}; default {})\n    {}{source}\n",
+            p.name,
+            p.kind.range_text(),
+            p.kind.default_text(),
+            p.meaning
+        );
     }
     text
 }
@@ -48,9 +57,11 @@ pub(super) fn profiles(options: &ListOptions) -> Result<(), Failure> {
         }
         return output::to_stdout(text.as_bytes());
     }
-    let all: Vec<Profile> = built_in_names().into_iter().map(|name| Profile::parse(name, built_in(name)?)).collect::<Result<_, _>>()?;
+    let all: Vec<Profile> =
+        built_in_names().into_iter().map(|name| Profile::parse(name, built_in(name)?)).collect::<Result<_, _>>()?;
     if options.json {
-        let list: Vec<Value> = all.iter().map(|p| json!({ "name": p.name, "description": p.description, "pens": p.pens.count })).collect();
+        let list: Vec<Value> =
+            all.iter().map(|p| json!({ "name": p.name, "description": p.description, "pens": p.pens.count })).collect();
         return output::print_json(&json!({ "profiles": list }));
     }
     let lines: String = all.iter().fold(String::new(), |text, p| text + &format!("{:14} {}\n", p.name, p.description));

@@ -29,8 +29,11 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let drawing = place(&imported.drawing(), options)?;
     let plot = lower(&drawing, model, &Nibs::all(options.pen), options.toolpaths.tolerance);
     if plot.pens.iter().all(|pen| pen.paths.is_empty()) {
-        let dropped = if imported.dropped.is_empty() { String::new() } else { format!(" (it holds {})", imported.dropped.summary()) };
-        return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}; fills are drawn only with --ink-model ink")));
+        let dropped =
+            if imported.dropped.is_empty() { String::new() } else { format!(" (it holds {})", imported.dropped.summary()) };
+        return Err(Failure::Work(format!(
+            "{shown}: there is nothing to draw{dropped}; fills are drawn only with --ink-model ink"
+        )));
     }
     let prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
     let head = SvgHead {

@@ -19,7 +19,8 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     let task = Task::new(&options.picture)?;
     let folder = options.output.to_string_lossy().into_owned();
     std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be made: {error}")))?;
-    let recorder = Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };
+    let recorder =
+        Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };
     task.draw(&recorder)?;
     recorder.watcher.finish();
     let taken = recorder.taken.into_inner().expect("no stage panics while it is written");

@@ -35,7 +35,8 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
     let is_file = name.contains('/') || name.ends_with(".toml");
     let mut profile = if is_file {
         let bytes = output::read(name)?;
-        let text = String::from_utf8(bytes).map_err(|_| Failure::Work(format!("{name} is not a profile: it is not UTF-8 text")))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| Failure::Work(format!("{name} is not a profile: it is not UTF-8 text")))?;
         Profile::parse(name, &text).map_err(|error| Failure::Work(error.to_string()))?
     } else {
         Profile::parse(name, built_in(name)?)?
@@ -120,7 +121,13 @@ fn check_pens(plot: &Plot, profile: &Profile) -> Result<(), Failure> {
 }
 
 /// Writes a prepared plot.
-pub(super) fn write(name: &str, format: Format, prepared: &Prepared, profile: Option<&Profile>, head: &SvgHead) -> Result<(), Failure> {
+pub(super) fn write(
+    name: &str,
+    format: Format,
+    prepared: &Prepared,
+    profile: Option<&Profile>,
+    head: &SvgHead,
+) -> Result<(), Failure> {
     output::write(name, |mut out| match (format, profile, &prepared.mounting) {
         (Format::Hpgl, Some(profile), Some(mounting)) => write_hpgl(&prepared.plot, profile, mounting, &mut out),
         (Format::Gcode, Some(profile), Some(mounting)) => write_gcode(&prepared.plot, profile, mounting, &mut out),

@@ -179,7 +179,11 @@ impl Stroke {
         use kurbo::{ParamCurve, ParamCurveArclen};
         let (mut points, mut position) = (Vec::new(), Vec::new());
         for (i, segment) in self.curve.segments().enumerate() {
-            let steps = if matches!(segment, kurbo::PathSeg::Line(_)) { 1 } else { (segment.arclen(1e-3) / 0.05).ceil().clamp(4.0, 256.0) as usize };
+            let steps = if matches!(segment, kurbo::PathSeg::Line(_)) {
+                1
+            } else {
+                (segment.arclen(1e-3) / 0.05).ceil().clamp(4.0, 256.0) as usize
+            };
             if points.is_empty() {
                 points.push(segment.start());
                 position.push(0.0);
@@ -251,9 +255,7 @@ impl Mark {
                 },
                 colour: stroke.colour,
             }),
-            Self::Area(area) => {
-                Self::Area(Area { outline: transform * area.outline.clone(), colour: area.colour })
-            }
+            Self::Area(area) => Self::Area(Area { outline: transform * area.outline.clone(), colour: area.colour }),
         }
     }
 
@@ -299,22 +301,16 @@ mod tests {
 
     #[test]
     fn a_constant_stroke_s_area_counts_its_round_ends() {
-        let stroke = Mark::Stroke(Stroke {
-            curve: BezPath::from_svg("M0,0 L10,0").unwrap(),
-            width: Width::Constant(1.0),
-            colour: None,
-        });
+        let stroke =
+            Mark::Stroke(Stroke { curve: BezPath::from_svg("M0,0 L10,0").unwrap(), width: Width::Constant(1.0), colour: None });
         assert!((stroke.area() - (10.0 + std::f64::consts::FRAC_PI_4)).abs() < 1e-9);
         assert_eq!(stroke.bounding_box(), Rect::new(-0.5, -0.5, 10.5, 0.5));
     }
 
     #[test]
     fn clipping_a_stroke_keeps_its_width_there() {
-        let stroke = Stroke {
-            curve: BezPath::from_svg("M0,0 L10,0").unwrap(),
-            width: Width::Along(vec![0.0, 1.0]),
-            colour: None,
-        };
+        let stroke =
+            Stroke { curve: BezPath::from_svg("M0,0 L10,0").unwrap(), width: Width::Along(vec![0.0, 1.0]), colour: None };
         let pieces = stroke.clipped(Rect::new(5.0, -1.0, 20.0, 1.0));
         assert_eq!(pieces.len(), 1);
         let Width::Along(widths) = &pieces[0].width else { panic!("it swells") };

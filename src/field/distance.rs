@@ -21,10 +21,10 @@ pub fn nearest_seed(marked: &Raster<u8>) -> Option<Raster<u32>> {
     let rows = nearest_in_column(marked);
     let (width, height) = (marked.width(), marked.height());
     let mut out = Raster::filled(width, height, 0_u32);
-    out.pixels_mut().par_chunks_mut(width).enumerate().for_each_init(
-        || Envelope::new(width),
-        |envelope, (y, out)| envelope.scan(rows.row(y), y, width, out),
-    );
+    out.pixels_mut()
+        .par_chunks_mut(width)
+        .enumerate()
+        .for_each_init(|| Envelope::new(width), |envelope, (y, out)| envelope.scan(rows.row(y), y, width, out));
     Some(out)
 }
 
@@ -137,7 +137,8 @@ fn descend(pieces: &[[Point; 2]], piece: usize, p: Point) -> (f64, f64) {
     let mut centre = piece;
     loop {
         let (low, high) = (centre.saturating_sub(NEIGHBOURS), (centre + NEIGHBOURS + 1).min(pieces.len()));
-        let nearest = (low..high).map(|i| (offset(pieces[i]), i)).min_by(|a, b| a.0.0.total_cmp(&b.0.0)).expect("pieces[piece] is there");
+        let nearest =
+            (low..high).map(|i| (offset(pieces[i]), i)).min_by(|a, b| a.0.0.total_cmp(&b.0.0)).expect("pieces[piece] is there");
         if nearest.1 == centre || nearest.0.0 >= offset(pieces[centre]).0 {
             return nearest.0;
         }
@@ -148,7 +149,9 @@ fn descend(pieces: &[[Point; 2]], piece: usize, p: Point) -> (f64, f64) {
 /// The curve in even pieces about a pixel long, in order.
 fn segments(curve: &Curve) -> Vec<[Point; 2]> {
     let mut points = curve.points.clone();
-    if curve.closed && let Some(&first) = points.first() {
+    if curve.closed
+        && let Some(&first) = points.first()
+    {
         points.push(first);
     }
     let mut pieces: Vec<[Point; 2]> = resample(&points, 1.0).windows(2).map(|w| [w[0], w[1]]).collect();
@@ -213,7 +216,9 @@ mod tests {
     #[test]
     fn distance_to_a_circle_is_sub_pixel() {
         let points = (0..200)
-            .map(|i| Point::new(50.3, 49.8) + crate::geometry::Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 200.0) * 20.0)
+            .map(|i| {
+                Point::new(50.3, 49.8) + crate::geometry::Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 200.0) * 20.0
+            })
             .collect();
         let field = distance_to_curves(&[Curve { points, closed: true }], 100, 100).unwrap();
         for y in 0..100 {

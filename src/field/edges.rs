@@ -76,12 +76,8 @@ mod tests {
             let speck = (x as f32 - 10.0).hypot(y as f32 - 10.0) < 2.5;
             if r < 35.0 || speck { 0.2 } else { 0.9 }
         });
-        let parameters = EdgeParameters {
-            blur: 1.5,
-            thresholds: Thresholds { low: 0.02, high: 0.05 },
-            least_length: 40.0,
-            smoothing: 3.0,
-        };
+        let parameters =
+            EdgeParameters { blur: 1.5, thresholds: Thresholds { low: 0.02, high: 0.05 }, least_length: 40.0, smoothing: 3.0 };
         let steps = detect_edges(&picture, parameters);
         let lines = lines_of(&steps.skeleton, parameters.smoothing, 10.0);
         assert_eq!(lines.len(), 1, "{}", lines.len());

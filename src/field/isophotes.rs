@@ -44,7 +44,8 @@ mod tests {
         assert_eq!(steps.lines.len(), 2);
         for (line, radius) in steps.lines.iter().zip([12.0, 24.0]) {
             assert!(line.closed);
-            let mean = line.points.iter().map(|p| p.distance(crate::geometry::Point::new(50.5, 50.5))).sum::<f64>() / line.points.len() as f64;
+            let mean = line.points.iter().map(|p| p.distance(crate::geometry::Point::new(50.5, 50.5))).sum::<f64>()
+                / line.points.len() as f64;
             assert!((mean - radius).abs() < 0.7, "{mean} for {radius}");
         }
     }

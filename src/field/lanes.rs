@@ -27,6 +27,13 @@ pub struct Lanes {
     pub line: Raster<u8>,
 }
 
+impl Lanes {
+    /// 1 for a lane of a detail region, else 0.
+    pub const fn region(lane: i32) -> i32 {
+        lane & 1
+    }
+}
+
 /// Width of an offset line in pixels (`w0` of the thesis).
 const LINE_WIDTH: f32 = 1.0;
 
@@ -45,7 +52,11 @@ pub fn offset_lanes(
     let ruling = Raster::from_fn(size.0, size.1, |x, y| {
         let of = |field: Option<&FeatureDistance>| field.map_or((f32::INFINITY, 1), |f| (f.distance.get(x, y), f.side.get(x, y)));
         let ((edge, edge_side), (isophote, isophote_side)) = (of(edges), of(isophotes));
-        if edge / parameters.edge_weight <= isophote / parameters.isophote_weight { (edge, edge_side) } else { (isophote, isophote_side) }
+        if edge / parameters.edge_weight <= isophote / parameters.isophote_weight {
+            (edge, edge_side)
+        } else {
+            (isophote, isophote_side)
+        }
     });
     let pitch_at = |x: usize, y: usize| match detail {
         Some(mask) if mask.get(x, y) >= 0.5 => (parameters.detail_pitch, 1),

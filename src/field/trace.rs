@@ -127,7 +127,12 @@ impl Tracer<'_> {
         let mut rim: Vec<(isize, isize)> = connected.iter().copied().filter(on_rim).collect();
         if rim.is_empty() && connected.len() > 1 {
             // A short remnant: its farthest pixel shows the way.
-            rim = connected[1..].iter().copied().max_by_key(|&(px, py)| ((px - x).pow(2) + (py - y).pow(2), px, py)).into_iter().collect();
+            rim = connected[1..]
+                .iter()
+                .copied()
+                .max_by_key(|&(px, py)| ((px - x).pow(2) + (py - y).pow(2), px, py))
+                .into_iter()
+                .collect();
         }
         grouped(&rim).iter().map(|group| mean_direction(group, x, y)).collect()
     }
@@ -198,9 +203,8 @@ fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
 fn grouped(rim: &[(isize, isize)]) -> Vec<Vec<(isize, isize)>> {
     let mut groups: Vec<Vec<(isize, isize)>> = Vec::new();
     for &pixel in rim {
-        let touches = |group: &Vec<(isize, isize)>| {
-            group.iter().any(|&(x, y)| (x - pixel.0).abs() <= 1 && (y - pixel.1).abs() <= 1)
-        };
+        let touches =
+            |group: &Vec<(isize, isize)>| group.iter().any(|&(x, y)| (x - pixel.0).abs() <= 1 && (y - pixel.1).abs() <= 1);
         let (touching, mut apart): (Vec<_>, Vec<_>) = groups.into_iter().partition(touches);
         apart.push(touching.into_iter().flatten().chain([pixel]).collect());
         groups = apart;

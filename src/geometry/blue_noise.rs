@@ -28,13 +28,10 @@ fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<us
         if closeness > 0.0 { closeness.powi(8) } else { 0.0 }
     };
     let slot_of: std::collections::HashMap<usize, usize> = from.iter().enumerate().map(|(slot, &i)| (i, slot)).collect();
-    let mut crowding: Vec<f64> = from
-        .iter()
-        .map(|&i| grid.around(points[i]).filter(|&j| j != i).map(|j| crowding_of(i, j)).sum())
-        .collect();
+    let mut crowding: Vec<f64> =
+        from.iter().map(|&i| grid.around(points[i]).filter(|&j| j != i).map(|j| crowding_of(i, j)).sum()).collect();
     let mut alive = vec![true; from.len()];
-    let mut heap: BinaryHeap<Crowded> =
-        crowding.iter().enumerate().map(|(slot, &crowding)| Crowded { crowding, slot }).collect();
+    let mut heap: BinaryHeap<Crowded> = crowding.iter().enumerate().map(|(slot, &crowding)| Crowded { crowding, slot }).collect();
     let mut left = from.len();
     while left > goal {
         let Some(Crowded { crowding: stale, slot }) = heap.pop() else { break };
@@ -111,13 +108,15 @@ impl<'a> Grid<'a> {
     fn new(points: &'a [Point], from: &[usize], reach: f64) -> Self {
         let x = |i: &usize| points[*i].x;
         let y = |i: &usize| points[*i].y;
-        let origin = Point::new(from.iter().map(x).fold(f64::INFINITY, f64::min), from.iter().map(y).fold(f64::INFINITY, f64::min));
+        let origin =
+            Point::new(from.iter().map(x).fold(f64::INFINITY, f64::min), from.iter().map(y).fold(f64::INFINITY, f64::min));
         let span = |of: &dyn Fn(&usize) -> f64, low: f64| from.iter().map(of).fold(low, f64::max) - low;
         let (width, height) = (span(&x, origin.x), span(&y, origin.y));
         // No more cells than points, however small the reach.
         let cell = reach.max((width * height / from.len() as f64).sqrt()).max((width + height) / from.len() as f64).max(1e-12);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
-        let mut grid = Self { points, cell, columns, rows, origin, start: vec![0; columns * rows + 1], members: vec![0; from.len()], reach };
+        let mut grid =
+            Self { points, cell, columns, rows, origin, start: vec![0; columns * rows + 1], members: vec![0; from.len()], reach };
         for &i in from {
             let (cx, cy) = grid.cell_of(points[i]);
             grid.start[cy * columns + cx + 1] += 1;
@@ -144,10 +143,12 @@ impl<'a> Grid<'a> {
     fn around(&self, p: Point) -> impl Iterator<Item = usize> + '_ {
         let (cx, cy) = self.cell_of(p);
         let columns = cx.saturating_sub(1)..=(cx + 1).min(self.columns - 1);
-        (cy.saturating_sub(1)..=(cy + 1).min(self.rows - 1)).flat_map(move |row| {
-            let (first, last) = (row * self.columns + *columns.start(), row * self.columns + *columns.end());
-            self.members[self.start[first]..self.start[last + 1]].iter().copied()
-        }).filter(move |&i| self.points[i].distance(p) < self.reach)
+        (cy.saturating_sub(1)..=(cy + 1).min(self.rows - 1))
+            .flat_map(move |row| {
+                let (first, last) = (row * self.columns + *columns.start(), row * self.columns + *columns.end());
+                self.members[self.start[first]..self.start[last + 1]].iter().copied()
+            })
+            .filter(move |&i| self.points[i].distance(p) < self.reach)
     }
 }
 
@@ -170,7 +171,8 @@ mod tests {
     #[test]
     fn it_is_a_permutation_whose_beginnings_are_spread() {
         let mut random = ChaCha8Rng::seed_from_u64(3);
-        let points: Vec<Point> = (0..2000).map(|_| Point::new(random.random_range(0.0..10.0), random.random_range(0.0..10.0))).collect();
+        let points: Vec<Point> =
+            (0..2000).map(|_| Point::new(random.random_range(0.0..10.0), random.random_range(0.0..10.0))).collect();
         let order = blue_noise_order(&points);
         let mut sorted = order.clone();
         sorted.sort_unstable();

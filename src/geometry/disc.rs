@@ -63,7 +63,11 @@ pub fn radius_for_area(polygon: &[Point], centre: Point, wanted: f64) -> f64 {
     for _ in 0..60 {
         let (area, angle) = disc_in(polygon, centre, radius);
         let error = area - wanted;
-        if error > 0.0 { high = radius } else { low = radius }
+        if error > 0.0 {
+            high = radius
+        } else {
+            low = radius
+        }
         // Newton where it stays between the bounds, else halve.
         let step = radius - error / (angle * radius);
         let next = if step > low && step < high { step } else { 0.5 * (low + high) };

@@ -29,8 +29,7 @@ pub fn parse_length(text: &str) -> Result<f64, LengthError> {
 
 /// Width and height in millimetres; a unit at the end holds for both: `90x120`, `9x12cm`, `100mm x 4in`.
 pub fn parse_size(text: &str) -> Result<(f64, f64), LengthError> {
-    let (width, height) =
-        text.trim().split_once(['x', 'X', '\u{d7}']).ok_or_else(|| LengthError::NotASize(text.to_owned()))?;
+    let (width, height) = text.trim().split_once(['x', 'X', '\u{d7}']).ok_or_else(|| LengthError::NotASize(text.to_owned()))?;
     let (_, scale) = split_unit(height.trim());
     let width_has_unit = UNITS.iter().any(|(unit, _)| width.trim().ends_with(unit));
     let width = parse_length(width)? * if width_has_unit { 1.0 } else { scale };

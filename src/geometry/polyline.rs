@@ -11,9 +11,7 @@ pub fn polyline_length(points: &[Point]) -> f64 {
 pub fn polygon_area(points: &[Point]) -> f64 {
     let Some(&origin) = points.first() else { return 0.0 };
     // Relative to a corner, so that a small polygon far from the page's corner keeps its digits.
-    let twice: f64 = (0..points.len())
-        .map(|i| (points[i] - origin).cross(points[(i + 1) % points.len()] - origin))
-        .sum();
+    let twice: f64 = (0..points.len()).map(|i| (points[i] - origin).cross(points[(i + 1) % points.len()] - origin)).sum();
     0.5 * twice
 }
 

@@ -90,7 +90,8 @@ fn tangent(curve: &CubicBez, t: f64) -> Vec2 {
         return d.normalize();
     }
     // A handle of no length: the direction is that of the nearest point that differs.
-    let (near, far) = if t < 0.5 { (curve.p0, [curve.p1, curve.p2, curve.p3]) } else { (curve.p3, [curve.p2, curve.p1, curve.p0]) };
+    let (near, far) =
+        if t < 0.5 { (curve.p0, [curve.p1, curve.p2, curve.p3]) } else { (curve.p3, [curve.p2, curve.p1, curve.p0]) };
     let away = far.iter().map(|p| *p - near).find(|v| v.hypot() > 1e-9).unwrap_or(Vec2::new(1.0, 0.0));
     away.normalize() * if t < 0.5 { 1.0 } else { -1.0 }
 }
@@ -122,7 +123,8 @@ impl Swelling {
         let (w0, w1, m0, m1) = (self.from.0, self.to.0, self.from.1 * length, self.to.1 * length);
         let (t2, t3) = (t * t, t * t * t);
         let value = (2.0 * t3 - 3.0 * t2 + 1.0) * w0 + (t3 - 2.0 * t2 + t) * m0 + (3.0 * t2 - 2.0 * t3) * w1 + (t3 - t2) * m1;
-        let slope = (6.0 * t2 - 6.0 * t) * w0 + (3.0 * t2 - 4.0 * t + 1.0) * m0 + (6.0 * t - 6.0 * t2) * w1 + (3.0 * t2 - 2.0 * t) * m1;
+        let slope =
+            (6.0 * t2 - 6.0 * t) * w0 + (3.0 * t2 - 4.0 * t + 1.0) * m0 + (6.0 * t - 6.0 * t2) * w1 + (3.0 * t2 - 2.0 * t) * m1;
         (value.max(0.0), slope)
     }
 

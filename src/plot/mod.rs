@@ -4,7 +4,6 @@
 //! [`Mounting`] says where the page lies on a machine. Nothing here knows of styles or fields.
 
 mod lower;
-mod merge;
 mod mounting;
 mod order;
 mod profile;
@@ -12,10 +11,11 @@ mod report;
 mod time;
 
 pub use lower::{InkModel, Nibs, lower};
-pub use merge::join_ends;
 pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
-pub use order::{Direction, Effort, PathEnds, Visit, order, pen_up_length};
-pub use profile::{Area, GcodeDialect, HpglDialect, Language, Motion, Paper, PenChange, Pens, Profile, ProfileError, built_in, built_in_names};
+pub use order::{Direction, Effort, PathEnds, Visit, chain, drop_duplicates, order, pen_up_length};
+pub use profile::{
+    Area, GcodeDialect, HpglDialect, Language, Motion, Paper, PenChange, Pens, Profile, ProfileError, built_in, built_in_names,
+};
 pub use report::{PenReport, PlotReport, report};
 pub use time::{Clock, clock};
 
@@ -73,8 +73,9 @@ impl Plot {
     pub fn ordered(&mut self, home: Point, effort: Effort, direction: Direction, merge: f64) {
         let mut at = home;
         for pen in &mut self.pens {
-            let paths = std::mem::take(&mut pen.paths);
-            let mut paths: Vec<Option<Toolpath>> = join_ends(paths, merge, direction).into_iter().map(Some).collect();
+            let lines: Vec<Vec<Point>> = std::mem::take(&mut pen.paths).into_iter().map(|path| path.points).collect();
+            let joined = chain(lines, merge, direction);
+            let mut paths: Vec<Option<Toolpath>> = joined.into_iter().map(|points| Some(Toolpath { points })).collect();
             let ends: Vec<PathEnds> = paths.iter().flatten().map(Toolpath::ends).collect();
             for visit in order(&ends, at, effort, direction) {
                 let mut path = paths[visit.path].take().expect("an order visits each path once");

@@ -37,7 +37,9 @@ pub enum Turn {
 #[derive(Debug, Error, PartialEq)]
 pub enum MountingError {
     /// The page is larger than every sheet.
-    #[error("a page of {width:.1} x {height:.1} mm is larger than every sheet of {machine} ({sheets}); choose --page or --size to fit")]
+    #[error(
+        "a page of {width:.1} x {height:.1} mm is larger than every sheet of {machine} ({sheets}); choose --page or --size to fit"
+    )]
     PageTooLarge {
         /// Width of the page.
         width: f64,
@@ -49,7 +51,9 @@ pub enum MountingError {
         sheets: String,
     },
     /// The drawing leaves the machine's reach.
-    #[error("the drawing reaches {excess:.2} mm beyond the {side} limit of {machine} on this sheet; {advice}, or cut it with --clip")]
+    #[error(
+        "the drawing reaches {excess:.2} mm beyond the {side} limit of {machine} on this sheet; {advice}, or cut it with --clip"
+    )]
     OutOfReach {
         /// How far.
         excess: f64,
@@ -146,7 +150,13 @@ impl Mounting {
         } else if fits(bounds.height(), bounds.width()) {
             "it would fit turned by 90 degrees: --rotate 90".to_owned()
         } else {
-            format!("it is {:.1} x {:.1} mm and the reach is {:.1} x {:.1} mm: make it smaller with --size or --scale", bounds.width(), bounds.height(), reach.width(), reach.height())
+            format!(
+                "it is {:.1} x {:.1} mm and the reach is {:.1} x {:.1} mm: make it smaller with --size or --scale",
+                bounds.width(),
+                bounds.height(),
+                reach.width(),
+                reach.height()
+            )
         };
         Err(MountingError::OutOfReach { excess, side, machine: profile.name.clone(), advice })
     }
@@ -169,7 +179,11 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
         let mut kept = Vec::with_capacity(pen.paths.len());
         for path in std::mem::take(&mut pen.paths) {
             if let [touch] = path.points[..] {
-                if rect.inflate(1e-9, 1e-9).contains(touch) { kept.push(path) } else { lost_touches += 1 }
+                if rect.inflate(1e-9, 1e-9).contains(touch) {
+                    kept.push(path)
+                } else {
+                    lost_touches += 1
+                }
                 continue;
             }
             let pieces = clip_polyline(&path.points, rect);
@@ -197,7 +211,13 @@ mod tests {
 
     fn plot_of(page: Page, points: &[(f64, f64)]) -> Plot {
         let points = points.iter().map(|&(x, y)| Point::new(x, y)).collect();
-        let pen = PenPaths { number: 1, name: "x".into(), colour: crate::drawing::Colour::BLACK, nib: 0.3, paths: vec![Toolpath { points }] };
+        let pen = PenPaths {
+            number: 1,
+            name: "x".into(),
+            colour: crate::drawing::Colour::BLACK,
+            nib: 0.3,
+            paths: vec![Toolpath { points }],
+        };
         Plot { page, pens: vec![pen] }
     }
 
@@ -227,7 +247,10 @@ mod tests {
         let page = Page::new(320.0, 200.0);
         let mounting = mount(&machine, &page).unwrap();
         let error = mounting.check(&machine, &plot_of(page, &[(0.0, 100.0), (312.5, 100.0)])).unwrap_err();
-        assert!(matches!(&error, MountingError::OutOfReach { excess, side: "upper x", .. } if (excess - 12.5).abs() < 1e-9), "{error}");
+        assert!(
+            matches!(&error, MountingError::OutOfReach { excess, side: "upper x", .. } if (excess - 12.5).abs() < 1e-9),
+            "{error}"
+        );
         let mut plot = plot_of(page, &[(0.0, 100.0), (312.5, 100.0)]);
         let (lost, _) = clip_to(&mut plot, mounting.reach_on_page());
         assert!((lost - 12.5).abs() < 1e-9);

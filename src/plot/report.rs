@@ -1,9 +1,9 @@
 //! What a plot will take, per pen and in all.
 
-use super::profile::Motion;
-use super::{Plot, pen_up_length};
 use super::order::{PathEnds, Visit};
+use super::profile::Motion;
 use super::time::clock;
+use super::{Plot, pen_up_length};
 use crate::geometry::Point;
 use serde::Serialize;
 

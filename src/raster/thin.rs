@@ -8,8 +8,7 @@ use rayon::prelude::*;
 /// Pixels outside the raster count as unmarked. Time grows with the area and the greatest half width.
 pub fn thin(mask: &Raster<u8>) -> Raster<u8> {
     let mut lines = mask.clone();
-    let mut candidates: Vec<u32> =
-        lines.pixels().iter().enumerate().filter(|(_, v)| **v != 0).map(|(i, _)| i as u32).collect();
+    let mut candidates: Vec<u32> = lines.pixels().iter().enumerate().filter(|(_, v)| **v != 0).map(|(i, _)| i as u32).collect();
     loop {
         let before = candidates.len();
         for pass in [Pass::SouthEast, Pass::NorthWest] {
@@ -79,10 +78,18 @@ mod tests {
                     continue;
                 }
                 seen.set(x, y, true);
-                if x > 0 { stack.push((x - 1, y)); }
-                if y > 0 { stack.push((x, y - 1)); }
-                if x < 49 { stack.push((x + 1, y)); }
-                if y < 49 { stack.push((x, y + 1)); }
+                if x > 0 {
+                    stack.push((x - 1, y));
+                }
+                if y > 0 {
+                    stack.push((x, y - 1));
+                }
+                if x < 49 {
+                    stack.push((x + 1, y));
+                }
+                if y < 49 {
+                    stack.push((x, y + 1));
+                }
             }
             seen.get(25, 25)
         };

@@ -30,7 +30,13 @@ pub enum HpglError {
 
 /// Reads `IN SP VS FS PU PD PA PR PS` and skips other instructions' effects; escape sequences are passed over.
 pub fn read_hpgl(text: &str) -> Result<HpglMotion, HpglError> {
-    let mut reader = Reader { motion: Strokes { ends_up: true, ..Strokes::default() }, at: Point::ORIGIN, pen: 0, is_down: false, is_relative: false };
+    let mut reader = Reader {
+        motion: Strokes { ends_up: true, ..Strokes::default() },
+        at: Point::ORIGIN,
+        pen: 0,
+        is_down: false,
+        is_relative: false,
+    };
     let mut start = 0;
     for piece in text.split_inclusive([';', '\n']) {
         let instruction = piece.trim_matches(|c: char| c == ';' || c.is_whitespace());

@@ -112,7 +112,10 @@ mod tests {
         assert_eq!(Label::parse("1 dots"), Label { name: "dots".into(), pen: Some(1), ..Label::default() });
         assert_eq!(Label::parse("% notes"), Label { name: "notes".into(), is_skipped: true, ..Label::default() });
         let full = Label::parse("!3 red +S40 +H55 +D100");
-        assert_eq!((full.pauses, full.pen, full.speed, full.height, full.delay), (true, Some(3), Some(40.0), Some(55.0), Some(100.0)));
+        assert_eq!(
+            (full.pauses, full.pen, full.speed, full.height, full.delay),
+            (true, Some(3), Some(40.0), Some(55.0), Some(100.0))
+        );
         assert_eq!(full.name, "red");
         assert_eq!(Label::parse("Sketch").pen, None);
     }

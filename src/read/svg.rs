@@ -222,7 +222,9 @@ impl<'a> Importer<'a> {
         let layer = self.layer_for(place, colour);
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
         let pieces = subpaths(&curve);
-        layer.layer.marks.extend(pieces.into_iter().map(|curve| Mark::Stroke(Stroke { curve, width: Width::Constant(width), colour: own_colour })));
+        layer.layer.marks.extend(
+            pieces.into_iter().map(|curve| Mark::Stroke(Stroke { curve, width: Width::Constant(width), colour: own_colour })),
+        );
     }
 
     /// The layer of a mark: its labelled group, else that of its colour.
@@ -383,7 +385,9 @@ mod tests {
 
     #[test]
     fn transforms_units_uses_and_dashes() {
-        let imported = read("<defs><path id='p' d='M0 0H10'/></defs><g transform='translate(5 5) scale(2)'><use xlink:href='#p' stroke='black' stroke-width='0.5'/></g>");
+        let imported = read(
+            "<defs><path id='p' d='M0 0H10'/></defs><g transform='translate(5 5) scale(2)'><use xlink:href='#p' stroke='black' stroke-width='0.5'/></g>",
+        );
         assert!((length(&imported) - 20.0).abs() < 1e-3);
         let Mark::Stroke(stroke) = &imported.layers[0].layer.marks[0] else { panic!() };
         assert!((stroke.widest() - 1.0).abs() < 1e-4);
@@ -394,7 +398,9 @@ mod tests {
 
     #[test]
     fn clip_paths_are_honoured() {
-        let imported = read("<clipPath id='c'><circle cx='50' cy='50' r='20'/></clipPath><g clip-path='url(#c)'><path d='M0 50H100' stroke='black'/></g>");
+        let imported = read(
+            "<clipPath id='c'><circle cx='50' cy='50' r='20'/></clipPath><g clip-path='url(#c)'><path d='M0 50H100' stroke='black'/></g>",
+        );
         assert!((length(&imported) - 40.0).abs() < 0.02, "{}", length(&imported));
     }
 

@@ -61,9 +61,8 @@ impl Photograph {
         }
         let kind = image::guess_format(bytes).map_err(|_| SourceError::Unrecognised(first_bytes(bytes)))?;
         let format = format_name(kind).ok_or_else(|| SourceError::Unrecognised(first_bytes(bytes)))?;
-        let mut decoder = ImageReader::with_format(Cursor::new(bytes), kind)
-            .into_decoder()
-            .map_err(|error| describe(format, &error))?;
+        let mut decoder =
+            ImageReader::with_format(Cursor::new(bytes), kind).into_decoder().map_err(|error| describe(format, &error))?;
         check_limits(format, &decoder, limits)?;
         if kind == ImageFormat::Jpeg && !jpeg::is_whole(bytes) {
             return Err(SourceError::Truncated { format });
@@ -133,7 +132,9 @@ const fn format_name(format: ImageFormat) -> Option<&'static str> {
 fn describe(format: &'static str, error: &ImageError) -> SourceError {
     let reason = error.to_string();
     let is_early_end = matches!(error, ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof)
-        || ["unexpected end", "UnexpectedEof", "failed to fill whole buffer", "unexpected EOF"].iter().any(|words| reason.contains(words));
+        || ["unexpected end", "UnexpectedEof", "failed to fill whole buffer", "unexpected EOF"]
+            .iter()
+            .any(|words| reason.contains(words));
     if is_early_end { SourceError::Truncated { format } } else { SourceError::Damaged { format, reason } }
 }
 

@@ -59,7 +59,9 @@ pub enum SourceError {
     #[error("has a colour profile that cannot be used ({0}); convert the picture to sRGB first")]
     Profile(String),
     /// A mask or depth map on another pixel grid.
-    #[error("is {width} x {height} px, but the photograph is {expected_width} x {expected_height} px; a mask needs the photograph's pixel grid (after its EXIF turn)")]
+    #[error(
+        "is {width} x {height} px, but the photograph is {expected_width} x {expected_height} px; a mask needs the photograph's pixel grid (after its EXIF turn)"
+    )]
     OtherSize {
         /// Columns of the mask.
         width: u32,
@@ -87,7 +89,9 @@ pub enum SourceError {
         height: u32,
     },
     /// The working raster would be too large.
-    #[error("would need {pixels} working pixels on this page at this pitch, beyond the limit of {limit}; use a larger --pitch or a smaller --size")]
+    #[error(
+        "would need {pixels} working pixels on this page at this pitch, beyond the limit of {limit}; use a larger --pitch or a smaller --size"
+    )]
     WorkTooLarge {
         /// Pixels needed.
         pixels: u64,

@@ -50,21 +50,36 @@ impl Lineariser {
     pub(super) fn rows(&self, pixels: &DynamicImage, first: u32, count: u32) -> Vec<[f32; 4]> {
         match pixels {
             DynamicImage::ImageLuma8(i) => self.band(i.as_raw(), i.width(), first, count, |p: &Luma<u8>| from_luma(p.0[0], 255)),
-            DynamicImage::ImageLumaA8(i) => self.band(i.as_raw(), i.width(), first, count, |p: &LumaA<u8>| from_luma(p.0[0], p.0[1])),
+            DynamicImage::ImageLumaA8(i) => {
+                self.band(i.as_raw(), i.width(), first, count, |p: &LumaA<u8>| from_luma(p.0[0], p.0[1]))
+            }
             DynamicImage::ImageRgb8(i) => self.band(i.as_raw(), i.width(), first, count, |p: &Rgb<u8>| from_rgb(p.0, 255)),
             DynamicImage::ImageRgba8(i) => {
                 self.band(i.as_raw(), i.width(), first, count, |p: &Rgba<u8>| from_rgb([p.0[0], p.0[1], p.0[2]], p.0[3]))
             }
-            DynamicImage::ImageLuma16(i) => self.band(i.as_raw(), i.width(), first, count, |p: &Luma<u16>| [p.0[0], p.0[0], p.0[0], u16::MAX]),
-            DynamicImage::ImageLumaA16(i) => self.band(i.as_raw(), i.width(), first, count, |p: &LumaA<u16>| [p.0[0], p.0[0], p.0[0], p.0[1]]),
-            DynamicImage::ImageRgb16(i) => self.band(i.as_raw(), i.width(), first, count, |p: &Rgb<u16>| [p.0[0], p.0[1], p.0[2], u16::MAX]),
+            DynamicImage::ImageLuma16(i) => {
+                self.band(i.as_raw(), i.width(), first, count, |p: &Luma<u16>| [p.0[0], p.0[0], p.0[0], u16::MAX])
+            }
+            DynamicImage::ImageLumaA16(i) => {
+                self.band(i.as_raw(), i.width(), first, count, |p: &LumaA<u16>| [p.0[0], p.0[0], p.0[0], p.0[1]])
+            }
+            DynamicImage::ImageRgb16(i) => {
+                self.band(i.as_raw(), i.width(), first, count, |p: &Rgb<u16>| [p.0[0], p.0[1], p.0[2], u16::MAX])
+            }
             DynamicImage::ImageRgba16(i) => self.band(i.as_raw(), i.width(), first, count, |p: &Rgba<u16>| p.0),
             DynamicImage::ImageRgb32F(i) => light_band(i.as_raw(), i.width(), first, count),
             other => light_band(other.to_rgb32f().as_raw(), other.width(), first, count),
         }
     }
 
-    fn band<P: Pixel>(&self, samples: &[P::Subpixel], width: u32, first: u32, count: u32, widen: impl Fn(&P) -> [u16; 4] + Sync) -> Vec<[f32; 4]>
+    fn band<P: Pixel>(
+        &self,
+        samples: &[P::Subpixel],
+        width: u32,
+        first: u32,
+        count: u32,
+        widen: impl Fn(&P) -> [u16; 4] + Sync,
+    ) -> Vec<[f32; 4]>
     where
         P::Subpixel: Primitive + Send + Sync,
     {
@@ -111,7 +126,8 @@ impl Lineariser {
 /// Whether a profile's primaries and curve are sRGB's, so that nothing needs doing.
 fn is_srgb(profile: &ColorProfile) -> bool {
     let srgb = ColorProfile::new_srgb();
-    let close = |a: moxcms::Xyzd, b: moxcms::Xyzd| (a.x - b.x).abs() < 2e-3 && (a.y - b.y).abs() < 2e-3 && (a.z - b.z).abs() < 2e-3;
+    let close =
+        |a: moxcms::Xyzd, b: moxcms::Xyzd| (a.x - b.x).abs() < 2e-3 && (a.y - b.y).abs() < 2e-3 && (a.z - b.z).abs() < 2e-3;
     let has_primaries = close(profile.red_colorant, srgb.red_colorant)
         && close(profile.green_colorant, srgb.green_colorant)
         && close(profile.blue_colorant, srgb.blue_colorant);
@@ -121,7 +137,9 @@ fn is_srgb(profile: &ColorProfile) -> bool {
             let middle = f32::from(table[table.len() / 2]) / 65535.0;
             (middle - srgb_to_linear((table.len() / 2) as f32 / (table.len() - 1) as f32)).abs() < 1e-3
         }
-        Some(moxcms::ToneReprCurve::Parametric(p)) => p.len() >= 5 && (p[0] - 2.4).abs() < 1e-2 && (p[1] - 1.0 / 1.055).abs() < 1e-2,
+        Some(moxcms::ToneReprCurve::Parametric(p)) => {
+            p.len() >= 5 && (p[0] - 2.4).abs() < 1e-2 && (p[1] - 1.0 / 1.055).abs() < 1e-2
+        }
         _ => false,
     };
     has_primaries && has_curve

@@ -171,7 +171,14 @@ pub struct Portrait {
 
 impl Portrait {
     /// Resamples the crop of a photograph to its placement, once, by Lanczos 3 in linear light.
-    pub fn new(photograph: &Photograph, crop: Crop, page: Page, placement: Placement, target: ToneTarget, curve: ToneCurve) -> Result<Self, SourceError> {
+    pub fn new(
+        photograph: &Photograph,
+        crop: Crop,
+        page: Page,
+        placement: Placement,
+        target: ToneTarget,
+        curve: ToneCurve,
+    ) -> Result<Self, SourceError> {
         let planes = resample(photograph, crop, placement)?;
         let unit = |v: f32| v.clamp(0.0, 1.0);
         let light = planes.map(|[r, g, b, _]| [unit(r), unit(g), unit(b)]);
@@ -187,7 +194,13 @@ impl Portrait {
 
     /// Adds a mask, resampled alike; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
     /// replaces the photograph's alpha.
-    pub fn add_mask(&mut self, role: MaskRole, mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
+    pub fn add_mask(
+        &mut self,
+        role: MaskRole,
+        mask: &Photograph,
+        photograph: &Photograph,
+        crop: Crop,
+    ) -> Result<(), SourceError> {
         if (mask.width(), mask.height()) != (photograph.width(), photograph.height()) {
             return Err(SourceError::OtherSize {
                 width: mask.width(),
@@ -259,6 +272,7 @@ fn resize_band(source: &[[f32; 4]], width: u32, window: Rect, columns: usize, ro
 /// The part of a crop that fills a box of this shape, centred (`--fit cover`).
 pub fn fill_box(crop: Crop, box_width: f64, box_height: f64) -> Crop {
     let shape = box_width / box_height;
-    let (width, height) = if crop.width / crop.height > shape { (crop.height * shape, crop.height) } else { (crop.width, crop.width / shape) };
+    let (width, height) =
+        if crop.width / crop.height > shape { (crop.height * shape, crop.height) } else { (crop.width, crop.width / shape) };
     Crop { x: crop.x + 0.5 * (crop.width - width), y: crop.y + 0.5 * (crop.height - height), width, height }
 }

@@ -108,9 +108,11 @@ impl Settings {
             let parameter = parameters.iter().find(|p| p.name == key).ok_or_else(|| unknown(style, parameters, key))?;
             values.insert(parameter.name, parse(parameter, text)?);
         }
-        let pitch = parameters.iter().find(|p| p.name == "pitch").map_or(1.0, |p| match (values.get("pitch"), p.kind.default_number(1.0)) {
-            (Some(Value::Number(pitch)), _) => *pitch,
-            (_, default) => default.unwrap_or(1.0),
+        let pitch = parameters.iter().find(|p| p.name == "pitch").map_or(1.0, |p| {
+            match (values.get("pitch"), p.kind.default_number(1.0)) {
+                (Some(Value::Number(pitch)), _) => *pitch,
+                (_, default) => default.unwrap_or(1.0),
+            }
         });
         for parameter in parameters {
             values.entry(parameter.name).or_insert_with(|| match parameter.kind {
@@ -190,8 +192,14 @@ impl Kind {
 }
 
 fn parse(parameter: &Parameter, text: &str) -> Result<Value, ParameterError> {
-    let refuse = || ParameterError::Value { key: parameter.name.to_owned(), value: text.to_owned(), expected: parameter.kind.range_text() };
-    let within = |number: f64, least: f64, most: f64| (number >= least && number <= most).then_some(Value::Number(number)).ok_or_else(refuse);
+    let refuse = || ParameterError::Value {
+        key: parameter.name.to_owned(),
+        value: text.to_owned(),
+        expected: parameter.kind.range_text(),
+    };
+    let within = |number: f64, least: f64, most: f64| {
+        (number >= least && number <= most).then_some(Value::Number(number)).ok_or_else(refuse)
+    };
     match parameter.kind {
         Kind::Length { least, most, .. } => within(parse_length(text).map_err(|_| refuse())?, least, most),
         Kind::Number { least, most, .. } => within(text.trim().parse().map_err(|_| refuse())?, least, most),
@@ -205,7 +213,11 @@ fn parse(parameter: &Parameter, text: &str) -> Result<Value, ParameterError> {
 
 fn unknown(style: &str, parameters: &[Parameter], key: &str) -> ParameterError {
     let known: Vec<&str> = parameters.iter().map(|p| p.name).collect();
-    let near = known.iter().find(|name| name.contains(key) || key.contains(**name) || (name.chars().next() == key.chars().next() && name.len().abs_diff(key.len()) < 3));
+    let near = known.iter().find(|name| {
+        name.contains(key)
+            || key.contains(**name)
+            || (name.chars().next() == key.chars().next() && name.len().abs_diff(key.len()) < 3)
+    });
     ParameterError::Unknown {
         key: key.to_owned(),
         style: style.to_owned(),
@@ -219,8 +231,18 @@ mod tests {
     use super::*;
 
     const PARAMETERS: &[Parameter] = &[
-        Parameter { name: "pitch", kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 20.0 }, meaning: "", source: "" },
-        Parameter { name: "reach", kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 100.0 }, meaning: "", source: "" },
+        Parameter {
+            name: "pitch",
+            kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 20.0 },
+            meaning: "",
+            source: "",
+        },
+        Parameter {
+            name: "reach",
+            kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 100.0 },
+            meaning: "",
+            source: "",
+        },
         Parameter { name: "gamma", kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 }, meaning: "", source: "" },
         Parameter { name: "size", kind: Kind::Choice(&["exact", "paper"]), meaning: "", source: "" },
     ];
@@ -240,7 +262,9 @@ mod tests {
 
     #[test]
     fn errors_say_what_would_work() {
-        for (key, value) in [("pitch", "NaN"), ("pitch", "-1"), ("gamma", "nan"), ("gamma", "inf"), ("size", "round"), ("pitch", "")] {
+        for (key, value) in
+            [("pitch", "NaN"), ("pitch", "-1"), ("gamma", "nan"), ("gamma", "inf"), ("size", "round"), ("pitch", "")]
+        {
             let error = given(&[(key, value)]).unwrap_err();
             assert!(matches!(error, ParameterError::Value { .. }), "{key}={value}: {error}");
         }

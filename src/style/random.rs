@@ -6,7 +6,8 @@ use rand::rngs::ChaCha8Rng;
 /// The stream of one element (a dot, a line, a cell) in one stage.
 pub(super) fn stream(seed: u64, stage: &str, element: u64) -> ChaCha8Rng {
     // FNV-1a: stages differ by name, not by the order in which they were written.
-    let stage = stage.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    let stage =
+        stage.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ stage);
     random.set_stream(element);
     random

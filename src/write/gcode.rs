@@ -142,7 +142,10 @@ mod tests {
         let page = Page::new(100.0, 50.0);
         let path = |points: &[(f64, f64)]| Toolpath { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect() };
         let pen = |number, name: &str, paths| PenPaths { number, name: name.into(), colour: Colour::BLACK, nib: 0.3, paths };
-        let plot = Plot { page, pens: vec![pen(1, "dots", vec![path(&[(0.0, 0.0), (10.0, 0.0)])]), pen(2, "what?! (ééé)", vec![path(&[(5.0, 5.0)])])] };
+        let plot = Plot {
+            page,
+            pens: vec![pen(1, "dots", vec![path(&[(0.0, 0.0), (10.0, 0.0)])]), pen(2, "what?! (ééé)", vec![path(&[(5.0, 5.0)])])],
+        };
         let mut bytes = Vec::new();
         write_gcode(&plot, &profile, &mount(&profile, &page).unwrap(), &mut bytes).unwrap();
         let text = String::from_utf8(bytes).unwrap();
@@ -150,7 +153,18 @@ mod tests {
         assert!(lines.iter().all(|l| l.len() <= 78 && l.is_ascii() && !l.contains(['?', '!', '~'])), "{text}");
         assert!(!text.contains("M5") && !text.contains("M2") && !text.contains("M30"));
         assert_eq!(lines.iter().filter(|l| **l == "M0").count(), 1);
-        let expected = ["G0 X0 Y50", "M3 S700", "G4 P.2", "G1 X10 Y50 F3000", "M3 S300", "G4 P.15", "G0 X0 Y0", "(pen 2: what ___ 0.3)", "M0", "G0 X5 Y45"];
+        let expected = [
+            "G0 X0 Y50",
+            "M3 S700",
+            "G4 P.2",
+            "G1 X10 Y50 F3000",
+            "M3 S300",
+            "G4 P.15",
+            "G0 X0 Y0",
+            "(pen 2: what ___ 0.3)",
+            "M0",
+            "G0 X5 Y45",
+        ];
         let start = lines.iter().position(|l| *l == expected[0]).unwrap();
         assert_eq!(&lines[start..start + expected.len()], expected);
         assert_eq!(lines.last(), Some(&"G0 X0 Y0"));

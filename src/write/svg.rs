@@ -103,11 +103,7 @@ fn document(page: &Page, head: &SvgHead) -> SVG {
     }
     if page.paper != Colour::WHITE {
         document.append(
-            Rectangle::new()
-                .set("id", "paper")
-                .set("width", width)
-                .set("height", height)
-                .set("fill", page.paper.to_string()),
+            Rectangle::new().set("id", "paper").set("width", width).set("height", height).set("fill", page.paper.to_string()),
         );
     }
     document
@@ -318,7 +314,11 @@ mod tests {
     fn drawing() -> Drawing {
         let mut layer = Layer::new("dots", 1);
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.5, 2.25), 0.123_45)));
-        layer.marks.push(Mark::Stroke(Stroke { curve: BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), width: Width::Constant(0.3), colour: None }));
+        layer.marks.push(Mark::Stroke(Stroke {
+            curve: BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(),
+            width: Width::Constant(0.3),
+            colour: None,
+        }));
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(4.0, 4.0), 1.0)));
         Drawing { page: Page::new(90.0, 120.0), layers: vec![layer] }
     }

@@ -51,8 +51,7 @@ impl Rearrangement {
             steps += 1;
             side = joined[side ^ 1];
         }
-        (steps == count)
-            .then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
+        (steps == count).then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
     }
 
     /// Puts the segments of these lengths behind a seat in reverse order, each still drawn the same way.
@@ -67,45 +66,24 @@ impl Rearrangement {
         let mut to = first + lengths.iter().sum::<usize>();
         for (segment, &len) in segments[1..].iter_mut().zip(lengths) {
             to -= len;
-            *segment = Segment {
-                first: first % paths,
-                len,
-                reversed: false,
-                to: to % paths,
-            };
+            *segment = Segment { first: first % paths, len, reversed: false, to: to % paths };
             first += len;
         }
-        Self {
-            segments,
-            count: lengths.len() + 1,
-        }
+        Self { segments, count: lengths.len() + 1 }
     }
 
     /// The pieces that change their seats or direction. The longest never does.
     pub(super) fn moved(&self) -> impl Iterator<Item = &Segment> {
-        self.segments[1..self.count]
-            .iter()
-            .filter(|segment| segment.reversed || segment.first != segment.to)
-    }
-
-    /// Number of paths that change their seats or direction.
-    pub(super) fn cost(&self) -> usize {
-        self.moved().map(|segment| segment.len).sum()
+        self.segments[1..self.count].iter().filter(|segment| segment.reversed || segment.first != segment.to)
     }
 
     fn around_longest(paths: usize, cuts: &[usize], walked: &mut [(usize, bool)]) -> Self {
         let segment = |index: usize| {
-            let before = cuts[if index == 0 {
-                cuts.len() - 1
-            } else {
-                index - 1
-            }];
+            let before = cuts[if index == 0 { cuts.len() - 1 } else { index - 1 }];
             let first = if before + 1 == paths { 0 } else { before + 1 };
             (first, (cuts[index] + paths - before - 1) % paths + 1)
         };
-        let longest = (0..walked.len())
-            .max_by_key(|&i| segment(walked[i].0).1)
-            .unwrap_or(0);
+        let longest = (0..walked.len()).max_by_key(|&i| segment(walked[i].0).1).unwrap_or(0);
         walked.rotate_left(longest);
         if walked[0].1 {
             // The same ring, walked the other way.
@@ -118,18 +96,10 @@ impl Rearrangement {
         let mut to = segment(walked[0].0).0;
         for (slot, &(index, reversed)) in segments.iter_mut().zip(walked.iter()) {
             let (first, len) = segment(index);
-            *slot = Segment {
-                first,
-                len,
-                reversed,
-                to,
-            };
+            *slot = Segment { first, len, reversed, to };
             to = (to + len) % paths;
         }
-        Self {
-            segments,
-            count: walked.len(),
-        }
+        Self { segments, count: walked.len() }
     }
 }
 
@@ -152,20 +122,10 @@ fn cut(tour: &Tour, ends: &[End]) -> ([usize; MAX_LINKS], [usize; 2 * MAX_LINKS]
     }
     let mut sides = [0; 2 * MAX_LINKS];
     for i in 0..count {
-        let rank = cuts[..count]
-            .iter()
-            .position(|&cut| cut == seats[i])
-            .unwrap_or(0);
-        let (before, behind) = (
-            2 * rank + 1,
-            if rank + 1 == count { 0 } else { 2 * rank + 2 },
-        );
+        let rank = cuts[..count].iter().position(|&cut| cut == seats[i]).unwrap_or(0);
+        let (before, behind) = (2 * rank + 1, if rank + 1 == count { 0 } else { 2 * rank + 2 });
         let first_is_before = tour.position(ends[2 * i]) & 1 == 1;
-        (sides[2 * i], sides[2 * i + 1]) = if first_is_before {
-            (before, behind)
-        } else {
-            (behind, before)
-        };
+        (sides[2 * i], sides[2 * i + 1]) = if first_is_before { (before, behind) } else { (behind, before) };
     }
     (cuts, sides)
 }

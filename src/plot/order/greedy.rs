@@ -9,42 +9,32 @@ use super::sites::{End, Sites};
 /// Neighbours of each loose end that are looked at in later rounds. With fewer, more rounds are needed.
 const LATER_NEIGHBOURS: usize = 6;
 
+/// Rounds after which the remaining fragments are strung together as they come. If most ends have the same few nearest partners, as with
+/// thousands of copies of one path drawn forwards only, a round joins next to nothing, and without a limit they would take n^2.
+const MOST_ROUNDS: usize = 30;
+
 /// A link that might be made: length, then the two ends. Lengths are kept as the bits of an `f32`, whose order is the same.
 type Candidate = (u32, End, End);
 
-/// Orders all paths greedily and returns the end at which each is entered, beginning with the home path. About 16 % above the
+/// Orders all paths greedily and returns the end at which each is entered, beginning with the home path. About 14 % above the
 /// optimum on uniform dots; O(n log n).
-pub(super) fn greedy_tour(
-    sites: &Sites,
-    neighbours: &Neighbours,
-    direction: Direction,
-) -> Vec<End> {
+pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours, direction: Direction) -> Vec<End> {
     let mut fragments = Fragments::new(sites);
     let all = (0..sites.end_count() as End).into_par_iter();
-    let candidates = all.flat_map_iter(|end| {
-        neighbours
-            .of(end)
-            .iter()
-            .map(move |&other| candidate(sites, end, other))
-    });
+    let candidates = all.flat_map_iter(|end| neighbours.of(end).iter().map(move |&other| candidate(sites, end, other)));
     fragments.join_shortest(candidates.collect());
-    while fragments.count > 1 {
+    for _ in 0..MOST_ROUNDS {
+        if fragments.count == 1 {
+            break;
+        }
         let loose = fragments.loose_ends(sites);
-        let root: Vec<u32> = (0..sites.path_count() as u32)
-            .map(|path| fragments.root(path))
-            .collect();
+        let root: Vec<u32> = (0..sites.path_count() as u32).map(|path| fragments.root(path)).collect();
         let apart = |a: End, b: End| root[a as usize >> 1] != root[b as usize >> 1];
         let found = nearest_ends(sites, &loose, LATER_NEIGHBOURS, direction, apart);
-        let pairs = loose
-            .iter()
-            .zip(&found)
-            .flat_map(|(&end, others)| others.iter().map(move |&other| (end, other)));
-        fragments.join_shortest(
-            pairs
-                .map(|(end, other)| candidate(sites, end, other))
-                .collect(),
-        );
+        let pairs = loose.iter().zip(&found).flat_map(|(&end, others)| others.iter().map(move |&other| (end, other)));
+        fragments.join_shortest(pairs.map(|(end, other)| candidate(sites, end, other)).collect());
     }
+    fragments.string_together(sites);
     fragments.walk_from(sites.free_end())
 }
 
@@ -61,11 +51,7 @@ struct Fragments {
 
 impl Fragments {
     fn new(sites: &Sites) -> Self {
-        Self {
-            count: sites.path_count(),
-            parent: (0..sites.path_count() as u32).collect(),
-            link: vec![None; sites.end_count()],
-        }
+        Self { count: sites.path_count(), parent: (0..sites.path_count() as u32).collect(), link: vec![None; sites.end_count()] }
     }
 
     fn root(&mut self, mut path: u32) -> u32 {
@@ -86,18 +72,37 @@ impl Fragments {
             let (root_a, root_b) = (self.root(a >> 1), self.root(b >> 1));
             if root_a != root_b {
                 self.parent[root_a as usize] = root_b;
-                self.link[a as usize] = Some(b);
-                self.link[b as usize] = Some(a);
-                self.count -= 1;
+                self.join(a, b);
             }
         }
     }
 
     /// Both ends of every fragment, but for the free end, which closes the tour when all else is joined.
     fn loose_ends(&self, sites: &Sites) -> Vec<End> {
-        (0..sites.end_count() as End)
-            .filter(|&end| self.link[end as usize].is_none() && end != sites.free_end())
-            .collect()
+        (0..sites.end_count() as End).filter(|&end| self.link[end as usize].is_none() && end != sites.free_end()).collect()
+    }
+
+    fn join(&mut self, a: End, b: End) {
+        self.link[a as usize] = Some(b);
+        self.link[b as usize] = Some(a);
+        self.count -= 1;
+    }
+
+    /// Joins all fragments in the order of their roots, which are numbered across the paper.
+    fn string_together(&mut self, sites: &Sites) {
+        let home = self.root(sites.free_end() >> 1);
+        let loose = self.loose_ends(sites);
+        let mut by_root: Vec<(u32, u32, End)> = loose.iter().map(|&end| (self.root(end >> 1), end & 1, end)).collect();
+        by_root.sort_unstable();
+        let Some(from_home) = by_root.iter().position(|&(root, ..)| root == home) else {
+            return;
+        };
+        // The only loose end of the home fragment; all others have two, the even one first if they differ.
+        let (.., mut tail) = by_root.remove(from_home);
+        for fragment in by_root.chunks_exact(2) {
+            self.join(tail, fragment[0].2);
+            tail = fragment[1].2;
+        }
     }
 
     fn walk_from(&self, end: End) -> Vec<End> {

@@ -8,9 +8,8 @@ use super::sites::End;
 /// Links cut by a kick.
 const CUTS: usize = 4;
 
-/// Random steps from neighbour to neighbour between the first cut and each other one. Tuned on 10,000 dots, segments and hatch lines:
-/// with 3, most kicks are repaired to what was there before; cuts 30 paths apart along the tour (and so far apart on paper) bring
-/// a little more each and take five times as long.
+/// Random steps from neighbour to neighbour between the first cut and each other one. Tuned on 10,000 dots, segments and hatch lines: 4 steps
+/// take two thirds of the time and leave the order 0.2 to 1 % longer; 30 take half as long again or more for 0.1 to 0.2 %.
 const STEPS: usize = 10;
 
 /// Kicks the tour this many times and returns the millimetres gained. One kick takes about 25 microseconds, however long the tour,
@@ -24,19 +23,10 @@ fn kick_once(search: &mut LinKernighan, random: &mut SplitMix) -> Option<f64> {
     let seats = nearby_seats(search, random)?;
     let tour = &search.tour;
     let lengths: [usize; CUTS - 1] = std::array::from_fn(|i| seats[i + 1] - seats[i]);
-    let ends: [End; 2 * CUTS] = std::array::from_fn(|i| {
-        if i % 2 == 0 {
-            tour.entry(seats[i / 2]) ^ 1
-        } else {
-            tour.entry(seats[i / 2] + 1)
-        }
-    });
+    let ends: [End; 2 * CUTS] =
+        std::array::from_fn(|i| if i % 2 == 0 { tour.entry(seats[i / 2]) ^ 1 } else { tour.entry(seats[i / 2] + 1) });
     let before = search.length_at(&ends);
-    search.tour.rearrange(&Rearrangement::reverse_order(
-        search.tour.len(),
-        seats[0],
-        &lengths,
-    ));
+    search.tour.rearrange(&Rearrangement::reverse_order(search.tour.len(), seats[0], &lengths));
     let loss = search.length_at(&ends) - before;
     for end in ends {
         search.look_at(end);
@@ -64,8 +54,5 @@ fn nearby_seats(search: &LinKernighan, random: &mut SplitMix) -> Option<[usize; 
         *seat = search.tour.seat_of(end);
     }
     seats.sort_unstable();
-    seats
-        .windows(2)
-        .all(|pair| pair[0] < pair[1])
-        .then_some(seats)
+    seats.windows(2).all(|pair| pair[0] < pair[1]).then_some(seats)
 }

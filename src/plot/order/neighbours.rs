@@ -17,41 +17,21 @@ pub(super) struct Neighbours {
 impl Neighbours {
     /// Finds up to `count` neighbours of each end in O(n (count + log n)) on all threads.
     pub(super) fn new(sites: &Sites, count: usize, direction: Direction) -> Self {
-        let loose: Vec<End> = (0..sites.end_count() as End)
-            .filter(|&end| end != sites.free_end())
-            .collect();
+        let loose: Vec<End> = (0..sites.end_count() as End).filter(|&end| end != sites.free_end()).collect();
         let found = nearest_ends(sites, &loose, count, direction, |a, b| a >> 1 != b >> 1);
         let mut found = found.into_iter();
-        let of_each = (0..sites.end_count() as End).map(|end| {
-            if end == sites.free_end() {
-                Vec::new()
-            } else {
-                found.next().unwrap_or_default()
-            }
-        });
+        let of_each = (0..sites.end_count() as End)
+            .map(|end| if end == sites.free_end() { Vec::new() } else { found.next().unwrap_or_default() });
         Self::collect(of_each, sites.end_count(), count)
     }
 
     /// The same lists for some of the ends under new numbers: `renumbered` says which, if any.
     pub(super) fn part(&self, ends: &[End], renumbered: impl Fn(End) -> Option<End>) -> Self {
-        let most = ends
-            .iter()
-            .map(|&end| self.of(end).len())
-            .max()
-            .unwrap_or(0);
-        Self::collect(
-            ends.iter()
-                .map(|&end| self.of(end).iter().filter_map(|&other| renumbered(other))),
-            ends.len(),
-            most,
-        )
+        let most = ends.iter().map(|&end| self.of(end).len()).max().unwrap_or(0);
+        Self::collect(ends.iter().map(|&end| self.of(end).iter().filter_map(|&other| renumbered(other))), ends.len(), most)
     }
 
-    fn collect<I: IntoIterator<Item = End>>(
-        of_each: impl Iterator<Item = I>,
-        ends: usize,
-        most: usize,
-    ) -> Self {
+    fn collect<I: IntoIterator<Item = End>>(of_each: impl Iterator<Item = I>, ends: usize, most: usize) -> Self {
         let mut list = Vec::with_capacity(ends * most);
         let mut first = Vec::with_capacity(ends + 1);
         first.push(0);
@@ -78,29 +58,18 @@ pub(super) fn nearest_ends(
     may_link: impl Fn(End, End) -> bool + Sync,
 ) -> Vec<Vec<End>> {
     let labelled = |wanted: &dyn Fn(End) -> bool| -> Vec<(Point, End)> {
-        ends.iter()
-            .filter(|&&end| wanted(end))
-            .map(|&end| (sites.place(end), end))
-            .collect()
+        ends.iter().filter(|&&end| wanted(end)).map(|&end| (sites.place(end), end)).collect()
     };
     // The tree to search for the partners of an even and of an odd end. Two trees rather than one with a filter: the
     // nearest thousand ends may all be of the wrong kind.
     let trees = match direction {
         Direction::Either => vec![KdTree::new(labelled(&|_| true))],
-        Direction::AsDrawn => vec![
-            KdTree::new(labelled(&|end| end & 1 == 1)),
-            KdTree::new(labelled(&|end| end & 1 == 0)),
-        ],
+        Direction::AsDrawn => vec![KdTree::new(labelled(&|end| end & 1 == 1)), KdTree::new(labelled(&|end| end & 1 == 0))],
     };
     ends.par_iter()
         .map_init(Vec::new, |nearest, &end| {
             let tree = &trees[(end & 1) as usize % trees.len()];
-            tree.nearest(
-                (sites.place(end), end),
-                count,
-                |other| may_link(end, other),
-                nearest,
-            );
+            tree.nearest((sites.place(end), end), count, |other| may_link(end, other), nearest);
             nearest.iter().map(|&(_, other)| other).collect()
         })
         .collect()

@@ -29,13 +29,7 @@ pub(super) struct Patch {
 impl Patch {
     /// The patch of the paths in these seats, which ascend. `renumbered` has an entry for each end, all `End::MAX`, and is left
     /// like that. O(number of paths in the patch).
-    pub(super) fn new(
-        sites: &Sites,
-        neighbours: &Neighbours,
-        tour: &Tour,
-        seats: &[usize],
-        renumbered: &mut [End],
-    ) -> Self {
+    pub(super) fn new(sites: &Sites, neighbours: &Neighbours, tour: &Tour, seats: &[usize], renumbered: &mut [End]) -> Self {
         let mut pieces = Vec::with_capacity(2 * seats.len() + 1);
         for (i, &seat) in seats.iter().enumerate() {
             pieces.push(seat);
@@ -45,33 +39,20 @@ impl Patch {
             }
         }
         pieces.push(seats[0] + tour.len());
-        let ends: Vec<End> = pieces
-            .windows(2)
-            .flat_map(|piece| [tour.entry(piece[0]), tour.entry(piece[1] - 1) ^ 1])
-            .collect();
+        let ends: Vec<End> = pieces.windows(2).flat_map(|piece| [tour.entry(piece[0]), tour.entry(piece[1] - 1) ^ 1]).collect();
         for (new, &end) in (0..).zip(&ends) {
             renumbered[end as usize] = new;
         }
-        let neighbours = neighbours.part(&ends, |end| {
-            Some(renumbered[end as usize]).filter(|&new| new != End::MAX)
-        });
+        let neighbours = neighbours.part(&ends, |end| Some(renumbered[end as usize]).filter(|&new| new != End::MAX));
         for &end in &ends {
             renumbered[end as usize] = End::MAX;
         }
-        Self {
-            sites: sites.part(&ends),
-            neighbours,
-            pieces,
-        }
+        Self { sites: sites.part(&ends), neighbours, pieces }
     }
 
     /// The small tour before any change.
     pub(super) fn tour(&self) -> Tour {
-        Tour::new(
-            (0..self.piece_count() as End)
-                .map(|piece| 2 * piece)
-                .collect(),
-        )
+        Tour::new((0..self.piece_count() as End).map(|piece| 2 * piece).collect())
     }
 
     /// Number of paths of the small tour.

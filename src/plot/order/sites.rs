@@ -32,50 +32,29 @@ pub(super) struct Sites {
 /// Numbers the paths along a k-d tree of their middles, so that neighbours on paper are close in memory. Returns
 /// the caller's number of each; the home path is the last one and not among these.
 pub(super) fn numbering(paths: &[PathEnds]) -> Vec<usize> {
-    let middles = paths
-        .iter()
-        .map(|path| clamped(path.start).midpoint(clamped(path.end)));
-    KdTree::new(middles.zip(0..).collect())
-        .into_labels()
-        .map(|path| path as usize)
-        .collect()
+    let middles = paths.iter().map(|path| clamped(path.start).midpoint(clamped(path.end)));
+    KdTree::new(middles.zip(0..).collect()).into_labels().map(|path| path as usize).collect()
 }
 
 impl Sites {
     /// The ends of all paths in this numbering, and of the home path.
     pub(super) fn new(paths: &[PathEnds], numbering: &[usize], home: Point) -> Self {
-        let ends = numbering
-            .iter()
-            .flat_map(|&path| [paths[path].start, paths[path].end]);
+        let ends = numbering.iter().flat_map(|&path| [paths[path].start, paths[path].end]);
         let at: Vec<Point> = ends.chain([home, home]).map(clamped).collect();
         let corner = |pick: fn(f64, f64) -> f64| {
-            at.iter()
-                .copied()
-                .reduce(|p, q| Point::new(pick(p.x, q.x), pick(p.y, q.y)))
-                .unwrap_or(home)
+            at.iter().copied().reduce(|p, q| Point::new(pick(p.x, q.x), pick(p.y, q.y))).unwrap_or(home)
         };
         // A sum of a dozen distances is wrong by some 1e-15 of the extent at most: whatever the search takes for a gain
         // above this is one, so it never walks in circles.
         let tolerance = 1e-12 * corner(f64::min).distance(corner(f64::max));
-        Self {
-            at,
-            free: 2 * numbering.len() as End,
-            tolerance,
-        }
+        Self { at, free: 2 * numbering.len() as End, tolerance }
     }
 
     /// Some of these ends under new numbers, two and two those of a path.
     pub(super) fn part(&self, ends: &[End]) -> Self {
         let at = ends.iter().map(|&end| self.place(end)).collect();
-        let free = ends
-            .iter()
-            .position(|&end| end == self.free)
-            .map_or(End::MAX, |end| end as End);
-        Self {
-            at,
-            free,
-            tolerance: self.tolerance,
-        }
+        let free = ends.iter().position(|&end| end == self.free).map_or(End::MAX, |end| end as End);
+        Self { at, free, tolerance: self.tolerance }
     }
 
     /// Number of paths with the home path.
@@ -109,14 +88,11 @@ impl Sites {
         if a == self.free || b == self.free {
             return 0.0;
         }
-        // Not `hypot`, which takes five times as long to be safe from an overflow that the clamping rules out.
+        // Not `hypot`, which guards against an overflow that the clamping rules out: this is the innermost loop.
         (self.at[a as usize] - self.at[b as usize]).hypot2().sqrt()
     }
 }
 
 fn clamped(p: Point) -> Point {
-    Point::new(
-        p.x.clamp(-FARTHEST, FARTHEST),
-        p.y.clamp(-FARTHEST, FARTHEST),
-    )
+    Point::new(p.x.clamp(-FARTHEST, FARTHEST), p.y.clamp(-FARTHEST, FARTHEST))
 }

@@ -25,10 +25,7 @@ fn point() -> impl Strategy<Value = Point> {
 }
 
 fn paths(most: usize) -> impl Strategy<Value = Vec<PathEnds>> {
-    prop::collection::vec(
-        (point(), point()).prop_map(|(start, end)| PathEnds { start, end }),
-        0..most,
-    )
+    prop::collection::vec((point(), point()).prop_map(|(start, end)| PathEnds { start, end }), 0..most)
 }
 
 fn polylines() -> impl Strategy<Value = Vec<Vec<Point>>> {
@@ -45,10 +42,7 @@ fn scattered(count: usize, length: f64) -> Vec<PathEnds> {
     let mut millimetres = |most: f64| random.below(1 << 30) as f64 / f64::from(1 << 30) * most;
     let mut path = || {
         let start = Point::new(millimetres(100.0), millimetres(100.0));
-        PathEnds {
-            start,
-            end: start + (millimetres(length), millimetres(length)),
-        }
+        PathEnds { start, end: start + (millimetres(length), millimetres(length)) }
     };
     (0..count).map(|_| path()).collect()
 }
@@ -68,22 +62,11 @@ fn optimum(paths: &[PathEnds], pen: Point, left: &[usize], direction: Direction)
     if left.is_empty() {
         return 0.0;
     }
-    let rest = |path: usize| -> Vec<usize> {
-        left.iter()
-            .copied()
-            .filter(|&other| other != path)
-            .collect()
-    };
-    let via = |path: usize, from: Point, to: Point| {
-        pen.distance(from) + optimum(paths, to, &rest(path), direction)
-    };
+    let rest = |path: usize| -> Vec<usize> { left.iter().copied().filter(|&other| other != path).collect() };
+    let via = |path: usize, from: Point, to: Point| pen.distance(from) + optimum(paths, to, &rest(path), direction);
     let ways = left.iter().flat_map(|&path| {
         let PathEnds { start, end } = paths[path];
-        let backwards = if direction == Direction::Either {
-            via(path, end, start)
-        } else {
-            f64::INFINITY
-        };
+        let backwards = if direction == Direction::Either { via(path, end, start) } else { f64::INFINITY };
         [via(path, start, end), backwards]
     });
     ways.fold(f64::INFINITY, f64::min)
@@ -122,7 +105,7 @@ proptest! {
 
     #[test]
     fn chains_keep_all_ink_and_meet_no_more(lines in polylines()) {
-        let chains = chain(lines.clone(), 0.0);
+        let chains = chain(lines.clone(), 0.0, Direction::Either);
         let ink = |paths: &[Vec<Point>]| -> f64 { paths.iter().flat_map(|path| path.windows(2)).map(|gap| gap[0].distance(gap[1])).sum() };
         prop_assert!((ink(&lines) - ink(&chains)).abs() < 1e-6);
         prop_assert!(chains.len() <= lines.len());
@@ -138,7 +121,9 @@ proptest! {
             let mut more = lines.clone();
             let mut copy = again.get(&lines).clone();
             copy.reverse();
-            copy.iter_mut().for_each(|p| *p += (0.004, -0.004));
+            for p in &mut copy {
+                *p += (0.004, -0.004);
+            }
             more.push(copy);
             prop_assert_eq!(drop_duplicates(more, 0.01), once);
         }
@@ -165,38 +150,21 @@ proptest! {
 
 #[test]
 fn degenerate_input_is_ordered() {
-    let dot = |x: f64, y: f64| PathEnds {
-        start: Point::new(x, y),
-        end: Point::new(x, y),
-    };
+    let dot = |x: f64, y: f64| PathEnds { start: Point::new(x, y), end: Point::new(x, y) };
     let inputs = [
         vec![],
         vec![dot(1.0, 2.0)],
         vec![dot(1.0, 2.0), dot(-1.0, 2.0)],
         vec![dot(3.0, 3.0); 2000],
-        vec![
-            PathEnds {
-                start: Point::new(0.0, 0.0),
-                end: Point::new(5.0, 0.0)
-            };
-            2000
-        ],
+        vec![PathEnds { start: Point::new(0.0, 0.0), end: Point::new(5.0, 0.0) }; 2000],
         (0..500).map(|i| dot(f64::from(i % 7), 0.0)).collect(),
-        vec![
-            dot(f64::MAX, f64::MIN),
-            dot(f64::MIN, f64::MAX),
-            dot(1e300, 0.0),
-            dot(0.0, 0.0),
-        ],
+        vec![dot(f64::MAX, f64::MIN), dot(f64::MIN, f64::MAX), dot(1e300, 0.0), dot(0.0, 0.0)],
         (0..100).map(|i| dot(1e15 + f64::from(i), 1e-15)).collect(),
     ];
     for paths in inputs {
         for direction in [Direction::Either, Direction::AsDrawn] {
             for effort in [Effort::None, Effort::Fast] {
-                assert!(is_permutation(
-                    &order(&paths, HOME, effort, direction),
-                    paths.len()
-                ));
+                assert!(is_permutation(&order(&paths, HOME, effort, direction), paths.len()));
             }
         }
     }
@@ -206,10 +174,7 @@ fn degenerate_input_is_ordered() {
 fn the_number_of_threads_changes_nothing() {
     let paths = scattered(12_000, 3.0);
     let on_threads = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("a small pool");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a small pool");
         pool.install(|| order(&paths, HOME, Effort::Fast, Direction::Either))
     };
     assert_eq!(on_threads(1), on_threads(3));
@@ -235,14 +200,13 @@ fn gains_add_up_to_the_difference_in_length() {
         let all: Vec<u32> = (0..sites.end_count() as u32).collect();
         let mut search = LinKernighan::new(&sites, &neighbours, first);
         let before = search.length_at(&all);
-        all.iter().for_each(|&end| search.look_at(end));
+        for &end in &all {
+            search.look_at(end);
+        }
         let mut gained = search.improve(Tour::keep);
         gained += kick(&mut search, 2000, &mut SplitMix::new(1));
         let after = search.length_at(&all);
-        assert!(
-            gained > 0.0 && (before - after - gained).abs() < 1e-9 * before,
-            "{before} - {after} is not {gained}"
-        );
+        assert!(gained > 0.0 && (before - after - gained).abs() < 1e-9 * before, "{before} - {after} is not {gained}");
     }
 }
 
@@ -264,23 +228,16 @@ fn exchanges_that_leave_several_rings_are_refused() {
     // Cut 1|2 and 5|6. Joining the entry of 2 with the exit of 5 makes a ring of them; with the entry of 6, it turns them round.
     assert!(Rearrangement::new(&tour, &[3, 4, 11, 12]).is_none());
     let reversal = Rearrangement::new(&tour, &[3, 4, 12, 11]);
-    assert_eq!(reversal.map(|new| new.cost()), Some(4));
+    assert!(reversal.is_some_and(|new| { new.moved().all(|segment| segment.reversed && segment.len == 4) }));
 }
 
 #[test]
 fn neighbouring_hatch_lines_stay_apart() {
     let line = |x0: f64, x1: f64, y: f64| vec![Point::new(x0, y), Point::new(x1, y)];
-    let hatch = vec![
-        line(0.0, 10.0, 0.0),
-        line(10.0, 0.0, 0.04),
-        line(0.0, 10.0, 0.08),
-    ];
-    assert_eq!(chain(hatch.clone(), 0.05), hatch);
+    let hatch = vec![line(0.0, 10.0, 0.0), line(10.0, 0.0, 0.04), line(0.0, 10.0, 0.08)];
+    assert_eq!(chain(hatch.clone(), 0.05, Direction::Either), hatch);
     let broken = vec![line(0.0, 10.0, 0.0), line(20.0, 10.03, 0.0)];
-    assert_eq!(
-        chain(broken, 0.05),
-        [[0.0, 10.0, 10.03, 20.0].map(|x| Point::new(x, 0.0))]
-    );
+    assert_eq!(chain(broken, 0.05, Direction::Either), [[0.0, 10.0, 10.03, 20.0].map(|x| Point::new(x, 0.0))]);
 }
 
 #[test]
@@ -292,28 +249,17 @@ fn four_sides_make_a_square_and_dots_stay_dots() {
         vec![corners[2], corners[3]],
         vec![corners[0], corners[3]],
     ];
-    assert_eq!(
-        chain(sides, 0.01),
-        [[corners[0], corners[1], corners[2], corners[3], corners[0]]]
-    );
-    let dots: Vec<Vec<Point>> = (0..5)
-        .map(|i| vec![Point::new(f64::from(i) * 0.001, 0.0); 2])
-        .collect();
-    assert_eq!(chain(dots.clone(), 0.01), dots);
+    assert_eq!(chain(sides, 0.01, Direction::Either), [[corners[0], corners[1], corners[2], corners[3], corners[0]]]);
+    let dots: Vec<Vec<Point>> = (0..5).map(|i| vec![Point::new(f64::from(i) * 0.001, 0.0); 2]).collect();
+    assert_eq!(chain(dots.clone(), 0.01, Direction::Either), dots);
 }
 
 #[test]
 fn a_crossroads_is_gone_straight_over() {
     let arm = |x: f64, y: f64| vec![Point::new(x, y), Point::ZERO];
-    let chains = chain(
-        vec![arm(1.0, 0.0), arm(0.0, 1.0), arm(-1.0, 0.0), arm(0.0, -1.0)],
-        0.0,
-    );
+    let chains = chain(vec![arm(1.0, 0.0, Direction::Either), arm(0.0, 1.0), arm(-1.0, 0.0), arm(0.0, -1.0)], 0.0);
     assert_eq!(
         chains,
-        [
-            [(1.0, 0.0), (0.0, 0.0), (-1.0, 0.0)].map(Point::from),
-            [(0.0, 1.0), (0.0, 0.0), (0.0, -1.0)].map(Point::from)
-        ]
+        [[(1.0, 0.0), (0.0, 0.0), (-1.0, 0.0)].map(Point::from), [(0.0, 1.0), (0.0, 0.0), (0.0, -1.0)].map(Point::from)]
     );
 }

@@ -31,12 +31,7 @@ struct Run {
 impl Tour {
     /// The tour that enters all paths at the given ends, in that order.
     pub(super) fn new(entry: Vec<End>) -> Self {
-        let mut tour = Self {
-            start_position: vec![0; entry.len()],
-            entry,
-            overwritten: Vec::new(),
-            runs: Vec::new(),
-        };
+        let mut tour = Self { start_position: vec![0; entry.len()], entry, overwritten: Vec::new(), runs: Vec::new() };
         for seat in 0..tour.entry.len() {
             tour.seat(seat, tour.entry[seat]);
         }
@@ -65,17 +60,9 @@ impl Tour {
         let position = self.position(end);
         let seat = position as usize >> 1;
         if position & 1 == 1 {
-            self.entry[if seat + 1 == self.entry.len() {
-                0
-            } else {
-                seat + 1
-            }]
+            self.entry[if seat + 1 == self.entry.len() { 0 } else { seat + 1 }]
         } else {
-            self.entry[if seat == 0 {
-                self.entry.len() - 1
-            } else {
-                seat - 1
-            }] ^ 1
+            self.entry[if seat == 0 { self.entry.len() - 1 } else { seat - 1 }] ^ 1
         }
     }
 
@@ -86,9 +73,7 @@ impl Tour {
 
     /// The entered ends in the order of the tour, beginning with this end and in the direction that enters there.
     pub(super) fn entries_from(&self, end: End) -> Vec<End> {
-        std::iter::successors(Some(end), |&entered| Some(self.link(entered ^ 1)))
-            .take(self.len())
-            .collect()
+        std::iter::successors(Some(end), |&entered| Some(self.link(entered ^ 1))).take(self.len()).collect()
     }
 
     /// Changes the tour. O(number of paths outside the longest segment).
@@ -127,24 +112,15 @@ impl Tour {
     }
 
     fn log(&mut self, seat: usize, len: usize) {
-        self.runs.push(Run {
-            seat,
-            logged_at: self.overwritten.len(),
-        });
+        self.runs.push(Run { seat, logged_at: self.overwritten.len() });
         let before_wrap = len.min(self.entry.len() - seat);
-        self.overwritten
-            .extend_from_slice(&self.entry[seat..seat + before_wrap]);
-        self.overwritten
-            .extend_from_slice(&self.entry[..len - before_wrap]);
+        self.overwritten.extend_from_slice(&self.entry[seat..seat + before_wrap]);
+        self.overwritten.extend_from_slice(&self.entry[..len - before_wrap]);
     }
 
     #[inline]
     fn seat(&mut self, seat: usize, entry: End) {
-        let seat = if seat >= self.entry.len() {
-            seat - self.entry.len()
-        } else {
-            seat
-        };
+        let seat = if seat >= self.entry.len() { seat - self.entry.len() } else { seat };
         self.entry[seat] = entry;
         self.start_position[entry as usize >> 1] = 2 * seat as u32 + (entry & 1);
     }

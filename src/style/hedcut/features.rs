@@ -1,7 +1,8 @@
 //! Steps 1, 2 and 12: edges and isophotes, found or hand-made.
 
 use super::Drawer;
-use crate::field::{Curve, EdgeParameters, detect_edges, detect_isophotes, lines_of};
+use crate::field::{Curve, EdgeParameters, contours, detect_edges, detect_isophotes, distance_to_curves, lines_of};
+use crate::geometry::smooth_polyline;
 use crate::raster::{Raster, Thresholds, bilateral, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
@@ -24,7 +25,7 @@ impl Drawer<'_> {
         let lightness = self.portrait.lightness.zip_map(&self.portrait.subject, |l, subject| 1.0 - (1.0 - l) * subject);
         let edges = match self.portrait.masks.get(&MaskRole::Edges) {
             Some(mask) => self.hand_made(mask),
-            None => self.found_edges(&lightness),
+            None => self.with_silhouette(self.found_edges(&lightness)),
         };
         self.observer.begin("isophotes");
         let (isophotes, smoothed) = match self.portrait.masks.get(&MaskRole::Isophotes) {
@@ -56,6 +57,30 @@ impl Drawer<'_> {
         self.observer.picture("edges-kept", &|| Picture::Mask(steps.kept.clone()));
         self.observer.picture("edges-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
         lines_of(&steps.skeleton, parameters.smoothing, 0.5 * parameters.least_length)
+    }
+
+    /// The subject's own border is its silhouette, exactly; edges found beside it (a pixel or two off) would leave a strip too
+    /// narrow for a row of dots, so those parts of them give way.
+    fn with_silhouette(&self, edges: Vec<Curve>) -> Vec<Curve> {
+        let smoothing = self.pixels(self.parameters.smoothing_mm).max(1.0);
+        let least = self.pixels(self.parameters.edge_length_mm);
+        let (width, height) = self.size();
+        let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
+            .into_iter()
+            .filter(|line| line.length() >= least)
+            .map(|line| Curve { points: smooth_polyline(&line.points, line.closed, smoothing, 1.5), closed: line.closed })
+            .filter(|line| line.points.len() > 1)
+            .collect();
+        let Some(field) = distance_to_curves(&silhouette, width, height) else { return edges };
+        let reach = (0.9 * self.pitch()) as f32;
+        let apart = edges.iter().flat_map(|edge| {
+            edge.points.split(|p| field.distance.sample(p.x, p.y) < reach).filter(|run| run.len() > 1).map(|run| Curve {
+                points: run.to_vec(),
+                closed: edge.closed && run.len() == edge.points.len(),
+            })
+        });
+        let kept: Vec<Curve> = apart.filter(|line| line.length() >= 0.5 * least).collect();
+        silhouette.into_iter().chain(kept).collect()
     }
 
     fn found_isophotes(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Raster<f32>) {
@@ -102,4 +127,3 @@ impl Drawer<'_> {
         Mark::Stroke(Stroke { curve: path, width: Width::Constant(0.2 * self.parameters.pitch_mm), colour: None })
     }
 }
-

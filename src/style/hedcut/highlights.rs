@@ -31,9 +31,7 @@ pub(super) fn thin_out(drawer: &Drawer<'_>, dots: Vec<SizedDot>, features: &Feat
     }
     let fade = Fade::new(drawer);
     let least = LEAST_FADING_RADIUS * drawer.pitch();
-    let is_specks = |dot: &SizedDot| {
-        dot.radius < least && fade.share(features.smoothed.sample(dot.centre.x, dot.centre.y)) < 1.0
-    };
+    let is_specks = |dot: &SizedDot| dot.radius < least && fade.share(features.smoothed.sample(dot.centre.x, dot.centre.y)) < 1.0;
     let (specks, mut kept): (Vec<SizedDot>, Vec<SizedDot>) = dots.into_iter().partition(is_specks);
     let centres: Vec<Point> = specks.iter().map(|dot| dot.centre).collect();
     let count = centres.len() as f64;

@@ -71,7 +71,9 @@ impl Drawer<'_> {
         let ink = self.portrait.ink();
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
-            return Err(StyleError::NothingToDraw("the picture, or the part inside the subject mask, is white all over".to_owned()));
+            return Err(StyleError::NothingToDraw(
+                "the picture, or the part inside the subject mask, is white all over".to_owned(),
+            ));
         }
         let features = self.features();
         let lanes = self.lanes(&features);

@@ -65,13 +65,13 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "levels",
-        kind: Kind::Count { default: 6, least: 2, most: 64 },
+        kind: Kind::Count { default: 8, least: 2, most: 64 },
         meaning: "steps of lightness between which isophotes run",
         source: "Bruehl 2.2",
     },
     Parameter {
         name: "isophotes",
-        kind: Kind::Count { default: 2, least: 0, most: 63 },
+        kind: Kind::Count { default: 3, least: 0, most: 63 },
         meaning: "how many of the lightest steps are outlined by isophotes; 0 for none",
         source: "Bruehl 2.2, t",
     },

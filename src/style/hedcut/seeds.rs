@@ -42,7 +42,8 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
 fn density(drawer: &Drawer<'_>) -> Raster<f32> {
     let subject = &drawer.portrait.subject;
     match drawer.detail() {
-        Some(detail) => subject.zip_map(detail, |s, d| if s < 0.5 { 0.0 } else if d >= 0.5 { DETAIL_DENSITY } else { 1.0 }),
+        // A soft mask gives a soft change, which hides the border.
+        Some(detail) => subject.zip_map(detail, |s, d| if s < 0.5 { 0.0 } else { 1.0 + (DETAIL_DENSITY - 1.0) * d }),
         None => subject.map(|s| f32::from(s >= 0.5)),
     }
 }
@@ -90,12 +91,14 @@ struct Constraint<'a> {
 }
 
 impl Constraint<'_> {
-    /// The weight of a pixel for a dot in `lane`: 1 in its own lane, 0 in another, on offset lines `min(D / D_w, 1)`.
+    /// The weight of a pixel for a dot in `lane`: 1 in its own lane, 0 in another, on offset lines `min(D / D_w, 1)`. The border
+    /// of a detail region is no lane border: a wall there would leave a bare ring (seen).
     fn weight(&self, pixel: usize, lane: i32) -> f32 {
         if self.lanes.line.pixels()[pixel] != 0 {
             (self.lanes.distance.pixels()[pixel] / self.reach).min(1.0)
         } else {
-            f32::from(self.lanes.lane.pixels()[pixel] == lane)
+            let its = self.lanes.lane.pixels()[pixel];
+            f32::from(its == lane || Lanes::region(its) != Lanes::region(lane))
         }
     }
 }
@@ -106,10 +109,9 @@ fn towards_centres(sites: &[Point], weight: &Raster<f32>, constraint: Option<Con
     let nearest = Sites::new(sites, width as f64, height as f64, pitch).nearest(weight);
     let lane_of: Vec<i32> = match constraint {
         None => Vec::new(),
-        Some(c) => sites
-            .iter()
-            .map(|p| c.lanes.lane.get((p.x as usize).min(width - 1), (p.y as usize).min(height - 1)))
-            .collect(),
+        Some(c) => {
+            sites.iter().map(|p| c.lanes.lane.get((p.x as usize).min(width - 1), (p.y as usize).min(height - 1))).collect()
+        }
     };
     let rows = height.div_ceil(BANDS);
     let sums: Vec<BandSums> = (0..BANDS)
@@ -173,7 +175,10 @@ impl Drawer<'_> {
         use crate::drawing::{Dot, Layer, Mark};
         let scale = self.portrait.placement.mm_per_pixel();
         let mut layer = Layer::new("dots", 1);
-        layer.marks = dots.iter().map(|dot| Mark::Dot(Dot::circle(self.portrait.placement.to_page(dot.centre), dot.radius * scale))).collect();
+        layer.marks = dots
+            .iter()
+            .map(|dot| Mark::Dot(Dot::circle(self.portrait.placement.to_page(dot.centre), dot.radius * scale)))
+            .collect();
         layer
     }
 }
