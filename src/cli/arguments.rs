@@ -64,7 +64,7 @@ pub(super) struct PictureOptions {
     /// Parameters from a TOML file; --set wins.
     #[arg(long, value_name = "FILE")]
     pub params: Option<PathBuf>,
-    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or WxH [default: the picture's own size].
+    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the picture's own size].
     #[arg(long, value_name = "NAME|WxH")]
     pub page: Option<String>,
     /// Kept free on the sheet [default: 0, with --page 10mm].
@@ -182,7 +182,7 @@ pub(super) struct PlotOptions {
     /// Draw only these layers, by name or pen number, separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "LIST")]
     pub layers: Vec<String>,
-    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or WxH [default: the SVG's own size].
+    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the SVG's own size].
     #[arg(long, value_name = "NAME|WxH")]
     pub page: Option<String>,
     /// Kept free on the sheet with --fit page.
@@ -334,7 +334,8 @@ fn key_value(text: &str) -> Result<(String, String), String> {
 }
 
 fn length_above_zero(text: &str) -> Result<f64, String> {
-    length_from_zero(text).and_then(|mm| if mm > 0.0 { Ok(mm) } else { Err("must be above 0".to_owned()) })
+    let mm = parse_length(text).map_err(|error| error.to_string())?;
+    if mm > 0.0 { length_from_zero(text) } else { Err("must be above 0".to_owned()) }
 }
 
 fn length_from_zero(text: &str) -> Result<f64, String> {

@@ -58,9 +58,9 @@ fn write_one(
     if profile.is_none() {
         let fill = |mut out: &mut dyn std::io::Write| write_svg(drawing, head, &mut out);
         if options.dry_run {
-            toolpaths::discard(fill)?
+            toolpaths::discard(fill)?;
         } else {
-            output::write(name, fill)?
+            output::write(name, fill)?;
         }
         return Ok(None);
     }
@@ -108,7 +108,7 @@ impl<'a> Task<'a> {
         let portrait = self.portrait()?;
         self.style.draw(&portrait, &self.settings, self.options.seed, observer).map_err(|error| match error {
             StyleError::Interrupted => Failure::Interrupted,
-            other => Failure::Work(format!("{}: {other}", self.options.photo)),
+            nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
         })
     }
 

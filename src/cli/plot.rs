@@ -63,9 +63,8 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
     match options.ink_model {
         _ if imported.is_toolpaths => InkModel::Lines,
         Some(InkModelOption::Ink) => InkModel::Ink,
-        Some(InkModelOption::Lines) => InkModel::Lines,
         None if imported.recipe.is_some() => InkModel::Ink,
-        None => InkModel::Lines,
+        Some(InkModelOption::Lines) | None => InkModel::Lines,
     }
 }
 

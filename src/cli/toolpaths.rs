@@ -32,7 +32,7 @@ pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Fa
 
 /// A profile by name, or from a file when there is a path or a .toml ending.
 pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, Failure> {
-    let is_file = name.contains('/') || name.ends_with(".toml");
+    let is_file = name.contains('/') || std::path::Path::new(name).extension().is_some_and(|e| e == "toml");
     let mut profile = if is_file {
         let bytes = output::read(name)?;
         let text =

@@ -2,12 +2,13 @@
 
 use super::Colour;
 use crate::geometry::{
-    Affine, BezPath, Point, Rect, clip_polygon, clip_polyline, curve_length, flatten, polygon_area, swelling_outline,
+    Affine, BezPath, Point, Rect, clip_disc, clip_polygon, clip_polyline, curve_length, flatten, polygon_area, swelling_outline,
 };
 use kurbo::{PathEl, Shape};
 
-/// Flattening tolerance where a curve must become a polygon to be cut, in millimetres: a fifth of the smallest written step.
-const CUT_TOLERANCE: f64 = 0.000_2;
+/// Flattening tolerance where a curve must become a polygon to be cut, in millimetres: a few of the smallest written steps, so
+/// that a cut blob stays a short path.
+const CUT_TOLERANCE: f64 = 0.004;
 /// How far a swelling stroke's outline may lie from the true one, in millimetres; half of what is written (0.001 mm) would not
 /// be seen, this is a hundredth of a hair.
 pub(super) const OUTLINE_TOLERANCE: f64 = 0.002;
@@ -97,7 +98,10 @@ impl Dot {
         if contains(rect, self.bounding_box()) {
             return Some(self.clone());
         }
-        let outline = clip_outline(&self.path(), rect);
+        let outline = match &self.outline {
+            Some(outline) => clip_outline(outline, rect, (0.02 * self.radius).max(CUT_TOLERANCE)),
+            None => clip_disc(self.centre, self.radius, rect),
+        };
         let area = outline.area().abs();
         (area > 0.0).then(|| Self {
             centre: Point::new(self.centre.x.clamp(rect.x0, rect.x1), self.centre.y.clamp(rect.y0, rect.y1)),
@@ -203,7 +207,7 @@ impl Area {
         if contains(rect, self.outline.bounding_box()) {
             return Some(self.clone());
         }
-        let outline = clip_outline(&self.outline, rect);
+        let outline = clip_outline(&self.outline, rect, CUT_TOLERANCE);
         (outline.area().abs() > 0.0).then_some(Self { outline, colour: self.colour })
     }
 }
@@ -274,9 +278,9 @@ fn contains(rect: Rect, inner: Rect) -> bool {
 }
 
 /// Each subpath of a filled outline cut to a rectangle, as polygons.
-fn clip_outline(outline: &BezPath, rect: Rect) -> BezPath {
+fn clip_outline(outline: &BezPath, rect: Rect, tolerance: f64) -> BezPath {
     let mut cut = BezPath::new();
-    for (polygon, _) in flatten(outline, CUT_TOLERANCE) {
+    for (polygon, _) in flatten(outline, tolerance) {
         let inside = clip_polygon(&polygon, rect);
         if inside.len() < 3 || polygon_area(&inside) == 0.0 {
             continue;

@@ -162,20 +162,20 @@ impl Tracer<'_> {
         })
     }
 
-    fn window(&self, around: Point) -> impl Iterator<Item = (isize, isize)> + use<> {
+    fn window(around: Point) -> impl Iterator<Item = (isize, isize)> {
         let (cx, cy) = (around.x.floor() as isize, around.y.floor() as isize);
         (-WINDOW..=WINDOW).flat_map(move |dy| (-WINDOW..=WINDOW).map(move |dx| (cx + dx, cy + dy)))
     }
 
     fn nearest_fresh(&self, predicted: Point) -> Option<Point> {
-        self.window(predicted)
+        Self::window(predicted)
             .filter(|&(x, y)| self.is_fresh(x, y))
             .map(|(x, y)| centre(x, y))
             .min_by(|a, b| a.distance_squared(predicted).total_cmp(&b.distance_squared(predicted)))
     }
 
     fn is_visited_edge_near(&self, predicted: Point) -> bool {
-        self.window(predicted).any(|(x, y)| self.is_edge(x, y))
+        Self::window(predicted).any(|(x, y)| self.is_edge(x, y))
     }
 
     /// Marks the edge pixels that a segment stands for.

@@ -1,6 +1,7 @@
 //! Clipping by straight borders: convex polygons by a half plane, polygons and polylines by a rectangle.
 
-use kurbo::{Point, Rect, Vec2};
+use kurbo::{BezPath, Point, Rect, Vec2};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The part of a polygon on the side of `origin` that `normal` points away from: `(p - origin) . normal <= 0`.
 /// The result is written to `out`, so that callers in a loop allocate nothing.
@@ -37,6 +38,100 @@ pub fn clip_polygon(polygon: &[Point], rect: Rect) -> Vec<Point> {
     current
 }
 
+/// The part of a disc inside a rectangle, as arcs (cubics, 3e-4 of the radius off at most) and straight borders; empty when
+/// nothing is inside.
+///
+/// ```text
+///   +-----------+      arcs run with growing angle; where the circle leaves over one side and returns over
+///   |      .--. |      another, the border turns at the corner between them
+///   |     (    )|
+///   +------`--'-+
+/// ```
+pub fn clip_disc(centre: Point, radius: f64, rect: Rect) -> BezPath {
+    let on_circle = |angle: f64| centre + Vec2::from_angle(angle) * radius;
+    let mut angles = crossings(centre, radius, rect);
+    angles.sort_by(f64::total_cmp);
+    angles.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
+    let mut path = BezPath::new();
+    if angles.len() < 2 {
+        if rect.contains(centre) && rect.inflate(1e-9, 1e-9).contains(on_circle(angles.first().map_or(0.3, |a| a + 0.3))) {
+            append_arc(&mut path, centre, radius, 0.0, TAU);
+            path.close_path();
+        }
+        return path;
+    }
+    for (i, &from) in angles.iter().enumerate() {
+        let to = if i + 1 < angles.len() { angles[i + 1] } else { angles[0] + TAU };
+        if !rect.contains(on_circle(0.5 * (from + to))) {
+            continue;
+        }
+        if let Some(corner) =
+            path.elements().last().and_then(kurbo::PathEl::end_point).and_then(|last| corner_between(last, on_circle(from), rect))
+        {
+            path.line_to(corner);
+        }
+        append_arc(&mut path, centre, radius, from, to);
+    }
+    let (first, last) =
+        (path.elements().first().and_then(kurbo::PathEl::end_point), path.elements().last().and_then(kurbo::PathEl::end_point));
+    if let (Some(first), Some(last)) = (first, last) {
+        if let Some(corner) = corner_between(last, first, rect) {
+            path.line_to(corner);
+        }
+        path.close_path();
+    }
+    path
+}
+
+/// Angles at which a circle meets the sides of a rectangle.
+fn crossings(centre: Point, radius: f64, rect: Rect) -> Vec<f64> {
+    let mut angles = Vec::new();
+    for x in [rect.x0, rect.x1] {
+        let cosine = (x - centre.x) / radius;
+        if cosine.abs() < 1.0 {
+            let angle = cosine.acos();
+            angles.extend([angle, -angle].into_iter().filter(|a| (rect.y0..=rect.y1).contains(&(centre.y + radius * a.sin()))));
+        }
+    }
+    for y in [rect.y0, rect.y1] {
+        let sine = (y - centre.y) / radius;
+        if sine.abs() < 1.0 {
+            let angle = sine.asin();
+            let both = [angle, 2.0 * FRAC_PI_2 - angle];
+            angles.extend(both.into_iter().filter(|a| (rect.x0..=rect.x1).contains(&(centre.x + radius * a.cos()))));
+        }
+    }
+    angles.into_iter().map(|a| a.rem_euclid(TAU)).collect()
+}
+
+/// The corner at which the border turns between a point on one side and a point on the next.
+fn corner_between(a: Point, b: Point, rect: Rect) -> Option<Point> {
+    let side_x = |p: Point| [rect.x0, rect.x1].into_iter().find(|x| (p.x - x).abs() < 1e-9);
+    let side_y = |p: Point| [rect.y0, rect.y1].into_iter().find(|y| (p.y - y).abs() < 1e-9);
+    match ((side_x(a), side_y(a)), (side_x(b), side_y(b))) {
+        ((Some(x), None), (None, Some(y))) | ((None, Some(y)), (Some(x), None)) => Some(Point::new(x, y)),
+        _ => None,
+    }
+}
+
+/// An arc as cubics of at most a quarter turn; starts the path if it is empty.
+fn append_arc(path: &mut BezPath, centre: Point, radius: f64, from: f64, to: f64) {
+    let count = ((to - from) / FRAC_PI_2 - 1e-9).ceil().max(1.0);
+    let step = (to - from) / count;
+    let handle = radius * 4.0 / 3.0 * (step / 4.0).tan();
+    let start = centre + Vec2::from_angle(from) * radius;
+    if path.elements().is_empty() {
+        path.move_to(start);
+    } else {
+        path.line_to(start);
+    }
+    for i in 0..count as usize {
+        let (a, b) = (Vec2::from_angle(from + step * i as f64), Vec2::from_angle(from + step * (i as f64 + 1.0)));
+        let (p, q) = (centre + a * radius, centre + b * radius);
+        path.curve_to(p + a.turn_90() * handle, q - b.turn_90() * handle, q);
+    }
+}
+
 /// The pieces of a polyline inside a rectangle, in order and direction, each with the position along the line
 /// (vertex index plus fraction) of each of its points, so that widths and pressure can follow.
 pub fn clip_polyline(points: &[Point], rect: Rect) -> Vec<Vec<(Point, f64)>> {
@@ -51,8 +146,10 @@ pub fn clip_polyline(points: &[Point], rect: Rect) -> Vec<Vec<(Point, f64)>> {
         if !(open && t0 == 0.0) {
             pieces.push(vec![at(t0)]);
         }
-        if t1 > t0 {
-            pieces.last_mut().expect("one was pushed").push(at(t1));
+        if let Some(piece) = pieces.last_mut()
+            && t1 > t0
+        {
+            piece.push(at(t1));
         }
         open = t1 == 1.0;
     }
@@ -89,6 +186,35 @@ mod tests {
         let cut = clip_polygon(&diamond, Rect::new(-1.0, -1.0, 1.0, 1.0));
         assert!((polygon_area(&cut).abs() - 4.0).abs() < 1e-12);
         assert!(clip_polygon(&diamond, Rect::new(5.0, 5.0, 6.0, 6.0)).is_empty());
+    }
+
+    #[test]
+    fn a_disc_is_cut_at_sides_and_corners() {
+        use kurbo::Shape;
+        let page = Rect::new(0.0, 0.0, 10.0, 10.0);
+        let whole = std::f64::consts::PI;
+        for (x, y, expected) in [
+            (5.0, 5.0, whole),
+            (0.0, 5.0, 0.5 * whole),
+            (10.0, 10.0, 0.25 * whole),
+            (0.0, 10.0, 0.25 * whole),
+            (5.0, 10.0, 0.5 * whole),
+            (-0.9999, 5.0, 0.0),
+            (-3.0, 5.0, 0.0),
+            (
+                9.5,
+                9.5,
+                crate::geometry::disc_area_in(
+                    &[Point::ORIGIN, Point::new(10.0, 0.0), Point::new(10.0, 10.0), Point::new(0.0, 10.0)],
+                    Point::new(9.5, 9.5),
+                    1.0,
+                ),
+            ),
+        ] {
+            let cut = clip_disc(Point::new(x, y), 1.0, page);
+            assert!((cut.area().abs() - expected).abs() < 2e-3, "({x}, {y}): {} for {expected}", cut.area());
+            assert!(cut.elements().is_empty() || page.inflate(1e-3, 1e-3).union(cut.bounding_box()) == page.inflate(1e-3, 1e-3));
+        }
     }
 
     #[test]

@@ -64,9 +64,9 @@ pub fn radius_for_area(polygon: &[Point], centre: Point, wanted: f64) -> f64 {
         let (area, angle) = disc_in(polygon, centre, radius);
         let error = area - wanted;
         if error > 0.0 {
-            high = radius
+            high = radius;
         } else {
-            low = radius
+            low = radius;
         }
         // Newton where it stays between the bounds, else halve.
         let step = radius - error / (angle * radius);

@@ -14,7 +14,7 @@ mod swell;
 
 pub use blob::blob;
 pub use blue_noise::blue_noise_order;
-pub use clip::{clip_polygon, clip_polyline, half_plane};
+pub use clip::{clip_disc, clip_polygon, clip_polyline, half_plane};
 pub use disc::{disc_area_in, radius_for_area};
 pub use length::{LengthError, parse_length, parse_size};
 pub use polyline::{flatten, polygon_area, polyline_length, resample, simplify};

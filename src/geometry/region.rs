@@ -59,7 +59,9 @@ impl Region {
                 if !is_open {
                     pieces.push(vec![at(span[0])]);
                 }
-                pieces.last_mut().expect("one was pushed").push(at(span[1]));
+                if let Some(piece) = pieces.last_mut() {
+                    piece.push(at(span[1]));
+                }
                 is_open = true;
             }
         }

@@ -84,12 +84,11 @@ fn lower_stroke(stroke: &Stroke, nib: f64, tolerance: f64) -> Vec<Toolpath> {
     if stroke.widest() <= 1.5 * nib {
         return polylines(&stroke.curve, tolerance);
     }
-    match stroke.outline() {
-        Some(outline) => polylines(&outline, tolerance),
-        None => {
-            let style = kurbo::Stroke::new(stroke.widest() - nib);
-            polylines(&kurbo::stroke(stroke.curve.iter(), &style, &kurbo::StrokeOpts::default(), tolerance), tolerance)
-        }
+    if let Some(outline) = stroke.outline() {
+        polylines(&outline, tolerance)
+    } else {
+        let style = kurbo::Stroke::new(stroke.widest() - nib);
+        polylines(&kurbo::stroke(stroke.curve.iter(), &style, &kurbo::StrokeOpts::default(), tolerance), tolerance)
     }
 }
 

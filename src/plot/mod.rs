@@ -78,7 +78,7 @@ impl Plot {
             let mut paths: Vec<Option<Toolpath>> = joined.into_iter().map(|points| Some(Toolpath { points })).collect();
             let ends: Vec<PathEnds> = paths.iter().flatten().map(Toolpath::ends).collect();
             for visit in order(&ends, at, effort, direction) {
-                let mut path = paths[visit.path].take().expect("an order visits each path once");
+                let Some(mut path) = paths[visit.path].take() else { continue };
                 if visit.reversed {
                     path.points.reverse();
                 }

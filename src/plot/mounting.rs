@@ -180,9 +180,9 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
         for path in std::mem::take(&mut pen.paths) {
             if let [touch] = path.points[..] {
                 if rect.inflate(1e-9, 1e-9).contains(touch) {
-                    kept.push(path)
+                    kept.push(path);
                 } else {
-                    lost_touches += 1
+                    lost_touches += 1;
                 }
                 continue;
             }

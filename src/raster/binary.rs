@@ -40,7 +40,7 @@ fn running_count(raster: &Raster<u32>, radius: usize) -> Raster<u32> {
 /// Returns the labels and the number of components.
 pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
     let pixels: Vec<u8> = mask.pixels().to_vec();
-    let image = image::GrayImage::from_raw(mask.width() as u32, mask.height() as u32, pixels).expect("a raster's pixels fill it");
+    let image = image::GrayImage::from_raw(mask.width() as u32, mask.height() as u32, pixels).unwrap_or_default();
     let labelled = imageproc::region_labelling::connected_components(
         &image,
         imageproc::region_labelling::Connectivity::Eight,

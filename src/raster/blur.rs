@@ -42,7 +42,9 @@ fn gaussian_kernel(sigma: f32) -> Vec<f32> {
     let radius = (3.5 * sigma).ceil() as i32;
     let mut half: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
     let sum = half[0] + 2.0 * half[1..].iter().sum::<f32>();
-    half.iter_mut().for_each(|w| *w /= sum);
+    for weight in &mut half {
+        *weight /= sum;
+    }
     half
 }
 

@@ -18,7 +18,7 @@ pub fn canny(raster: &Raster<f32>, thresholds: Thresholds) -> Raster<u8> {
     let gradient = sobel(raster);
     let strength = gradient.map(|[gx, gy]| gx.hypot(gy));
     let ridges = suppress_non_maxima(&gradient, &strength, thresholds.low);
-    follow_from_strong(ridges, &strength, thresholds.high)
+    follow_from_strong(&ridges, &strength, thresholds.high)
 }
 
 /// Sobel's gradient scaled to raster units per pixel.
@@ -50,7 +50,7 @@ fn suppress_non_maxima(gradient: &Raster<[f32; 2]>, strength: &Raster<f32>, low:
 }
 
 /// Hysteresis: flood from the strong pixels through the weak ones, over eight neighbours.
-fn follow_from_strong(ridges: Raster<u8>, strength: &Raster<f32>, high: f32) -> Raster<u8> {
+fn follow_from_strong(ridges: &Raster<u8>, strength: &Raster<f32>, high: f32) -> Raster<u8> {
     let (width, height) = (ridges.width(), ridges.height());
     let mut edges = Raster::filled(width, height, 0_u8);
     let mut stack: Vec<(usize, usize)> = Vec::new();

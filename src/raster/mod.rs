@@ -133,6 +133,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 
     /// Rows and columns exchanged.
+    #[must_use]
     pub fn transposed(&self) -> Self {
         Self::from_fn(self.height, self.width, |x, y| self.get(y, x))
     }

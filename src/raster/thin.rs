@@ -48,8 +48,8 @@ fn is_removable(lines: &Raster<u8>, index: usize, pass: Pass) -> bool {
     let rises = (0..8).filter(|&i| !ring[i] && ring[(i + 1) % 8]).count();
     let [north, _, east, _, south, _, west, _] = ring;
     let peeled = match pass {
-        Pass::SouthEast => !(north && east && south) && !(east && south && west),
-        Pass::NorthWest => !(north && east && west) && !(north && south && west),
+        Pass::SouthEast => !(east && south && (north || west)),
+        Pass::NorthWest => !(north && west && (east || south)),
     };
     (2..=6).contains(&marked) && rises == 1 && peeled
 }

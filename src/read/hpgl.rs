@@ -81,7 +81,7 @@ impl Reader {
         if !name.starts_with(['P', 'p']) || matches!(name, "PS") {
             return Ok(());
         }
-        if numbers.len() % 2 != 0 {
+        if !numbers.len().is_multiple_of(2) {
             return Err(HpglError::OddCoordinates { at: start, text: instruction.chars().take(40).collect() });
         }
         numbers.chunks_exact(2).for_each(|pair| self.move_by_or_to(pair[0], pair[1]));

@@ -192,11 +192,12 @@ impl<'a> Importer<'a> {
     }
 
     fn filled(&mut self, curve: &BezPath, colour: Colour, place: Place, clips: &[Region]) {
-        let mut outline = curve.clone();
+        let mut outline = with_closed_subpaths(curve);
         for clip in clips {
             outline = clip.clip_area(&Region::new(&outline, CLIP_TOLERANCE));
         }
-        if outline.elements().is_empty() {
+        // A straight line is filled by default in SVG, with nothing.
+        if outline.area().abs() < 1e-5 {
             return;
         }
         let layer = self.layer_for(place, colour);
@@ -231,15 +232,16 @@ impl<'a> Importer<'a> {
     fn layer_for(&mut self, place: Place, colour: Colour) -> &mut ImportedLayer {
         let index = match place.layer {
             Some(layer) => layer,
-            None => match self.by_colour.iter().find(|(c, _)| *c == colour) {
-                Some(&(_, index)) => index,
-                None => {
+            None => {
+                if let Some(&(_, index)) = self.by_colour.iter().find(|(c, _)| *c == colour) {
+                    index
+                } else {
                     let index = self.layers.len();
                     self.layers.push(labelled(&Label { name: colour.to_string(), ..Label::default() }, index as u32 + 1));
                     self.by_colour.push((colour, index));
                     index
                 }
-            },
+            }
         };
         let layer = &mut self.layers[index];
         if layer.layer.marks.is_empty() && colour != Colour::BLACK {
@@ -331,6 +333,18 @@ fn clip_curve(curve: &BezPath, clip: &Region) -> BezPath {
         }
     }
     clipped
+}
+
+/// A fill closes every subpath.
+fn with_closed_subpaths(curve: &BezPath) -> BezPath {
+    let mut closed = BezPath::new();
+    for mut piece in subpaths(curve) {
+        if !matches!(piece.elements().last(), Some(PathEl::ClosePath)) {
+            piece.close_path();
+        }
+        closed.extend(piece);
+    }
+    closed
 }
 
 /// Each subpath by itself; a bare move is none.

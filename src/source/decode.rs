@@ -61,12 +61,12 @@ impl Photograph {
         }
         let kind = image::guess_format(bytes).map_err(|_| SourceError::Unrecognised(first_bytes(bytes)))?;
         let format = format_name(kind).ok_or_else(|| SourceError::Unrecognised(first_bytes(bytes)))?;
-        let mut decoder =
-            ImageReader::with_format(Cursor::new(bytes), kind).into_decoder().map_err(|error| describe(format, &error))?;
-        check_limits(format, &decoder, limits)?;
         if kind == ImageFormat::Jpeg && !jpeg::is_whole(bytes) {
             return Err(SourceError::Truncated { format });
         }
+        let mut decoder =
+            ImageReader::with_format(Cursor::new(bytes), kind).into_decoder().map_err(|error| describe(format, &error))?;
+        check_limits(format, &decoder, limits)?;
         let orientation = decoder.orientation().unwrap_or(image::metadata::Orientation::NoTransforms);
         let profile = decoder.icc_profile().unwrap_or(None);
         let is_cmyk = matches!(decoder.original_color_type(), image::ExtendedColorType::Cmyk8 | image::ExtendedColorType::Cmyk16);
@@ -130,7 +130,8 @@ const fn format_name(format: ImageFormat) -> Option<&'static str> {
 }
 
 fn describe(format: &'static str, error: &ImageError) -> SourceError {
-    let reason = error.to_string();
+    // The message is one line.
+    let reason = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     let is_early_end = matches!(error, ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof)
         || ["unexpected end", "UnexpectedEof", "failed to fill whole buffer", "unexpected EOF"]
             .iter()
@@ -144,5 +145,5 @@ fn first_bytes(bytes: &[u8]) -> String {
 }
 
 fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
+    bytes.iter().fold(String::new(), |text, b| text + &format!("{b:02x}"))
 }

@@ -5,7 +5,8 @@ pub(super) fn is_whole(bytes: &[u8]) -> bool {
     let mut at = 2;
     loop {
         // Entropy-coded data and fill bytes up to the next marker; 0xFF00 is a stuffed byte, D0 to D7 are restarts.
-        while at + 1 < bytes.len() && !(bytes[at] == 0xFF && !matches!(bytes[at + 1], 0x00 | 0xFF | 0xD0..=0xD7)) {
+        let is_marker = |at: usize| bytes[at] == 0xFF && !matches!(bytes[at + 1], 0x00 | 0xFF | 0xD0..=0xD7);
+        while at + 1 < bytes.len() && !is_marker(at) {
             at += 1;
         }
         match bytes.get(at + 1) {

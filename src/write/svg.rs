@@ -171,12 +171,16 @@ fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
             let mut text = String::new();
             if kind == Kind::Lines {
                 let width = constant_width(&run[0]);
-                run.iter().for_each(|mark| line(&mut text, mark, width));
+                for mark in run {
+                    line(&mut text, mark, width);
+                }
                 let mut width_text = String::new();
                 decimal(&mut width_text, thousandths(width), 3);
                 lines_group(&id, &width_text, layer.ink.colour()).add(Blob::new(text))
             } else {
-                run.iter().for_each(|mark| filled(&mut text, mark));
+                for mark in run {
+                    filled(&mut text, mark);
+                }
                 Group::new().set("id", id).add(Blob::new(text))
             }
         })

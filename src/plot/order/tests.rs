@@ -257,7 +257,7 @@ fn four_sides_make_a_square_and_dots_stay_dots() {
 #[test]
 fn a_crossroads_is_gone_straight_over() {
     let arm = |x: f64, y: f64| vec![Point::new(x, y), Point::ZERO];
-    let chains = chain(vec![arm(1.0, 0.0, Direction::Either), arm(0.0, 1.0), arm(-1.0, 0.0), arm(0.0, -1.0)], 0.0);
+    let chains = chain(vec![arm(1.0, 0.0), arm(0.0, 1.0), arm(-1.0, 0.0), arm(0.0, -1.0)], 0.0, Direction::Either);
     assert_eq!(
         chains,
         [[(1.0, 0.0), (0.0, 0.0), (-1.0, 0.0)].map(Point::from), [(0.0, 1.0), (0.0, 0.0), (0.0, -1.0)].map(Point::from)]

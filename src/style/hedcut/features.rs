@@ -74,10 +74,10 @@ impl Drawer<'_> {
         let Some(field) = distance_to_curves(&silhouette, width, height) else { return edges };
         let reach = (0.9 * self.pitch()) as f32;
         let apart = edges.iter().flat_map(|edge| {
-            edge.points.split(|p| field.distance.sample(p.x, p.y) < reach).filter(|run| run.len() > 1).map(|run| Curve {
-                points: run.to_vec(),
-                closed: edge.closed && run.len() == edge.points.len(),
-            })
+            edge.points
+                .split(|p| field.distance.sample(p.x, p.y) < reach)
+                .filter(|run| run.len() > 1)
+                .map(|run| Curve { points: run.to_vec(), closed: edge.closed && run.len() == edge.points.len() })
         });
         let kept: Vec<Curve> = apart.filter(|line| line.length() >= 0.5 * least).collect();
         silhouette.into_iter().chain(kept).collect()

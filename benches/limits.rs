@@ -1,0 +1,63 @@
+//! What users wait for, against what was promised: `cargo bench --bench limits`.
+//!
+//! Whole commands in processes of their own, with their peak memory (from `wait4` by way of `/usr/bin/time` where it is there, else
+//! unknown), and ratios within one run, so that a busy machine does not decide.
+
+use image::{ImageFormat, RgbImage};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+fn main() {
+    let folder = tempfile::tempdir().expect("a folder for the outputs");
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/astronaut.jpg");
+    let large = large_photograph(folder.path(), &sample);
+    let draw = |photo: &Path, extra: &[&str]| best_of(3, photo, folder.path(), extra);
+
+    let (seconds, memory) = draw(&sample, &["--size", "90x120mm", "--pitch", "0.6mm"]);
+    line("astronaut, 90 x 90 mm at 0.6 mm", seconds, "at most 2 s", seconds <= 2.0);
+    if let Some(memory) = memory {
+        line("  its peak memory, MB", memory, "at most 300 MB", memory <= 300.0);
+    }
+    let (large_seconds, _) = draw(&large, &["--size", "90x120mm", "--pitch", "0.6mm"]);
+    line("  more for 24 megapixels", large_seconds - seconds, "at most 1.5 s", large_seconds - seconds <= 1.5);
+    let (small, _) = draw(&sample, &["--size", "180x180mm", "--pitch", "0.6mm"]);
+    let ratio = small / seconds;
+    line("  4 x the area costs times", ratio, "at most 4.5", ratio <= 4.5);
+}
+
+/// The sample blown up to 4900 x 4900 pixels as JPEG.
+fn large_photograph(folder: &Path, sample: &Path) -> PathBuf {
+    let picture: RgbImage = image::open(sample).expect("the sample is sound").to_rgb8();
+    let large = image::imageops::resize(&picture, 4900, 4900, image::imageops::FilterType::Triangle);
+    let path = folder.join("large.jpg");
+    large.save_with_format(&path, ImageFormat::Jpeg).expect("the folder can be written");
+    path
+}
+
+/// The least of some runs: wall seconds, and peak megabytes where they can be had.
+fn best_of(runs: usize, photo: &Path, folder: &Path, extra: &[&str]) -> (f64, Option<f64>) {
+    (0..runs).map(|_| run(photo, folder, extra)).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least one run")
+}
+
+fn run(photo: &Path, folder: &Path, extra: &[&str]) -> (f64, Option<f64>) {
+    let timer = Path::new("/usr/bin/time");
+    let mut command = if timer.exists() {
+        let mut command = Command::new(timer);
+        command.args(["-f", "%M", env!("CARGO_BIN_EXE_drypoint")]);
+        command
+    } else {
+        Command::new(env!("CARGO_BIN_EXE_drypoint"))
+    };
+    command.arg("draw").arg(photo).args(["-q", "--threads", "2", "-o"]).arg(folder.join("out.svg")).args(extra);
+    let started = Instant::now();
+    let output = command.output().expect("the command starts");
+    let seconds = started.elapsed().as_secs_f64();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let memory = String::from_utf8_lossy(&output.stderr).trim().parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0);
+    (seconds, memory)
+}
+
+fn line(what: &str, figure: f64, promise: &str, is_kept: bool) {
+    println!("{what:34} {figure:8.2}   {promise}: {}", if is_kept { "kept" } else { "MISSED" });
+}

@@ -1,0 +1,71 @@
+//! The map of the modules is kept: what each may use stands in the crate's documentation, and this test reads the code.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What each module may use besides itself.
+const MAY_USE: &[(&str, &[&str])] = &[
+    ("raster", &[]),
+    ("geometry", &[]),
+    ("drawing", &["geometry"]),
+    ("source", &["raster", "geometry", "drawing"]),
+    ("field", &["raster", "geometry"]),
+    ("style", &["field", "raster", "drawing", "geometry", "source"]),
+    ("plot", &["drawing", "geometry"]),
+    ("write", &["drawing", "geometry", "plot"]),
+    ("read", &["drawing", "geometry"]),
+];
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+/// Modules named after `crate::` in code that is not a test's.
+fn used_modules(text: &str) -> Vec<String> {
+    let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
+    code.lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .flat_map(|line| line.split("crate::").skip(1).map(str::to_owned).collect::<Vec<_>>())
+        .map(|rest| rest.chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect())
+        .collect()
+}
+
+#[test]
+fn modules_use_only_what_they_may() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for (module, allowed) in MAY_USE {
+        for file in rust_files(&source.join(module)) {
+            for used in used_modules(&fs::read_to_string(&file).unwrap()) {
+                assert!(used == *module || allowed.contains(&used.as_str()), "{} uses {used}", file.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_check_can_fail() {
+    assert_eq!(
+        used_modules("use crate::style::{Settings};\n// use crate::write;\n#[cfg(test)]\nmod tests { use crate::cli; }"),
+        ["style"]
+    );
+}
+
+#[test]
+fn only_the_command_line_prints_or_opens_files() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for file in rust_files(&source).into_iter().filter(|f| !f.components().any(|c| c.as_os_str() == "cli")) {
+        let text = fs::read_to_string(&file).unwrap();
+        for forbidden in ["println!", "eprintln!", "std::fs", "process::exit"] {
+            assert!(!text.contains(forbidden), "{} has {forbidden}", file.display());
+        }
+    }
+}

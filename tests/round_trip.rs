@@ -1,0 +1,136 @@
+//! What is written is read back: SVG by usvg and `inspect`, HP-GL and G-code by drypoint's own readers.
+
+mod common;
+
+use common::{Sheet, sample, svg_of};
+use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
+use drypoint::geometry::{BezPath, Point, Rect};
+use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Toolpath, built_in, lower, mount};
+use drypoint::read::{Strokes, read_gcode, read_hpgl, read_svg};
+use drypoint::write::{write_gcode, write_hpgl};
+
+/// Every photograph in `samples/`, its sheet, and parameters that make each kind of mark.
+fn drawings() -> Vec<(&'static str, Drawing)> {
+    [
+        ("astronaut.jpg", (90.0, 90.0), &[][..]),
+        ("astronaut-cutout.png", (90.0, 90.0), &[("blob", "0.7")]),
+        ("grace-hopper.jpg", (90.0, 105.469), &[]),
+        ("chelsea.png", (90.0, 59.867), &[("pitch", "0.9")]),
+        ("coffee.png", (90.0, 60.0), &[("blob", "0.3")]),
+        ("raccoon.jpg", (90.0, 67.5), &[]),
+        ("bust-dark.png", (90.0, 120.0), &[]),
+    ]
+    .into_iter()
+    .map(|(name, mm, set)| {
+        let photo = sample(name);
+        (name, Sheet { set, ..Sheet::new(&photo, mm) }.draw())
+    })
+    .collect()
+}
+
+fn profile(name: &str) -> Profile {
+    Profile::parse(name, built_in(name).unwrap()).unwrap()
+}
+
+#[test]
+fn svg_reads_back_with_the_same_marks_and_ink() {
+    for (name, drawing) in drawings() {
+        let imported = read_svg(svg_of(&drawing).as_bytes()).unwrap();
+        assert!(imported.dropped.is_empty());
+        assert!((imported.page.width - drawing.page.width).abs() < 1e-3);
+        // Without the recipe a file is a foreign one; the kinds of marks are told by drypoint's own.
+        let own =
+            svg_of(&drawing).replace("</title>", "</title><metadata><r:recipe xmlns:r=\"urn:drypoint\">{}</r:recipe></metadata>");
+        let imported = read_svg(own.as_bytes()).unwrap();
+        for (layer, read) in drawing.layers.iter().zip(&imported.layers) {
+            assert_eq!(read.counts(), layer.counts(), "{name}, {}", layer.name);
+            let (ink, read_ink) = (layer.ink_mm2(), read.layer.ink_mm2());
+            println!("{name}, {}: {ink:.2} mm2, read {read_ink:.2}", layer.name);
+            assert!((read_ink / ink - 1.0).abs() <= 0.001, "{name}, {}: {ink} and {read_ink}", layer.name);
+        }
+    }
+}
+
+#[test]
+fn svg_keeps_to_its_bytes() {
+    for (name, drawing) in drawings() {
+        let text = svg_of(&drawing);
+        for line in text.lines().filter(|line| line.starts_with("<circle")) {
+            assert!(line.len() < 48, "{name}: {line}");
+        }
+        let inside = text.split("id=\"layer1-dots\"").nth(1).unwrap().split("</g>").next().unwrap();
+        for line in inside.lines().filter(|line| line.starts_with("<path")) {
+            assert!(line.len() < 250, "{name}: {} bytes: {line}", line.len());
+        }
+    }
+}
+
+fn plotted(drawing: &Drawing) -> Plot {
+    let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
+    plot
+}
+
+/// Each path of the plot was drawn, in order, within `tolerance` millimetres; nothing else was.
+fn assert_drawn(name: &str, plot: &Plot, motion: &Strokes, to_page: impl Fn(Point) -> Point, tolerance: f64) {
+    let asked: Vec<&Toolpath> = plot.pens.iter().flat_map(|pen| &pen.paths).collect();
+    assert_eq!(asked.len(), motion.paths.len(), "{name}");
+    for (path, (_, drawn)) in asked.iter().zip(&motion.paths) {
+        let drawn: Vec<Point> = drawn.iter().map(|p| to_page(*p)).collect();
+        for p in &drawn {
+            let near = path.points.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);
+            assert!(near <= tolerance, "{name}: {p:?} was not asked for ({near} mm)");
+        }
+        for p in &path.points {
+            let near = drawn.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);
+            assert!(near <= tolerance, "{name}: {p:?} is missing ({near} mm)");
+        }
+    }
+    assert!(motion.ends_up, "{name}");
+}
+
+fn assert_inside(name: &str, motion: &Strokes, limits: Rect) {
+    for p in &motion.visited {
+        assert!(p.x >= limits.x0 && p.x <= limits.x1 && p.y >= limits.y0 && p.y <= limits.y1, "{name}: {p:?}");
+    }
+}
+
+#[test]
+fn gcode_and_hpgl_draw_what_was_asked_inside_the_machine() {
+    for (name, drawing) in drawings() {
+        let plot = plotted(&drawing);
+        for machine in ["grbl-servo", "hp7475a"] {
+            let profile = profile(machine);
+            let mounting = mount(&profile, &plot.page).unwrap();
+            mounting.check(&profile, &plot).unwrap();
+            let mut bytes = Vec::new();
+            let motion = if machine == "grbl-servo" {
+                write_gcode(&plot, &profile, &mounting, &mut bytes).unwrap();
+                let dialect = profile.gcode.as_ref().unwrap();
+                read_gcode(std::str::from_utf8(&bytes).unwrap(), &dialect.pen_up, &dialect.pen_down).unwrap()
+            } else {
+                write_hpgl(&plot, &profile, &mounting, &mut bytes).unwrap();
+                read_hpgl(std::str::from_utf8(&bytes).unwrap()).unwrap()
+            };
+            let to_page = mounting.to_machine.inverse();
+            assert_drawn(name, &plot, &motion, |p| to_page * p, 0.05);
+            assert_inside(name, &motion, mounting.limits);
+        }
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_its_distance() {
+    let page = Page::new(310.0, 100.0);
+    let mut layer = Layer::new("line", 1);
+    layer.marks.push(Mark::Stroke(Stroke {
+        curve: BezPath::from_svg("M5,5 L307.25,50").unwrap(),
+        width: Width::Constant(0.3),
+        colour: None,
+    }));
+    let plot = lower(&Drawing { page, layers: vec![layer] }, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let grbl = profile("grbl-servo");
+    let error = mount(&grbl, &page).unwrap().check(&grbl, &plot).unwrap_err();
+    assert!(matches!(&error, MountingError::OutOfReach { excess, .. } if (excess - 7.25).abs() < 1e-6), "{error}");
+    assert!(error.to_string().contains("7.25 mm beyond the upper x limit"), "{error}");
+}
