@@ -15,7 +15,7 @@
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
-//! | [`write`] | a drawing or a plot | bytes |
+//! | [`mod@write`] | a drawing or a plot | bytes |
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
 //! | [`cli`] | arguments | the only place with files, stdout and exit codes |
 //!

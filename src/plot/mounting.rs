@@ -66,8 +66,8 @@ pub enum MountingError {
     },
 }
 
-/// Lays a page on a machine: on the sheet of its size, either way round, else in the middle of the smallest sheet that holds
-/// it; where the machine knows no sheets, with its lower left corner at machine zero.
+/// Lays a page on a machine: on the sheet of its size, either way round, else in the middle of the first sheet of the profile
+/// that holds it; where the machine knows no sheets, with its lower left corner at machine zero.
 pub fn mount(profile: &Profile, page: &Page) -> Result<Mounting, MountingError> {
     let scale = profile.units_per_mm;
     if let Some(area) = &profile.area {
@@ -116,11 +116,7 @@ fn choose_paper<'a>(profile: &'a Profile, page: &Page) -> Result<(&'a Paper, Tur
         let (x, y) = spare(paper, turn);
         x >= 0.0 && y >= 0.0
     };
-    let smallest = options().filter(holds).min_by(|a, b| {
-        let size = |o: &(&Paper, Turn)| (o.0.width * o.0.height, u8::from(o.1 == Turn::Quarter));
-        size(a).partial_cmp(&size(b)).unwrap_or(std::cmp::Ordering::Equal)
-    });
-    exact.or(smallest).ok_or_else(|| MountingError::PageTooLarge {
+    exact.or_else(|| options().find(holds)).ok_or_else(|| MountingError::PageTooLarge {
         width: page.width,
         height: page.height,
         machine: profile.name.clone(),
@@ -237,7 +233,7 @@ mod tests {
         let machine = profile("hp7475a");
         let page = Page::new(90.0, 120.0);
         let mounting = mount(&machine, &page).unwrap();
-        assert_eq!(mounting.paper.as_ref().unwrap().name, "letter");
+        assert_eq!(mounting.paper.as_ref().unwrap().name, "a4");
         assert!(mounting.check(&machine, &plot_of(page, &[(0.0, 0.0), (90.0, 120.0)])).is_ok());
     }
 

@@ -1,5 +1,6 @@
 //! Decoding with limits that are checked before anything is allocated.
 
+use super::cmyk;
 use super::error::SourceError;
 use super::jpeg;
 use super::linear::Lineariser;
@@ -69,16 +70,19 @@ impl Photograph {
         check_limits(format, &decoder, limits)?;
         let orientation = decoder.orientation().unwrap_or(image::metadata::Orientation::NoTransforms);
         let profile = decoder.icc_profile().unwrap_or(None);
-        let is_cmyk = matches!(decoder.original_color_type(), image::ExtendedColorType::Cmyk8 | image::ExtendedColorType::Cmyk16);
-        let mut pixels = DynamicImage::from_decoder(decoder).map_err(|error| describe(format, &error))?;
+        let is_cmyk = kind == ImageFormat::Jpeg && jpeg::is_cmyk(bytes);
+        let mut pixels = match &profile {
+            Some(profile) if is_cmyk => DynamicImage::ImageRgb8(cmyk::decode(bytes, profile)?),
+            _ => DynamicImage::from_decoder(decoder).map_err(|error| describe(format, &error))?,
+        };
         pixels.apply_orientation(orientation);
         let (lineariser, warnings) = match profile {
             Some(profile) if !is_cmyk => (Lineariser::from_profile(&profile, &pixels)?, Vec::new()),
-            Some(_) => (
+            None if is_cmyk => (
                 Lineariser::srgb(),
-                vec!["its CMYK profile is not used: the inks are taken as ideal; convert it to RGB for exact tone".to_owned()],
+                vec!["it is CMYK without a profile: its inks are taken as ideal; convert it to RGB for exact tone".to_owned()],
             ),
-            None => (Lineariser::srgb(), Vec::new()),
+            _ => (Lineariser::srgb(), Vec::new()),
         };
         let info = SourceInfo { format, sha256: hexadecimal(&Sha256::digest(bytes)), warnings };
         Ok(Self { pixels, lineariser, info })

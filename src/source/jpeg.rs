@@ -1,24 +1,47 @@
-//! Is a JPEG file whole? The decoder fills in what is missing with grey, which would be drawn without a word.
+//! What the decoder does not tell of a JPEG file: whether it is whole (what is missing would be drawn as grey, without a word), and
+//! whether its numbers are inks.
 
-/// Whether the marker segments run through to the end-of-image marker (ITU T.81, annex B).
-pub(super) fn is_whole(bytes: &[u8]) -> bool {
-    let mut at = 2;
-    loop {
-        // Entropy-coded data and fill bytes up to the next marker; 0xFF00 is a stuffed byte, D0 to D7 are restarts.
-        let is_marker = |at: usize| bytes[at] == 0xFF && !matches!(bytes[at + 1], 0x00 | 0xFF | 0xD0..=0xD7);
-        while at + 1 < bytes.len() && !is_marker(at) {
-            at += 1;
-        }
-        match bytes.get(at + 1) {
-            None => return false,
-            Some(0xD9) => return true,
-            Some(0x01 | 0xD8) => at += 2,
-            Some(_) => {
-                let Some(length) = bytes.get(at + 2..at + 4) else { return false };
-                at += 2 + usize::from(u16::from_be_bytes([length[0], length[1]]));
-            }
-        }
+/// A marker of a JPEG file (ITU T.81, annex B) and where it stands.
+struct Markers<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Markers<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 2 }
     }
+}
+
+impl Iterator for Markers<'_> {
+    type Item = (u8, usize);
+
+    /// The next marker after a segment or after entropy-coded data; none when the file ends before it.
+    fn next(&mut self) -> Option<(u8, usize)> {
+        // 0xFF00 is a stuffed byte, D0 to D7 are restarts, and FF may fill.
+        let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0x00 | 0xFF | 0xD0..=0xD7);
+        let start = self.at + self.bytes.get(self.at..)?.windows(2).position(is_marker)?;
+        let marker = self.bytes[start + 1];
+        self.at = if matches!(marker, 0x01 | 0xD8 | 0xD9) {
+            start + 2
+        } else {
+            let length = self.bytes.get(start + 2..start + 4)?;
+            start + 2 + usize::from(u16::from_be_bytes([length[0], length[1]]))
+        };
+        Some((marker, start))
+    }
+}
+
+/// Whether the marker segments run through to the end-of-image marker.
+pub(super) fn is_whole(bytes: &[u8]) -> bool {
+    Markers::new(bytes).any(|(marker, _)| marker == 0xD9)
+}
+
+/// Whether the picture has four components, which are inks.
+pub(super) fn is_cmyk(bytes: &[u8]) -> bool {
+    let is_frame = |marker: u8| matches!(marker, 0xC0..=0xCF) && !matches!(marker, 0xC4 | 0xC8 | 0xCC);
+    let frame = Markers::new(bytes).take_while(|(marker, _)| *marker != 0xD9).find(|(marker, _)| is_frame(*marker));
+    frame.is_some_and(|(_, at)| bytes.get(at + 9) == Some(&4))
 }
 
 #[cfg(test)]

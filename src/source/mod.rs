@@ -3,6 +3,7 @@
 //! In: a reader with an image file of any supported kind. Out: a [`Photograph`] (the file's pixels, upright), and from it a
 //! [`Portrait`] at the working resolution that a style asks for. Nothing here opens files or knows of styles.
 
+mod cmyk;
 mod colour;
 mod decode;
 mod error;
