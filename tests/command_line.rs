@@ -3,7 +3,7 @@
 mod common;
 
 use assert_cmd::Command;
-use common::{png_of_light, sample};
+use common::{png_of_light, sample, skip};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -122,7 +122,7 @@ fn an_unreadable_photograph_is_named() {
             assert_eq!(output.status.code(), Some(1));
             assert!(String::from_utf8_lossy(&output.stderr).contains("permission denied"), "{output:?}");
         }
-        _ => println!("skipped: the superuser reads everything, and setpriv is not here to be somebody else"),
+        _ => skip("the superuser reads everything, and setpriv is not here to be somebody else"),
     }
 }
 
@@ -201,8 +201,7 @@ fn a_full_disk_keeps_the_old_file() {
     fs::create_dir(&small).unwrap();
     let mounted = std::process::Command::new("mount").args(["-t", "tmpfs", "-o", "size=16k", "tmpfs", text(&small)]).status();
     if !mounted.is_ok_and(|status| status.success()) {
-        println!("skipped: a small tmpfs cannot be mounted here (that takes the superuser)");
-        return;
+        return skip("a small tmpfs cannot be mounted here (that takes the superuser)");
     }
     fs::write(small.join("out.svg"), "old").unwrap();
     let output = drypoint().current_dir(folder.path()).args(["draw", "photo.png", "-o", "small/out.svg"]).output().unwrap();

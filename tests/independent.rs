@@ -2,18 +2,16 @@
 
 mod common;
 
-use common::sample;
+use common::{sample, skip};
 use std::process::Command;
 
 /// Runs a program, or says that the check is skipped where it is not installed.
 fn run(program: &str, arguments: &[&str]) -> Option<String> {
-    match Command::new(program).args(arguments).output() {
-        Ok(output) => Some(format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))),
-        Err(_) => {
-            println!("skipped: {program} is not installed");
-            None
-        }
-    }
+    let Ok(output) = Command::new(program).args(arguments).output() else {
+        skip(&format!("{program} is not installed"));
+        return None;
+    };
+    Some(format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr)))
 }
 
 #[test]

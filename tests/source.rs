@@ -1,5 +1,7 @@
 //! Every kind of photograph comes in right: formats, depths, profiles, alpha, turns.
 
+mod common;
+
 use drypoint::drawing::Page;
 use drypoint::geometry::Rect;
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
@@ -154,8 +156,7 @@ fn cmyk_without_a_profile_is_taken_as_ideal_inks_with_a_warning() {
 #[test]
 fn cmyk_goes_through_its_profile() {
     let Ok(profile) = std::fs::read(CMYK_PROFILE) else {
-        println!("skipped: no CMYK profile at {CMYK_PROFILE} (Debian's libgs-common brings one)");
-        return;
+        return common::skip(&format!("no CMYK profile at {CMYK_PROFILE} (Debian's libgs-common brings one)"));
     };
     // The profile in APP2 segments after the start of the image.
     let plain = data("cmyk.jpg");
