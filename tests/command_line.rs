@@ -255,8 +255,8 @@ fn stdin_stdout_json_and_dry_run() {
     let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(value["layers"][0]["name"], "dots");
     assert!(value["layers"][0]["dots"].as_u64().unwrap() > 1000);
-    assert!(value["plot"]["total"]["seconds"].as_f64().unwrap() > 100.0);
-    assert!(value["plot"]["total"]["pen_up_mm"].as_f64() < value["plot"]["total"]["pen_up_mm_before"].as_f64());
+    assert!(value["total"]["seconds"].as_f64().unwrap() > 100.0);
+    assert!(value["total"]["pen_up_mm"].as_f64() < value["total"]["pen_up_mm_before"].as_f64());
     assert!(!folder.path().join("x.gcode").exists());
 }
 

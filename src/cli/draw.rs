@@ -300,7 +300,8 @@ fn report_json(options: &DrawOptions, drawing: &Drawing, prepared: &[Prepared], 
     let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
     let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });
     if let Some(prepared) = prepared.first() {
-        value["plot"] = json!(prepared.report);
+        value["pens"] = json!(prepared.report.pens);
+        value["total"] = json!(prepared.report.total);
     }
     value
 }

@@ -202,12 +202,13 @@ impl<'a> Importer<'a> {
         }
         let layer = self.layer_for(place, colour);
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
-        let mark = match place.kind {
-            Kind::Dots => Mark::Dot(dot(outline, own_colour)),
-            _ => Mark::Area(Area { outline, colour: own_colour }),
-        };
         layer.swells += usize::from(place.kind == Kind::Swells);
-        layer.layer.marks.push(mark);
+        if place.kind == Kind::Dots {
+            // Very large drawings hold many dots in one path.
+            layer.layer.marks.extend(subpaths(&outline).into_iter().map(|piece| Mark::Dot(dot(piece, own_colour))));
+        } else {
+            layer.layer.marks.push(Mark::Area(Area { outline, colour: own_colour }));
+        }
     }
 
     fn stroked(&mut self, curve: &BezPath, stroke: &usvg::Stroke, scale: f64, colour: Colour, place: Place, clips: &[Region]) {

@@ -35,6 +35,11 @@ pub struct SvgHead {
     pub recipe: String,
 }
 
+/// Dots beyond which circles go into common paths: readers refuse about 1,000,000 elements (usvg, librsvg), and the dots may share
+/// the file with other marks.
+const MOST_CIRCLES: usize = 600_000;
+/// Circles in one such path.
+const CIRCLES_A_PATH: usize = 1000;
 /// Digits of a radius after the point: four, since 0.001 mm of a small dot's radius would be a percent of its ink.
 const RADIUS_DIGITS: u32 = 4;
 const RADIUS_SCALE: f64 = 10_000.0;
@@ -177,6 +182,11 @@ fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
                 let mut width_text = String::new();
                 decimal(&mut width_text, thousandths(width), 3);
                 lines_group(&id, &width_text, layer.ink.colour()).add(Blob::new(text))
+            } else if kind == Kind::Dots && run.len() > MOST_CIRCLES {
+                run.chunk_by(|a, b| a.colour() == b.colour())
+                    .flat_map(|same| same.chunks(CIRCLES_A_PATH))
+                    .for_each(|dots| bundle(&mut text, dots));
+                Group::new().set("id", id).add(Blob::new(text))
             } else {
                 for mark in run {
                     filled(&mut text, mark);
@@ -241,6 +251,43 @@ fn filled(text: &mut String, mark: &Mark) {
         let _ = write!(text, " fill=\"{colour}\"");
     }
     text.push_str("/>\n");
+}
+
+/// Many dots of one colour as the subpaths of one path.
+fn bundle(text: &mut String, dots: &[Mark]) {
+    text.push_str("<path d=\"");
+    for mark in dots {
+        match mark {
+            Mark::Dot(Dot { centre, radius, outline: None, .. }) => disc_data(text, *centre, *radius),
+            Mark::Dot(Dot { outline: Some(outline), .. }) => path_data(text, outline),
+            _ => {}
+        }
+    }
+    text.push('"');
+    if let Some(colour) = dots.first().and_then(Mark::colour) {
+        let _ = write!(text, " fill=\"{colour}\"");
+    }
+    text.push_str("/>\n");
+}
+
+/// A disc as two half circles.
+fn disc_data(text: &mut String, centre: Point, radius: f64) {
+    let units = |mm: f64| (mm * RADIUS_SCALE).round() as i64;
+    let number = |text: &mut String, value: i64| decimal(text, value, RADIUS_DIGITS);
+    text.push('M');
+    number(text, units(centre.x - radius));
+    text.push(' ');
+    number(text, units(centre.y));
+    for across in [2 * units(radius), -2 * units(radius)] {
+        text.push('a');
+        number(text, units(radius));
+        text.push(' ');
+        number(text, units(radius));
+        text.push_str(" 0 0 0 ");
+        number(text, across);
+        text.push_str(" 0");
+    }
+    text.push('z');
 }
 
 /// Path data in relative coordinates on the grid of 0.001 mm.
@@ -336,6 +383,20 @@ mod tests {
         assert!(text.contains("d=\"M0 0l10 0c0 1-1 2-2 2\""), "{text}");
         assert!(text.contains("id=\"layer1-dots.2\""));
         assert!(text.contains("A &amp; B") && text.contains("&lt;test&gt;"));
+    }
+
+    #[test]
+    fn bundled_dots_are_the_same_discs() {
+        let dots = [Mark::Dot(Dot::circle(Point::new(3.0, 4.0), 0.5)), Mark::Dot(Dot::circle(Point::new(6.0, 4.0), 0.25))];
+        let mut text = String::new();
+        bundle(&mut text, &dots);
+        assert_eq!(
+            text,
+            "<path d=\"M2.5 4a.5 .5 0 0 0 1 0a.5 .5 0 0 0 -1 0zM5.75 4a.25 .25 0 0 0 .5 0a.25 .25 0 0 0 -.5 0z\"/>\n"
+        );
+        let path = BezPath::from_svg(text.split('"').nth(1).unwrap()).unwrap();
+        let area: f64 = dots.iter().map(Mark::area).sum();
+        assert!((kurbo::Shape::area(&path).abs() - area).abs() < 1e-3);
     }
 
     #[test]
