@@ -142,3 +142,21 @@ fn seeds_differ_and_repeat() {
     assert_eq!(draw(1), draw(1));
     assert_ne!(draw(1), draw(2));
 }
+
+/// The wedge as a 0.3 mm nib draws it, rendered with round pens.
+#[test]
+fn the_lowered_wedge_has_its_tone() {
+    use drypoint::plot::{InkModel, Nibs, lower};
+    use drypoint::write::{SvgHead, write_svg_plot};
+    let photo = wedge();
+    let sheet = Sheet { tone: ToneTarget::Linear, set: EXACT, ..Sheet::new(&photo, (WEDGE_MM, WEDGE_MM)) };
+    let plot = lower(&sheet.draw(), InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let mut svg = Vec::new();
+    write_svg_plot(&plot, &SvgHead::default(), &mut svg).unwrap();
+    let white = rendered(std::str::from_utf8(&svg).unwrap(), FINE);
+    for (patch, tone) in wedge_patches() {
+        let error = mean_in(&white, patch, FINE) - tone;
+        println!("tone {tone:.1} with a 0.3 mm nib: {error:+.4}");
+        assert!(error.abs() <= 0.025, "tone {tone}: {error}");
+    }
+}

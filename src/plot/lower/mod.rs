@@ -1,11 +1,16 @@
 //! Lowering: from ink to the centre lines that a nib draws.
 //!
-//! A dot no larger than the nib is a touch, a line no wider than the nib its centre line; fatter marks are drawn as outlines, half
-//! a nib inside their border.
+//! A dot no larger than the nib is a touch, a larger one is filled with a spiral; dots smaller than the nib are thinned out, so that
+//! tone stays. A line no wider than the nib is its centre line; wider strokes and areas are drawn as outlines, half a nib inside
+//! their border.
+
+mod dot;
+mod thin;
 
 use super::{PenPaths, Plot, Toolpath};
-use crate::drawing::{Dot, Drawing, Layer, Mark, Stroke};
+use crate::drawing::{Drawing, Layer, Mark, Stroke};
 use crate::geometry::{BezPath, flatten};
+use dot::fill_dot;
 use std::collections::BTreeMap;
 
 /// What of a drawing a plotter draws.
@@ -43,7 +48,9 @@ pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) ->
     let mut pens: Vec<PenPaths> = Vec::new();
     for layer in &drawing.layers {
         let nib = nibs.of(layer.pen);
-        let paths = layer.marks.iter().flat_map(|mark| lower_mark(mark, model, nib, tolerance));
+        let kept = thin::keeps_tone(&layer.marks, nib);
+        let marks = layer.marks.iter().zip(kept).filter(|(_, kept)| *kept).map(|(mark, _)| mark);
+        let paths = marks.flat_map(|mark| lower_mark(mark, model, nib, tolerance));
         match pens.iter_mut().find(|pen| pen.number == layer.pen) {
             Some(pen) => {
                 pen.name = format!("{}, {}", pen.name, layer.name);
@@ -64,20 +71,10 @@ fn lower_mark(mark: &Mark, model: InkModel, nib: f64, tolerance: f64) -> Vec<Too
     match (mark, model) {
         (Mark::Stroke(stroke), InkModel::Lines) => polylines(&stroke.curve, tolerance),
         (_, InkModel::Lines) => Vec::new(),
-        (Mark::Dot(dot), InkModel::Ink) => lower_dot(dot, nib, tolerance),
+        (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, nib, tolerance)],
         (Mark::Stroke(stroke), InkModel::Ink) => lower_stroke(stroke, nib, tolerance),
         (Mark::Area(area), InkModel::Ink) => polylines(&area.outline, tolerance),
     }
-}
-
-fn lower_dot(dot: &Dot, nib: f64, tolerance: f64) -> Vec<Toolpath> {
-    let inside = dot.radius - 0.5 * nib;
-    if inside <= 0.25 * nib {
-        return vec![Toolpath { points: vec![dot.centre] }];
-    }
-    // Drawn around its middle at the share of its size that puts the nib's edge on the outline.
-    let shrink = kurbo::Affine::scale_about(inside / dot.radius, dot.centre);
-    polylines(&(shrink * dot.path()), tolerance)
 }
 
 fn lower_stroke(stroke: &Stroke, nib: f64, tolerance: f64) -> Vec<Toolpath> {
@@ -111,7 +108,7 @@ fn polylines(curve: &BezPath, tolerance: f64) -> Vec<Toolpath> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Page, Width};
+    use crate::drawing::{Dot, Page, Width};
     use crate::geometry::Point;
 
     fn touch(x: f64, y: f64) -> Toolpath {
@@ -119,16 +116,16 @@ mod tests {
     }
 
     #[test]
-    fn small_dots_are_touches_and_large_ones_rings_inside_their_border() {
+    fn small_dots_are_touches_and_large_ones_spirals_inside_their_border() {
         let mut layer = Layer::new("dots", 1);
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(5.0, 5.0), 0.15)));
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(8.0, 5.0), 1.0)));
         let drawing = Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] };
         let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01);
         assert_eq!(plot.pens[0].paths[0], touch(5.0, 5.0));
-        for p in &plot.pens[0].paths[1].points {
-            assert!((p.distance(Point::new(8.0, 5.0)) - 0.85).abs() < 0.011);
-        }
+        let spiral = &plot.pens[0].paths[1].points;
+        assert_eq!(spiral[0], Point::new(8.0, 5.0));
+        assert!(spiral.iter().all(|p| p.distance(Point::new(8.0, 5.0)) < 0.86));
         assert!(lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.01).pens[0].paths.is_empty());
     }
 
