@@ -2,7 +2,8 @@
 
 use super::Colour;
 use crate::geometry::{
-    Affine, BezPath, Point, Rect, clip_disc, clip_polygon, clip_polyline, curve_length, flatten, polygon_area, swelling_outline,
+    Affine, BezPath, Point, Rect, clip_disc, clip_polygon, clip_polyline, curve_length, flatten, polygon_area, sample_swelling,
+    swelling_outline,
 };
 use kurbo::{PathEl, Shape};
 
@@ -148,6 +149,16 @@ impl Stroke {
             Width::Constant(width) => *width,
             Width::Along(widths) => widths.iter().copied().fold(0.0, f64::max),
         }
+    }
+
+    /// Points along the centre line at most `spacing` apart, with the full width at each.
+    pub fn sampled(&self, spacing: f64) -> (Vec<Point>, Vec<f64>) {
+        let nodes = self.curve.segments().count() + 1;
+        let samples = match &self.width {
+            Width::Constant(width) => sample_swelling(&self.curve, &vec![*width; nodes], spacing),
+            Width::Along(widths) => sample_swelling(&self.curve, widths, spacing),
+        };
+        samples.into_iter().unzip()
     }
 
     fn bounding_box(&self) -> Rect {

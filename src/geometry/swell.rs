@@ -16,18 +16,9 @@ pub fn curve_length(path: &BezPath) -> f64 {
 /// # Panics
 /// If `widths` does not have one entry a node.
 pub fn swelling_outline(curve: &BezPath, widths: &[f64], tolerance: f64) -> BezPath {
-    let segments: Vec<CubicBez> = curve.segments().filter(|s| s.arclen(1e-3) > 1e-9).map(to_cubic).collect();
-    let nodes = curve.segments().count() + 1;
-    assert_eq!(widths.len(), nodes, "a width for each node");
+    let pieces = pieces(curve, widths);
     let mut outline = BezPath::new();
-    let (Some(first), Some(last)) = (segments.first(), segments.last()) else { return outline };
-    let widths = kept_widths(curve, widths);
-    let slopes = width_slopes(&segments, &widths);
-    let pieces: Vec<Swelling> = segments
-        .iter()
-        .enumerate()
-        .map(|(i, &curve)| Swelling { curve, from: (widths[i], slopes[i]), to: (widths[i + 1], slopes[i + 1]) })
-        .collect();
+    let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return outline };
     let closed = matches!(curve.elements().last(), Some(PathEl::ClosePath));
     outline.move_to(pieces[0].side(0.0, 1.0).0);
     for piece in &pieces {
@@ -37,16 +28,43 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], tolerance: f64) -> BezP
         outline.close_path();
         outline.move_to(pieces[pieces.len() - 1].side(1.0, -1.0).0);
     } else {
-        append_cap(&mut outline, last.p3, tangent(last, 1.0), widths[widths.len() - 1]);
+        append_cap(&mut outline, last.curve.p3, tangent(&last.curve, 1.0), last.to.0);
     }
     for piece in pieces.iter().rev() {
         piece.append_side(&mut outline, 1.0, 0.0, -1.0, tolerance, 0);
     }
     if !closed {
-        append_cap(&mut outline, first.p0, -tangent(first, 0.0), widths[0]);
+        append_cap(&mut outline, first.curve.p0, -tangent(&first.curve, 0.0), first.from.0);
     }
     outline.close_path();
     outline
+}
+
+/// Points along a swelling stroke at most `spacing` apart, with the full width that its outline has there.
+///
+/// # Panics
+/// If `widths` does not have one entry a node.
+pub fn sample_swelling(curve: &BezPath, widths: &[f64], spacing: f64) -> Vec<(Point, f64)> {
+    let mut samples = Vec::new();
+    for piece in pieces(curve, widths) {
+        let steps = (piece.curve.arclen(1e-3) / spacing).ceil().max(1.0) as usize;
+        for step in usize::from(!samples.is_empty())..=steps {
+            let t = step as f64 / steps as f64;
+            samples.push((piece.curve.eval(t), piece.width(t).0));
+        }
+    }
+    samples
+}
+
+/// The stroke segment by segment, with the width and its slope at both ends of each.
+fn pieces(curve: &BezPath, widths: &[f64]) -> Vec<Swelling> {
+    assert_eq!(widths.len(), curve.segments().count() + 1, "a width for each node");
+    let segments: Vec<CubicBez> = curve.segments().filter(|s| s.arclen(1e-3) > 1e-9).map(to_cubic).collect();
+    let widths = kept_widths(curve, widths);
+    let slopes = width_slopes(&segments, &widths);
+    let piece =
+        |(i, &curve): (usize, &CubicBez)| Swelling { curve, from: (widths[i], slopes[i]), to: (widths[i + 1], slopes[i + 1]) };
+    segments.iter().enumerate().map(piece).collect()
 }
 
 fn to_cubic(segment: PathSeg) -> CubicBez {

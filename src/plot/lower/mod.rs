@@ -1,17 +1,21 @@
 //! Lowering: from ink to the centre lines that a nib draws.
 //!
 //! A dot no larger than the nib is a touch, a larger one is filled with a spiral; dots smaller than the nib are thinned out, so that
-//! tone stays. A line no wider than the nib is its centre line; wider strokes and areas are drawn as outlines, half a nib inside
-//! their border.
+//! tone stays. A line no wider than the nib is its centre line, a wider one passes side by side; areas are filled with rings that follow
+//! their outline.
 
+mod area;
 mod dot;
+mod stroke;
 mod thin;
 
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Drawing, Layer, Mark, Stroke};
-use crate::geometry::{BezPath, flatten};
+use crate::geometry::{BezPath, flatten, simplify};
+use area::fill_area;
 use dot::fill_dot;
 use std::collections::BTreeMap;
+use stroke::fill_stroke;
 
 /// What of a drawing a plotter draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,20 +77,22 @@ fn lower_mark(mark: &Mark, model: InkModel, nib: f64, tolerance: f64) -> Vec<Too
         (_, InkModel::Lines) => Vec::new(),
         (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, nib, tolerance)],
         (Mark::Stroke(stroke), InkModel::Ink) => lower_stroke(stroke, nib, tolerance),
-        (Mark::Area(area), InkModel::Ink) => polylines(&area.outline, tolerance),
+        (Mark::Area(area), InkModel::Ink) => fill_area(area, nib, tolerance),
     }
 }
 
 fn lower_stroke(stroke: &Stroke, nib: f64, tolerance: f64) -> Vec<Toolpath> {
-    if stroke.widest() <= 1.5 * nib {
-        return polylines(&stroke.curve, tolerance);
-    }
-    if let Some(outline) = stroke.outline() {
-        polylines(&outline, tolerance)
+    // A line hardly wider than the nib gains nothing from a second pass.
+    if stroke.widest() <= 1.1 * nib {
+        polylines(&stroke.curve, tolerance)
     } else {
-        let style = kurbo::Stroke::new(stroke.widest() - nib);
-        polylines(&kurbo::stroke(stroke.curve.iter(), &style, &kurbo::StrokeOpts::default(), tolerance), tolerance)
+        simplified(fill_stroke(stroke, nib), tolerance)
     }
+}
+
+/// Paths without the vertices that straight stretches do not need.
+fn simplified(paths: Vec<Toolpath>, tolerance: f64) -> Vec<Toolpath> {
+    paths.into_iter().map(|path| Toolpath { points: simplify(&path.points, 0.5 * tolerance) }).collect()
 }
 
 /// A curve's subpaths as tool paths; one without length becomes a touch.

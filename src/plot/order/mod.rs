@@ -11,6 +11,7 @@
     reason = "paths are counted in u32, half of what memory holds, and budgets are whole numbers of kicks"
 )]
 
+mod exact;
 mod exchange;
 mod greedy;
 mod kd_tree;
@@ -98,6 +99,9 @@ pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Directi
     let mut best: Vec<Visit> = (0..paths.len()).map(|path| Visit { path, reversed: false }).collect();
     if effort == Effort::None || paths.is_empty() {
         return best;
+    }
+    if paths.len() <= exact::MOST {
+        return exact::best_order(paths, home, direction);
     }
     let numbering = sites::numbering(paths);
     let sites = Sites::new(paths, &numbering, home);

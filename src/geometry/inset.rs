@@ -1,0 +1,57 @@
+//! Offsetting outlines inwards.
+
+use super::polyline::flatten;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay;
+use i_overlay::mesh::float::outline::offset::OutlineOffset;
+use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
+use kurbo::{BezPath, Point};
+
+/// A filled outline made ready to be shrunk again and again.
+#[derive(Clone, Debug)]
+pub struct Insets {
+    shapes: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+impl Insets {
+    /// From closed subpaths by the nonzero rule, curves flattened to `tolerance`.
+    pub fn new(outline: &BezPath, tolerance: f64) -> Self {
+        let contours: Vec<Vec<[f64; 2]>> = flatten(outline, tolerance)
+            .into_iter()
+            .map(|(points, _)| points.iter().filter(|p| p.is_finite()).map(|p| [p.x, p.y]).collect::<Vec<_>>())
+            .filter(|points| points.len() > 2)
+            .collect();
+        let nothing: Vec<Vec<[f64; 2]>> = Vec::new();
+        Self { shapes: contours.overlay(&nothing, OverlayRule::Subject, FillRule::NonZero) }
+    }
+
+    /// The rings that lie `distance` inside the border, holes' rings too; empty where nothing is that far inside.
+    pub fn rings(&self, distance: f64) -> Vec<Vec<Point>> {
+        let style = OutlineStyle::new(-distance).line_join(LineJoin::Round(0.3));
+        let shapes = self.shapes.outline(&style);
+        shapes.into_iter().flatten().map(|ring| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::polygon_area;
+
+    #[test]
+    fn a_frame_shrinks_from_both_sides() {
+        for text in ["M0,0 H10 V10 H0 Z M3,3 V7 H7 V3 Z", "M0,0 V10 H10 V0 Z M3,3 H7 V7 H3 Z"] {
+            let insets = Insets::new(&BezPath::from_svg(text).unwrap(), 0.01);
+            let mut areas: Vec<f64> = insets.rings(1.0).iter().map(|ring| polygon_area(ring).abs()).collect();
+            areas.sort_by(f64::total_cmp);
+            // The hole's ring has round corners: 6 x 6 less the corners' (4 - pi).
+            assert_eq!(areas.len(), 2);
+            assert!((areas[0] - (36.0 - (4.0 - std::f64::consts::PI))).abs() < 0.1, "{areas:?}");
+            assert!((areas[1] - 64.0).abs() < 0.01, "{areas:?}");
+            // The corners are the last to go: a place is at most 3 - 3 / (1 + sqrt 2) = 1.757 inside.
+            assert_eq!(insets.rings(1.6).len(), 4);
+            assert!(insets.rings(1.8).is_empty());
+        }
+    }
+}
