@@ -48,7 +48,12 @@ impl Rim {
     fn of(dot: &Dot, nib: f64) -> Self {
         let distances = match &dot.outline {
             None => vec![dot.radius - 0.5 * nib],
-            Some(outline) => distances(outline, dot.centre).into_iter().map(|d| (d - 0.5 * nib).max(0.0)).collect(),
+            Some(outline) => {
+                let outline = distances(outline, dot.centre);
+                // A nib of the blob's own size feels two directions to either side, a fine one only the one it goes.
+                let reach = (nib / dot.radius) as usize;
+                (0..DIRECTIONS).map(|i| (least_around(&outline, i, reach.min(2)) - 0.5 * nib).max(0.0)).collect()
+            }
         };
         Self { centre: dot.centre, distances }
     }
@@ -65,6 +70,11 @@ impl Rim {
     fn largest(&self) -> f64 {
         self.distances.iter().copied().fold(0.0, f64::max)
     }
+}
+
+/// The least distance within a few directions: where the outline runs aslant, the nib's flank meets it before its front does.
+fn least_around(outline: &[f64], i: usize, reach: usize) -> f64 {
+    (DIRECTIONS - reach..=DIRECTIONS + reach).map(|step| outline[(i + step) % DIRECTIONS]).fold(f64::INFINITY, f64::min)
 }
 
 /// How far an outline lies from a point inside, by angle; the farthest where it is crossed several times.
