@@ -195,6 +195,44 @@ fn outputs_that_cannot_be_written_leave_nothing() {
 }
 
 #[test]
+fn links_are_followed_and_modes_kept() {
+    let (folder, _) = folder();
+    let target = folder.path().join("target.svg");
+    fs::write(&target, "old").unwrap();
+    fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).unwrap();
+    std::os::unix::fs::symlink("target.svg", folder.path().join("link.svg")).unwrap();
+    std::os::unix::fs::symlink("later.svg", folder.path().join("dangling.svg")).unwrap();
+    for name in ["link.svg", "dangling.svg"] {
+        let status = drypoint().current_dir(folder.path()).args(["draw", "photo.png", "-q", "-o", name]).status_code();
+        assert_eq!(status, Some(0));
+        assert!(fs::symlink_metadata(folder.path().join(name)).unwrap().file_type().is_symlink());
+    }
+    assert!(fs::read_to_string(&target).unwrap().starts_with("<svg"));
+    assert_eq!(fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o640);
+    assert!(fs::read_to_string(folder.path().join("later.svg")).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn a_machine_s_sheet_holds_the_picture_without_a_margin_being_asked_for() {
+    let (folder, _) = folder();
+    let run = |arguments: &[&str]| drypoint().current_dir(folder.path()).args(arguments).output().unwrap();
+    let machine = ["-q", "--profile", "hp7475a", "--page", "a4"];
+    let drawn = run(&[&["draw", "photo.png", "-o", "a.hpgl", "--pitch", "3"], &machine[..]].concat());
+    assert!(drawn.status.success(), "{drawn:?}");
+    assert!(run(&["draw", "photo.png", "-q", "-o", "a.svg", "--pitch", "3"]).status.success());
+    let plotted = run(&[&["plot", "a.svg", "-o", "b.hpgl", "--fit", "page"], &machine[..]].concat());
+    assert!(plotted.status.success(), "{plotted:?}");
+}
+
+#[test]
+fn pictures_with_hardly_anything_to_draw_are_refused_and_never_panic() {
+    let (folder, _) = folder();
+    fs::write(folder.path().join("pale.png"), png_of_light(48, 64, |_, _| 0.9)).unwrap();
+    refuses(folder.path(), 1, "--set highlights=off", &["draw", "pale.png", "-o", "out.svg"]);
+    refuses(folder.path(), 1, "smaller than one dot", &["draw", "photo.png", "-o", "out.svg", "--size", "3x3", "--pitch", "30"]);
+}
+
+#[test]
 fn a_full_disk_keeps_the_old_file() {
     let (folder, _) = folder();
     let small = folder.path().join("small");

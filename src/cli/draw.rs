@@ -6,8 +6,9 @@ use super::layout::{Layout, lay_out};
 use super::output;
 use super::progress::{Watcher, is_interrupted};
 use super::toolpaths::{self, Prepared};
-use crate::drawing::{Drawing, Layer};
-use crate::plot::{InkModel, Nibs, Profile, lower};
+use crate::drawing::{Drawing, Layer, Page};
+use crate::geometry::Rect;
+use crate::plot::{InkModel, Nibs, Profile, lower, mount};
 use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_svg};
@@ -23,7 +24,8 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
     toolpaths::check_language(format, profile.as_ref())?;
     limit_threads(options.picture.threads)?;
     let watcher = Watcher::new(options.reporting.quiet);
-    let task = Task::new(&options.picture)?;
+    let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
+    let task = Task::new(&options.picture, reach)?;
     let mut drawing = task.draw(&watcher)?;
     for layer in &mut drawing.layers {
         layer.ink = options.ink.clone();
@@ -41,7 +43,7 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
     }
     let seconds = watcher.finish();
     for prepared in &prepared {
-        toolpaths::warn(prepared, profile.as_ref());
+        toolpaths::warn(prepared, profile.as_ref(), "; a larger --pitch makes it shorter");
     }
     report(options, &drawing, &prepared, &seconds, watcher.elapsed())
 }
@@ -83,7 +85,7 @@ pub(super) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    pub(super) fn new(options: &'a PictureOptions) -> Result<Self, Failure> {
+    pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
         let settings = settings(style, options)?;
         if options.black >= options.white {
@@ -96,7 +98,9 @@ impl<'a> Task<'a> {
             .into_iter()
             .map(|(role, file)| Ok((role, file.to_owned(), self::photograph(file)?)))
             .collect::<Result<_, Failure>>()?;
-        let layout = lay_out(options, &photograph)?;
+        // Marks stand on the picture's border and reach over it by less than a pitch.
+        let pitch = settings.number("pitch");
+        let layout = lay_out(options, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
         Ok(Self { options, style, settings, photograph, masks, layout })
     }
 
@@ -214,6 +218,7 @@ fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
             toml::Value::String(text) => Ok((key, text)),
             toml::Value::Integer(number) => Ok((key, number.to_string())),
             toml::Value::Float(number) => Ok((key, number.to_string())),
+            toml::Value::Boolean(is_on) => Ok((key, if is_on { "on" } else { "off" }.to_owned())),
             other => Err(Failure::Work(format!("{name}: {key} = {other} is neither a number nor a text"))),
         })
         .collect()
@@ -246,7 +251,7 @@ fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> 
 }
 
 /// The whole drawing, or with `{layer}` in the name one drawing for each layer.
-fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
+pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
     if !output.contains("{layer}") {
         return vec![(output.to_owned(), drawing.clone())];
     }

@@ -21,6 +21,9 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
         Kind::Hpgl => {
             let motion = read_hpgl(text).map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
             let profile = profile.map_or_else(|| Profile::parse("hp7475a", built_in("hp7475a")?), Ok)?;
+            if profile.language != Language::Hpgl {
+                return Err(Failure::Usage(format!("{shown} is HP-GL, which {} does not read", profile.name)));
+            }
             inspect_motion("hpgl", &motion, &profile)
         }
         Kind::Gcode => {

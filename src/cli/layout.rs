@@ -22,6 +22,8 @@ const SHEETS: [(&str, f64, f64); 10] = [
 
 /// The box of a picture without a sheet.
 const USUAL_BOX: (f64, f64) = (90.0, 120.0);
+/// Least side of a picture, in millimetres.
+const LEAST_SIDE: f64 = 0.5;
 /// Margin kept on a named sheet.
 const USUAL_MARGIN: f64 = 10.0;
 
@@ -55,11 +57,22 @@ pub(super) struct Layout {
     pub crop: Crop,
 }
 
-pub(super) fn lay_out(options: &PictureOptions, photograph: &Photograph) -> Result<Layout, Failure> {
+/// Lays the picture out; `reach` is what a machine can draw of a page, which bounds the box that nobody chose.
+pub(super) fn lay_out(
+    options: &PictureOptions,
+    photograph: &Photograph,
+    reach: impl Fn(&Page) -> Option<Rect>,
+) -> Result<Layout, Failure> {
     let sheet = options.page.as_deref().map(sheet).transpose()?;
     let margin = options.margin.unwrap_or(if sheet.is_some() { USUAL_MARGIN } else { 0.0 });
+    // On a machine's own sheet, with no margin asked for, what the machine cannot reach is margin too.
+    let free = sheet.filter(|_| options.margin.is_none()).and_then(|(width, height)| {
+        let page = Page::new(width, height);
+        reach(&page).map(|reach| page.rect().inset(-margin).intersect(reach))
+    });
     let frame = match (options.size, sheet) {
         (Some(size), _) => size,
+        (None, Some(_)) if free.is_some() => free.map_or((0.0, 0.0), |free| (free.width(), free.height())),
         (None, Some((width, height))) => (width - 2.0 * margin, height - 2.0 * margin),
         (None, None) => USUAL_BOX,
     };
@@ -74,15 +87,21 @@ pub(super) fn lay_out(options: &PictureOptions, photograph: &Photograph) -> Resu
             frame.0, frame.1
         )));
     }
-    let mut crop = crop_of(options, photograph);
+    let mut crop = crop_of(options, photograph).within(photograph).map_err(|error| Failure::about(&options.photo)(&error))?;
     if options.fit == Fit::Cover {
         crop = fill_box(crop, frame.0, frame.1);
     }
     let scale = (frame.0 / crop.width).min(frame.1 / crop.height);
     let (width, height) = (crop.width * scale, crop.height * scale);
+    if width < LEAST_SIDE || height < LEAST_SIDE {
+        return Err(Failure::Usage(format!(
+            "the picture would be {width:.2} x {height:.2} mm; use another --crop, or a larger --size"
+        )));
+    }
     let (page_width, page_height) = sheet.unwrap_or((width + 2.0 * margin, height + 2.0 * margin));
-    let (left, top) = (0.5 * (page_width - width), 0.5 * (page_height - height));
-    Ok(Layout { page: Page::new(page_width, page_height), picture: Rect::new(left, top, left + width, top + height), crop })
+    let page = Page::new(page_width, page_height);
+    let centre = free.map_or(page.rect().center(), |free| free.center());
+    Ok(Layout { page, picture: Rect::from_center_size(centre, (width, height)), crop })
 }
 
 fn crop_of(options: &PictureOptions, photograph: &Photograph) -> Crop {

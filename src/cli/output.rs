@@ -5,7 +5,7 @@ use super::progress::is_interrupted;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The bytes of a file, or of stdin for `-`.
 pub(super) fn read(name: &str) -> Result<Vec<u8>, Failure> {
@@ -39,7 +39,9 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
         return fill(&mut stdout).and_then(|()| stdout.flush()).map_err(Failure::writing("stdout"));
     }
     let fail = Failure::writing(name);
-    let path = Path::new(name);
+    let followed = follow_links(Path::new(name));
+    let path = followed.as_path();
+    let mut mode = 0o666;
     match fs::metadata(path) {
         Ok(found) if found.is_dir() => return Err(Failure::Work(format!("{name} is a folder; give a file name with -o"))),
         Ok(found) if !found.is_file() => {
@@ -49,12 +51,13 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
         }
         // A file that may not be written is not replaced behind its owner's back.
         Ok(found) if found.permissions().readonly() => return Err(fail(io::ErrorKind::PermissionDenied.into())),
-        _ => {}
+        Ok(found) => mode = found.permissions().mode() & 0o7777,
+        Err(_) => {}
     }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut temporary = tempfile::Builder::new()
         .prefix(".drypoint-")
-        .permissions(fs::Permissions::from_mode(0o666))
+        .permissions(fs::Permissions::from_mode(mode))
         .tempfile_in(folder)
         .map_err(|error| Failure::writing(name)(io::Error::from(error.kind())))?;
     {
@@ -66,6 +69,21 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     }
     temporary.persist(path).map_err(|error| fail(error.error))?;
     Ok(())
+}
+
+/// What a chain of symbolic links leads to, whether it exists or not: the link stays, its target is replaced.
+fn follow_links(path: &Path) -> PathBuf {
+    let mut path = path.to_path_buf();
+    for _ in 0..40 {
+        let Ok(target) = fs::read_link(&path) else { break };
+        let next = path.parent().unwrap_or(Path::new("")).join(target);
+        // An open pipe or socket (`/dev/stdout`) names no file; the link itself is what can be opened.
+        if fs::metadata(&path).is_ok() && fs::symlink_metadata(&next).is_err() {
+            break;
+        }
+        path = next;
+    }
+    path
 }
 
 /// Writes data to stdout.

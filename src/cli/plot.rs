@@ -1,12 +1,12 @@
 //! `drypoint plot`: any SVG to ordered tool paths.
 
 use super::arguments::{InkModelOption, PlotFit, PlotOptions, Rotate};
-use super::draw::limit_threads;
+use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{InkModel, Nibs, lower};
+use crate::plot::{InkModel, Nibs, lower, mount};
 use crate::read::{Imported, read_svg};
 use crate::write::SvgHead;
 use serde_json::json;
@@ -26,37 +26,46 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }
-    let drawing = place(&imported.drawing(), options)?;
-    let plot = lower(&drawing, model, &Nibs::all(options.pen), options.toolpaths.tolerance);
-    if plot.pens.iter().all(|pen| pen.paths.is_empty()) {
+    let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
+    let drawing = place(&imported.drawing(), options, reach)?;
+    if is_blank(&drawing, model) {
         let dropped =
-            if imported.dropped.is_empty() { String::new() } else { format!(" (it holds {})", imported.dropped.summary()) };
-        return Err(Failure::Work(format!(
-            "{shown}: there is nothing to draw{dropped}; fills are drawn only with --ink-model ink"
-        )));
+            if imported.dropped.is_empty() { String::new() } else { format!(" (not drawn: {})", imported.dropped.summary()) };
+        let advice = if model == InkModel::Lines { "; fills are drawn with --ink-model ink" } else { "" };
+        return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}")));
     }
-    let prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
     let head = SvgHead {
         title: format!("Tool paths of {}", std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown)),
         description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
         recipe: json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "plot", "pen_mm": options.pen }).to_string(),
     };
-    if !options.dry_run {
-        toolpaths::write(&options.output, format, &prepared, profile.as_ref(), &head)?;
+    let mut plots = Vec::new();
+    for (name, drawing) in split_by_layer(&drawing, &options.output) {
+        let plot = lower(&drawing, model, &Nibs::all(options.pen), options.toolpaths.tolerance);
+        let prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
+        if !options.dry_run {
+            toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
+        }
+        toolpaths::warn(&prepared, profile.as_ref(), "");
+        plots.push((name, prepared));
     }
     if !imported.dropped.is_empty() {
         eprintln!("drypoint: warning: not drawn: {}", imported.dropped.summary());
     }
-    toolpaths::warn(&prepared, profile.as_ref());
     if options.reporting.json {
-        let mut value = json!(prepared.report);
+        let mut value = plots.first().map_or_else(|| json!({}), |(_, prepared)| json!(prepared.report));
         value["dropped"] = json!(imported.dropped);
         return output::print_json(&value);
     }
-    if !options.reporting.quiet {
-        eprintln!("{}: {}", options.output, toolpaths::summary(&prepared.report));
+    for (name, prepared) in plots.iter().filter(|_| !options.reporting.quiet) {
+        eprintln!("{name}: {}", toolpaths::summary(&prepared.report));
     }
     Ok(())
+}
+
+/// Whether nothing of a drawing would be drawn.
+fn is_blank(drawing: &Drawing, model: InkModel) -> bool {
+    !drawing.marks().any(|mark| model == InkModel::Ink || matches!(mark, Mark::Stroke(_)))
 }
 
 fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
@@ -85,11 +94,11 @@ fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failu
 /// Under `lines`, fills are not drawn, but not lost in silence either.
 fn count_fills(imported: &mut Imported) {
     let fills = imported.layers.iter().flat_map(|l| &l.layer.marks).filter(|m| !matches!(m, Mark::Stroke(_))).count();
-    imported.dropped.add("fill", fills);
+    imported.dropped.add("fills", fills);
 }
 
 /// Turns, scales and moves the drawing on its sheet.
-fn place(drawing: &Drawing, options: &PlotOptions) -> Result<Drawing, Failure> {
+fn place(drawing: &Drawing, options: &PlotOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Drawing, Failure> {
     let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
     let turned = turn(drawing, turn_degrees(options.rotate, drawing, sheet));
     let page = sheet.map_or(turned.page, |(width, height)| Page { width, height, ..turned.page });
@@ -97,12 +106,13 @@ fn place(drawing: &Drawing, options: &PlotOptions) -> Result<Drawing, Failure> {
     let Some(bounds) = scaled.bounding_box() else { return Ok(Drawing { page, ..scaled }) };
     let moved = match (options.fit, options.center) {
         (PlotFit::Page, _) => {
-            let frame = page.rect().inset(-options.margin);
+            let free = page.rect().inset(-options.margin);
+            let frame = reach(&page).map_or(free, |reach| free.intersect(reach));
             if frame.width() <= 0.0 || frame.height() <= 0.0 {
                 return Err(Failure::Usage(format!("a margin of {} mm leaves nothing of the page", options.margin)));
             }
             let factor = (frame.width() / bounds.width().max(1e-6)).min(frame.height() / bounds.height().max(1e-6));
-            scaled.transformed(centring(bounds, page.rect(), factor))
+            scaled.transformed(centring(bounds, frame, factor))
         }
         (PlotFit::None, true) => scaled.transformed(centring(bounds, page.rect(), 1.0)),
         (PlotFit::None, false) => scaled,

@@ -16,8 +16,11 @@ use std::sync::Mutex;
 
 pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     limit_threads(options.picture.threads)?;
-    let task = Task::new(&options.picture)?;
+    let task = Task::new(&options.picture, |_| None)?;
     let folder = options.output.to_string_lossy().into_owned();
+    if folder == "-" {
+        return Err(Failure::Usage("stages are many files: give a folder with -o".to_owned()));
+    }
     std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be made: {error}")))?;
     let recorder =
         Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };

@@ -42,12 +42,21 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
         Profile::parse(name, built_in(name)?)?
     };
     if let Some(speed) = options.speed {
-        profile.motion.draw_speed = speed;
+        profile.motion.draw_speed = told_speed(&profile, speed);
     }
     if let Some(speed) = options.travel_speed {
         profile.motion.travel_speed = speed;
     }
     Ok(profile)
+}
+
+/// The speed that the machine can be told: HP-GL's in whole centimetres a second within the machine's limit.
+fn told_speed(profile: &Profile, speed: f64) -> f64 {
+    if profile.language == Language::Gcode {
+        return speed;
+    }
+    let limit = profile.motion.draw_speed_limit.unwrap_or(f64::INFINITY);
+    (speed.min(limit) / 10.0).floor().max(1.0) * 10.0
 }
 
 /// Refuses a format that the profile's machine does not read.
@@ -78,11 +87,13 @@ pub(super) struct Prepared {
 
 /// Orders a plot, lays it on the machine and checks that all of it can be drawn there.
 pub(super) fn prepare(mut plot: Plot, profile: Option<&Profile>, options: &ToolpathOptions) -> Result<Prepared, Failure> {
+    plot.pens.retain(|pen| !pen.paths.is_empty());
     let mounting = profile.map(|profile| mount(profile, &plot.page)).transpose()?;
     let mut cut = (0.0, 0);
     if options.clip {
         let sheet = plot.page.rect();
         cut = clip_to(&mut plot, mounting.as_ref().map_or(sheet, |m| m.reach_on_page().intersect(sheet)));
+        plot.pens.retain(|pen| !pen.paths.is_empty());
     }
     if let (Some(profile), Some(mounting)) = (profile, &mounting) {
         check_pens(&plot, profile)?;
@@ -136,7 +147,7 @@ pub(super) fn write(
 }
 
 /// Warnings about the machine, shown whatever was asked for.
-pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>) {
+pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str) {
     let (length, touches) = prepared.cut;
     if length > 0.0 || touches > 0 {
         eprintln!("drypoint: warning: --clip cut away {length:.1} mm of line and {touches} touches");
@@ -144,7 +155,7 @@ pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>) {
     if let Some(seconds) = prepared.report.total.seconds
         && seconds > LONG_HOURS * 3600.0
     {
-        eprintln!("drypoint: warning: this plot takes {}; a larger --pitch makes it shorter", duration(seconds));
+        eprintln!("drypoint: warning: this plot takes {}{shorter}", duration(seconds));
     }
     let pens = prepared.plot.pens.len() as u32;
     if let Some(profile) = profile

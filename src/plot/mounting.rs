@@ -142,12 +142,12 @@ impl Mounting {
         let reach = self.reach_on_page();
         let fits = |w: f64, h: f64| w <= reach.width() && h <= reach.height();
         let advice = if fits(bounds.width(), bounds.height()) {
-            "it would fit if it were moved: use --margin or --center".to_owned()
+            "it would fit elsewhere on the page: leave a larger --margin, or plot with --fit page".to_owned()
         } else if fits(bounds.height(), bounds.width()) {
             "it would fit turned by 90 degrees: --rotate 90".to_owned()
         } else {
             format!(
-                "it is {:.1} x {:.1} mm and the reach is {:.1} x {:.1} mm: make it smaller with --size or --scale",
+                "it is {:.1} x {:.1} mm and the reach is {:.1} x {:.1} mm: make it smaller (draw --size, plot --scale or --fit page)",
                 bounds.width(),
                 bounds.height(),
                 reach.width(),

@@ -209,11 +209,58 @@ impl Profile {
                 return refuse(key, "must be above 0");
             }
         }
+        if self.pens.count == 0 {
+            return refuse("pens.count", "must be at least 1");
+        }
+        for (key, seconds) in
+            [("motion.pen_up_seconds", motion.pen_up_seconds), ("motion.pen_down_seconds", motion.pen_down_seconds)]
+        {
+            if !(0.0..=60.0).contains(&seconds) {
+                return refuse(key, "must be from 0 to 60 seconds");
+            }
+        }
+        let ranges = self.paper.iter().flat_map(|p| [p.x, p.y]).chain(self.area.iter().flat_map(|a| [a.x, a.y]));
+        if ranges.into_iter().any(|[low, high]| low.partial_cmp(&high) != Some(std::cmp::Ordering::Less)) {
+            return refuse("x", "and y need their lower limit first");
+        }
+        if let Some(gcode) = &self.gcode {
+            self.check_gcode(gcode, refuse)?;
+        }
+        if self.hpgl.as_ref().is_some_and(|hpgl| hpgl.chunk < 40) {
+            return refuse("hpgl.chunk", "must be at least 40 bytes, which hold two points");
+        }
         match self.language {
             Language::Gcode if self.gcode.is_none() => refuse("gcode", "is missing, and the language is gcode"),
             Language::Hpgl if self.hpgl.is_none() => refuse("hpgl", "is missing, and the language is hpgl"),
             _ => Ok(()),
         }
+    }
+}
+
+impl Profile {
+    /// What would draw where it should travel, or leave the machine.
+    fn check_gcode(
+        &self,
+        gcode: &GcodeDialect,
+        refuse: impl Fn(&'static str, &str) -> Result<(), ProfileError>,
+    ) -> Result<(), ProfileError> {
+        if gcode.pen_up.trim().is_empty() || gcode.pen_down.trim().is_empty() {
+            return refuse("gcode.pen_up", "and gcode.pen_down must each be a command");
+        }
+        if gcode.pen_up == gcode.pen_down {
+            return refuse("gcode.pen_up", "must differ from gcode.pen_down");
+        }
+        if !gcode.dwell.contains("{seconds}") && !gcode.dwell.contains("{milliseconds}") {
+            return refuse("gcode.dwell", "must hold {seconds} or {milliseconds}");
+        }
+        if gcode.line_length < 40 {
+            return refuse("gcode.line_length", "must be at least 40");
+        }
+        let is_within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
+        if self.area.is_some_and(|area| !is_within(area.x, gcode.park[0]) || !is_within(area.y, gcode.park[1])) {
+            return refuse("gcode.park", "must lie in the area");
+        }
+        Ok(())
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Dropped;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
+use std::fmt::Write as _;
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 const DRYPOINT: &str = "urn:drypoint";
@@ -48,25 +49,49 @@ impl Label {
         let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
         label.pen = rest[..digits].parse().ok().filter(|&pen| pen > 0);
         rest = if label.pen.is_some() { &rest[digits..] } else { rest };
-        for (mark, value) in [("+S", &mut label.speed), ("+H", &mut label.height), ("+D", &mut label.delay)] {
-            if let Some((_, after)) = rest.to_ascii_uppercase().split_once(mark) {
-                let number: String = after.trim_start().chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
-                *value = number.parse().ok();
+        let mut words = Vec::new();
+        let spaced = rest.replace('+', " +");
+        for word in spaced.split_whitespace() {
+            let value = word.get(2..).and_then(|number| number.parse().ok());
+            match (word.get(..2).map(str::to_ascii_uppercase).as_deref(), value) {
+                (Some("+S"), Some(_)) => label.speed = value,
+                (Some("+H"), Some(_)) => label.height = value,
+                (Some("+D"), Some(_)) => label.delay = value,
+                _ => words.push(word),
             }
         }
-        let name = rest.split('+').next().unwrap_or("").trim();
-        name.clone_into(&mut label.name);
+        label.name = words.join(" ");
         label
     }
 }
 
 pub(super) fn outline(document: &Document<'_>) -> Outline {
     let mut outline = Outline::default();
-    collect(document.root_element(), false, &mut outline);
+    collect(document.root_element(), None, &mut outline);
     outline
 }
 
-fn collect(node: Node<'_, '_>, in_layer: bool, outline: &mut Outline) {
+/// The text with an id in every layer's group that has none: usvg's tree keeps nothing else to know it by.
+pub(super) fn with_layer_ids(text: &str, document: &Document<'_>) -> String {
+    let mut out = String::with_capacity(text.len() + 64);
+    let mut at = 0;
+    for (i, node) in
+        document.descendants().filter(|node| is_layer(*node) && node.attribute("id").is_none_or(str::is_empty)).enumerate()
+    {
+        let start = node.range().start;
+        let name_end = start + text[start..].find(|c: char| c.is_whitespace() || c == '>' || c == '/').unwrap_or(0);
+        out.push_str(&text[at..name_end]);
+        let _ = write!(out, " id=\"drypoint-layer-{i}\"");
+        at = name_end;
+    }
+    out + &text[at..]
+}
+
+fn is_layer(node: Node<'_, '_>) -> bool {
+    node.tag_name().name() == "g" && node.attribute((INKSCAPE, "groupmode")) == Some("layer")
+}
+
+fn collect(node: Node<'_, '_>, layer: Option<usize>, outline: &mut Outline) {
     for child in node.children().filter(Node::is_element) {
         let tag = child.tag_name().name();
         if is_hidden(child) {
@@ -79,23 +104,29 @@ fn collect(node: Node<'_, '_>, in_layer: bool, outline: &mut Outline) {
             "foreignObject" => outline.dropped.count("foreignObject"),
             "script" => outline.dropped.count("script"),
             _ => {
-                let is_layer = tag == "g" && !in_layer && child.attribute((INKSCAPE, "groupmode")) == Some("layer");
-                if is_layer {
-                    add_layer(child, outline);
-                }
-                collect(child, in_layer || is_layer, outline);
+                let layer = if is_layer(child) { Some(add_layer(child, layer, outline)) } else { layer };
+                collect(child, layer, outline);
             }
         }
     }
 }
 
-fn add_layer(group: Node<'_, '_>, outline: &mut Outline) {
+/// The number of a group's layer. A layer within a layer is its own only when its label says something of pens.
+fn add_layer(group: Node<'_, '_>, around: Option<usize>, outline: &mut Outline) -> usize {
     let id = group.attribute("id").unwrap_or_default();
-    let label = group.attribute((INKSCAPE, "label")).unwrap_or(id);
-    if !id.is_empty() {
-        outline.by_id.insert(id.to_owned(), outline.layers.len());
+    let mut label = Label::parse(group.attribute((INKSCAPE, "label")).unwrap_or(id));
+    if let Some(around) = around {
+        label.is_skipped |= outline.layers[around].is_skipped;
     }
-    outline.layers.push(Label::parse(label));
+    let number = match around {
+        Some(around) if label.pen.is_none() && !label.is_skipped => around,
+        _ => {
+            outline.layers.push(label);
+            outline.layers.len() - 1
+        }
+    };
+    outline.by_id.insert(id.to_owned(), number);
+    number
 }
 
 fn is_hidden(node: Node<'_, '_>) -> bool {
@@ -117,6 +148,7 @@ mod tests {
             (true, Some(3), Some(40.0), Some(55.0), Some(100.0))
         );
         assert_eq!(full.name, "red");
+        assert_eq!(Label::parse("1+S10+D200 slow").name, "slow");
         assert_eq!(Label::parse("Sketch").pen, None);
     }
 }

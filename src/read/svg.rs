@@ -1,7 +1,7 @@
 //! SVG as a drawing: usvg resolves the geometry, one pass over the XML the layers and kinds of marks.
 
 use super::Dropped;
-use super::layers::{Label, Outline, outline};
+use super::layers::{Label, Outline, outline, with_layer_ids};
 use crate::drawing::{Area, Colour, Dot, Drawing, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use crate::geometry::{Affine, BezPath, Point, Region, flatten};
 use kurbo::{PathEl, Shape};
@@ -12,6 +12,11 @@ use usvg::tiny_skia_path::PathSegment;
 const MM_PER_PX: f64 = 25.4 / 96.0;
 /// Flattening where a path must be clipped or dashed, in millimetres.
 const CLIP_TOLERANCE: f64 = 0.005;
+
+/// Coordinates beyond which a path is not taken, in millimetres.
+const FARTHEST: f64 = 100_000.0;
+/// Dashes in one path beyond which the pattern is not taken.
+const MOST_DASHES: f64 = 20_000.0;
 
 /// Why an SVG could not be read.
 #[derive(Debug, Error)]
@@ -73,8 +78,9 @@ impl Imported {
 /// Reads an SVG. Layers are Inkscape's, by their labels' conventions; without any, each colour is a layer.
 pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
     let text = std::str::from_utf8(bytes).map_err(|_| SvgError::NotText)?;
-    let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
-    let document = roxmltree::Document::parse_with_options(text, options)?;
+    let options = || roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+    let text = with_layer_ids(text, &roxmltree::Document::parse_with_options(text, options())?);
+    let document = roxmltree::Document::parse_with_options(&text, options())?;
     let outline = outline(&document);
     let tree = usvg::Tree::from_xmltree(&document, &usvg::Options::default())?;
     let page = Page::new(f64::from(tree.size().width()) * MM_PER_PX, f64::from(tree.size().height()) * MM_PER_PX);
@@ -120,14 +126,17 @@ impl<'a> Importer<'a> {
         if place.layer.is_some_and(|layer| self.outline.layers.get(layer).is_some_and(|label| label.is_skipped)) {
             return;
         }
+        if group.opacity().get() <= 0.0 {
+            return self.dropped.count("invisible group");
+        }
         let mut clips = clips.to_vec();
         let mut clip = group.clip_path();
         while let Some(path) = clip {
             clips.push(clip_region(path, to_mm(group.abs_transform())));
             clip = path.clip_path();
         }
-        self.dropped.add("mask", usize::from(group.mask().is_some()));
-        self.dropped.add("filter", group.filters().len());
+        self.dropped.add("mask (its group is drawn whole)", usize::from(group.mask().is_some()));
+        self.dropped.add("filter (its group is drawn plain)", group.filters().len());
         for node in group.children() {
             match node {
                 usvg::Node::Group(group) => self.group(group, place, &clips),
@@ -159,6 +168,10 @@ impl<'a> Importer<'a> {
         }
         let transform = to_mm(path.abs_transform());
         let curve = transform * bez_path(path.data());
+        let bounds = curve.control_box();
+        if !bounds.is_finite() || [bounds.x0, bounds.y0, bounds.x1, bounds.y1].iter().any(|v| v.abs() > FARTHEST) {
+            return self.dropped.count("path beyond 100 m");
+        }
         let scale = transform.determinant().abs().sqrt();
         if let Some(fill) = path.fill()
             && let Some(colour) = self.ink(fill.paint(), "fill")
@@ -216,7 +229,11 @@ impl<'a> Importer<'a> {
         let mut curve = curve.clone();
         if let Some(dashes) = stroke.dasharray() {
             let dashes: Vec<f64> = dashes.iter().map(|d| f64::from(*d) * scale).collect();
-            curve = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * scale, &dashes).collect();
+            if crate::geometry::curve_length(&curve) > MOST_DASHES * dashes.iter().sum::<f64>() {
+                self.dropped.count("dash pattern too fine (its line is drawn whole)");
+            } else {
+                curve = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * scale, &dashes).collect();
+            }
         }
         for clip in clips {
             curve = clip_curve(&curve, clip);
@@ -389,6 +406,29 @@ mod tests {
         assert_eq!(imported.layers.len(), 1);
         assert_eq!((imported.layers[0].layer.pen, imported.layers[0].layer.name.as_str()), (3, "red"));
         assert_eq!(imported.layers[0].counts(), [0, 1, 0]);
+    }
+
+    #[test]
+    fn layers_without_ids_and_layers_within_layers() {
+        let imported = read(
+            "<g inkscape:groupmode='layer' inkscape:label='2 red'><path d='M0 0H10' stroke='red'/>\
+             <g inkscape:groupmode='layer' inkscape:label='% guide'><path d='M0 0H10' stroke='red'/></g>\
+             <g inkscape:groupmode='layer' inkscape:label='4 inner'><path d='M0 0H10' stroke='red'/></g>\
+             <g inkscape:groupmode='layer' inkscape:label='part'><path d='M0 5H10' stroke='red'/></g></g>\
+             <g inkscape:groupmode='layer' inkscape:label='%skipped'><path d='M0 0H10' stroke='red'/></g>",
+        );
+        let layers: Vec<(u32, &str, usize)> =
+            imported.layers.iter().map(|l| (l.layer.pen, l.layer.name.as_str(), l.layer.marks.len())).collect();
+        assert_eq!(layers, [(2, "red", 2), (4, "inner", 1)]);
+    }
+
+    #[test]
+    fn what_would_never_end_is_left_out_and_counted() {
+        let dashed = read("<path d='M0 0H100' stroke='black' stroke-dasharray='1e-6 1e-6'/>");
+        assert_eq!((dashed.layers[0].counts()[1], dashed.dropped.is_empty()), (1, false));
+        let far = read("<path d='M0 0C1e30 1e30 2 2 3 3' stroke='black'/><path d='M0 0H1' stroke='black'/>");
+        assert_eq!((far.layers[0].counts()[1], far.dropped.of("path beyond 100 m")), (1, 1));
+        assert!(read("<g opacity='0'><path d='M0 0H10' stroke='black'/></g>").layers.is_empty());
     }
 
     #[test]

@@ -105,7 +105,8 @@ impl Crop {
         Self { x: 0.0, y: 0.0, width: f64::from(photograph.width()), height: f64::from(photograph.height()) }
     }
 
-    fn within(self, photograph: &Photograph) -> Result<Self, SourceError> {
+    /// The part of it that the photograph has, at least a pixel each way.
+    pub fn within(self, photograph: &Photograph) -> Result<Self, SourceError> {
         let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
         let (x0, y0) = (self.x.clamp(0.0, width), self.y.clamp(0.0, height));
         let (x1, y1) = ((self.x + self.width).clamp(0.0, width), (self.y + self.height).clamp(0.0, height));
@@ -165,6 +166,8 @@ pub struct Portrait {
     pub lightness: Raster<f32>,
     /// How much of each pixel belongs to the subject, 0 to 1.
     pub subject: Raster<f32>,
+    /// Whether the photograph was composed on white by `subject` itself, its alpha.
+    is_on_white: bool,
     /// Other masks, 0 to 1.
     pub masks: BTreeMap<MaskRole, Raster<f32>>,
 }
@@ -189,7 +192,7 @@ impl Portrait {
             ToneTarget::Lightness => lightness.map(|t| curve.apply(t)),
             ToneTarget::Linear => light.map(|rgb| curve.apply(luminance(rgb))),
         };
-        Ok(Self { page, placement, light, tone, lightness, subject, masks: BTreeMap::new() })
+        Ok(Self { page, placement, light, tone, lightness, subject, is_on_white: true, masks: BTreeMap::new() })
     }
 
     /// Adds a mask, resampled alike; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
@@ -218,6 +221,7 @@ impl Portrait {
         });
         if role == MaskRole::Subject {
             self.subject = region;
+            self.is_on_white = false;
         } else {
             self.masks.insert(role, region);
         }
@@ -226,7 +230,12 @@ impl Portrait {
 
     /// The wanted ink of a pixel, 0 to 1: nothing outside the subject.
     pub fn ink(&self) -> Raster<f32> {
-        self.tone.zip_map(&self.subject, |tone, subject| (1.0 - tone) * subject)
+        self.on_white(&self.tone).map(|tone| 1.0 - tone)
+    }
+
+    /// A raster of tone or lightness with white outside the subject. What alpha has composed on white already is not faded again.
+    pub fn on_white(&self, tone: &Raster<f32>) -> Raster<f32> {
+        if self.is_on_white { tone.clone() } else { tone.zip_map(&self.subject, |tone, subject| 1.0 - (1.0 - tone) * subject) }
     }
 }
 

@@ -173,7 +173,7 @@ impl Kind {
     pub fn default_text(&self) -> String {
         match *self {
             Self::Length { default: Default::Millimetres(mm), .. } => format!("{mm} mm"),
-            Self::Length { default: Default::Pitches(pitches), .. } => format!("{pitches} pitch"),
+            Self::Length { default: Default::Pitches(pitches), .. } => format!("{} pitches", (pitches * 100.0).round() / 100.0),
             Self::Number { default, .. } => default.to_string(),
             Self::Count { default, .. } => default.to_string(),
             Self::Choice(words) => words[0].to_owned(),

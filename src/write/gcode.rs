@@ -77,7 +77,7 @@ impl<W: io::Write> Gcode<'_, W> {
         let (dialect, motion) = (self.dialect, self.profile.motion);
         self.travel(self.snap(points[0]))?;
         self.pen(&dialect.pen_down, motion.pen_down_seconds)?;
-        let mut feed = Some((motion.draw_speed * 60.0).round() as i64);
+        let mut feed = Some(((motion.draw_speed * 60.0).round() as i64).max(1));
         for p in &points[1..] {
             let to = self.snap(*p);
             if Some(to) == self.at {

@@ -22,7 +22,7 @@ impl Drawer<'_> {
     pub(super) fn features(&self) -> Features {
         self.observer.begin("edges");
         // The background is taken out first, so that the subject's silhouette is an edge and nothing beyond it is.
-        let lightness = self.portrait.lightness.zip_map(&self.portrait.subject, |l, subject| 1.0 - (1.0 - l) * subject);
+        let lightness = self.portrait.on_white(&self.portrait.lightness);
         let edges = match self.portrait.masks.get(&MaskRole::Edges) {
             Some(mask) => self.hand_made(mask),
             None => self.with_silhouette(self.found_edges(&lightness)),

@@ -85,6 +85,10 @@ impl Drawer<'_> {
         };
         let dots = highlights::thin_out(self, dots, &features);
         let mut drawing = Drawing { page: self.page(), layers: vec![self.dot_layer(&dots)] };
+        if dots.is_empty() {
+            let why = "all of it is as light as the highlights, which stay bare; draw them with --set highlights=off";
+            return Err(StyleError::NothingToDraw(why.to_owned()));
+        }
         if self.parameters.has_outline {
             self.observer.begin("outline");
             drawing.layers.push(outline::layer(self, &features));

@@ -18,6 +18,11 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
     drawer.observer.begin("seeds");
     let density = density(drawer);
     let mut sites = scatter(drawer, lanes, &density);
+    if sites.is_empty() {
+        return Err(StyleError::NothingToDraw(
+            "the subject is smaller than one dot, or its mask is nowhere more than half white; use a smaller --pitch or a whiter mask".to_owned(),
+        ));
+    }
     drawer.observer.picture("seeds", &|| drawer.dot_picture(&sites));
     drawer.observer.begin("relaxation");
     // A cell's size in a relaxed pattern goes with the square root of the weight (Du et al. 1999), so the weight is the square.
