@@ -3,7 +3,7 @@
 use super::arguments::{InspectOptions, Order, ToolpathOptions};
 use super::failure::Failure;
 use super::{output, toolpaths};
-use crate::drawing::{Colour, Mark, Page};
+use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::plot::{InkModel, Language, Nibs, PenPaths, Plot, Profile, Toolpath, built_in, built_in_names, lower, report};
 use crate::read::{Strokes, read_gcode, read_hpgl, read_svg};
@@ -109,6 +109,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
                 name: format!("pen {number}"),
                 colour: Colour::BLACK,
                 nib: 0.0,
+                handling: Handling::default(),
                 paths: Vec::new(),
             });
         }

@@ -121,6 +121,14 @@ fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
 }
 
 fn check_pens(plot: &Plot, profile: &Profile) -> Result<(), Failure> {
+    if profile.language == Language::Hpgl
+        && let Some(pen) = plot.pens.iter().find(|pen| pen.handling.pauses || pen.handling.delay_seconds > 0.0)
+    {
+        return Err(Failure::Work(format!(
+            "layer '{}' asks for a pause or a delay, for which HP-GL has no word; draw the layers one by one with --layers, or take ! and +D from its label",
+            pen.name
+        )));
+    }
     let beyond = plot.pens.iter().find(|pen| pen.number > profile.pens.count);
     match (beyond, profile.pens.change) {
         (Some(pen), PenChange::Machine) => Err(Failure::Work(format!(

@@ -42,8 +42,28 @@ pub struct Layer {
     pub ink: Ink,
     /// How its marks add up with what lies below.
     pub mixing: Mixing,
+    /// What a plotter does with it besides drawing.
+    pub handling: Handling,
     /// Marks in painting order.
     pub marks: Vec<Mark>,
+}
+
+/// What a plotter does with a layer besides drawing it, as layer labels ask for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Handling {
+    /// Waits for the user first.
+    pub pauses: bool,
+    /// Drawing speed in percent of the machine's.
+    pub speed_percent: Option<f64>,
+    /// Waits this long first.
+    pub delay_seconds: f64,
+}
+
+impl Handling {
+    /// The speed to draw with, given the machine's; 1 to 200 %.
+    pub fn speed(&self, machine: f64) -> f64 {
+        machine * self.speed_percent.unwrap_or(100.0).clamp(1.0, 200.0) / 100.0
+    }
 }
 
 /// How ink meets what lies below it.
@@ -70,7 +90,14 @@ impl Page {
 impl Layer {
     /// An empty layer in black.
     pub fn new(name: &str, pen: u32) -> Self {
-        Self { name: name.to_owned(), pen, ink: Ink::Black, mixing: Mixing::Add, marks: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            pen,
+            ink: Ink::Black,
+            mixing: Mixing::Add,
+            handling: Handling::default(),
+            marks: Vec::new(),
+        }
     }
 
     /// Sum of the marks' areas in square millimetres; marks that overlap count each.

@@ -19,7 +19,7 @@ pub use profile::{
 pub use report::{PenReport, PlotReport, report};
 pub use time::{Clock, clock};
 
-use crate::drawing::{Colour, Page};
+use crate::drawing::{Colour, Handling, Page};
 use crate::geometry::{Point, polyline_length};
 
 /// Tool paths, in the order in which they are drawn.
@@ -42,6 +42,8 @@ pub struct PenPaths {
     pub colour: Colour,
     /// The nib's width in millimetres.
     pub nib: f64,
+    /// Pause, speed and delay that its layer asks for.
+    pub handling: Handling,
     /// Paths in drawing order.
     pub paths: Vec<Toolpath>,
 }

@@ -212,6 +212,7 @@ mod tests {
             name: "x".into(),
             colour: crate::drawing::Colour::BLACK,
             nib: 0.3,
+            handling: crate::drawing::Handling::default(),
             paths: vec![Toolpath { points }],
         };
         Plot { page, pens: vec![pen] }

@@ -36,10 +36,10 @@ pub fn clock(plot: &Plot, home: Point, motion: &Motion) -> Vec<Clock> {
 }
 
 fn clock_pen(pen: &PenPaths, at: &mut Point, motion: &Motion) -> Clock {
-    let mut clock = Clock::default();
+    let mut clock = Clock { lifting: pen.handling.delay_seconds, ..Clock::default() };
     for path in &pen.paths {
         clock.travelling += move_time(&[*at, path.points[0]], motion.travel_speed, motion);
-        clock.drawing += move_time(&path.points, motion.draw_speed, motion);
+        clock.drawing += move_time(&path.points, pen.handling.speed(motion.draw_speed), motion);
         clock.lifting += motion.pen_down_seconds + motion.pen_up_seconds;
         *at = path.ends().end;
     }

@@ -2,7 +2,7 @@
 
 use super::Dropped;
 use super::layers::{Label, Outline, outline, with_layer_ids};
-use crate::drawing::{Area, Colour, Dot, Drawing, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use crate::geometry::{Affine, BezPath, Point, Region, flatten};
 use kurbo::{PathEl, Shape};
 use thiserror::Error;
@@ -54,10 +54,6 @@ pub struct ImportedLayer {
     pub layer: Layer,
     /// Areas that are the outlines of swelling strokes.
     pub swells: usize,
-    /// Whether the file asks for a pause before it.
-    pub pauses: bool,
-    /// Speed in percent, from the label's `+S`.
-    pub speed: Option<f64>,
 }
 
 impl ImportedLayer {
@@ -118,7 +114,9 @@ struct Importer<'a> {
 impl<'a> Importer<'a> {
     fn new(outline: &'a Outline) -> Self {
         let layers = outline.layers.iter().enumerate().map(|(i, label)| labelled(label, i as u32 + 1)).collect();
-        Self { outline, layers, by_colour: Vec::new(), dropped: outline.dropped.clone(), is_toolpaths: false }
+        let mut dropped = outline.dropped.clone();
+        dropped.add("pen height (+H)", outline.layers.iter().filter(|label| label.height.is_some()).count());
+        Self { outline, layers, by_colour: Vec::new(), dropped, is_toolpaths: false }
     }
 
     fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Region]) {
@@ -278,8 +276,10 @@ impl<'a> Importer<'a> {
 fn labelled(label: &Label, number: u32) -> ImportedLayer {
     let pen = label.pen.unwrap_or(number);
     let name = if label.name.is_empty() { format!("layer {number}") } else { label.name.clone() };
-    let layer = Layer { name, pen, ink: Ink::Black, mixing: Mixing::Paint, marks: Vec::new() };
-    ImportedLayer { layer, swells: 0, pauses: label.pauses, speed: label.speed }
+    let delay_seconds = label.delay.unwrap_or(0.0).clamp(0.0, 60_000.0) / 1000.0;
+    let handling = Handling { pauses: label.pauses, speed_percent: label.speed, delay_seconds };
+    let layer = Layer { name, pen, ink: Ink::Black, mixing: Mixing::Paint, handling, marks: Vec::new() };
+    ImportedLayer { layer, swells: 0 }
 }
 
 /// A path of a `dots` group: a circle by its box when it fills it like one, else a blob.

@@ -22,15 +22,17 @@ pub fn write_gcode(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mu
     }
     writer.pen(&dialect.pen_up, profile.motion.pen_up_seconds)?;
     for (i, pen) in plot.pens.iter().enumerate() {
-        if i > 0 {
+        let is_other_pen = i > 0 && plot.pens[i - 1].number != pen.number;
+        if is_other_pen {
             writer.park()?;
         }
         writer.comment(&format!("pen {}: {} {}", pen.number, pen.name, pen.nib))?;
-        if i > 0 {
+        if is_other_pen || pen.handling.pauses {
             writer.command(&dialect.pause)?;
         }
+        writer.dwell(pen.handling.delay_seconds)?;
         for path in &pen.paths {
-            writer.path(&path.points)?;
+            writer.path(&path.points, pen.handling.speed(profile.motion.draw_speed))?;
         }
     }
     writer.park()
@@ -64,6 +66,10 @@ impl<W: io::Write> Gcode<'_, W> {
 
     fn pen(&mut self, command: &str, seconds: f64) -> io::Result<()> {
         self.command(command)?;
+        self.dwell(seconds)
+    }
+
+    fn dwell(&mut self, seconds: f64) -> io::Result<()> {
         if seconds <= 0.0 {
             return Ok(());
         }
@@ -73,11 +79,11 @@ impl<W: io::Write> Gcode<'_, W> {
         self.command(&self.dialect.dwell.replace("{seconds}", &whole).replace("{milliseconds}", &milli))
     }
 
-    fn path(&mut self, points: &[Point]) -> io::Result<()> {
+    fn path(&mut self, points: &[Point], speed: f64) -> io::Result<()> {
         let (dialect, motion) = (self.dialect, self.profile.motion);
         self.travel(self.snap(points[0]))?;
         self.pen(&dialect.pen_down, motion.pen_down_seconds)?;
-        let mut feed = Some(((motion.draw_speed * 60.0).round() as i64).max(1));
+        let mut feed = Some(((speed * 60.0).round() as i64).max(1));
         for p in &points[1..] {
             let to = self.snap(*p);
             if Some(to) == self.at {
@@ -137,11 +143,31 @@ mod tests {
     use crate::plot::{PenPaths, Toolpath, built_in, mount};
 
     #[test]
+    fn a_layer_s_own_pause_speed_and_delay() {
+        let profile = Profile::parse("grbl-servo", built_in("grbl-servo").unwrap()).unwrap();
+        let page = Page::new(100.0, 50.0);
+        let handling = crate::drawing::Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
+        let paths = vec![Toolpath { points: vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)] }];
+        let pen = PenPaths { number: 1, name: "slow".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };
+        let mut bytes = Vec::new();
+        write_gcode(&Plot { page, pens: vec![pen] }, &profile, &mount(&profile, &page).unwrap(), &mut bytes).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(text.contains("(pen 1: slow 0.3)\nM0\nG4 P.5\n") && text.contains("F1500"), "{text}");
+    }
+
+    #[test]
     fn two_pens_pause_between_them_and_nothing_lets_the_servo_fall() {
         let profile = Profile::parse("grbl-servo", built_in("grbl-servo").unwrap()).unwrap();
         let page = Page::new(100.0, 50.0);
         let path = |points: &[(f64, f64)]| Toolpath { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect() };
-        let pen = |number, name: &str, paths| PenPaths { number, name: name.into(), colour: Colour::BLACK, nib: 0.3, paths };
+        let pen = |number, name: &str, paths| PenPaths {
+            number,
+            name: name.into(),
+            colour: Colour::BLACK,
+            nib: 0.3,
+            handling: crate::drawing::Handling::default(),
+            paths,
+        };
         let plot = Plot {
             page,
             pens: vec![pen(1, "dots", vec![path(&[(0.0, 0.0), (10.0, 0.0)])]), pen(2, "what?! (ééé)", vec![path(&[(5.0, 5.0)])])],

@@ -25,7 +25,7 @@ pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut
         if i > 0 {
             text.push_str("PU;");
         }
-        let _ = write!(text, "SP{slot};VS{};", speed(profile));
+        let _ = write!(text, "SP{slot};VS{};", speed(profile, pen.handling.speed(profile.motion.draw_speed)));
         for path in &pen.paths {
             let units: Vec<(i64, i64)> = path.points.iter().map(|p| snap(*p, mounting)).collect();
             path_instructions(&mut text, &units, chunk);
@@ -40,9 +40,9 @@ pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut
 }
 
 /// Centimetres a second, whole, within what the machine takes.
-fn speed(profile: &Profile) -> i64 {
+fn speed(profile: &Profile, wanted: f64) -> i64 {
     let limit = profile.motion.draw_speed_limit.unwrap_or(profile.motion.draw_speed);
-    ((profile.motion.draw_speed.min(limit) / 10.0).floor() as i64).max(1)
+    ((wanted.min(limit) / 10.0).floor() as i64).max(1)
 }
 
 /// A point of the page in whole plotter units inside the machine's limits (the check has forgiven less than a unit).
@@ -96,7 +96,14 @@ mod tests {
         let profile = Profile::parse("hp7475a", built_in("hp7475a").unwrap()).unwrap();
         let page = Page::new(100.0, 100.0);
         let path = |points: &[(f64, f64)]| Toolpath { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect() };
-        let pen = |number, paths| PenPaths { number, name: String::new(), colour: Colour::BLACK, nib: 0.3, paths };
+        let pen = |number, paths| PenPaths {
+            number,
+            name: String::new(),
+            colour: Colour::BLACK,
+            nib: 0.3,
+            handling: crate::drawing::Handling::default(),
+            paths,
+        };
         let plot = Plot { page, pens: vec![pen(1, vec![path(&[(0.0, 0.0), (10.0, 0.0)])]), pen(3, vec![path(&[(50.0, 50.0)])])] };
         let mounting = mount(&profile, &page).unwrap();
         let mut bytes = Vec::new();

@@ -55,7 +55,9 @@ pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) ->
         let kept = thin::keeps_tone(&layer.marks, nib);
         let marks = layer.marks.iter().zip(kept).filter(|(_, kept)| *kept).map(|(mark, _)| mark);
         let paths = marks.flat_map(|mark| lower_mark(mark, model, nib, tolerance));
-        match pens.iter_mut().find(|pen| pen.number == layer.pen) {
+        // A layer that asks for something of its own is drawn by itself.
+        let is_alike = |pen: &&mut PenPaths| pen.number == layer.pen && pen.handling == layer.handling && !layer.handling.pauses;
+        match pens.iter_mut().find(is_alike) {
             Some(pen) => {
                 pen.name = format!("{}, {}", pen.name, layer.name);
                 pen.paths.extend(paths);
@@ -68,7 +70,7 @@ pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) ->
 }
 
 fn pen_of(layer: &Layer, nib: f64, paths: Vec<Toolpath>) -> PenPaths {
-    PenPaths { number: layer.pen, name: layer.name.clone(), colour: layer.ink.colour(), nib, paths }
+    PenPaths { number: layer.pen, name: layer.name.clone(), colour: layer.ink.colour(), nib, handling: layer.handling, paths }
 }
 
 fn lower_mark(mark: &Mark, model: InkModel, nib: f64, tolerance: f64) -> Vec<Toolpath> {
