@@ -96,6 +96,9 @@ fn samples_keep_their_tone() {
         ("chelsea.png", (90.0, 59.867), None),
         ("coffee.png", (90.0, 60.0), None),
         ("raccoon.jpg", (90.0, 67.5), None),
+        ("bust-light.png", (90.0, 120.0), Some("bust-mask-subject.png")),
+        ("bust-brown.png", (90.0, 120.0), Some("bust-mask-subject.png")),
+        ("bust-dark.png", (90.0, 120.0), Some("bust-mask-subject.png")),
     ] {
         let (photo, mask) = (sample(name), mask.map(sample));
         let masks: Vec<(MaskRole, &[u8])> = mask.iter().map(|bytes| (MaskRole::Subject, bytes.as_slice())).collect();
