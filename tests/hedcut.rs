@@ -3,7 +3,8 @@
 mod common;
 
 use common::{Sheet, WEDGE_MM, dots, mean_in, png_of_light, rendered, sample, svg_of, wedge, wedge_patches};
-use drypoint::geometry::{Point, Rect};
+use drypoint::field::{Sites, cell_polygon};
+use drypoint::geometry::{Point, Rect, polygon_area};
 use drypoint::raster::{Raster, gaussian_blur};
 use drypoint::source::{MaskRole, ToneTarget};
 
@@ -49,6 +50,16 @@ fn dots_are_evenly_spaced_and_as_many_as_asked() {
         let deviation = (nearest.iter().map(|n| (n - mean).powi(2)).sum::<f64>() / nearest.len() as f64).sqrt();
         println!("tone {tone:.1}: {} dots, spacing {:.3} +- {:.3}", nearest.len(), mean, deviation / mean);
         assert!(deviation / mean <= 0.15, "tone {tone}: {}", deviation / mean);
+    }
+    // In each patch by the area of its dots' own cells, which counting in a square of 20 pitches is too coarse for.
+    let sites = Sites::new(&dots, WEDGE_MM, WEDGE_MM, 0.8);
+    for (patch, tone) in wedge_patches() {
+        let inside: Vec<usize> = (0..dots.len()).filter(|&i| patch.contains(dots[i])).collect();
+        let sheet = Rect::new(0.0, 0.0, WEDGE_MM, WEDGE_MM);
+        let area: f64 = inside.iter().map(|&i| polygon_area(&cell_polygon(&sites, i, sheet, 4.0)).abs()).sum();
+        let density = inside.len() as f64 * 0.8 * 0.8 / area;
+        println!("tone {tone:.1}: density by cells {density:.4}");
+        assert!((density - 1.0).abs() <= 0.03, "tone {tone}: {density}");
     }
     // Over the whole sheet, since a patch of 20 pitches holds whole rows only.
     let density = dots.len() as f64 * 0.8 * 0.8 / (WEDGE_MM * WEDGE_MM);

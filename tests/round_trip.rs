@@ -18,6 +18,8 @@ fn drawings() -> Vec<(&'static str, Drawing)> {
         ("chelsea.png", (90.0, 59.867), &[("pitch", "0.9")]),
         ("coffee.png", (90.0, 60.0), &[("blob", "0.3")]),
         ("raccoon.jpg", (90.0, 67.5), &[]),
+        ("bust-light.png", (90.0, 120.0), &[("pitch", "0.9")]),
+        ("bust-brown.png", (90.0, 120.0), &[("pitch", "0.9")]),
         ("bust-dark.png", (90.0, 120.0), &[]),
     ]
     .into_iter()

@@ -11,7 +11,7 @@
 //! Where the thesis stops at a crossing that an earlier line has marked, this tracer looks one window further along the same
 //! direction, so that crossings give continuous lines.
 
-use crate::geometry::{Point, Vec2};
+use crate::geometry::{Point, Vec2, distance_to_segment};
 use crate::raster::Raster;
 
 /// Radius within which the first directions are read, in pixels (Wong: 3).
@@ -191,12 +191,6 @@ impl Tracer<'_> {
             }
         }
     }
-}
-
-fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let d = b - a;
-    let t = if d.hypot2() > 0.0 { ((p - a).dot(d) / d.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + d * t)
 }
 
 /// Rim pixels in groups of neighbours.

@@ -19,7 +19,7 @@ pub use clip::{clip_disc, clip_polygon, clip_polyline, half_plane};
 pub use disc::{disc_area_in, radius_for_area};
 pub use inset::Insets;
 pub use length::{LengthError, parse_length, parse_size};
-pub use polyline::{flatten, polygon_area, polyline_length, resample, simplify};
+pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, resample, simplify};
 pub use region::Region;
 pub use smooth::{catmull_rom, smooth_polyline};
 pub use swell::{curve_length, sample_swelling, swelling_outline};

@@ -61,7 +61,8 @@ pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
 }
 
-fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+/// Distance of a point from a segment.
+pub fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let d = b - a;
     let t = if d.hypot2() > 0.0 { ((p - a).dot(d) / d.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(a + d * t)
