@@ -125,11 +125,7 @@ fn gcode_and_hpgl_draw_what_was_asked_inside_the_machine() {
 fn what_does_not_fit_is_refused_with_its_distance() {
     let page = Page::new(310.0, 100.0);
     let mut layer = Layer::new("line", 1);
-    layer.marks.push(Mark::Stroke(Stroke {
-        curve: BezPath::from_svg("M5,5 L307.25,50").unwrap(),
-        width: Width::Constant(0.3),
-        colour: None,
-    }));
+    layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M5,5 L307.25,50").unwrap(), Width::Constant(0.3))));
     let plot = lower(&Drawing { page, layers: vec![layer] }, InkModel::Ink, &Nibs::all(0.3), 0.02);
     let grbl = profile("grbl-servo");
     let error = mount(&grbl, &page).unwrap().check(&grbl, &plot).unwrap_err();

@@ -2,8 +2,8 @@
 
 use super::Colour;
 use crate::geometry::{
-    Affine, BezPath, Point, Rect, clip_disc, clip_polygon, clip_polyline, curve_length, flatten, polygon_area, sample_swelling,
-    swelling_outline,
+    Affine, BezPath, Ends, Point, Rect, clip_disc, clip_polygon, clip_polyline, curve_length, flatten, polygon_area,
+    sample_swelling, swelling_outline,
 };
 use kurbo::{PathEl, Shape};
 
@@ -45,16 +45,24 @@ pub struct Stroke {
     pub curve: BezPath,
     /// Full width.
     pub width: Width,
+    /// The shape of its two ends.
+    pub ends: Ends,
+    /// How hard the hand presses at the curve's nodes, 0 to 1, where a style says so.
+    pub pressure: Option<Vec<f64>>,
+    /// When the hand is at the curve's nodes, in seconds from the drawing's beginning, where a style says so.
+    pub times: Option<Vec<f64>>,
     /// Its own colour, instead of the layer's.
     pub colour: Option<Colour>,
+    /// The group whose strokes are drawn one after the other as they stand.
+    pub group: Option<u32>,
 }
 
 /// The full width of a stroke in millimetres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Width {
-    /// The same everywhere, with round ends.
+    /// The same everywhere.
     Constant(f64),
-    /// At the curve's nodes (its start, then the end of each segment), changing smoothly between them; round ends where not 0.
+    /// At the curve's nodes (its start, then the end of each segment), changing smoothly between them.
     Along(Vec<f64>),
 }
 
@@ -114,6 +122,11 @@ impl Dot {
 }
 
 impl Stroke {
+    /// A stroke in the layer's ink with round ends.
+    pub const fn new(curve: BezPath, width: Width) -> Self {
+        Self { curve, width, ends: Ends::Round, pressure: None, times: None, colour: None, group: None }
+    }
+
     /// Whether the curve returns to its start.
     pub fn is_closed(&self) -> bool {
         matches!(self.curve.elements().last(), Some(PathEl::ClosePath))
@@ -128,15 +141,16 @@ impl Stroke {
     pub fn outline(&self) -> Option<BezPath> {
         match &self.width {
             Width::Constant(_) => None,
-            Width::Along(widths) => Some(swelling_outline(&self.curve, widths, OUTLINE_TOLERANCE)),
+            Width::Along(widths) => Some(swelling_outline(&self.curve, widths, self.ends, OUTLINE_TOLERANCE)),
         }
     }
 
-    /// Length times width plus the two half discs at the ends; a swelling stroke's is that of its outline.
+    /// Length times width plus the half discs of round ends; a swelling stroke's is that of its outline.
     fn area(&self) -> f64 {
         match &self.width {
             Width::Constant(width) => {
-                let ends = if self.is_closed() { 0.0 } else { std::f64::consts::FRAC_PI_4 * width * width };
+                let ends =
+                    if self.is_closed() || self.ends == Ends::Flat { 0.0 } else { std::f64::consts::FRAC_PI_4 * width * width };
                 self.length() * width + ends
             }
             Width::Along(_) => self.outline().map_or(0.0, |outline| outline.area().abs()),
@@ -178,13 +192,21 @@ impl Stroke {
                 let mut curve = BezPath::new();
                 curve.move_to(piece[0].0);
                 piece[1..].iter().for_each(|(p, _)| curve.line_to(*p));
-                let width = match &self.width {
-                    Width::Constant(width) => Width::Constant(*width),
-                    Width::Along(widths) => {
-                        Width::Along(piece.iter().map(|&(_, at)| interpolate(widths, interpolate(&position, at))).collect())
-                    }
+                let there = |values: &Vec<f64>| -> Vec<f64> {
+                    piece.iter().map(|&(_, at)| interpolate(values, interpolate(&position, at))).collect()
                 };
-                Self { curve, width, colour: self.colour }
+                Self {
+                    curve,
+                    width: match &self.width {
+                        Width::Constant(width) => Width::Constant(*width),
+                        Width::Along(widths) => Width::Along(there(widths)),
+                    },
+                    pressure: self.pressure.as_ref().map(there),
+                    times: self.times.as_ref().map(there),
+                    ends: self.ends,
+                    colour: self.colour,
+                    group: self.group,
+                }
             })
             .collect()
     }
@@ -268,7 +290,7 @@ impl Mark {
                     Width::Constant(width) => Width::Constant(width * scale),
                     Width::Along(widths) => Width::Along(widths.iter().map(|w| w * scale).collect()),
                 },
-                colour: stroke.colour,
+                ..stroke.clone()
             }),
             Self::Area(area) => Self::Area(Area { outline: transform * area.outline.clone(), colour: area.colour }),
         }
@@ -316,16 +338,14 @@ mod tests {
 
     #[test]
     fn a_constant_stroke_s_area_counts_its_round_ends() {
-        let stroke =
-            Mark::Stroke(Stroke { curve: BezPath::from_svg("M0,0 L10,0").unwrap(), width: Width::Constant(1.0), colour: None });
+        let stroke = Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L10,0").unwrap(), Width::Constant(1.0)));
         assert!((stroke.area() - (10.0 + std::f64::consts::FRAC_PI_4)).abs() < 1e-9);
         assert_eq!(stroke.bounding_box(), Rect::new(-0.5, -0.5, 10.5, 0.5));
     }
 
     #[test]
     fn clipping_a_stroke_keeps_its_width_there() {
-        let stroke =
-            Stroke { curve: BezPath::from_svg("M0,0 L10,0").unwrap(), width: Width::Along(vec![0.0, 1.0]), colour: None };
+        let stroke = Stroke::new(BezPath::from_svg("M0,0 L10,0").unwrap(), Width::Along(vec![0.0, 1.0]));
         let pieces = stroke.clipped(Rect::new(5.0, -1.0, 20.0, 1.0));
         assert_eq!(pieces.len(), 1);
         let Width::Along(widths) = &pieces[0].width else { panic!("it swells") };

@@ -6,6 +6,7 @@
 mod colour;
 mod mark;
 
+pub use crate::geometry::Ends;
 pub use colour::{Colour, ColourError, Ink};
 pub use mark::{Area, Dot, Mark, Stroke, Width};
 

@@ -22,6 +22,6 @@ pub use length::{LengthError, parse_length, parse_size};
 pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, resample, simplify};
 pub use region::Region;
 pub use smooth::{catmull_rom, smooth_polyline};
-pub use swell::{curve_length, sample_swelling, swelling_outline};
+pub use swell::{Ends, curve_length, sample_swelling, swelling_outline};
 
 pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};

@@ -2,6 +2,16 @@
 
 use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
 
+/// The shape of a stroke's two ends, where its width there is not 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ends {
+    /// Half a disc beyond the curve's end.
+    #[default]
+    Round,
+    /// Cut square at the curve's end.
+    Flat,
+}
+
 /// Length of a curve to 1e-6 mm.
 pub fn curve_length(path: &BezPath) -> f64 {
     path.segments().map(|s| s.arclen(1e-6)).sum()
@@ -11,11 +21,11 @@ pub fn curve_length(path: &BezPath) -> f64 {
 /// is `widths[i]`; between nodes it changes smoothly, without overshoot.
 ///
 /// Each side is a chain of cubics whose ends and end tangents are those of the true offset curve; a segment is halved until its
-/// middle is within `tolerance` of the true one. Ends are round where the width is not 0. Only the first subpath is used.
+/// middle is within `tolerance` of the true one. Ends are half discs or, with [`Ends::Flat`], square. Only the first subpath is used.
 ///
 /// # Panics
 /// If `widths` does not have one entry a node.
-pub fn swelling_outline(curve: &BezPath, widths: &[f64], tolerance: f64) -> BezPath {
+pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: f64) -> BezPath {
     let pieces = pieces(curve, widths);
     let mut outline = BezPath::new();
     let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return outline };
@@ -28,13 +38,13 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], tolerance: f64) -> BezP
         outline.close_path();
         outline.move_to(pieces[pieces.len() - 1].side(1.0, -1.0).0);
     } else {
-        append_cap(&mut outline, last.curve.p3, tangent(&last.curve, 1.0), last.to.0);
+        append_cap(&mut outline, last.curve.p3, tangent(&last.curve, 1.0), last.to.0, ends);
     }
     for piece in pieces.iter().rev() {
         piece.append_side(&mut outline, 1.0, 0.0, -1.0, tolerance, 0);
     }
     if !closed {
-        append_cap(&mut outline, first.curve.p0, -tangent(&first.curve, 0.0), first.from.0);
+        append_cap(&mut outline, first.curve.p0, -tangent(&first.curve, 0.0), first.from.0, ends);
     }
     outline.close_path();
     outline
@@ -114,14 +124,18 @@ fn tangent(curve: &CubicBez, t: f64) -> Vec2 {
     away.normalize() * if t < 0.5 { 1.0 } else { -1.0 }
 }
 
-/// A half circle from the left side to the right around the end of a stroke; `forward` points out of the stroke.
-fn append_cap(outline: &mut BezPath, end: Point, forward: Vec2, width: f64) {
+/// From the left side to the right around the end of a stroke, as a half circle or straight; `forward` points out of the stroke.
+fn append_cap(outline: &mut BezPath, end: Point, forward: Vec2, width: f64, ends: Ends) {
     let radius = 0.5 * width;
     if radius < 1e-6 {
         return;
     }
     let left = forward.turn_90() * radius;
     let ahead = forward * radius;
+    if ends == Ends::Flat {
+        outline.line_to(end - left);
+        return;
+    }
     let handle = 0.552_284_749_8;
     outline.curve_to(end + left + ahead * handle, end + ahead + left * handle, end + ahead);
     outline.curve_to(end + ahead - left * handle, end - left + ahead * handle, end - left);
@@ -190,14 +204,14 @@ mod tests {
     #[test]
     fn a_straight_stroke_of_one_width() {
         let line = BezPath::from_svg("M0,0 L10,0").unwrap();
-        let outline = swelling_outline(&line, &[2.0, 2.0], 0.01);
+        let outline = swelling_outline(&line, &[2.0, 2.0], Ends::Round, 0.01);
         assert!((area(&outline) - (20.0 + std::f64::consts::PI)).abs() < 0.01);
     }
 
     #[test]
     fn a_spindle_has_the_integral_of_its_width() {
         let line = BezPath::from_svg("M0,0 L5,0 L10,0").unwrap();
-        let outline = swelling_outline(&line, &[0.0, 1.0, 0.0], 0.001);
+        let outline = swelling_outline(&line, &[0.0, 1.0, 0.0], Ends::Round, 0.001);
         let expected: f64 = {
             // Integral of the two Hermite pieces: 5 (w0 + w1)/2 + 25 (m0 - m1)/12 each.
             let piece = 5.0 * 0.5 + 25.0 * (0.2 - 0.0) / 12.0;
@@ -210,7 +224,7 @@ mod tests {
     fn a_ring_closes() {
         let circle = kurbo::Circle::new((0.0, 0.0), 5.0).to_path(0.001);
         let nodes = circle.segments().count() + 1;
-        let outline = swelling_outline(&circle, &vec![1.0; nodes], 0.001);
+        let outline = swelling_outline(&circle, &vec![1.0; nodes], Ends::Round, 0.001);
         let expected = std::f64::consts::PI * (5.5 * 5.5 - 4.5 * 4.5);
         assert!((area(&outline) - expected).abs() < 0.02, "{} {expected}", area(&outline));
     }

@@ -2,7 +2,7 @@
 
 use super::Dropped;
 use super::layers::{Label, Outline, outline, with_layer_ids};
-use crate::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use crate::geometry::{Affine, BezPath, Point, Region, flatten};
 use kurbo::{PathEl, Shape};
 use thiserror::Error;
@@ -239,8 +239,11 @@ impl<'a> Importer<'a> {
         let layer = self.layer_for(place, colour);
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
         let pieces = subpaths(&curve);
+        let ends = if stroke.linecap() == usvg::LineCap::Butt { Ends::Flat } else { Ends::Round };
         layer.layer.marks.extend(
-            pieces.into_iter().map(|curve| Mark::Stroke(Stroke { curve, width: Width::Constant(width), colour: own_colour })),
+            pieces
+                .into_iter()
+                .map(|curve| Mark::Stroke(Stroke { ends, colour: own_colour, ..Stroke::new(curve, Width::Constant(width)) })),
         );
     }
 

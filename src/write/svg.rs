@@ -14,7 +14,7 @@
 //! comes again gets a new group (`layer1-dots.2`).
 
 use super::number::{decimal, thousandths};
-use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
 use crate::geometry::{BezPath, Point};
 use crate::plot::Plot;
 use kurbo::PathEl;
@@ -214,6 +214,9 @@ fn line(text: &mut String, mark: &Mark, usual_width: f64) {
         decimal(text, thousandths(constant_width(mark)), 3);
         text.push('"');
     }
+    if stroke.ends == Ends::Flat && !stroke.is_closed() {
+        text.push_str(" stroke-linecap=\"butt\"");
+    }
     if let Some(colour) = stroke.colour {
         let _ = write!(text, " stroke=\"{colour}\"");
     }
@@ -365,11 +368,7 @@ mod tests {
     fn drawing() -> Drawing {
         let mut layer = Layer::new("dots", 1);
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.5, 2.25), 0.123_45)));
-        layer.marks.push(Mark::Stroke(Stroke {
-            curve: BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(),
-            width: Width::Constant(0.3),
-            colour: None,
-        }));
+        layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), Width::Constant(0.3))));
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(4.0, 4.0), 1.0)));
         Drawing { page: Page::new(90.0, 120.0), layers: vec![layer] }
     }

@@ -139,8 +139,7 @@ mod tests {
 
     #[test]
     fn layers_of_one_pen_are_drawn_together() {
-        let stroke =
-            Mark::Stroke(Stroke { curve: BezPath::from_svg("M0,0 L1,1").unwrap(), width: Width::Constant(0.3), colour: None });
+        let stroke = Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L1,1").unwrap(), Width::Constant(0.3)));
         let layers = [("a", 2), ("b", 1), ("c", 2)]
             .into_iter()
             .map(|(name, pen)| Layer { marks: vec![stroke.clone()], ..Layer::new(name, pen) })

@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn a_wide_line_is_one_path_inside_its_ink() {
         for (width, rows) in [(0.5, 2.0), (1.0, 4.0), (2.0, 8.0)] {
-            let stroke = Stroke { curve: BezPath::from_svg("M0,0 L20,0").unwrap(), width: Width::Constant(width), colour: None };
+            let stroke = Stroke::new(BezPath::from_svg("M0,0 L20,0").unwrap(), Width::Constant(width));
             let paths = fill_stroke(&stroke, 0.3);
             assert_eq!(paths.len(), 1, "width {width}");
             let reach = 0.5 * width - 0.15 + 1e-9;
@@ -161,11 +161,7 @@ mod tests {
 
     #[test]
     fn a_spindle_s_tips_are_drawn_once() {
-        let stroke = Stroke {
-            curve: BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(),
-            width: Width::Along(vec![0.0, 0.6, 0.0]),
-            colour: None,
-        };
+        let stroke = Stroke::new(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), Width::Along(vec![0.0, 0.6, 0.0]));
         let paths = fill_stroke(&stroke, 0.3);
         // Out the whole way, back only where it is wider than the nib.
         let length: f64 = paths.iter().map(Toolpath::length).sum();

@@ -124,6 +124,6 @@ impl Drawer<'_> {
         if curve.closed {
             path.close_path();
         }
-        Mark::Stroke(Stroke { curve: path, width: Width::Constant(0.2 * self.parameters.pitch_mm), colour: None })
+        Mark::Stroke(Stroke::new(path, Width::Constant(0.2 * self.parameters.pitch_mm)))
     }
 }

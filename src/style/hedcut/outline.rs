@@ -34,7 +34,7 @@ fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
     let widest = drawer.parameters.outline_width_mm;
     let count = nodes.len() + usize::from(edge.closed);
     let widths = (0..count).map(|i| widest * if edge.closed { 1.0 } else { swell(i as f64 / (count - 1) as f64) }).collect();
-    Some(Mark::Stroke(Stroke { curve, width: Width::Along(widths), colour: None }))
+    Some(Mark::Stroke(Stroke::new(curve, Width::Along(widths))))
 }
 
 /// Width along the stroke, 0 at both ends and 1 in the middle; fuller than a half sine, as a pen's.
