@@ -114,7 +114,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
             });
         }
         let points = path.iter().map(|p| mm(*p)).collect();
-        plot.pens.last_mut().expect("one was pushed").paths.push(Toolpath { points });
+        plot.pens.last_mut().expect("one was pushed").paths.push(Toolpath::new(points));
     }
     let size: Vec2 = mm(Point::new(bounds.x1, bounds.y1)) - mm(Point::new(bounds.x0, bounds.y0));
     json!({

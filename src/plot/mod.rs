@@ -53,9 +53,35 @@ pub struct PenPaths {
 pub struct Toolpath {
     /// Vertices in millimetres on the page; a closed path repeats its first.
     pub points: Vec<Point>,
+    /// The pen's height at each vertex in millimetres, where its line swells by it.
+    pub heights: Option<Vec<f64>>,
+    /// How long a touch rests on the paper beyond the time that the pen takes to come down.
+    pub dwell_seconds: f64,
+    /// The group whose paths are drawn one after the other as they stand, none of them turned round.
+    pub group: Option<u32>,
 }
 
 impl Toolpath {
+    /// A line of even height, or a touch, that belongs to no group.
+    pub const fn new(points: Vec<Point>) -> Self {
+        Self { points, heights: None, dwell_seconds: 0.0, group: None }
+    }
+
+    /// Drawn the other way round.
+    #[must_use]
+    pub fn reversed(mut self) -> Self {
+        self.points.reverse();
+        if let Some(heights) = &mut self.heights {
+            heights.reverse();
+        }
+        self
+    }
+
+    /// Whether it ends where it begins, and may begin elsewhere.
+    pub fn is_closed(&self) -> bool {
+        self.points.len() > 2 && self.points[0] == self.points[self.points.len() - 1]
+    }
+
     /// Its two ends.
     ///
     /// # Panics
@@ -77,7 +103,7 @@ impl Plot {
         for pen in &mut self.pens {
             let lines: Vec<Vec<Point>> = std::mem::take(&mut pen.paths).into_iter().map(|path| path.points).collect();
             let joined = chain(lines, merge, direction);
-            let mut paths: Vec<Option<Toolpath>> = joined.into_iter().map(|points| Some(Toolpath { points })).collect();
+            let mut paths: Vec<Option<Toolpath>> = joined.into_iter().map(|points| Some(Toolpath::new(points))).collect();
             let ends: Vec<PathEnds> = paths.iter().flatten().map(Toolpath::ends).collect();
             for visit in order(&ends, at, effort, direction) {
                 let Some(mut path) = paths[visit.path].take() else { continue };

@@ -3,7 +3,7 @@
 use super::profile::{Paper, Profile};
 use super::{Plot, Toolpath};
 use crate::drawing::Page;
-use crate::geometry::{Affine, Point, Rect, clip_polyline};
+use crate::geometry::{Affine, Rect, clip_polyline};
 use thiserror::Error;
 
 /// Sizes that differ by less are the same sheet, in millimetres.
@@ -185,8 +185,11 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
             let pieces = clip_polyline(&path.points, rect);
             lost_length += path.length();
             for piece in pieces {
-                let points: Vec<Point> = piece.into_iter().map(|(p, _)| p).collect();
-                let piece = Toolpath { points };
+                let piece = Toolpath {
+                    heights: path.heights.as_ref().map(|heights| piece.iter().map(|&(_, at)| between(heights, at)).collect()),
+                    points: piece.into_iter().map(|(p, _)| p).collect(),
+                    ..path
+                };
                 lost_length -= piece.length();
                 kept.push(piece);
             }
@@ -196,9 +199,18 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
     (lost_length.max(0.0), lost_touches)
 }
 
+/// A value between vertices; `at` is the vertex's index plus a fraction.
+fn between(values: &[f64], at: f64) -> f64 {
+    let last = values.len() - 1;
+    let i = (at.max(0.0) as usize).min(last);
+    let next = values[(i + 1).min(last)];
+    values[i] + (next - values[i]) * (at - i as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point;
     use crate::plot::{PenPaths, built_in};
 
     fn profile(name: &str) -> Profile {
@@ -213,7 +225,7 @@ mod tests {
             colour: crate::drawing::Colour::BLACK,
             nib: 0.3,
             handling: crate::drawing::Handling::default(),
-            paths: vec![Toolpath { points }],
+            paths: vec![Toolpath::new(points)],
         };
         Plot { page, pens: vec![pen] }
     }

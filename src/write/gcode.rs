@@ -147,7 +147,7 @@ mod tests {
         let profile = Profile::parse("grbl-servo", built_in("grbl-servo").unwrap()).unwrap();
         let page = Page::new(100.0, 50.0);
         let handling = crate::drawing::Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
-        let paths = vec![Toolpath { points: vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)] }];
+        let paths = vec![Toolpath::new(vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)])];
         let pen = PenPaths { number: 1, name: "slow".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };
         let mut bytes = Vec::new();
         write_gcode(&Plot { page, pens: vec![pen] }, &profile, &mount(&profile, &page).unwrap(), &mut bytes).unwrap();
@@ -159,7 +159,7 @@ mod tests {
     fn two_pens_pause_between_them_and_nothing_lets_the_servo_fall() {
         let profile = Profile::parse("grbl-servo", built_in("grbl-servo").unwrap()).unwrap();
         let page = Page::new(100.0, 50.0);
-        let path = |points: &[(f64, f64)]| Toolpath { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect() };
+        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
         let pen = |number, name: &str, paths| PenPaths {
             number,
             name: name.into(),

@@ -95,7 +95,7 @@ mod tests {
     fn a_file_raises_the_pen_first_and_puts_it_away_last() {
         let profile = Profile::parse("hp7475a", built_in("hp7475a").unwrap()).unwrap();
         let page = Page::new(100.0, 100.0);
-        let path = |points: &[(f64, f64)]| Toolpath { points: points.iter().map(|&(x, y)| Point::new(x, y)).collect() };
+        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
         let pen = |number, paths| PenPaths {
             number,
             name: String::new(),

@@ -42,7 +42,7 @@ fn sliver(outline: &BezPath, nib: f64) -> Vec<Toolpath> {
     let length = (area / nib - nib).clamp(0.0, bounds.width().max(bounds.height()));
     let half = if bounds.width() >= bounds.height() { (0.5 * length, 0.0) } else { (0.0, 0.5 * length) };
     let ends = [middle - half, middle + crate::geometry::Vec2::new(half.0, half.1)];
-    vec![Toolpath { points: if length > 0.01 { ends.to_vec() } else { vec![middle] } }]
+    vec![Toolpath::new(if length > 0.01 { ends.to_vec() } else { vec![middle] })]
 }
 
 /// Rings as few paths: each continues at the nearest ring of the next level when a step over is short.
@@ -62,7 +62,7 @@ fn joined(levels: Vec<Vec<Vec<Point>>>, reach: f64) -> Vec<Toolpath> {
         let around = |start: usize| (0..=count).map(move |k| (start + k) % count);
         match open {
             Some((path, start)) => path.points.extend(around(start).map(|i| ring[i])),
-            None => paths.push(Toolpath { points: around(0).map(|i| ring[i]).collect() }),
+            None => paths.push(Toolpath::new(around(0).map(|i| ring[i]).collect())),
         }
     }
     paths

@@ -23,7 +23,7 @@ pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64) -> Toolpath {
     let inside = dot.radius - 0.5 * nib;
     // A ring smaller than this is lost in the nib's own roundness.
     if inside <= 0.02 * nib {
-        return Toolpath { points: vec![dot.centre] };
+        return Toolpath::new(vec![dot.centre]);
     }
     let rim = Rim::of(dot, nib);
     let mut points = Vec::new();
@@ -31,7 +31,7 @@ pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64) -> Toolpath {
         spiral(&rim, nib * (1.0 - OVERLAP), tolerance, &mut points);
     }
     ring(&rim, tolerance, &mut points);
-    Toolpath { points }
+    Toolpath::new(points)
 }
 
 /// The ring that the nib's middle follows, as distances from the centre by angle.

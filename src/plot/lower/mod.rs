@@ -94,7 +94,7 @@ fn lower_stroke(stroke: &Stroke, nib: f64, tolerance: f64) -> Vec<Toolpath> {
 
 /// Paths without the vertices that straight stretches do not need.
 fn simplified(paths: Vec<Toolpath>, tolerance: f64) -> Vec<Toolpath> {
-    paths.into_iter().map(|path| Toolpath { points: simplify(&path.points, 0.5 * tolerance) }).collect()
+    paths.into_iter().map(|path| Toolpath::new(simplify(&path.points, 0.5 * tolerance))).collect()
 }
 
 /// A curve's subpaths as tool paths; one without length becomes a touch.
@@ -107,7 +107,7 @@ fn polylines(curve: &BezPath, tolerance: f64) -> Vec<Toolpath> {
                 points.push(points[0]);
             }
             points.dedup();
-            Toolpath { points }
+            Toolpath::new(points)
         })
         .filter(|path| !path.points.is_empty())
         .collect()
@@ -120,7 +120,7 @@ mod tests {
     use crate::geometry::Point;
 
     fn touch(x: f64, y: f64) -> Toolpath {
-        Toolpath { points: vec![Point::new(x, y)] }
+        Toolpath::new(vec![Point::new(x, y)])
     }
 
     #[test]

@@ -120,7 +120,7 @@ fn append(paths: &mut Vec<Toolpath>, pieces: Vec<Vec<Point>>, reach: f64) {
                     path.points.append(&mut piece);
                 }
             }
-            _ => paths.push(Toolpath { points: piece }),
+            _ => paths.push(Toolpath::new(piece)),
         }
     }
 }
