@@ -192,6 +192,9 @@ pub(super) struct PlotOptions {
     /// never ink [default: ink for files that drypoint wrote, else lines].
     #[arg(long, value_enum)]
     pub ink_model: Option<InkModelOption>,
+    /// Leave out what lies hidden under opaque ink of another colour or under white; with lines, what lies under any fill.
+    #[arg(long)]
+    pub occlude: bool,
     /// Scale the drawing to the page less its margin.
     #[arg(long, value_enum, default_value_t = PlotFit::None)]
     pub fit: PlotFit,

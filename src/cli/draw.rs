@@ -6,9 +6,9 @@ use super::layout::{Layout, lay_out};
 use super::output;
 use super::progress::{Watcher, is_interrupted};
 use super::toolpaths::{self, Prepared};
-use crate::drawing::{Drawing, Layer, Page};
+use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
-use crate::plot::{InkModel, Nibs, Profile, lower, mount};
+use crate::plot::{Hides, InkModel, Nibs, Profile, coverage, lower, mount, occluded};
 use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_svg};
@@ -66,8 +66,14 @@ fn write_one(
         }
         return Ok(None);
     }
-    let plot = lower(drawing, InkModel::Ink, &Nibs::all(options.pen), options.toolpaths.tolerance);
-    let prepared = toolpaths::prepare(plot, profile, &options.toolpaths)?;
+    // Opaque paint: what it covers is not drawn.
+    let is_painted = drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
+    let seen = is_painted.then(|| occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours));
+    let drawing = seen.as_ref().unwrap_or(drawing);
+    let nibs = Nibs::all(options.pen);
+    let plot = lower(drawing, InkModel::Ink, &nibs, options.toolpaths.tolerance);
+    let mut prepared = toolpaths::prepare(plot, profile, &options.toolpaths)?;
+    prepared.report.add_coverage(&coverage(drawing, &prepared.plot, &nibs));
     if !options.dry_run {
         toolpaths::write(name, format, &prepared, profile, head)?;
     }

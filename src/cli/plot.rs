@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{InkModel, Nibs, lower, mount};
+use crate::plot::{Hides, InkModel, Nibs, coverage, lower, mount, occluded};
 use crate::read::{Imported, read_svg};
 use crate::write::SvgHead;
 use serde_json::json;
@@ -21,8 +21,11 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
-    choose_layers(&mut imported, &options.layers)?;
     let model = ink_model(options, &imported);
+    if options.occlude {
+        leave_out_hidden(&mut imported, model);
+    }
+    choose_layers(&mut imported, &options.layers)?;
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }
@@ -41,8 +44,12 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     };
     let mut plots = Vec::new();
     for (name, drawing) in split_by_layer(&drawing, &options.output) {
-        let plot = lower(&drawing, model, &Nibs::all(options.pen), options.toolpaths.tolerance);
-        let prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
+        let nibs = Nibs::all(options.pen);
+        let plot = lower(&drawing, model, &nibs, options.toolpaths.tolerance);
+        let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
+        if model == InkModel::Ink {
+            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, &nibs));
+        }
         if !options.dry_run {
             toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
         }
@@ -74,6 +81,15 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
         Some(InkModelOption::Ink) => InkModel::Ink,
         None if imported.recipe.is_some() => InkModel::Ink,
         Some(InkModelOption::Lines) | None => InkModel::Lines,
+    }
+}
+
+/// What the painting order hides is not drawn.
+fn leave_out_hidden(imported: &mut Imported, model: InkModel) {
+    let hides = if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines };
+    let seen = occluded(&imported.drawing(), &imported.painting, hides);
+    for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
+        layer.layer = seen;
     }
 }
 

@@ -177,7 +177,12 @@ impl Stroke {
 
     fn bounding_box(&self) -> Rect {
         let half = 0.5 * self.widest();
-        self.curve.bounding_box().inflate(half, half)
+        let places = match (self.curve.segments().next(), self.curve.elements().first().and_then(PathEl::end_point)) {
+            // A bare point, which has no segment.
+            (None, Some(p)) => Rect::from_points(p, p),
+            _ => self.curve.bounding_box(),
+        };
+        places.inflate(half, half)
     }
 
     /// The pieces whose centre line is inside, with the width that they had there.

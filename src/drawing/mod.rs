@@ -10,7 +10,7 @@ pub use crate::geometry::Ends;
 pub use colour::{Colour, ColourError, Ink};
 pub use mark::{Area, Dot, Mark, Stroke, Width};
 
-use crate::geometry::{Affine, Rect};
+use crate::geometry::{Affine, BezPath, Rect};
 
 /// A sheet of paper with layers of ink.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +19,20 @@ pub struct Drawing {
     pub page: Page,
     /// Layers in painting order, the lowest first.
     pub layers: Vec<Layer>,
+}
+
+/// One thing in painting order.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Painted {
+    /// A mark, by layer and its number there.
+    Mark {
+        /// Index of the layer.
+        layer: usize,
+        /// Index of the mark.
+        mark: usize,
+    },
+    /// Paper: white paint, which is never ink but hides what it covers.
+    White(BezPath),
 }
 
 /// A sheet of paper.
@@ -123,6 +137,12 @@ impl Drawing {
     /// The smallest rectangle around all ink, or none when there is no mark.
     pub fn bounding_box(&self) -> Option<Rect> {
         self.marks().map(Mark::bounding_box).reduce(|a, b| a.union(b))
+    }
+
+    /// Its marks from the lowest to the uppermost: layer by layer.
+    pub fn painting_order(&self) -> Vec<Painted> {
+        let marks = |(layer, it): (usize, &Layer)| (0..it.marks.len()).map(move |mark| Painted::Mark { layer, mark });
+        self.layers.iter().enumerate().flat_map(marks).collect()
     }
 
     /// Every mark of every layer.

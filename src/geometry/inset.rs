@@ -34,10 +34,31 @@ impl Insets {
     }
 }
 
+impl Insets {
+    /// The outer borders of what is narrower than `2 distance`: the parts that a disc of that radius cannot reach from inside.
+    pub fn narrow_parts(&self, distance: f64) -> Vec<Vec<Point>> {
+        let style = |distance: f64| OutlineStyle::new(distance).line_join(LineJoin::Round(0.3));
+        // A little more, so that flattened corners leave no crumbs.
+        let reached = self.shapes.outline(&style(-distance)).outline(&style(1.04 * distance));
+        let rest = self.shapes.overlay(&reached, OverlayRule::Difference, FillRule::NonZero);
+        let outer = rest.into_iter().filter_map(|shape| shape.into_iter().next());
+        outer.map(|ring| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect()).collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::polygon_area;
+
+    #[test]
+    fn a_flag_s_pole_is_narrow_and_its_cloth_is_not() {
+        let flag = Insets::new(&BezPath::from_svg("M0,0 H5 V3 H0.2 V9 H0 Z").unwrap(), 0.01);
+        let parts = flag.narrow_parts(0.3);
+        let area: f64 = parts.iter().map(|part| polygon_area(part).abs()).sum();
+        // The pole, and the cloth's corners that no disc reaches.
+        assert!((1.1..1.6).contains(&area), "{area}");
+    }
 
     #[test]
     fn a_frame_shrinks_from_both_sides() {

@@ -42,25 +42,40 @@ impl Region {
 
     /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside.
     pub fn clip_line(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        let pieces = self.pieces(points, Side::Inside);
+        pieces.into_iter().map(|piece| piece.into_iter().map(|(p, _)| p).collect()).collect()
+    }
+
+    /// The pieces of a polyline outside, each point with its place along the line (vertex index plus fraction).
+    pub fn outside_of_line(&self, points: &[Point]) -> Vec<Vec<(Point, f64)>> {
+        self.pieces(points, Side::Outside)
+    }
+
+    fn pieces(&self, points: &[Point], side: Side) -> Vec<Vec<(Point, f64)>> {
+        let is_wanted = |p: Point| self.contains(p) == (side == Side::Inside);
         if let [p] = points {
-            return if self.contains(*p) { vec![points.to_vec()] } else { Vec::new() };
+            return if is_wanted(*p) { vec![vec![(*p, 0.0)]] } else { Vec::new() };
         }
-        let mut pieces: Vec<Vec<Point>> = Vec::new();
+        let mut pieces: Vec<Vec<(Point, f64)>> = Vec::new();
         let mut is_open = false;
-        for pair in points.windows(2) {
+        for (i, pair) in points.windows(2).enumerate() {
             let mut cuts = self.cuts(pair[0], pair[1]);
             cuts.sort_by(f64::total_cmp);
             for span in cuts.windows(2).filter(|span| span[1] > span[0]) {
-                let at = |t: f64| pair[0].lerp(pair[1], t);
-                if !self.contains(at(0.5 * (span[0] + span[1]))) {
+                let at = |t: f64| if t >= 1.0 { pair[1] } else { pair[0].lerp(pair[1], t) };
+                if !is_wanted(at(0.5 * (span[0] + span[1]))) {
                     is_open = false;
                     continue;
                 }
                 if !is_open {
-                    pieces.push(vec![at(span[0])]);
+                    pieces.push(vec![(at(span[0]), i as f64 + span[0])]);
                 }
                 if let Some(piece) = pieces.last_mut() {
-                    piece.push(at(span[1]));
+                    // A place where an outline is met but not crossed needs no vertex.
+                    if is_open && span[0] > 0.0 {
+                        piece.pop();
+                    }
+                    piece.push((at(span[1]), i as f64 + span[1]));
                 }
                 is_open = true;
             }
@@ -90,10 +105,19 @@ impl Region {
 
     /// What of another region lies in this one.
     pub fn clip_area(&self, area: &Self) -> BezPath {
+        self.overlay(area, OverlayRule::Intersect)
+    }
+
+    /// What of another region lies outside this one.
+    pub fn outside_of_area(&self, area: &Self) -> BezPath {
+        self.overlay(area, OverlayRule::Difference)
+    }
+
+    fn overlay(&self, area: &Self, rule: OverlayRule) -> BezPath {
         let contours = |region: &Self| -> Vec<Vec<[f64; 2]>> {
             region.polygons.iter().map(|polygon| polygon.iter().map(|p| [p.x, p.y]).collect()).collect()
         };
-        let shapes = contours(area).overlay(&contours(self), OverlayRule::Intersect, FillRule::NonZero);
+        let shapes = contours(area).overlay(&contours(self), rule, FillRule::NonZero);
         let mut path = BezPath::new();
         for contour in shapes.into_iter().flatten() {
             for (i, [x, y]) in contour.into_iter().enumerate() {
@@ -103,6 +127,13 @@ impl Region {
         }
         path
     }
+}
+
+/// Which side of an outline.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Inside,
+    Outside,
 }
 
 #[cfg(test)]

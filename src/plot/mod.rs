@@ -3,15 +3,19 @@
 //! In: marks with their ink. Out: a [`Plot`], the polylines that one nib per pen draws, in the page's millimetres; a
 //! [`Mounting`] says where the page lies on a machine. Nothing here knows of styles or fields.
 
+mod coverage;
 mod lower;
 mod mounting;
+mod occlude;
 mod order;
 mod profile;
 mod report;
 mod time;
 
-pub use lower::{InkModel, Nibs, lower};
+pub use coverage::{Coverage, coverage};
+pub use lower::{InkModel, Nibs, Swell, lower};
 pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
+pub use occlude::{Hides, occluded};
 pub use order::{Direction, Effort, PathEnds, Visit, chain, drop_duplicates, order, pen_up_length};
 pub use profile::{
     Area, GcodeDialect, HpglDialect, Language, Motion, Paper, PenChange, Pens, Profile, ProfileError, built_in, built_in_names,

@@ -1,5 +1,6 @@
 //! What a plot will take, per pen and in all.
 
+use super::coverage::Coverage;
 use super::order::{PathEnds, Visit};
 use super::profile::Motion;
 use super::time::clock;
@@ -28,6 +29,10 @@ pub struct PenReport {
     pub pen_lifts: usize,
     /// Time, when the machine is known.
     pub seconds: Option<f64>,
+    /// The share of the asked ink that is laid down, where ink was asked for.
+    pub covered_fraction: Option<f64>,
+    /// Ink laid down that was not asked for, as a share of what was.
+    pub spill_fraction: Option<f64>,
 }
 
 /// All pens.
@@ -59,6 +64,8 @@ pub fn report(plot: &Plot, home: Point, motion: Option<&Motion>, before: Option<
             pen_up_mm_before: before.and_then(|b| b.get(i).copied()).unwrap_or(pen_up_mm),
             pen_lifts: pen.paths.len(),
             seconds: clocks.as_ref().map(|c| c[i].total()),
+            covered_fraction: None,
+            spill_fraction: None,
         });
     }
     let total = PenReport {
@@ -71,6 +78,27 @@ pub fn report(plot: &Plot, home: Point, motion: Option<&Motion>, before: Option<
         pen_up_mm_before: pens.iter().map(|p| p.pen_up_mm_before).sum(),
         pen_lifts: pens.iter().map(|p| p.pen_lifts).sum(),
         seconds: motion.map(|_| pens.iter().filter_map(|p| p.seconds).sum()),
+        covered_fraction: None,
+        spill_fraction: None,
     };
     PlotReport { pens, total }
+}
+
+impl PlotReport {
+    /// Adds what was measured of each pen's ink, in the pens' order.
+    pub fn add_coverage(&mut self, measured: &[Coverage]) {
+        let mut total = Coverage::default();
+        let mut counted = Vec::new();
+        for (pen, coverage) in self.pens.iter_mut().zip(measured) {
+            pen.covered_fraction = Some(coverage.covered_fraction());
+            pen.spill_fraction = Some(coverage.spill_fraction());
+            // Pens of one number share their ink.
+            if !counted.contains(&pen.pen) {
+                counted.push(pen.pen);
+                total = total.and(*coverage);
+            }
+        }
+        self.total.covered_fraction = Some(total.covered_fraction());
+        self.total.spill_fraction = Some(total.spill_fraction());
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::Dropped;
 use super::layers::{Label, Outline, outline, with_layer_ids};
-use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Handling, Ink, Layer, Mark, Mixing, Page, Painted, Stroke, Width};
 use crate::geometry::{Affine, BezPath, Point, Region, flatten};
 use kurbo::{PathEl, Shape};
 use thiserror::Error;
@@ -39,6 +39,8 @@ pub struct Imported {
     pub page: Page,
     /// Layers in painting order.
     pub layers: Vec<ImportedLayer>,
+    /// Its marks from the lowest to the uppermost, with the white between them.
+    pub painting: Vec<Painted>,
     /// What was not taken, by kind.
     pub dropped: Dropped,
     /// The recipe, when drypoint wrote it.
@@ -83,8 +85,8 @@ pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
     let mut importer = Importer::new(&outline);
     importer.group(tree.root(), Place { layer: None, kind: Kind::Foreign }, &[]);
     let is_toolpaths = importer.is_toolpaths;
-    let (layers, dropped) = importer.finish();
-    Ok(Imported { page, layers, dropped, recipe: outline.recipe.clone(), is_toolpaths })
+    let (layers, painting, dropped) = importer.finish();
+    Ok(Imported { page, layers, painting, dropped, recipe: outline.recipe.clone(), is_toolpaths })
 }
 
 /// What drypoint's own group ids say of the paths below them.
@@ -107,6 +109,7 @@ struct Importer<'a> {
     /// One for each label, then one for each colour met outside all labels.
     layers: Vec<ImportedLayer>,
     by_colour: Vec<(Colour, usize)>,
+    painting: Vec<Painted>,
     dropped: Dropped,
     is_toolpaths: bool,
 }
@@ -116,7 +119,7 @@ impl<'a> Importer<'a> {
         let layers = outline.layers.iter().enumerate().map(|(i, label)| labelled(label, i as u32 + 1)).collect();
         let mut dropped = outline.dropped.clone();
         dropped.add("pen height (+H)", outline.layers.iter().filter(|label| label.height.is_some()).count());
-        Self { outline, layers, by_colour: Vec::new(), dropped, is_toolpaths: false }
+        Self { outline, layers, by_colour: Vec::new(), painting: Vec::new(), dropped, is_toolpaths: false }
     }
 
     fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Region]) {
@@ -171,10 +174,13 @@ impl<'a> Importer<'a> {
             return self.dropped.count("path beyond 100 m");
         }
         let scale = transform.determinant().abs().sqrt();
-        if let Some(fill) = path.fill()
-            && let Some(colour) = self.ink(fill.paint(), "fill")
-        {
-            self.filled(&curve, colour, place, clips);
+        if let Some(fill) = path.fill() {
+            if is_white(fill.paint()) {
+                self.painting.push(Painted::White(clipped_outline(&curve, clips)));
+            }
+            if let Some(colour) = self.ink(fill.paint(), "fill") {
+                self.filled(&curve, colour, place, clips);
+            }
         }
         if let Some(stroke) = path.stroke()
             && let Some(colour) = self.ink(stroke.paint(), "stroke")
@@ -186,7 +192,7 @@ impl<'a> Importer<'a> {
     /// A paint's colour, if it is ink: white is paper, gradients and patterns cannot be drawn with a pen.
     fn ink(&mut self, paint: &usvg::Paint, what: &str) -> Option<Colour> {
         match paint {
-            usvg::Paint::Color(c) if (c.red, c.green, c.blue) == (255, 255, 255) => {
+            usvg::Paint::Color(_) if is_white(paint) => {
                 self.dropped.count(&format!("white {what}"));
                 None
             }
@@ -203,22 +209,20 @@ impl<'a> Importer<'a> {
     }
 
     fn filled(&mut self, curve: &BezPath, colour: Colour, place: Place, clips: &[Region]) {
-        let mut outline = with_closed_subpaths(curve);
-        for clip in clips {
-            outline = clip.clip_area(&Region::new(&outline, CLIP_TOLERANCE));
-        }
+        let outline = clipped_outline(curve, clips);
         // A straight line is filled by default in SVG, with nothing.
         if outline.area().abs() < 1e-5 {
             return;
         }
-        let layer = self.layer_for(place, colour);
+        let index = self.layer_for(place, colour);
+        let layer = &mut self.layers[index];
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
         layer.swells += usize::from(place.kind == Kind::Swells);
         if place.kind == Kind::Dots {
             // Very large drawings hold many dots in one path.
-            layer.layer.marks.extend(subpaths(&outline).into_iter().map(|piece| Mark::Dot(dot(piece, own_colour))));
+            self.paint(index, subpaths(&outline).into_iter().map(|piece| Mark::Dot(dot(piece, own_colour))));
         } else {
-            layer.layer.marks.push(Mark::Area(Area { outline, colour: own_colour }));
+            self.paint(index, [Mark::Area(Area { outline, colour: own_colour })]);
         }
     }
 
@@ -236,19 +240,23 @@ impl<'a> Importer<'a> {
         for clip in clips {
             curve = clip_curve(&curve, clip);
         }
-        let layer = self.layer_for(place, colour);
-        let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
-        let pieces = subpaths(&curve);
+        let index = self.layer_for(place, colour);
+        let own_colour = (self.layers[index].layer.ink.colour() != colour).then_some(colour);
         let ends = if stroke.linecap() == usvg::LineCap::Butt { Ends::Flat } else { Ends::Round };
-        layer.layer.marks.extend(
-            pieces
-                .into_iter()
-                .map(|curve| Mark::Stroke(Stroke { ends, colour: own_colour, ..Stroke::new(curve, Width::Constant(width)) })),
-        );
+        let stroke_of = |curve| Stroke { ends, colour: own_colour, ..Stroke::new(curve, Width::Constant(width)) };
+        self.paint(index, subpaths(&curve).into_iter().map(|curve| Mark::Stroke(stroke_of(curve))));
+    }
+
+    /// Adds marks to a layer and to the painting order.
+    fn paint(&mut self, layer: usize, marks: impl IntoIterator<Item = Mark>) {
+        for mark in marks {
+            self.painting.push(Painted::Mark { layer, mark: self.layers[layer].layer.marks.len() });
+            self.layers[layer].layer.marks.push(mark);
+        }
     }
 
     /// The layer of a mark: its labelled group, else that of its colour.
-    fn layer_for(&mut self, place: Place, colour: Colour) -> &mut ImportedLayer {
+    fn layer_for(&mut self, place: Place, colour: Colour) -> usize {
         let index = match place.layer {
             Some(layer) => layer,
             None => {
@@ -266,14 +274,37 @@ impl<'a> Importer<'a> {
         if layer.layer.marks.is_empty() && colour != Colour::BLACK {
             layer.layer.ink = Ink::Colour(colour);
         }
-        layer
+        index
     }
 
     /// Layers that hold something; those without a number of their own take the free ones in order.
-    fn finish(self) -> (Vec<ImportedLayer>, Dropped) {
+    fn finish(self) -> (Vec<ImportedLayer>, Vec<Painted>, Dropped) {
+        let mut held = 0;
+        let number: Vec<usize> = self
+            .layers
+            .iter()
+            .map(|layer| {
+                held += usize::from(!layer.layer.marks.is_empty());
+                held.saturating_sub(1)
+            })
+            .collect();
+        let renumbered = |painted| match painted {
+            Painted::Mark { layer, mark } => Painted::Mark { layer: number[layer], mark },
+            white @ Painted::White(_) => white,
+        };
+        let painting = self.painting.into_iter().map(renumbered).collect();
         let layers = self.layers.into_iter().filter(|layer| !layer.layer.marks.is_empty());
-        (layers.collect(), self.dropped)
+        (layers.collect(), painting, self.dropped)
     }
+}
+
+fn is_white(paint: &usvg::Paint) -> bool {
+    matches!(paint, usvg::Paint::Color(c) if (c.red, c.green, c.blue) == (255, 255, 255))
+}
+
+/// A filled outline within its clip paths.
+fn clipped_outline(curve: &BezPath, clips: &[Region]) -> BezPath {
+    clips.iter().fold(with_closed_subpaths(curve), |outline, clip| clip.clip_area(&Region::new(&outline, CLIP_TOLERANCE)))
 }
 
 fn labelled(label: &Label, number: u32) -> ImportedLayer {

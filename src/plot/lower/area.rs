@@ -1,68 +1,116 @@
-//! A filled outline with one nib: rings that follow the outline, from its border inwards, joined where they lie side by side.
+//! A filled outline with one nib: rings that follow the outline, from its border inwards, or one ring and hatching inside it, whichever
+//! is shorter; parts narrower than the nib are drawn like thin lines.
 
 use super::super::Toolpath;
+use super::dash::dashes;
 use super::dot::OVERLAP;
+use super::hatch::hatching;
+use super::needle::needle;
 use crate::drawing::Area;
-use crate::geometry::{BezPath, Insets, Point};
-use kurbo::Shape;
+use crate::geometry::{Insets, Point, distance_to_segment, polygon_area, resample};
+use std::f64::consts::FRAC_PI_4;
 
-/// The paths that fill an area. Parts narrower than the nib cannot be filled without spilling; a sliver nowhere as wide as the nib
-/// is drawn along its border if it has at least half of a touch's ink, else as a touch.
-pub(super) fn fill_area(area: &Area, nib: f64, tolerance: f64) -> Vec<Toolpath> {
+/// What lifting and lowering the pen once more is worth in millimetres of line, when two ways to fill are compared: 0.35 s of a servo
+/// at 30 mm/s, about.
+const LIFT: f64 = 10.0;
+/// A narrow part is worth drawing from this share of a touch's ink: corners of wide parts stay round.
+const LEAST_PART: f64 = 0.5;
+
+/// The paths that fill an area. `phase` says where in their rhythm the dashes of narrow parts begin.
+pub(super) fn fill_area(area: &Area, nib: f64, tolerance: f64, phase: f64) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let insets = Insets::new(&area.outline, 0.5 * tolerance);
-    let mut rings = Vec::new();
-    let mut depth = 0.5 * nib;
-    loop {
-        let next = insets.rings(depth);
-        if next.is_empty() {
-            break;
-        }
-        rings.push(next);
-        depth += pitch;
+    let rings = rings(&insets, nib, pitch);
+    let ringed = joined(&rings, 1.5 * pitch);
+    let mut paths = match rings.first().and_then(|border| hatching(&insets, border, nib, pitch)) {
+        Some(hatched) if cost(&hatched) < cost(&ringed) => hatched,
+        _ => ringed,
+    };
+    let least = LEAST_PART * FRAC_PI_4 * nib * nib;
+    for (i, part) in insets.narrow_parts(0.5 * nib).into_iter().filter(|part| polygon_area(part).abs() >= least).enumerate() {
+        paths.extend(dashes(&needle(&part, nib), nib, phase + 0.618 * i as f64));
     }
-    // What is left in the middle may be nearly two pitches wide: half a step more covers it.
-    let last = insets.rings(depth - 0.5 * pitch);
-    if !rings.is_empty() && !last.is_empty() {
-        rings.push(last);
-    }
-    if rings.is_empty() { sliver(&area.outline, nib) } else { joined(rings, 1.5 * pitch) }
+    paths
 }
 
-/// Something smaller than the nib.
-fn sliver(outline: &BezPath, nib: f64) -> Vec<Toolpath> {
-    let least = std::f64::consts::FRAC_PI_4 * nib * nib;
-    let area = outline.area().abs();
-    let bounds = outline.bounding_box();
-    if area < 0.25 * least || !bounds.is_finite() {
-        return Vec::new();
+fn cost(paths: &[Toolpath]) -> f64 {
+    paths.iter().map(|path| path.length() + LIFT).sum()
+}
+
+/// Rings half a nib inside the border and then a pitch further in each time, level by level; between two levels, pieces of a ring where
+/// the next one is missing and the middle would stay bare.
+fn rings(insets: &Insets, nib: f64, pitch: f64) -> Vec<Vec<Vec<Point>>> {
+    let mut levels = Vec::new();
+    let mut depth = 0.5 * nib;
+    let mut rings = insets.rings(depth);
+    while !rings.is_empty() {
+        let next = insets.rings(depth + pitch);
+        let between = insets.rings(depth + 0.5 * pitch);
+        let pieces: Vec<Vec<Point>> = between.iter().flat_map(|ring| far_pieces(ring, &next, 0.75 * pitch)).collect();
+        levels.push(rings.into_iter().filter(|ring| ring.len() > 2).map(closed).collect());
+        if !pieces.is_empty() {
+            levels.push(pieces);
+        }
+        rings = next;
+        depth += pitch;
     }
-    // Along its longer side, as long as its ink at the nib's width is its area.
-    let middle = bounds.center();
-    let length = (area / nib - nib).clamp(0.0, bounds.width().max(bounds.height()));
-    let half = if bounds.width() >= bounds.height() { (0.5 * length, 0.0) } else { (0.0, 0.5 * length) };
-    let ends = [middle - half, middle + crate::geometry::Vec2::new(half.0, half.1)];
-    vec![Toolpath::new(if length > 0.01 { ends.to_vec() } else { vec![middle] })]
+    levels
+}
+
+fn closed(mut ring: Vec<Point>) -> Vec<Point> {
+    ring.push(ring[0]);
+    ring
+}
+
+/// The parts of a ring farther than `reach` from every other ring, as open lines; the whole ring, closed, where that is all of it.
+fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64) -> Vec<Vec<Point>> {
+    let points = resample(&closed(ring.to_vec()), 0.6 * reach);
+    let is_near = |p: Point| {
+        let sides = others.iter().flat_map(|other| (0..other.len()).map(move |i| (other[i], other[(i + 1) % other.len()])));
+        sides.into_iter().any(|(a, b)| {
+            let (low, high) = (a.x.min(b.x) - reach, a.x.max(b.x) + reach);
+            (low..=high).contains(&p.x) && distance_to_segment(p, a, b) <= reach
+        })
+    };
+    let far: Vec<bool> = points.iter().map(|p| !is_near(*p)).collect();
+    let Some(first_near) = far.iter().position(|far| !far) else { return vec![points] };
+    // Once round from a point that is near, so that no piece is cut where the ring begins.
+    let last = points.len() - 1;
+    let mut pieces: Vec<Vec<Point>> = Vec::new();
+    let mut was_far = false;
+    for i in (1..=last).map(|k| (first_near + k) % last) {
+        if far[i] {
+            if !was_far {
+                pieces.push(Vec::new());
+            }
+            pieces.last_mut().into_iter().for_each(|piece| piece.push(points[i]));
+        }
+        was_far = far[i];
+    }
+    pieces
 }
 
 /// Rings as few paths: each continues at the nearest ring of the next level when a step over is short.
-fn joined(levels: Vec<Vec<Vec<Point>>>, reach: f64) -> Vec<Toolpath> {
+fn joined(levels: &[Vec<Vec<Point>>], reach: f64) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
-    for ring in levels.into_iter().flatten().filter(|ring| ring.len() > 2) {
+    for line in levels.iter().flatten() {
+        let is_ring = line.len() > 2 && line[0] == line[line.len() - 1];
+        let starts = if is_ring { 0..line.len() - 1 } else { 0..1 };
         let nearest = |from: Point| {
-            let index =
-                (0..ring.len()).min_by(|&a, &b| ring[a].distance_squared(from).total_cmp(&ring[b].distance_squared(from)));
-            index.map(|i| (ring[i].distance(from), i))
+            let index = starts.clone().min_by(|&a, &b| line[a].distance_squared(from).total_cmp(&line[b].distance_squared(from)));
+            index.map(|i| (line[i].distance(from), i))
         };
         let open = paths.iter_mut().rev().find_map(|path| {
             let (distance, start) = path.points.last().and_then(|end| nearest(*end))?;
             (distance <= reach).then_some((path, start))
         });
-        let count = ring.len();
-        let around = |start: usize| (0..=count).map(move |k| (start + k) % count);
+        let around = |start: usize| {
+            let turned = line[start..].iter().chain(if is_ring { &line[1..=start] } else { &[] });
+            turned.copied().collect::<Vec<Point>>()
+        };
         match open {
-            Some((path, start)) => path.points.extend(around(start).map(|i| ring[i])),
-            None => paths.push(Toolpath::new(around(0).map(|i| ring[i]).collect())),
+            Some((path, start)) => path.points.extend(around(start)),
+            None => paths.push(Toolpath::new(around(0))),
         }
     }
     paths
@@ -71,9 +119,10 @@ fn joined(levels: Vec<Vec<Vec<Point>>>, reach: f64) -> Vec<Toolpath> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::BezPath;
 
     fn filled(text: &str, nib: f64) -> Vec<Toolpath> {
-        fill_area(&Area { outline: BezPath::from_svg(text).unwrap(), colour: None }, nib, 0.02)
+        fill_area(&Area { outline: BezPath::from_svg(text).unwrap(), colour: None }, nib, 0.02, 0.0)
     }
 
     #[test]
@@ -86,10 +135,31 @@ mod tests {
     }
 
     #[test]
-    fn slivers_are_lines_or_nothing() {
-        let line = filled("M0,0 H5 V0.1 H0 Z", 0.3);
-        assert_eq!(line.len(), 1);
-        assert!((line[0].length() - (0.5 / 0.3 - 0.3)).abs() < 1e-6);
+    fn slivers_are_dashes_with_their_ink_or_nothing() {
+        let ink = |paths: &[Toolpath]| -> f64 { paths.iter().map(|path| 0.3 * path.length() + 0.0707).sum() };
+        let line = filled("M0,0 H40 V0.1 H0 Z", 0.3);
+        assert!((ink(&line) / 4.0 - 1.0).abs() < 0.06, "{}", ink(&line));
+        assert!(line.iter().flat_map(|path| &path.points).all(|p| (p.y - 0.05).abs() < 0.02));
         assert!(filled("M0,0 H0.05 V0.05 H0 Z", 0.3).is_empty());
+    }
+
+    #[test]
+    fn a_comb_s_teeth_are_drawn() {
+        // A back of 1 mm with teeth of 0.2 mm, thinner than the nib.
+        let teeth: String = (0..10).map(|i| format!("H{} V3 H{} V1 ", i + 1, f64::from(i) + 1.2)).collect();
+        let paths = filled(&format!("M12,1 V0 H0 V1 {teeth} Z"), 0.3);
+        for i in 0..10 {
+            let is_on = |p: &Point| p.y > 1.5 && (p.x - f64::from(i) - 1.1).abs() < 0.05;
+            assert!(paths.iter().any(|path| path.points.iter().all(is_on)), "tooth {i}");
+        }
+    }
+
+    #[test]
+    fn the_middle_of_a_frame_is_filled_although_its_corners_are_wider() {
+        let paths = filled("M5,5 H15 V15 H5 Z M8,8 V12 H12 V8 Z", 0.5);
+        for p in [Point::new(6.5, 10.0), Point::new(10.0, 13.5), Point::new(6.45, 8.0)] {
+            let near = |path: &Toolpath| path.points.windows(2).any(|w| distance_to_segment(p, w[0], w[1]) < 0.25);
+            assert!(paths.iter().any(near), "{p:?}");
+        }
     }
 }

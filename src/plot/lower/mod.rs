@@ -1,12 +1,16 @@
 //! Lowering: from ink to the centre lines that a nib draws.
 //!
 //! A dot no larger than the nib is a touch, a larger one is filled with a spiral; dots smaller than the nib are thinned out, so that
-//! tone stays. A line no wider than the nib is its centre line, a wider one passes side by side; areas are filled with rings that follow
-//! their outline.
+//! tone stays. A line as wide as the nib is its centre line, a wider one passes side by side, a thinner one dashes; areas are filled
+//! with rings that follow their outline, or hatched. A pen whose line swells with its height draws a swelling stroke in one pass.
 
 mod area;
+mod dash;
 mod dot;
+mod hatch;
+mod needle;
 mod stroke;
+mod swell;
 mod thin;
 
 use super::{PenPaths, Plot, Toolpath};
@@ -14,8 +18,11 @@ use crate::drawing::{Drawing, Layer, Mark, Stroke};
 use crate::geometry::{BezPath, flatten, simplify};
 use area::fill_area;
 use dot::fill_dot;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
-use stroke::fill_stroke;
+use stroke::lower_stroke;
+pub use swell::Swell;
+use swell::swelling_pass;
 
 /// What of a drawing a plotter draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +40,14 @@ pub struct Nibs {
     pub usual: f64,
     /// By pen number.
     pub by_pen: BTreeMap<u32, f64>,
+    /// For a machine whose pen swells with its height.
+    pub swell: Option<Swell>,
 }
 
 impl Nibs {
     /// One width for all pens.
     pub const fn all(usual: f64) -> Self {
-        Self { usual, by_pen: BTreeMap::new() }
+        Self { usual, by_pen: BTreeMap::new(), swell: None }
     }
 
     /// The nib of a pen.
@@ -52,9 +61,8 @@ pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) ->
     let mut pens: Vec<PenPaths> = Vec::new();
     for layer in &drawing.layers {
         let nib = nibs.of(layer.pen);
-        let kept = thin::keeps_tone(&layer.marks, nib);
-        let marks = layer.marks.iter().zip(kept).filter(|(_, kept)| *kept).map(|(mark, _)| mark);
-        let paths = marks.flat_map(|mark| lower_mark(mark, model, nib, tolerance));
+        let lowering = Lowering { model, nib, swell: nibs.swell.as_ref(), tolerance };
+        let paths = lowering.layer(layer);
         // A layer that asks for something of its own is drawn by itself.
         let is_alike = |pen: &&mut PenPaths| pen.number == layer.pen && pen.handling == layer.handling && !layer.handling.pauses;
         match pens.iter_mut().find(is_alike) {
@@ -62,7 +70,7 @@ pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) ->
                 pen.name = format!("{}, {}", pen.name, layer.name);
                 pen.paths.extend(paths);
             }
-            None => pens.push(pen_of(layer, nib, paths.collect())),
+            None => pens.push(pen_of(layer, nib, paths)),
         }
     }
     pens.sort_by_key(|pen| pen.number);
@@ -73,28 +81,54 @@ fn pen_of(layer: &Layer, nib: f64, paths: Vec<Toolpath>) -> PenPaths {
     PenPaths { number: layer.pen, name: layer.name.clone(), colour: layer.ink.colour(), nib, handling: layer.handling, paths }
 }
 
-fn lower_mark(mark: &Mark, model: InkModel, nib: f64, tolerance: f64) -> Vec<Toolpath> {
-    match (mark, model) {
-        (Mark::Stroke(stroke), InkModel::Lines) => polylines(&stroke.curve, tolerance),
-        (_, InkModel::Lines) => Vec::new(),
-        (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, nib, tolerance)],
-        (Mark::Stroke(stroke), InkModel::Ink) => lower_stroke(stroke, nib, tolerance),
-        (Mark::Area(area), InkModel::Ink) => fill_area(area, nib, tolerance),
+/// How the marks of one layer are lowered.
+struct Lowering<'a> {
+    model: InkModel,
+    nib: f64,
+    swell: Option<&'a Swell>,
+    tolerance: f64,
+}
+
+impl Lowering<'_> {
+    fn layer(&self, layer: &Layer) -> Vec<Toolpath> {
+        let kept = match self.model {
+            InkModel::Ink => thin::keeps_tone(&layer.marks, self.nib),
+            InkModel::Lines => vec![true; layer.marks.len()],
+        };
+        let chosen: Vec<(usize, &Mark)> = layer.marks.iter().enumerate().filter(|(i, _)| kept[*i]).collect();
+        let lowered: Vec<Vec<Toolpath>> = chosen.into_par_iter().map(|(i, mark)| self.mark(i, mark)).collect();
+        lowered.concat()
+    }
+
+    fn mark(&self, index: usize, mark: &Mark) -> Vec<Toolpath> {
+        // The golden ratio spreads the phases of neighbouring dashed lines.
+        let phase = (index as f64 * 0.618_033_988_75).fract();
+        match (mark, self.model) {
+            (Mark::Stroke(stroke), InkModel::Lines) => grouped(polylines(&stroke.curve, self.tolerance), stroke),
+            (_, InkModel::Lines) => Vec::new(),
+            (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, self.nib, self.tolerance)],
+            (Mark::Stroke(stroke), InkModel::Ink) => grouped(self.stroke(stroke, phase), stroke),
+            (Mark::Area(area), InkModel::Ink) => self.simplified(fill_area(area, self.nib, self.tolerance, phase)),
+        }
+    }
+
+    fn stroke(&self, stroke: &Stroke, phase: f64) -> Vec<Toolpath> {
+        if let Some(pass) = self.swell.and_then(|swell| swelling_pass(stroke, swell, self.tolerance)) {
+            return pass;
+        }
+        self.simplified(lower_stroke(stroke, self.nib, phase))
+    }
+
+    /// Paths without the vertices that straight stretches do not need.
+    fn simplified(&self, paths: Vec<Toolpath>) -> Vec<Toolpath> {
+        let thinned = |path: Toolpath| Toolpath { points: simplify(&path.points, 0.5 * self.tolerance), ..path };
+        paths.into_iter().map(thinned).collect()
     }
 }
 
-fn lower_stroke(stroke: &Stroke, nib: f64, tolerance: f64) -> Vec<Toolpath> {
-    // A line hardly wider than the nib gains nothing from a second pass.
-    if stroke.widest() <= 1.1 * nib {
-        polylines(&stroke.curve, tolerance)
-    } else {
-        simplified(fill_stroke(stroke, nib), tolerance)
-    }
-}
-
-/// Paths without the vertices that straight stretches do not need.
-fn simplified(paths: Vec<Toolpath>, tolerance: f64) -> Vec<Toolpath> {
-    paths.into_iter().map(|path| Toolpath::new(simplify(&path.points, 0.5 * tolerance))).collect()
+fn grouped(mut paths: Vec<Toolpath>, stroke: &Stroke) -> Vec<Toolpath> {
+    paths.iter_mut().for_each(|path| path.group = stroke.group);
+    paths
 }
 
 /// A curve's subpaths as tool paths; one without length becomes a touch.

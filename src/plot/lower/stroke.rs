@@ -7,12 +7,20 @@
 //! ```
 
 use super::super::Toolpath;
-use super::dot::OVERLAP;
-use crate::drawing::Stroke;
+use super::dash::{NEARLY_WHOLE, Sample, dashes};
+use super::dot::{OVERLAP, fill_dot};
+use crate::drawing::{Dot, Ends, Stroke};
 use crate::geometry::{Point, Vec2};
+use kurbo::PathEl;
 
 /// Distance from the middle below which the two sides of a pass are one line, in nibs.
 const ONE_LINE: f64 = 0.04;
+
+/// Flattening of a stroke that is but a dot, in millimetres.
+const POINT_TOLERANCE: f64 = 0.02;
+
+/// Width in nibs up to which one pass is enough.
+const ONE_PASS: f64 = 1.1;
 
 /// The centre line at even steps with its unit normals and how far from it the nib may go to either side.
 struct Spine {
@@ -20,11 +28,68 @@ struct Spine {
     normals: Vec<Vec2>,
     room: Vec<f64>,
     is_closed: bool,
+    ends: Ends,
 }
 
-/// The paths that fill a stroke wider than the nib.
-pub(super) fn fill_stroke(stroke: &Stroke, nib: f64) -> Vec<Toolpath> {
-    let Some(spine) = Spine::of(stroke, nib) else { return Vec::new() };
+/// The paths that lay down a stroke's ink: passes where it is wider than the nib, its centre line where it is as wide, dashes where it is
+/// thinner. `phase` says where in their rhythm the dashes begin.
+pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64) -> Vec<Toolpath> {
+    let samples = trimmed(samples(stroke, nib), stroke, nib);
+    if samples.windows(2).all(|pair| pair[0].at == pair[1].at) {
+        return point(stroke, samples.first().copied(), nib);
+    }
+    let is_thin = |i: usize| samples[i].width < NEARLY_WHOLE * nib;
+    let mut paths = Vec::new();
+    let mut from = 0;
+    while from < samples.len() {
+        let to = (from..samples.len()).find(|&i| is_thin(i) != is_thin(from)).unwrap_or(samples.len());
+        // Neighbouring runs share the sample where one goes over into the other.
+        let run = &samples[from.saturating_sub(1)..to];
+        if is_thin(from) {
+            paths.extend(dashes(run, nib, phase));
+        } else {
+            let is_whole = run.len() == samples.len();
+            let spine = Spine { is_closed: is_whole && stroke.is_closed(), ends: stroke.ends, ..Spine::of(run, nib) };
+            paths.extend(fill(&spine, nib));
+        }
+        from = to;
+    }
+    paths
+}
+
+/// A stroke without length is a dot as wide as the stroke.
+fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64) -> Vec<Toolpath> {
+    let at = sample.map(|sample| sample.at).or_else(|| stroke.curve.elements().first().and_then(PathEl::end_point));
+    let Some(at) = at.filter(|at| at.is_finite()) else { return Vec::new() };
+    let width = sample.map_or(stroke.widest(), |sample| sample.width);
+    // Thinned dots are chosen together; one alone is drawn when half of a touch was asked for.
+    let asks_for_half = 2.0 * width * width >= nib * nib;
+    if asks_for_half { vec![fill_dot(&Dot::circle(at, 0.5 * width), nib, POINT_TOLERANCE)] } else { Vec::new() }
+}
+
+/// The centre line with its widths, at steps of a quarter of a nib at most.
+fn samples(stroke: &Stroke, nib: f64) -> Vec<Sample> {
+    let (points, widths) = stroke.sampled(0.25 * nib);
+    let finite = points.into_iter().zip(widths).filter(|(at, width)| at.is_finite() && width.is_finite());
+    finite.map(|(at, width)| Sample { at, width }).collect()
+}
+
+/// Half a nib less at both ends of a stroke that ends square, as the nib's own end is round; the middle of one no longer than a nib.
+fn trimmed(samples: Vec<Sample>, stroke: &Stroke, nib: f64) -> Vec<Sample> {
+    if stroke.ends != Ends::Flat || stroke.is_closed() || samples.len() < 2 {
+        return samples;
+    }
+    let mut along = vec![0.0];
+    samples.windows(2).for_each(|pair| along.push(along[along.len() - 1] + pair[0].at.distance(pair[1].at)));
+    let length = along[along.len() - 1];
+    let cut = (0.5 * nib).min(0.5 * length);
+    let kept = |i: &usize| along[*i] >= cut - 1e-9 && along[*i] <= length - cut + 1e-9;
+    let inside: Vec<Sample> = (0..samples.len()).filter(kept).map(|i| samples[i]).collect();
+    if inside.is_empty() { vec![samples[samples.len() / 2]] } else { inside }
+}
+
+/// Passes side by side that fill a spine.
+fn fill(spine: &Spine, nib: f64) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let widest = spine.room.iter().copied().fold(0.0, f64::max);
     let passes = (widest / pitch + 0.5).ceil().max(1.0) as usize;
@@ -41,11 +106,8 @@ pub(super) fn fill_stroke(stroke: &Stroke, nib: f64) -> Vec<Toolpath> {
 }
 
 impl Spine {
-    fn of(stroke: &Stroke, nib: f64) -> Option<Self> {
-        let (points, widths) = stroke.sampled(0.25 * nib);
-        if points.len() < 2 {
-            return None;
-        }
+    fn of(samples: &[Sample], nib: f64) -> Self {
+        let points: Vec<Point> = samples.iter().map(|sample| sample.at).collect();
         let last = points.len() - 1;
         let normals = (0..points.len())
             .map(|i| {
@@ -53,8 +115,16 @@ impl Spine {
                 if along.hypot() > 1e-12 { along.normalize().turn_90() } else { Vec2::new(0.0, 1.0) }
             })
             .collect();
-        let room = widths.into_iter().map(|width| (0.5 * (width - nib)).max(0.0)).collect();
-        Some(Self { points, normals, room, is_closed: stroke.is_closed() })
+        // A line hardly wider than the nib gains nothing from a second pass.
+        let widest = samples.iter().map(|sample| sample.width).fold(0.0, f64::max);
+        let room = |width: f64| if widest <= ONE_PASS * nib { 0.0 } else { (0.5 * (width - nib)).max(0.0) };
+        Self {
+            room: samples.iter().map(|sample| room(sample.width)).collect(),
+            points,
+            normals,
+            is_closed: false,
+            ends: Ends::Round,
+        }
     }
 
     /// One pass over a run of the spine: out along one side and back along the other, the sides together where there is no room
@@ -74,14 +144,14 @@ impl Spine {
         let mut pieces = Vec::new();
         for back in backs.into_iter().rev() {
             let mut line: Vec<Point> = back.clone().rev().map(|i| side(i, -1.0)).collect();
-            if back.end - 1 == last && last + 1 == self.points.len() {
-                line.splice(
-                    0..0,
-                    arc(self.points[last], side(last, 1.0), side(last, -1.0), self.points[last] - self.points[last - 1]),
-                );
-            }
-            if back.start == first && first == 0 {
-                line.extend(arc(self.points[0], side(0, -1.0), side(0, 1.0), self.points[0] - self.points[1]));
+            if self.ends == Ends::Round && self.points.len() > 1 {
+                if back.end - 1 == last && last + 1 == self.points.len() {
+                    let forward = self.points[last] - self.points[last - 1];
+                    line.splice(0..0, arc(self.points[last], side(last, 1.0), side(last, -1.0), forward));
+                }
+                if back.start == first && first == 0 {
+                    line.extend(arc(self.points[0], side(0, -1.0), side(0, 1.0), self.points[0] - self.points[1]));
+                }
             }
             pieces.push(line);
         }
@@ -151,7 +221,7 @@ mod tests {
     fn a_wide_line_is_one_path_inside_its_ink() {
         for (width, rows) in [(0.5, 2.0), (1.0, 4.0), (2.0, 8.0)] {
             let stroke = Stroke::new(BezPath::from_svg("M0,0 L20,0").unwrap(), Width::Constant(width));
-            let paths = fill_stroke(&stroke, 0.3);
+            let paths = lower_stroke(&stroke, 0.3, 0.0);
             assert_eq!(paths.len(), 1, "width {width}");
             let reach = 0.5 * width - 0.15 + 1e-9;
             assert!(paths[0].points.iter().all(|p| p.y.abs() <= reach && p.x >= -reach && p.x <= 20.0 + reach));
@@ -160,11 +230,29 @@ mod tests {
     }
 
     #[test]
-    fn a_spindle_s_tips_are_drawn_once() {
+    fn a_spindle_s_tips_are_dashes_with_its_own_ink() {
         let stroke = Stroke::new(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), Width::Along(vec![0.0, 0.6, 0.0]));
-        let paths = fill_stroke(&stroke, 0.3);
+        let paths = lower_stroke(&stroke, 0.3, 0.0);
+        let thin: Vec<&Toolpath> = paths.iter().filter(|path| path.points.iter().all(|p| p.x < 4.8)).collect();
+        assert!(thin.len() > 3, "{}", thin.len());
+        let ink: f64 = thin.iter().map(|path| path.length() * 0.3 + 0.0707).sum();
+        let end = thin.iter().flat_map(|path| &path.points).map(|p| p.x).fold(0.0, f64::max) + 0.3;
+        let (points, widths) = stroke.sampled(0.01);
+        let asked: f64 =
+            (1..points.len()).filter(|&i| points[i].x < end).map(|i| widths[i] * points[i].distance(points[i - 1])).sum();
+        assert!((ink / asked - 1.0).abs() < 0.2, "{ink} for {asked}");
         // Out the whole way, back only where it is wider than the nib.
-        let length: f64 = paths.iter().map(Toolpath::length).sum();
-        assert!((29.0..40.0).contains(&length), "{length}");
+        let wide: f64 = paths.iter().filter(|path| path.length() > 5.0).map(Toolpath::length).sum();
+        assert!((17.0..24.0).contains(&wide), "{wide}");
+    }
+
+    #[test]
+    fn square_ends_are_kept() {
+        let line = BezPath::from_svg("M0,0 L10,0").unwrap();
+        for width in [0.3, 0.9] {
+            let stroke = Stroke { ends: Ends::Flat, ..Stroke::new(line.clone(), Width::Constant(width)) };
+            let paths = lower_stroke(&stroke, 0.3, 0.0);
+            assert!(paths.iter().flat_map(|path| &path.points).all(|p| p.x > 0.149 && p.x < 9.851), "{width}: {paths:?}");
+        }
     }
 }

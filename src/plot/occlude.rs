@@ -1,0 +1,254 @@
+//! Hidden parts removed: what lies under opaque ink of another colour is not drawn, as a pen cannot paint over it.
+
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Mark, Mixing, Painted, Stroke, Width};
+use crate::geometry::{BezPath, Rect, Region};
+use kurbo::Shape;
+
+/// Flattening of outlines that are cut, in millimetres.
+const TOLERANCE: f64 = 0.005;
+/// Strokes wider than this are cut as areas, narrower ones along their centre lines, in millimetres: a pen's width.
+const WIDE: f64 = 0.8;
+/// Cells a side in which covers are looked up.
+const CELLS: usize = 96;
+
+/// What hides what lies below it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hides {
+    /// Dots, areas and strokes hide ink of other colours, and white hides all.
+    OtherColours,
+    /// Fills hide every line below them, whatever their colour; strokes hide nothing.
+    AllLines,
+    /// Only marks of layers that are [`Mixing::Paint`] hide, and only other colours.
+    PaintOnOtherColours,
+}
+
+/// The drawing without what is hidden. `painting` names every mark once, the lowest first; marks that it does not name are hidden.
+pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides) -> Drawing {
+    let mut covers = Covers::new(drawing);
+    let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
+    for painted in painting.iter().rev() {
+        match painted {
+            Painted::White(outline) => covers.add(outline.clone(), None),
+            &Painted::Mark { layer, mark } => {
+                let Some((layer_of, the_mark)) = drawing.layers.get(layer).and_then(|l| Some((l, l.marks.get(mark)?))) else {
+                    continue;
+                };
+                let colour = the_mark.colour().unwrap_or(layer_of.ink.colour());
+                left[layer].push((mark, covers.visible(the_mark, colour, hides)));
+                let is_cover = match hides {
+                    Hides::OtherColours => true,
+                    Hides::AllLines => !matches!(the_mark, Mark::Stroke(_)),
+                    Hides::PaintOnOtherColours => layer_of.mixing == Mixing::Paint,
+                };
+                if is_cover {
+                    covers.add(outline_of(the_mark), Some(colour));
+                }
+            }
+        }
+    }
+    let mut result = drawing.clone();
+    for (layer, mut marks) in result.layers.iter_mut().zip(left) {
+        marks.sort_by_key(|(index, _)| *index);
+        layer.marks = marks.into_iter().flat_map(|(_, marks)| marks).collect();
+    }
+    result
+}
+
+/// Opaque outlines met so far, from the top down.
+struct Covers {
+    bounds: Rect,
+    cells: Vec<Vec<u32>>,
+    all: Vec<Cover>,
+}
+
+struct Cover {
+    outline: BezPath,
+    bounds: Rect,
+    /// None for white.
+    colour: Option<Colour>,
+}
+
+impl Covers {
+    fn new(drawing: &Drawing) -> Self {
+        let bounds = drawing.bounding_box().unwrap_or(drawing.page.rect());
+        Self { bounds, cells: vec![Vec::new(); CELLS * CELLS], all: Vec::new() }
+    }
+
+    fn add(&mut self, outline: BezPath, colour: Option<Colour>) {
+        let bounds = outline.bounding_box();
+        if !bounds.is_finite() || bounds.area() <= 0.0 {
+            return;
+        }
+        let index = self.all.len() as u32;
+        self.cells_of(bounds).for_each(|cell| self.cells[cell].push(index));
+        self.all.push(Cover { outline, bounds, colour });
+    }
+
+    fn cells_of(&self, rect: Rect) -> impl Iterator<Item = usize> + use<> {
+        let at = |v: f64, low: f64, extent: f64| (((v - low) / extent.max(1e-9) * CELLS as f64).max(0.0) as usize).min(CELLS - 1);
+        let columns = at(rect.x0, self.bounds.x0, self.bounds.width())..=at(rect.x1, self.bounds.x0, self.bounds.width());
+        let rows = at(rect.y0, self.bounds.y0, self.bounds.height())..=at(rect.y1, self.bounds.y0, self.bounds.height());
+        rows.flat_map(move |row| columns.clone().map(move |column| row * CELLS + column))
+    }
+
+    /// The outlines over a box that hide this colour, as one path.
+    fn over(&self, bounds: Rect, colour: Colour, hides: Hides) -> BezPath {
+        let hidden_by = |cover: &Cover| hides == Hides::AllLines || cover.colour != Some(colour);
+        let mut found: Vec<u32> = self.cells_of(bounds).flat_map(|cell| &self.cells[cell]).copied().collect();
+        found.sort_unstable();
+        found.dedup();
+        let covers = found.into_iter().map(|i| &self.all[i as usize]).filter(|c| c.bounds.overlaps(bounds) && hidden_by(c));
+        covers.flat_map(|cover| cover.outline.iter()).collect()
+    }
+
+    /// What is left of a mark.
+    fn visible(&self, mark: &Mark, colour: Colour, hides: Hides) -> Vec<Mark> {
+        let bounds = mark.bounding_box();
+        if !bounds.is_finite() {
+            return vec![mark.clone()];
+        }
+        let over = self.over(bounds, colour, hides);
+        if over.is_empty() {
+            return vec![mark.clone()];
+        }
+        let cover = Region::new(&over, TOLERANCE);
+        match mark {
+            Mark::Stroke(stroke) if hides == Hides::AllLines || stroke.widest() <= WIDE => uncovered_stroke(stroke, &cover),
+            _ => uncovered_area(mark, &cover),
+        }
+    }
+}
+
+/// The pieces of a stroke whose centre line is not covered, with the width that they had there.
+fn uncovered_stroke(stroke: &Stroke, cover: &Region) -> Vec<Mark> {
+    let (points, widths) = stroke.sampled(sampling(stroke));
+    let pieces = cover.outside_of_line(&points);
+    if let [whole] = &pieces[..]
+        && whole.len() == points.len()
+        && whole.iter().zip(&points).all(|((p, _), q)| p == q)
+    {
+        return vec![Mark::Stroke(stroke.clone())];
+    }
+    pieces
+        .into_iter()
+        .map(|piece| {
+            let mut curve = BezPath::new();
+            piece.iter().enumerate().for_each(|(i, (p, _))| if i == 0 { curve.move_to(*p) } else { curve.line_to(*p) });
+            let width = match &stroke.width {
+                Width::Constant(width) => Width::Constant(*width),
+                Width::Along(_) => Width::Along(piece.iter().map(|&(_, at)| between(&widths, at)).collect()),
+            };
+            let (colour, group, ends) = (stroke.colour, stroke.group, stroke.ends);
+            Mark::Stroke(Stroke { colour, group, ends, ..Stroke::new(curve, width) })
+        })
+        .collect()
+}
+
+/// Fine enough for the curve and its widths.
+fn sampling(stroke: &Stroke) -> f64 {
+    (0.5 * stroke.widest()).clamp(0.05, 0.5)
+}
+
+fn between(values: &[f64], at: f64) -> f64 {
+    let i = (at as usize).min(values.len() - 1);
+    let next = values[(i + 1).min(values.len() - 1)];
+    values[i] + (next - values[i]) * (at - i as f64)
+}
+
+/// What is left of a dot, an area or a wide stroke, as an area; the mark itself when nothing of it is covered.
+fn uncovered_area(mark: &Mark, cover: &Region) -> Vec<Mark> {
+    let outline = outline_of(mark);
+    let before = Region::new(&outline, TOLERANCE);
+    let rest = cover.outside_of_area(&before);
+    let (area, whole) = (rest.area().abs(), outline.area().abs());
+    if area >= whole * (1.0 - 1e-4) {
+        return vec![mark.clone()];
+    }
+    if area <= 1e-4 { Vec::new() } else { vec![Mark::Area(Area { outline: rest, colour: mark.colour() })] }
+}
+
+/// A mark's inked outline.
+fn outline_of(mark: &Mark) -> BezPath {
+    match mark {
+        Mark::Dot(dot) => Dot::path(dot),
+        Mark::Area(area) => area.outline.clone(),
+        Mark::Stroke(stroke) => match &stroke.width {
+            Width::Along(_) => stroke.outline().unwrap_or_default(),
+            Width::Constant(width) => {
+                let cap = if stroke.ends == Ends::Flat { kurbo::Cap::Butt } else { kurbo::Cap::Round };
+                let style = kurbo::Stroke::new(*width).with_caps(cap).with_join(kurbo::Join::Round);
+                kurbo::stroke(stroke.curve.iter(), &style, &kurbo::StrokeOpts::default(), TOLERANCE)
+            }
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Ink, Layer, Page};
+    use crate::geometry::Point;
+
+    const RED: Colour = Colour { r: 255, g: 0, b: 0 };
+
+    fn line(text: &str) -> Mark {
+        Mark::Stroke(Stroke::new(BezPath::from_svg(text).unwrap(), Width::Constant(0.2)))
+    }
+
+    fn disc(radius: f64) -> Mark {
+        Mark::Dot(Dot::circle(Point::new(10.0, 10.0), radius))
+    }
+
+    fn drawing(layers: &[(Colour, Vec<Mark>)]) -> Drawing {
+        let layers = (1..).zip(layers).map(|(pen, (colour, marks))| Layer {
+            ink: Ink::Colour(*colour),
+            marks: marks.clone(),
+            ..Layer::new("layer", pen)
+        });
+        Drawing { page: Page::new(20.0, 20.0), layers: layers.collect() }
+    }
+
+    fn drawn(drawing: &Drawing) -> f64 {
+        drawing.marks().map(|mark| if let Mark::Stroke(stroke) = mark { stroke.length() } else { 0.0 }).sum()
+    }
+
+    #[test]
+    fn a_line_under_another_colour_is_cut_and_one_under_its_own_is_not() {
+        for (colour, hides, length) in [
+            (RED, Hides::OtherColours, 10.0),
+            (Colour::BLACK, Hides::OtherColours, 20.0),
+            (Colour::BLACK, Hides::AllLines, 10.0),
+            (RED, Hides::PaintOnOtherColours, 20.0),
+        ] {
+            let drawing = drawing(&[(Colour::BLACK, vec![line("M0,10 H20")]), (colour, vec![disc(5.0)])]);
+            let seen = occluded(&drawing, &drawing.painting_order(), hides);
+            assert!((drawn(&seen) - length).abs() < 0.02, "{hides:?}: {}", drawn(&seen));
+            assert_eq!(seen.layers[1].marks.len(), 1);
+        }
+    }
+
+    #[test]
+    fn white_hides_and_what_is_above_stays() {
+        let drawing = drawing(&[(Colour::BLACK, vec![line("M0,10 H20"), disc(2.0)])]);
+        let white = Painted::White(BezPath::from_svg("M10,0 H20 V20 H10 Z").unwrap());
+        let mark = |mark| Painted::Mark { layer: 0, mark };
+        let seen = occluded(&drawing, &[mark(0), white, mark(1)], Hides::OtherColours);
+        assert!((drawn(&seen) - 10.0).abs() < 0.02, "{}", drawn(&seen));
+        assert_eq!(seen.layers[0].marks[1], disc(2.0));
+    }
+
+    #[test]
+    fn areas_are_cut_exactly() {
+        let drawing = drawing(&[(Colour::BLACK, vec![disc(5.0)]), (RED, vec![disc(3.0)])]);
+        let seen = occluded(&drawing, &drawing.painting_order(), Hides::OtherColours);
+        let ring = std::f64::consts::PI * 16.0;
+        assert!((seen.layers[0].ink_mm2() - ring).abs() < 0.1, "{}", seen.layers[0].ink_mm2());
+        let all =
+            occluded(&drawing, &[drawing.painting_order(), vec![Painted::White(disc_path(9.0))]].concat(), Hides::OtherColours);
+        assert_eq!(all.marks().count(), 0);
+    }
+
+    fn disc_path(radius: f64) -> BezPath {
+        outline_of(&disc(radius))
+    }
+}
