@@ -228,6 +228,22 @@ fn a_pen_on_a_z_axis_takes_what_is_told() {
     }
 }
 
+/// The rules that the comparison is about matter, and it would show if one was left out.
+#[test]
+fn a_machine_with_other_rules_takes_another_time() {
+    let same = |changes: &[(&str, &str)], plot: &Plot| compare(changes[0].0, plot, &profile(changes), &SERVO)[0];
+    heading();
+    let fine = one_pen(vec![(0..1000).map(|i| [0.1 * f64::from(i), 0.0]).collect()]);
+    assert!(same(&[("block_buffer = 16", "")], &fine) > 10.0);
+    assert!(same(&[("block_buffer = 16", "block_buffer = 17")], &fine) > 1.0);
+    let curve = one_pen(vec![circle(15.0, 0.05)]);
+    assert!(same(&[("steps_per_mm = [80, 80, 400]", "")], &curve) > 5.0);
+    let long = one_pen((0..40).map(|i| vec![spread(i), spread(i + 40)]).collect());
+    assert!(same(&[("limits = \"axis\"", "limits = \"path\"")], &long) > 5.0);
+    let corners = one_pen(vec![zigzag(0.5, 0.25, 600)]);
+    assert!(same(&[("junction_deviation = 0.01", "junction_deviation = 0.02")], &corners) > 2.0);
+}
+
 #[test]
 fn pens_are_changed_and_layers_wait_as_told() {
     let servo = profile(&[]);
@@ -246,6 +262,14 @@ fn pens_are_changed_and_layers_wait_as_told() {
     assert!(errors.iter().all(|error| *error <= 0.1), "{errors:?} %");
 }
 
+/// Seconds that this thread has had a processor for, so that neighbours do not count; where that is not told, seconds.
+fn busy_seconds() -> f64 {
+    static START: std::sync::LazyLock<std::time::Instant> = std::sync::LazyLock::new(std::time::Instant::now);
+    let counted = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let busy = counted.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    busy.map_or_else(|| START.elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
+}
+
 #[test]
 fn telling_the_time_of_100_000_paths_is_quick() {
     let servo = profile(&[]);
@@ -256,10 +280,10 @@ fn telling_the_time_of_100_000_paths_is_quick() {
     let time = |count: usize| {
         let plot = one_pen((0..count).map(wave).collect());
         let mounting = mount(&servo, &plot.page).unwrap();
-        let mut once = || {
-            let started = std::time::Instant::now();
+        let once = || {
+            let started = busy_seconds();
             assert!(clock(&plot, &servo, &mounting)[0].total() > 0.0);
-            started.elapsed().as_secs_f64()
+            busy_seconds() - started
         };
         (0..5).map(|_| once()).fold(f64::INFINITY, f64::min)
     };
@@ -278,7 +302,7 @@ fn the_simulated_machine_keeps_its_rules() {
     assert_eq!(seconds("G1 X100 Y50 F3000").steps, 8000);
     // A diagonal is faster, a slow rate is kept, a wait comes in steps, and lies between two motions from rest to rest.
     near(seconds("G0 X100 Y100").motion, seconds("G0 X100").motion);
-    near(seconds("G1 X1 F60").motion, 1.0);
+    near(seconds("G1 X1 F60").motion, 1.0 + 1.0 / 250.0);
     let waited = seconds("G1 X50 F3000\nG4 P0.12\nG1 X100");
     near(waited.motion, 2.0 * (1.0 + 0.2));
     near(waited.dwell, 0.15);
@@ -293,11 +317,16 @@ fn the_simulated_machine_keeps_its_rules() {
     near(seconds("G1 X40 F3000\nY40").motion, 2.0 * leg(corner));
     // With 0.1 mm blocks 14 of them are all there is to stop in; in one block 50 mm/s are reached.
     let fine: String = (1..1000).map(|i| format!("G1 X{}.{} F3000\n", i / 10, i % 10)).collect();
-    near(seconds(&fine).top_speed, (2.0 * 250.0 * 1.5_f64).sqrt());
+    near(seconds(&fine).top_speed, (2.0 * 250.0 * 1.4_f64).sqrt());
     near(seconds("G1 X100 F3000").top_speed, 50.0);
-    // An arc is the same as its chords: both take what 2 pi 10 mm take at the chords' corner speed or the buffer's.
-    let arc = seconds("G1 X20 Y10 F1200\nG3 X20 Y10 I-10 J0 F1200");
-    near(arc.motion - seconds("G1 X20 Y10 F1200").motion, TAU * 10.0 / 20.0);
+    // An arc is the chords that leave it by 0.002 mm.
+    let count = (0.5 * TAU * 10.0 / (0.002 * (20.0 - 0.002_f64)).sqrt()).floor() as u32;
+    let chord = |i: u32| (TAU * f64::from(i) / f64::from(count)).sin_cos();
+    let chords: String =
+        (1..=count).map(chord).map(|(sin, cos)| format!("G1 X{:.3} Y{:.3}\n", 10.0 + 10.0 * cos, 10.0 + 10.0 * sin)).collect();
+    let arc = seconds("G1 X20 Y10 F1200\nG4 P1\nG3 X20 Y10 I-10 J0").motion;
+    near(arc, seconds(&format!("G1 X20 Y10 F1200\nG4 P1\n{chords}")).motion);
+    near(arc, seconds("G1 X20 Y10 F1200\nG4 P1\nG2 X20 Y10 I-10 J0").motion);
 }
 
 /// Runs the program; its report as JSON.

@@ -14,7 +14,7 @@ mod pen_action;
 use super::profile::{Language, Limits, Profile};
 use super::{Mounting, PenPaths, Plot};
 use crate::geometry::Point;
-use look_ahead::{LookAhead, Place};
+use look_ahead::{LookAhead, Place, whole};
 use pen_action::{PenAction, Rate, pen_actions};
 
 /// Decimals of a place in a G-code file.
@@ -218,7 +218,8 @@ impl<'a> Run<'a> {
         let m = self.mounting.to_machine * p;
         let limits = self.mounting.limits;
         let grid = if self.profile.language == Language::Gcode { GCODE_GRID } else { 1.0 };
-        let snap = |v: f64, low: f64, high: f64| (v.clamp(low, high) * grid).round() / grid / self.profile.units_per_mm;
+        let per_mm = grid * self.profile.units_per_mm;
+        let snap = |v: f64, low: f64, high: f64| whole(v.clamp(low, high) * grid) as f64 / per_mm;
         [snap(m.x, limits.x0, limits.x1), snap(m.y, limits.y0, limits.y1)]
     }
 
