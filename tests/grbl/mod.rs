@@ -13,6 +13,9 @@ use planner::Planner;
 use program::{Command, Program};
 use stepper::Stepper;
 
+/// The firmware reckons in single precision, millimetres and minutes.
+type Real = f32;
+
 /// The firmware's `$` settings, for x, y and z.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
@@ -44,6 +47,8 @@ pub struct Elapsed {
     pub motion: f64,
     /// Seconds waited.
     pub dwell: f64,
+    /// Seconds of that in which a last step was late by rounding.
+    pub late: f64,
     /// Steps of the leading axis.
     pub steps: u64,
     /// Greatest speed at the end of a segment, mm/s.
@@ -77,7 +82,14 @@ pub fn run(text: &str, settings: &Settings) -> Elapsed {
         }
     }
     machine.drain();
-    Elapsed { motion: machine.stepper.clock, dwell, steps: machine.stepper.steps, top_speed: machine.stepper.top_speed }
+    let stepper = machine.stepper;
+    Elapsed {
+        motion: stepper.clock,
+        dwell,
+        late: stepper.late,
+        steps: stepper.steps,
+        top_speed: f64::from(stepper.top_speed) / 60.0,
+    }
 }
 
 struct Machine {

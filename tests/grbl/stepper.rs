@@ -1,16 +1,20 @@
 //! The segment buffer: the first block's speed profile, cut into pieces of a hundredth of a second and turned into timer ticks.
 
+use super::Real;
 use super::planner::Planner;
 use std::collections::VecDeque;
 
-/// Seconds of a whole segment: 100 acceleration ticks a second.
-const SEGMENT: f64 = 0.01;
+/// Minutes of a whole segment: 100 acceleration ticks a second.
+const SEGMENT: Real = 1.0 / (100.0 * 60.0);
 /// Places in the ring of segments, of which one stays free.
 const SEGMENT_BUFFER_SIZE: usize = 6;
 /// A segment covers at least so many steps, or the block's end.
-const LEAST_STEPS: f64 = 1.25;
-/// Timer ticks a second.
-const CLOCK: f64 = 16e6;
+const LEAST_STEPS: Real = 1.25;
+/// Where a block's end falls on a segment's, rounding may leave a trace of the way at a trace of the speed, and the last step then
+/// waits until this is covered, up to the timer's longest period. Less than so much of a step is such a trace.
+const TRACE: Real = 0.01;
+/// Timer ticks a minute.
+const CLOCK: Real = 16e6 * 60.0;
 /// Above so many ticks a step, each step is made in 2, 4 and 8 parts.
 const SMOOTHING: [u64; 3] = [2000, 4000, 8000];
 /// The timer's longest period.
@@ -27,32 +31,36 @@ enum Ramp {
 #[derive(Clone, Copy, Debug)]
 struct Profile {
     ramp: Ramp,
-    accelerate_until: f64,
-    decelerate_after: f64,
-    top_speed: f64,
-    exit_speed: f64,
+    accelerate_until: Real,
+    decelerate_after: Real,
+    top_speed: Real,
+    exit_speed: Real,
 }
 
 /// The block that is being cut up.
 #[derive(Clone, Copy, Debug)]
 struct Loaded {
-    speed: f64,
-    whole_steps_left: f64,
-    steps_per_mm: f64,
+    speed: Real,
+    whole_steps_left: Real,
+    steps_per_mm: Real,
     /// Time of a part of a step that the last segment could not make.
-    time_owed: f64,
+    time_owed: Real,
+    /// Minutes of this segment that a trace of the way took.
+    late: Real,
     /// None when it must be worked out anew.
     profile: Option<Profile>,
 }
 
 #[derive(Default)]
 pub struct Stepper {
-    /// Durations of the segments that are ready; the first is being run.
+    /// Seconds that the segments take which are ready; the first is being run.
     segments: VecDeque<f64>,
     loaded: Option<Loaded>,
     pub clock: f64,
+    /// Seconds spent on traces of the way.
+    pub late: f64,
     pub steps: u64,
-    pub top_speed: f64,
+    pub top_speed: Real,
 }
 
 impl Stepper {
@@ -85,20 +93,23 @@ impl Stepper {
         let Some(block) = planner.first() else { return false };
         let mut loaded = self.loaded.unwrap_or_else(|| Loaded {
             speed: block.entry_squared.sqrt(),
-            whole_steps_left: block.steps as f64,
-            steps_per_mm: block.steps as f64 / block.length,
+            whole_steps_left: block.steps as Real,
+            steps_per_mm: block.steps as Real / block.length,
             time_owed: 0.0,
+            late: 0.0,
             profile: None,
         });
         let mut profile = loaded
             .profile
             .unwrap_or_else(|| profile(block.length, block.entry_squared, exit_squared, block.nominal, block.acceleration));
+        loaded.late = 0.0;
         let (time, left) = segment(&mut loaded, &mut profile, block.length, block.acceleration);
         loaded.profile = Some(profile);
         let steps_left = loaded.steps_per_mm * left;
         let whole = steps_left.ceil();
         let time_per_step = (time + loaded.time_owed) / (loaded.whole_steps_left - steps_left);
         self.segments.push_back(duration((loaded.whole_steps_left - whole) as u64, time_per_step));
+        self.late += (60.0 * f64::from(loaded.late)).min(duration(1, 1.0));
         self.steps += (loaded.whole_steps_left - whole) as u64;
         self.top_speed = self.top_speed.max(loaded.speed);
         loaded.time_owed = (whole - steps_left) * time_per_step;
@@ -114,8 +125,8 @@ impl Stepper {
     }
 }
 
-fn profile(length: f64, entry_squared: f64, exit_squared: f64, nominal: f64, acceleration: f64) -> Profile {
-    let over = |from: f64, to: f64| (to - from) / (2.0 * acceleration);
+fn profile(length: Real, entry_squared: Real, exit_squared: Real, nominal: Real, acceleration: Real) -> Profile {
+    let over = |from: Real, to: Real| (to - from) / (2.0 * acceleration);
     // Where the ramp up from the entry would meet the ramp down to the exit.
     let meeting = 0.5 * (length + over(exit_squared, entry_squared));
     let exit_speed = exit_squared.sqrt();
@@ -141,7 +152,7 @@ fn profile(length: f64, entry_squared: f64, exit_squared: f64, nominal: f64, acc
 
 /// Goes along the profile for the time of a segment, longer where that is less than a step, shorter where the block ends; returns
 /// the time and what is left of the block.
-fn segment(loaded: &mut Loaded, profile: &mut Profile, length: f64, acceleration: f64) -> (f64, f64) {
+fn segment(loaded: &mut Loaded, profile: &mut Profile, length: Real, acceleration: Real) -> (Real, Real) {
     let at_least = (length - LEAST_STEPS / loaded.steps_per_mm).max(0.0);
     let (mut allowed, mut spent, mut left) = (SEGMENT, 0.0, length);
     loop {
@@ -159,7 +170,7 @@ fn segment(loaded: &mut Loaded, profile: &mut Profile, length: f64, acceleration
 }
 
 /// Goes on for a time or to the end of the ramp, whichever is first; returns the time.
-fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut f64, acceleration: f64, time: f64) -> f64 {
+fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut Real, acceleration: Real, time: Real) -> Real {
     let change = acceleration * time;
     match profile.ramp {
         Ramp::Accelerate => {
@@ -191,6 +202,9 @@ fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut f64, accelerat
                 return time;
             }
             let taken = 2.0 * *left / (loaded.speed + profile.exit_speed);
+            if *left * loaded.steps_per_mm < TRACE {
+                loaded.late = taken;
+            }
             (*left, loaded.speed) = (0.0, profile.exit_speed);
             taken
         }
@@ -198,8 +212,8 @@ fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut f64, accelerat
 }
 
 /// Seconds of so many steps: ticks a step are whole, and slow steps are made in parts.
-fn duration(steps: u64, seconds_per_step: f64) -> f64 {
-    let ticks = (CLOCK * seconds_per_step).ceil() as u64;
+fn duration(steps: u64, minutes_per_step: Real) -> f64 {
+    let ticks = (CLOCK * minutes_per_step).ceil() as u64;
     let parts = SMOOTHING.iter().filter(|&&slow| ticks >= slow).count();
-    ((steps << parts) * (ticks >> parts).min(LONGEST_PERIOD)) as f64 / CLOCK
+    ((steps << parts) * (ticks >> parts).min(LONGEST_PERIOD)) as f64 / 16e6
 }
