@@ -1,6 +1,6 @@
 //! A machine with GRBL 1.1, step by step: an independent and slow answer to how long a G-code file takes.
 //!
-//! The rules are the firmware's published ones (gnea/grbl 1.1: gcode.c, motion_control.c, planner.c, stepper.c, config.h), told
+//! The rules are the firmware's published ones (gnea/grbl 1.1: `gcode.c`, `motion_control.c`, `planner.c`, `stepper.c`, `config.h`), told
 //! anew; nothing here is shared with the library's own timing. Lines are parsed and planned in no time, so the block buffer is
 //! full whenever there is something to put into it; what is counted is the motors' timer ticks and the waits.
 #![allow(dead_code)]
