@@ -387,6 +387,16 @@ mod tests {
             }
             other => panic!("{other:?}"),
         }
+        for (from, to, wrong) in [
+            ("block_buffer = 16", "block_buffer = 3", "motion.planner.block_buffer"),
+            ("junction_deviation = 0.01", "", "motion.junction_deviation"),
+            ("junction_deviation = 0.01", "junction_deviation = 0.01\ncorner_factor = 10", "motion.junction_deviation"),
+            ("limits = \"axis\"", "axis_speed = [1, 1, 1]", "motion.planner.limits"),
+            ("steps_per_mm = [80, 80, 400]", "steps_per_mm = [80, 0, 400]", "motion.planner.steps_per_mm"),
+        ] {
+            let found = Profile::parse("mine.toml", &built_in("grbl-servo").unwrap().replace(from, to));
+            assert!(matches!(&found, Err(ProfileError::Value { key, .. }) if *key == wrong), "{from}: {found:?}");
+        }
         let text = built_in("grbl-servo").unwrap().replace("acceleration = 250", "acceleration = 0");
         assert!(matches!(Profile::parse("mine.toml", &text), Err(ProfileError::Value { key: "motion.acceleration", .. })));
     }

@@ -8,8 +8,9 @@
 //! ```
 //!
 //! GRBL 1.1 (planner.c) knows of the running block and those behind it in its buffer, which is full while a file is sent: when a
-//! block starts, its exit speed is fixed by those that follow it in the buffer, the last of which must end at rest. The `AxiDraw`'s
-//! driver (motion.py) plans each pen-down path whole and by the same rule of corners; what is said of other machines is that.
+//! block starts, its exit speed is fixed by those that follow it in the buffer, the last of which must end at rest. The driver
+//! of the `AxiDraw` (`motion.py`) plans each pen-down path whole, with the same rule of corners. Of other machines no rule is
+//! known; they are taken to do the latter.
 
 use crate::plot::profile::{Limits, Motion};
 
