@@ -4,8 +4,10 @@ use super::arguments::{InspectOptions, Order, ToolpathOptions};
 use super::failure::Failure;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
-use crate::geometry::{Point, Rect, Vec2};
-use crate::plot::{InkModel, Language, Nibs, PenPaths, Plot, Profile, Toolpath, built_in, built_in_names, lower, report};
+use crate::geometry::{Affine, Point, Rect, Vec2};
+use crate::plot::{
+    InkModel, Language, Mounting, Nibs, PenPaths, Plot, Profile, Toolpath, Turn, built_in, built_in_names, lower, mount, report,
+};
 use crate::read::{Strokes, read_gcode, read_hpgl, read_svg};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -92,7 +94,9 @@ fn inspect_svg(name: &str, text: &str, profile: Option<&Profile>) -> Result<Valu
     if let Some(profile) = profile {
         let model = if imported.recipe.is_some() && !imported.is_toolpaths { InkModel::Ink } else { InkModel::Lines };
         let plot = lower(&imported.drawing(), model, &Nibs::all(0.3), 0.02);
-        value["plot"] = json!(report(&plot, Point::ORIGIN, Some(&profile.motion), None));
+        let mounting = mount(profile, &plot.page).ok();
+        let home = toolpaths::home_of(mounting.as_ref(), &plot);
+        value["plot"] = json!(report(&plot, home, mounting.as_ref().map(|mounting| (profile, mounting)), None));
     }
     Ok(value)
 }
@@ -116,6 +120,9 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
         let points = path.iter().map(|p| mm(*p)).collect();
         plot.pens.last_mut().expect("one was pushed").paths.push(Toolpath::new(points));
     }
+    // The file's places are the machine's own, and an HP-GL file ends at the far corner of its reach.
+    let to_machine = Affine::scale(profile.units_per_mm);
+    let mounting = Mounting { to_machine, limits: bounds, paper: None, turn: Turn::Upright };
     let size: Vec2 = mm(Point::new(bounds.x1, bounds.y1)) - mm(Point::new(bounds.x0, bounds.y0));
     json!({
         "format": format,
@@ -124,7 +131,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
         "moves_over_mm": [size.x, size.y],
         "pauses": motion.pauses,
         "ends_with_pen_up": motion.ends_up,
-        "plot": report(&plot, Point::ORIGIN, Some(&profile.motion), None),
+        "plot": report(&plot, Point::ORIGIN, Some((profile, &mounting)), None),
     })
 }
 

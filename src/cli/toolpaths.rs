@@ -110,12 +110,12 @@ pub(super) fn prepare(mut plot: Plot, profile: Option<&Profile>, options: &Toolp
     if effort != Effort::None {
         plot.ordered(home, effort, direction, options.merge);
     }
-    let report = report(&plot, home, profile.map(|p| &p.motion), Some(&before));
+    let report = report(&plot, home, profile.zip(mounting.as_ref()), Some(&before));
     Ok(Prepared { plot, mounting, report, cut })
 }
 
 /// Where the pen starts, on the page: machine zero, else the page's upper left corner.
-fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
+pub(super) fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
     let zero = mounting.map_or(Point::ORIGIN, |m| m.to_machine.inverse() * Point::ORIGIN);
     Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
 }

@@ -154,6 +154,10 @@ fn by_band(shapes: &[Shape], bands: usize, band_of: impl Fn(f64) -> usize) -> Ve
     let mut all: Vec<Vec<Shape>> = (0..bands).map(|_| Vec::new()).collect();
     for shape in shapes {
         let (low, high) = shape.rows();
+        // An outline without edges has no rows.
+        if low > high {
+            continue;
+        }
         match shape {
             &Shape::Capsule { a, b, radius } => {
                 (band_of(low)..=band_of(high)).for_each(|band| all[band].push(Shape::Capsule { a, b, radius }));

@@ -18,7 +18,8 @@ pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded};
 pub use order::{Direction, Effort, PathEnds, Visit, chain, drop_duplicates, order, pen_up_length};
 pub use profile::{
-    Area, GcodeDialect, HpglDialect, Language, Motion, Paper, PenChange, Pens, Profile, ProfileError, built_in, built_in_names,
+    Area, GcodeDialect, HpglDialect, Language, Limits, Motion, Paper, PenChange, Pens, Planner, Profile, ProfileError, built_in,
+    built_in_names,
 };
 pub use report::{PenReport, PlotReport, report};
 pub use time::{Clock, clock};

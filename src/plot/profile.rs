@@ -75,13 +75,16 @@ pub struct Area {
 }
 
 /// Pens and how they are changed.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Pens {
     /// How many the machine holds.
     pub count: u32,
     /// How it gets another.
     pub change: PenChange,
+    /// Time that the machine itself takes to fetch one.
+    #[serde(default)]
+    pub change_seconds: f64,
 }
 
 /// How a pen is changed.
@@ -102,16 +105,63 @@ pub struct Motion {
     pub draw_speed: f64,
     /// The fastest that the machine can be told to draw, mm/s.
     pub draw_speed_limit: Option<f64>,
-    /// Pen up, mm/s.
+    /// Pen up, mm/s; where limits hold for each axis, the rate of x and of y (GRBL's `$110` and `$111`).
     pub travel_speed: f64,
-    /// mm/s^2.
+    /// mm/s^2, along the path or for each axis as `planner.limits` says.
     pub acceleration: f64,
+    /// mm/s^2 with the pen up, where it differs.
+    pub travel_acceleration: Option<f64>,
     /// GRBL's `$11` in millimetres: how far a corner may be rounded in thought, which sets its speed.
-    pub junction_deviation: f64,
+    pub junction_deviation: Option<f64>,
+    /// The same as the `AxiDraw`'s driver counts it: in 5000ths of an inch.
+    pub corner_factor: Option<f64>,
     /// Time to lift the pen.
     pub pen_up_seconds: f64,
     /// Time to lower the pen.
     pub pen_down_seconds: f64,
+    /// How far the machine looks ahead, and what its limits hold for.
+    #[serde(default)]
+    pub planner: Planner,
+}
+
+/// Millimetres of junction deviation for a corner factor of 1: the `AxiDraw`'s driver divides the factor by 5000 and takes inches.
+const MM_PER_CORNER_FACTOR: f64 = 25.4 / 5000.0;
+
+impl Motion {
+    /// How far a corner may be rounded in thought, in millimetres.
+    pub fn corner_deviation(&self) -> f64 {
+        self.junction_deviation.or(self.corner_factor.map(|factor| factor * MM_PER_CORNER_FACTOR)).unwrap_or(0.0)
+    }
+}
+
+/// How a controller plans its motion.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct Planner {
+    /// Places of the controller's look-ahead buffer, of which one stays free (GRBL: 16); without it, all is planned that lies
+    /// between two stops.
+    pub block_buffer: Option<usize>,
+    /// What speed and acceleration are limits of.
+    pub limits: Limits,
+    /// Greatest rates of x, y and z, mm/s (GRBL's `$110` to `$112`); those of x and y are `travel_speed` or less.
+    pub axis_speed: Option<[f64; 3]>,
+    /// Accelerations of x, y and z, mm/s^2 (GRBL's `$120` to `$122`); without it, `acceleration`.
+    pub axis_acceleration: Option<[f64; 3]>,
+    /// Motor steps a millimetre of x, y and z (GRBL's `$100` to `$102`): places are rounded to them before they are planned.
+    pub steps_per_mm: Option<[f64; 3]>,
+    /// Waits last a whole number of these.
+    pub dwell_step_seconds: f64,
+}
+
+/// What a machine's speed and acceleration are limits of.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Limits {
+    /// The motion along the path, whatever its direction.
+    #[default]
+    Path,
+    /// Each axis by itself, so that a diagonal is faster.
+    Axis,
 }
 
 /// G-code for one machine.
@@ -203,18 +253,29 @@ impl Profile {
             ("motion.draw_speed", motion.draw_speed),
             ("motion.travel_speed", motion.travel_speed),
             ("motion.acceleration", motion.acceleration),
-            ("motion.junction_deviation", motion.junction_deviation),
+            ("motion.travel_acceleration", motion.travel_acceleration.unwrap_or(1.0)),
+            ("motion.junction_deviation", motion.junction_deviation.unwrap_or(1.0)),
+            ("motion.corner_factor", motion.corner_factor.unwrap_or(1.0)),
         ] {
             if !positive(value) {
                 return refuse(key, "must be above 0");
             }
         }
+        if motion.junction_deviation.is_some() == motion.corner_factor.is_some() {
+            return refuse("motion.junction_deviation", "or motion.corner_factor must be given, and not both");
+        }
+        if motion.travel_acceleration.is_some() && motion.planner.limits == Limits::Axis {
+            return refuse("motion.travel_acceleration", "cannot differ where limits are the axes' own");
+        }
+        motion.planner.check(refuse)?;
         if self.pens.count == 0 {
             return refuse("pens.count", "must be at least 1");
         }
-        for (key, seconds) in
-            [("motion.pen_up_seconds", motion.pen_up_seconds), ("motion.pen_down_seconds", motion.pen_down_seconds)]
-        {
+        for (key, seconds) in [
+            ("motion.pen_up_seconds", motion.pen_up_seconds),
+            ("motion.pen_down_seconds", motion.pen_down_seconds),
+            ("pens.change_seconds", self.pens.change_seconds),
+        ] {
             if !(0.0..=60.0).contains(&seconds) {
                 return refuse(key, "must be from 0 to 60 seconds");
             }
@@ -234,6 +295,31 @@ impl Profile {
             Language::Hpgl if self.hpgl.is_none() => refuse("hpgl", "is missing, and the language is hpgl"),
             _ => Ok(()),
         }
+    }
+}
+
+impl Planner {
+    fn check(&self, refuse: impl Fn(&'static str, &str) -> Result<(), ProfileError>) -> Result<(), ProfileError> {
+        // The block that runs is fixed and one place stays free: with less than four there would be nothing to look ahead to.
+        if self.block_buffer.is_some_and(|places| !(4..=4096).contains(&places)) {
+            return refuse("motion.planner.block_buffer", "must be from 4 to 4096");
+        }
+        if !(0.0..=1.0).contains(&self.dwell_step_seconds) {
+            return refuse("motion.planner.dwell_step_seconds", "must be from 0 to 1 second");
+        }
+        for (key, values) in [
+            ("motion.planner.axis_speed", self.axis_speed),
+            ("motion.planner.axis_acceleration", self.axis_acceleration),
+            ("motion.planner.steps_per_mm", self.steps_per_mm),
+        ] {
+            if values.into_iter().flatten().any(|value| !value.is_finite() || value <= 0.0) {
+                return refuse(key, "must be above 0 for x, y and z");
+            }
+        }
+        if self.limits == Limits::Path && (self.axis_speed.is_some() || self.axis_acceleration.is_some()) {
+            return refuse("motion.planner.limits", "must be \"axis\" where axes have limits of their own");
+        }
+        Ok(())
     }
 }
 
@@ -300,6 +386,16 @@ mod tests {
                 assert!(message.contains("travelspeed"), "{message}");
             }
             other => panic!("{other:?}"),
+        }
+        for (from, to, wrong) in [
+            ("block_buffer = 16", "block_buffer = 3", "motion.planner.block_buffer"),
+            ("junction_deviation = 0.01", "", "motion.junction_deviation"),
+            ("junction_deviation = 0.01", "junction_deviation = 0.01\ncorner_factor = 10", "motion.junction_deviation"),
+            ("limits = \"axis\"", "axis_speed = [1, 1, 1]", "motion.planner.limits"),
+            ("steps_per_mm = [80, 80, 400]", "steps_per_mm = [80, 0, 400]", "motion.planner.steps_per_mm"),
+        ] {
+            let found = Profile::parse("mine.toml", &built_in("grbl-servo").unwrap().replace(from, to));
+            assert!(matches!(&found, Err(ProfileError::Value { key, .. }) if *key == wrong), "{from}: {found:?}");
         }
         let text = built_in("grbl-servo").unwrap().replace("acceleration = 250", "acceleration = 0");
         assert!(matches!(Profile::parse("mine.toml", &text), Err(ProfileError::Value { key: "motion.acceleration", .. })));

@@ -2,9 +2,9 @@
 
 use super::coverage::Coverage;
 use super::order::{PathEnds, Visit};
-use super::profile::Motion;
+use super::profile::Profile;
 use super::time::clock;
-use super::{Plot, pen_up_length};
+use super::{Mounting, Plot, pen_up_length};
 use crate::geometry::Point;
 use serde::Serialize;
 
@@ -44,9 +44,10 @@ pub struct PlotReport {
     pub total: PenReport,
 }
 
-/// Measures a plot; `before` is the pen-up travel of each pen before ordering, if it is known.
-pub fn report(plot: &Plot, home: Point, motion: Option<&Motion>, before: Option<&[f64]>) -> PlotReport {
-    let clocks = motion.map(|motion| clock(plot, home, motion));
+/// Measures a plot that starts at `home` on the page; with a machine and where the page lies on it, also the time. `before` is the
+/// pen-up travel of each pen before ordering, if it is known.
+pub fn report(plot: &Plot, home: Point, machine: Option<(&Profile, &Mounting)>, before: Option<&[f64]>) -> PlotReport {
+    let clocks = machine.map(|(profile, mounting)| clock(plot, profile, mounting));
     let mut at = home;
     let mut pens = Vec::new();
     for (i, pen) in plot.pens.iter().enumerate() {
@@ -77,7 +78,7 @@ pub fn report(plot: &Plot, home: Point, motion: Option<&Motion>, before: Option<
         pen_up_mm: pens.iter().map(|p| p.pen_up_mm).sum(),
         pen_up_mm_before: pens.iter().map(|p| p.pen_up_mm_before).sum(),
         pen_lifts: pens.iter().map(|p| p.pen_lifts).sum(),
-        seconds: motion.map(|_| pens.iter().filter_map(|p| p.seconds).sum()),
+        seconds: machine.map(|_| pens.iter().filter_map(|p| p.seconds).sum()),
         covered_fraction: None,
         spill_fraction: None,
     };

@@ -1,0 +1,376 @@
+//! The speed that a controller with look-ahead has at each corner, and the time that this takes.
+//!
+//! ```text
+//!   speed |    ______        corner^2 = a d s / (1 - s), s = sin(t/2), t the angle between the legs, d the junction deviation
+//!         |   /      \   __  exit^2  <= entry^2 + 2 a length
+//!         |  /        \_/  \ entry^2 <= the same backwards from rest at the end of what is known
+//!         +--------------------> time
+//! ```
+//!
+//! GRBL 1.1 (planner.c) knows of the running block and those behind it in its buffer, which is full while a file is sent: when a
+//! block starts, its exit speed is fixed by those that follow it in the buffer, the last of which must end at rest. The driver
+//! of the `AxiDraw` (`motion.py`) plans each pen-down path whole, with the same rule of corners. Of other machines no rule is
+//! known; they are taken to do the latter.
+
+use crate::plot::profile::{Limits, Motion};
+
+/// A place in millimetres.
+pub(super) type Place = [f64; 3];
+
+/// Blocks that are kept before those whose fate is settled are timed.
+const KEPT: usize = 1 << 14;
+/// Cosines nearer to 1 than this are a straight line or a reversal, as in GRBL.
+const STRAIGHT: f64 = 0.999_999;
+/// GRBL's slowest rate, mm/s.
+const SLOWEST: f64 = 1.0 / 60.0;
+
+/// One straight move.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    length: f64,
+    acceleration: f64,
+    /// Square of the speed asked for and allowed in its direction.
+    nominal: f64,
+    /// Square of the greatest speed at its start.
+    entry: f64,
+    /// Whose time it is.
+    slot: usize,
+}
+
+impl Block {
+    /// How much the square of the speed can change over it.
+    fn gain(&self) -> f64 {
+        2.0 * self.acceleration * self.length
+    }
+}
+
+/// A controller: moves go in, seconds come out.
+pub(super) struct LookAhead {
+    rules: Rules,
+    /// Moves since the last rest that are not timed yet.
+    blocks: Vec<Block>,
+    /// The speed at the start of the first of them.
+    speed: f64,
+    /// Its square.
+    squared: f64,
+    at: Place,
+    direction: Place,
+    seconds: Vec<f64>,
+}
+
+struct Rules {
+    limits: Limits,
+    acceleration: Limit,
+    travel_acceleration: Limit,
+    speed: Limit,
+    deviation: f64,
+    /// How many blocks are known behind a corner when the speed there is fixed.
+    known: Option<usize>,
+    steps_per_mm: Option<Place>,
+}
+
+impl LookAhead {
+    /// A machine at rest at zero; times are added up in so many slots.
+    pub fn new(motion: &Motion, slots: usize) -> Self {
+        let planner = &motion.planner;
+        let [x, y, z] = planner.axis_speed.unwrap_or([motion.travel_speed; 3]);
+        let acceleration = |all: f64| planner.axis_acceleration.unwrap_or([all; 3]);
+        let rules = Rules {
+            limits: planner.limits,
+            acceleration: Limit::new(acceleration(motion.acceleration)),
+            travel_acceleration: Limit::new(acceleration(motion.travel_acceleration.unwrap_or(motion.acceleration))),
+            speed: Limit::new([x.min(motion.travel_speed), y.min(motion.travel_speed), z]),
+            deviation: motion.corner_deviation(),
+            // One place stays free, and one holds the block that runs.
+            known: planner.block_buffer.map(|places| places - 2),
+            steps_per_mm: planner.steps_per_mm,
+        };
+        Self { rules, blocks: Vec::new(), speed: 0.0, squared: 0.0, at: [0.0; 3], direction: [0.0; 3], seconds: vec![0.0; slots] }
+    }
+
+    /// Draws a straight line at a rate in mm/s; the time goes to a slot.
+    pub fn line(&mut self, to: Place, rate: f64, slot: usize) {
+        self.add(to, rate, self.rules.acceleration, slot);
+    }
+
+    /// Moves with the pen up.
+    pub fn travel(&mut self, to: Place, rate: f64, slot: usize) {
+        self.add(to, rate, self.rules.travel_acceleration, slot);
+    }
+
+    fn add(&mut self, to: Place, rate: f64, acceleration: Limit, slot: usize) {
+        let to = self.rules.in_steps(to);
+        let leg = [to[0] - self.at[0], to[1] - self.at[1], to[2] - self.at[2]];
+        let length = norm(leg);
+        if length < 1e-9 {
+            return;
+        }
+        let direction = leg.map(|v| v / length);
+        let along = self.rules.along(acceleration, direction);
+        let nominal = self.rules.rate(direction, rate).powi(2);
+        let entry = match self.blocks.last() {
+            Some(before) => self.rules.corner(self.direction, direction, acceleration).min(nominal).min(before.nominal),
+            None => 0.0,
+        };
+        self.blocks.push(Block { length, acceleration: along, nominal, entry, slot });
+        (self.at, self.direction) = (to, direction);
+        if let Some(known) = self.rules.known
+            && self.blocks.len() >= KEPT
+        {
+            self.run(self.blocks.len() - known - 1);
+        }
+    }
+
+    /// All that was asked for is done, and the machine stands.
+    pub fn rest(&mut self) {
+        if self.rules.known.is_none() {
+            let mut after = 0.0;
+            for block in self.blocks.iter_mut().rev() {
+                block.entry = block.entry.min(after + block.gain());
+                after = block.entry;
+            }
+        }
+        self.run(self.blocks.len());
+    }
+
+    /// Time in which nothing moves.
+    pub fn wait(&mut self, seconds: f64, slot: usize) {
+        self.seconds[slot] += seconds;
+    }
+
+    /// Seconds of each slot.
+    pub fn seconds(&self) -> &[f64] {
+        &self.seconds
+    }
+
+    /// Times the first blocks.
+    fn run(&mut self, count: usize) {
+        for i in 0..count {
+            let block = self.blocks[i];
+            let behind = &self.blocks[i + 1..];
+            let exit = match (behind.first(), self.rules.known) {
+                (None, _) => 0.0,
+                (Some(next), None) => next.entry,
+                (Some(_), Some(known)) => braking(&behind[..known.min(behind.len())]),
+            };
+            let exit = exit.min(self.squared + block.gain());
+            let exit_speed = exit.sqrt();
+            self.seconds[block.slot] += trapezoid(&block, [self.squared, exit], [self.speed, exit_speed]);
+            (self.squared, self.speed) = (exit, exit_speed);
+        }
+        self.blocks.drain(..count);
+    }
+}
+
+/// Square of the greatest speed into the first of these blocks from which each later limit, and rest at the end, can be met.
+fn braking(blocks: &[Block]) -> f64 {
+    let (mut limit, mut gained) = (f64::INFINITY, 0.0);
+    for block in blocks {
+        limit = limit.min(block.entry + gained);
+        if gained >= limit {
+            return limit;
+        }
+        gained += block.gain();
+    }
+    limit.min(gained)
+}
+
+/// Time over a block with given speeds at both ends, and their squares.
+fn trapezoid(block: &Block, [entry, exit]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
+    let a = block.acceleration;
+    let peak = (0.5 * (entry + exit) + a * block.length).min(block.nominal).max(entry).max(exit);
+    let fastest = peak.sqrt();
+    let level = (a * block.length - peak + 0.5 * (entry + exit)).max(0.0);
+    (2.0 * fastest - from - to + level / fastest) / a
+}
+
+impl Rules {
+    /// Rounded to motor steps, as the controller does it.
+    fn in_steps(&self, place: Place) -> Place {
+        let Some(steps) = self.steps_per_mm else { return place };
+        let rounded = |axis: usize| whole(f64::from(as_read(place[axis]) * steps[axis] as f32)) as f64 / steps[axis];
+        [rounded(0), rounded(1), rounded(2)]
+    }
+
+    /// The greatest value along a direction.
+    fn along(&self, limit: Limit, direction: Place) -> f64 {
+        match self.limits {
+            Limits::Path => limit.path,
+            Limits::Axis => limit.along(direction),
+        }
+    }
+
+    fn rate(&self, direction: Place, asked: f64) -> f64 {
+        match self.limits {
+            Limits::Path => asked,
+            Limits::Axis => asked.min(self.speed.along(direction)).max(SLOWEST),
+        }
+    }
+
+    /// Square of the greatest speed at a corner.
+    fn corner(&self, before: Place, after: Place, acceleration: Limit) -> f64 {
+        let cosine = -(before[0] * after[0] + before[1] * after[1] + before[2] * after[2]);
+        if cosine > STRAIGHT {
+            return 0.0;
+        }
+        if cosine < -STRAIGHT {
+            return f64::INFINITY;
+        }
+        let length = (2.0 * (1.0 + cosine)).sqrt();
+        let turn = [after[0] - before[0], after[1] - before[1], after[2] - before[2]];
+        let inwards = self.along(acceleration, turn.map(|v| v / length));
+        let half_sine = (0.5 * (1.0 - cosine)).sqrt();
+        inwards * self.deviation * half_sine / (1.0 - half_sine)
+    }
+}
+
+/// A speed or an acceleration, along the path and of each axis.
+#[derive(Clone, Copy)]
+struct Limit {
+    path: f64,
+    reciprocals: Place,
+}
+
+impl Limit {
+    fn new(axes: Place) -> Self {
+        Self { path: axes[0], reciprocals: axes.map(f64::recip) }
+    }
+
+    /// The greatest length along a unit vector of which no component exceeds its axis's value.
+    fn along(&self, direction: Place) -> f64 {
+        let share = |axis: usize| direction[axis].abs() * self.reciprocals[axis];
+        1.0 / share(0).max(share(1)).max(share(2))
+    }
+}
+
+/// A place as GRBL's single precision holds it after reading up to three decimals: the digits as a whole number, times 0.01 and
+/// 0.1. At 100 steps a millimetre every tenth place lies half way between two steps, and this decides to which it goes: circles
+/// of 0.02 mm chords are timed 1.3 % short without it.
+fn as_read(place: f64) -> f32 {
+    let digits = whole(place * 1000.0);
+    if digits == 0 {
+        0.0
+    } else if digits % 10 != 0 {
+        digits as f32 * 0.01 * 0.1
+    } else if digits % 100 != 0 {
+        (digits / 10) as f32 * 0.01
+    } else if digits % 1000 != 0 {
+        (digits / 100) as f32 * 0.1
+    } else {
+        (digits / 1000) as f32
+    }
+}
+
+/// The nearest whole number, halves away from zero: `round` is a call into the mathematical library, and this runs for each point.
+pub(super) fn whole(value: f64) -> i64 {
+    (value + 0.5_f64.copysign(value)) as i64
+}
+
+fn norm(v: Place) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::profile::Planner;
+
+    const MOTION: Motion = Motion {
+        draw_speed: 50.0,
+        draw_speed_limit: None,
+        travel_speed: 100.0,
+        acceleration: 250.0,
+        travel_acceleration: None,
+        junction_deviation: Some(0.01),
+        corner_factor: None,
+        pen_up_seconds: 0.15,
+        pen_down_seconds: 0.2,
+        planner: Planner {
+            block_buffer: None,
+            limits: Limits::Path,
+            axis_speed: None,
+            axis_acceleration: None,
+            steps_per_mm: None,
+            dwell_step_seconds: 0.0,
+        },
+    };
+
+    fn time(motion: &Motion, places: &[[f64; 2]]) -> f64 {
+        let mut planner = LookAhead::new(motion, 1);
+        for [x, y] in places {
+            planner.line([*x, *y, 0.0], 50.0, 0);
+        }
+        planner.rest();
+        planner.seconds()[0]
+    }
+
+    fn with_planner(planner: Planner) -> Motion {
+        Motion { planner, ..MOTION }
+    }
+
+    #[test]
+    fn a_long_line_is_a_trapezoid_and_a_short_one_a_triangle() {
+        assert!((time(&MOTION, &[[100.0, 0.0]]) - (100.0 / 50.0 + 50.0 / 250.0)).abs() < 1e-9);
+        assert!((time(&MOTION, &[[1.0, 0.0]]) - 2.0 * (1.0_f64 / 250.0).sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn points_on_a_straight_line_cost_nothing_and_a_reversal_stops() {
+        let whole = time(&MOTION, &[[100.0, 0.0]]);
+        let straight: Vec<[f64; 2]> = (1..=100).map(|i| [f64::from(i), 0.0]).collect();
+        assert!((time(&MOTION, &straight) - whole).abs() < 1e-6);
+        assert!((time(&MOTION, &[[100.0, 0.0], [0.0, 0.0]]) - 2.0 * whole).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_short_buffer_never_runs_faster_than_it_can_stop() {
+        // 14 blocks of 0.1 mm are known: the speed settles where 1.4 mm are enough to stop in.
+        let fine: Vec<[f64; 2]> = (1..=3000).map(|i| [0.1 * f64::from(i), 0.0]).collect();
+        let limited = with_planner(Planner { block_buffer: Some(16), ..Planner::default() });
+        let settled = (2.0 * 250.0 * 1.4_f64).sqrt();
+        assert!((time(&limited, &fine) / (300.0 / settled) - 1.0).abs() < 0.02, "{}", time(&limited, &fine));
+        assert!(time(&MOTION, &fine) < 0.6 * time(&limited, &fine));
+    }
+
+    #[test]
+    fn settled_blocks_are_timed_early_without_a_difference() {
+        let wave: Vec<[f64; 2]> = (1..=40_000).map(|i| [0.05 * f64::from(i), (0.02 * f64::from(i)).sin()]).collect();
+        let limited = with_planner(Planner { block_buffer: Some(16), ..Planner::default() });
+        let mut whole = LookAhead::new(&limited, 1);
+        let mut from = [0.0; 3];
+        // The same in pieces that never fill what is kept, each run with all that is known behind it.
+        for [x, y] in &wave {
+            from = [*x, *y, 0.0];
+            whole.line(from, 50.0, 0);
+            if whole.blocks.len() > 100 {
+                whole.run(whole.blocks.len() - 15);
+            }
+        }
+        whole.rest();
+        assert!(from[0] > 0.0 && (whole.seconds()[0] - time(&limited, &wave)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_diagonal_is_faster_where_limits_are_the_axes_own() {
+        let axes = with_planner(Planner { limits: Limits::Axis, ..Planner::default() });
+        let travel = |motion: &Motion, to: [f64; 3]| {
+            let mut planner = LookAhead::new(motion, 1);
+            planner.travel(to, f64::INFINITY.min(if motion == &axes { f64::INFINITY } else { 100.0 }), 0);
+            planner.rest();
+            planner.seconds()[0]
+        };
+        let along = travel(&axes, [100.0, 0.0, 0.0]);
+        assert!((travel(&axes, [100.0, 100.0, 0.0]) - along).abs() < 1e-9);
+        assert!(travel(&MOTION, [100.0, 100.0, 0.0]) > along);
+        let slow_z = with_planner(Planner { axis_speed: Some([100.0, 100.0, 5.0]), ..axes.planner });
+        assert!((travel(&slow_z, [0.0, 0.0, 5.0]) - (1.0 + 5.0 / 250.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_corner_factor_is_a_deviation_in_5000ths_of_an_inch() {
+        let driver = Motion { junction_deviation: None, corner_factor: Some(10.0), ..MOTION };
+        assert!((driver.corner_deviation() - 0.0508).abs() < 1e-12);
+        let corner = [[20.0, 0.0], [20.0, 20.0]];
+        assert!(time(&driver, &corner) < time(&MOTION, &corner));
+    }
+}

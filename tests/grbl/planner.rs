@@ -1,0 +1,132 @@
+//! The block buffer: what speed each block may start with, worked out anew for every block that is added.
+
+use super::stepper::Stepper;
+use super::{Real, Settings};
+use std::collections::VecDeque;
+
+/// Places in the ring, of which one stays free.
+const BLOCK_BUFFER_SIZE: usize = 16;
+/// Cosines nearer to 1 than this are a straight line or a reversal.
+const STRAIGHT: Real = 0.999_999;
+/// The slowest rate, mm/min.
+const MINIMUM_FEED_RATE: Real = 1.0;
+
+/// A straight move, mm and minutes.
+#[derive(Clone, Copy, Debug)]
+pub struct Block {
+    /// Steps of the axis with most of them.
+    pub steps: u64,
+    /// What is left of it.
+    pub length: Real,
+    pub acceleration: Real,
+    pub nominal: Real,
+    greatest_entry_squared: Real,
+    /// Of the running block: the square of its speed now, when last planned.
+    pub entry_squared: Real,
+}
+
+pub struct Planner {
+    settings: Settings,
+    /// The first is the one that runs or will run next.
+    blocks: VecDeque<Block>,
+    position: [i64; 3],
+    direction: [Real; 3],
+    nominal: Real,
+}
+
+impl Planner {
+    pub fn new(settings: &Settings) -> Self {
+        Self { settings: *settings, blocks: VecDeque::new(), position: [0; 3], direction: [0.0; 3], nominal: 0.0 }
+    }
+
+    pub fn is_full(&self) -> bool {
+        self.blocks.len() == BLOCK_BUFFER_SIZE - 1
+    }
+
+    pub fn first(&mut self) -> Option<&mut Block> {
+        self.blocks.front_mut()
+    }
+
+    pub fn discard_first(&mut self) {
+        self.blocks.pop_front();
+    }
+
+    /// The square of the speed with which the first block is to end.
+    pub fn exit_squared(&self) -> Real {
+        self.blocks.get(1).map_or(0.0, |next| next.entry_squared)
+    }
+
+    /// Puts a move into the buffer and plans anew; one that is no step long is nothing.
+    pub fn add(&mut self, target: [f32; 3], rate: Option<f64>, stepper: &mut Stepper) {
+        let mut delta = [0.0; 3];
+        let mut steps = 0;
+        let mut position = self.position;
+        for axis in 0..3 {
+            let per_mm = self.settings.steps_per_mm[axis] as Real;
+            position[axis] = (target[axis] * self.settings.steps_per_mm[axis] as f32).round() as i64;
+            let moved = position[axis] - self.position[axis];
+            steps = steps.max(moved.unsigned_abs());
+            delta[axis] = moved as Real / per_mm;
+        }
+        if steps == 0 {
+            return;
+        }
+        let length = length_of(delta);
+        let direction = delta.map(|d| d / length);
+        let acceleration = limited(self.accelerations(), direction);
+        let fastest = limited(self.settings.greatest_rate.map(|rate| rate as Real), direction);
+        let nominal = rate.map_or(fastest, |rate| rate as Real).min(fastest).max(MINIMUM_FEED_RATE);
+        let corner = if self.blocks.is_empty() { 0.0 } else { self.corner_squared(direction) };
+        let greatest_entry_squared = corner.min(nominal * nominal).min(self.nominal * self.nominal);
+        self.blocks.push_back(Block { steps, length, acceleration, nominal, greatest_entry_squared, entry_squared: 0.0 });
+        (self.position, self.direction, self.nominal) = (position, direction, nominal);
+        stepper.is_about_to_be_replanned(self);
+        self.replan();
+    }
+
+    /// In mm/min^2.
+    fn accelerations(&self) -> [Real; 3] {
+        self.settings.acceleration.map(|acceleration| (3600.0 * acceleration) as Real)
+    }
+
+    /// A circle that touches both legs and passes the corner at the junction deviation; its centripetal acceleration is what the
+    /// axes can give in the direction of the change.
+    fn corner_squared(&self, direction: [Real; 3]) -> Real {
+        let before = self.direction;
+        let cosine = -(0..3).map(|i| before[i] * direction[i]).sum::<Real>();
+        if cosine > STRAIGHT {
+            return 0.0;
+        }
+        if cosine < -STRAIGHT {
+            return 1e38;
+        }
+        let change = [direction[0] - before[0], direction[1] - before[1], direction[2] - before[2]];
+        let size = length_of(change);
+        let acceleration = limited(self.accelerations(), change.map(|c| c / size));
+        let half_sine = (0.5 * (1.0 - cosine)).sqrt();
+        acceleration * self.settings.junction_deviation as Real * half_sine / (1.0 - half_sine)
+    }
+
+    /// Backwards from rest at the end of the last block, then forwards from the running one, which alone is not touched.
+    fn replan(&mut self) {
+        let mut exit_squared = 0.0;
+        for block in self.blocks.iter_mut().skip(1).rev() {
+            exit_squared = block.greatest_entry_squared.min(exit_squared + 2.0 * block.acceleration * block.length);
+            block.entry_squared = exit_squared;
+        }
+        for i in 1..self.blocks.len() {
+            let before = self.blocks[i - 1];
+            let reached = before.entry_squared + 2.0 * before.acceleration * before.length;
+            self.blocks[i].entry_squared = self.blocks[i].entry_squared.min(reached);
+        }
+    }
+}
+
+/// The greatest value along a direction with which no axis exceeds its own.
+fn limited(values: [Real; 3], direction: [Real; 3]) -> Real {
+    (0..3).filter(|&i| direction[i] != 0.0).map(|i| (values[i] / direction[i]).abs()).fold(Real::INFINITY, Real::min)
+}
+
+fn length_of(v: [Real; 3]) -> Real {
+    v.iter().map(|c| c * c).sum::<Real>().sqrt()
+}

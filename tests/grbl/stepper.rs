@@ -1,0 +1,219 @@
+//! The segment buffer: the first block's speed profile, cut into pieces of a hundredth of a second and turned into timer ticks.
+
+use super::Real;
+use super::planner::Planner;
+use std::collections::VecDeque;
+
+/// Minutes of a whole segment: 100 acceleration ticks a second.
+const SEGMENT: Real = 1.0 / (100.0 * 60.0);
+/// Places in the ring of segments, of which one stays free.
+const SEGMENT_BUFFER_SIZE: usize = 6;
+/// A segment covers at least so many steps, or the block's end.
+const LEAST_STEPS: Real = 1.25;
+/// Where a block's end falls on a segment's, rounding may leave a trace of the way at a trace of the speed, and the last step then
+/// waits until this is covered, up to the timer's longest period. Less than so much of a step is such a trace.
+const TRACE: Real = 0.01;
+/// Timer ticks a minute.
+const CLOCK: Real = 16e6 * 60.0;
+/// Above so many ticks a step, each step is made in 2, 4 and 8 parts.
+const SMOOTHING: [u64; 3] = [2000, 4000, 8000];
+/// The timer's longest period.
+const LONGEST_PERIOD: u64 = 0xffff;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ramp {
+    Accelerate,
+    Cruise,
+    Decelerate,
+}
+
+/// The speed profile of the rest of a block; distances are from its end.
+#[derive(Clone, Copy, Debug)]
+struct Profile {
+    ramp: Ramp,
+    accelerate_until: Real,
+    decelerate_after: Real,
+    top_speed: Real,
+    exit_speed: Real,
+}
+
+/// The block that is being cut up.
+#[derive(Clone, Copy, Debug)]
+struct Loaded {
+    speed: Real,
+    whole_steps_left: Real,
+    steps_per_mm: Real,
+    /// Time of a part of a step that the last segment could not make.
+    time_owed: Real,
+    /// Minutes of this segment that a trace of the way took.
+    late: Real,
+    /// None when it must be worked out anew.
+    profile: Option<Profile>,
+}
+
+#[derive(Default)]
+pub struct Stepper {
+    /// Seconds that the segments take which are ready; the first is being run.
+    segments: VecDeque<f64>,
+    loaded: Option<Loaded>,
+    pub clock: f64,
+    /// Seconds spent on traces of the way.
+    pub late: f64,
+    pub steps: u64,
+    pub top_speed: Real,
+}
+
+impl Stepper {
+    /// Cuts segments off the blocks until the ring is full or no block is left.
+    pub fn fill(&mut self, planner: &mut Planner) {
+        while self.segments.len() < SEGMENT_BUFFER_SIZE - 1 {
+            if !self.cut(planner) {
+                return;
+            }
+        }
+    }
+
+    /// Lets the running segment end; false when there is none.
+    pub fn finish_segment(&mut self) -> bool {
+        let duration = self.segments.pop_front();
+        self.clock += duration.unwrap_or(0.0);
+        duration.is_some()
+    }
+
+    /// A new plan starts from the running block's speed and what is left of it, and may change how it ends.
+    pub fn is_about_to_be_replanned(&mut self, planner: &mut Planner) {
+        if let (Some(loaded), Some(block)) = (&mut self.loaded, planner.first()) {
+            block.entry_squared = loaded.speed * loaded.speed;
+            loaded.profile = None;
+        }
+    }
+
+    fn cut(&mut self, planner: &mut Planner) -> bool {
+        let exit_squared = planner.exit_squared();
+        let Some(block) = planner.first() else { return false };
+        let mut loaded = self.loaded.unwrap_or_else(|| Loaded {
+            speed: block.entry_squared.sqrt(),
+            whole_steps_left: block.steps as Real,
+            steps_per_mm: block.steps as Real / block.length,
+            time_owed: 0.0,
+            late: 0.0,
+            profile: None,
+        });
+        let mut profile = loaded
+            .profile
+            .unwrap_or_else(|| profile(block.length, block.entry_squared, exit_squared, block.nominal, block.acceleration));
+        loaded.late = 0.0;
+        let (time, left) = segment(&mut loaded, &mut profile, block.length, block.acceleration);
+        loaded.profile = Some(profile);
+        let steps_left = loaded.steps_per_mm * left;
+        let whole = steps_left.ceil();
+        let time_per_step = (time + loaded.time_owed) / (loaded.whole_steps_left - steps_left);
+        self.segments.push_back(duration((loaded.whole_steps_left - whole) as u64, time_per_step));
+        self.late += (60.0 * f64::from(loaded.late)).min(duration(1, 1.0));
+        self.steps += (loaded.whole_steps_left - whole) as u64;
+        self.top_speed = self.top_speed.max(loaded.speed);
+        loaded.time_owed = (whole - steps_left) * time_per_step;
+        loaded.whole_steps_left = whole;
+        block.length = left;
+        if left > 0.0 {
+            self.loaded = Some(loaded);
+        } else {
+            self.loaded = None;
+            planner.discard_first();
+        }
+        true
+    }
+}
+
+fn profile(length: Real, entry_squared: Real, exit_squared: Real, nominal: Real, acceleration: Real) -> Profile {
+    let over = |from: Real, to: Real| (to - from) / (2.0 * acceleration);
+    // Where the ramp up from the entry would meet the ramp down to the exit.
+    let meeting = 0.5 * (length + over(exit_squared, entry_squared));
+    let exit_speed = exit_squared.sqrt();
+    let mut profile =
+        Profile { ramp: Ramp::Accelerate, accelerate_until: 0.0, decelerate_after: 0.0, top_speed: exit_speed, exit_speed };
+    if meeting >= length {
+        profile.ramp = Ramp::Decelerate;
+    } else if meeting > 0.0 {
+        profile.decelerate_after = over(exit_squared, nominal * nominal);
+        if profile.decelerate_after < meeting {
+            profile.top_speed = nominal;
+            profile.accelerate_until = length - over(entry_squared, nominal * nominal);
+            if entry_squared >= nominal * nominal {
+                profile.ramp = Ramp::Cruise;
+            }
+        } else {
+            (profile.accelerate_until, profile.decelerate_after) = (meeting, meeting);
+            profile.top_speed = (exit_squared + 2.0 * acceleration * meeting).sqrt();
+        }
+    }
+    profile
+}
+
+/// Goes along the profile for the time of a segment, longer where that is less than a step, shorter where the block ends; returns
+/// the time and what is left of the block.
+fn segment(loaded: &mut Loaded, profile: &mut Profile, length: Real, acceleration: Real) -> (Real, Real) {
+    let at_least = (length - LEAST_STEPS / loaded.steps_per_mm).max(0.0);
+    let (mut allowed, mut spent, mut left) = (SEGMENT, 0.0, length);
+    loop {
+        spent += advance(loaded, profile, &mut left, acceleration, allowed - spent);
+        if left <= 0.0 {
+            return (spent, 0.0);
+        }
+        if spent >= allowed {
+            if left <= at_least {
+                return (spent, left);
+            }
+            allowed += SEGMENT;
+        }
+    }
+}
+
+/// Goes on for a time or to the end of the ramp, whichever is first; returns the time.
+fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut Real, acceleration: Real, time: Real) -> Real {
+    let change = acceleration * time;
+    match profile.ramp {
+        Ramp::Accelerate => {
+            let then = *left - time * (loaded.speed + 0.5 * change);
+            if then >= profile.accelerate_until {
+                (*left, loaded.speed) = (then, loaded.speed + change);
+                return time;
+            }
+            let taken = 2.0 * (*left - profile.accelerate_until) / (loaded.speed + profile.top_speed);
+            (*left, loaded.speed) = (profile.accelerate_until, profile.top_speed);
+            profile.ramp = if profile.accelerate_until > profile.decelerate_after { Ramp::Cruise } else { Ramp::Decelerate };
+            taken
+        }
+        Ramp::Cruise => {
+            let then = *left - time * profile.top_speed;
+            if then >= profile.decelerate_after {
+                *left = then;
+                return time;
+            }
+            let taken = (*left - profile.decelerate_after) / profile.top_speed;
+            *left = profile.decelerate_after;
+            profile.ramp = Ramp::Decelerate;
+            taken
+        }
+        Ramp::Decelerate => {
+            let then = *left - time * (loaded.speed - 0.5 * change);
+            if loaded.speed > change && then > 0.0 {
+                (*left, loaded.speed) = (then, loaded.speed - change);
+                return time;
+            }
+            let taken = 2.0 * *left / (loaded.speed + profile.exit_speed);
+            if *left * loaded.steps_per_mm < TRACE {
+                loaded.late = taken;
+            }
+            (*left, loaded.speed) = (0.0, profile.exit_speed);
+            taken
+        }
+    }
+}
+
+/// Seconds of so many steps: ticks a step are whole, and slow steps are made in parts.
+fn duration(steps: u64, minutes_per_step: Real) -> f64 {
+    let ticks = (CLOCK * minutes_per_step).ceil() as u64;
+    let parts = SMOOTHING.iter().filter(|&&slow| ticks >= slow).count();
+    ((steps << parts) * (ticks >> parts).min(LONGEST_PERIOD)) as f64 / 16e6
+}
