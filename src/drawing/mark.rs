@@ -145,6 +145,18 @@ impl Stroke {
         }
     }
 
+    /// The border of its ink, a constant width's too, right to `tolerance` millimetres.
+    pub fn ink_outline(&self, tolerance: f64) -> BezPath {
+        match &self.width {
+            Width::Along(widths) => swelling_outline(&self.curve, widths, self.ends, tolerance),
+            Width::Constant(width) => {
+                let cap = if self.ends == Ends::Flat { kurbo::Cap::Butt } else { kurbo::Cap::Round };
+                let style = kurbo::Stroke::new(*width).with_caps(cap).with_join(kurbo::Join::Round);
+                kurbo::stroke(self.curve.iter(), &style, &kurbo::StrokeOpts::default(), tolerance)
+            }
+        }
+    }
+
     /// Length times width plus the half discs of round ends; a swelling stroke's is that of its outline.
     fn area(&self) -> f64 {
         match &self.width {

@@ -234,10 +234,7 @@ fn shapes_of_mark(mark: &Mark) -> Vec<Shape> {
 fn shapes_of_stroke(stroke: &Stroke) -> Vec<Shape> {
     match (&stroke.width, stroke.ends) {
         (Width::Along(_), _) => stroke.outline().iter().map(polygons).collect(),
-        (Width::Constant(width), Ends::Flat) if !stroke.is_closed() => {
-            let style = kurbo::Stroke::new(*width).with_caps(kurbo::Cap::Butt).with_join(kurbo::Join::Round);
-            vec![polygons(&kurbo::stroke(stroke.curve.iter(), &style, &kurbo::StrokeOpts::default(), TOLERANCE))]
-        }
+        (Width::Constant(_), Ends::Flat) if !stroke.is_closed() => vec![polygons(&stroke.ink_outline(TOLERANCE))],
         (Width::Constant(width), _) => flatten(&stroke.curve, TOLERANCE)
             .into_iter()
             .flat_map(|(mut points, closed)| {

@@ -1,6 +1,6 @@
 //! Hidden parts removed: what lies under opaque ink of another colour is not drawn, as a pen cannot paint over it.
 
-use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Mark, Mixing, Painted, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Mark, Mixing, Painted, Stroke, Width};
 use crate::geometry::{BezPath, Rect, Region};
 use kurbo::Shape;
 
@@ -172,14 +172,7 @@ fn outline_of(mark: &Mark) -> BezPath {
     match mark {
         Mark::Dot(dot) => Dot::path(dot),
         Mark::Area(area) => area.outline.clone(),
-        Mark::Stroke(stroke) => match &stroke.width {
-            Width::Along(_) => stroke.outline().unwrap_or_default(),
-            Width::Constant(width) => {
-                let cap = if stroke.ends == Ends::Flat { kurbo::Cap::Butt } else { kurbo::Cap::Round };
-                let style = kurbo::Stroke::new(*width).with_caps(cap).with_join(kurbo::Join::Round);
-                kurbo::stroke(stroke.curve.iter(), &style, &kurbo::StrokeOpts::default(), TOLERANCE)
-            }
-        },
+        Mark::Stroke(stroke) => stroke.ink_outline(TOLERANCE),
     }
 }
 

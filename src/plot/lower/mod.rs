@@ -14,13 +14,13 @@ mod swell;
 mod thin;
 
 use super::{PenPaths, Plot, Toolpath};
-use crate::drawing::{Drawing, Layer, Mark, Stroke};
+use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
 use crate::geometry::{BezPath, flatten, simplify};
 use area::fill_area;
 use dot::fill_dot;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use stroke::lower_stroke;
+use stroke::{lower_stroke, turns_sharply};
 pub use swell::Swell;
 use swell::swelling_pass;
 
@@ -115,6 +115,10 @@ impl Lowering<'_> {
     fn stroke(&self, stroke: &Stroke, phase: f64) -> Vec<Toolpath> {
         if let Some(pass) = self.swell.and_then(|swell| swelling_pass(stroke, swell, self.tolerance)) {
             return pass;
+        }
+        if turns_sharply(stroke, self.nib) {
+            let area = Area { outline: stroke.ink_outline(0.5 * self.tolerance), colour: None };
+            return self.simplified(fill_area(&area, self.nib, self.tolerance, phase));
         }
         self.simplified(lower_stroke(stroke, self.nib, phase))
     }

@@ -57,6 +57,22 @@ pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64) -> Vec<Toolpat
     paths
 }
 
+/// Whether a stroke wider than the nib turns so sharply that passes along it would leave the outside of the turn bare: in less than
+/// 0.6 of its width.
+pub(super) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
+    let mut samples = samples(stroke, nib);
+    samples.dedup_by(|a, b| a.at == b.at);
+    if stroke.is_closed() && samples.len() > 2 {
+        samples.push(samples[1]);
+    }
+    samples.windows(3).any(|run| {
+        let (before, after) = (run[1].at - run[0].at, run[2].at - run[1].at);
+        let angle = before.cross(after).atan2(before.dot(after)).abs();
+        let step = 0.5 * (before.hypot() + after.hypot());
+        run[1].width > ONE_PASS * nib && angle > (step / (0.6 * run[1].width)).clamp(0.02, 1.0)
+    })
+}
+
 /// A stroke without length is a dot as wide as the stroke.
 fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64) -> Vec<Toolpath> {
     let at = sample.map(|sample| sample.at).or_else(|| stroke.curve.elements().first().and_then(PathEl::end_point));
