@@ -17,6 +17,7 @@
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
 //! | [`mod@write`] | a drawing or a plot | bytes |
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
+//! | [`resume`] | a plotter's file and where it stopped | the rest of it |
 //! | [`cli`] | arguments | the only place with files, stdout and exit codes |
 //!
 //! The page is in millimetres, x right, y down, from the sheet's upper left corner; pixels exist only left of [`style`]. Tone is
@@ -50,6 +51,7 @@ pub mod geometry;
 pub mod plot;
 pub mod raster;
 pub mod read;
+pub mod resume;
 pub mod source;
 pub mod style;
 pub mod write;

@@ -14,6 +14,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("plot", &["drawing", "geometry"]),
     ("write", &["drawing", "geometry", "plot"]),
     ("read", &["drawing", "geometry"]),
+    ("resume", &[]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

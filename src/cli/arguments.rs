@@ -26,6 +26,8 @@ pub(super) enum Command {
     Stages(StagesOptions),
     /// Say what is in a drawing: sheet, layers, pens, marks, lengths, time.
     Inspect(InspectOptions),
+    /// Write the rest of a plotter's file from where the machine stopped: state, pen and position restored.
+    Resume(ResumeOptions),
     /// List the styles, or one style's parameters with default, unit, range, meaning and source.
     Styles(ListOptions),
     /// List the plotters, or print one profile as TOML.
@@ -241,6 +243,27 @@ pub(super) struct InspectOptions {
     /// Print one JSON object on stdout.
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(super) struct ResumeOptions {
+    /// The HP-GL or G-code file that drypoint wrote; `-` for stdin.
+    pub file: String,
+    /// The line that was not finished, from 1, as a sender shows it.
+    #[arg(long, value_name = "N")]
+    pub line: Option<usize>,
+    /// The byte that was not taken, from 0, as HP-GL senders count.
+    #[arg(long, value_name = "N")]
+    pub byte: Option<usize>,
+    /// The pen-down path that was not finished, from 1 in the file's order; `inspect` says how many there are.
+    #[arg(long, value_name = "N")]
+    pub path: Option<usize>,
+    /// How much of the line before the stop is drawn again.
+    #[arg(long, value_name = "LENGTH", default_value = "3mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    pub again: f64,
+    /// The file to write; `-` for stdout.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: String,
 }
 
 #[derive(Args, Clone, Debug)]

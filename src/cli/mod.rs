@@ -9,6 +9,7 @@ mod lists;
 mod output;
 mod plot;
 mod progress;
+mod resume;
 mod stages;
 mod toolpaths;
 
@@ -44,6 +45,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Plot(options) => plot::run(&options),
         Command::Stages(options) => stages::run(&options),
         Command::Inspect(options) => inspect::run(&options),
+        Command::Resume(options) => resume::run(&options),
         Command::Styles(options) => lists::styles(&options),
         Command::Profiles(options) => lists::profiles(&options),
         Command::Completions { shell } => {

@@ -1,0 +1,235 @@
+//! G-code: one command a line; the header says which commands lift and lower the pen.
+
+use super::{ResumeError, Stop};
+use std::fmt::Write as _;
+
+/// The rest of a G-code file from the line that was not finished; `again` is how many machine units are drawn again.
+pub fn resume_gcode(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+    let pen = Pen::of(&lines).ok_or(ResumeError::NoPen)?;
+    let line = line_of(text, &lines, &pen, stop)?;
+    let mut state = State::default();
+    for (i, text) in lines[..line].iter().enumerate() {
+        state.take(i, text, &pen);
+    }
+    let mut rest = String::new();
+    let first_up = lines.iter().position(|text| pen.lifts(text)).unwrap_or(0);
+    if line <= first_up {
+        lines.iter().for_each(|text| push(&mut rest, text));
+        return Ok(rest);
+    }
+    lines[..=first_up].iter().for_each(|text| push(&mut rest, text));
+    wait_after(&mut rest, &lines, first_up);
+    // A pen that was named since the pen went up is named again in what follows.
+    if state.is_down || state.pen.is_none_or(|i| i < state.last_up) {
+        state.restore_pen(&mut rest, &lines);
+    }
+    let from = if state.is_down { state.restore_path(&mut rest, &lines, again) } else { state.last_up + 1 };
+    lines[from..].iter().for_each(|text| push(&mut rest, text));
+    Ok(rest)
+}
+
+fn push(rest: &mut String, line: &str) {
+    rest.push_str(line);
+    rest.push('\n');
+}
+
+/// The dwell that follows a pen command.
+fn wait_after(rest: &mut String, lines: &[&str], i: usize) {
+    if let Some(wait) = lines.get(i + 1).filter(|line| line.starts_with("G4")) {
+        push(rest, wait);
+    }
+}
+
+/// The line at which to stop reading, from 0.
+fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: Stop) -> Result<usize, ResumeError> {
+    let beyond = |stop: String, count: String| Err(ResumeError::Beyond { stop, count });
+    match stop {
+        Stop::Line(line) if line > lines.len() => beyond(format!("line {line}"), format!("{} lines", lines.len())),
+        Stop::Line(line) => Ok(line.max(1) - 1),
+        Stop::Byte(byte) if byte >= text.len() => beyond(format!("byte {byte}"), format!("{} bytes", text.len())),
+        Stop::Byte(byte) => Ok(text.as_bytes()[..byte].iter().filter(|b| **b == b'\n').count()),
+        Stop::Path(path) => {
+            let falls: Vec<usize> = (0..lines.len()).filter(|&i| pen.lowers(lines[i])).collect();
+            match falls.get(path.max(1) - 1) {
+                Some(&line) => Ok(line),
+                None => beyond(format!("path {path}"), format!("{} paths", falls.len())),
+            }
+        }
+    }
+}
+
+/// How the pen is moved.
+struct Pen<'a> {
+    up: &'a str,
+    /// None for a z axis, whose height differs from path to path.
+    down: Option<&'a str>,
+}
+
+impl<'a> Pen<'a> {
+    fn of(lines: &[&'a str]) -> Option<Self> {
+        let said = |what: &str| {
+            let line = lines.iter().find_map(|line| line.trim_start_matches(['(', ';', ' ']).strip_prefix(what))?;
+            Some(line.trim_end_matches(')').trim())
+        };
+        Some(Self { up: said("pen up is ")?, down: said("pen down is ") })
+    }
+
+    fn lifts(&self, line: &str) -> bool {
+        line == self.up || self.down.is_none() && line.starts_with(self.up) && line[self.up.len()..].starts_with(" F")
+    }
+
+    fn lowers(&self, line: &str) -> bool {
+        match self.down {
+            Some(down) => line == down,
+            None => word(line, 'Z').is_some() && word(line, 'X').is_none() && word(line, 'Y').is_none() && !self.lifts(line),
+        }
+    }
+}
+
+/// A number after a letter, outside of comments.
+fn word(line: &str, letter: char) -> Option<f64> {
+    let code = line.split(['(', ';']).next().unwrap_or("");
+    let after = code.split_once(letter)?.1;
+    let end = after.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(after.len());
+    after[..end].parse().ok()
+}
+
+/// A vertex of the path being drawn: the line that goes there, and the height where it changes.
+#[derive(Clone, Copy)]
+struct Vertex {
+    line: usize,
+    at: (f64, f64),
+    z: Option<f64>,
+}
+
+#[derive(Default)]
+struct State {
+    at: (f64, f64),
+    z: Option<f64>,
+    feed: Option<f64>,
+    is_down: bool,
+    last_up: usize,
+    last_down: usize,
+    /// The last line that said which pen is in use.
+    pen: Option<usize>,
+    /// The last travel.
+    travel: Option<usize>,
+    path: Vec<Vertex>,
+}
+
+impl State {
+    fn take(&mut self, i: usize, line: &str, pen: &Pen) {
+        if line.trim_start_matches(['(', ';', ' ']).starts_with("pen ") && !line.contains(" is ") {
+            self.pen = Some(i);
+        }
+        self.z = word(line, 'Z').or(self.z);
+        if pen.lifts(line) {
+            self.is_down = false;
+            self.last_up = i;
+            return;
+        }
+        if pen.lowers(line) {
+            self.is_down = true;
+            self.last_down = i;
+            self.path = vec![Vertex { line: i, at: self.at, z: word(line, 'Z') }];
+            return;
+        }
+        let (x, y) = (word(line, 'X'), word(line, 'Y'));
+        if line.starts_with('G') && (x.is_some() || y.is_some()) {
+            self.at = (x.unwrap_or(self.at.0), y.unwrap_or(self.at.1));
+            if self.is_down {
+                self.path.push(Vertex { line: i, at: self.at, z: self.path[0].z.and(self.z) });
+            } else {
+                self.travel = Some(i);
+            }
+        }
+        self.feed = if self.is_down { word(line, 'F').or(self.feed) } else { self.feed };
+    }
+
+    /// Says which pen must be in the holder, and waits if it is not the first.
+    fn restore_pen(&self, rest: &mut String, lines: &[&str]) {
+        let Some(i) = self.pen else { return };
+        push(rest, lines[i]);
+        if let Some(pause) =
+            lines.get(i + 1).filter(|line| line.starts_with('M') && !line.starts_with("M3") && !line.starts_with("M280"))
+        {
+            push(rest, pause);
+        }
+    }
+
+    /// Goes back a few units along the path and lowers the pen there; returns the line to go on with.
+    fn restore_path(&self, rest: &mut String, lines: &[&str], again: f64) -> usize {
+        let mut length = 0.0;
+        let mut first = self.path.len() - 1;
+        while first > 0 && length < again {
+            let (a, b) = (self.path[first - 1].at, self.path[first].at);
+            length += (a.0 - b.0).hypot(a.1 - b.1);
+            first -= 1;
+        }
+        let start = self.path[first];
+        let travel = self.travel.map_or("G0", |i| lines[i]);
+        let word_of_travel = travel.split_whitespace().next().unwrap_or("G0");
+        let feed_of_travel = word(travel, 'F').map(|feed| format!(" F{feed}")).unwrap_or_default();
+        let _ = writeln!(rest, "{word_of_travel} X{} Y{}{feed_of_travel}", number(start.at.0), number(start.at.1));
+        let down = lines[self.last_down];
+        match (start.z, word(down, 'Z')) {
+            (Some(z), Some(_)) => {
+                let feed = word(down, 'F').map(|feed| format!(" F{feed}")).unwrap_or_default();
+                let _ = writeln!(rest, "G1 Z{}{feed}", number(z));
+            }
+            _ => push(rest, down),
+        }
+        wait_after(rest, lines, self.last_down);
+        let mut next = start.line + 1;
+        if lines.get(next).is_some_and(|line| line.starts_with("G4")) {
+            next += 1;
+        }
+        // The feed stood in the path's first line, which may not be drawn again.
+        if let (Some(line), Some(feed)) = (lines.get(next).filter(|line| word(line, 'X').is_some()), self.feed)
+            && word(line, 'F').is_none()
+        {
+            let _ = writeln!(rest, "{line} F{feed}");
+            next += 1;
+        }
+        next
+    }
+}
+
+fn number(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "(drypoint)\n(pen up is M3 S300)\n(pen down is M3 S700)\nG21\nM3 S300\nG4 P0.15\n(pen 1: dots 0.3)\nG0 X1 Y1\nM3 S700\nG4 P0.2\n\
+                        G1 X5 Y1 F3000\nG1 X10 Y1\nG1 X10 Y9\nM3 S300\nG4 P0.15\nG0 X0 Y0\n(pen 2: red 0.5)\nM0\nG0 X2 Y2\nM3 S700\nG4 P0.2\nM3 S300\nG4 P0.15\nG0 X0 Y0\n";
+
+    #[test]
+    fn in_a_path_it_goes_back_a_little_with_the_feed() {
+        let rest = resume_gcode(FILE, Stop::Line(13), 3.0).unwrap();
+        let expected = "(drypoint)\n(pen up is M3 S300)\n(pen down is M3 S700)\nG21\nM3 S300\nG4 P0.15\n(pen 1: dots 0.3)\n\
+                        G0 X5 Y1\nM3 S700\nG4 P0.2\nG1 X10 Y1 F3000\nG1 X10 Y9\nM3 S300\n";
+        assert!(rest.starts_with(expected), "{rest}");
+        assert!(rest.ends_with("G0 X0 Y0\n"));
+    }
+
+    #[test]
+    fn between_paths_it_says_the_pen_and_waits() {
+        let rest = resume_gcode(FILE, Stop::Line(19), 3.0).unwrap();
+        assert_eq!(rest.matches("(pen 2: red 0.5)\nM0\n").count(), 1, "{rest}");
+        assert_eq!(rest.matches("\nM3 S700").count(), 1);
+        assert_eq!(resume_gcode(FILE, Stop::Line(2), 3.0).unwrap(), FILE);
+        assert_eq!(resume_gcode(FILE, Stop::Path(2), 3.0).unwrap().matches("\nM3 S700").count(), 1);
+    }
+
+    #[test]
+    fn faults_are_named() {
+        assert!(matches!(resume_gcode(FILE, Stop::Line(900), 3.0), Err(ResumeError::Beyond { .. })));
+        assert!(matches!(resume_gcode(FILE, Stop::Path(3), 3.0), Err(ResumeError::Beyond { .. })));
+        assert_eq!(resume_gcode("G21\nG0 X1\n", Stop::Line(1), 3.0), Err(ResumeError::NoPen));
+    }
+}

@@ -1,0 +1,229 @@
+//! HP-GL: instructions that end with a semicolon, absolute after each pen-up move.
+
+use super::{ResumeError, Stop};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// The rest of an HP-GL file from the place that was not taken; `again` is how many plotter units are drawn again. A path packed with
+/// `PE` is drawn again from its start.
+pub fn resume_hpgl(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+    let instructions = instructions(text);
+    let byte = byte_of(text, &instructions, stop)?;
+    let Some(first_pen) = instructions.iter().find(|i| i.name == "SP").filter(|first| byte > first.start) else {
+        return Ok(text.to_owned());
+    };
+    let mut state = State::default();
+    for instruction in instructions.iter().take_while(|i| i.end <= byte) {
+        state.take(instruction, instruction.numbers.len());
+    }
+    let open = instructions.iter().find(|i| i.start < byte && byte < i.end);
+    // Inside a list of points: those before the byte are done.
+    if let Some(open) = open.filter(|open| matches!(open.name, "PD" | "PA" | "PU")) {
+        let done = open.numbers.iter().take_while(|(_, end)| *end <= byte).count() & !1;
+        if done > 0 {
+            state.take(open, done);
+        }
+    }
+    let mut rest = text[..first_pen.start].to_owned();
+    state.restore_pen(&mut rest);
+    let next = instructions.iter().find(|i| i.end > byte).map_or(text.len(), |i| i.start);
+    if state.is_down && !state.path.is_empty() {
+        state.restore_path(&mut rest, text, again);
+    } else {
+        if let Some((x, y)) = state.at {
+            let _ = write!(rest, "PU{},{};", x.round(), y.round());
+        }
+        rest.push_str(&text[next..]);
+    }
+    Ok(rest)
+}
+
+fn byte_of(text: &str, instructions: &[Instruction], stop: Stop) -> Result<usize, ResumeError> {
+    let beyond = |stop: String, count: String| Err(ResumeError::Beyond { stop, count });
+    match stop {
+        Stop::Byte(byte) if byte >= text.len() => beyond(format!("byte {byte}"), format!("{} bytes", text.len())),
+        Stop::Byte(byte) => Ok(byte),
+        Stop::Line(line) => {
+            let starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+            match starts.get(line.max(1) - 1).filter(|start| **start < text.len()) {
+                Some(start) => Ok(*start),
+                None => beyond(format!("line {line}"), format!("{} lines", text.lines().count())),
+            }
+        }
+        Stop::Path(path) => {
+            let mut is_down = false;
+            let falls = instructions.iter().filter(|i| {
+                let falls = !is_down && matches!(i.name, "PD" | "PE");
+                is_down = if matches!(i.name, "PU" | "PE" | "SP" | "IN") { false } else { is_down || i.name == "PD" };
+                falls
+            });
+            let starts: Vec<usize> = falls.map(|i| i.start).collect();
+            match starts.get(path.max(1) - 1) {
+                Some(start) => Ok(*start),
+                None => beyond(format!("path {path}"), format!("{} paths", starts.len())),
+            }
+        }
+    }
+}
+
+/// One instruction with its bytes, and each number with the byte behind it.
+struct Instruction<'a> {
+    name: &'a str,
+    text: &'a str,
+    start: usize,
+    end: usize,
+    numbers: Vec<(f64, usize)>,
+}
+
+/// The instructions from `IN` on; what is before is for the interface.
+fn instructions(text: &str) -> Vec<Instruction<'_>> {
+    let mut found = Vec::new();
+    let mut start = text.find("IN").unwrap_or(0);
+    while let Some(length) = text[start..].find(';') {
+        let end = start + length + 1;
+        let blank = text[start..end].len() - text[start..end].trim_start().len();
+        let from = start + blank;
+        let body = &text[from..end];
+        if body.len() > 2 && body.is_char_boundary(2) {
+            let name = &body[..2];
+            let numbers = if name == "PE" { Vec::new() } else { numbers(&body[2..], from + 2) };
+            found.push(Instruction { name, text: body, start: from, end, numbers });
+        }
+        start = end;
+    }
+    found
+}
+
+fn numbers(body: &str, offset: usize) -> Vec<(f64, usize)> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    for (i, c) in body.char_indices() {
+        if c == ',' || c == ';' || c == ' ' {
+            if let Ok(number) = body[start..i].trim().parse() {
+                found.push((number, offset + i + 1));
+            }
+            start = i + 1;
+        }
+    }
+    found
+}
+
+/// A vertex of the path being drawn, and the byte at which the file goes on from there.
+#[derive(Clone, Copy)]
+struct Vertex {
+    at: (f64, f64),
+    next: usize,
+    /// Whether more points of the same instruction follow.
+    is_inside: bool,
+}
+
+#[derive(Default)]
+struct State<'a> {
+    at: Option<(f64, f64)>,
+    is_down: bool,
+    pen: Option<&'a str>,
+    /// Speed, force, acceleration and the like as they were set last.
+    set: BTreeMap<&'a str, &'a str>,
+    path: Vec<Vertex>,
+}
+
+impl<'a> State<'a> {
+    /// Takes an instruction, of a list of points only so many numbers.
+    fn take(&mut self, instruction: &Instruction<'a>, numbers: usize) {
+        match instruction.name {
+            "SP" => (self.pen, self.is_down) = (Some(instruction.text), false),
+            "VS" | "FS" | "AS" => {
+                self.set.insert(instruction.name, instruction.text);
+            }
+            "PU" => self.is_down = false,
+            "PD" if !self.is_down => {
+                self.is_down = true;
+                let at = self.at.unwrap_or_default();
+                // The first vertex: the file goes on with this very instruction.
+                self.path = vec![Vertex { at, next: instruction.start, is_inside: false }];
+            }
+            "PE" => self.path.clear(),
+            "AA" => self.turn(instruction),
+            _ => {}
+        }
+        if !matches!(instruction.name, "PU" | "PD" | "PA") {
+            return;
+        }
+        for pair in instruction.numbers[..numbers].chunks_exact(2) {
+            let at = (pair[0].0, pair[1].0);
+            self.at = Some(at);
+            if self.is_down {
+                self.path.push(Vertex { at, next: pair[1].1, is_inside: pair[1].1 < instruction.end });
+            }
+        }
+    }
+
+    /// An arc's end, which the next absolute point makes exact.
+    fn turn(&mut self, arc: &Instruction) {
+        let (Some(at), [(x, _), (y, _), (degrees, _), ..]) = (self.at, &arc.numbers[..]) else { return };
+        let ((sin, cos), (dx, dy)) = (degrees.to_radians().sin_cos(), (at.0 - x, at.1 - y));
+        let end = (x + dx * cos - dy * sin, y + dx * sin + dy * cos);
+        self.at = Some(end);
+        if self.is_down {
+            self.path.push(Vertex { at: end, next: arc.end, is_inside: false });
+        }
+    }
+
+    fn restore_pen(&self, rest: &mut String) {
+        rest.push_str("PU;");
+        self.pen.into_iter().chain(self.set.values().copied()).for_each(|text| rest.push_str(text));
+    }
+
+    /// Goes back a few units along the path and goes on from there with the pen down.
+    fn restore_path(&self, rest: &mut String, text: &str, again: f64) {
+        let mut length = 0.0;
+        let mut first = self.path.len() - 1;
+        while first > 0 && length < again {
+            let (a, b) = (self.path[first - 1].at, self.path[first].at);
+            length += (a.0 - b.0).hypot(a.1 - b.1);
+            first -= 1;
+        }
+        let start = self.path[first];
+        let _ = write!(rest, "PU{},{};", start.at.0.round(), start.at.1.round());
+        match (start.is_inside, text[start.next..].starts_with("PD")) {
+            (true, _) => rest.push_str("PD"),
+            (false, false) => rest.push_str("PD;"),
+            (false, true) => {}
+        }
+        rest.push_str(&text[start.next..]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "IN;PU;PS4;SP1;VS30;FS2;PU100,100;PD200,100,300,100;PD300,200,300,300;PU500,500;PD;PU;SP2;VS10;FS2;PU600,600;PD700,700;PU;PU0,7721;SP0;\n";
+
+    fn at(text: &str) -> usize {
+        FILE.find(text).unwrap()
+    }
+
+    #[test]
+    fn in_a_path_it_goes_back_a_little() {
+        let rest = resume_hpgl(FILE, Stop::Byte(at("300,300;PU500")), 120.0).unwrap();
+        assert!(rest.starts_with("IN;PU;PS4;PU;SP1;FS2;VS30;PU200,100;PD300,100;PD300,200,300,300;PU500,500;"), "{rest}");
+        let start = resume_hpgl(FILE, Stop::Byte(at("200,100")), 120.0).unwrap();
+        assert!(start.contains("VS30;PU100,100;PD200,100,300,100;"), "{start}");
+    }
+
+    #[test]
+    fn the_pen_in_use_is_fetched() {
+        let rest = resume_hpgl(FILE, Stop::Path(3), 120.0).unwrap();
+        assert!(rest.starts_with("IN;PU;PS4;PU;SP2;FS2;VS10;PU600,600;PD700,700;"), "{rest}");
+        assert_eq!(resume_hpgl(FILE, Stop::Byte(3), 120.0).unwrap(), FILE);
+        assert!(resume_hpgl(FILE, Stop::Path(2), 120.0).unwrap().contains("VS30;PU500,500;PD;PU;SP2;"));
+    }
+
+    #[test]
+    fn beyond_the_end_is_refused() {
+        for stop in [Stop::Byte(4000), Stop::Line(9), Stop::Path(4)] {
+            assert!(matches!(resume_hpgl(FILE, stop, 120.0), Err(ResumeError::Beyond { .. })), "{stop:?}");
+        }
+    }
+}

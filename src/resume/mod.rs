@@ -1,0 +1,41 @@
+//! The rest of a machine's file, made safe to start in the middle: state, pen and position restored, the last few millimetres drawn
+//! again.
+//!
+//! In: the text of an HP-GL or G-code file that drypoint wrote, and the place where the machine stopped. Out: the text to send instead.
+
+mod gcode;
+mod hpgl;
+
+pub use gcode::resume_gcode;
+pub use hpgl::resume_hpgl;
+
+use thiserror::Error;
+
+/// Where a machine stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The line that it did not finish, from 1, as a sender shows it.
+    Line(usize),
+    /// The byte that it did not take, from 0.
+    Byte(usize),
+    /// The pen-down path that it did not finish, from 1, in the order of the file.
+    Path(usize),
+}
+
+/// Why a file cannot be resumed.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum ResumeError {
+    /// Nothing is left to do there.
+    #[error("{stop} lies beyond the last drawn path of the file; it has {count}")]
+    Beyond {
+        /// What was asked for, in words.
+        stop: String,
+        /// How many lines, bytes or paths there are, in words.
+        count: String,
+    },
+    /// The commands for pen up and pen down are not known.
+    #[error(
+        "the file does not say how the pen is lifted: its header needs the comments 'pen up is ...' and 'pen down is ...', as in files that drypoint writes"
+    )]
+    NoPen,
+}
