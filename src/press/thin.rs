@@ -3,7 +3,7 @@
 use super::Press;
 use super::line::Broken;
 use crate::drawing::Mark;
-use crate::geometry::{Point, blue_noise_order};
+use crate::geometry::{Point, thinned};
 
 /// What becomes of one mark.
 pub(super) enum Plan {
@@ -23,15 +23,10 @@ pub(super) struct Speck {
     pub mark: Mark,
 }
 
-/// The marks of a layer in painting order, thinned out: a speck stands for its neighbours when its rank in blue-noise order is
-/// below its share, so that of specks with one share that share is left, evenly spread.
+/// The marks of a layer in painting order, thinned out: specks stay in blue-noise order, everywhere as many as their shares add up to.
 pub(super) fn settled(plans: Vec<Plan>, press: &Press) -> Vec<Mark> {
-    let candidates: Vec<(Point, f64)> = plans.iter().flat_map(candidates).collect();
-    let places: Vec<Point> = candidates.iter().map(|(at, _)| *at).collect();
-    let mut is_kept = vec![false; candidates.len()];
-    for (rank, i) in blue_noise_order(&places).into_iter().enumerate() {
-        is_kept[i] = (rank as f64 + 0.5) / (candidates.len() as f64) < candidates[i].1;
-    }
+    let (places, shares): (Vec<Point>, Vec<f64>) = plans.iter().flat_map(candidates).unzip();
+    let is_kept = thinned(&places, &shares);
     let mut is_kept = is_kept.into_iter();
     let mut marks = Vec::with_capacity(plans.len());
     for plan in plans {
