@@ -84,7 +84,7 @@ fn every_mark() -> Drawing {
 
 /// A PGM as the white fraction of each pixel.
 fn read_pgm(bytes: &[u8]) -> Raster<f32> {
-    let mut fields = bytes.splitn(4, |b| b.is_ascii_whitespace());
+    let mut fields = bytes.splitn(4, u8::is_ascii_whitespace);
     assert_eq!(fields.next(), Some(&b"P5"[..]));
     let mut number = || std::str::from_utf8(fields.next().unwrap()).unwrap().parse::<usize>().unwrap();
     let (width, height) = (number(), number());
@@ -248,7 +248,9 @@ fn pressed(drawing: &Drawing, spread: f64) -> Drawing {
                 }
             }
             Mark::Stroke(Stroke { width: Width::Along(widths), .. }) => {
-                widths.iter_mut().for_each(|width| *width += 2.0 * spread)
+                for width in widths {
+                    *width += 2.0 * spread;
+                }
             }
             Mark::Area(_) => panic!("no areas here"),
         }

@@ -66,8 +66,21 @@ mod tests {
                 Rect::new(6.0 * f64::from(column), 6.0 * f64::from(row), 6.0 * f64::from(column + 1), 6.0 * f64::from(row + 1));
             let inside = || (0..points.len()).filter(|&i| patch.contains(points[i]));
             let (kept, asked) = (inside().filter(|&i| stays[i]).count() as f64, inside().map(|i| shares[i]).sum::<f64>());
-            assert!((kept - asked).abs() < 1.5 + 0.03 * asked, "{patch:?}: {kept} of {asked}");
+            assert!((kept - asked).abs() < 4.0 + 0.02 * asked, "{patch:?}: {kept} of {asked}");
         }
+    }
+
+    #[test]
+    fn sparse_places_are_not_spared() {
+        let sparse = (0..400).map(|i| Point::new(f64::from(i % 20), f64::from(i / 20)));
+        let dense = (0..3600).map(|i| Point::new(30.0 + f64::from(i % 60) / 3.0, f64::from(i / 60) / 3.0));
+        let points: Vec<Point> = sparse.chain(dense).collect();
+        let stays = thinned(&points, &[0.4; 4000]);
+        let kept = stays[..400].iter().filter(|stays| **stays).count();
+        assert!((155..=165).contains(&kept), "{kept} of 160");
+        // By their ranks alone nearly all of the sparse ones would stay.
+        let by_rank = blue_noise_order(&points)[..1600].iter().filter(|&&i| i < 400).count();
+        assert!(by_rank > 200, "{by_rank}");
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(super) fn plan(area: &Area, press: &Press) -> Plan {
     let radius = press.least_printed_radius();
     let core = shape.grown(-radius);
     let outline = core.grown(0.5 * press.least).path();
-    let kept = (!outline.elements().is_empty()).then(|| Mark::Area(Area { outline, colour: area.colour }));
+    let kept = (!outline.elements().is_empty()).then_some(Mark::Area(Area { outline, colour: area.colour }));
     let disc = PI * radius * radius;
     let mut specks = Vec::new();
     for rings in shape.without(&core.grown(radius)).shapes() {

@@ -43,7 +43,7 @@ pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {
     let step = (least * DASH_WIDTHS / SAMPLES_A_DASH).min(LONGEST_STEP);
     let (points, widths) = stroke.sampled(step);
     let length = polyline_length(&points);
-    if length < least && stroke.widest() < least {
+    if points.len() < 2 || length < least && stroke.widest() < least {
         return speck(stroke, &points, &widths, press);
     }
     let mut pieces = pieces(&points, &widths, least);
@@ -53,8 +53,13 @@ pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {
 
 /// A thin stroke that is shorter than it would have to be wide.
 fn speck(stroke: &Stroke, points: &[Point], widths: &[f64], press: &Press) -> Plan {
-    let Some(&at) = points.get(points.len() / 2) else { return Plan::Specks(None, Vec::new()) };
-    let caps = if stroke.ends == Ends::Round { PI / 4.0 * widths[0] * widths[widths.len() - 1] } else { 0.0 };
+    // A touch has no length, and so no samples.
+    let touch = match stroke.curve.elements().first() {
+        Some(kurbo::PathEl::MoveTo(at)) => Some(*at),
+        _ => None,
+    };
+    let Some(at) = points.get(points.len() / 2).copied().or(touch) else { return Plan::Specks(None, Vec::new()) };
+    let caps = if stroke.ends == Ends::Round { PI / 4.0 * stroke.widest().powi(2) } else { 0.0 };
     let share = (ink(points, widths) + caps) / (PI * press.least_printed_radius().powi(2));
     let mark = Mark::Dot(Dot { colour: stroke.colour, ..Dot::circle(at, 0.5 * press.least) });
     Plan::Specks(None, vec![Speck { at, share, mark }])
@@ -133,10 +138,10 @@ impl Broken {
     /// The pieces from `first` up to `end` as one stroke.
     fn joined(&self, first: usize, end: usize, press: &Press) -> Option<Stroke> {
         let pieces = self.pieces.get(first..end).filter(|pieces| !pieces.is_empty())?;
-        let (mut points, mut widths) = (vec![pieces[0].points[0]], vec![self.plate_width(&pieces[0], 0, press)]);
+        let (mut points, mut widths) = (vec![pieces[0].points[0]], vec![pieces[0].plate_width(0, press)]);
         for piece in pieces {
             points.extend(&piece.points[1..]);
-            widths.extend((1..piece.points.len()).map(|i| self.plate_width(piece, i, press)));
+            widths.extend((1..piece.points.len()).map(|i| piece.plate_width(i, press)));
         }
         let is_whole = first == 0 && end == self.pieces.len();
         if !(is_whole && self.stroke.is_closed()) {
@@ -155,13 +160,15 @@ impl Broken {
                 widths.reverse();
             }
         }
-        let (curve, width) = curve(points, widths);
+        let (curve, width) = curve(&points, widths);
         Some(Stroke { curve, width, ..self.stroke.clone() })
     }
+}
 
-    /// What the plate gets at a point of a piece.
-    fn plate_width(&self, piece: &Piece, i: usize, press: &Press) -> f64 {
-        if piece.share.is_some() { press.least } else { (piece.widths[i] - 2.0 * press.spread).max(press.least) }
+impl Piece {
+    /// What the plate gets at one of its points.
+    fn plate_width(&self, i: usize, press: &Press) -> f64 {
+        if self.share.is_some() { press.least } else { (self.widths[i] - 2.0 * press.spread).max(press.least) }
     }
 }
 
@@ -183,13 +190,13 @@ fn trim(points: &mut Vec<Point>, widths: &mut Vec<f64>, mut length: f64) {
 }
 
 /// A dash of one width as a polyline, a swelling stroke as a spline.
-fn curve(points: Vec<Point>, widths: Vec<f64>) -> (BezPath, Width) {
+fn curve(points: &[Point], widths: Vec<f64>) -> (BezPath, Width) {
     if widths.iter().all(|width| *width == widths[0]) {
         let mut curve = BezPath::new();
-        let points = simplify(&points, DASH_TOLERANCE);
+        let points = simplify(points, DASH_TOLERANCE);
         curve.move_to(points[0]);
         points[1..].iter().for_each(|p| curve.line_to(*p));
         return (curve, Width::Constant(widths[0]));
     }
-    (catmull_rom(&points, false), Width::Along(widths))
+    (catmull_rom(points, false), Width::Along(widths))
 }

@@ -116,3 +116,19 @@ fn holes_in_the_ink_are_made_larger() {
     let Mark::Dot(dot) = &plate.layers[0].marks[0] else { panic!("a dot") };
     assert!((dot.radius - 0.1 - press.spread()).abs() < 1e-12);
 }
+
+#[test]
+fn touches_and_empty_strokes_are_dots_and_nothing() {
+    let touch = |i: i32| {
+        let mut curve = BezPath::new();
+        curve.move_to((f64::from(i % 20), f64::from(i / 20)));
+        curve.line_to((f64::from(i % 20), f64::from(i / 20)));
+        Mark::Stroke(Stroke::new(curve, Width::Constant(0.05)))
+    };
+    let mut marks: Vec<Mark> = (0..400).map(touch).collect();
+    marks.push(Mark::Stroke(Stroke::new(BezPath::new(), Width::Constant(0.05))));
+    marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M1,1").unwrap(), Width::Along(vec![0.3]))));
+    let plate = Press::new(0.0, 60.0, 0.1).compensated(&drawing(marks));
+    let [dots, strokes, _] = plate.layers[0].counts();
+    assert!((98..=102).contains(&dots) && strokes <= 2, "a quarter of the touches: {dots}, {strokes}");
+}

@@ -15,9 +15,9 @@ pub(super) fn space_name(i: usize) -> String {
 /// What a mark is painted with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
-    /// DeviceGray: the black plate alone.
+    /// `DeviceGray`: the black plate alone.
     Grey(u8),
-    /// DeviceRGB.
+    /// `DeviceRGB`.
     Rgb(Colour),
     /// A spot ink in full, by its number; `overprints` when what lies below stays.
     Spot { number: usize, overprints: bool },

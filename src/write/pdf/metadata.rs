@@ -62,7 +62,7 @@ fn escaped(text: &str) -> String {
 
 /// Year, month, day, hour, minute and second of a time in seconds since 1970, at most the year 9999.
 fn date(seconds: u64) -> [u64; 6] {
-    let is_leap = |year: u64| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let is_leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
     let (mut day, time) = (seconds / 86_400, seconds % 86_400);
     let mut year = 1970;
     while year < 9999 && day >= 365 + u64::from(is_leap(year)) {

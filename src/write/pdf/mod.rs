@@ -6,7 +6,7 @@
 //! contents  /OC /L0 BDC q (ink) marks Q EMC          one such block a layer
 //! ```
 //!
-//! Ink `k` is DeviceGray, which a press puts on the black plate alone; `spot:NAME` is a Separation; colours are DeviceRGB
+//! Ink `k` is `DeviceGray`, which a press puts on the black plate alone; `spot:NAME` is a Separation; colours are `DeviceRGB`
 //! (ISO 32000-1, 8.6).
 
 mod content;
@@ -182,7 +182,9 @@ fn graphics_states(chunk: &mut Chunk) {
 /// The same drawing gets the same identifier.
 fn identifier(streams: &[Vec<u8>], packet: &str) -> Vec<u8> {
     let mut hash = Sha256::new();
-    streams.iter().for_each(|stream| hash.update(stream));
+    for stream in streams {
+        hash.update(stream);
+    }
     hash.update(packet);
     hash.finalize()[..16].to_vec()
 }
