@@ -66,7 +66,8 @@ mod tests {
                 Rect::new(6.0 * f64::from(column), 6.0 * f64::from(row), 6.0 * f64::from(column + 1), 6.0 * f64::from(row + 1));
             let inside = || (0..points.len()).filter(|&i| patch.contains(points[i]));
             let (kept, asked) = (inside().filter(|&i| stays[i]).count() as f64, inside().map(|i| shares[i]).sum::<f64>());
-            assert!((kept - asked).abs() < 4.0 + 0.02 * asked, "{patch:?}: {kept} of {asked}");
+            // A part of 32 points may lie across the border of a patch.
+            assert!((kept - asked).abs() < 8.0 + 0.03 * asked, "{patch:?}: {kept} of {asked}");
         }
     }
 
