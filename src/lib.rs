@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! bytes --source--> Portrait --style--> Drawing --plot--> Plot --write--> SVG | HP-GL | G-code
-//!                      |  ^                 \---------------write--> SVG (print)
+//!                      |  ^                 \---press-------write--> SVG | PDF (print)
 //!                      raster, field                          ^--read-- SVG
 //! ```
 //!
@@ -14,6 +14,7 @@
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
+//! | [`press`] | a drawing, a press's dot gain and smallest mark | the drawing to print, so that the tone comes out |
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
 //! | [`mod@write`] | a drawing or a plot | bytes |
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
@@ -49,6 +50,7 @@ pub mod drawing;
 pub mod field;
 pub mod geometry;
 pub mod plot;
+pub mod press;
 pub mod raster;
 pub mod read;
 pub mod resume;

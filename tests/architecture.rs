@@ -11,6 +11,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("source", &["raster", "geometry", "drawing"]),
     ("field", &["raster", "geometry"]),
     ("style", &["field", "raster", "drawing", "geometry", "source"]),
+    ("press", &["drawing", "geometry"]),
     ("plot", &["drawing", "geometry"]),
     ("write", &["drawing", "geometry", "plot"]),
     ("read", &["drawing", "geometry"]),

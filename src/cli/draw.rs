@@ -9,9 +9,10 @@ use super::toolpaths::{self, Prepared};
 use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Nibs, Profile, coverage, lower, mount, occluded};
+use crate::press::Press;
 use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
-use crate::write::{SvgHead, write_svg};
+use crate::write::{SvgHead, write_pdf, write_svg};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -22,6 +23,7 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
     }
     let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
+    let press = press(options)?;
     limit_threads(options.picture.threads)?;
     let watcher = Watcher::new(options.reporting.quiet);
     let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
@@ -31,6 +33,10 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
         layer.ink = options.ink.clone();
     }
     drawing.layers = chosen(drawing.layers, &options.layers)?;
+    if let Some(press) = press {
+        watcher.begin("press");
+        drawing = press.compensated(&drawing);
+    }
     watcher.begin("writing");
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&drawing, &options.output);
@@ -58,7 +64,11 @@ fn write_one(
     head: &SvgHead,
 ) -> Result<Option<Prepared>, Failure> {
     if profile.is_none() {
-        let fill = |mut out: &mut dyn std::io::Write| write_svg(drawing, head, &mut out);
+        let date = output::source_date()?;
+        let fill = |mut out: &mut dyn std::io::Write| match format {
+            Format::Pdf => write_pdf(drawing, head, date, &mut out),
+            _ => write_svg(drawing, head, &mut out),
+        };
         if options.dry_run {
             toolpaths::discard(fill)?;
         } else {
@@ -78,6 +88,17 @@ fn write_one(
         toolpaths::write(name, format, &prepared, profile, head)?;
     }
     Ok(Some(prepared))
+}
+
+/// What the press does to ink, when something is to be done about it.
+fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
+    if options.dot_gain == 0.0 && options.min_mark == 0.0 {
+        return Ok(None);
+    }
+    if options.profile.is_some() {
+        return Err(Failure::Usage("--dot-gain and --min-mark are for print; a plotter's nib is set with --pen".to_owned()));
+    }
+    Ok(Some(Press::new(options.dot_gain, options.dot_gain_screen, options.min_mark)))
 }
 
 /// Everything that decides a drawing.
@@ -171,6 +192,9 @@ impl<'a> Task<'a> {
             "black": picture.black,
             "white": picture.white,
             "pen_mm": options.pen,
+            "min_mark_mm": options.min_mark,
+            "dot_gain": options.dot_gain,
+            "dot_gain_screen": options.dot_gain_screen,
             "ink": options.ink.to_string(),
             "layers": options.layers,
             "profile": options.profile.as_deref().map(file_name),

@@ -86,6 +86,16 @@ fn follow_links(path: &Path) -> PathBuf {
     path
 }
 
+/// The only date that may get into a file: seconds since 1970 from `SOURCE_DATE_EPOCH`.
+pub(super) fn source_date() -> Result<Option<u64>, Failure> {
+    match std::env::var_os("SOURCE_DATE_EPOCH").filter(|text| !text.is_empty()) {
+        None => Ok(None),
+        Some(text) => text.to_str().and_then(|text| text.parse().ok()).map(Some).ok_or_else(|| {
+            Failure::Usage(format!("SOURCE_DATE_EPOCH is '{}'; it must be whole seconds since 1970", text.to_string_lossy()))
+        }),
+    }
+}
+
 /// Writes data to stdout.
 pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     write("-", |out| out.write_all(bytes))

@@ -1,6 +1,6 @@
 //! `drypoint plot`: any SVG to ordered tool paths.
 
-use super::arguments::{InkModelOption, PlotFit, PlotOptions, Rotate};
+use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::{layout, output, toolpaths};
@@ -13,6 +13,9 @@ use serde_json::json;
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
+    if format == Format::Pdf {
+        return Err(Failure::Usage("plot writes tool paths, as .svg or for a machine; `drypoint draw` writes PDF".to_owned()));
+    }
     if options.reporting.json && options.output == "-" {
         return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }

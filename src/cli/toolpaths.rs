@@ -21,11 +21,12 @@ pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Fa
     let extension = std::path::Path::new(name).extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     match extension.as_str() {
         "svg" => Ok(Format::Svg),
+        "pdf" => Ok(Format::Pdf),
         "hpgl" | "plt" => Ok(Format::Hpgl),
         "gcode" | "nc" | "ngc" => Ok(Format::Gcode),
-        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, hpgl or gcode".to_owned())),
+        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, pdf, hpgl or gcode".to_owned())),
         _ => Err(Failure::Usage(format!(
-            "the format of {name} is not known by its extension; use .svg, .hpgl, .plt, .gcode, .nc or .ngc, or --format"
+            "the format of {name} is not known by its extension; use .svg, .pdf, .hpgl, .plt, .gcode, .nc or .ngc, or --format"
         ))),
     }
 }
@@ -62,7 +63,12 @@ fn told_speed(profile: &Profile, speed: f64) -> f64 {
 /// Refuses a format that the profile's machine does not read.
 pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Result<(), Failure> {
     let needed = match format {
-        Format::Svg => return Ok(()),
+        Format::Pdf if profile.is_some() => {
+            return Err(Failure::Usage(
+                "PDF is for print, not for a plotter; leave out --profile, or write its own format".to_owned(),
+            ));
+        }
+        Format::Svg | Format::Pdf => return Ok(()),
         Format::Hpgl => Language::Hpgl,
         Format::Gcode => Language::Gcode,
     };

@@ -78,7 +78,8 @@ impl FromStr for Ink {
 
     fn from_str(text: &str) -> Result<Self, ColourError> {
         match text.strip_prefix("spot:") {
-            Some("") => Err(ColourError(text.to_owned())),
+            // In print files these two stand for every plate and for none.
+            Some("" | "All" | "None") => Err(ColourError(text.to_owned())),
             Some(name) => Ok(Self::Spot(name.to_owned())),
             None if text.eq_ignore_ascii_case("k") => Ok(Self::Black),
             None => text.parse().map(Self::Colour),
@@ -96,7 +97,7 @@ mod tests {
         assert_eq!("spot:PANTONE 286 C".parse(), Ok(Ink::Spot("PANTONE 286 C".into())));
         assert_eq!("navy".parse(), Ok(Ink::Colour(Colour { r: 0, g: 0, b: 128 })));
         assert!("purplish".parse::<Ink>().is_err());
-        assert!("spot:".parse::<Ink>().is_err());
+        assert!("spot:".parse::<Ink>().is_err() && "spot:All".parse::<Ink>().is_err());
         assert_eq!(Ink::Colour(Colour { r: 1, g: 2, b: 255 }).to_string(), "#0102ff");
     }
 }

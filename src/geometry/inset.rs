@@ -1,4 +1,4 @@
-//! Offsetting outlines inwards.
+//! Offsetting outlines, inwards and outwards.
 
 use super::polyline::flatten;
 use i_overlay::core::fill_rule::FillRule;
@@ -8,7 +8,7 @@ use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 use kurbo::{BezPath, Point};
 
-/// A filled outline made ready to be shrunk again and again.
+/// A filled outline made ready to be shrunk again and again, or grown.
 #[derive(Clone, Debug)]
 pub struct Insets {
     shapes: Vec<Vec<Vec<[f64; 2]>>>,
@@ -28,10 +28,46 @@ impl Insets {
 
     /// The rings that lie `distance` inside the border, holes' rings too; empty where nothing is that far inside.
     pub fn rings(&self, distance: f64) -> Vec<Vec<Point>> {
-        let style = OutlineStyle::new(-distance).line_join(LineJoin::Round(0.3));
-        let shapes = self.shapes.outline(&style);
-        shapes.into_iter().flatten().map(|ring| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect()).collect()
+        self.grown(-distance).shapes.iter().flatten().map(|ring| points(ring)).collect()
     }
+
+    /// The outline with its border moved outwards by `distance` (inwards when it is negative), round at corners.
+    #[must_use]
+    pub fn grown(&self, distance: f64) -> Self {
+        let style = OutlineStyle::new(distance).line_join(LineJoin::Round(0.3));
+        Self { shapes: self.shapes.outline(&style) }
+    }
+
+    /// What of this lies outside `other`.
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        Self { shapes: self.shapes.overlay(&other.shapes, OverlayRule::Difference, FillRule::NonZero) }
+    }
+
+    /// Each connected shape as its rings: the border and, turning the other way, its holes.
+    pub fn shapes(&self) -> impl Iterator<Item = Vec<Vec<Point>>> + '_ {
+        self.shapes.iter().map(|shape| shape.iter().map(|ring| points(ring)).collect())
+    }
+
+    /// As closed subpaths, to be filled by the nonzero rule.
+    pub fn path(&self) -> BezPath {
+        let mut path = BezPath::new();
+        for ring in self.shapes.iter().flatten() {
+            for (i, &[x, y]) in ring.iter().enumerate() {
+                if i == 0 {
+                    path.move_to((x, y));
+                } else {
+                    path.line_to((x, y));
+                }
+            }
+            path.close_path();
+        }
+        path
+    }
+}
+
+fn points(ring: &[[f64; 2]]) -> Vec<Point> {
+    ring.iter().map(|&[x, y]| Point::new(x, y)).collect()
 }
 
 impl Insets {

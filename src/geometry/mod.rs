@@ -12,6 +12,7 @@ mod polyline;
 mod region;
 mod smooth;
 mod swell;
+mod thinning;
 
 pub use blob::blob;
 pub use blue_noise::blue_noise_order;
@@ -23,5 +24,6 @@ pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, 
 pub use region::Region;
 pub use smooth::{catmull_rom, smooth_polyline};
 pub use swell::{Ends, curve_length, sample_swelling, swelling_outline};
+pub use thinning::thinned;
 
 pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};

@@ -102,8 +102,15 @@ fn document(page: &Page, head: &SvgHead) -> SVG {
         let mut recipe = Element::new("drypoint:recipe");
         recipe.assign("xmlns:drypoint", "urn:drypoint");
         recipe.append(svg::node::Text::new(head.recipe.as_str()));
+        // In RDF, the one vocabulary that checkers of SVG let into metadata.
+        let mut description = Element::new("rdf:Description");
+        description.assign("rdf:about", "");
+        description.append(recipe);
+        let mut rdf = Element::new("rdf:RDF");
+        rdf.assign("xmlns:rdf", "http://www.w3.org/1999/02/22-rdf-syntax-ns#");
+        rdf.append(description);
         let mut metadata = Element::new("metadata");
-        metadata.append(recipe);
+        metadata.append(rdf);
         document.append(metadata);
     }
     if page.paper != Colour::WHITE {

@@ -1,0 +1,54 @@
+//! Marks too small for print: which of them stay, and what they become.
+
+use super::Press;
+use super::line::Broken;
+use crate::drawing::Mark;
+use crate::geometry::{Point, thinned};
+
+/// What becomes of one mark.
+pub(super) enum Plan {
+    /// It is printed, with its size corrected.
+    Whole(Mark),
+    /// What of it is large enough, and what stands for the rest.
+    Specks(Option<Mark>, Vec<Speck>),
+    /// A line of which some is too thin.
+    Broken(Broken),
+}
+
+/// A smallest mark that may be printed in a place where less ink is wanted.
+pub(super) struct Speck {
+    pub at: Point,
+    /// The ink that is wanted there, in smallest marks.
+    pub share: f64,
+    pub mark: Mark,
+}
+
+/// The marks of a layer in painting order, thinned out: specks stay in blue-noise order, everywhere as many as their shares add up to.
+pub(super) fn settled(plans: Vec<Plan>, press: &Press) -> Vec<Mark> {
+    let (places, shares): (Vec<Point>, Vec<f64>) = plans.iter().flat_map(candidates).unzip();
+    let is_kept = thinned(&places, &shares);
+    let mut is_kept = is_kept.into_iter();
+    let mut marks = Vec::with_capacity(plans.len());
+    for plan in plans {
+        match plan {
+            Plan::Whole(mark) => marks.push(mark),
+            Plan::Specks(whole, specks) => {
+                marks.extend(whole);
+                marks.extend(specks.into_iter().zip(&mut is_kept).filter(|(_, kept)| *kept).map(|(speck, _)| speck.mark));
+            }
+            Plan::Broken(broken) => {
+                let kept: Vec<bool> = is_kept.by_ref().take(broken.dashes().count()).collect();
+                marks.extend(broken.strokes(&kept, press).into_iter().map(Mark::Stroke));
+            }
+        }
+    }
+    marks
+}
+
+fn candidates(plan: &Plan) -> Vec<(Point, f64)> {
+    match plan {
+        Plan::Whole(_) => Vec::new(),
+        Plan::Specks(_, specks) => specks.iter().map(|speck| (speck.at, speck.share)).collect(),
+        Plan::Broken(broken) => broken.dashes().collect(),
+    }
+}

@@ -1,0 +1,148 @@
+//! Marks as path operators, in millimetres on the grid of 0.001 mm.
+
+use super::ink::Paint;
+use crate::drawing::{Dot, Drawing, Ends, Layer, Mark, Stroke, Width};
+use crate::geometry::{BezPath, Point};
+use crate::write::{decimal, thousandths};
+use kurbo::PathEl;
+use std::fmt::Write as _;
+
+/// The paper's resource name.
+pub(super) const PAPER: &str = "P";
+/// Bytes after which a new piece of content begins, so that pieces can be compressed side by side.
+const PIECE: usize = 1 << 20;
+/// A disc of radius 1 around the origin. Set down anew for each dot behind the matrix that places it: compressed, a repetition
+/// costs three bytes (100,000 dots are 1.1 MB, against 5.2 MB as curves of their own). A form `XObject` saves a tenth more, but layout
+/// programs wrap each use in a clipped group, and readers take half as long again.
+/// The handles are those that give the disc's exact area, 0.551785 of the radius.
+const DISC: &str = " cm 1 0 m 1 .551785 .551785 1 0 1 c -.551785 1 -1 .551785 -1 0 c -1 -.551785 -.551785 -1 0 -1 c .551785 -1 1 -.551785 1 0 c f Q\n";
+
+/// The resource name of the i-th layer.
+pub(super) fn layer_name(i: usize) -> String {
+    format!("L{i}")
+}
+
+/// The page's content, cut between marks into pieces that belong one after the other.
+pub(super) fn pieces(drawing: &Drawing, spots: &[&str], units_a_mm: f64) -> Vec<String> {
+    let mut writer = Writer { pieces: Vec::new(), text: String::new(), pen: Pen::default() };
+    // From here on lengths are millimetres, y down, from the sheet's upper left corner.
+    let (page, scale) = (&drawing.page, units_a_mm);
+    let _ = writeln!(writer.text, "{scale:.10} 0 0 -{scale:.10} 0 {:.6} cm 1 j", page.height * scale);
+    if super::has_paper(drawing) {
+        let _ = write!(writer.text, "/OC /{PAPER} BDC\nq ");
+        Paint::Rgb(page.paper).select(&mut writer.text, !spots.is_empty());
+        let _ = writeln!(writer.text, "0 0 {} {} re f Q\nEMC", page.width, page.height);
+    }
+    for (i, layer) in drawing.layers.iter().enumerate() {
+        let _ = writeln!(writer.text, "/OC /{} BDC\nq", layer_name(i));
+        writer.pen = Pen::default();
+        for mark in &layer.marks {
+            writer.mark(mark, layer, spots);
+        }
+        writer.text.push_str("Q\nEMC\n");
+    }
+    writer.pieces.push(writer.text);
+    writer.pieces
+}
+
+/// What the reader has been told and need not be told again.
+#[derive(Default)]
+struct Pen {
+    paint: Option<Paint>,
+    width: Option<i64>,
+    ends: Option<Ends>,
+}
+
+struct Writer {
+    pieces: Vec<String>,
+    text: String,
+    pen: Pen,
+}
+
+impl Writer {
+    fn mark(&mut self, mark: &Mark, layer: &Layer, spots: &[&str]) {
+        let paint = Paint::of(layer, mark.colour(), spots);
+        if self.pen.paint != Some(paint) {
+            paint.select(&mut self.text, !spots.is_empty());
+            self.pen.paint = Some(paint);
+        }
+        match mark {
+            Mark::Dot(Dot { outline: Some(outline), .. }) => self.filled(outline),
+            Mark::Dot(Dot { centre, radius, .. }) => self.disc(*centre, *radius),
+            Mark::Stroke(stroke) => match stroke.width {
+                Width::Constant(width) => self.line(stroke, thousandths(width)),
+                Width::Along(_) => self.filled(&stroke.outline().unwrap_or_default()),
+            },
+            Mark::Area(area) => self.filled(&area.outline),
+        }
+        if self.text.len() > PIECE {
+            self.pieces.push(std::mem::take(&mut self.text));
+        }
+    }
+
+    fn disc(&mut self, centre: Point, radius: f64) {
+        let text = &mut self.text;
+        // A digit more than elsewhere: 0.001 mm of a small dot's radius would be a percent of its ink.
+        let radius = (radius * 10_000.0).round() as i64;
+        text.push_str("q ");
+        decimal(text, radius, 4);
+        text.push_str(" 0 0 ");
+        decimal(text, radius, 4);
+        text.push(' ');
+        point(text, centre);
+        text.push_str(DISC);
+    }
+
+    fn line(&mut self, stroke: &Stroke, width: i64) {
+        // A width of 0 would be the device's thinnest line, not none.
+        if width == 0 || stroke.curve.elements().is_empty() {
+            return;
+        }
+        if self.pen.width != Some(width) {
+            decimal(&mut self.text, width, 3);
+            self.text.push_str(" w ");
+            self.pen.width = Some(width);
+        }
+        if self.pen.ends != Some(stroke.ends) {
+            self.text.push_str(if stroke.ends == Ends::Round { "1 J " } else { "0 J " });
+            self.pen.ends = Some(stroke.ends);
+        }
+        path(&mut self.text, &stroke.curve);
+        self.text.push_str("S\n");
+    }
+
+    fn filled(&mut self, outline: &BezPath) {
+        if !outline.elements().is_empty() {
+            path(&mut self.text, outline);
+            self.text.push_str("f\n");
+        }
+    }
+}
+
+fn point(text: &mut String, p: Point) {
+    decimal(text, thousandths(p.x), 3);
+    text.push(' ');
+    decimal(text, thousandths(p.y), 3);
+}
+
+/// Path construction operators; a quadratic curve becomes the cubic that it is.
+fn path(text: &mut String, path: &BezPath) {
+    let mut at = Point::ORIGIN;
+    for element in path.elements() {
+        let (points, operator): (&[Point], &str) = match element {
+            PathEl::MoveTo(p) => (&[*p], " m "),
+            PathEl::LineTo(p) => (&[*p], " l "),
+            PathEl::QuadTo(a, p) => (&[at.lerp(*a, 2.0 / 3.0), p.lerp(*a, 2.0 / 3.0), *p], " c "),
+            PathEl::CurveTo(a, b, p) => (&[*a, *b, *p], " c "),
+            PathEl::ClosePath => (&[], "h "),
+        };
+        for (i, p) in points.iter().enumerate() {
+            if i > 0 {
+                text.push(' ');
+            }
+            point(text, *p);
+            at = *p;
+        }
+        text.push_str(operator);
+    }
+}

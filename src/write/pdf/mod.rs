@@ -1,0 +1,193 @@
+//! PDF for the press: one page at exact size, the drawing's ink as vectors, its layers as optional content. There are no fonts.
+//!
+//! ```text
+//! catalog   optional-content groups, named like the SVG's layers; XMP metadata with the recipe
+//! page      MediaBox = TrimBox = the drawing's page
+//! contents  /OC /L0 BDC q (ink) marks Q EMC          one such block a layer
+//! ```
+//!
+//! Ink `k` is `DeviceGray`, which a press puts on the black plate alone; `spot:NAME` is a Separation; colours are `DeviceRGB`
+//! (ISO 32000-1, 8.6).
+
+mod content;
+mod ink;
+mod metadata;
+
+use crate::drawing::{Colour, Drawing, Ink, Layer};
+use crate::write::SvgHead;
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::types::OverprintMode;
+use pdf_writer::{Chunk, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+use std::io;
+
+/// Points in a millimetre.
+const POINTS_A_MM: f64 = 72.0 / 25.4;
+/// The longest side of a page in units (Acrobat's limit, ISO 32000-1, annex C); on a larger sheet each unit is several points.
+const MOST_UNITS: f64 = 14_400.0;
+/// Of the compressor, 0 to 10: one more saves a percent and takes half as long again.
+const COMPRESSION: u8 = 6;
+
+const CATALOG: Ref = Ref::new(1);
+const PAGES: Ref = Ref::new(2);
+const PAGE: Ref = Ref::new(3);
+const INFO: Ref = Ref::new(4);
+const METADATA: Ref = Ref::new(5);
+const KNOCK_OUT: Ref = Ref::new(6);
+const OVERPRINT: Ref = Ref::new(7);
+const PAPER: Ref = Ref::new(8);
+const FIRST_LAYER: i32 = 9;
+
+/// Writes a drawing with its ink at exact size; `seconds` since 1970 is the date that the file gets, if any.
+///
+/// The ink is that of [`write_svg`](crate::write::write_svg): the same coordinates on the same grid.
+pub fn write_pdf(drawing: &Drawing, head: &SvgHead, seconds: Option<u64>, out: &mut impl io::Write) -> io::Result<()> {
+    let scale = Scale::of(drawing);
+    let spots = spot_names(&drawing.layers);
+    let pieces = content::pieces(drawing, &spots, scale.units_a_mm);
+    let streams: Vec<Vec<u8>> = pieces.par_iter().map(|piece| compress_to_vec_zlib(piece.as_bytes(), COMPRESSION)).collect();
+    let layers: Vec<Ref> = (0..drawing.layers.len()).map(|i| Ref::new(FIRST_LAYER + i as i32)).collect();
+    let contents: Vec<Ref> = (0..streams.len()).map(|i| Ref::new(FIRST_LAYER + (layers.len() + i) as i32)).collect();
+
+    let mut pdf = Pdf::new();
+    catalog(&mut pdf, drawing, &layers);
+    page(&mut pdf, drawing, &spots, &layers, &contents, scale);
+    graphics_states(&mut pdf);
+    for (id, stream) in contents.iter().zip(&streams) {
+        pdf.stream(*id, stream).filter(Filter::FlateDecode);
+    }
+    metadata::info(&mut pdf.document_info(INFO), head, seconds);
+    let packet = metadata::packet(head, seconds);
+    pdf.metadata(METADATA, packet.as_bytes());
+    let id = identifier(&streams, &packet);
+    pdf.set_file_id((id.clone(), id));
+    out.write_all(&pdf.finish())
+}
+
+/// How the page's millimetres become the file's units.
+#[derive(Clone, Copy)]
+struct Scale {
+    units_a_mm: f64,
+    /// Points in a unit, 1 but for very large sheets.
+    user_unit: f64,
+}
+
+impl Scale {
+    fn of(drawing: &Drawing) -> Self {
+        let longest = drawing.page.width.max(drawing.page.height) * POINTS_A_MM;
+        let user_unit = (longest / MOST_UNITS).ceil().max(1.0);
+        Self { units_a_mm: POINTS_A_MM / user_unit, user_unit }
+    }
+}
+
+/// Each spot ink once, in the order of the layers.
+fn spot_names(layers: &[Layer]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for layer in layers {
+        if let Ink::Spot(name) = &layer.ink
+            && !names.contains(&name.as_str())
+        {
+            names.push(name);
+        }
+    }
+    names
+}
+
+fn has_paper(drawing: &Drawing) -> bool {
+    drawing.page.paper != Colour::WHITE
+}
+
+fn catalog(pdf: &mut Pdf, drawing: &Drawing, layers: &[Ref]) {
+    let mut groups = layers.to_vec();
+    if has_paper(drawing) {
+        groups.insert(0, PAPER);
+    }
+    let mut catalog = pdf.catalog(CATALOG);
+    catalog.pages(PAGES).metadata(METADATA);
+    let mut properties = catalog.insert(Name(b"OCProperties")).dict();
+    properties.insert(Name(b"OCGs")).array().items(&groups);
+    let mut shown = properties.insert(Name(b"D")).dict();
+    shown.pair(Name(b"BaseState"), Name(b"ON"));
+    shown.insert(Name(b"Order")).array().items(&groups);
+    if has_paper(drawing) {
+        let mut events = shown.insert(Name(b"AS")).array();
+        for event in [Name(b"View"), Name(b"Print")] {
+            let mut rule = events.push().dict();
+            rule.pair(Name(b"Event"), event);
+            rule.insert(Name(b"Category")).array().item(event);
+            rule.insert(Name(b"OCGs")).array().item(PAPER);
+        }
+    }
+    shown.finish();
+    properties.finish();
+    catalog.finish();
+    pdf.pages(PAGES).kids([PAGE]).count(1);
+    for (id, layer) in layers.iter().zip(&drawing.layers) {
+        let label = format!("{} {}", layer.pen, layer.name);
+        pdf.indirect(*id).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&label));
+    }
+    if has_paper(drawing) {
+        paper_group(pdf);
+    }
+}
+
+/// The paper's colour is shown but not printed: the press has paper of its own.
+fn paper_group(chunk: &mut Chunk) {
+    let mut group = chunk.indirect(PAPER).dict();
+    group.pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr("paper"));
+    let mut usage = group.insert(Name(b"Usage")).dict();
+    usage.insert(Name(b"View")).dict().pair(Name(b"ViewState"), Name(b"ON"));
+    usage.insert(Name(b"Print")).dict().pair(Name(b"PrintState"), Name(b"OFF"));
+}
+
+fn page(pdf: &mut Pdf, drawing: &Drawing, spots: &[&str], layers: &[Ref], contents: &[Ref], scale: Scale) {
+    let sheet =
+        Rect::new(0.0, 0.0, (drawing.page.width * scale.units_a_mm) as f32, (drawing.page.height * scale.units_a_mm) as f32);
+    let mut page = pdf.page(PAGE);
+    page.parent(PAGES).media_box(sheet).trim_box(sheet).contents_array(contents.iter().copied());
+    if scale.user_unit > 1.0 {
+        page.user_unit(scale.user_unit as f32);
+    }
+    let mut resources = page.resources();
+    let mut spaces = resources.color_spaces();
+    for (i, name) in spots.iter().enumerate() {
+        let mut separation = spaces
+            .insert(Name(ink::space_name(i).as_bytes()))
+            .start::<pdf_writer::writers::ColorSpace>()
+            .separation(Name(name.as_bytes()));
+        // Shown in black, like in the SVG: tint 0 is white, 1 black.
+        separation.alternate_color_space().device_gray();
+        separation.tint_exponential().domain([0.0, 1.0]).range([0.0, 1.0]).c0([1.0]).c1([0.0]).n(1.0);
+    }
+    spaces.finish();
+    if !spots.is_empty() {
+        let mut states = resources.ext_g_states();
+        states.pair(Name(ink::KNOCK_OUT.as_bytes()), KNOCK_OUT).pair(Name(ink::OVERPRINT.as_bytes()), OVERPRINT);
+    }
+    let mut groups = resources.insert(Name(b"Properties")).dict();
+    for (i, id) in layers.iter().enumerate() {
+        groups.pair(Name(content::layer_name(i).as_bytes()), *id);
+    }
+    if has_paper(drawing) {
+        groups.pair(Name(content::PAPER.as_bytes()), PAPER);
+    }
+}
+
+fn graphics_states(chunk: &mut Chunk) {
+    chunk.ext_graphics(KNOCK_OUT).overprint(false).overprint_fill(false);
+    chunk.ext_graphics(OVERPRINT).overprint(true).overprint_fill(true).overprint_mode(OverprintMode::IgnoreZeroChannel);
+}
+
+/// The same drawing gets the same identifier.
+fn identifier(streams: &[Vec<u8>], packet: &str) -> Vec<u8> {
+    let mut hash = Sha256::new();
+    for stream in streams {
+        hash.update(stream);
+    }
+    hash.update(packet);
+    hash.finalize()[..16].to_vec()
+}
+
+#[cfg(test)]
+mod tests;
