@@ -5,6 +5,7 @@
 mod blob;
 mod blue_noise;
 mod clip;
+mod direct_search;
 mod disc;
 mod inset;
 mod length;
