@@ -52,8 +52,8 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
 
 /// The speed that the machine can be told: HP-GL's in whole centimetres a second within the machine's limit.
 fn told_speed(profile: &Profile, speed: f64) -> f64 {
-    if profile.language == Language::Gcode {
-        return speed;
+    if profile.language != Language::Hpgl {
+        return profile.motion.draw_speed_limit.map_or(speed, |limit| speed.min(limit));
     }
     let limit = profile.motion.draw_speed_limit.unwrap_or(f64::INFINITY);
     (speed.min(limit) / 10.0).floor().max(1.0) * 10.0
@@ -69,7 +69,11 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
     match profile {
         None => Err(Failure::Usage("HP-GL and G-code need --profile; `drypoint profiles` lists the plotters".to_owned())),
         Some(profile) if profile.language != needed => {
-            let right = if profile.language == Language::Hpgl { ".hpgl or .plt" } else { ".gcode, .nc or .ngc" };
+            let right = match profile.language {
+                Language::Hpgl => ".hpgl or .plt",
+                Language::Gcode => ".gcode, .nc or .ngc",
+                Language::Svg => ".svg",
+            };
             Err(Failure::Usage(format!("{} reads another language than this file's format; write {right}", profile.name)))
         }
         Some(_) => Ok(()),

@@ -14,7 +14,8 @@ pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
 pub use order::{Direction, Effort, PathEnds, Visit, chain, drop_duplicates, order, pen_up_length};
 pub use profile::{
-    Area, GcodeDialect, HpglDialect, Language, Motion, Paper, PenChange, Pens, Profile, ProfileError, built_in, built_in_names,
+    Area, Axes, Comment, Corner, GcodeDialect, Height, HpglDialect, Language, Lift, Limits, Motion, Paper, PenChange, PenSlot,
+    Pens, Planner, Profile, ProfileError, SvgDialect, Swell, Travel, Way, built_in, built_in_names,
 };
 pub use report::{PenReport, PlotReport, report};
 pub use time::{Clock, clock};

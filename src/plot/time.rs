@@ -69,7 +69,7 @@ fn junction_speed(before: Vec2, after: Vec2, motion: &Motion) -> f64 {
     if half_sine > 0.999_999 {
         return f64::INFINITY;
     }
-    (motion.acceleration * motion.junction_deviation * half_sine / (1.0 - half_sine)).sqrt()
+    (motion.acceleration * motion.corner_deviation() * half_sine / (1.0 - half_sine)).sqrt()
 }
 
 /// Time over a length with given speeds at both ends and a greatest speed between.
@@ -88,9 +88,20 @@ mod tests {
         draw_speed_limit: None,
         travel_speed: 100.0,
         acceleration: 250.0,
-        junction_deviation: 0.01,
+        travel_acceleration: None,
+        junction_deviation: Some(0.01),
+        corner_factor: None,
         pen_up_seconds: 0.15,
         pen_down_seconds: 0.2,
+        touch_seconds: 0.0,
+        planner: crate::plot::Planner {
+            block_buffer: None,
+            limits: crate::plot::Limits::Path,
+            axis_speed: None,
+            axis_acceleration: None,
+            steps_per_mm: None,
+            dwell_step_seconds: 0.0,
+        },
     };
 
     #[test]

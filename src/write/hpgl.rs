@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
     use crate::geometry::Point;
-    use crate::plot::{PenPaths, Toolpath, built_in, mount};
+    use crate::plot::{PenPaths, Toolpath, mount};
 
     #[test]
     fn instructions_stay_short_and_repeat_nothing() {
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn a_file_raises_the_pen_first_and_puts_it_away_last() {
-        let profile = Profile::parse("hp7475a", built_in("hp7475a").unwrap()).unwrap();
+        let profile = Profile::built_in("hp7475a").unwrap();
         let page = Page::new(100.0, 100.0);
         let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
         let pen = |number, paths| PenPaths {
