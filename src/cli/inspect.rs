@@ -1,6 +1,6 @@
 //! `drypoint inspect`: what is in a drawing.
 
-use super::arguments::{InspectOptions, Order, ToolpathOptions};
+use super::arguments::InspectOptions;
 use super::failure::Failure;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
     let shown = if options.file == "-" { "stdin" } else { &options.file };
-    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &no_overrides())).transpose()?;
+    let profile = options.profile.as_deref().map(|name| toolpaths::plain_profile(name, &[])).transpose()?;
     let bytes = output::read(&options.file)?;
     let text = std::str::from_utf8(&bytes)
         .map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
@@ -181,17 +181,5 @@ fn scalar(value: &Value) -> String {
             number.as_f64().filter(|n| n.fract() != 0.0).map_or_else(|| number.to_string(), |n| format!("{n:.2}"))
         }
         other => other.to_string(),
-    }
-}
-
-fn no_overrides() -> ToolpathOptions {
-    ToolpathOptions {
-        tolerance: 0.02,
-        order: Order::None,
-        keep_direction: false,
-        merge: 0.0,
-        clip: false,
-        speed: None,
-        travel_speed: None,
     }
 }

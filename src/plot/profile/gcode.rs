@@ -120,11 +120,13 @@ impl GcodeDialect {
         if !self.dwell.contains("{seconds}") && !self.dwell.contains("{milliseconds}") {
             return Err(Refusal::new("gcode.dwell", "must hold {seconds} or {milliseconds}"));
         }
-        if !(40..=256).contains(&self.line_length) {
-            return Err(Refusal::new("gcode.line_length", "must be from 40 to 256"));
+        if !(60..=256).contains(&self.line_length) {
+            return Err(Refusal::new("gcode.line_length", "must be from 60 to 256"));
         }
-        let own = [("gcode.pen_up", &self.pen_up), ("gcode.pen_down", &self.pen_down), ("gcode.pause", &self.pause)];
-        let mut lines: Vec<(&str, &str)> = own.into_iter().filter_map(|(key, line)| Some((key, line.as_deref()?))).collect();
+        let own = [("gcode.pause", &self.pause), ("gcode.pen_up", &self.pen_up), ("gcode.pen_down", &self.pen_down)];
+        // A profile whose pen goes by its height may have inherited commands that it does not use.
+        let used = if self.lift == Lift::Command { 3 } else { 1 };
+        let mut lines: Vec<(&str, &str)> = own[..used].iter().filter_map(|(key, line)| Some((*key, line.as_deref()?))).collect();
         lines.push(("gcode.dwell", &self.dwell));
         lines.extend(self.start.iter().map(|line| ("gcode.start", line.as_str())));
         lines.extend(self.end.iter().map(|line| ("gcode.end", line.as_str())));
