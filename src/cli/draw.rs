@@ -23,6 +23,7 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     if profile.is_none() && options.toolpaths.preview.is_some() {
         return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
     }

@@ -19,6 +19,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };

@@ -113,6 +113,9 @@ pub(super) fn prepare(
     options: &ToolpathOptions,
     pens: &PenSet,
 ) -> Result<Prepared, Failure> {
+    if profile.is_none() && (options.frame || options.pause_every.is_some()) {
+        return Err(Failure::Usage("--frame and --pause-every tell a machine to wait: they need --profile".to_owned()));
+    }
     plot.pens.retain(|pen| !pen.paths.is_empty());
     let mut mounting = profile.map(|profile| mount(profile, &plot.page)).transpose()?;
     let drawable = mounting.as_ref().map_or(plot.page.rect(), |m| m.drawable(&plot.page));
@@ -189,6 +192,9 @@ fn check_pens(plot: &Plot, profile: &Profile, options: &ToolpathOptions) -> Resu
             pen.name, pen.number, profile.pens.count
         )));
     }
+    if options.frame && profile.language == Language::Svg {
+        return Err(Failure::Usage(format!("--frame: {name} is driven by its own program, which has that")));
+    }
     if can_wait(profile) {
         return Ok(());
     }
@@ -226,12 +232,24 @@ pub(super) fn write(
     })
 }
 
+/// One preview for each file, or for the one.
+pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(), Failure> {
+    match &options.preview {
+        Some(preview) if output.contains("{layer}") && !preview.contains("{layer}") => Err(Failure::Usage(
+            "-o writes one file for each layer, and --preview one picture: put {layer} into its name too".to_owned(),
+        )),
+        Some(preview) if *preview == output => Err(Failure::Usage("--preview and -o name the same file".to_owned())),
+        _ => Ok(()),
+    }
+}
+
 /// Writes the picture of what the machine will do, where one is asked for; `{layer}` in its name stands for the same as in the
 /// output's.
 pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
     let Some(name) = &options.preview else { return Ok(()) };
     let name = layer.map_or_else(|| name.clone(), |layer| name.replace("{layer}", layer));
-    output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), prepared.home, &mut out))
+    let start = prepared.mounting.as_ref().map_or(prepared.home, |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
+    output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, &mut out))
 }
 
 /// Warnings about the machine, shown whatever was asked for.

@@ -159,7 +159,7 @@ impl<W: io::Write> Gcode<'_, W> {
     fn level(&mut self, mut places: Vec<Grid>, feed: &mut Option<i64>) -> io::Result<()> {
         places.dedup();
         let point = |(x, y): Grid| Point::new(x as f64 / 1000.0, y as f64 / 1000.0);
-        if !self.dialect.arcs {
+        if !self.dialect.arcs || !self.has_room_for_arcs(&places) {
             return places[1..].iter().try_for_each(|to| self.draw("G1", *to, feed, |_| ()));
         }
         let points: Vec<Point> = places.iter().map(|p| point(*p)).collect();
@@ -181,6 +181,13 @@ impl<W: io::Write> Gcode<'_, W> {
             from = step.to();
         }
         Ok(())
+    }
+
+    /// An arc lies a little outside its chords: at the very limit of the machine a path stays as it is.
+    fn has_room_for_arcs(&self, places: &[Grid]) -> bool {
+        let room = 1.5 * self.mounting.tolerance * self.profile.units_per_mm;
+        let inner = self.mounting.limits.inset(-room);
+        places.iter().all(|&(x, y)| inner.contains(Point::new(x as f64 / 1000.0, y as f64 / 1000.0)))
     }
 
     fn swelling(&mut self, places: &[Grid], heights: &[f64], feed: &mut Option<i64>) -> io::Result<()> {

@@ -11,7 +11,7 @@
 //!
 //! Points are rounded before they are differenced, and what follows an arc is absolute again, so rounding never adds up.
 
-use crate::geometry::{Point, Step, fit_arcs};
+use crate::geometry::{Point, Rect, Step, fit_arcs};
 use crate::plot::{HpglDialect, Mounting, PenChange, Plot, Profile};
 use std::fmt::Write as _;
 use std::io;
@@ -38,7 +38,9 @@ pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut
         dialect.acceleration.iter().for_each(|g| text.push_str(&format!("AS{g};")));
         for path in &pen.paths {
             let units: Vec<Unit> = path.points.iter().map(|p| snap(mounting.place(pen.number, *p), mounting)).collect();
-            path_instructions(&mut text, &units, dialect, mounting.tolerance * profile.units_per_mm);
+            let tolerance = mounting.tolerance * profile.units_per_mm;
+            let room = mounting.limits.inset(-1.5 * tolerance.max(2.0));
+            path_instructions(&mut text, &units, dialect, room, tolerance);
             if text.len() > 1 << 16 {
                 out.write_all(text.as_bytes())?;
                 text.clear();
@@ -65,7 +67,8 @@ fn snap(m: Point, mounting: &Mounting) -> Unit {
     (m.x.round().clamp(limits.x0, limits.x1) as i64, m.y.round().clamp(limits.y0, limits.y1) as i64)
 }
 
-fn path_instructions(text: &mut String, units: &[Unit], dialect: &HpglDialect, tolerance: f64) {
+/// `room` is where an arc, which lies a little outside its chords, cannot leave the machine.
+fn path_instructions(text: &mut String, units: &[Unit], dialect: &HpglDialect, room: Rect, tolerance: f64) {
     let mut units = units.to_vec();
     units.dedup();
     let _ = write!(text, "PU{},{};", units[0].0, units[0].1);
@@ -73,7 +76,7 @@ fn path_instructions(text: &mut String, units: &[Unit], dialect: &HpglDialect, t
         text.push_str("PD;");
     } else if dialect.packed {
         packed(text, &units);
-    } else if dialect.arcs {
+    } else if dialect.arcs && units.iter().all(|&(x, y)| room.contains(Point::new(x as f64, y as f64))) {
         with_arcs(text, &units, dialect.chunk, tolerance);
     } else {
         lines(text, &units[1..], dialect.chunk);
@@ -199,7 +202,7 @@ mod tests {
             .map(|(sin, cos)| ((1000.0 * cos).round() as i64 + 5000, (1000.0 * sin).round() as i64 + 5000))
             .collect();
         let mut text = String::new();
-        path_instructions(&mut text, &circle, &dialect(true, false), 1.6);
+        path_instructions(&mut text, &circle, &dialect(true, false), Rect::new(0.0, 0.0, 1e4, 1e4), 1.6);
         assert!(text.starts_with("PU6000,5000;PD;AA5000,5000,") && text.len() < 120, "{text}");
     }
 
@@ -207,7 +210,7 @@ mod tests {
     fn instructions_stay_short_and_repeat_nothing() {
         let units: Vec<Unit> = (0..200).map(|i| (10_000 + i / 2, 10_000)).collect();
         let mut text = String::new();
-        path_instructions(&mut text, &units, &dialect(false, false), 1.0);
+        path_instructions(&mut text, &units, &dialect(false, false), Rect::ZERO, 1.0);
         assert!(text.split(';').all(|instruction| instruction.len() <= 100), "{text}");
         assert_eq!(text.matches("10050,10000").count(), 1);
     }
