@@ -50,7 +50,7 @@ fn compare(name: &str, plot: &Plot, profile: &Profile, settings: &Settings) -> [
     let motion: f64 = clocks.iter().map(|c| c.drawing + c.travelling).sum();
     let total: f64 = clocks.iter().map(Clock::total).sum();
     let machine: Elapsed = run(&gcode(plot, profile, &mounting), settings);
-    let moves_pen = profile.gcode.as_ref().unwrap().pen_up.contains('Z');
+    let moves_pen = profile.gcode.as_ref().unwrap().pen_up.as_ref().is_none_or(|up| up.contains('Z'));
     // A Z axis's moves are motion too, and are told as lifting.
     let motion = if moves_pen { total } else { motion };
     let error = |told: f64, true_one: f64| 100.0 * (told / true_one - 1.0);
@@ -74,7 +74,7 @@ fn heading() {
 fn one_pen(paths: Vec<Vec<[f64; 2]>>) -> Plot {
     let paths = paths
         .into_iter()
-        .map(|points| Toolpath { points: points.into_iter().map(|[x, y]| Point::new(x, y)).collect() })
+        .map(|points| Toolpath::new(points.into_iter().map(|[x, y]| Point::new(x, y)).collect()))
         .collect();
     let pen =
         PenPaths { number: 1, name: "lines".to_owned(), colour: Colour::BLACK, nib: 0.3, handling: Handling::default(), paths };
@@ -283,7 +283,7 @@ fn pens_are_changed_and_layers_wait_as_told() {
         plot.pens.push(PenPaths {
             number,
             handling,
-            paths: vec![Toolpath { points: vec![Point::new(5.0, 7.0), Point::new(60.0, 99.0)] }],
+            paths: vec![Toolpath::new(vec![Point::new(5.0, 7.0), Point::new(60.0, 99.0)])],
             ..plot.pens[0].clone()
         });
     }

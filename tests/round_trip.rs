@@ -4,8 +4,8 @@ mod common;
 
 use common::{Sheet, sample, svg_of};
 use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
-use drypoint::geometry::{BezPath, Point, Rect};
-use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Toolpath, built_in, lower, mount};
+use drypoint::geometry::{BezPath, Point, Rect, distance_to_segment};
+use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Toolpath, lower, mount};
 use drypoint::read::{Strokes, read_gcode, read_hpgl, read_svg};
 use drypoint::write::{write_gcode, write_hpgl};
 
@@ -31,7 +31,7 @@ fn drawings() -> Vec<(&'static str, Drawing)> {
 }
 
 fn profile(name: &str) -> Profile {
-    Profile::parse(name, built_in(name).unwrap()).unwrap()
+    Profile::built_in(name).unwrap()
 }
 
 #[test]
@@ -73,6 +73,11 @@ fn plotted(drawing: &Drawing) -> Plot {
     plot
 }
 
+fn distance(p: Point, path: &[Point]) -> f64 {
+    let to_legs = path.windows(2).map(|w| distance_to_segment(p, w[0], w[1]));
+    to_legs.fold(path[0].distance(p), f64::min)
+}
+
 /// Each path of the plot was drawn, in order, within `tolerance` millimetres; nothing else was.
 fn assert_drawn(name: &str, plot: &Plot, motion: &Strokes, to_page: impl Fn(Point) -> Point, tolerance: f64) {
     let asked: Vec<&Toolpath> = plot.pens.iter().flat_map(|pen| &pen.paths).collect();
@@ -80,11 +85,11 @@ fn assert_drawn(name: &str, plot: &Plot, motion: &Strokes, to_page: impl Fn(Poin
     for (path, (_, drawn)) in asked.iter().zip(&motion.paths) {
         let drawn: Vec<Point> = drawn.iter().map(|p| to_page(*p)).collect();
         for p in &drawn {
-            let near = path.points.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);
+            let near = distance(*p, &path.points);
             assert!(near <= tolerance, "{name}: {p:?} was not asked for ({near} mm)");
         }
         for p in &path.points {
-            let near = drawn.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);
+            let near = distance(*p, &drawn);
             assert!(near <= tolerance, "{name}: {p:?} is missing ({near} mm)");
         }
     }
@@ -109,7 +114,8 @@ fn gcode_and_hpgl_draw_what_was_asked_inside_the_machine() {
             let motion = if machine == "grbl-servo" {
                 write_gcode(&plot, &profile, &mounting, &mut bytes).unwrap();
                 let dialect = profile.gcode.as_ref().unwrap();
-                read_gcode(std::str::from_utf8(&bytes).unwrap(), &dialect.pen_up, &dialect.pen_down).unwrap()
+                let [up, down] = [&dialect.pen_up, &dialect.pen_down].map(|command| command.as_deref().unwrap());
+                read_gcode(std::str::from_utf8(&bytes).unwrap(), up, down).unwrap()
             } else {
                 write_hpgl(&plot, &profile, &mounting, &mut bytes).unwrap();
                 read_hpgl(std::str::from_utf8(&bytes).unwrap()).unwrap()

@@ -16,11 +16,24 @@ pub(super) struct Arguments {
     pub command: Command,
 }
 
+/// How a file comes to its machine.
+const SENDING: &str = "\
+Sending a file to its plotter:
+  HP-GL   The plotter takes a few hundred bytes at once and stops the sender by handshake; without one it loses lines. Pens of the
+          1980s raise DTR (pin 20), which the cable must bring to the computer's CTS:
+              stty -F /dev/ttyUSB0 9600 cs8 -cstopb -parenb -ixon crtscts raw && cat drawing.hpgl > /dev/ttyUSB0
+          With a plain cable use a sender that asks the plotter for room (ESC.B), such as chiplotle's plot_hpgl_file, or put XON/XOFF
+          into the file: --set-profile 'hpgl.preamble=\"\\u001B.I81;;17:\\u001B.N;19:\"' with stty ... ixon -crtscts.
+  G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; printers take it from their card.
+  SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order and those with ! wait.";
+
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Draw a photograph: to SVG or PDF for print, or with --profile to a plotter's HP-GL or G-code.
+    #[command(after_long_help = SENDING)]
     Draw(DrawOptions),
     /// Plot any SVG: ordered tool paths for a machine.
+    #[command(after_long_help = SENDING)]
     Plot(PlotOptions),
     /// Write every intermediate result of a style, numbered and named, as PNG or SVG.
     Stages(StagesOptions),
@@ -175,6 +188,28 @@ pub(super) struct ToolpathOptions {
     /// Pen-up speed in mm/s [default: the profile's].
     #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
     pub travel_speed: Option<f64>,
+    /// How long the pen rests on a touch, in seconds [default: the profile's].
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub dwell: Option<f64>,
+    /// A key of the profile, such as motion.acceleration=500 or paper.a4.zero=[10,206]. May be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
+    pub set_profile: Vec<(String, String)>,
+    /// The pens, a TOML file: for each layer's name or number its width, slot, colour, speed, dwell and offset. Layers that it does
+    /// not name go to the pen of the nearest colour.
+    #[arg(long, value_name = "FILE")]
+    pub pens: Option<String>,
+    /// Trace the drawing's outline with the pen up, then wait, before anything is drawn.
+    #[arg(long)]
+    pub frame: bool,
+    /// Draw small crosses into the corners with every pen, to see how pens meet.
+    #[arg(long)]
+    pub registration: bool,
+    /// Wait each time that a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
+    #[arg(long, value_name = "METRES", value_parser = metres, allow_negative_numbers = true)]
+    pub pause_every: Option<f64>,
+    /// A picture of what the machine will do: sheet, reach, ink at nib width, travel, start and park.
+    #[arg(long, value_name = "FILE.svg")]
+    pub preview: Option<String>,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -396,6 +431,21 @@ fn number_above_zero(text: &str) -> Result<f64, String> {
     }
 }
 
+fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.strip_suffix('s').unwrap_or(text).trim();
+    number.parse().ok().filter(|s: &f64| (0.0..=60.0).contains(s)).ok_or_else(|| "must be from 0 to 60 seconds".to_owned())
+}
+
+/// A length in metres, or with another unit, in millimetres.
+fn metres(text: &str) -> Result<f64, String> {
+    let trimmed = text.trim();
+    let (number, unit) = match trimmed.strip_suffix('m') {
+        Some(number) if !number.ends_with(['m', 'c']) => (number.trim(), 1000.0),
+        _ => (trimmed, if trimmed.ends_with(|c: char| c.is_ascii_digit()) { 1000.0 } else { 1.0 }),
+    };
+    length_above_zero(number).map(|length| length * unit)
+}
+
 fn gamma(text: &str) -> Result<f64, String> {
     number_above_zero(text).ok().filter(|g| (0.1..=10.0).contains(g)).ok_or_else(|| "must be a number from 0.1 to 10".to_owned())
 }
@@ -442,6 +492,14 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn long_lengths() {
+        assert_eq!(metres("20m"), Ok(20_000.0));
+        assert_eq!(metres("2.5"), Ok(2500.0));
+        assert_eq!((metres("500mm"), metres("30cm")), (Ok(500.0), Ok(300.0)));
+        assert!(metres("0m").is_err() && metres("far").is_err());
     }
 
     #[test]

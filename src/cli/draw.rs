@@ -4,11 +4,12 @@ use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
 use super::failure::Failure;
 use super::layout::{Layout, lay_out};
 use super::output;
+use super::pens::PenSet;
 use super::progress::{Watcher, is_interrupted};
 use super::toolpaths::{self, Prepared};
 use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
-use crate::plot::{Hides, InkModel, Nibs, Profile, coverage, lower, mount, occluded};
+use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
 use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
@@ -21,9 +22,14 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
     if options.reporting.json && options.output == "-" {
         return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }
-    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
+    let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
     let press = press(options)?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
+    if profile.is_none() && options.toolpaths.preview.is_some() {
+        return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
+    }
+    let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.picture.threads)?;
     let watcher = Watcher::new(options.reporting.quiet);
     let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
@@ -37,6 +43,7 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
         watcher.begin("press");
         drawing = press.compensated(&drawing);
     }
+    pens.assign(&mut drawing, profile.as_ref())?;
     watcher.begin("writing");
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&drawing, &options.output);
@@ -45,13 +52,13 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
         if is_interrupted() {
             return Err(Failure::Interrupted);
         }
-        prepared.extend(write_one(name, drawing, format, profile.as_ref(), options, &head)?);
+        prepared.extend(write_one(name, drawing, format, profile.as_ref().map(|profile| (profile, &pens)), options, &head)?);
     }
     let seconds = watcher.finish();
     for prepared in &prepared {
         toolpaths::warn(prepared, profile.as_ref(), "; a larger --pitch makes it shorter");
     }
-    report(options, &drawing, &prepared, &seconds, watcher.elapsed())
+    report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
 }
 
 /// One file; gives back the plot when it is one.
@@ -59,11 +66,11 @@ fn write_one(
     name: &str,
     drawing: &Drawing,
     format: Format,
-    profile: Option<&Profile>,
+    machine: Option<(&Profile, &PenSet)>,
     options: &DrawOptions,
     head: &SvgHead,
 ) -> Result<Option<Prepared>, Failure> {
-    if profile.is_none() {
+    let Some((profile, pens)) = machine else {
         let date = output::source_date()?;
         let fill = |mut out: &mut dyn std::io::Write| match format {
             Format::Pdf => write_pdf(drawing, head, date, &mut out),
@@ -75,17 +82,17 @@ fn write_one(
             output::write(name, fill)?;
         }
         return Ok(None);
-    }
+    };
     // Opaque paint: what it covers is not drawn.
     let is_painted = drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
     let seen = is_painted.then(|| occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours));
     let drawing = seen.as_ref().unwrap_or(drawing);
-    let nibs = Nibs::all(options.pen);
-    let plot = lower(drawing, InkModel::Ink, &nibs, options.toolpaths.tolerance);
-    let mut prepared = toolpaths::prepare(plot, profile, &options.toolpaths)?;
-    prepared.report.add_coverage(&coverage(drawing, &prepared.plot, &nibs));
+    let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
+    let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
+    prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs()));
     if !options.dry_run {
-        toolpaths::write(name, format, &prepared, profile, head)?;
+        toolpaths::write(name, format, &prepared, Some(profile), head)?;
+        toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
     }
     Ok(Some(prepared))
 }
@@ -305,12 +312,13 @@ fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {
 fn report(
     options: &DrawOptions,
     drawing: &Drawing,
+    pens: &PenSet,
     prepared: &[Prepared],
     seconds: &[(String, f64)],
     elapsed: f64,
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        return output::print_json(&report_json(options, drawing, prepared, seconds));
+        return output::print_json(&report_json(drawing, pens, prepared, seconds));
     }
     if !options.reporting.quiet {
         let counts =
@@ -327,10 +335,10 @@ fn report(
     Ok(())
 }
 
-fn report_json(options: &DrawOptions, drawing: &Drawing, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
+fn report_json(drawing: &Drawing, pens: &PenSet, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
     let layers: Vec<Value> = drawing.layers.iter().map(|layer| {
         let [dots, strokes, areas] = layer.counts();
-        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": options.pen, "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2() })
+        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2() })
     }).collect();
     let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
     let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });

@@ -1,20 +1,20 @@
 //! `drypoint inspect`: what is in a drawing.
 
-use super::arguments::{InspectOptions, Order, ToolpathOptions};
+use super::arguments::InspectOptions;
 use super::failure::Failure;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
 use crate::plot::{
-    InkModel, Language, Mounting, Nibs, PenPaths, Plot, Profile, Toolpath, Turn, built_in, built_in_names, lower, mount, report,
+    InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, Profile, Toolpath, built_in_names, lower, mount, report,
 };
-use crate::read::{Strokes, read_gcode, read_hpgl, read_svg};
+use crate::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl, read_svg};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
     let shown = if options.file == "-" { "stdin" } else { &options.file };
-    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &no_overrides())).transpose()?;
+    let profile = options.profile.as_deref().map(|name| toolpaths::plain_profile(name, &[])).transpose()?;
     let bytes = output::read(&options.file)?;
     let text = std::str::from_utf8(&bytes)
         .map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
@@ -22,7 +22,7 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
         Kind::Svg => inspect_svg(shown, text, profile.as_ref())?,
         Kind::Hpgl => {
             let motion = read_hpgl(text).map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
-            let profile = profile.map_or_else(|| Profile::parse("hp7475a", built_in("hp7475a")?), Ok)?;
+            let profile = profile.map_or_else(|| Profile::built_in("hp7475a"), Ok)?;
             if profile.language != Language::Hpgl {
                 return Err(Failure::Usage(format!("{shown} is HP-GL, which {} does not read", profile.name)));
             }
@@ -30,12 +30,7 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
         }
         Kind::Gcode => {
             let profile = profile.map_or_else(|| gcode_profile(text), Ok)?;
-            let dialect = profile
-                .gcode
-                .as_ref()
-                .ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
-            let motion = read_gcode(text, &dialect.pen_up, &dialect.pen_down)
-                .map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
+            let motion = gcode_motion(shown, text, &profile)?;
             inspect_motion("gcode", &motion, &profile)
         }
         Kind::Unknown => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
@@ -64,16 +59,34 @@ fn kind_of(name: &str, text: &str) -> Kind {
     }
 }
 
-/// The built-in profile whose pen commands the file uses.
+/// The built-in profile that the file names, else one whose pen commands it uses.
 fn gcode_profile(text: &str) -> Result<Profile, Failure> {
+    let named = text.lines().take(3).find_map(|line| line.trim_start_matches(['(', ';', ' ']).strip_prefix("drypoint "));
+    let name = named.and_then(|rest| rest.split(" for ").nth(1)).map(|name| name.trim_end_matches(')'));
+    if let Some(profile) = name.and_then(|name| Profile::built_in(name).ok()) {
+        return Ok(profile);
+    }
     for name in built_in_names() {
-        let profile = Profile::parse(name, built_in(name)?)?;
-        let is_its = profile.gcode.as_ref().is_some_and(|d| text.lines().any(|line| line.trim() == d.pen_down));
-        if profile.language == Language::Gcode && is_its {
+        let profile = Profile::built_in(name)?;
+        let down = profile.gcode.as_ref().filter(|gcode| gcode.lift == Lift::Command).and_then(|gcode| gcode.pen_down.as_deref());
+        if down.is_some_and(|down| text.lines().any(|line| line.trim() == down)) {
             return Ok(profile);
         }
     }
     Err(Failure::Work("this G-code moves its pen in no way that a built-in profile does; name yours with --profile".to_owned()))
+}
+
+/// What the pen does, told by the profile's commands or heights.
+fn gcode_motion(shown: &str, text: &str, profile: &Profile) -> Result<Strokes, Failure> {
+    let dialect = profile
+        .gcode
+        .as_ref()
+        .ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
+    let motion = match (dialect.lift, dialect.height) {
+        (Lift::Height, Some(height)) => read_gcode_heights(text, height.up, height.down),
+        _ => read_gcode(text, dialect.pen_up.as_deref().unwrap_or(""), dialect.pen_down.as_deref().unwrap_or("")),
+    };
+    motion.map_err(|error| Failure::Work(format!("{shown}: {error}")))
 }
 
 fn inspect_svg(name: &str, text: &str, profile: Option<&Profile>) -> Result<Value, Failure> {
@@ -122,7 +135,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
     }
     // The file's places are the machine's own, and an HP-GL file ends at the far corner of its reach.
     let to_machine = Affine::scale(profile.units_per_mm);
-    let mounting = Mounting { to_machine, limits: bounds, paper: None, turn: Turn::Upright };
+    let mounting = Mounting::new(profile, to_machine, bounds);
     let size: Vec2 = mm(Point::new(bounds.x1, bounds.y1)) - mm(Point::new(bounds.x0, bounds.y0));
     json!({
         "format": format,
@@ -175,17 +188,5 @@ fn scalar(value: &Value) -> String {
             number.as_f64().filter(|n| n.fract() != 0.0).map_or_else(|| number.to_string(), |n| format!("{n:.2}"))
         }
         other => other.to_string(),
-    }
-}
-
-fn no_overrides() -> ToolpathOptions {
-    ToolpathOptions {
-        tolerance: 0.02,
-        order: Order::None,
-        keep_direction: false,
-        merge: 0.0,
-        clip: false,
-        speed: None,
-        travel_speed: None,
     }
 }

@@ -7,6 +7,7 @@ mod inspect;
 mod layout;
 mod lists;
 mod output;
+mod pens;
 mod plot;
 mod progress;
 mod resume;

@@ -3,10 +3,11 @@
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
+use super::pens::PenSet;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, Nibs, coverage, lower, mount, occluded};
+use crate::plot::{Hides, InkModel, coverage, lower, mount, occluded};
 use crate::read::{Imported, read_svg};
 use crate::write::SvgHead;
 use serde_json::json;
@@ -19,8 +20,10 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     if options.reporting.json && options.output == "-" {
         return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }
-    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
+    let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
+    let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
@@ -33,13 +36,14 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         count_fills(&mut imported);
     }
     let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
-    let drawing = place(&imported.drawing(), options, reach)?;
+    let mut drawing = place(&imported.drawing(), options, reach)?;
     if is_blank(&drawing, model) {
         let dropped =
             if imported.dropped.is_empty() { String::new() } else { format!(" (not drawn: {})", imported.dropped.summary()) };
         let advice = if model == InkModel::Lines { "; fills are drawn with --ink-model ink" } else { "" };
         return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}")));
     }
+    pens.assign(&mut drawing, profile.as_ref())?;
     let head = SvgHead {
         title: format!("Tool paths of {}", std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown)),
         description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
@@ -47,14 +51,14 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     };
     let mut plots = Vec::new();
     for (name, drawing) in split_by_layer(&drawing, &options.output) {
-        let nibs = Nibs::all(options.pen);
-        let plot = lower(&drawing, model, &nibs, options.toolpaths.tolerance);
-        let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths)?;
+        let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance);
+        let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths, &pens)?;
         if model == InkModel::Ink {
-            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, &nibs));
+            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs()));
         }
         if !options.dry_run {
             toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
+            toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
         }
         toolpaths::warn(&prepared, profile.as_ref(), "");
         plots.push((name, prepared));

@@ -3,11 +3,13 @@
 use super::arguments::{Format, Order, ToolpathOptions};
 use super::failure::Failure;
 use super::output;
-use crate::geometry::Point;
+use super::pens::PenSet;
+use crate::geometry::{Point, Rect};
 use crate::plot::{
-    Direction, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, built_in, clip_to, mount, report,
+    Direction, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, Travel, add_registration, built_in, clip_to,
+    mount, pause_every, report, rest_touches,
 };
-use crate::write::{SvgHead, write_gcode, write_hpgl, write_svg_plot};
+use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
 use std::io::Write;
 
 /// Plotting time above which the user is warned.
@@ -31,30 +33,43 @@ pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Fa
     }
 }
 
-/// A profile by name, or from a file when there is a path or a .toml ending.
-pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, Failure> {
+/// A profile by name, or from a file when there is a path or a .toml ending, with keys set over it.
+pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Profile, Failure> {
     let is_file = name.contains('/') || std::path::Path::new(name).extension().is_some_and(|e| e == "toml");
-    let mut profile = if is_file {
-        let bytes = output::read(name)?;
-        let text =
-            String::from_utf8(bytes).map_err(|_| Failure::Work(format!("{name} is not a profile: it is not UTF-8 text")))?;
-        Profile::parse(name, &text).map_err(|error| Failure::Work(error.to_string()))?
-    } else {
-        Profile::parse(name, built_in(name)?)?
-    };
+    if !is_file {
+        return Ok(Profile::parse_with(name, built_in(name)?, set)?);
+    }
+    let text = String::from_utf8(output::read(name)?)
+        .map_err(|_| Failure::Work(format!("{name} is not a profile: it is not UTF-8 text")))?;
+    Profile::parse_with(name, &text, set).map_err(|error| Failure::Work(error.to_string()))
+}
+
+/// The profile with what the options say of its speeds.
+pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, Failure> {
+    let mut profile = plain_profile(name, &options.set_profile)?;
     if let Some(speed) = options.speed {
         profile.motion.draw_speed = told_speed(&profile, speed);
     }
     if let Some(speed) = options.travel_speed {
         profile.motion.travel_speed = speed;
+        // G0 runs at the machine's own rate; a speed that was asked for needs a feed.
+        if let Some(gcode) = profile.gcode.as_mut().filter(|gcode| gcode.travel == Travel::Rapid) {
+            gcode.travel = Travel::Feed;
+        }
+    }
+    if let Some(seconds) = options.dwell {
+        if profile.language != Language::Gcode && seconds > 0.0 {
+            return Err(Failure::Usage(format!("--dwell: {} has no word for a wait at each touch", profile.name)));
+        }
+        profile.motion.touch_seconds = seconds;
     }
     Ok(profile)
 }
 
 /// The speed that the machine can be told: HP-GL's in whole centimetres a second within the machine's limit.
 fn told_speed(profile: &Profile, speed: f64) -> f64 {
-    if profile.language == Language::Gcode {
-        return speed;
+    if profile.language != Language::Hpgl {
+        return profile.motion.draw_speed_limit.map_or(speed, |limit| speed.min(limit));
     }
     let limit = profile.motion.draw_speed_limit.unwrap_or(f64::INFINITY);
     (speed.min(limit) / 10.0).floor().max(1.0) * 10.0
@@ -75,7 +90,11 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
     match profile {
         None => Err(Failure::Usage("HP-GL and G-code need --profile; `drypoint profiles` lists the plotters".to_owned())),
         Some(profile) if profile.language != needed => {
-            let right = if profile.language == Language::Hpgl { ".hpgl or .plt" } else { ".gcode, .nc or .ngc" };
+            let right = match profile.language {
+                Language::Hpgl => ".hpgl or .plt",
+                Language::Gcode => ".gcode, .nc or .ngc",
+                Language::Svg => ".svg",
+            };
             Err(Failure::Usage(format!("{} reads another language than this file's format; write {right}", profile.name)))
         }
         Some(_) => Ok(()),
@@ -89,20 +108,32 @@ pub(super) struct Prepared {
     pub report: PlotReport,
     /// Millimetres and touches that --clip cut away.
     pub cut: (f64, usize),
+    /// Where the pen starts, on the page.
+    pub home: Point,
 }
 
 /// Orders a plot, lays it on the machine and checks that all of it can be drawn there.
-pub(super) fn prepare(mut plot: Plot, profile: Option<&Profile>, options: &ToolpathOptions) -> Result<Prepared, Failure> {
+pub(super) fn prepare(
+    mut plot: Plot,
+    profile: Option<&Profile>,
+    options: &ToolpathOptions,
+    pens: &PenSet,
+) -> Result<Prepared, Failure> {
+    if profile.is_none() && (options.frame || options.pause_every.is_some()) {
+        return Err(Failure::Usage("--frame and --pause-every tell a machine to wait: they need --profile".to_owned()));
+    }
     plot.pens.retain(|pen| !pen.paths.is_empty());
-    let mounting = profile.map(|profile| mount(profile, &plot.page)).transpose()?;
+    let mut mounting = profile.map(|profile| mount(profile, &plot.page)).transpose()?;
+    let drawable = mounting.as_ref().map_or(plot.page.rect(), |m| m.drawable(&plot.page));
     let mut cut = (0.0, 0);
     if options.clip {
-        let sheet = plot.page.rect();
-        cut = clip_to(&mut plot, mounting.as_ref().map_or(sheet, |m| m.reach_on_page().intersect(sheet)));
+        cut = clip_to(&mut plot, drawable);
         plot.pens.retain(|pen| !pen.paths.is_empty());
     }
-    if let (Some(profile), Some(mounting)) = (profile, &mounting) {
-        check_pens(&plot, profile)?;
+    if let (Some(profile), Some(mounting)) = (profile, &mut mounting) {
+        mounting.tolerance = options.tolerance;
+        mounting.frame = if options.frame { bounds_of(&plot) } else { None };
+        check_pens(&plot, profile, options)?;
         mounting.check(profile, &plot)?;
     }
     let home = home_of(mounting.as_ref(), &plot);
@@ -116,8 +147,21 @@ pub(super) fn prepare(mut plot: Plot, profile: Option<&Profile>, options: &Toolp
     if effort != Effort::None {
         plot.ordered(home, effort, direction, options.merge);
     }
+    if options.registration {
+        add_registration(&mut plot, drawable);
+    }
+    let usual = profile.map_or(0.0, |profile| profile.motion.touch_seconds);
+    rest_touches(&mut plot, |pen| pens.dwell(pen).unwrap_or(usual));
     let report = report(&plot, home, profile.zip(mounting.as_ref()), Some(&before));
-    Ok(Prepared { plot, mounting, report, cut })
+    if let Some(length) = options.pause_every {
+        pause_every(&mut plot, length);
+    }
+    Ok(Prepared { plot, mounting, report, cut, home })
+}
+
+fn bounds_of(plot: &Plot) -> Option<Rect> {
+    let points = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
+    points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
 }
 
 /// Where the pen starts, on the page: machine zero, else the page's upper left corner.
@@ -126,7 +170,18 @@ pub(super) fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
     Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
 }
 
-fn check_pens(plot: &Plot, profile: &Profile) -> Result<(), Failure> {
+/// Whether a file can make the machine wait for its user.
+fn can_wait(profile: &Profile) -> bool {
+    match profile.language {
+        Language::Gcode => profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_some()),
+        Language::Hpgl => false,
+        Language::Svg => true,
+    }
+}
+
+/// Every pen is there, or the machine can wait until it is; what asks for a wait gets it.
+fn check_pens(plot: &Plot, profile: &Profile, options: &ToolpathOptions) -> Result<(), Failure> {
+    let name = &profile.name;
     if profile.language == Language::Hpgl
         && let Some(pen) = plot.pens.iter().find(|pen| pen.handling.pauses || pen.handling.delay_seconds > 0.0)
     {
@@ -135,14 +190,34 @@ fn check_pens(plot: &Plot, profile: &Profile) -> Result<(), Failure> {
             pen.name
         )));
     }
-    let beyond = plot.pens.iter().find(|pen| pen.number > profile.pens.count);
-    match (beyond, profile.pens.change) {
-        (Some(pen), PenChange::Machine) => Err(Failure::Work(format!(
-            "layer '{}' wants pen {}, but {} holds {}; choose --layers, or give its layer a lower number",
-            pen.name, pen.number, profile.name, profile.pens.count
-        ))),
-        _ => Ok(()),
+    if let Some(pen) = plot.pens.iter().find(|pen| pen.number > profile.pens.count)
+        && profile.pens.change == PenChange::Machine
+    {
+        return Err(Failure::Work(format!(
+            "layer '{}' wants pen {}, but {name} holds {}; choose --layers, or give its layer a lower number or a slot with --pens",
+            pen.name, pen.number, profile.pens.count
+        )));
     }
+    if options.frame && profile.language == Language::Svg {
+        return Err(Failure::Usage(format!("--frame: {name} is driven by its own program, which has that")));
+    }
+    if can_wait(profile) {
+        return Ok(());
+    }
+    let asks = |what: &str| Err(Failure::Work(format!("{what} needs a pause, and {name} has no word for one")));
+    if options.frame {
+        return asks("--frame");
+    }
+    if options.pause_every.is_some() {
+        return asks("--pause-every");
+    }
+    let changes = plot.pens.windows(2).any(|pair| pair[0].number != pair[1].number);
+    if plot.pens.iter().any(|pen| pen.handling.pauses) || (changes && profile.pens.change == PenChange::Pause) {
+        return Err(Failure::Work(format!(
+            "a change of pen needs a pause, and {name} has no word for one; write one file for each layer: -o 'name-{{layer}}.gcode'"
+        )));
+    }
+    Ok(())
 }
 
 /// Writes a prepared plot.
@@ -156,8 +231,31 @@ pub(super) fn write(
     output::write(name, |mut out| match (format, profile, &prepared.mounting) {
         (Format::Hpgl, Some(profile), Some(mounting)) => write_hpgl(&prepared.plot, profile, mounting, &mut out),
         (Format::Gcode, Some(profile), Some(mounting)) => write_gcode(&prepared.plot, profile, mounting, &mut out),
+        (Format::Svg, Some(profile), _) if profile.language == Language::Svg => {
+            write_svg_plotter(&prepared.plot, profile, head, &mut out)
+        }
         _ => write_svg_plot(&prepared.plot, head, &mut out),
     })
+}
+
+/// One preview for each file, or for the one.
+pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(), Failure> {
+    match &options.preview {
+        Some(preview) if output.contains("{layer}") && !preview.contains("{layer}") => Err(Failure::Usage(
+            "-o writes one file for each layer, and --preview one picture: put {layer} into its name too".to_owned(),
+        )),
+        Some(preview) if *preview == output => Err(Failure::Usage("--preview and -o name the same file".to_owned())),
+        _ => Ok(()),
+    }
+}
+
+/// Writes the picture of what the machine will do, where one is asked for; `{layer}` in its name stands for the same as in the
+/// output's.
+pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
+    let Some(name) = &options.preview else { return Ok(()) };
+    let name = layer.map_or_else(|| name.clone(), |layer| name.replace("{layer}", layer));
+    let start = prepared.mounting.as_ref().map_or(prepared.home, |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
+    output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, &mut out))
 }
 
 /// Warnings about the machine, shown whatever was asked for.
@@ -171,12 +269,19 @@ pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str
     {
         eprintln!("drypoint: warning: this plot takes {}{shorter}", duration(seconds));
     }
-    let pens = prepared.plot.pens.len() as u32;
-    if let Some(profile) = profile
-        && profile.pens.change == PenChange::Pause
-        && pens > profile.pens.count
-    {
-        eprintln!("drypoint: warning: {pens} pens on a machine with {}: the file pauses for each change", profile.pens.count);
+    let Some(profile) = profile else { return };
+    let numbers: std::collections::BTreeSet<u32> = prepared.plot.pens.iter().map(|pen| pen.number).collect();
+    if profile.pens.change == PenChange::Pause && numbers.len() as u32 > profile.pens.count {
+        let (pens, count) = (numbers.len(), profile.pens.count);
+        eprintln!("drypoint: warning: {pens} pens on a machine with {count}: the file pauses for each change");
+    }
+    for number in numbers {
+        let drawn: f64 = prepared.report.pens.iter().filter(|pen| pen.pen == number).map(|pen| pen.pen_down_mm / 1000.0).sum();
+        if let Some(life) = profile.life_of(number).filter(|life| drawn > *life) {
+            eprintln!(
+                "drypoint: warning: pen {number} draws {drawn:.1} m and lasts {life} m; --pause-every {life}m waits for a new one"
+            );
+        }
     }
 }
 

@@ -22,6 +22,28 @@ impl Colour {
     pub const WHITE: Self = Self { r: 255, g: 255, b: 255 };
 }
 
+impl Colour {
+    /// How different two colours look: their distance in CIE L*a*b* (D65), about 2 where it is just seen.
+    pub fn difference(self, other: Self) -> f64 {
+        let (a, b) = (self.lab(), other.lab());
+        a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    }
+
+    fn lab(self) -> [f64; 3] {
+        let light = |v: u8| {
+            let v = f64::from(v) / 255.0;
+            if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        };
+        let [r, g, b] = [self.r, self.g, self.b].map(light);
+        // IEC 61966-2-1, divided by D65's white.
+        let x = (0.412_4 * r + 0.357_6 * g + 0.180_5 * b) / 0.950_5;
+        let y = 0.212_6 * r + 0.715_2 * g + 0.072_2 * b;
+        let z = (0.019_3 * r + 0.119_2 * g + 0.950_5 * b) / 1.089;
+        let f = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+        [116.0 * f(y) - 16.0, 500.0 * (f(x) - f(y)), 200.0 * (f(y) - f(z))]
+    }
+}
+
 impl fmt::Display for Colour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "#{:02x}{:02x}{:02x}", self.r, self.g, self.b)
@@ -90,6 +112,13 @@ impl FromStr for Ink {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn differences_are_those_of_lab() {
+        let [red, orange, blue] = ["red", "orange", "blue"].map(|name| name.parse::<Colour>().unwrap());
+        assert!((Colour::BLACK.difference(Colour::WHITE) - 100.0).abs() < 0.1);
+        assert!(red.difference(orange) < red.difference(blue));
+    }
 
     #[test]
     fn inks_are_read_and_written() {

@@ -2,6 +2,7 @@
 //!
 //! In and out: points, polygons and `kurbo` curves. Nothing here knows of photographs, styles or machines.
 
+mod arc;
 mod blob;
 mod blue_noise;
 mod clip;
@@ -15,6 +16,7 @@ mod smooth;
 mod swell;
 mod thinning;
 
+pub use arc::{Step, fit_arcs, flatten_arc};
 pub use blob::blob;
 pub use blue_noise::blue_noise_order;
 pub use clip::{clip_disc, clip_polygon, clip_polyline, half_plane};

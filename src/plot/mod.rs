@@ -4,6 +4,7 @@
 //! [`Mounting`] says where the page lies on a machine. Nothing here knows of styles or fields.
 
 mod coverage;
+mod errands;
 mod lower;
 mod mounting;
 mod occlude;
@@ -13,13 +14,14 @@ mod report;
 mod time;
 
 pub use coverage::{Coverage, coverage};
-pub use lower::{InkModel, Nibs, Swell, lower};
+pub use errands::{add_registration, pause_every, rest_touches};
+pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded};
 pub use order::{Direction, Effort, PathEnds, Visit, chain, drop_duplicates, order, pen_up_length};
 pub use profile::{
-    Area, GcodeDialect, HpglDialect, Language, Limits, Motion, Paper, PenChange, Pens, Planner, Profile, ProfileError, built_in,
-    built_in_names,
+    Area, Axes, Comment, Corner, GcodeDialect, Height, HpglDialect, Language, Lift, Limits, Motion, Paper, PenChange, PenSlot,
+    Pens, Planner, Profile, ProfileError, SvgDialect, Swell, Travel, Way, built_in, built_in_names,
 };
 pub use report::{PenReport, PlotReport, report};
 pub use time::{Clock, clock};

@@ -3,13 +3,16 @@
 use super::profile::{Paper, Profile};
 use super::{Plot, Toolpath};
 use crate::drawing::Page;
-use crate::geometry::{Affine, Rect, clip_polyline};
+use crate::geometry::{Affine, Point, Rect, Vec2, clip_polyline};
 use thiserror::Error;
 
 /// Sizes that differ by less are the same sheet, in millimetres.
 const SAME_SIZE: f64 = 1.0;
 /// Rounding that is forgiven at the machine's limits, in millimetres.
 const FORGIVEN: f64 = 0.02;
+
+/// How far arcs may lie from their path unless it is told otherwise, in millimetres: as far as curves are flattened.
+const ARC_TOLERANCE: f64 = 0.02;
 
 /// A page on a machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,10 +21,18 @@ pub struct Mounting {
     pub to_machine: Affine,
     /// The machine's reach in machine units.
     pub limits: Rect,
-    /// The sheet, where the machine knows any.
+    /// The sheet, where the machine knows it.
     pub paper: Option<Paper>,
     /// How the page is turned on the machine.
     pub turn: Turn,
+    /// Where the pen waits at the end, in machine units.
+    pub park: Point,
+    /// What is traced with the pen up before the first pen draws, on the page; then the machine waits.
+    pub frame: Option<Rect>,
+    /// How far fitted arcs may lie from their path, in millimetres.
+    pub tolerance: f64,
+    /// For slots whose pens' ink lies off: where they are sent instead, in machine units.
+    offsets: Vec<(u32, Vec2)>,
 }
 
 /// A page's turn on the machine.
@@ -31,6 +42,8 @@ pub enum Turn {
     Upright,
     /// Clockwise by a quarter, so that a portrait page lies on a landscape sheet.
     Quarter,
+    /// Anticlockwise by a quarter, as the AxiDraw's program does.
+    QuarterBack,
 }
 
 /// Why a page or drawing does not go onto a machine.
@@ -64,59 +77,90 @@ pub enum MountingError {
         /// What would work.
         advice: String,
     },
+    /// The drawing leaves the sheet.
+    #[error("the drawing reaches {excess:.2} mm beyond the sheet's {side} edge; {advice}, or cut it with --clip")]
+    OffSheet {
+        /// How far.
+        excess: f64,
+        /// Which edge.
+        side: &'static str,
+        /// What would work.
+        advice: String,
+    },
 }
 
-/// Lays a page on a machine: on the sheet of its size, either way round, else in the middle of the first sheet of the profile
-/// that holds it; where the machine knows no sheets, with its lower left corner at machine zero.
+/// Lays a page on a machine: on the sheet of its size, either way round, else in the machine's own area with its zero where the
+/// axes say, else in the middle of the first sheet of the profile that holds it.
 pub fn mount(profile: &Profile, page: &Page) -> Result<Mounting, MountingError> {
-    let scale = profile.units_per_mm;
+    if let Some((paper, turn)) = paper_of_size(profile, page) {
+        return Ok(on_paper(profile, page, paper, turn));
+    }
     if let Some(area) = &profile.area {
+        let turns = profile.svg.is_some_and(|svg| svg.turns_portrait) && page.height > page.width;
+        let turn = if turns { Turn::QuarterBack } else { Turn::Upright };
+        let (width, height) = turned_size(page, turn);
+        let limits = Rect::new(area.x[0], area.y[0], area.x[1], area.y[1]);
         return Ok(Mounting {
-            to_machine: Affine::new([scale, 0.0, 0.0, -scale, 0.0, page.height * scale]),
-            limits: Rect::new(area.x[0], area.y[0], area.x[1], area.y[1]),
             paper: None,
-            turn: Turn::Upright,
+            turn,
+            ..Mounting::new(profile, sheet_to_machine(profile, profile.axes.zero.on(width, height)) * turned(page, turn), limits)
         });
     }
-    let (paper, turn) = choose_paper(profile, page)?;
+    let (paper, turn) = paper_that_holds(profile, page)?;
+    Ok(on_paper(profile, page, paper, turn))
+}
+
+/// The page in the middle of a sheet.
+fn on_paper(profile: &Profile, page: &Page, paper: &Paper, turn: Turn) -> Mounting {
     let (width, height) = turned_size(page, turn);
-    // The page's turned box on the sheet, from the sheet's upper left corner.
-    let (left, top) = (0.5 * (paper.width - width), 0.5 * (paper.height - height));
-    let turned = match turn {
+    let centred = Affine::translate((0.5 * (paper.width - width), 0.5 * (paper.height - height)));
+    let to_machine = sheet_to_machine(profile, Point::new(paper.zero[0], paper.zero[1])) * centred * turned(page, turn);
+    let limits = Rect::new(paper.x[0], paper.y[0], paper.x[1], paper.y[1]);
+    let plain = Mounting::new(profile, to_machine, limits);
+    let park = paper.park.map_or(plain.park, |[x, y]| Point::new(x, y));
+    Mounting { paper: Some(paper.clone()), turn, park, ..plain }
+}
+
+/// From millimetres on the sheet, seen with the axes' ways, to machine units; `zero` is machine zero on the sheet.
+fn sheet_to_machine(profile: &Profile, zero: Point) -> Affine {
+    let x = profile.axes.x.vector() * (profile.units_per_mm * profile.scale_x);
+    let y = profile.axes.y.vector() * (profile.units_per_mm * profile.scale_y);
+    Affine::new([x.x, y.x, x.y, y.y, 0.0, 0.0]) * Affine::translate(-zero.to_vec2())
+}
+
+/// From the page to its turned box, whose upper left corner is the origin.
+fn turned(page: &Page, turn: Turn) -> Affine {
+    match turn {
         Turn::Upright => Affine::IDENTITY,
         Turn::Quarter => Affine::new([0.0, 1.0, -1.0, 0.0, page.height, 0.0]),
-    };
-    let on_machine = Affine::new([scale, 0.0, 0.0, -scale, (left - paper.zero[0]) * scale, (paper.zero[1] - top) * scale]);
-    Ok(Mounting {
-        to_machine: on_machine * turned,
-        limits: Rect::new(paper.x[0], paper.y[0], paper.x[1], paper.y[1]),
-        paper: Some(paper.clone()),
-        turn,
-    })
+        Turn::QuarterBack => Affine::new([0.0, -1.0, 1.0, 0.0, 0.0, page.width]),
+    }
 }
 
 const fn turned_size(page: &Page, turn: Turn) -> (f64, f64) {
     match turn {
         Turn::Upright => (page.width, page.height),
-        Turn::Quarter => (page.height, page.width),
+        Turn::Quarter | Turn::QuarterBack => (page.height, page.width),
     }
 }
 
-fn choose_paper<'a>(profile: &'a Profile, page: &Page) -> Result<(&'a Paper, Turn), MountingError> {
-    let spare = |paper: &Paper, turn| {
-        let (width, height) = turned_size(page, turn);
-        (paper.width - width, paper.height - height)
-    };
-    let options = || profile.paper.iter().flat_map(|paper| [(paper, Turn::Upright), (paper, Turn::Quarter)]);
-    let exact = options().find(|&(paper, turn)| {
-        let (x, y) = spare(paper, turn);
-        x.abs() < SAME_SIZE && y.abs() < SAME_SIZE
-    });
-    let holds = |&(paper, turn): &(&Paper, Turn)| {
-        let (x, y) = spare(paper, turn);
-        x >= 0.0 && y >= 0.0
-    };
-    exact.or_else(|| options().find(holds)).ok_or_else(|| MountingError::PageTooLarge {
+/// Each sheet, either way round, with what a page leaves free of its width and height.
+fn sheets<'a>(profile: &'a Profile, page: &Page) -> impl Iterator<Item = (&'a Paper, Turn, f64, f64)> {
+    profile.paper.iter().flat_map(move |paper| {
+        [Turn::Upright, Turn::Quarter].map(|turn| {
+            let (width, height) = turned_size(page, turn);
+            (paper, turn, paper.width - width, paper.height - height)
+        })
+    })
+}
+
+fn paper_of_size<'a>(profile: &'a Profile, page: &Page) -> Option<(&'a Paper, Turn)> {
+    sheets(profile, page).find(|&(_, _, x, y)| x.abs() < SAME_SIZE && y.abs() < SAME_SIZE).map(|(paper, turn, ..)| (paper, turn))
+}
+
+fn paper_that_holds<'a>(profile: &'a Profile, page: &Page) -> Result<(&'a Paper, Turn), MountingError> {
+    let holds = sheets(profile, page).find(|&(_, _, x, y)| x >= 0.0 && y >= 0.0);
+    holds.map(|(paper, turn, ..)| (paper, turn)).ok_or_else(|| MountingError::PageTooLarge {
         width: page.width,
         height: page.height,
         machine: profile.name.clone(),
@@ -125,46 +169,99 @@ fn choose_paper<'a>(profile: &'a Profile, page: &Page) -> Result<(&'a Paper, Tur
 }
 
 impl Mounting {
-    /// The machine's reach in the page's millimetres.
-    pub fn reach_on_page(&self) -> Rect {
-        self.to_machine.inverse().transform_rect_bbox(self.limits)
+    /// A machine's reach and where the page lies in it, without a sheet.
+    pub fn new(profile: &Profile, to_machine: Affine, limits: Rect) -> Self {
+        let park =
+            profile.gcode.as_ref().map_or(Point::new(limits.x1, limits.y1), |gcode| Point::new(gcode.park[0], gcode.park[1]));
+        let offset = |[x, y]: [f64; 2]| -Vec2::new(x * profile.scale_x, y * profile.scale_y) * profile.units_per_mm;
+        let offsets = profile.pen.iter().map(|pen| (pen.slot, offset(pen.offset))).collect();
+        Self { to_machine, limits, paper: None, turn: Turn::Upright, park, frame: None, tolerance: ARC_TOLERANCE, offsets }
     }
 
-    /// Refuses a plot of which anything lies beyond the machine's reach, and says by how much.
+    /// Where a pen is sent to draw at a point of the page, in machine units.
+    pub fn place(&self, pen: u32, p: Point) -> Point {
+        self.to_machine * p + self.offsets.iter().find(|(slot, _)| *slot == pen).map_or(Vec2::ZERO, |(_, offset)| *offset)
+    }
+
+    /// The machine's reach in the page's millimetres, whatever the pen.
+    pub fn reach_on_page(&self) -> Rect {
+        let moved = |rect: Rect| self.offsets.iter().fold(rect, |rect, (_, offset)| rect.intersect(self.limits - *offset));
+        self.to_machine.inverse().transform_rect_bbox(moved(self.limits))
+    }
+
+    /// What may be drawn on: the sheet less what the machine cannot reach, on the page.
+    pub fn drawable(&self, page: &Page) -> Rect {
+        self.reach_on_page().intersect(page.rect())
+    }
+
+    /// Refuses a plot of which anything lies beyond the machine's reach or off the sheet, and says by how much.
     pub fn check(&self, profile: &Profile, plot: &Plot) -> Result<(), MountingError> {
-        let points = || plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
-        let Some(bounds) = points().map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)) else { return Ok(()) };
-        let excesses = excesses(self.to_machine.transform_rect_bbox(bounds), self.limits, profile.units_per_mm);
-        let (excess, side) = excesses.into_iter().fold((0.0, ""), |worst, next| if next.0 > worst.0 { next } else { worst });
-        if excess <= FORGIVEN {
-            return Ok(());
+        let (mut worst, mut worst_off) = ((0.0, ""), (0.0, ""));
+        let mut whole: Option<Rect> = None;
+        for pen in &plot.pens {
+            let points = || pen.paths.iter().flat_map(|path| &path.points);
+            let Some(drawn) = bounds(points().copied()) else { continue };
+            let Some(sent) = bounds(points().map(|p| self.place(pen.number, *p))) else { continue };
+            let reached = excesses(sent, self.limits, profile.units_per_mm, ["lower x", "upper x", "lower y", "upper y"]);
+            let on_sheet = excesses(drawn, plot.page.rect(), 1.0, ["left", "right", "upper", "lower"]);
+            let greater = |worst: (f64, &'static str), next: (f64, &'static str)| if next.0 > worst.0 { next } else { worst };
+            worst = reached.into_iter().fold(worst, greater);
+            worst_off = on_sheet.into_iter().fold(worst_off, greater);
+            whole = Some(whole.map_or(drawn, |whole| whole.union(drawn)));
         }
-        let reach = self.reach_on_page();
-        let fits = |w: f64, h: f64| w <= reach.width() && h <= reach.height();
-        let advice = if fits(bounds.width(), bounds.height()) {
-            "it would fit elsewhere on the page: leave a larger --margin, or plot with --fit page".to_owned()
-        } else if fits(bounds.height(), bounds.width()) {
-            "it would fit turned by 90 degrees: --rotate 90".to_owned()
+        let Some(whole) = whole else { return Ok(()) };
+        if worst.0 > FORGIVEN {
+            let advice = self.advice(profile, plot, whole);
+            return Err(MountingError::OutOfReach { excess: worst.0, side: worst.1, machine: profile.name.clone(), advice });
+        }
+        if worst_off.0 > FORGIVEN {
+            return Err(MountingError::OffSheet {
+                excess: worst_off.0,
+                side: worst_off.1,
+                advice: self.advice(profile, plot, whole),
+            });
+        }
+        Ok(())
+    }
+
+    /// What would make a drawing fit.
+    fn advice(&self, profile: &Profile, plot: &Plot, drawn: Rect) -> String {
+        let free = self.drawable(&plot.page);
+        if drawn.width() <= free.width() && drawn.height() <= free.height() {
+            return "it would fit elsewhere on the page: leave a larger --margin, or plot with --center or --fit page".to_owned();
+        }
+        let page = Page { width: plot.page.height, height: plot.page.width, ..plot.page };
+        let turned = turned(&plot.page, Turn::Quarter).transform_rect_bbox(drawn);
+        let fits = mount(profile, &page).is_ok_and(|mounting| {
+            let free = mounting.drawable(&page).inflate(FORGIVEN, FORGIVEN);
+            free.union(turned) == free
+        });
+        let size = format!(
+            "it is {:.1} x {:.1} mm and {:.1} x {:.1} mm can be drawn on",
+            drawn.width(),
+            drawn.height(),
+            free.width().max(0.0),
+            free.height().max(0.0)
+        );
+        if fits {
+            format!("{size}; turned by 90 degrees it would fit: --rotate 90")
         } else {
-            format!(
-                "it is {:.1} x {:.1} mm and the reach is {:.1} x {:.1} mm: make it smaller (draw --size, plot --scale or --fit page)",
-                bounds.width(),
-                bounds.height(),
-                reach.width(),
-                reach.height()
-            )
-        };
-        Err(MountingError::OutOfReach { excess, side, machine: profile.name.clone(), advice })
+            format!("{size}, and --rotate 90 would not help: make it smaller (draw --size, plot --scale or --fit page)")
+        }
     }
 }
 
+fn bounds(points: impl Iterator<Item = Point>) -> Option<Rect> {
+    points.map(|p| Rect::from_points(p, p)).reduce(|a, b| a.union(b))
+}
+
 /// How far a box reaches beyond each limit, in millimetres.
-fn excesses(inner: Rect, limits: Rect, units_per_mm: f64) -> [(f64, &'static str); 4] {
+fn excesses(inner: Rect, limits: Rect, units_per_mm: f64, names: [&'static str; 4]) -> [(f64, &'static str); 4] {
     [
-        ((limits.x0 - inner.x0) / units_per_mm, "lower x"),
-        ((inner.x1 - limits.x1) / units_per_mm, "upper x"),
-        ((limits.y0 - inner.y0) / units_per_mm, "lower y"),
-        ((inner.y1 - limits.y1) / units_per_mm, "upper y"),
+        ((limits.x0 - inner.x0) / units_per_mm, names[0]),
+        ((inner.x1 - limits.x1) / units_per_mm, names[1]),
+        ((limits.y0 - inner.y0) / units_per_mm, names[2]),
+        ((inner.y1 - limits.y1) / units_per_mm, names[3]),
     ]
 }
 
@@ -210,11 +307,10 @@ fn between(values: &[f64], at: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
-    use crate::plot::{PenPaths, built_in};
+    use crate::plot::PenPaths;
 
     fn profile(name: &str) -> Profile {
-        Profile::parse(name, built_in(name).unwrap()).unwrap()
+        Profile::built_in(name).unwrap()
     }
 
     fn plot_of(page: Page, points: &[(f64, f64)]) -> Plot {

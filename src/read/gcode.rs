@@ -1,7 +1,7 @@
 //! G-code as motion: modal absolute moves, and the pen by the profile's own commands.
 
 use super::Strokes;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vec2, flatten_arc};
 use thiserror::Error;
 
 /// Motion in machine units (millimetres).
@@ -28,56 +28,139 @@ pub enum GcodeError {
     },
 }
 
-/// Reads `G0 G1` moves in absolute millimetres; a line equal to `pen_up` or `pen_down` moves the pen, `M0` pauses, a comment
-/// `pen N:` tells which pen is in the holder.
+/// Reads absolute moves and arcs in millimetres; a line equal to `pen_up` or `pen_down` moves the pen, `M0` and `PAUSE` pause, a
+/// comment `pen N:` tells which pen is in the holder.
 pub fn read_gcode(text: &str, pen_up: &str, pen_down: &str) -> Result<GcodeMotion, GcodeError> {
-    let mut motion = Strokes { ends_up: true, ..Strokes::default() };
-    let (mut at, mut pen, mut is_down) = (Point::ORIGIN, 1, false);
-    for (i, raw) in text.lines().enumerate() {
-        let comment = raw.find('(').map_or("", |start| raw[start + 1..].trim_end_matches(')'));
-        if let Some(number) = comment.strip_prefix("pen ").and_then(|rest| rest.split(':').next()).and_then(|n| n.parse().ok()) {
-            pen = number;
-        }
-        let line = raw.split(['(', ';']).next().unwrap_or("").trim();
-        if line == pen_up {
-            is_down = false;
-        } else if line == pen_down {
-            if !is_down {
-                motion.paths.push((pen, vec![at]));
-            }
-            is_down = true;
-        } else if line == "M0" {
-            motion.pauses += 1;
-        } else if let Some(to) = target(line, at, i + 1)? {
-            at = to;
-            motion.visited.push(at);
-            if is_down && let Some((_, path)) = motion.paths.last_mut() {
-                path.push(at);
-            }
-        }
-    }
-    motion.ends_up = !is_down;
-    Ok(motion)
+    read(text, &Lift::Commands { up: pen_up, down: pen_down })
 }
 
-/// Where a line moves to, if it moves.
-fn target(line: &str, at: Point, number: usize) -> Result<Option<Point>, GcodeError> {
-    let (mut to, mut moves) = (at, false);
-    for word in line.split_whitespace() {
-        let (letter, value) = word.split_at(word.chars().next().map_or(0, char::len_utf8));
-        let value: f64 = value.parse().map_err(|_| GcodeError::Word { line: number, word: word.to_owned() })?;
-        match letter {
-            "X" => (to.x, moves) = (value, true),
-            "Y" => (to.y, moves) = (value, true),
-            "G" if [2.0, 3.0, 20.0, 91.0, 28.0].contains(&value) => {
-                return Err(GcodeError::Mode { line: number, word: word.to_owned() });
-            }
-            // Time and other settings carry letters of their own.
-            "P" if line.starts_with("G4") => {}
-            _ => {}
+/// The same for a machine whose pen is lifted by its z axis: it is down beyond the middle between `up` and `down`.
+pub fn read_gcode_heights(text: &str, up: f64, down: f64) -> Result<GcodeMotion, GcodeError> {
+    read(text, &Lift::Heights { up, down })
+}
+
+enum Lift<'a> {
+    Commands { up: &'a str, down: &'a str },
+    Heights { up: f64, down: f64 },
+}
+
+/// Distance from an arc at which it is followed, in millimetres.
+const ARC_TOLERANCE: f64 = 0.002;
+
+struct Reader {
+    motion: Strokes,
+    at: Point,
+    pen: u32,
+    is_down: bool,
+    /// The last of G0 to G3.
+    mode: u32,
+}
+
+fn read(text: &str, lift: &Lift<'_>) -> Result<GcodeMotion, GcodeError> {
+    let motion = Strokes { ends_up: true, ..Strokes::default() };
+    let mut reader = Reader { motion, at: Point::ORIGIN, pen: 1, is_down: false, mode: 0 };
+    for (i, raw) in text.lines().enumerate() {
+        let comment = raw.find(['(', ';']).map_or("", |start| raw[start + 1..].trim_start().trim_end_matches(')'));
+        if let Some(number) = comment.strip_prefix("pen ").and_then(|rest| rest.split(':').next()).and_then(|n| n.parse().ok()) {
+            reader.pen = number;
+        }
+        let line = raw.split(['(', ';', '%']).next().unwrap_or("").trim();
+        match lift {
+            Lift::Commands { up, .. } if line == *up => reader.is_down = false,
+            Lift::Commands { down, .. } if line == *down => reader.lower(),
+            _ if line == "M0" || line == "PAUSE" => reader.motion.pauses += 1,
+            _ if line.split_whitespace().next().is_some_and(is_named) => {}
+            _ => reader.line(line, i + 1, lift)?,
         }
     }
-    Ok(moves.then_some(to))
+    reader.motion.ends_up = !reader.is_down;
+    Ok(reader.motion)
+}
+
+/// Whether a word is a controller's named command, such as `SET_SERVO`.
+fn is_named(word: &str) -> bool {
+    word.len() > 2 && word.bytes().take(2).all(|b| b.is_ascii_alphabetic())
+}
+
+/// The values that a line gives to the axes and an arc's centre.
+#[derive(Default)]
+struct Words {
+    x: Option<f64>,
+    y: Option<f64>,
+    z: Option<f64>,
+    i: f64,
+    j: f64,
+    has_centre: bool,
+}
+
+impl Reader {
+    fn line(&mut self, line: &str, number: usize, lift: &Lift<'_>) -> Result<(), GcodeError> {
+        let mut words = Words::default();
+        for word in line.split_whitespace() {
+            let (letter, value) = word.split_at(word.chars().next().map_or(0, char::len_utf8));
+            let value: f64 = value.parse().map_err(|_| GcodeError::Word { line: number, word: word.to_owned() })?;
+            match letter {
+                "X" => words.x = Some(value),
+                "Y" => words.y = Some(value),
+                "Z" => words.z = Some(value),
+                "I" => (words.i, words.has_centre) = (value, true),
+                "J" => (words.j, words.has_centre) = (value, true),
+                "G" if [0.0, 1.0, 2.0, 3.0].contains(&value) => self.mode = value as u32,
+                "G" if [20.0, 28.0, 91.0, 92.0].contains(&value) => {
+                    return Err(GcodeError::Mode { line: number, word: word.to_owned() });
+                }
+                "R" => return Err(GcodeError::Mode { line: number, word: word.to_owned() }),
+                // Speeds, times and other settings.
+                _ => {}
+            }
+        }
+        if let (Lift::Heights { up, down }, Some(z)) = (lift, words.z) {
+            if (z - down).abs() < (z - up).abs() || (z - down) * (up - down) < 0.0 {
+                self.lower();
+            } else {
+                self.is_down = false;
+            }
+        }
+        self.go(&words);
+        Ok(())
+    }
+
+    fn go(&mut self, words: &Words) {
+        if words.x.is_none() && words.y.is_none() {
+            return;
+        }
+        let to = Point::new(words.x.unwrap_or(self.at.x), words.y.unwrap_or(self.at.y));
+        if self.mode < 2 || !words.has_centre {
+            return self.visit(to);
+        }
+        let centre = self.at + Vec2::new(words.i, words.j);
+        let (from, end) = (self.at - centre, to - centre);
+        let turn = from.cross(end).atan2(from.dot(end));
+        let whole = std::f64::consts::TAU;
+        let sweep = match (self.mode, turn) {
+            (3, turn) if turn <= 0.0 => turn + whole,
+            (2, turn) if turn >= 0.0 => turn - whole,
+            (_, turn) => turn,
+        };
+        flatten_arc(self.at, to, centre, sweep, ARC_TOLERANCE).into_iter().for_each(|p| self.visit(p));
+    }
+
+    fn visit(&mut self, to: Point) {
+        self.at = to;
+        self.motion.visited.push(to);
+        if self.is_down
+            && let Some((_, path)) = self.motion.paths.last_mut()
+        {
+            path.push(to);
+        }
+    }
+
+    fn lower(&mut self) {
+        if !self.is_down {
+            self.motion.paths.push((self.pen, vec![self.at]));
+        }
+        self.is_down = true;
+    }
 }
 
 #[cfg(test)]
@@ -98,5 +181,15 @@ mod tests {
     fn faults_are_named() {
         assert_eq!(read_gcode("G21\nG0 Xa\n", "", ""), Err(GcodeError::Word { line: 2, word: "Xa".into() }));
         assert!(matches!(read_gcode("G20\n", "M3 S1", "M3 S2"), Err(GcodeError::Mode { line: 1, .. })));
+    }
+
+    #[test]
+    fn heights_and_arcs() {
+        let text =
+            "%\n; pen 3: brush\nG0 Z2\nG0 X1 Y0 F600\nG1 Z-.2 F60\nG3 X-1 Y0 I-1 J0\nG2 X1 Y0 I1 J0 Z-1\nG0 Z2\nPAUSE\n%\n";
+        let motion = read_gcode_heights(text, 2.0, -0.2).unwrap();
+        assert_eq!((motion.paths.len(), motion.paths[0].0, motion.pauses, motion.ends_up), (1, 3, 1, true));
+        assert!(motion.paths[0].1.iter().all(|p| (p.to_vec2().hypot() - 1.0).abs() < 0.003));
+        assert!(motion.paths[0].1.iter().all(|p| p.y >= -1e-9), "G3 over the top, G2 back over it");
     }
 }

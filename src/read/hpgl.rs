@@ -1,7 +1,7 @@
 //! HP-GL as motion: the subset that plotter programs write.
 
 use super::Strokes;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vec2, flatten_arc};
 use thiserror::Error;
 
 /// Motion in plotter units.
@@ -28,7 +28,7 @@ pub enum HpglError {
     },
 }
 
-/// Reads `IN SP VS FS PU PD PA PR PS` and skips other instructions' effects; escape sequences are passed over.
+/// Reads `IN SP VS FS PU PD PA PR PE AA AR PS` and skips other instructions' effects; escape sequences are passed over.
 pub fn read_hpgl(text: &str) -> Result<HpglMotion, HpglError> {
     let mut reader = Reader {
         motion: Strokes { ends_up: true, ..Strokes::default() },
@@ -37,16 +37,34 @@ pub fn read_hpgl(text: &str) -> Result<HpglMotion, HpglError> {
         is_down: false,
         is_relative: false,
     };
-    let mut start = 0;
-    for piece in text.split_inclusive([';', '\n']) {
-        let instruction = piece.trim_matches(|c: char| c == ';' || c.is_whitespace());
+    let mut at = 0;
+    while at < text.len() {
+        let rest = &text[at..];
+        let length = match rest.as_bytes()[0] {
+            b'\x1b' => escape_length(rest),
+            // Packed numbers may hold any printable character but the one that ends them.
+            b'P' if rest.starts_with("PE") => rest.find(';').map_or(rest.len(), |end| end + 1),
+            _ => rest.find([';', '\n', '\x1b']).map_or(rest.len(), |end| end + usize::from(!rest[end..].starts_with('\x1b'))),
+        };
+        let instruction = rest[..length].trim_matches(|c: char| c == ';' || c.is_whitespace());
         if !instruction.is_empty() && !instruction.starts_with('\u{1b}') {
-            reader.execute(instruction, start)?;
+            reader.execute(instruction, at)?;
         }
-        start += piece.len();
+        at += length;
     }
     reader.motion.ends_up = !reader.is_down;
     Ok(reader.motion)
+}
+
+/// An escape sequence is ESC, a point and a letter; some letters take parameters up to a colon.
+fn escape_length(text: &str) -> usize {
+    let takes_parameters = text.as_bytes().get(2).is_some_and(|letter| b"@HIMNPQSTY".contains(letter));
+    let end = if takes_parameters { text.find(':').map(|colon| colon + 1) } else { None };
+    let mut length = end.unwrap_or(3).min(text.len());
+    while !text.is_char_boundary(length) {
+        length += 1;
+    }
+    length
 }
 
 struct Reader {
@@ -64,21 +82,26 @@ impl Reader {
             return Err(refuse());
         }
         let (name, parameters) = instruction.split_at(2);
+        let name = name.to_ascii_uppercase();
+        if name == "PE" {
+            return self.packed(parameters).ok_or_else(refuse);
+        }
         let numbers: Vec<f64> = parameters
             .split([',', ' '])
             .filter(|number| !number.is_empty())
             .map(|number| number.parse().map_err(|_| refuse()))
             .collect::<Result<_, _>>()?;
-        match name.to_ascii_uppercase().as_str() {
+        match name.as_str() {
             "IN" | "DF" => (self.is_down, self.is_relative) = (false, false),
             "SP" => self.pen = numbers.first().map_or(0, |n| *n as u32),
             "PU" => self.is_down = false,
             "PD" => self.lower(),
             "PA" => self.is_relative = false,
             "PR" => self.is_relative = true,
+            "AA" | "AR" => return self.arc(&numbers, name == "AR").ok_or_else(refuse),
             _ => return Ok(()),
         }
-        if !name.starts_with(['P', 'p']) || matches!(name, "PS") {
+        if !matches!(name.as_str(), "PU" | "PD" | "PA" | "PR") {
             return Ok(());
         }
         if !numbers.len().is_multiple_of(2) {
@@ -86,6 +109,56 @@ impl Reader {
         }
         numbers.chunks_exact(2).for_each(|pair| self.move_by_or_to(pair[0], pair[1]));
         Ok(())
+    }
+
+    /// Centre, and the angle in degrees.
+    fn arc(&mut self, numbers: &[f64], is_relative: bool) -> Option<()> {
+        let &[x, y, degrees, ..] = numbers else { return None };
+        let centre = if is_relative { self.at + Vec2::new(x, y) } else { Point::new(x, y) };
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let spoke = self.at - centre;
+        let to = centre + Vec2::new(spoke.x * cos - spoke.y * sin, spoke.x * sin + spoke.y * cos);
+        flatten_arc(self.at, to, centre, degrees.to_radians(), 0.1).into_iter().for_each(|p| self.visit(p));
+        Some(())
+    }
+
+    /// Pairs of differences in base 64 or, after a 7, in base 32; `<` lifts the pen for one move and `=` makes one absolute.
+    fn packed(&mut self, text: &str) -> Option<()> {
+        let (mut base, mut value, mut scale) = (64, 0_i64, 1_i64);
+        let (mut pair, mut is_up, mut is_absolute) = (Vec::new(), false, false);
+        let was_down = self.is_down;
+        for c in text.chars().map(u32::from) {
+            match c {
+                55 => base = 32,
+                60 => is_up = true,
+                61 => is_absolute = true,
+                63..=254 => {
+                    let digit = i64::from(c) - 63;
+                    let is_last = digit >= if base == 64 { 128 } else { 32 };
+                    value = value.checked_add((digit % if base == 64 { 128 } else { 32 }).checked_mul(scale)?)?;
+                    scale = scale.checked_mul(base)?;
+                    if is_last {
+                        pair.push(if value % 2 == 1 { -(value / 2) } else { value / 2 } as f64);
+                        (value, scale) = (0, 1);
+                    }
+                }
+                _ if char::from_u32(c).is_some_and(char::is_whitespace) => {}
+                _ => return None,
+            }
+            if let [x, y] = pair[..] {
+                if is_up {
+                    self.is_down = false
+                } else {
+                    self.lower()
+                }
+                let by = Vec2::new(x, y);
+                self.visit(if is_absolute { by.to_point() } else { self.at + by });
+                (is_up, is_absolute) = (false, false);
+                pair.clear();
+            }
+        }
+        self.is_down = was_down;
+        Some(())
     }
 
     fn lower(&mut self) {
@@ -96,12 +169,16 @@ impl Reader {
     }
 
     fn move_by_or_to(&mut self, x: f64, y: f64) {
-        self.at = if self.is_relative { self.at + crate::geometry::Vec2::new(x, y) } else { Point::new(x, y) };
-        self.motion.visited.push(self.at);
+        self.visit(if self.is_relative { self.at + Vec2::new(x, y) } else { Point::new(x, y) });
+    }
+
+    fn visit(&mut self, to: Point) {
+        self.at = to;
+        self.motion.visited.push(to);
         if self.is_down
             && let Some((_, path)) = self.motion.paths.last_mut()
         {
-            path.push(self.at);
+            path.push(to);
         }
     }
 }
@@ -124,5 +201,16 @@ mod tests {
     fn faults_are_named() {
         assert!(matches!(read_hpgl("IN;PU1;"), Err(HpglError::OddCoordinates { at: 3, .. })));
         assert!(matches!(read_hpgl("IN;<svg>"), Err(HpglError::Instruction { at: 3, .. })));
+    }
+
+    #[test]
+    fn escapes_arcs_and_packed_lines() {
+        let text = "\u{1b}.N;19:\u{1b}.I81;;17:IN;SP2;PU10,0;PD;AA0,0,90,5;PU0,0;PD;PE7abab;PU5,5;SP0;";
+        let motion = read_hpgl(text).unwrap();
+        let quarter = &motion.paths[0].1;
+        assert!(quarter[quarter.len() - 1].distance(Point::new(0.0, 10.0)) < 1e-9);
+        assert!(quarter.iter().all(|p| (p.to_vec2().hypot() - 10.0).abs() < 0.2));
+        assert_eq!(motion.paths[1], (2, vec![Point::ORIGIN, Point::new(1.0, -1.0), Point::new(2.0, -2.0)]));
+        assert!(motion.ends_up);
     }
 }

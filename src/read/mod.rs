@@ -10,7 +10,7 @@ mod layers;
 mod svg;
 
 pub use dropped::Dropped;
-pub use gcode::{GcodeError, GcodeMotion, read_gcode};
+pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights};
 pub use hpgl::{HpglError, HpglMotion, read_hpgl};
 pub use svg::{Imported, ImportedLayer, SvgError, read_svg};
 

@@ -1,42 +1,40 @@
-//! G-code: absolute millimetres, the pen's own commands from the profile, a dwell after each.
+//! G-code: absolute machine units, the pen's own commands or heights from the profile, arcs where the machine knows them.
 
-use super::number::decimal;
-use crate::geometry::Point;
-use crate::plot::{GcodeDialect, Mounting, Plot, Profile};
+use super::number::{decimal, thousandths};
+use crate::geometry::{Point, Step, fit_arcs};
+use crate::plot::{Comment, GcodeDialect, Lift, Mounting, PenPaths, Plot, Profile, Toolpath, Travel};
 use std::fmt::Write as _;
 use std::io;
 
-/// Writes a plot for a machine; the mounting says where the page lies. The caller has checked that all of it is within reach.
+/// Writes a plot for a machine; the mounting says where the page lies. The caller has checked that all of it is within reach, and
+/// that the machine can wait where a pen is changed.
 ///
 /// # Panics
 /// If the profile's language is not G-code.
 pub fn write_gcode(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut impl io::Write) -> io::Result<()> {
     let dialect = profile.gcode.as_ref().expect("a G-code profile has a dialect");
     let mut writer = Gcode { out, profile, dialect, mounting, line: String::new(), at: None };
-    writer.comment(concat!("drypoint ", env!("CARGO_PKG_VERSION")))?;
-    for line in &dialect.header {
-        writer.comment(line)?;
-    }
-    for line in &dialect.start {
-        writer.command(line)?;
-    }
-    writer.pen(&dialect.pen_up, profile.motion.pen_up_seconds)?;
+    writer.begin()?;
     for (i, pen) in plot.pens.iter().enumerate() {
         let is_other_pen = i > 0 && plot.pens[i - 1].number != pen.number;
-        if is_other_pen {
+        if is_other_pen || pen.handling.pauses {
             writer.park()?;
         }
         writer.comment(&format!("pen {}: {} {}", pen.number, pen.name, pen.nib))?;
         if is_other_pen || pen.handling.pauses {
-            writer.command(&dialect.pause)?;
+            writer.pause()?;
         }
         writer.dwell(pen.handling.delay_seconds)?;
         for path in &pen.paths {
-            writer.path(&path.points, pen.handling.speed(profile.motion.draw_speed))?;
+            writer.path(pen, path)?;
         }
     }
-    writer.park()
+    writer.park()?;
+    dialect.end.iter().chain(&dialect.frame).try_for_each(|line| writer.command(line))
 }
+
+/// A place in thousandths of a machine unit.
+type Grid = (i64, i64);
 
 struct Gcode<'a, W: io::Write> {
     out: &'a mut W,
@@ -44,16 +42,54 @@ struct Gcode<'a, W: io::Write> {
     dialect: &'a GcodeDialect,
     mounting: &'a Mounting,
     line: String,
-    at: Option<(i64, i64)>,
+    at: Option<Grid>,
 }
 
 impl<W: io::Write> Gcode<'_, W> {
+    /// Modes, then the pen goes up before anything else; then the outline, if it is asked for.
+    fn begin(&mut self) -> io::Result<()> {
+        let dialect = self.dialect;
+        dialect.frame.iter().try_for_each(|line| self.command(line))?;
+        self.comment(&format!("drypoint {} for {}", env!("CARGO_PKG_VERSION"), self.profile.name))?;
+        dialect.header.iter().try_for_each(|line| self.comment(line))?;
+        self.comment_pen()?;
+        dialect.start.iter().try_for_each(|line| self.command(line))?;
+        self.pen_up()?;
+        if let Some(frame) = self.mounting.frame {
+            self.comment("outline of the drawing, pen up; then the machine waits")?;
+            let corners = [(frame.x0, frame.y0), (frame.x1, frame.y0), (frame.x1, frame.y1), (frame.x0, frame.y1)];
+            for (x, y) in corners.into_iter().chain([corners[0]]) {
+                self.travel(self.snap(self.mounting.to_machine * Point::new(x, y)))?;
+            }
+            self.park()?;
+            self.pause()?;
+        }
+        Ok(())
+    }
+
+    /// How the pen is moved, for whoever resumes the file in its middle.
+    fn comment_pen(&mut self) -> io::Result<()> {
+        match (self.dialect.lift, self.dialect.height, &self.dialect.pen_up, &self.dialect.pen_down) {
+            (Lift::Height, Some(height), ..) => {
+                let mut up = String::new();
+                decimal(&mut up, thousandths(height.up), 3);
+                self.comment(&format!("pen up is G0 Z{up}"))
+            }
+            (_, _, Some(up), Some(down)) => {
+                self.comment(&format!("pen up is {up}"))?;
+                self.comment(&format!("pen down is {down}"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn command(&mut self, line: &str) -> io::Result<()> {
         self.out.write_all(line.as_bytes())?;
         self.out.write_all(b"\n")
     }
 
-    /// A comment in plain ASCII without the characters that senders and firmware take out (`?!~`) or that end it.
+    /// A comment in plain ASCII without the characters that senders and firmware take out (`?!~`), that end it, or that would make it
+    /// a command (LinuxCNC acts on comments that begin with MSG and the like; ours begin with a word and a number or are the profile's).
     fn comment(&mut self, text: &str) -> io::Result<()> {
         let plain: String = text
             .chars()
@@ -61,90 +97,193 @@ impl<W: io::Write> Gcode<'_, W> {
             .filter(|c| !matches!(c, '?' | '!' | '~' | '(' | ')' | ';'))
             .take(self.dialect.line_length.saturating_sub(4))
             .collect();
-        self.command(&format!("({plain})"))
+        match self.dialect.comment {
+            Comment::Parentheses => self.command(&format!("({plain})")),
+            Comment::Semicolon => self.command(&format!("; {plain}")),
+        }
     }
 
-    fn pen(&mut self, command: &str, seconds: f64) -> io::Result<()> {
-        self.command(command)?;
-        self.dwell(seconds)
+    fn pause(&mut self) -> io::Result<()> {
+        let Some(pause) = &self.dialect.pause else {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the machine has no word for a pause"));
+        };
+        self.command(pause)
     }
 
     fn dwell(&mut self, seconds: f64) -> io::Result<()> {
-        if seconds <= 0.0 {
+        let milliseconds = (seconds * 1000.0).round() as i64;
+        if milliseconds <= 0 {
             return Ok(());
         }
         let (mut whole, mut milli) = (String::new(), String::new());
-        decimal(&mut whole, (seconds * 1000.0).round() as i64, 3);
-        decimal(&mut milli, (seconds * 1000.0).round() as i64, 0);
+        decimal(&mut whole, milliseconds, 3);
+        decimal(&mut milli, milliseconds, 0);
         self.command(&self.dialect.dwell.replace("{seconds}", &whole).replace("{milliseconds}", &milli))
     }
 
-    fn path(&mut self, points: &[Point], speed: f64) -> io::Result<()> {
-        let (dialect, motion) = (self.dialect, self.profile.motion);
-        self.travel(self.snap(points[0]))?;
-        self.pen(&dialect.pen_down, motion.pen_down_seconds)?;
-        let mut feed = Some(((speed * 60.0).round() as i64).max(1));
-        for p in &points[1..] {
-            let to = self.snap(*p);
-            if Some(to) == self.at {
-                continue;
+    fn pen_up(&mut self) -> io::Result<()> {
+        match (self.dialect.lift, self.dialect.height, &self.dialect.pen_up) {
+            (Lift::Height, Some(height), _) => {
+                self.line.clear();
+                self.line.push_str("G0 Z");
+                decimal(&mut self.line, thousandths(height.up), 3);
+                // Where a feed is modal for G0 too, the last travel's would be the lift's.
+                if self.dialect.travel != Travel::Rapid {
+                    let _ = write!(self.line, " F{}", feed(height.plunge_speed));
+                }
+                self.end_line()
             }
-            self.start_move("G1", to);
-            if let Some(feed) = feed.take() {
-                let _ = write!(self.line, " F{feed}");
+            (_, _, Some(command)) => {
+                self.command(command)?;
+                self.dwell(self.profile.motion.pen_up_seconds)
             }
-            self.end_move(to)?;
+            _ => Ok(()),
         }
-        self.pen(&dialect.pen_up, motion.pen_up_seconds)
     }
 
-    fn travel(&mut self, to: (i64, i64)) -> io::Result<()> {
+    /// Down to the first vertex's height, and what a touch rests there; a z axis goes down at its plunge feed, never at G0's rate.
+    fn pen_down(&mut self, path: &Toolpath) -> io::Result<()> {
+        match (self.dialect.lift, self.dialect.height, &self.dialect.pen_down) {
+            (Lift::Height, Some(height), _) => {
+                let z = path.heights.as_ref().and_then(|heights| heights.first().copied()).unwrap_or(height.down);
+                self.line.clear();
+                self.line.push_str("G1 Z");
+                decimal(&mut self.line, thousandths(z), 3);
+                let _ = write!(self.line, " F{}", feed(height.plunge_speed));
+                self.end_line()?;
+                self.dwell(path.dwell_seconds)
+            }
+            (_, _, Some(command)) => {
+                self.command(command)?;
+                self.dwell(self.profile.motion.pen_down_seconds + path.dwell_seconds)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn path(&mut self, pen: &PenPaths, path: &Toolpath) -> io::Result<()> {
+        let places: Vec<Grid> = path.points.iter().map(|p| self.snap(self.mounting.place(pen.number, *p))).collect();
+        self.travel(places[0])?;
+        self.pen_down(path)?;
+        let mut feed = Some(feed(pen.handling.speed(self.profile.motion.draw_speed)));
+        match &path.heights {
+            Some(heights) if self.dialect.lift == Lift::Height => self.swelling(&places, heights, &mut feed)?,
+            _ => self.level(places, &mut feed)?,
+        }
+        self.pen_up()
+    }
+
+    fn level(&mut self, mut places: Vec<Grid>, feed: &mut Option<i64>) -> io::Result<()> {
+        places.dedup();
+        let point = |(x, y): Grid| Point::new(x as f64 / 1000.0, y as f64 / 1000.0);
+        if !self.dialect.arcs || !self.has_room_for_arcs(&places) {
+            return places[1..].iter().try_for_each(|to| self.draw("G1", *to, feed, |_| ()));
+        }
+        let points: Vec<Point> = places.iter().map(|p| point(*p)).collect();
+        let mut from = points[0];
+        for step in fit_arcs(&points, self.mounting.tolerance * self.profile.units_per_mm) {
+            let to = (thousandths(step.to().x), thousandths(step.to().y));
+            match step {
+                Step::Line { .. } => self.draw("G1", to, feed, |_| ())?,
+                Step::Arc { centre, sweep, .. } => {
+                    let word = if sweep > 0.0 { "G3" } else { "G2" };
+                    self.draw(word, to, feed, |line| {
+                        line.push_str(" I");
+                        decimal(line, thousandths(centre.x - from.x), 3);
+                        line.push_str(" J");
+                        decimal(line, thousandths(centre.y - from.y), 3);
+                    })?;
+                }
+            }
+            from = step.to();
+        }
+        Ok(())
+    }
+
+    /// An arc lies a little outside its chords: at the very limit of the machine a path stays as it is.
+    fn has_room_for_arcs(&self, places: &[Grid]) -> bool {
+        let room = 1.5 * self.mounting.tolerance * self.profile.units_per_mm;
+        let inner = self.mounting.limits.inset(-room);
+        places.iter().all(|&(x, y)| inner.contains(Point::new(x as f64 / 1000.0, y as f64 / 1000.0)))
+    }
+
+    fn swelling(&mut self, places: &[Grid], heights: &[f64], feed: &mut Option<i64>) -> io::Result<()> {
+        let mut z = thousandths(heights[0]);
+        for (to, height) in places.iter().zip(heights).skip(1) {
+            let next = thousandths(*height);
+            if Some(*to) != self.at || next != z {
+                z = next;
+                self.draw("G1", *to, feed, |line| {
+                    line.push_str(" Z");
+                    decimal(line, next, 3);
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self, word: &str, to: Grid, feed: &mut Option<i64>, more: impl FnOnce(&mut String)) -> io::Result<()> {
+        self.start_move(word, to);
+        more(&mut self.line);
+        if let Some(feed) = feed.take() {
+            let _ = write!(self.line, " F{feed}");
+        }
+        self.end_line()
+    }
+
+    fn travel(&mut self, to: Grid) -> io::Result<()> {
         if Some(to) == self.at {
             return Ok(());
         }
-        self.start_move("G0", to);
-        self.end_move(to)
+        let travel = self.dialect.travel;
+        self.start_move(if travel == Travel::Feed { "G1" } else { "G0" }, to);
+        if travel != Travel::Rapid {
+            let _ = write!(self.line, " F{}", feed(self.profile.motion.travel_speed));
+        }
+        self.end_line()
     }
 
     /// Pen up already; to where it does no harm.
     fn park(&mut self) -> io::Result<()> {
-        let [x, y] = self.dialect.park;
-        self.travel(((x * 1000.0).round() as i64, (y * 1000.0).round() as i64))
+        self.travel((thousandths(self.mounting.park.x), thousandths(self.mounting.park.y)))
     }
 
     /// Thousandths of a machine unit, inside the limits (the check has forgiven 0.02 mm).
-    fn snap(&self, p: Point) -> (i64, i64) {
-        let m = self.mounting.to_machine * p;
+    fn snap(&self, p: Point) -> Grid {
         let limits = self.mounting.limits;
-        let grid = |v: f64, low: f64, high: f64| (v.clamp(low, high) * 1000.0).round() as i64;
-        (grid(m.x, limits.x0, limits.x1), grid(m.y, limits.y0, limits.y1))
+        (thousandths(p.x.clamp(limits.x0, limits.x1)), thousandths(p.y.clamp(limits.y0, limits.y1)))
     }
 
-    fn start_move(&mut self, word: &str, to: (i64, i64)) {
+    fn start_move(&mut self, word: &str, to: Grid) {
         self.line.clear();
         self.line.push_str(word);
         self.line.push_str(" X");
         decimal(&mut self.line, to.0, 3);
         self.line.push_str(" Y");
         decimal(&mut self.line, to.1, 3);
+        self.at = Some(to);
     }
 
-    fn end_move(&mut self, to: (i64, i64)) -> io::Result<()> {
-        self.at = Some(to);
+    fn end_line(&mut self) -> io::Result<()> {
         self.line.push('\n');
         self.out.write_all(self.line.as_bytes())
     }
+}
+
+/// Millimetres a second as whole millimetres a minute, at least 1.
+fn feed(speed: f64) -> i64 {
+    ((speed * 60.0).round() as i64).max(1)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
-    use crate::plot::{PenPaths, Toolpath, built_in, mount};
+    use crate::plot::mount;
 
     #[test]
     fn a_layer_s_own_pause_speed_and_delay() {
-        let profile = Profile::parse("grbl-servo", built_in("grbl-servo").unwrap()).unwrap();
+        let profile = Profile::built_in("grbl-servo").unwrap();
         let page = Page::new(100.0, 50.0);
         let handling = crate::drawing::Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
         let paths = vec![Toolpath::new(vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)])];
@@ -157,7 +296,7 @@ mod tests {
 
     #[test]
     fn two_pens_pause_between_them_and_nothing_lets_the_servo_fall() {
-        let profile = Profile::parse("grbl-servo", built_in("grbl-servo").unwrap()).unwrap();
+        let profile = Profile::built_in("grbl-servo").unwrap();
         let page = Page::new(100.0, 50.0);
         let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
         let pen = |number, name: &str, paths| PenPaths {

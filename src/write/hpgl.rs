@@ -2,20 +2,28 @@
 //!
 //! ```text
 //! IN;PS4;           the machine is reset, which lifts the pen; the sheet
-//! PU;SP1;VS30;      a pen is fetched, its speed in cm/s
+//! PU;SP1;VS30;FS2;  a pen is fetched, its speed in cm/s, its force
 //! PU 10,20;PD 30,40,50,60;      one path; a touch is PU x,y;PD;
+//! PA;AA 30,20,90;   an arc around a centre by whole degrees, where the machine knows them and nothing is lost
+//! PE...;            a path packed into differences, where the machine knows HP-GL/2
 //! PU;PU 0,7721;SP0; the pen is put away beyond the drawing
 //! ```
+//!
+//! Points are rounded before they are differenced, and what follows an arc is absolute again, so rounding never adds up.
 
-use crate::plot::{Mounting, PenChange, Plot, Profile};
+use crate::geometry::{Point, Rect, Step, fit_arcs};
+use crate::plot::{HpglDialect, Mounting, PenChange, Plot, Profile};
 use std::fmt::Write as _;
 use std::io;
 
 /// Writes a plot for a machine; the mounting says where the page lies. The caller has checked that all of it is within reach and
 /// that the machine has the pens.
+///
+/// # Panics
+/// If the profile's language is not HP-GL.
 pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut impl io::Write) -> io::Result<()> {
-    let chunk = profile.hpgl.as_ref().map_or(240, |dialect| dialect.chunk);
-    let mut text = String::from("IN;PU;");
+    let dialect = profile.hpgl.as_ref().expect("an HP-GL profile has a dialect");
+    let mut text = format!("{}IN;PU;", dialect.preamble);
     if let Some(paper) = &mounting.paper {
         text.push_str(&paper.setup);
     }
@@ -26,18 +34,26 @@ pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut
             text.push_str("PU;");
         }
         let _ = write!(text, "SP{slot};VS{};", speed(profile, pen.handling.speed(profile.motion.draw_speed)));
+        dialect.force.iter().for_each(|force| text.push_str(&format!("FS{force};")));
+        dialect.acceleration.iter().for_each(|g| text.push_str(&format!("AS{g};")));
         for path in &pen.paths {
-            let units: Vec<(i64, i64)> = path.points.iter().map(|p| snap(*p, mounting)).collect();
-            path_instructions(&mut text, &units, chunk);
+            let units: Vec<Unit> = path.points.iter().map(|p| snap(mounting.place(pen.number, *p), mounting)).collect();
+            let tolerance = mounting.tolerance * profile.units_per_mm;
+            let room = mounting.limits.inset(-1.5 * tolerance.max(2.0));
+            path_instructions(&mut text, &units, dialect, room, tolerance);
             if text.len() > 1 << 16 {
                 out.write_all(text.as_bytes())?;
                 text.clear();
             }
         }
     }
-    let _ = writeln!(text, "PU;PU{},{};SP0;", mounting.limits.x1.round(), mounting.limits.y1.round());
+    let park = snap(mounting.park, mounting);
+    let _ = writeln!(text, "PU;PU{},{};SP0;{}", park.0, park.1, dialect.postamble);
     out.write_all(text.as_bytes())
 }
+
+/// A place in whole plotter units.
+type Unit = (i64, i64);
 
 /// Centimetres a second, whole, within what the machine takes.
 fn speed(profile: &Profile, wanted: f64) -> i64 {
@@ -45,55 +61,163 @@ fn speed(profile: &Profile, wanted: f64) -> i64 {
     ((wanted.min(limit) / 10.0).floor() as i64).max(1)
 }
 
-/// A point of the page in whole plotter units inside the machine's limits (the check has forgiven less than a unit).
-fn snap(p: crate::geometry::Point, mounting: &Mounting) -> (i64, i64) {
-    let m = mounting.to_machine * p;
+/// Whole plotter units inside the machine's limits (the check has forgiven less than a unit).
+fn snap(m: Point, mounting: &Mounting) -> Unit {
     let limits = mounting.limits;
     (m.x.round().clamp(limits.x0, limits.x1) as i64, m.y.round().clamp(limits.y0, limits.y1) as i64)
 }
 
-fn path_instructions(text: &mut String, units: &[(i64, i64)], chunk: usize) {
-    let _ = write!(text, "PU{},{};PD", units[0].0, units[0].1);
-    let mut length = 2;
-    let mut last = units[0];
-    for &(x, y) in &units[1..] {
-        if (x, y) == last {
-            continue;
-        }
-        last = (x, y);
-        if length > 2 {
-            text.push(if length + 14 > chunk { ';' } else { ',' });
-            if length + 14 > chunk {
-                text.push_str("PD");
-                length = 2;
-            }
+/// `room` is where an arc, which lies a little outside its chords, cannot leave the machine.
+fn path_instructions(text: &mut String, units: &[Unit], dialect: &HpglDialect, room: Rect, tolerance: f64) {
+    let mut units = units.to_vec();
+    units.dedup();
+    let _ = write!(text, "PU{},{};", units[0].0, units[0].1);
+    if units.len() == 1 {
+        text.push_str("PD;");
+    } else if dialect.packed {
+        packed(text, &units);
+    } else if dialect.arcs && units.iter().all(|&(x, y)| room.contains(Point::new(x as f64, y as f64))) {
+        with_arcs(text, &units, dialect.chunk, tolerance);
+    } else {
+        lines(text, &units[1..], dialect.chunk);
+    }
+}
+
+/// `PD` with as many points as fit into an instruction of `chunk` bytes, again and again.
+fn lines(text: &mut String, units: &[Unit], chunk: usize) {
+    let mut length = 0;
+    for (x, y) in units {
+        if length > 0 && length + 16 <= chunk {
+            text.push(',');
+            length += 1;
+        } else {
+            text.push_str(if length > 0 { ";PD" } else { "PD" });
+            length = 2;
         }
         let before = text.len();
         let _ = write!(text, "{x},{y}");
-        length += text.len() - before + 1;
+        length += text.len() - before;
+    }
+    if length > 0 {
+        text.push(';');
+    }
+}
+
+/// Lines, and arcs of whole degrees where they end nearer to their vertex than the tolerance.
+fn with_arcs(text: &mut String, units: &[Unit], chunk: usize, tolerance: f64) {
+    let points: Vec<Point> = units.iter().map(|&(x, y)| Point::new(x as f64, y as f64)).collect();
+    // The grid itself moves each vertex by up to 0.7 units, and the arc's end may lie as far off again.
+    let tolerance = tolerance.max(1.0);
+    let (mut straight, mut at) = (Vec::new(), 0);
+    for step in fit_arcs(&points, tolerance) {
+        let end = at + points[at..].iter().position(|p| *p == step.to()).unwrap_or(0);
+        match step {
+            Step::Arc { centre, sweep, .. } if arc_is_true(points[at], centre, sweep, points[end], tolerance) => {
+                lines(text, &straight, chunk);
+                straight.clear();
+                text.push_str("PD;");
+                let degrees = sweep.to_degrees().round();
+                let chord = chord_degrees(points[at].distance(centre), tolerance);
+                let _ = write!(text, "AA{},{},{degrees},{chord};", centre.x.round(), centre.y.round());
+                // Where the arc has ended the pen goes on from, to the very vertex.
+                straight.push(units[end]);
+            }
+            _ => straight.extend(&units[at + 1..=end]),
+        }
+        at = end;
+    }
+    lines(text, &straight, chunk);
+}
+
+/// Whether an arc around a rounded centre by whole degrees ends where it should, and passes where it should.
+fn arc_is_true(from: Point, centre: Point, sweep: f64, to: Point, tolerance: f64) -> bool {
+    let rounded = centre.round();
+    let turned = |degrees: f64| {
+        let ((sin, cos), v) = (degrees.to_radians().sin_cos(), from - rounded);
+        rounded + crate::geometry::Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
+    };
+    let degrees = sweep.to_degrees().round();
+    let middle = {
+        let ((sin, cos), v) = ((0.5 * sweep).sin_cos(), from - centre);
+        centre + crate::geometry::Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
+    };
+    degrees != 0.0 && turned(degrees).distance(to) <= tolerance && turned(0.5 * degrees).distance(middle) <= tolerance
+}
+
+/// The greatest whole angle of a chord whose arc rises less than half the tolerance over it.
+fn chord_degrees(radius: f64, tolerance: f64) -> i64 {
+    let angle = 2.0 * (1.0 - 0.5 * tolerance / radius.max(tolerance)).acos();
+    (angle.to_degrees().floor() as i64).clamp(1, 45)
+}
+
+/// One path as `PE`: differences in base 64, the last digit of each number marked (HP-GL/2, polyline encoded).
+fn packed(text: &mut String, units: &[Unit]) {
+    // The 7 asks for the 7-bit form.
+    text.push_str("PD;PE7");
+    let mut at = units[0];
+    for &(x, y) in &units[1..] {
+        for value in [x - at.0, y - at.1] {
+            packed_number(text, value);
+        }
+        at = (x, y);
     }
     text.push(';');
+}
+
+/// Sign in the lowest bit, then digits of 6 bits from the lowest: 63 to 126 in ASCII, the last one 191 to 254; here in the 7-bit form,
+/// which every line passes on: digits of 5 bits, 63 to 94, the last one 95 to 126.
+fn packed_number(text: &mut String, value: i64) {
+    let mut rest = if value < 0 { 2 * value.unsigned_abs() + 1 } else { 2 * value.unsigned_abs() };
+    while rest >= 32 {
+        text.push(char::from(63 + (rest % 32) as u8));
+        rest /= 32;
+    }
+    text.push(char::from(95 + rest as u8));
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
-    use crate::geometry::Point;
-    use crate::plot::{PenPaths, Toolpath, built_in, mount};
+    use crate::plot::{PenPaths, Toolpath, mount};
+
+    fn dialect(arcs: bool, packed: bool) -> HpglDialect {
+        let (preamble, postamble) = (String::new(), String::new());
+        HpglDialect { chunk: 100, preamble, postamble, arcs, packed, force: None, acceleration: None }
+    }
+
+    #[test]
+    fn packed_numbers_are_those_of_the_reference() {
+        let mut text = String::new();
+        packed(&mut text, &[(0, 0), (1, -1), (101, 1000)]);
+        // 1 is 2: 97; -1 is 3: 98; 100 is 200: 8 + 6 * 32; 1001 is 2002: 18 + 62 * 32, and 62 is 30 + 1 * 32.
+        let digits = |text: &str| text.bytes().collect::<Vec<u8>>();
+        assert_eq!(digits(&text["PD;PE7".len()..text.len() - 1]), [97, 98, 63 + 8, 95 + 6, 63 + 18, 63 + 30, 95 + 1]);
+    }
+
+    #[test]
+    fn arcs_end_where_they_should() {
+        let circle: Vec<Unit> = (0..=90)
+            .map(|i| (f64::from(i) * 4.0).to_radians().sin_cos())
+            .map(|(sin, cos)| ((1000.0 * cos).round() as i64 + 5000, (1000.0 * sin).round() as i64 + 5000))
+            .collect();
+        let mut text = String::new();
+        path_instructions(&mut text, &circle, &dialect(true, false), Rect::new(0.0, 0.0, 1e4, 1e4), 1.6);
+        assert!(text.starts_with("PU6000,5000;PD;AA5000,5000,") && text.len() < 120, "{text}");
+    }
 
     #[test]
     fn instructions_stay_short_and_repeat_nothing() {
-        let units: Vec<(i64, i64)> = (0..200).map(|i| (10_000 + i / 2, 10_000)).collect();
+        let units: Vec<Unit> = (0..200).map(|i| (10_000 + i / 2, 10_000)).collect();
         let mut text = String::new();
-        path_instructions(&mut text, &units, 100);
+        path_instructions(&mut text, &units, &dialect(false, false), Rect::ZERO, 1.0);
         assert!(text.split(';').all(|instruction| instruction.len() <= 100), "{text}");
         assert_eq!(text.matches("10050,10000").count(), 1);
     }
 
     #[test]
     fn a_file_raises_the_pen_first_and_puts_it_away_last() {
-        let profile = Profile::parse("hp7475a", built_in("hp7475a").unwrap()).unwrap();
+        let profile = Profile::built_in("hp7475a").unwrap();
         let page = Page::new(100.0, 100.0);
         let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
         let pen = |number, paths| PenPaths {

@@ -7,10 +7,12 @@ mod gcode;
 mod hpgl;
 mod number;
 mod pdf;
+mod preview;
 mod svg;
 
 pub use gcode::write_gcode;
 pub use hpgl::write_hpgl;
 pub use number::{decimal, thousandths};
 pub use pdf::write_pdf;
-pub use svg::{SvgHead, write_svg, write_svg_plot};
+pub use preview::write_preview;
+pub use svg::{SvgHead, write_svg, write_svg_plot, write_svg_plotter};

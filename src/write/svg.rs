@@ -16,7 +16,7 @@
 use super::number::{decimal, thousandths};
 use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
 use crate::geometry::{BezPath, Point};
-use crate::plot::Plot;
+use crate::plot::{PenPaths, Plot, Profile};
 use kurbo::PathEl;
 use std::fmt::Write as _;
 use std::io;
@@ -61,10 +61,38 @@ pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) ->
 
 /// Writes the tool paths of a plot as lines of the pen's width.
 pub fn write_svg_plot(plot: &Plot, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
+    write_toolpaths(plot, head, out, |_, pen| format!("{} {}", pen.number, pen.name))
+}
+
+/// The same for a plotter's own program, which takes orders from the layers' names: `!` waits, the number is the pen's, `+S` sets the
+/// speed in percent and `+D` waits for milliseconds.
+///
+/// # Panics
+/// If the profile's language is not SVG.
+pub fn write_svg_plotter(plot: &Plot, profile: &Profile, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
+    let dialect = profile.svg.as_ref().expect("an SVG profile has a dialect");
+    write_toolpaths(plot, head, out, |i, pen| {
+        let waits = pen.handling.pauses || (i > 0 && plot.pens[i - 1].number != pen.number);
+        let speed = pen.handling.speed(profile.motion.draw_speed) / dialect.speed_of_percent;
+        let mut label = format!("{}{} {}", if waits { "!" } else { "" }, pen.number, pen.name.replace(['+', '!', '%'], " "));
+        let _ = write!(label, " +S{}", (speed.round() as i64).clamp(1, 110));
+        if pen.handling.delay_seconds > 0.0 {
+            let _ = write!(label, " +D{}", (pen.handling.delay_seconds * 1000.0).round());
+        }
+        label
+    })
+}
+
+fn write_toolpaths(
+    plot: &Plot,
+    head: &SvgHead,
+    out: &mut impl io::Write,
+    label: impl Fn(usize, &PenPaths) -> String,
+) -> io::Result<()> {
     let mut document = document(&plot.page, head);
     for (i, pen) in plot.pens.iter().enumerate() {
         let name = format!("layer{}", i + 1);
-        let mut group = layer_group(&name, &format!("{} {}", pen.number, pen.name), pen.colour);
+        let mut group = layer_group(&name, &label(i, pen), pen.colour);
         let mut lines = String::new();
         for path in &pen.paths {
             let mut curve = BezPath::new();

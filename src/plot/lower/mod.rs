@@ -13,6 +13,7 @@ mod stroke;
 mod swell;
 mod thin;
 
+use super::profile::Swell;
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
 use crate::geometry::{BezPath, flatten, simplify};
@@ -21,7 +22,6 @@ use dot::fill_dot;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use stroke::{lower_stroke, turns_sharply};
-pub use swell::Swell;
 use swell::swelling_pass;
 
 /// What of a drawing a plotter draws.

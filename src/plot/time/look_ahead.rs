@@ -285,12 +285,14 @@ mod tests {
         corner_factor: None,
         pen_up_seconds: 0.15,
         pen_down_seconds: 0.2,
+        touch_seconds: 0.0,
         planner: Planner {
             block_buffer: None,
             limits: Limits::Path,
             axis_speed: None,
             axis_acceleration: None,
             steps_per_mm: None,
+            arc_tolerance: None,
             dwell_step_seconds: 0.0,
         },
     };

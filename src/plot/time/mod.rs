@@ -11,9 +11,9 @@
 mod look_ahead;
 mod pen_action;
 
-use super::profile::{Language, Limits, Profile};
-use super::{Mounting, PenPaths, Plot};
-use crate::geometry::Point;
+use super::profile::{GcodeDialect, Language, Lift, Limits, Profile, Travel};
+use super::{Mounting, PenPaths, Plot, Toolpath};
+use crate::geometry::{Point, Step, fit_arcs};
 use look_ahead::{LookAhead, Place, whole};
 use pen_action::{PenAction, Rate, pen_actions};
 
@@ -46,14 +46,14 @@ pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting) -> Vec<Clock> 
         return Vec::new();
     }
     if profile.language == Language::Gcode {
-        run.lift();
+        run.act(PenMove::Up, profile.motion.pen_up_seconds);
     }
     for (i, pen) in plot.pens.iter().enumerate() {
         let is_other_pen = i > 0 && plot.pens[i - 1].number != pen.number;
         run.change_pen(i, is_other_pen, pen);
         let rate = run.draw_rate(pen);
         for path in &pen.paths {
-            run.path(&path.points, rate);
+            run.path(pen.number, path, rate);
         }
     }
     run.park();
@@ -83,15 +83,13 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(profile: &'a Profile, mounting: &'a Mounting, pens: usize) -> Self {
-        let actions = |command: fn(&super::GcodeDialect) -> &String| {
-            profile.gcode.as_ref().map_or(vec![PenAction::Rest], |gcode| pen_actions(command(gcode), &gcode.dwell))
-        };
+        let actions = |pen| profile.gcode.as_ref().map_or(vec![PenAction::Rest], |gcode| pen_actions_of(gcode, pen));
         Self {
             profile,
             mounting,
             planner: LookAhead::new(&profile.motion, 3 * pens),
-            up: actions(|gcode| &gcode.pen_up),
-            down: actions(|gcode| &gcode.pen_down),
+            up: actions(PenMove::Up),
+            down: actions(PenMove::Down),
             at: [0.0; 3],
             pen: 0,
         }
@@ -114,7 +112,7 @@ impl<'a> Run<'a> {
                 }
                 self.wait(pen.handling.delay_seconds);
             }
-            Language::Hpgl => {
+            Language::Hpgl | Language::Svg => {
                 self.pen = next;
                 if is_other_pen || next == 0 {
                     self.wait(machine.change_seconds);
@@ -129,6 +127,7 @@ impl<'a> Run<'a> {
         let speed = pen.handling.speed(motion.draw_speed);
         match self.profile.language {
             Language::Gcode => (speed * 60.0).round().max(1.0) / 60.0,
+            Language::Svg => speed,
             Language::Hpgl => (speed.min(motion.draw_speed_limit.unwrap_or(motion.draw_speed)) / 10.0).floor().max(1.0) * 10.0,
         }
     }
@@ -140,25 +139,80 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn path(&mut self, points: &[Point], rate: f64) {
-        self.travel(self.on_machine(points[0]));
-        self.act(PenMove::Down, self.profile.motion.pen_down_seconds);
+    fn path(&mut self, pen: u32, path: &Toolpath, rate: f64) {
+        let mut places: Vec<[f64; 2]> = path.points.iter().map(|p| self.on_machine(pen, *p)).collect();
+        self.travel(places[0]);
+        let down = path.heights.as_ref().map(|heights| heights[0] / self.profile.units_per_mm);
+        self.lower(down);
+        self.wait(self.profile.motion.pen_down_seconds * f64::from(u8::from(self.waits_for_pen())) + path.dwell_seconds);
         let slot = self.slot(Share::Drawing);
-        for p in &points[1..] {
-            let [x, y] = self.on_machine(*p);
-            self.at = [x, y, self.at[2]];
-            self.planner.line(self.at, rate, slot);
+        match &path.heights {
+            Some(heights) if self.lifts_by_height() => {
+                for (place, z) in places.iter().zip(heights).skip(1) {
+                    self.at = [place[0], place[1], z / self.profile.units_per_mm];
+                    self.planner.line(self.at, rate, slot);
+                }
+            }
+            _ => {
+                places.dedup();
+                for [x, y] in self.chords(&places) {
+                    self.at = [x, y, self.at[2]];
+                    self.planner.line(self.at, rate, slot);
+                }
+            }
         }
-        self.lift();
+        self.act(PenMove::Up, if self.waits_for_pen() { self.profile.motion.pen_up_seconds } else { 0.0 });
+    }
+
+    /// The places that the controller goes to after the first: where arcs are written, the chords that it cuts them into.
+    fn chords(&self, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let gcode = self.profile.gcode.as_ref().filter(|gcode| gcode.arcs);
+        let (Some(_), Some(tolerance)) = (gcode, self.profile.motion.planner.arc_tolerance) else {
+            return places[1..].to_vec();
+        };
+        let points: Vec<Point> = places.iter().map(|&[x, y]| Point::new(x, y)).collect();
+        let mut chords = Vec::with_capacity(places.len());
+        let mut from = points[0];
+        for step in fit_arcs(&points, self.mounting.tolerance) {
+            if let Step::Arc { centre, sweep, .. } = step {
+                let radius = from.distance(centre);
+                let rise = (tolerance * (2.0 * radius - tolerance)).max(1e-12).sqrt();
+                let count = (0.5 * sweep.abs() * radius / rise).floor();
+                chords.extend((1..count as usize).map(|i| {
+                    let (sin, cos) = (sweep * i as f64 / count).sin_cos();
+                    let v = from - centre;
+                    [centre.x + v.x * cos - v.y * sin, centre.y + v.x * sin + v.y * cos]
+                }));
+            }
+            from = step.to();
+            chords.push([from.x, from.y]);
+        }
+        chords
+    }
+
+    fn lifts_by_height(&self) -> bool {
+        self.profile.gcode.as_ref().is_some_and(|gcode| gcode.lift == Lift::Height)
+    }
+
+    /// Whether the file waits for the pen: a z axis is there when its move is over.
+    fn waits_for_pen(&self) -> bool {
+        !self.lifts_by_height()
+    }
+
+    /// Lowers the pen, to a height of its own if the path has one.
+    fn lower(&mut self, height: Option<f64>) {
+        self.act(PenMove::Down, 0.0);
+        if let (Some(z), true) = (height, self.lifts_by_height())
+            && (self.at[2] - z).abs() > 1e-9
+        {
+            self.at[2] = z;
+            self.planner.travel(self.at, self.profile.motion.draw_speed, self.slot(Share::Lifting));
+        }
     }
 
     fn travel(&mut self, [x, y]: [f64; 2]) {
         self.at = [x, y, self.at[2]];
         self.planner.travel(self.at, self.travel_rate(), self.slot(Share::Travelling));
-    }
-
-    fn lift(&mut self) {
-        self.act(PenMove::Up, self.profile.motion.pen_up_seconds);
     }
 
     fn act(&mut self, pen: PenMove, seconds: f64) {
@@ -206,16 +260,13 @@ impl<'a> Run<'a> {
     /// To where the file leaves the carriage.
     fn park(&mut self) {
         let scale = self.profile.units_per_mm;
-        let place = match &self.profile.gcode {
-            Some(gcode) => [gcode.park[0] / scale, gcode.park[1] / scale],
-            None => [self.mounting.limits.x1.round() / scale, self.mounting.limits.y1.round() / scale],
-        };
+        let place = [self.mounting.park.x / scale, self.mounting.park.y / scale];
         self.travel(place);
     }
 
     /// A point of the page as the file gives it, in the machine's millimetres.
-    fn on_machine(&self, p: Point) -> [f64; 2] {
-        let m = self.mounting.to_machine * p;
+    fn on_machine(&self, pen: u32, p: Point) -> [f64; 2] {
+        let m = self.mounting.place(pen, p);
         let limits = self.mounting.limits;
         let grid = if self.profile.language == Language::Gcode { GCODE_GRID } else { 1.0 };
         let per_mm = grid * self.profile.units_per_mm;
@@ -227,6 +278,21 @@ impl<'a> Run<'a> {
         self.planner.rest();
         let seconds = self.planner.seconds();
         seconds.chunks(3).map(|s| Clock { drawing: s[0], travelling: s[1], lifting: s[2] }).collect()
+    }
+}
+
+/// What a dialect makes the machine do to lift or lower the pen.
+fn pen_actions_of(gcode: &GcodeDialect, pen: PenMove) -> Vec<PenAction> {
+    match (gcode.lift, gcode.height, pen) {
+        (Lift::Height, Some(height), PenMove::Up) => {
+            let rate = if gcode.travel == Travel::Rapid { Rate::Greatest } else { Rate::Given(height.plunge_speed) };
+            vec![PenAction::Move { target: [None, None, Some(height.up)], rate }]
+        }
+        (Lift::Height, Some(height), PenMove::Down) => {
+            vec![PenAction::Move { target: [None, None, Some(height.down)], rate: Rate::Given(height.plunge_speed) }]
+        }
+        (_, _, PenMove::Up) => pen_actions(gcode.pen_up.as_deref().unwrap_or(""), &gcode.dwell),
+        (_, _, PenMove::Down) => pen_actions(gcode.pen_down.as_deref().unwrap_or(""), &gcode.dwell),
     }
 }
 

@@ -1,0 +1,216 @@
+//! A profile's text: one file over another, key by key, and where each key stands.
+//!
+//! ```text
+//! extends = "hp7475a"        the built-in file's keys first, then this file's, then --set-profile's
+//! [motion]
+//! draw_speed = 200           replaces that one key
+//! [[paper]]
+//! name = "a4"                joins the sheet of this name, or adds one
+//! zero = [10.5, 206]
+//! ```
+
+use super::error::ProfileError;
+use std::fmt::Write as _;
+use toml::de::{DeTable, DeValue};
+
+/// Lists whose members are told apart by one of their keys, so that one member can be changed.
+const NAMED_LISTS: [(&str, &str); 2] = [("paper", "name"), ("pen", "slot")];
+
+/// Keys and values in the order in which they were first met.
+#[derive(Debug, Default)]
+pub(super) struct Document {
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone, Debug)]
+struct Entry {
+    /// The key's parts, such as `motion`, `draw_speed` or `paper`, `a4`, `zero`.
+    path: Vec<String>,
+    value: toml::Value,
+    place: Place,
+}
+
+/// Where a key stands.
+#[derive(Clone, Debug, PartialEq)]
+enum Place {
+    Line { file: String, line: usize },
+    Option,
+}
+
+impl Place {
+    fn text(&self) -> String {
+        match self {
+            Self::Line { file, line } => format!("{file}, line {line}"),
+            Self::Option => "--set-profile".to_owned(),
+        }
+    }
+}
+
+impl Document {
+    /// Reads one file over what is there; gives back the profile that it extends.
+    pub(super) fn read(&mut self, file: &str, text: &str) -> Result<Option<String>, ProfileError> {
+        let syntax = |span: Option<std::ops::Range<usize>>, message: String| {
+            let line = span.map_or(1, |span| line_of(text, span.start));
+            ProfileError::Syntax { place: format!("{file}, line {line}"), message }
+        };
+        let spans = DeTable::parse(text).map_err(|error| syntax(error.span(), error.message().to_owned()))?;
+        let values: toml::Table =
+            toml::from_str(text).map_err(|error: toml::de::Error| syntax(error.span(), error.message().to_owned()))?;
+        let extends = match values.get("extends") {
+            None => None,
+            Some(toml::Value::String(name)) => Some(name.clone()),
+            Some(_) => return Err(syntax(None, "extends must be the name of a built-in profile".to_owned())),
+        };
+        let mut found = Vec::new();
+        Reader { file, text, found: &mut found }.table(&[], spans.get_ref(), &values);
+        found.into_iter().filter(|entry| entry.path != ["extends"]).for_each(|entry| self.set(entry));
+        Ok(extends)
+    }
+
+    /// Sets one key, such as `motion.draw_speed` or `paper.a4.zero`; what is no TOML value is a text.
+    pub(super) fn set_option(&mut self, key: &str, value: &str) {
+        let path: Vec<String> = key.split('.').map(str::to_owned).collect();
+        let value = toml::from_str::<toml::Table>(&format!("v = {value}"))
+            .ok()
+            .and_then(|mut table| table.remove("v"))
+            .unwrap_or_else(|| toml::Value::String(value.to_owned()));
+        if let [list, member, _, ..] = &path[..]
+            && let Some((_, name)) = NAMED_LISTS.iter().find(|(known, _)| known == list)
+        {
+            let told = member.parse().map_or_else(|_| toml::Value::String(member.clone()), toml::Value::Integer);
+            self.set(Entry { path: vec![list.clone(), member.clone(), (*name).to_owned()], value: told, place: Place::Option });
+        }
+        self.set(Entry { path, value, place: Place::Option });
+    }
+
+    /// A key replaces the same key and everything that stood below it, or that it now stands below.
+    fn set(&mut self, entry: Entry) {
+        if let Some(same) = self.entries.iter_mut().find(|known| known.path == entry.path) {
+            *same = entry;
+            return;
+        }
+        let is_above = |above: &[String], below: &[String]| below.len() > above.len() && below[..above.len()] == *above;
+        self.entries.retain(|known| !is_above(&entry.path, &known.path) && !is_above(&known.path, &entry.path));
+        self.entries.push(entry);
+    }
+
+    /// Whether a key, or one below it, is given.
+    pub(super) fn place_of(&self, key: &str) -> Option<String> {
+        let parts: Vec<&str> = key.split('.').collect();
+        let begins = |entry: &&Entry| entry.path.len() >= parts.len() && entry.path.iter().zip(&parts).all(|(a, b)| a == b);
+        self.entries.iter().rfind(begins).map(|entry| entry.place.text())
+    }
+
+    /// The whole as a value of its own; a fault is told by the place of the key that made it.
+    pub(super) fn resolve<T: serde::de::DeserializeOwned>(&self, name: &str) -> Result<T, ProfileError> {
+        let (text, owners) = self.flat();
+        toml::from_str(&text).map_err(|error| {
+            let line = error.span().map_or(usize::MAX, |span| line_of(&text, span.start) - 1);
+            match owners.get(line).and_then(|owner| self.entries.get(*owner)) {
+                Some(entry) if !error.message().starts_with("missing field") => {
+                    let key = entry.path.join(".");
+                    ProfileError::Syntax { place: entry.place.text(), message: format!("{key}: {}", error.message()) }
+                }
+                Some(entry) => {
+                    let within = entry.path[..entry.path.len() - 1].join(".");
+                    ProfileError::Syntax { place: entry.place.text(), message: format!("{within}: {}", error.message()) }
+                }
+                None => ProfileError::Syntax { place: name.to_owned(), message: error.message().to_owned() },
+            }
+        })
+    }
+
+    /// One key a line, and for each line whose it is: single keys, then tables, then the lists' members.
+    fn flat(&self) -> (String, Vec<usize>) {
+        let mut sections: Vec<(Vec<String>, Vec<usize>)> = vec![(Vec::new(), Vec::new())];
+        for (i, entry) in self.entries.iter().enumerate() {
+            let header = entry.path[..entry.path.len() - 1].to_vec();
+            match sections.iter_mut().find(|(known, _)| *known == header) {
+                Some((_, members)) => members.push(i),
+                None => sections.push((header, vec![i])),
+            }
+        }
+        let (mut text, mut owners) = (String::new(), Vec::new());
+        for (header, members) in &sections {
+            let owner = members.first().copied().unwrap_or(usize::MAX);
+            let mut begin = text.len();
+            match &header[..] {
+                [] => {}
+                [list, _] if is_named_list(list) => {
+                    let _ = writeln!(text, "[[{list}]]");
+                }
+                parts => {
+                    let _ = writeln!(text, "[{}]", parts.iter().map(|part| quoted(part)).collect::<Vec<_>>().join("."));
+                }
+            }
+            let mut owe = |text: &str, owner: usize, begin: &mut usize| {
+                owners.extend(std::iter::repeat_n(owner, text[*begin..].matches('\n').count()));
+                *begin = text.len();
+            };
+            owe(&text, owner, &mut begin);
+            for &i in members {
+                let entry = &self.entries[i];
+                let _ = writeln!(text, "{} = {}", quoted(&entry.path[entry.path.len() - 1]), entry.value);
+                owe(&text, i, &mut begin);
+            }
+        }
+        (text, owners)
+    }
+}
+
+fn is_named_list(name: &str) -> bool {
+    NAMED_LISTS.iter().any(|(known, _)| *known == name)
+}
+
+fn quoted(key: &str) -> String {
+    let is_bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+    if is_bare { key.to_owned() } else { toml::Value::String(key.to_owned()).to_string() }
+}
+
+fn line_of(text: &str, byte: usize) -> usize {
+    text.as_bytes()[..byte.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1
+}
+
+/// Walks a file's values and their places side by side.
+struct Reader<'a> {
+    file: &'a str,
+    text: &'a str,
+    found: &'a mut Vec<Entry>,
+}
+
+impl Reader<'_> {
+    fn table(&mut self, path: &[String], spans: &DeTable<'_>, values: &toml::Table) {
+        let mut keys: Vec<_> = spans.iter().collect();
+        keys.sort_by_key(|(key, _)| key.span().start);
+        for (key, spanned) in keys {
+            let name = key.get_ref().to_string();
+            let Some(value) = values.get(&name) else { continue };
+            let below = [path, std::slice::from_ref(&name)].concat();
+            match (spanned.get_ref(), value) {
+                (DeValue::Table(spans), toml::Value::Table(values)) => self.table(&below, spans, values),
+                (DeValue::Array(spans), toml::Value::Array(values)) if path.is_empty() && is_named_list(&name) => {
+                    self.list(&name, spans, values);
+                }
+                _ => {
+                    let line = line_of(self.text, key.span().start);
+                    let place = Place::Line { file: self.file.to_owned(), line };
+                    self.found.push(Entry { path: below, value: value.clone(), place });
+                }
+            }
+        }
+    }
+
+    fn list(&mut self, name: &str, spans: &toml::de::DeArray<'_>, values: &[toml::Value]) {
+        let told_by = NAMED_LISTS.iter().find(|(known, _)| *known == name).map_or("name", |(_, key)| key);
+        for (i, (spanned, value)) in spans.iter().zip(values).enumerate() {
+            if let (DeValue::Table(spans), toml::Value::Table(values)) = (spanned.get_ref(), value) {
+                let member = match values.get(told_by) {
+                    Some(toml::Value::String(text)) => text.clone(),
+                    Some(other) => other.to_string(),
+                    None => format!("number {}", i + 1),
+                };
+                self.table(&[name.to_owned(), member], spans, values);
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! How G-code is written for one machine.
+
+use super::check::Refusal;
+use serde::Deserialize;
+
+/// G-code for one machine.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct GcodeDialect {
+    /// The `G` and `M` words and the named commands that the controller knows; nothing else is written.
+    pub words: Vec<String>,
+    /// The line that opens and closes a file, such as `%`.
+    pub frame: Option<String>,
+    /// How a comment is marked.
+    #[serde(default)]
+    pub comment: Comment,
+    /// Comment lines at the top.
+    #[serde(default)]
+    pub header: Vec<String>,
+    /// Lines before anything moves.
+    pub start: Vec<String>,
+    /// Lines after the pen is parked.
+    #[serde(default)]
+    pub end: Vec<String>,
+    /// What lifts the pen.
+    pub lift: Lift,
+    /// Lifts the pen, where a command does.
+    pub pen_up: Option<String>,
+    /// Lowers the pen, where a command does.
+    pub pen_down: Option<String>,
+    /// The pen's heights, where the z axis lifts it.
+    pub height: Option<Height>,
+    /// How the machine is told to move with the pen up.
+    #[serde(default)]
+    pub travel: Travel,
+    /// Whether `G2` and `G3` are written.
+    #[serde(default)]
+    pub arcs: bool,
+    /// Where the pen waits at the end, in machine units.
+    pub park: [f64; 2],
+    /// Waits for the user; without it, what needs a pause is refused.
+    pub pause: Option<String>,
+    /// Waits for a time; `{seconds}` or `{milliseconds}` is replaced.
+    pub dwell: String,
+    /// Greatest length of a line.
+    pub line_length: usize,
+}
+
+/// How a comment is marked.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Comment {
+    /// `(so)`.
+    #[default]
+    Parentheses,
+    /// `; so`.
+    Semicolon,
+}
+
+/// What lifts the pen.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Lift {
+    /// The commands `pen_up` and `pen_down`.
+    Command,
+    /// The z axis.
+    Height,
+}
+
+/// The pen's heights on the z axis, in machine units; either may be the greater one.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Height {
+    /// Off the paper.
+    pub up: f64,
+    /// On the paper.
+    pub down: f64,
+    /// Speed of coming down, mm/s.
+    pub plunge_speed: f64,
+}
+
+/// How the machine is told to move with the pen up.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Travel {
+    /// `G0`, at the machine's own greatest rate.
+    #[default]
+    Rapid,
+    /// `G0` with a feed.
+    Fed,
+    /// `G1` with a feed.
+    Feed,
+}
+
+impl GcodeDialect {
+    /// The commands or heights that lift and lower the pen are there, and differ.
+    fn check_lift(&self) -> Result<(), Refusal> {
+        let given = |command: &Option<String>| command.as_ref().is_some_and(|text| !text.trim().is_empty());
+        match (self.lift, self.height) {
+            (Lift::Command, _) if !given(&self.pen_up) => Err(Refusal::new("gcode.pen_up", "must be a command")),
+            (Lift::Command, _) if !given(&self.pen_down) => Err(Refusal::new("gcode.pen_down", "must be a command")),
+            (Lift::Command, _) if self.pen_up == self.pen_down => {
+                Err(Refusal::new("gcode.pen_up", "must differ from gcode.pen_down"))
+            }
+            (Lift::Command, _) => Ok(()),
+            (Lift::Height, None) => Err(Refusal::new("gcode.height", "is missing, and the pen is lifted by its height")),
+            (Lift::Height, Some(z)) if !z.up.is_finite() || !z.down.is_finite() || (z.up - z.down).abs() < 0.05 => {
+                Err(Refusal::new("gcode.height.up", "must differ from gcode.height.down by 0.05 mm or more"))
+            }
+            (Lift::Height, Some(z)) if !z.plunge_speed.is_finite() || z.plunge_speed <= 0.0 => {
+                Err(Refusal::new("gcode.height.plunge_speed", "must be above 0"))
+            }
+            (Lift::Height, Some(_)) => Ok(()),
+        }
+    }
+
+    /// Nothing is written that the controller does not know, that draws where it should travel, or that does not fit its line.
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        self.check_lift()?;
+        if !self.dwell.contains("{seconds}") && !self.dwell.contains("{milliseconds}") {
+            return Err(Refusal::new("gcode.dwell", "must hold {seconds} or {milliseconds}"));
+        }
+        if !(60..=256).contains(&self.line_length) {
+            return Err(Refusal::new("gcode.line_length", "must be from 60 to 256"));
+        }
+        let own = [("gcode.pause", &self.pause), ("gcode.pen_up", &self.pen_up), ("gcode.pen_down", &self.pen_down)];
+        // A profile whose pen goes by its height may have inherited commands that it does not use.
+        let used = if self.lift == Lift::Command { 3 } else { 1 };
+        let mut lines: Vec<(&str, &str)> = own[..used].iter().filter_map(|(key, line)| Some((*key, line.as_deref()?))).collect();
+        lines.push(("gcode.dwell", &self.dwell));
+        lines.extend(self.start.iter().map(|line| ("gcode.start", line.as_str())));
+        lines.extend(self.end.iter().map(|line| ("gcode.end", line.as_str())));
+        for (key, line) in lines {
+            self.check_line(key, line)?;
+        }
+        for (needed, why) in [("G0", "travel"), ("G1", "drawing")].into_iter().chain(self.arcs.then_some(("G2", "arcs"))) {
+            if !self.words.iter().any(|word| word == needed) {
+                return Err(Refusal::new("gcode.words", &format!("must hold {needed}, which {why} needs")));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_line(&self, key: &str, line: &str) -> Result<(), Refusal> {
+        if line.len() > self.line_length || line.contains(['\n', '\r', '?', '!', '~', '(', ';']) || !line.is_ascii() {
+            let most = self.line_length;
+            return Err(Refusal::new(key, &format!("'{line}' must be one ASCII line of {most} or less without ? ! ~ ( ;")));
+        }
+        let unknown = line.split_whitespace().enumerate().find(|(i, word)| {
+            let is_command = word.starts_with(['G', 'M', 'O', '$']) && word[1..].starts_with(|c: char| c.is_ascii_digit());
+            (*i == 0 || is_command) && !self.words.iter().any(|known| known == word)
+        });
+        match unknown {
+            Some((_, word)) => Err(Refusal::new(key, &format!("holds {word}, which is not in gcode.words"))),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Machines as data: `plot-profiles/*.toml`, compiled in, or a file of the user's, key by key over one of them.
+
+mod check;
+mod document;
+mod error;
+mod gcode;
+mod hpgl;
+mod motion;
+mod paper;
+mod pens;
+
+pub use error::ProfileError;
+pub use gcode::{Comment, GcodeDialect, Height, Lift, Travel};
+pub use hpgl::{HpglDialect, SvgDialect};
+pub use motion::{Limits, Motion, Planner};
+pub use paper::{Area, Axes, Corner, Paper, Way};
+pub use pens::{PenChange, PenSlot, Pens, Swell};
+
+use document::Document;
+use include_dir::{Dir, include_dir};
+use serde::Deserialize;
+
+static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/plot-profiles");
+/// Profiles that extend one another; more is a circle.
+const DEEPEST: usize = 8;
+
+/// One machine.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// Its name on the command line.
+    pub name: String,
+    /// One line for a list.
+    pub description: String,
+    /// What it understands.
+    pub language: Language,
+    /// Machine units a millimetre.
+    pub units_per_mm: f64,
+    /// What a measured length along x must be multiplied with to be right, from calibration.
+    #[serde(default = "one")]
+    pub scale_x: f64,
+    /// The same along y.
+    #[serde(default = "one")]
+    pub scale_y: f64,
+    /// How its axes run, and where zero is.
+    #[serde(default)]
+    pub axes: Axes,
+    /// Sheets that the machine knows.
+    #[serde(default)]
+    pub paper: Vec<Paper>,
+    /// The machine's reach for pages that are none of those sheets, in machine units.
+    pub area: Option<Area>,
+    /// Its pens.
+    pub pens: Pens,
+    /// What calibration found of each pen.
+    #[serde(default)]
+    pub pen: Vec<PenSlot>,
+    /// Speeds and times.
+    pub motion: Motion,
+    /// The pen's height for each width of line.
+    pub swell: Option<Swell>,
+    /// How G-code is written for it.
+    pub gcode: Option<GcodeDialect>,
+    /// How HP-GL is written for it.
+    pub hpgl: Option<HpglDialect>,
+    /// How SVG is written for it.
+    pub svg: Option<SvgDialect>,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+/// A plotter's language.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Language {
+    /// HP-GL.
+    Hpgl,
+    /// G-code.
+    Gcode,
+    /// SVG, for the plotter's own program.
+    Svg,
+}
+
+impl Profile {
+    /// Reads a profile from TOML; `name` stands in messages.
+    pub fn parse(name: &str, text: &str) -> Result<Self, ProfileError> {
+        Self::parse_with(name, text, &[])
+    }
+
+    /// The same with keys set over it, such as `motion.draw_speed` to `30`.
+    pub fn parse_with(name: &str, text: &str, set: &[(String, String)]) -> Result<Self, ProfileError> {
+        let mut document = Document::default();
+        read_chain(&mut document, name, text, DEEPEST)?;
+        set.iter().for_each(|(key, value)| document.set_option(key, value));
+        let profile: Self = document.resolve(name)?;
+        profile.check().map_err(|refusal| ProfileError::Value {
+            place: document.place_of(&refusal.key).unwrap_or_else(|| name.to_owned()),
+            key: refusal.key,
+            problem: refusal.problem,
+        })?;
+        Ok(profile)
+    }
+
+    /// A profile that is compiled in.
+    pub fn built_in(name: &str) -> Result<Self, ProfileError> {
+        Self::parse(name, built_in(name)?)
+    }
+
+    /// How far the ink of a slot's pen lies from where it should, in millimetres along the machine's axes.
+    pub fn offset_of(&self, slot: u32) -> [f64; 2] {
+        self.pen.iter().find(|pen| pen.slot == slot).map_or([0.0; 2], |pen| pen.offset)
+    }
+
+    /// Metres that the pen in a slot draws, where that is known.
+    pub fn life_of(&self, slot: u32) -> Option<f64> {
+        self.pen.iter().find(|pen| pen.slot == slot).and_then(|pen| pen.pen_life).or(self.pens.pen_life)
+    }
+}
+
+/// Reads what a profile extends, then the profile itself over it.
+fn read_chain(document: &mut Document, name: &str, text: &str, depth: usize) -> Result<(), ProfileError> {
+    let mut own = Document::default();
+    if let Some(base) = own.read(name, text)? {
+        if depth == 0 {
+            return Err(ProfileError::Syntax { place: name.to_owned(), message: "extends itself".to_owned() });
+        }
+        read_chain(document, &base, built_in(&base)?, depth - 1)?;
+    }
+    document.read(name, text).map(|_| ())
+}
+
+/// Names of the profiles that are compiled in, sorted.
+pub fn built_in_names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = BUILT_IN.files().filter_map(|f| f.path().file_stem()?.to_str()).collect();
+    names.sort_unstable();
+    names
+}
+
+/// The TOML of a profile that is compiled in.
+pub fn built_in(name: &str) -> Result<&'static str, ProfileError> {
+    BUILT_IN
+        .get_file(format!("{name}.toml"))
+        .and_then(include_dir::File::contents_utf8)
+        .ok_or_else(|| ProfileError::Unknown { name: name.to_owned(), known: built_in_names().join(", ") })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,138 @@
+//! How fast a machine moves, and how it plans.
+
+use super::check::Refusal;
+use serde::Deserialize;
+
+/// Speeds and times.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Pen down, mm/s.
+    pub draw_speed: f64,
+    /// The fastest that the machine can be told to draw, mm/s.
+    pub draw_speed_limit: Option<f64>,
+    /// Pen up, mm/s; where limits hold for each axis, the rate of x and of y (GRBL's `$110` and `$111`).
+    pub travel_speed: f64,
+    /// mm/s^2, along the path or for each axis as `planner.limits` says.
+    pub acceleration: f64,
+    /// mm/s^2 with the pen up, where it differs.
+    pub travel_acceleration: Option<f64>,
+    /// GRBL's `$11` in millimetres: how far a corner may be rounded in thought, which sets its speed.
+    pub junction_deviation: Option<f64>,
+    /// The same as the AxiDraw's driver counts it: in 5000ths of an inch.
+    pub corner_factor: Option<f64>,
+    /// Time to lift the pen.
+    pub pen_up_seconds: f64,
+    /// Time to lower the pen.
+    pub pen_down_seconds: f64,
+    /// How long a touch rests on the paper beyond that.
+    #[serde(default)]
+    pub touch_seconds: f64,
+    /// How far the machine looks ahead, and what its limits hold for.
+    #[serde(default)]
+    pub planner: Planner,
+}
+
+/// Millimetres of junction deviation for a corner factor of 1: the AxiDraw's driver divides the factor by 5000 and takes inches.
+const MM_PER_CORNER_FACTOR: f64 = 25.4 / 5000.0;
+
+impl Motion {
+    /// How far a corner may be rounded in thought, in millimetres.
+    pub fn corner_deviation(&self) -> f64 {
+        self.junction_deviation.or(self.corner_factor.map(|factor| factor * MM_PER_CORNER_FACTOR)).unwrap_or(0.0)
+    }
+}
+
+/// How a controller plans its motion.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct Planner {
+    /// Places of the controller's look-ahead buffer, of which one stays free (GRBL: 16); without it, all is planned that lies
+    /// between two stops.
+    pub block_buffer: Option<usize>,
+    /// What speed and acceleration are limits of.
+    pub limits: Limits,
+    /// Greatest rates of x, y and z, mm/s (GRBL's `$110` to `$112`); those of x and y are `travel_speed` or less.
+    pub axis_speed: Option<[f64; 3]>,
+    /// Accelerations of x, y and z, mm/s^2 (GRBL's `$120` to `$122`); without it, `acceleration`.
+    pub axis_acceleration: Option<[f64; 3]>,
+    /// Motor steps a millimetre of x, y and z (GRBL's `$100` to `$102`): places are rounded to them before they are planned.
+    pub steps_per_mm: Option<[f64; 3]>,
+    /// How far the chords of an arc may lie from it, mm (GRBL's `$12`); without it, arcs are timed as the chords that they replace.
+    pub arc_tolerance: Option<f64>,
+    /// Waits last a whole number of these.
+    pub dwell_step_seconds: f64,
+}
+
+/// What a machine's speed and acceleration are limits of.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Limits {
+    /// The motion along the path, whatever its direction.
+    #[default]
+    Path,
+    /// Each axis by itself, so that a diagonal is faster.
+    Axis,
+}
+
+impl Motion {
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        for (key, value) in [
+            ("motion.draw_speed", self.draw_speed),
+            ("motion.draw_speed_limit", self.draw_speed_limit.unwrap_or(1.0)),
+            ("motion.travel_speed", self.travel_speed),
+            ("motion.acceleration", self.acceleration),
+            ("motion.travel_acceleration", self.travel_acceleration.unwrap_or(1.0)),
+            ("motion.junction_deviation", self.junction_deviation.unwrap_or(1.0)),
+            ("motion.corner_factor", self.corner_factor.unwrap_or(1.0)),
+        ] {
+            if !value.is_finite() || value <= 0.0 {
+                return Err(Refusal::new(key, "must be above 0"));
+            }
+        }
+        if self.junction_deviation.is_some() == self.corner_factor.is_some() {
+            return Err(Refusal::new("motion.junction_deviation", "or motion.corner_factor must be given, and not both"));
+        }
+        if self.travel_acceleration.is_some() && self.planner.limits == Limits::Axis {
+            return Err(Refusal::new("motion.travel_acceleration", "cannot differ where limits are the axes' own"));
+        }
+        for (key, seconds) in [
+            ("motion.pen_up_seconds", self.pen_up_seconds),
+            ("motion.pen_down_seconds", self.pen_down_seconds),
+            ("motion.touch_seconds", self.touch_seconds),
+        ] {
+            if !(0.0..=60.0).contains(&seconds) {
+                return Err(Refusal::new(key, "must be from 0 to 60 seconds"));
+            }
+        }
+        self.planner.check()
+    }
+}
+
+impl Planner {
+    fn check(&self) -> Result<(), Refusal> {
+        // The block that runs is fixed and one place stays free: with less than four there would be nothing to look ahead to.
+        if self.block_buffer.is_some_and(|places| !(4..=4096).contains(&places)) {
+            return Err(Refusal::new("motion.planner.block_buffer", "must be from 4 to 4096"));
+        }
+        if self.arc_tolerance.is_some_and(|mm| !(1e-6..=1.0).contains(&mm)) {
+            return Err(Refusal::new("motion.planner.arc_tolerance", "must be from 0.000001 to 1 mm"));
+        }
+        if !(0.0..=1.0).contains(&self.dwell_step_seconds) {
+            return Err(Refusal::new("motion.planner.dwell_step_seconds", "must be from 0 to 1 second"));
+        }
+        for (key, values) in [
+            ("motion.planner.axis_speed", self.axis_speed),
+            ("motion.planner.axis_acceleration", self.axis_acceleration),
+            ("motion.planner.steps_per_mm", self.steps_per_mm),
+        ] {
+            if values.into_iter().flatten().any(|value| !value.is_finite() || value <= 0.0) {
+                return Err(Refusal::new(key, "must be above 0 for x, y and z"));
+            }
+        }
+        if self.limits == Limits::Path && (self.axis_speed.is_some() || self.axis_acceleration.is_some()) {
+            return Err(Refusal::new("motion.planner.limits", "must be \"axis\" where axes have limits of their own"));
+        }
+        Ok(())
+    }
+}

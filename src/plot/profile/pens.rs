@@ -1,0 +1,126 @@
+//! Pens, how they are changed, and how high each width of line needs them.
+
+use super::check::Refusal;
+use serde::Deserialize;
+
+/// Pens and how they are changed.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Pens {
+    /// How many the machine holds.
+    pub count: u32,
+    /// How it gets another.
+    pub change: PenChange,
+    /// Time that the machine itself takes to fetch one.
+    #[serde(default)]
+    pub change_seconds: f64,
+    /// Metres that a pen draws before it wears out or runs dry.
+    pub pen_life: Option<f64>,
+}
+
+/// How a pen is changed.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum PenChange {
+    /// The machine takes it from its carousel.
+    Machine,
+    /// The file pauses, and the user changes it.
+    Pause,
+}
+
+/// What calibration found of the pen in one slot.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct PenSlot {
+    /// The slot, from 1.
+    pub slot: u32,
+    /// How far its ink lies from where it should, in millimetres along the machine's x and y; it is sent this much the other way.
+    #[serde(default)]
+    pub offset: [f64; 2],
+    /// Metres that it draws before it wears out or runs dry, where it differs from the others.
+    pub pen_life: Option<f64>,
+}
+
+impl Pens {
+    pub(super) fn check(self) -> Result<(), Refusal> {
+        if self.count == 0 {
+            return Err(Refusal::new("pens.count", "must be at least 1"));
+        }
+        if !(0.0..=60.0).contains(&self.change_seconds) {
+            return Err(Refusal::new("pens.change_seconds", "must be from 0 to 60 seconds"));
+        }
+        if self.pen_life.is_some_and(|metres| !metres.is_finite() || metres <= 0.0) {
+            return Err(Refusal::new("pens.pen_life", "must be above 0"));
+        }
+        Ok(())
+    }
+}
+
+impl PenSlot {
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        if self.slot == 0 || self.offset.iter().any(|mm| !mm.is_finite() || mm.abs() > 100.0) {
+            let key = format!("pen.{}.offset", self.slot);
+            return Err(Refusal::new(&key, "must be at most 100 mm, and slots count from 1"));
+        }
+        Ok(())
+    }
+}
+
+/// How high the pen stands for each width of line, for brushes and other pens whose line swells by their height.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Swell {
+    /// Pairs of line width and z in millimetres, widths growing.
+    pub table: Vec<[f64; 2]>,
+}
+
+impl Swell {
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        let grows = self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        if self.table.len() < 2 || !grows || self.table.iter().flatten().any(|v| !v.is_finite()) {
+            return Err(Refusal::new("swell.table", "must hold two or more pairs of width and height, widths growing"));
+        }
+        Ok(())
+    }
+
+    /// The height for a width, straight between the table's rows and the last one's beyond them.
+    pub fn height(&self, width: f64) -> f64 {
+        let next = self.table.partition_point(|row| row[0] <= width).clamp(1, self.table.len() - 1);
+        let ([w0, z0], [w1, z1]) = (self.table[next - 1], self.table[next]);
+        z0 + (z1 - z0) * ((width - w0) / (w1 - w0)).clamp(0.0, 1.0)
+    }
+
+    /// The width at a height, the other way round; the nearest row's beyond the table.
+    pub fn width(&self, height: f64) -> f64 {
+        let covers = |pair: &&[[f64; 2]]| (pair[0][1].min(pair[1][1])..=pair[0][1].max(pair[1][1])).contains(&height);
+        match self.table.windows(2).find(covers) {
+            Some(pair) if pair[1][1] != pair[0][1] => {
+                pair[0][0] + (pair[1][0] - pair[0][0]) * (height - pair[0][1]) / (pair[1][1] - pair[0][1])
+            }
+            Some(pair) => pair[0][0],
+            None => {
+                let nearest = self.table.iter().min_by(|a, b| (a[1] - height).abs().total_cmp(&(b[1] - height).abs()));
+                nearest.map_or(0.0, |pair| pair[0])
+            }
+        }
+    }
+
+    /// The widest line.
+    pub fn widest(&self) -> f64 {
+        self.table.last().map_or(0.0, |pair| pair[0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_lie_between_the_table_s_and_widths_follow_from_them() {
+        let swell = Swell { table: vec![[0.2, 1.0], [0.4, 0.0], [1.0, -3.0]] };
+        for (width, height) in [(0.0, 1.0), (0.2, 1.0), (0.3, 0.5), (0.7, -1.5), (2.0, -3.0)] {
+            assert!((swell.height(width) - height).abs() < 1e-9, "{width}");
+            assert!((swell.width(height) - width.clamp(0.2, 1.0)).abs() < 1e-9, "{width}");
+        }
+    }
+}
