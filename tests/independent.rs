@@ -56,7 +56,9 @@ fn ink(paths: &[Vec<Point>]) -> Vec<Point> {
 fn share_near(points: &[Point], others: &[Point]) -> f64 {
     let cell = |p: &Point| ((p.x / NEAR).floor() as i64, (p.y / NEAR).floor() as i64);
     let mut cells: HashMap<(i64, i64), Vec<Point>> = HashMap::new();
-    others.iter().for_each(|p| cells.entry(cell(p)).or_default().push(*p));
+    for p in others {
+        cells.entry(cell(p)).or_default().push(*p);
+    }
     let is_near = |p: &&Point| {
         let (x, y) = cell(p);
         let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
@@ -112,7 +114,7 @@ fn hp2xx_takes_every_hpgl_file_and_draws_the_same() {
     }
 }
 
-/// The file as LinuxCNC's interpreter takes it: between percent signs, and named commands of other controllers as words that it knows.
+/// The file as `LinuxCNC`'s interpreter takes it: between percent signs, and named commands of other controllers as words that it knows.
 fn for_rs274(text: &str, profile: &Profile) -> String {
     let gcode = profile.gcode.as_ref().unwrap();
     let line = |line: &str| match line {

@@ -230,7 +230,7 @@ fn ten_thousand_random_drawings_hold_on_every_machine() {
             let page = Page::new(20.0 + 50.0 * chance.next(), 20.0 + 50.0 * chance.next());
             let within = mount(&profile, &page).unwrap().drawable(&page);
             let number = 1 + chance.below(profile.pens.count as usize) as u32;
-            let paths = (0..1 + chance.below(3)).map(|_| chance.path(within)).collect();
+            let paths = (0..=chance.below(3)).map(|_| chance.path(within)).collect();
             assert_holds(&Plot { page, pens: vec![pen(number, "a", paths)] }, &profile);
         }
     });
@@ -301,8 +301,8 @@ fn three_pens_on_a3_have_their_slots_their_pauses_and_their_preview() {
 fn what_cannot_be_is_refused_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a3.svg"), A3).unwrap();
-    let colours: String =
-        (0..3000).map(|i| format!("<path stroke=\"#{:06x}\" d=\"M{} 50v9\"/>", i * 5000, 10 + i / 10)).collect();
+    let line = |i: i32| format!("<path stroke=\"#{:06x}\" d=\"M{} 50v9\"/>", i * 5000, 10 + i / 10);
+    let colours = (0..3000).map(line).collect::<Vec<_>>().concat();
     let head = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"420mm\" height=\"297mm\" viewBox=\"0 0 420 297\">";
     fs::write(folder.path().join("many.svg"), format!("{head}{colours}</svg>")).unwrap();
     fs::write(folder.path().join("mine.toml"), "extends = \"hp7475a\"\n[motion]\ndraw_speed = 0\n").unwrap();

@@ -27,6 +27,8 @@ Sending a file to its plotter:
   G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; printers take it from their card.
   SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order and those with ! wait.";
 
+// One of them is made, once.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Draw a photograph: to SVG or PDF for print, or with --profile to a plotter's HP-GL or G-code.
@@ -165,6 +167,8 @@ pub(super) struct DrawOptions {
 }
 
 /// How tool paths are made.
+// Switches of a command line are booleans.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Args, Clone, Debug)]
 pub(super) struct ToolpathOptions {
     /// Of flattening curves.

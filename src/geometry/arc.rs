@@ -170,7 +170,7 @@ mod tests {
                 let angle = f64::from(i) * 0.1;
                 Point::new(angle.cos(), angle.sin()).to_vec2() * (0.27 * angle / (2.0 * PI))
             })
-            .map(|v| v.to_point())
+            .map(Vec2::to_point)
             .collect();
         let steps = fit_arcs(&spiral, 0.02);
         assert!(steps.len() * 6 < spiral.len(), "{} steps for {} points", steps.len(), spiral.len());

@@ -42,7 +42,7 @@ pub enum Turn {
     Upright,
     /// Clockwise by a quarter, so that a portrait page lies on a landscape sheet.
     Quarter,
-    /// Anticlockwise by a quarter, as the AxiDraw's program does.
+    /// Anticlockwise by a quarter, as the `AxiDraw`'s program does.
     QuarterBack,
 }
 

@@ -142,7 +142,9 @@ impl Reader {
             (2, turn) if turn >= 0.0 => turn - whole,
             (_, turn) => turn,
         };
-        flatten_arc(self.at, to, centre, sweep, ARC_TOLERANCE).into_iter().for_each(|p| self.visit(p));
+        for p in flatten_arc(self.at, to, centre, sweep, ARC_TOLERANCE) {
+            self.visit(p);
+        }
     }
 
     fn visit(&mut self, to: Point) {

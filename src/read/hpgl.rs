@@ -118,7 +118,9 @@ impl Reader {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let spoke = self.at - centre;
         let to = centre + Vec2::new(spoke.x * cos - spoke.y * sin, spoke.x * sin + spoke.y * cos);
-        flatten_arc(self.at, to, centre, degrees.to_radians(), 0.1).into_iter().for_each(|p| self.visit(p));
+        for p in flatten_arc(self.at, to, centre, degrees.to_radians(), 0.1) {
+            self.visit(p);
+        }
         Some(())
     }
 
@@ -147,9 +149,9 @@ impl Reader {
             }
             if let [x, y] = pair[..] {
                 if is_up {
-                    self.is_down = false
+                    self.is_down = false;
                 } else {
-                    self.lower()
+                    self.lower();
                 }
                 let by = Vec2::new(x, y);
                 self.visit(if is_absolute { by.to_point() } else { self.at + by });

@@ -89,7 +89,7 @@ impl<W: io::Write> Gcode<'_, W> {
     }
 
     /// A comment in plain ASCII without the characters that senders and firmware take out (`?!~`), that end it, or that would make it
-    /// a command (LinuxCNC acts on comments that begin with MSG and the like; ours begin with a word and a number or are the profile's).
+    /// a command (`LinuxCNC` acts on comments that begin with MSG and the like; ours begin with a word and a number or are the profile's).
     fn comment(&mut self, text: &str) -> io::Result<()> {
         let plain: String = text
             .chars()

@@ -34,8 +34,12 @@ pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut
             text.push_str("PU;");
         }
         let _ = write!(text, "SP{slot};VS{};", speed(profile, pen.handling.speed(profile.motion.draw_speed)));
-        dialect.force.iter().for_each(|force| text.push_str(&format!("FS{force};")));
-        dialect.acceleration.iter().for_each(|g| text.push_str(&format!("AS{g};")));
+        if let Some(force) = dialect.force {
+            let _ = write!(text, "FS{force};");
+        }
+        if let Some(g) = dialect.acceleration {
+            let _ = write!(text, "AS{g};");
+        }
         for path in &pen.paths {
             let units: Vec<Unit> = path.points.iter().map(|p| snap(mounting.place(pen.number, *p), mounting)).collect();
             let tolerance = mounting.tolerance * profile.units_per_mm;

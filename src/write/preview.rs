@@ -62,9 +62,9 @@ fn polyline(points: &[Point]) -> String {
     let mut text = format!("<path d=\"M{} {}", number(points[0].x), number(points[0].y));
     // A touch is a line of no length, which round ends show.
     let again = if points.len() == 1 { points } else { &points[1..] };
-    again.iter().for_each(|p| {
+    for p in again {
         let _ = write!(text, "L{} {}", number(p.x), number(p.y));
-    });
+    }
     text + "\"/>\n"
 }
 

@@ -168,7 +168,7 @@ fn quoted(key: &str) -> String {
 }
 
 fn line_of(text: &str, byte: usize) -> usize {
-    text.as_bytes()[..byte.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1
+    1 + text.bytes().take(byte).filter(|b| *b == b'\n').count()
 }
 
 /// Walks a file's values and their places side by side.

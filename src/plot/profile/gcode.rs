@@ -102,7 +102,6 @@ impl GcodeDialect {
             (Lift::Command, _) if self.pen_up == self.pen_down => {
                 Err(Refusal::new("gcode.pen_up", "must differ from gcode.pen_down"))
             }
-            (Lift::Command, _) => Ok(()),
             (Lift::Height, None) => Err(Refusal::new("gcode.height", "is missing, and the pen is lifted by its height")),
             (Lift::Height, Some(z)) if !z.up.is_finite() || !z.down.is_finite() || (z.up - z.down).abs() < 0.05 => {
                 Err(Refusal::new("gcode.height.up", "must differ from gcode.height.down by 0.05 mm or more"))
@@ -110,7 +109,7 @@ impl GcodeDialect {
             (Lift::Height, Some(z)) if !z.plunge_speed.is_finite() || z.plunge_speed <= 0.0 => {
                 Err(Refusal::new("gcode.height.plunge_speed", "must be above 0"))
             }
-            (Lift::Height, Some(_)) => Ok(()),
+            (Lift::Command, _) | (Lift::Height, Some(_)) => Ok(()),
         }
     }
 

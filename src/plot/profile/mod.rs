@@ -93,7 +93,9 @@ impl Profile {
     pub fn parse_with(name: &str, text: &str, set: &[(String, String)]) -> Result<Self, ProfileError> {
         let mut document = Document::default();
         read_chain(&mut document, name, text, DEEPEST)?;
-        set.iter().for_each(|(key, value)| document.set_option(key, value));
+        for (key, value) in set {
+            document.set_option(key, value);
+        }
         let profile: Self = document.resolve(name)?;
         profile.check().map_err(|refusal| ProfileError::Value {
             place: document.place_of(&refusal.key).unwrap_or_else(|| name.to_owned()),

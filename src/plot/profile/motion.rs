@@ -19,7 +19,7 @@ pub struct Motion {
     pub travel_acceleration: Option<f64>,
     /// GRBL's `$11` in millimetres: how far a corner may be rounded in thought, which sets its speed.
     pub junction_deviation: Option<f64>,
-    /// The same as the AxiDraw's driver counts it: in 5000ths of an inch.
+    /// The same as the `AxiDraw`'s driver counts it: in 5000ths of an inch.
     pub corner_factor: Option<f64>,
     /// Time to lift the pen.
     pub pen_up_seconds: f64,
@@ -33,7 +33,7 @@ pub struct Motion {
     pub planner: Planner,
 }
 
-/// Millimetres of junction deviation for a corner factor of 1: the AxiDraw's driver divides the factor by 5000 and takes inches.
+/// Millimetres of junction deviation for a corner factor of 1: the `AxiDraw`'s driver divides the factor by 5000 and takes inches.
 const MM_PER_CORNER_FACTOR: f64 = 25.4 / 5000.0;
 
 impl Motion {
