@@ -3,6 +3,9 @@
 //! Whole commands in processes of their own, with their peak memory (from `wait4` by way of `/usr/bin/time` where it is there, else
 //! unknown), and ratios within one run, so that a busy machine does not decide.
 
+use drypoint::drawing::{Colour, Handling, Page};
+use drypoint::geometry::Point;
+use drypoint::plot::{PenPaths, Plot, Profile, Toolpath, clock, mount};
 use image::{ImageFormat, RgbImage};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -24,6 +27,35 @@ fn main() {
     let (small, _) = draw(&sample, &["--size", "180x180mm", "--pitch", "0.6mm"]);
     let ratio = small / seconds;
     line("  4 x the area costs times", ratio, "at most 4.5", ratio <= 4.5);
+    let told = clock_seconds(100_000);
+    line("the time of 100,000 paths told", told, "at most 0.5 s", told <= 0.5);
+    let growth = told / clock_seconds(10_000);
+    line("  10 x the paths cost times", growth, "at most 15", growth <= 15.0);
+}
+
+/// How long it takes to tell the time of many waves of 20 points each on a machine with GRBL.
+fn clock_seconds(count: usize) -> f64 {
+    let servo = Profile::built_in("grbl-servo").expect("it is built in");
+    let wave = |i: usize| {
+        let (x, y) = (200.0 * (i as f64 * 0.754_877_666).fract(), 200.0 * (i as f64 * 0.569_840_291).fract());
+        Toolpath::new((0..20).map(f64::from).map(|k| Point::new(x + 0.1 * k, y + 0.1 * (0.7 * k).sin())).collect())
+    };
+    let pen = PenPaths {
+        number: 1,
+        name: "waves".to_owned(),
+        colour: Colour::BLACK,
+        nib: 0.3,
+        handling: Handling::default(),
+        paths: (0..count).map(wave).collect(),
+    };
+    let plot = Plot { page: Page::new(250.0, 250.0), pens: vec![pen] };
+    let mounting = mount(&servo, &plot.page).expect("the page fits");
+    let once = || {
+        let started = Instant::now();
+        assert!(clock(&plot, &servo, &mounting)[0].total() > 0.0);
+        started.elapsed().as_secs_f64()
+    };
+    (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
 /// The sample blown up to 4900 x 4900 pixels as JPEG.

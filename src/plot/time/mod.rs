@@ -16,6 +16,7 @@ use super::{Mounting, PenPaths, Plot, Toolpath};
 use crate::geometry::{Point, Step, fit_arcs};
 use look_ahead::{LookAhead, Place, whole};
 use pen_action::{PenAction, Rate, pen_actions};
+use std::f64::consts::PI;
 
 /// Decimals of a place in a G-code file.
 const GCODE_GRID: f64 = 1000.0;
@@ -174,7 +175,12 @@ impl<'a> Run<'a> {
         let mut chords = Vec::with_capacity(places.len());
         let mut from = points[0];
         for step in fit_arcs(&points, self.mounting.tolerance) {
-            if let Step::Arc { centre, sweep, .. } = step {
+            if let Step::Arc { centre, sweep, to } = step {
+                // The file gives the centre rounded, and the controller reckons the angle from it.
+                let per_mm = GCODE_GRID * self.profile.units_per_mm;
+                let centre = from + ((centre - from) * per_mm).round() / per_mm;
+                let (a, b) = (from - centre, to - centre);
+                let sweep = sweep + (a.cross(b).atan2(a.dot(b)) - sweep + PI).rem_euclid(2.0 * PI) - PI;
                 let radius = from.distance(centre);
                 let rise = (tolerance * (2.0 * radius - tolerance)).max(1e-12).sqrt();
                 let count = (0.5 * sweep.abs() * radius / rise).floor();
