@@ -307,6 +307,7 @@ fn report_json(options: &DrawOptions, drawing: &Drawing, prepared: &[Prepared], 
     if let Some(prepared) = prepared.first() {
         value["pens"] = json!(prepared.report.pens);
         value["total"] = json!(prepared.report.total);
+        value["duplicates"] = json!(prepared.duplicates);
     }
     value
 }

@@ -173,6 +173,11 @@ fn scalar(value: &Value) -> String {
 
 fn no_overrides() -> ToolpathOptions {
     ToolpathOptions {
+        seam: super::arguments::SeamOption::Nearest,
+        duplicates: super::arguments::DuplicatesOption::Drop,
+        reverse: false,
+        start_corner: None,
+        order_seed: 0,
         tolerance: 0.02,
         order: Order::None,
         keep_direction: false,

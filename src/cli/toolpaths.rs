@@ -1,11 +1,12 @@
 //! From a plot to a machine's file: profile, order, mounting, checks, report.
 
-use super::arguments::{Format, Order, ToolpathOptions};
+use super::arguments::{DuplicatesOption, Format, Order, SeamOption, StartCorner, ToolpathOptions};
 use super::failure::Failure;
 use super::output;
 use crate::geometry::Point;
 use crate::plot::{
-    Direction, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, built_in, clip_to, mount, report,
+    Corner, Course, Direction, Duplicates, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, Seam, Sequence,
+    built_in, clip_to, mount, report,
 };
 use crate::write::{SvgHead, write_gcode, write_hpgl, write_svg_plot};
 use std::io::Write;
@@ -83,6 +84,8 @@ pub(super) struct Prepared {
     pub report: PlotReport,
     /// Millimetres and touches that --clip cut away.
     pub cut: (f64, usize),
+    /// Repeated paths that are not drawn again.
+    pub duplicates: usize,
 }
 
 /// Orders a plot, lays it on the machine and checks that all of it can be drawn there.
@@ -101,17 +104,47 @@ pub(super) fn prepare(mut plot: Plot, profile: Option<&Profile>, options: &Toolp
     }
     let home = home_of(mounting.as_ref(), &plot);
     let before: Vec<f64> = report(&plot, home, None, None).pens.iter().map(|pen| pen.pen_up_mm).collect();
-    let effort = match options.order {
-        Order::Full => Effort::Full,
-        Order::Fast => Effort::Fast,
-        Order::None => Effort::None,
-    };
-    let direction = if options.keep_direction { Direction::AsDrawn } else { Direction::Either };
-    if effort != Effort::None {
-        plot.ordered(home, effort, direction, options.merge);
-    }
+    let duplicates = plot.put_in_order(home, &sequence(options));
     let report = report(&plot, home, profile.map(|p| &p.motion), Some(&before));
-    Ok(Prepared { plot, mounting, report, cut })
+    Ok(Prepared { plot, mounting, report, cut, duplicates })
+}
+
+/// The order that was asked for.
+fn sequence(options: &ToolpathOptions) -> Sequence {
+    let corner = |corner: StartCorner| match corner {
+        StartCorner::TopLeft => Corner::TopLeft,
+        StartCorner::TopRight => Corner::TopRight,
+        StartCorner::BottomLeft => Corner::BottomLeft,
+        StartCorner::BottomRight => Corner::BottomRight,
+    };
+    Sequence {
+        effort: match options.order {
+            Order::Full => Effort::Full,
+            Order::Fast | Order::Random => Effort::Fast,
+            Order::None => Effort::None,
+        },
+        direction: if options.keep_direction { Direction::AsDrawn } else { Direction::Either },
+        merge: options.merge,
+        duplicates: match options.duplicates {
+            DuplicatesOption::Drop => Duplicates::Drop,
+            DuplicatesOption::Keep => Duplicates::Keep,
+        },
+        seam: match options.seam {
+            SeamOption::Nearest => Seam::Nearest,
+            SeamOption::Drawn => Seam::Drawn,
+            SeamOption::Top => Seam::Top,
+            SeamOption::Bottom => Seam::Bottom,
+            SeamOption::Left => Seam::Left,
+            SeamOption::Right => Seam::Right,
+            SeamOption::Corner => Seam::Corner,
+        },
+        course: match options.order {
+            Order::Random => Course::Shuffled(options.order_seed),
+            _ if options.reverse => Course::Backwards,
+            _ => Course::Forwards,
+        },
+        start: options.start_corner.map(corner),
+    }
 }
 
 /// Where the pen starts, on the page: machine zero, else the page's upper left corner.
@@ -159,6 +192,9 @@ pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str
     let (length, touches) = prepared.cut;
     if length > 0.0 || touches > 0 {
         eprintln!("drypoint: warning: --clip cut away {length:.1} mm of line and {touches} touches");
+    }
+    if prepared.duplicates > 0 {
+        eprintln!("drypoint: {} repeated paths are drawn once; --duplicates keep draws them all", prepared.duplicates);
     }
     if let Some(seconds) = prepared.report.total.seconds
         && seconds > LONG_HOURS * 3600.0
