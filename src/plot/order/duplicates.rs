@@ -27,12 +27,11 @@ pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64) -> Vec<Toolpath> {
         let (x, y) = cell(bounds(&path.points).center(), tolerance);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))));
         let mut candidates = around.filter_map(|(x, y)| by_middle.get(&(path.points.len(), x, y))).flatten();
-        match candidates.find(|&&other| is_same(&path, &kept[other], tolerance)) {
-            Some(&earlier) => kept[earlier].dwell_seconds = kept[earlier].dwell_seconds.max(path.dwell_seconds),
-            None => {
-                by_middle.entry((path.points.len(), x, y)).or_default().push(kept.len());
-                kept.push(path);
-            }
+        if let Some(&earlier) = candidates.find(|&&other| is_same(&path, &kept[other], tolerance)) {
+            kept[earlier].dwell_seconds = kept[earlier].dwell_seconds.max(path.dwell_seconds);
+        } else {
+            by_middle.entry((path.points.len(), x, y)).or_default().push(kept.len());
+            kept.push(path);
         }
     }
     kept

@@ -186,7 +186,7 @@ impl Best {
     }
 }
 
-/// Rounds of ordering and seating a few stops; the second one seldom changes anything.
+/// Rounds of ordering and seating a few stops: a bound on the work.
 const FEW_ROUNDS: usize = 8;
 
 fn order_few(stops: &mut [Stop], best: &mut Best) {
@@ -201,10 +201,10 @@ fn order_few(stops: &mut [Stop], best: &mut Best) {
     }
 }
 
-/// How often the search goes on from new seats before kicks begin. Tuned on 2000 circles and polygons: the third gains below 0.1 %.
+/// How often the search goes on from new seats before kicks begin; a bound on the work, not tuned yet.
 const SEATINGS: usize = 3;
 
-/// Parts into which kicks are divided between seatings where there are loops. Fewer leave the sheet of circles up to 1 % longer.
+/// Parts into which kicks are divided between seatings where there are loops; not tuned yet.
 const PARTS: usize = 4;
 
 fn order_many(stops: &mut [Stop], effort: Effort, best: &mut Best) {
