@@ -180,7 +180,22 @@ pub(super) struct ToolpathOptions {
     /// Draw every path in its own direction.
     #[arg(long)]
     pub keep_direction: bool,
-    /// Join ends that lie this near.
+    /// Where loops begin and end.
+    #[arg(long, value_enum, default_value_t = SeamOption::Nearest)]
+    pub seam: SeamOption,
+    /// Paths of one pen that repeat an earlier one within 0.005 mm, in either direction.
+    #[arg(long, value_enum, default_value_t = DuplicatesOption::Drop)]
+    pub duplicates: DuplicatesOption,
+    /// Draw the whole order backwards, from the last path to the first.
+    #[arg(long)]
+    pub reverse: bool,
+    /// The corner of the drawing where the order of each pen starts [default: the machine's home].
+    #[arg(long, value_enum)]
+    pub start_corner: Option<StartCorner>,
+    /// The random order that --order random takes (a whole number from 0).
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub order_seed: u64,
+    /// Join ends that lie this near, up to a turn of 90 degrees, or 150 where they coincide; 0 joins nothing.
     #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub merge: f64,
     /// Cut at the sheet and the machine's limits instead of refusing.
@@ -370,6 +385,46 @@ pub(super) enum Order {
     Fast,
     /// As in the file.
     None,
+    /// At random, so that ink dries before the pen comes back.
+    Random,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum SeamOption {
+    /// Wherever the travel is shortest.
+    Nearest,
+    /// Where they begin in the drawing.
+    Drawn,
+    /// At their highest vertex on the page.
+    Top,
+    /// At their lowest vertex.
+    Bottom,
+    /// At their leftmost vertex.
+    Left,
+    /// At their rightmost vertex.
+    Right,
+    /// At their sharpest vertex.
+    Corner,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DuplicatesOption {
+    /// Drawn once; how many went is reported.
+    Drop,
+    /// Drawn as often as they are there.
+    Keep,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum StartCorner {
+    /// Upper left.
+    TopLeft,
+    /// Upper right.
+    TopRight,
+    /// Lower left.
+    BottomLeft,
+    /// Lower right.
+    BottomRight,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -345,6 +345,7 @@ fn report_json(drawing: &Drawing, pens: &PenSet, prepared: &[Prepared], seconds:
     if let Some(prepared) = prepared.first() {
         value["pens"] = json!(prepared.report.pens);
         value["total"] = json!(prepared.report.total);
+        value["duplicates"] = json!(prepared.duplicates);
     }
     value
 }

@@ -69,6 +69,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     if options.reporting.json {
         let mut value = plots.first().map_or_else(|| json!({}), |(_, prepared)| json!(prepared.report));
         value["dropped"] = json!(imported.dropped);
+        value["duplicates"] = json!(plots.iter().map(|(_, prepared)| prepared.duplicates).sum::<usize>());
         return output::print_json(&value);
     }
     for (name, prepared) in plots.iter().filter(|_| !options.reporting.quiet) {

@@ -1,13 +1,13 @@
 //! From a plot to a machine's file: profile, order, mounting, checks, report.
 
-use super::arguments::{Format, Order, ToolpathOptions};
+use super::arguments::{DuplicatesOption, Format, Order, SeamOption, StartCorner, ToolpathOptions};
 use super::failure::Failure;
 use super::output;
 use super::pens::PenSet;
 use crate::geometry::{Point, Rect};
 use crate::plot::{
-    Direction, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, Travel, add_registration, built_in, clip_to,
-    mount, pause_every, report, rest_touches,
+    Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, Seam,
+    Sequence, Travel, add_registration, built_in, clip_to, mount, pause_every, report, rest_touches,
 };
 use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
 use std::io::Write;
@@ -110,6 +110,8 @@ pub(super) struct Prepared {
     pub cut: (f64, usize),
     /// Where the pen starts, on the page.
     pub home: Point,
+    /// Repeated paths that are not drawn again.
+    pub duplicates: usize,
 }
 
 /// Orders a plot, lays it on the machine and checks that all of it can be drawn there.
@@ -138,15 +140,7 @@ pub(super) fn prepare(
     }
     let home = home_of(mounting.as_ref(), &plot);
     let before: Vec<f64> = report(&plot, home, None, None).pens.iter().map(|pen| pen.pen_up_mm).collect();
-    let effort = match options.order {
-        Order::Full => Effort::Full,
-        Order::Fast => Effort::Fast,
-        Order::None => Effort::None,
-    };
-    let direction = if options.keep_direction { Direction::AsDrawn } else { Direction::Either };
-    if effort != Effort::None {
-        plot.ordered(home, effort, direction, options.merge);
-    }
+    let duplicates = plot.put_in_order(home, &sequence(options));
     if options.registration {
         add_registration(&mut plot, drawable);
     }
@@ -156,12 +150,50 @@ pub(super) fn prepare(
     if let Some(length) = options.pause_every {
         pause_every(&mut plot, length);
     }
-    Ok(Prepared { plot, mounting, report, cut, home })
+    Ok(Prepared { plot, mounting, report, cut, home, duplicates })
 }
 
 fn bounds_of(plot: &Plot) -> Option<Rect> {
     let points = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
     points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
+}
+
+/// The order that was asked for.
+fn sequence(options: &ToolpathOptions) -> Sequence {
+    let corner = |corner: StartCorner| match corner {
+        StartCorner::TopLeft => DrawingCorner::TopLeft,
+        StartCorner::TopRight => DrawingCorner::TopRight,
+        StartCorner::BottomLeft => DrawingCorner::BottomLeft,
+        StartCorner::BottomRight => DrawingCorner::BottomRight,
+    };
+    Sequence {
+        effort: match options.order {
+            Order::Full => Effort::Full,
+            Order::Fast | Order::Random => Effort::Fast,
+            Order::None => Effort::None,
+        },
+        direction: if options.keep_direction { Direction::AsDrawn } else { Direction::Either },
+        merge: options.merge,
+        duplicates: match options.duplicates {
+            DuplicatesOption::Drop => Duplicates::Drop,
+            DuplicatesOption::Keep => Duplicates::Keep,
+        },
+        seam: match options.seam {
+            SeamOption::Nearest => Seam::Nearest,
+            SeamOption::Drawn => Seam::Drawn,
+            SeamOption::Top => Seam::Top,
+            SeamOption::Bottom => Seam::Bottom,
+            SeamOption::Left => Seam::Left,
+            SeamOption::Right => Seam::Right,
+            SeamOption::Corner => Seam::Corner,
+        },
+        course: match options.order {
+            Order::Random => Course::Shuffled(options.order_seed),
+            _ if options.reverse => Course::Backwards,
+            _ => Course::Forwards,
+        },
+        start: options.start_corner.map(corner),
+    }
 }
 
 /// Where the pen starts, on the page: machine zero, else the page's upper left corner.
@@ -263,6 +295,9 @@ pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str
     let (length, touches) = prepared.cut;
     if length > 0.0 || touches > 0 {
         eprintln!("drypoint: warning: --clip cut away {length:.1} mm of line and {touches} touches");
+    }
+    if prepared.duplicates > 0 {
+        eprintln!("drypoint: {} repeated paths are drawn once; --duplicates keep draws them all", prepared.duplicates);
     }
     if let Some(seconds) = prepared.report.total.seconds
         && seconds > LONG_HOURS * 3600.0

@@ -9,8 +9,10 @@ mod lower;
 mod mounting;
 mod occlude;
 mod order;
+mod ordering;
 mod profile;
 mod report;
+mod seam;
 mod time;
 
 pub use coverage::{Coverage, coverage};
@@ -18,12 +20,14 @@ pub use errands::{add_registration, pause_every, rest_touches};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded};
-pub use order::{Direction, Effort, PathEnds, Visit, chain, drop_duplicates, order, pen_up_length};
+pub use order::{Direction, Effort, PathEnds, Stop, Visit, chain, drop_duplicates, order, order_stops, pen_up_length};
+pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
 pub use profile::{
     Area, Axes, Comment, Corner, GcodeDialect, Height, HpglDialect, Language, Lift, Limits, Motion, Paper, PenChange, PenSlot,
     Pens, Planner, Profile, ProfileError, SvgDialect, Swell, Travel, Way, built_in, built_in_names,
 };
 pub use report::{PenReport, PlotReport, report};
+pub use seam::Seam;
 pub use time::{Clock, clock};
 
 use crate::drawing::{Colour, Handling, Page};
@@ -100,26 +104,5 @@ impl Toolpath {
     /// Length drawn.
     pub fn length(&self) -> f64 {
         polyline_length(&self.points)
-    }
-}
-
-impl Plot {
-    /// Joins, orders and turns each pen's paths for the least pen-up travel from `home`.
-    pub fn ordered(&mut self, home: Point, effort: Effort, direction: Direction, merge: f64) {
-        let mut at = home;
-        for pen in &mut self.pens {
-            let lines: Vec<Vec<Point>> = std::mem::take(&mut pen.paths).into_iter().map(|path| path.points).collect();
-            let joined = chain(lines, merge, direction);
-            let mut paths: Vec<Option<Toolpath>> = joined.into_iter().map(|points| Some(Toolpath::new(points))).collect();
-            let ends: Vec<PathEnds> = paths.iter().flatten().map(Toolpath::ends).collect();
-            for visit in order(&ends, at, effort, direction) {
-                let Some(mut path) = paths[visit.path].take() else { continue };
-                if visit.reversed {
-                    path.points.reverse();
-                }
-                at = path.ends().end;
-                pen.paths.push(path);
-            }
-        }
     }
 }

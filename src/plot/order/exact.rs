@@ -1,30 +1,31 @@
 //! A few paths: the best order there is, by dynamic programming over the sets of paths already drawn (Held and Karp 1962).
 
-use super::{Direction, PathEnds, Visit};
+use super::{Stop, Visit};
 use kurbo::Point;
 
 /// Paths up to which all orders are weighed; the table has `2^n n` rows of two ways round, 9000 at nine.
 pub(super) const MOST: usize = 9;
 
 /// The shortest order of at most [`MOST`] paths from `home`.
-pub(super) fn best_order(paths: &[PathEnds], home: Point, direction: Direction) -> Vec<Visit> {
-    let count = paths.len();
-    let ways = if direction == Direction::Either { 2 } else { 1 };
+pub(super) fn best_order(stops: &[Stop], home: Point) -> Vec<Visit> {
+    let count = stops.len();
+    let ways = |path: usize| 0..1 + usize::from(stops[path].may_turn);
     let (entry, exit) = (
-        |path: usize, way: usize| if way == 0 { paths[path].start } else { paths[path].end },
-        |path: usize, way: usize| if way == 0 { paths[path].end } else { paths[path].start },
+        |path: usize, way: usize| if way == 0 { stops[path].ends.start } else { stops[path].ends.end },
+        |path: usize, way: usize| if way == 0 { stops[path].ends.end } else { stops[path].ends.start },
     );
     let slot = |set: usize, path: usize, way: usize| (set * count + path) * 2 + way;
     // The least travel to have drawn `set`, its last path that way round, and what was drawn before.
     let mut least = vec![(f64::INFINITY, None); (1 << count) * count * 2];
     for set in 1_usize..1 << count {
-        for (path, way) in (0..count).filter(|path| set >> path & 1 == 1).flat_map(|path| (0..ways).map(move |way| (path, way))) {
+        for (path, way) in (0..count).filter(|path| set >> path & 1 == 1).flat_map(|path| ways(path).map(move |way| (path, way)))
+        {
             let before = set & !(1 << path);
             let mut best = (home.distance(entry(path, way)), None);
             if before != 0 {
                 best.0 = f64::INFINITY;
                 for (last, turned) in
-                    (0..count).filter(|last| before >> last & 1 == 1).flat_map(|last| (0..ways).map(move |way| (last, way)))
+                    (0..count).filter(|last| before >> last & 1 == 1).flat_map(|last| ways(last).map(move |way| (last, way)))
                 {
                     let travel = least[slot(before, last, turned)].0 + exit(last, turned).distance(entry(path, way));
                     if best.1.is_none() || travel < best.0 {
@@ -36,7 +37,7 @@ pub(super) fn best_order(paths: &[PathEnds], home: Point, direction: Direction) 
         }
     }
     let all = (1_usize << count) - 1;
-    let ends = (0..count).flat_map(|path| (0..ways).map(move |way| (path, way)));
+    let ends = (0..count).flat_map(|path| ways(path).map(move |way| (path, way)));
     let mut last = ends.min_by(|a, b| least[slot(all, a.0, a.1)].0.total_cmp(&least[slot(all, b.0, b.1)].0));
     let (mut set, mut visits) = (all, Vec::with_capacity(count));
     while let Some((path, way)) = last {

@@ -1,5 +1,6 @@
 //! Exchanging k links of a tour for k others: whether that leaves one tour, and how its segments then lie.
 
+use super::one_way::OneWay;
 use super::sites::End;
 use super::tour::Tour;
 
@@ -32,8 +33,9 @@ pub(super) struct Rearrangement {
 
 impl Rearrangement {
     /// Cuts the links `ends[0] - ends[1]`, `ends[2] - ends[3]` ... and joins `ends[1]` with `ends[2]`, `ends[3]` with `ends[4]` ... and
-    /// the last one with the first. `None` if that would fall apart into several rings. O(k^2) for k links.
-    pub(super) fn new(tour: &Tour, ends: &[End]) -> Option<Self> {
+    /// the last one with the first. `None` if that would fall apart into several rings, or turn round a path that is `one_way`. O(k^2) for
+    /// k links.
+    pub(super) fn new(tour: &Tour, ends: &[End], one_way: &OneWay) -> Option<Self> {
         let count = ends.len() / 2;
         let (cuts, sides) = cut(tour, ends);
         let mut joined = [0; 2 * MAX_LINKS];
@@ -51,7 +53,9 @@ impl Rearrangement {
             steps += 1;
             side = joined[side ^ 1];
         }
-        (steps == count).then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
+        let is_allowed =
+            steps == count && (!one_way.is_mixed() || keeps_directions(tour, &cuts[..count], &walked[..count], one_way));
+        is_allowed.then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
     }
 
     /// Puts the segments of these lengths behind a seat in reverse order, each still drawn the same way.
@@ -78,11 +82,7 @@ impl Rearrangement {
     }
 
     fn around_longest(paths: usize, cuts: &[usize], walked: &mut [(usize, bool)]) -> Self {
-        let segment = |index: usize| {
-            let before = cuts[if index == 0 { cuts.len() - 1 } else { index - 1 }];
-            let first = if before + 1 == paths { 0 } else { before + 1 };
-            (first, (cuts[index] + paths - before - 1) % paths + 1)
-        };
+        let segment = |index: usize| segment(paths, cuts, index);
         let longest = (0..walked.len()).max_by_key(|&i| segment(walked[i].0).1).unwrap_or(0);
         walked.rotate_left(longest);
         if walked[0].1 {
@@ -101,6 +101,22 @@ impl Rearrangement {
         }
         Self { segments, count: walked.len() }
     }
+}
+
+/// First seat and number of paths of the segment that ends at this cut.
+fn segment(paths: usize, cuts: &[usize], index: usize) -> (usize, usize) {
+    let before = cuts[if index == 0 { cuts.len() - 1 } else { index - 1 }];
+    let first = if before + 1 == paths { 0 } else { before + 1 };
+    (first, (cuts[index] + paths - before - 1) % paths + 1)
+}
+
+/// Whether all segments with a path that may not be turned round go the same way.
+fn keeps_directions(tour: &Tour, cuts: &[usize], walked: &[(usize, bool)], one_way: &OneWay) -> bool {
+    let mut way = None;
+    walked.iter().all(|&(index, reversed)| {
+        let (first, len) = segment(tour.len(), cuts, index);
+        way == Some(reversed) || !one_way.is_within(tour, first, len) || way.replace(reversed).is_none()
+    })
 }
 
 /// The cut links as the seats before them, ascending; and for each end its side of a segment: `2 s` for the first end of

@@ -140,7 +140,7 @@ impl<'a> LinKernighan<'a> {
 
     /// Makes the exchange of the first `links` links if it leaves one tour.
     fn close(&mut self, links: usize) -> bool {
-        let new = Rearrangement::new(&self.tour, &self.ends[..2 * links]);
+        let new = Rearrangement::new(&self.tour, &self.ends[..2 * links], self.sites.one_way());
         if let Some(new) = &new {
             self.tour.rearrange(new);
         }

@@ -1,15 +1,21 @@
-//! Fewer and longer paths before they are ordered: repeated paths go, and paths that meet end to end become one.
-
-use std::collections::HashMap;
+//! Fewer and longer paths before they are ordered: paths that meet end to end become one.
 
 use kurbo::{Point, Vec2};
 
 use super::Direction;
 use super::kd_tree::KdTree;
+use crate::plot::Toolpath;
 
 /// Ends that are looked at around each end. At a crossroads of more, some pairs may stay apart; with all of them, a star of n rays would
 /// take n^2.
 const MOST_MEETING: usize = 8;
+
+/// The sharpest turn at which paths are joined, as 1 - cos of it: 150 degrees, which is still the point of a star. Beyond it the pen would go
+/// back almost over the wet line, which frays the paper.
+const SHARPEST: f64 = 1.866;
+
+/// Millimetres by which the pen's height may differ where two swelling paths are joined.
+const STEP: f64 = 0.01;
 
 /// Joins paths end to end where two ends are at most `tolerance` millimetres apart, so that the pen stays down.
 ///
@@ -20,13 +26,14 @@ const MOST_MEETING: usize = 8;
 ///                                                                       -----------'   lines of a hatch
 /// ```
 ///
-/// Ends at the very same point are joined at any angle, as that adds no ink. Each end is used once, and of several ways to go on the
-/// straightest is taken, then the one with the smallest gap. A chain whose own ends meet becomes a closed path, its last point
-/// equal to its first. A path not longer than the tolerance is a dot and left alone. Chains come in the order of their first
-/// path, which keeps its direction; with [`Direction::AsDrawn`] the end of one is joined only to the start of the next.
-/// O(n log n).
+/// Ends at the very same point are joined up to a turn of 150 degrees, as that adds no ink. Each end is used once, and of several ways to
+/// go on the straightest is taken, then the one with the smallest gap: where three ends meet like a T, its bar becomes one path. A chain
+/// whose own ends meet becomes a closed path, its last point equal to its first. A path not longer than the tolerance is a
+/// dot and left alone; a path with heights is joined only to others that have them, where they are the same. Chains come in the order of
+/// their first path, which keeps its direction; with [`Direction::AsDrawn`] the end of one is joined only to the start of
+/// the next. O(n log n).
 #[expect(clippy::needless_pass_by_value, reason = "the paths are replaced by their chains")]
-pub fn chain(paths: Vec<Vec<Point>>, tolerance: f64, direction: Direction) -> Vec<Vec<Point>> {
+pub fn chain(paths: Vec<Toolpath>, tolerance: f64, direction: Direction) -> Vec<Toolpath> {
     let links = matched(meetings(&paths, tolerance, direction), 2 * paths.len());
     let mut used = vec![false; paths.len()];
     let mut chains = Vec::new();
@@ -35,45 +42,32 @@ pub fn chain(paths: Vec<Vec<Point>>, tolerance: f64, direction: Direction) -> Ve
             continue;
         }
         let first = first_entry(&links, 2 * path);
-        let mut points: Vec<Point> = Vec::new();
+        let mut chain = Toolpath { points: Vec::new(), heights: paths[path].heights.as_ref().map(|_| Vec::new()), ..paths[path] };
         let mut entry = Some(first);
         while let Some(end) = entry.filter(|end| !used[end / 2]) {
             used[end / 2] = true;
-            let piece = &paths[end / 2];
-            if end % 2 == 0 {
-                append(&mut points, piece.iter());
-            } else {
-                append(&mut points, piece.iter().rev());
-            }
+            append(&mut chain, &paths[end / 2], end % 2 == 1);
             entry = links[end ^ 1];
         }
-        if entry.is_some() {
-            let start = points[0];
-            append(&mut points, std::iter::once(&start));
+        if entry.is_some() && chain.points.first() != chain.points.last() {
+            chain.points.push(chain.points[0]);
+            if let Some(heights) = &mut chain.heights {
+                heights.push(heights[0]);
+            }
         }
-        chains.push(points);
+        chains.push(chain);
     }
     chains
 }
 
-/// Drops each path that repeats an earlier one: as many vertices, each at most `tolerance` millimetres from its counterpart, in
-/// either direction. Of closed paths only those that begin at the same vertex are recognised. O(number of vertices), as long
-/// as few paths with equally many vertices share the middle of their bounds without being the same.
-pub fn drop_duplicates(paths: Vec<Vec<Point>>, tolerance: f64) -> Vec<Vec<Point>> {
-    let mut kept: Vec<Vec<Point>> = Vec::with_capacity(paths.len());
-    let mut by_middle: HashMap<(usize, i64, i64), Vec<usize>> = HashMap::new();
-    for path in paths {
-        // The middle of the bounds is the same in both directions, and moves no farther than the vertices: two equal paths lie in the same
-        // cell or in adjacent ones.
-        let (x, y) = cell(middle_of_bounds(&path), tolerance);
-        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))));
-        let mut candidates = around.filter_map(|(x, y)| by_middle.get(&(path.len(), x, y))).flatten();
-        if !candidates.any(|&other| is_same(&path, &kept[other], tolerance)) {
-            by_middle.entry((path.len(), x, y)).or_default().push(kept.len());
-            kept.push(path);
-        }
+/// Adds a path to a chain, which goes on at the same point or after a gap.
+fn append(chain: &mut Toolpath, path: &Toolpath, reversed: bool) {
+    let at = |i: usize| if reversed { path.points.len() - 1 - i } else { i };
+    let skip = usize::from(chain.points.last().is_some_and(|last| *last == path.points[at(0)]));
+    chain.points.extend((skip..path.points.len()).map(|i| path.points[at(i)]));
+    if let (Some(all), Some(heights)) = (&mut chain.heights, &path.heights) {
+        all.extend((skip..heights.len()).map(|i| heights[at(i)]));
     }
-    kept
 }
 
 /// Two ends that could be joined, the best pairs first in order: turn, gap, ends. End `2 p` is the first point of path `p`, `2 p + 1` its last.
@@ -84,8 +78,8 @@ struct Meeting {
 }
 
 /// All pairs of ends that may be joined.
-fn meetings(paths: &[Vec<Point>], tolerance: f64, direction: Direction) -> Vec<Meeting> {
-    let is_line: Vec<bool> = paths.iter().map(|path| is_longer_than(path, tolerance)).collect();
+fn meetings(paths: &[Toolpath], tolerance: f64, direction: Direction) -> Vec<Meeting> {
+    let is_line: Vec<bool> = paths.iter().map(|path| is_longer_than(&path.points, tolerance)).collect();
     let ends: Vec<(Point, u32)> =
         (0..2 * paths.len()).filter(|end| is_line[end / 2]).map(|end| (place(paths, end), end as u32)).collect();
     let tree = KdTree::new(ends.clone());
@@ -103,14 +97,18 @@ fn meetings(paths: &[Vec<Point>], tolerance: f64, direction: Direction) -> Vec<M
 }
 
 /// These two ends, if they may be joined.
-fn meeting(paths: &[Vec<Point>], ends: (usize, usize), tolerance: f64) -> Option<Meeting> {
+fn meeting(paths: &[Toolpath], ends: (usize, usize), tolerance: f64) -> Option<Meeting> {
     let gap = place(paths, ends.0).distance(place(paths, ends.1));
     let (leaving, going_on) = (outwards(paths, ends.0, tolerance), -outwards(paths, ends.1, tolerance));
     // 0 straight on, 1 at a right angle, 2 back.
     let turn = 1.0 - leaving.dot(going_on);
     // Below 90 degrees by more than rounding: lines that meet at right angles are two lines.
-    let meets = gap == 0.0 || gap <= tolerance && turn < 1.0 - 1e-9;
-    meets.then_some(Meeting { turn, gap, ends })
+    let meets = gap == 0.0 && turn <= SHARPEST || gap <= tolerance && turn < 1.0 - 1e-9;
+    let is_level = match (height(paths, ends.0), height(paths, ends.1)) {
+        (Some(a), Some(b)) => (a - b).abs() <= STEP,
+        (a, b) => a.is_none() && b.is_none(),
+    };
+    (meets && is_level).then_some(Meeting { turn, gap, ends })
 }
 
 /// The partner of each end after joining the best pairs first.
@@ -138,24 +136,21 @@ fn first_entry(links: &[Option<usize>], end: usize) -> usize {
     entry
 }
 
-fn append<'a>(points: &mut Vec<Point>, more: impl Iterator<Item = &'a Point>) {
-    let mut more = more.peekable();
-    if points.last().is_some() && points.last() == more.peek().copied() {
-        more.next();
-    }
-    points.extend(more);
+fn place(paths: &[Toolpath], end: usize) -> Point {
+    let ends = paths[end / 2].ends();
+    if end.is_multiple_of(2) { ends.start } else { ends.end }
 }
 
-fn place(paths: &[Vec<Point>], end: usize) -> Point {
-    let path = &paths[end / 2];
-    if end.is_multiple_of(2) { path[0] } else { path[path.len() - 1] }
+fn height(paths: &[Toolpath], end: usize) -> Option<f64> {
+    let heights = paths[end / 2].heights.as_ref()?;
+    if end.is_multiple_of(2) { heights.first().copied() } else { heights.last().copied() }
 }
 
 /// The direction in which a path arrives at one of its ends: from the nearest vertex that is farther away than the tolerance,
 /// as shorter pieces point anywhere.
-fn outwards(paths: &[Vec<Point>], end: usize, tolerance: f64) -> Vec2 {
+fn outwards(paths: &[Toolpath], end: usize, tolerance: f64) -> Vec2 {
     let at = place(paths, end);
-    let path = &paths[end / 2];
+    let path = &paths[end / 2].points;
     let far = |p: &&Point| p.distance(at) > tolerance;
     let from = if end.is_multiple_of(2) { path.iter().find(far) } else { path.iter().rev().find(far) };
     from.map_or(Vec2::ZERO, |&from| (at - from) / at.distance(from))
@@ -164,22 +159,4 @@ fn outwards(paths: &[Vec<Point>], end: usize, tolerance: f64) -> Vec2 {
 /// Whether some vertex is farther than this from the first.
 fn is_longer_than(path: &[Point], tolerance: f64) -> bool {
     path.iter().any(|p| p.distance(path[0]) > tolerance)
-}
-
-fn is_same(a: &[Point], b: &[Point], tolerance: f64) -> bool {
-    let close = |(p, q): (&Point, &Point)| p.distance(*q) <= tolerance;
-    a.len() == b.len() && (a.iter().zip(b).all(close) || a.iter().zip(b.iter().rev()).all(close))
-}
-
-fn middle_of_bounds(path: &[Point]) -> Point {
-    let corner = |pick: fn(f64, f64) -> f64| {
-        path.iter().copied().reduce(|p, q| Point::new(pick(p.x, q.x), pick(p.y, q.y))).unwrap_or_default()
-    };
-    corner(f64::min).midpoint(corner(f64::max))
-}
-
-/// The cell of a grid as fine as the tolerance, but for rounding.
-fn cell(p: Point, tolerance: f64) -> (i64, i64) {
-    let size = tolerance.max(1e-9);
-    ((p.x / size).floor() as i64, (p.y / size).floor() as i64)
 }

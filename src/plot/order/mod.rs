@@ -2,7 +2,8 @@
 //!
 //! This is the travelling salesman's problem with a path in place of each city, which may be drawn either way round. A first tour
 //! of the shortest links that fit together (`greedy`) is improved by exchanging links (`lin_kernighan`) and, as far as the
-//! effort allows, kicked out of its local optimum again and again (`kicks`, `sweeps`).
+//! effort allows, kicked out of its local optimum again and again (`kicks`, `sweeps`). Loops may be entered anywhere: they are seated between
+//! their neighbours in the tour (`seats`), and the search goes on from there.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -11,23 +12,32 @@
     reason = "paths are counted in u32, half of what memory holds, and budgets are whole numbers of kicks"
 )]
 
+mod duplicates;
 mod exact;
 mod exchange;
 mod greedy;
 mod kd_tree;
 mod kicks;
+mod lasso;
 mod lin_kernighan;
 mod merge;
-
-pub use merge::{chain, drop_duplicates};
 mod neighbours;
+mod one_way;
 mod patch;
 mod random;
+mod ring;
+mod seats;
 mod sites;
 mod sweeps;
 #[cfg(test)]
 mod tests;
 mod tour;
+
+pub use duplicates::drop_duplicates;
+pub(super) use lasso::join_to_loops;
+pub use merge::chain;
+pub(super) use random::shuffled;
+pub(super) use ring::{is_free, rotated};
 
 use kurbo::Point;
 
@@ -90,41 +100,145 @@ const FULL_KICKS: f64 = 3.0;
 /// Kicks that [`Effort::Full`] spends on top however few the paths, as even a thousand take many to come within 1 %.
 const LEAST_FULL_KICKS: f64 = 40_000.0;
 
+/// A path, or several that are drawn one after the other, as the search sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop<'a> {
+    /// Where the pen comes down and where it is lifted.
+    pub ends: PathEnds,
+    /// Whether it may be drawn from its end to its start.
+    pub may_turn: bool,
+    /// The vertices of a loop that may be entered anywhere, the last one equal to the first; `ends` are both on it then.
+    pub ring: Option<&'a [Point]>,
+    /// The edge of the ring, by its first vertex, on which `ends` lie.
+    pub edge: usize,
+}
+
+/// A path whose ends are no farther apart than this, in millimetres, is travelled to alike from either end, and the search need not
+/// keep its direction. A hundredth of a millimetre is less than the step of most plotters.
+const TOUCH: f64 = 0.01;
+
+impl Stop<'_> {
+    /// A path with two ends that it keeps.
+    pub const fn new(ends: PathEnds, may_turn: bool) -> Self {
+        Self { ends, may_turn, ring: None, edge: 0 }
+    }
+
+    /// Whether its direction matters to the search.
+    fn is_one_way(&self) -> bool {
+        !self.may_turn && self.ends.start.distance(self.ends.end) > TOUCH
+    }
+}
+
 /// Orders the paths for the least pen-up travel from `home` through all of them; the way back home does not count.
 ///
 /// Returns each path once. The result is the same on any number of threads; more effort never gives a longer order. Coordinates
 /// must not be NaN. Memory: about 0.9 kB a path. Time: O(n log n) with [`Effort::Fast`] and slightly more
 /// with [`Effort::Full`], in practice.
 pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Direction) -> Vec<Visit> {
-    let mut best: Vec<Visit> = (0..paths.len()).map(|path| Visit { path, reversed: false }).collect();
-    if effort == Effort::None || paths.is_empty() {
-        return best;
-    }
-    if paths.len() <= exact::MOST {
-        return exact::best_order(paths, home, direction);
-    }
-    let numbering = sites::numbering(paths);
-    let sites = Sites::new(paths, &numbering, home);
-    let neighbours = Neighbours::new(&sites, NEIGHBOURS, direction);
-    let tour = Tour::new(greedy_tour(&sites, &neighbours, direction));
-    let mut work = Workpiece { sites: &sites, neighbours: &neighbours, tour };
-    // Gains are right up to rounding, and the order as given may happen to be optimal: what is returned is measured.
-    let mut offer = |tour: &Tour| {
-        let candidate = visits(&sites, &numbering, tour);
-        if pen_up_length(paths, &candidate, home) < pen_up_length(paths, &best, home) {
-            best = candidate;
+    let mut stops: Vec<Stop> = paths.iter().map(|&ends| Stop::new(ends, direction == Direction::Either)).collect();
+    order_stops(&mut stops, home, effort)
+}
+
+/// Does what [`order`] does for stops of any kind, and moves the ends of loops to where the pen enters them.
+pub fn order_stops(stops: &mut [Stop], home: Point, effort: Effort) -> Vec<Visit> {
+    let mut best = Best::as_given(stops, home);
+    if effort != Effort::None && !stops.is_empty() {
+        if stops.len() <= exact::MOST {
+            order_few(stops, &mut best);
+        } else {
+            order_many(stops, effort, &mut best);
         }
-    };
-    work.settle();
-    work.along_the_tour(FAST_KICKS, 0);
-    offer(&work.tour);
-    if effort == Effort::Full {
-        let kicks_per_path = FULL_KICKS + LEAST_FULL_KICKS / paths.len() as f64;
-        work.along_the_tour(kicks_per_path / 2.0, 1);
-        work.across_the_paper(kicks_per_path / 2.0);
-        offer(&work.tour);
     }
-    best
+    for (stop, (ends, edge)) in stops.iter_mut().zip(best.seats) {
+        (stop.ends, stop.edge) = (ends, edge);
+    }
+    best.visits
+}
+
+/// The shortest order found so far. Gains are right up to rounding, and the order as given may happen to be optimal: what is
+/// returned is measured.
+struct Best {
+    home: Point,
+    visits: Vec<Visit>,
+    seats: Vec<(PathEnds, usize)>,
+    length: f64,
+}
+
+impl Best {
+    fn as_given(stops: &[Stop], home: Point) -> Self {
+        let mut best = Self { home, visits: Vec::new(), seats: Vec::new(), length: f64::INFINITY };
+        best.take((0..stops.len()).map(|path| Visit { path, reversed: false }).collect(), stops, f64::INFINITY);
+        best
+    }
+
+    fn offer(&mut self, visits: Vec<Visit>, stops: &[Stop]) {
+        let ends: Vec<PathEnds> = stops.iter().map(|stop| stop.ends).collect();
+        let length = pen_up_length(&ends, &visits, self.home);
+        if length < self.length {
+            self.take(visits, stops, length);
+        }
+    }
+
+    fn take(&mut self, visits: Vec<Visit>, stops: &[Stop], length: f64) {
+        self.visits = visits;
+        self.seats = stops.iter().map(|stop| (stop.ends, stop.edge)).collect();
+        self.length = length;
+    }
+}
+
+/// Rounds of ordering and seating a few stops: a bound on the work.
+const FEW_ROUNDS: usize = 8;
+
+fn order_few(stops: &mut [Stop], best: &mut Best) {
+    for _ in 0..FEW_ROUNDS {
+        let visits = exact::best_order(stops, best.home);
+        best.offer(visits.clone(), stops);
+        let order: Vec<usize> = visits.iter().map(|visit| visit.path).collect();
+        if seats::seat_in_order(stops, &order, best.home) == 0.0 {
+            return;
+        }
+        best.offer(visits, stops);
+    }
+}
+
+/// How often the search goes on from new seats before kicks begin; a bound on the work, not tuned yet.
+const SEATINGS: usize = 3;
+
+/// Parts into which kicks are divided between seatings where there are loops; not tuned yet.
+const PARTS: usize = 4;
+
+fn order_many(stops: &mut [Stop], effort: Effort, best: &mut Best) {
+    let has_rings = stops.iter().any(|stop| stop.ring.is_some());
+    let numbering = sites::numbering(stops);
+    let sites = Sites::new(stops, &numbering, best.home);
+    let neighbours = Neighbours::new(&sites, NEIGHBOURS);
+    let tour = Tour::new(greedy_tour(&sites, &neighbours));
+    let mut work = Workpiece { sites, neighbours, tour };
+    let parts = if has_rings { PARTS } else { 1 };
+    work.settle();
+    for _ in 0..SEATINGS {
+        if !has_rings || work.seat(stops, &numbering, best.home) == 0.0 {
+            break;
+        }
+        work.settle();
+    }
+    let mut finish = |work: &mut Workpiece, stops: &mut [Stop]| {
+        if has_rings && work.seat(stops, &numbering, best.home) > 0.0 {
+            work.settle();
+            work.seat(stops, &numbering, best.home);
+        }
+        best.offer(visits(&work.sites, &numbering, &work.tour, stops), stops);
+    };
+    work.along_the_tour(FAST_KICKS, 0);
+    finish(&mut work, stops);
+    if effort == Effort::Full {
+        let kicks_per_path = (FULL_KICKS + LEAST_FULL_KICKS / stops.len() as f64) / (2 * parts) as f64;
+        for part in 0..parts as u64 {
+            work.along_the_tour(kicks_per_path, 1 + part);
+            work.across_the_paper(kicks_per_path, part);
+            finish(&mut work, stops);
+        }
+    }
 }
 
 /// Pen-up travel in millimetres from `home` through all visits, without the way back home.
@@ -144,8 +258,11 @@ pub fn pen_up_length(paths: &[PathEnds], visits: &[Visit], home: Point) -> f64 {
 }
 
 /// The tour as the caller knows the paths, from home on.
-fn visits(sites: &Sites, numbering: &[usize], tour: &Tour) -> Vec<Visit> {
+fn visits(sites: &Sites, numbering: &[usize], tour: &Tour, stops: &[Stop]) -> Vec<Visit> {
     let entries = tour.entries_from(sites.free_end());
-    let visit = |&entry: &sites::End| Visit { path: numbering[entry as usize >> 1], reversed: entry & 1 == 1 };
+    let visit = |&entry: &sites::End| {
+        let path = numbering[entry as usize >> 1];
+        Visit { path, reversed: entry & 1 == 1 && stops[path].may_turn }
+    };
     entries[1..].iter().map(visit).collect()
 }

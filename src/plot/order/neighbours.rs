@@ -3,9 +3,8 @@
 use kurbo::Point;
 use rayon::prelude::*;
 
-use super::Direction;
 use super::kd_tree::KdTree;
-use super::sites::{End, Sites};
+use super::sites::{End, Role, Sites};
 
 /// The nearest ends of other paths to each end, the nearest first. The free end of the home path has none and is nobody's
 /// neighbour, as it is equally near to all.
@@ -16,9 +15,9 @@ pub(super) struct Neighbours {
 
 impl Neighbours {
     /// Finds up to `count` neighbours of each end in O(n (count + log n)) on all threads.
-    pub(super) fn new(sites: &Sites, count: usize, direction: Direction) -> Self {
+    pub(super) fn new(sites: &Sites, count: usize) -> Self {
         let loose: Vec<End> = (0..sites.end_count() as End).filter(|&end| end != sites.free_end()).collect();
-        let found = nearest_ends(sites, &loose, count, direction, |a, b| a >> 1 != b >> 1);
+        let found = nearest_ends(sites, &loose, count, |end| sites.role(end), |a, b| a >> 1 != b >> 1);
         let mut found = found.into_iter();
         let of_each = (0..sites.end_count() as End)
             .map(|end| if end == sites.free_end() { Vec::new() } else { found.next().unwrap_or_default() });
@@ -49,28 +48,34 @@ impl Neighbours {
     }
 }
 
-/// For each of some ends, up to `count` nearest ones among them that it may be linked with.
+/// For each of some ends, up to `count` nearest ones among them that it may be linked with by their roles and `may_link`, the nearest first.
 pub(super) fn nearest_ends(
     sites: &Sites,
     ends: &[End],
     count: usize,
-    direction: Direction,
+    role: impl Fn(End) -> Role + Sync,
     may_link: impl Fn(End, End) -> bool + Sync,
 ) -> Vec<Vec<End>> {
-    let labelled = |wanted: &dyn Fn(End) -> bool| -> Vec<(Point, End)> {
-        ends.iter().filter(|&&end| wanted(end)).map(|&end| (sites.place(end), end)).collect()
-    };
-    // The tree to search for the partners of an even and of an odd end. Two trees rather than one with a filter: the
-    // nearest thousand ends may all be of the wrong kind.
-    let trees = match direction {
-        Direction::Either => vec![KdTree::new(labelled(&|_| true))],
-        Direction::AsDrawn => vec![KdTree::new(labelled(&|end| end & 1 == 1)), KdTree::new(labelled(&|end| end & 1 == 0))],
-    };
+    // A tree for each role rather than one with a filter: the nearest thousand ends may all be of the wrong kind.
+    let roles = [Role::Entry, Role::Exit, Role::Either];
+    let trees = roles.map(|wanted| {
+        let labelled: Vec<(Point, End)> =
+            ends.iter().filter(|&&end| role(end) == wanted).map(|&end| (sites.place(end), end)).collect();
+        (wanted, KdTree::new(labelled))
+    });
     ends.par_iter()
-        .map_init(Vec::new, |nearest, &end| {
-            let tree = &trees[(end & 1) as usize % trees.len()];
-            tree.nearest((sites.place(end), end), count, |other| may_link(end, other), nearest);
-            nearest.iter().map(|&(_, other)| other).collect()
-        })
+        .map_init(
+            || (Vec::new(), Vec::new()),
+            |(nearest, all), &end| {
+                all.clear();
+                for (_, tree) in trees.iter().filter(|(wanted, _)| wanted.may_link(role(end))) {
+                    tree.nearest((sites.place(end), end), count, |other| may_link(end, other), nearest);
+                    all.append(nearest);
+                }
+                // Stable, so that ties stay as one tree gives them.
+                all.sort_by(|a: &(f64, End), b| a.0.total_cmp(&b.0));
+                all.iter().take(count).map(|&(_, other)| other).collect()
+            },
+        )
         .collect()
 }

@@ -1,6 +1,7 @@
 //! A patch of the tour: some paths, and everything between them tied into bundles, as a small tour of its own.
 
 use super::neighbours::Neighbours;
+use super::one_way::OneWay;
 use super::sites::{End, Sites};
 use super::tour::Tour;
 
@@ -47,7 +48,10 @@ impl Patch {
         for &end in &ends {
             renumbered[end as usize] = End::MAX;
         }
-        Self { sites: sites.part(&ends), neighbours, pieces }
+        let one_way = sites.one_way();
+        let is_one_way = |piece: &[usize]| one_way.is_within(tour, piece[0], piece[1] - piece[0]);
+        let one_way = if one_way.is_empty() { Vec::new() } else { pieces.windows(2).map(is_one_way).collect() };
+        Self { sites: sites.part(&ends, OneWay::new(one_way)), neighbours, pieces }
     }
 
     /// The small tour before any change.

@@ -1,5 +1,15 @@
 //! Random numbers that are the same everywhere.
 
+/// The numbers from 0 up to `count` in an order that follows from the seed (Fisher and Yates 1938).
+pub(in crate::plot) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
+    let mut random = SplitMix::new(seed);
+    let mut order: Vec<usize> = (0..count).collect();
+    for last in (1..count).rev() {
+        order.swap(last, random.below(last + 1));
+    }
+    order
+}
+
 /// The generator known as `SplitMix64`: one addition and some mixing a number.
 pub(super) struct SplitMix(u64);
 

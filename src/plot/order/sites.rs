@@ -2,8 +2,9 @@
 
 use kurbo::Point;
 
-use super::PathEnds;
+use super::Stop;
 use super::kd_tree::KdTree;
+use super::one_way::OneWay;
 
 /// One end of one path. Path `p` owns the ends `2 p` (its start) and `2 p + 1` (its end), so that `end ^ 1` is the
 /// other end of the same path and `end >> 1` the path. The numbering is the internal one of [`Sites`].
@@ -22,24 +23,44 @@ const FARTHEST: f64 = 1e150;
 /// ```
 ///
 /// The free end has an even number like every start, and the home end an odd one like every end; so "links only join
-/// an odd with an even end" means "every path is drawn forwards" without an exception for home.
+/// an odd with an even end" means "every path is drawn forwards" without an exception for home. Where some path may not be turned
+/// round, the home path may not either, as it says which way the tour is read.
 pub(super) struct Sites {
     at: Vec<Point>,
     free: End,
     tolerance: f64,
+    one_way: OneWay,
+}
+
+/// What a link may do with an end, as far as it matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Role {
+    /// The path is entered here.
+    Entry,
+    /// The path is left here.
+    Exit,
+    /// Either.
+    Either,
+}
+
+impl Role {
+    /// Whether ends of these roles may be linked.
+    pub(super) fn may_link(self, other: Self) -> bool {
+        self == Self::Either || other == Self::Either || self != other
+    }
 }
 
 /// Numbers the paths along a k-d tree of their middles, so that neighbours on paper are close in memory. Returns
 /// the caller's number of each; the home path is the last one and not among these.
-pub(super) fn numbering(paths: &[PathEnds]) -> Vec<usize> {
-    let middles = paths.iter().map(|path| clamped(path.start).midpoint(clamped(path.end)));
+pub(super) fn numbering(stops: &[Stop]) -> Vec<usize> {
+    let middles = stops.iter().map(|stop| clamped(stop.ends.start).midpoint(clamped(stop.ends.end)));
     KdTree::new(middles.zip(0..).collect()).into_labels().map(|path| path as usize).collect()
 }
 
 impl Sites {
     /// The ends of all paths in this numbering, and of the home path.
-    pub(super) fn new(paths: &[PathEnds], numbering: &[usize], home: Point) -> Self {
-        let ends = numbering.iter().flat_map(|&path| [paths[path].start, paths[path].end]);
+    pub(super) fn new(stops: &[Stop], numbering: &[usize], home: Point) -> Self {
+        let ends = numbering.iter().flat_map(|&path| [stops[path].ends.start, stops[path].ends.end]);
         let at: Vec<Point> = ends.chain([home, home]).map(clamped).collect();
         let corner = |pick: fn(f64, f64) -> f64| {
             at.iter().copied().reduce(|p, q| Point::new(pick(p.x, q.x), pick(p.y, q.y))).unwrap_or(home)
@@ -47,14 +68,16 @@ impl Sites {
         // A sum of a dozen distances is wrong by some 1e-15 of the extent at most: whatever the search takes for a gain
         // above this is one, so it never walks in circles.
         let tolerance = 1e-12 * corner(f64::min).distance(corner(f64::max));
-        Self { at, free: 2 * numbering.len() as End, tolerance }
+        let mut one_way: Vec<bool> = numbering.iter().map(|&path| stops[path].is_one_way()).collect();
+        one_way.push(one_way.contains(&true));
+        Self { at, free: 2 * numbering.len() as End, tolerance, one_way: OneWay::new(one_way) }
     }
 
     /// Some of these ends under new numbers, two and two those of a path.
-    pub(super) fn part(&self, ends: &[End]) -> Self {
+    pub(super) fn part(&self, ends: &[End], one_way: OneWay) -> Self {
         let at = ends.iter().map(|&end| self.place(end)).collect();
         let free = ends.iter().position(|&end| end == self.free).map_or(End::MAX, |end| end as End);
-        Self { at, free, tolerance: self.tolerance }
+        Self { at, free, tolerance: self.tolerance, one_way }
     }
 
     /// Number of paths with the home path.
@@ -75,6 +98,20 @@ impl Sites {
     /// Where an end is. The place of the free end means nothing.
     pub(super) fn place(&self, end: End) -> Point {
         self.at[end as usize]
+    }
+
+    /// The paths that may not be turned round.
+    pub(super) fn one_way(&self) -> &OneWay {
+        &self.one_way
+    }
+
+    /// What a link may do with this end.
+    pub(super) fn role(&self, end: End) -> Role {
+        match (self.one_way.contains(end as usize >> 1), end & 1) {
+            (false, _) => Role::Either,
+            (true, 0) => Role::Entry,
+            (true, _) => Role::Exit,
+        }
     }
 
     /// Gains up to this many millimetres are rounding errors.

@@ -11,19 +11,20 @@ use super::patch::Patch;
 use super::random::SplitMix;
 use super::sites::{End, Sites};
 use super::tour::Tour;
+use super::{NEIGHBOURS, Stop, seats};
 
 /// Most paths in a patch. Tuned on 100,000 dots: with 1000, the tour ends 0.2 to 0.4 % longer, as more links would cross the rims of the patches; with
 /// many more, changes are dearer and there are too few patches for all threads.
 const PATCH: usize = 5000;
 
 /// A tour and all that is needed to improve it.
-pub(super) struct Workpiece<'a> {
-    pub(super) sites: &'a Sites,
-    pub(super) neighbours: &'a Neighbours,
+pub(super) struct Workpiece {
+    pub(super) sites: Sites,
+    pub(super) neighbours: Neighbours,
     pub(super) tour: Tour,
 }
 
-impl Workpiece<'_> {
+impl Workpiece {
     /// Kicks the tour `kicks_per_path` times the number of paths, in patches that are consecutive pieces of the tour. They do not touch
     /// each other, so they are worked on at the same time; but links from one to another cannot be made. Another
     /// `sequence` makes other kicks.
@@ -33,7 +34,7 @@ impl Workpiece<'_> {
         let scratch = || vec![End::MAX; self.sites.end_count()];
         let windows = (0..count).into_par_iter().map_init(scratch, |renumbered, window| {
             let seats: Vec<usize> = (window * len / count..(window + 1) * len / count).collect();
-            let patch = Patch::new(self.sites, self.neighbours, &self.tour, &seats, renumbered);
+            let patch = Patch::new(&self.sites, &self.neighbours, &self.tour, &seats, renumbered);
             let (small, _) =
                 kicked(&patch, kicks_per_path * seats.len() as f64, &mut SplitMix::new((sequence << 32) + window as u64));
             // The bundle of all else is the last piece: it is left out, and the rest follows in its direction.
@@ -45,10 +46,21 @@ impl Workpiece<'_> {
     }
 
     /// Kicks the tour as often as [`Workpiece::along_the_tour`], in patches that are compact on paper, one after the other: each may turn
-    /// round whatever the tour does outside of it.
-    pub(super) fn across_the_paper(&mut self, kicks_per_path: f64) {
-        let mut random = SplitMix::new(u64::MAX);
+    /// round whatever the tour does outside of it. Another `sequence` makes other kicks.
+    pub(super) fn across_the_paper(&mut self, kicks_per_path: f64, sequence: u64) {
+        let mut random = SplitMix::new(u64::MAX - sequence);
         self.on_each_tile(|patch, paths| kicked(patch, kicks_per_path * paths.len() as f64, &mut random));
+    }
+
+    /// Seats all loops anew and returns the millimetres gained.
+    pub(super) fn seat(&mut self, stops: &mut [Stop], numbering: &[usize], home: Point) -> f64 {
+        let (entries, gained) = seats::seated(stops, numbering, &self.sites, &self.tour);
+        if gained > 0.0 {
+            self.tour = Tour::new(entries);
+            self.sites = Sites::new(stops, numbering, home);
+            self.neighbours = Neighbours::new(&self.sites, NEIGHBOURS);
+        }
+        gained
     }
 
     /// Searches from all links: first in patches that are compact on paper, where changes are cheap; then in the whole tour, from
@@ -69,7 +81,7 @@ impl Workpiece<'_> {
         let tour = std::mem::replace(&mut self.tour, Tour::new(Vec::new()));
         let patch_of = |end: End| patch_of[end as usize >> 1];
         let is_at_rim = |end| self.neighbours.of(end).iter().any(|&other| patch_of(other) != patch_of(end));
-        (self.tour, _) = settled(self.sites, self.neighbours, tour, |end| is_single || is_at_rim(end));
+        (self.tour, _) = settled(&self.sites, &self.neighbours, tour, |end| is_single || is_at_rim(end));
     }
 
     /// Replaces the tour patch by patch. `improved` is given a patch and its paths without the bundles, and returns its small tour
@@ -81,7 +93,7 @@ impl Workpiece<'_> {
         for tile in tiles(&mut paths) {
             let mut seats: Vec<usize> = tile.iter().map(|&(_, path)| self.tour.seat_of(2 * path)).collect();
             seats.sort_unstable();
-            let patch = Patch::new(self.sites, self.neighbours, &self.tour, &seats, &mut renumbered);
+            let patch = Patch::new(&self.sites, &self.neighbours, &self.tour, &seats, &mut renumbered);
             let (small, gained) = improved(&patch, tile);
             if gained > 0.0 {
                 self.tour = Tour::new(patch.spread(&self.tour, small.entries_from(patch.last_piece())));

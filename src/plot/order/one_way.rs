@@ -1,0 +1,49 @@
+//! Paths that must be drawn in their own direction, among others that may be turned round.
+
+use super::tour::Tour;
+
+/// Up to this many are looked up one by one; more are found by walking along the segment in question, where one turns up soon. Both
+/// cost at most a few hundred steps in a patch of 5000.
+const FEW: usize = 32;
+
+/// Which paths may not be turned round.
+pub(super) struct OneWay {
+    /// For each path; empty if there is none.
+    is: Vec<bool>,
+    /// All of them, if they are few.
+    few: Vec<u32>,
+    /// Whether there are also paths that may be turned round, so that a change of the tour has to be checked. Where there is none, every link
+    /// joins an exit to an entry, which keeps all directions by itself.
+    is_mixed: bool,
+}
+
+impl OneWay {
+    pub(super) fn new(is: Vec<bool>) -> Self {
+        let count = is.iter().filter(|one_way| **one_way).count();
+        if count == 0 {
+            return Self { is: Vec::new(), few: Vec::new(), is_mixed: false };
+        }
+        let few = if count <= FEW { (0..).zip(&is).filter(|(_, is)| **is).map(|(path, _)| path).collect() } else { Vec::new() };
+        Self { few, is_mixed: count < is.len(), is }
+    }
+
+    pub(super) fn contains(&self, path: usize) -> bool {
+        self.is.get(path).copied().unwrap_or(false)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.is.is_empty()
+    }
+
+    pub(super) fn is_mixed(&self) -> bool {
+        self.is_mixed
+    }
+
+    /// Whether one of them is in these seats, which count on past the last one.
+    pub(super) fn is_within(&self, tour: &Tour, first: usize, len: usize) -> bool {
+        if self.few.is_empty() {
+            return (first..first + len).any(|seat| self.contains(tour.entry(seat) as usize >> 1));
+        }
+        self.few.iter().any(|&path| (tour.seat_of(2 * path) + tour.len() - first % tour.len()) % tour.len() < len)
+    }
+}
