@@ -48,7 +48,8 @@ fn score(dots: &[Point], field: &dyn Fn(Point) -> Vec2, inside: &dyn Fn(Point) -
     let (mut angles, mut distances, mut count) = (Vec::new(), Vec::new(), 0);
     for a in dots.iter().filter(|p| inside(**p)) {
         count += 1;
-        let mut near: Vec<(f64, Point)> = dots.iter().map(|b| (a.distance(*b), *b)).filter(|(d, _)| *d > 0.0 && *d < 1.6 * PITCH).collect();
+        let mut near: Vec<(f64, Point)> =
+            dots.iter().map(|b| (a.distance(*b), *b)).filter(|(d, _)| *d > 0.0 && *d < 1.6 * PITCH).collect();
         near.sort_by(|x, y| x.0.total_cmp(&y.0));
         for (d, b) in near.into_iter().take(4) {
             let t = field(a.midpoint(b));
@@ -69,10 +70,20 @@ fn experiment() {
     let (width, height) = (450_usize, 590_usize);
     let centre = Point::new(225.3, 295.8);
     let env = |name: &str, default: f64| std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default);
-    let parameters = StripeParameters { step: PITCH * env("H", 0.5), window: env("W", 4.0), rounds: env("R", 5.0) as u32, levels: env("L", 5.0) as u32 };
+    let parameters = StripeParameters {
+        step: PITCH * env("H", 0.5),
+        window: env("W", 4.0),
+        rounds: env("R", 5.0) as u32,
+        levels: env("L", 5.0) as u32,
+    };
     let fields: Vec<(String, Box<dyn Fn(Point) -> Vec2 + Sync>)> = [0.0, 17.0, 30.0, 45.0, 71.0]
         .into_iter()
-        .map(|a| (format!("parallel {a}"), Box::new(move |_: Point| rotated(Vec2::new(1.0, 0.0), a)) as Box<dyn Fn(Point) -> Vec2 + Sync>))
+        .map(|a| {
+            (
+                format!("parallel {a}"),
+                Box::new(move |_: Point| rotated(Vec2::new(1.0, 0.0), a)) as Box<dyn Fn(Point) -> Vec2 + Sync>,
+            )
+        })
         .chain([("circular", circular as Field), ("spiral", spiral), ("saddle", saddle)].map(|(n, f)| {
             (n.to_owned(), Box::new(move |p: Point| f(p - Point::new(225.3, 295.8))) as Box<dyn Fn(Point) -> Vec2 + Sync>)
         }))
@@ -96,7 +107,11 @@ fn experiment() {
         let t3 = started.elapsed().as_secs_f64();
         let margin = 3.0 * PITCH;
         let inside = |p: Point| {
-            p.x > margin && p.y > margin && p.x < width as f64 - margin && p.y < height as f64 - margin && (name.starts_with("par") || p.distance(centre) > 3.0 * PITCH)
+            p.x > margin
+                && p.y > margin
+                && p.x < width as f64 - margin
+                && p.y < height as f64 - margin
+                && (name.starts_with("par") || p.distance(centre) > 3.0 * PITCH)
         };
         let mut area = (width as f64 - 2.0 * margin) * (height as f64 - 2.0 * margin);
         if !name.starts_with("par") {
@@ -105,7 +120,11 @@ fn experiment() {
         let s = score(&dots, field, &inside, area);
         println!(
             "{name:14} {:.2} deg  cv {:.4}  density {:.4}  lines {lines} seconds {t1:.3} {:.3} {:.3}",
-            s.degrees, s.variation, s.density, t2 - t1, t3 - t2
+            s.degrees,
+            s.variation,
+            s.density,
+            t2 - t1,
+            t3 - t2
         );
     }
 }

@@ -2,8 +2,11 @@
 //!
 //! In: rasters and curves in working pixels. Out: one field each. Nothing here knows of styles, pages or files.
 
+mod b_spline;
+mod coherent_lines;
 mod contour;
 mod crossings;
+mod direction;
 mod distance;
 mod edges;
 mod flow_dog;
@@ -14,8 +17,11 @@ mod tangent_flow;
 mod trace;
 mod voronoi;
 
+pub use b_spline::{BSpline, Datum, multilevel_b_spline};
+pub use coherent_lines::{CoherentLine, CoherentLines, coherent_lines};
 pub use contour::contours;
 pub use crossings::crossings;
+pub use direction::{DirectionField, Guides, Singularity, direction_field};
 pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
 pub use flow_dog::{FlowLines, LineParameters, flow_lines};

@@ -171,7 +171,11 @@ fn chain(order: &[Key], links: &HashMap<Key, [Option<Key>; 2]>, points: &HashMap
         used.insert(start);
         let (mut here, mut before) = (start, None);
         let closed = loop {
-            let next = links[&here].iter().flatten().copied().find(|next| Some(*next) != before && (!used.contains(next) || *next == start));
+            let next = links[&here]
+                .iter()
+                .flatten()
+                .copied()
+                .find(|next| Some(*next) != before && (!used.contains(next) || *next == start));
             match next {
                 Some(next) if next == start => break line.len() > 2,
                 Some(next) => {

@@ -1,6 +1,6 @@
 //! From coarse to fine, in rounds: each node becomes what its neighbourhood foretells.
 
-use super::lattice::{StripeLattice, Wave, vector};
+use super::lattice::{MARGIN, StripeLattice, Wave, vector};
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use rayon::prelude::*;
@@ -30,21 +30,25 @@ pub fn stripes(
     start: &(dyn Fn(u64) -> f32 + Sync),
     anchor: Option<&Raster<[f32; 2]>>,
 ) -> StripeLattice {
-    let size = |step: f64| ((wave.width() as f64 / step).ceil().max(1.0) as usize, (wave.height() as f64 / step).ceil().max(1.0) as usize);
-    let finest = sampled(wave, parameters.step, size(parameters.step));
+    let margin = MARGIN * parameters.step;
+    let count = |length: usize, step: f64| ((length as f64 + 2.0 * margin) / step).ceil().max(1.0) as usize;
+    let (width, height) = (wave.width(), wave.height());
+    let nodes = |step: f64| sampled(wave, step, margin, (count(width, step), count(height, step)));
+    let finest_waves = sampled(wave, parameters.step, margin, StripeLattice::bare(width, height, parameters.step));
+    let finest = StripeLattice { step: parameters.step, margin, wave: finest_waves, phase: Raster::filled(0, 0, [0.0; 2]) };
     let mut coarser: Option<StripeLattice> = None;
     for level in (0..parameters.levels.max(1)).rev() {
         let step = parameters.step * f64::from(1_u32 << level);
-        let waves = if level == 0 { finest.clone() } else { sampled(wave, step, size(step)) };
+        let waves = if level == 0 { finest.wave.clone() } else { nodes(step) };
         let phase = match &coarser {
             None => Raster::from_fn(waves.width(), waves.height(), |x, y| {
                 let angle = std::f32::consts::TAU * start((y * waves.width() + x) as u64);
                 [angle.cos(), angle.sin()]
             }),
-            Some(coarse) => refined(coarse, &finest, parameters.step, &waves, step),
+            Some(coarse) => refined(coarse, &finest, &waves, step),
         };
-        let mut lattice = StripeLattice { step, wave: waves, phase };
-        let edges = Edges::new(&lattice, &finest, parameters.step);
+        let mut lattice = StripeLattice { step, margin, wave: waves, phase };
+        let edges = Edges::new(&lattice, &finest);
         relax(&mut lattice, &edges, parameters, if level == 0 { anchor } else { None });
         coarser = Some(lattice);
     }
@@ -52,8 +56,8 @@ pub fn stripes(
 }
 
 /// The wave at the nodes of a lattice.
-fn sampled(wave: &Raster<Wave>, step: f64, (width, height): (usize, usize)) -> Raster<Wave> {
-    Raster::from_fn(width, height, |i, j| wave_at(wave, (i as f64 + 0.5) * step, (j as f64 + 0.5) * step))
+fn sampled(wave: &Raster<Wave>, step: f64, margin: f64, (width, height): (usize, usize)) -> Raster<Wave> {
+    Raster::from_fn(width, height, |i, j| wave_at(wave, (i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin))
 }
 
 /// The wave between pixels (or nodes, with coordinates in their unit), those of the opposite sign turned round.
@@ -74,13 +78,13 @@ fn wave_at(wave: &Raster<Wave>, x: f64, y: f64) -> Wave {
 }
 
 /// Phase gained along a straight way, beginning with the wave `first`; and the wave at its end, of the sign carried there.
-fn gain_along(fine: &Raster<Wave>, fine_step: f64, from: Point, to: Point, first: Wave) -> (f64, Vec2) {
+fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64, Vec2) {
     let way = to - from;
-    let pieces = (way.hypot() / fine_step).ceil().max(1.0) as usize;
+    let pieces = (way.hypot() / fine.step).ceil().max(1.0) as usize;
     let (mut sum, mut carried) = (0.0, vector(first));
     for piece in 0..pieces {
         let p = from + way * ((piece as f64 + 0.5) / pieces as f64);
-        let here = vector(wave_at(fine, p.x / fine_step, p.y / fine_step));
+        let here = vector(wave_at(&fine.wave, (p.x + fine.margin) / fine.step, (p.y + fine.margin) / fine.step));
         carried = if here.dot(carried) < 0.0 { -here } else { here };
         sum += carried.dot(way) / pieces as f64;
     }
@@ -88,10 +92,10 @@ fn gain_along(fine: &Raster<Wave>, fine_step: f64, from: Point, to: Point, first
 }
 
 /// The start of a level: what the four coarser nodes around each node foretell.
-fn refined(coarse: &StripeLattice, fine: &Raster<Wave>, fine_step: f64, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
+fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
     Raster::from_fn(waves.width(), waves.height(), |i, j| {
-        let here = Point::new((i as f64 + 0.5) * step, (j as f64 + 0.5) * step);
-        let (x, y) = (here.x / coarse.step - 0.5, here.y / coarse.step - 0.5);
+        let here = Point::new((i as f64 + 0.5) * step - fine.margin, (j as f64 + 0.5) * step - fine.margin);
+        let (x, y) = ((here.x + fine.margin) / coarse.step - 0.5, (here.y + fine.margin) / coarse.step - 0.5);
         let mut sum = [0.0_f32; 2];
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             let (cx, cy) = (x.floor() as isize + dx, y.floor() as isize + dy);
@@ -100,7 +104,7 @@ fn refined(coarse: &StripeLattice, fine: &Raster<Wave>, fine_step: f64, waves: &
             }
             let weight = (1.0 - (x - cx as f64).abs()) * (1.0 - (y - cy as f64).abs());
             let (cx, cy) = (cx as usize, cy as usize);
-            let (gain, carried) = gain_along(fine, fine_step, coarse.position(cx, cy), here, coarse.wave.get(cx, cy));
+            let (gain, carried) = gain_along(fine, coarse.position(cx, cy), here, coarse.wave.get(cx, cy));
             let [re, im] = rotated(coarse.phase.get(cx, cy), gain as f32);
             let turned = carried.dot(vector(waves.get(i, j))) < 0.0;
             sum = [sum[0] + weight as f32 * re, sum[1] + weight as f32 * if turned { -im } else { im }];
@@ -148,9 +152,9 @@ struct Edges {
 }
 
 impl Edges {
-    fn new(lattice: &StripeLattice, fine: &Raster<Wave>, fine_step: f64) -> Self {
+    fn new(lattice: &StripeLattice, fine: &StripeLattice) -> Self {
         let (width, height) = (lattice.wave.width(), lattice.wave.height());
-        let is_finest = lattice.step == fine_step;
+        let is_finest = lattice.step == fine.step;
         let edge = |i: usize, j: usize, di: usize, dj: usize| {
             let (ni, nj) = (i + di, j + dj);
             if ni >= width || nj >= height {
@@ -160,13 +164,16 @@ impl Edges {
                 lattice.gain((i, j), (ni, nj))
             } else {
                 let (from, to) = (lattice.position(i, j), lattice.position(ni, nj));
-                let (gain, carried) = gain_along(fine, fine_step, from, to, lattice.wave.get(i, j));
+                let (gain, carried) = gain_along(fine, from, to, lattice.wave.get(i, j));
                 (gain, carried.dot(vector(lattice.wave.get(ni, nj))) < 0.0)
             };
             let (sin, cos) = (gain as f32).sin_cos();
             Edge { cos, sin, sign: if turned { -1.0 } else { 1.0 } }
         };
-        Self { right: Raster::from_fn(width, height, |i, j| edge(i, j, 1, 0)), down: Raster::from_fn(width, height, |i, j| edge(i, j, 0, 1)) }
+        Self {
+            right: Raster::from_fn(width, height, |i, j| edge(i, j, 1, 0)),
+            down: Raster::from_fn(width, height, |i, j| edge(i, j, 0, 1)),
+        }
     }
 }
 
@@ -183,7 +190,13 @@ fn relax(lattice: &mut StripeLattice, edges: &Edges, parameters: StripeParameter
     }
 }
 
-fn small_step(phase: &Raster<[f32; 2]>, edges: &Edges, next: &mut Raster<[f32; 2]>, is_last: bool, anchor: Option<&Raster<[f32; 2]>>) {
+fn small_step(
+    phase: &Raster<[f32; 2]>,
+    edges: &Edges,
+    next: &mut Raster<[f32; 2]>,
+    is_last: bool,
+    anchor: Option<&Raster<[f32; 2]>>,
+) {
     let (width, height) = (phase.width(), phase.height());
     next.pixels_mut().par_chunks_mut(width).with_min_len(16).enumerate().for_each(|(j, out)| {
         let (row, right, down) = (phase.row(j), edges.right.row(j), edges.down.row(j));
