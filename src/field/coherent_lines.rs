@@ -4,7 +4,7 @@
 use super::distance::nearest_seed;
 use super::flow_dog::FlowLines;
 use super::trace::{Curve, trace};
-use crate::geometry::{Point, smooth_polyline};
+use crate::geometry::{Point, Vec2, smooth_polyline};
 use crate::raster::{Raster, components, remove_components, thin};
 
 /// A line and its full width at each of the curve's points, both in pixels.
@@ -14,6 +14,8 @@ pub struct CoherentLine {
     pub curve: Curve,
     /// One for each point.
     pub widths: Vec<f64>,
+    /// Difference of the grey on it and to both sides, the mean along it, 0 to 1.
+    pub contrast: f64,
 }
 
 /// Every step from pixels to curves, for `stages`.
@@ -31,8 +33,8 @@ pub struct CoherentLines {
 const SPACING: f64 = 1.5;
 
 /// Thins, traces and smooths (`smoothing` pixels along the line); lines shorter than `least` pixels are left out. A line's width
-/// is twice the distance to what is not line, along its middle.
-pub fn coherent_lines(found: &FlowLines, smoothing: f64, least: f64) -> CoherentLines {
+/// is twice the distance to what is not line, along its middle. `grey` is what they were found in.
+pub fn coherent_lines(found: &FlowLines, grey: &Raster<f32>, smoothing: f64, least: f64) -> CoherentLines {
     let kept = without_short(&found.line, least);
     let skeleton = thin(&kept);
     let outside = nearest_seed(&kept.map(|v| 1 - v));
@@ -44,7 +46,11 @@ pub fn coherent_lines(found: &FlowLines, smoothing: f64, least: f64) -> Coherent
             closed: line.closed,
         })
         .filter(|line| line.points.len() > 2)
-        .map(|curve| CoherentLine { widths: widths(&curve, &kept, outside.as_ref(), smoothing), curve })
+        .map(|curve| {
+            let widths = widths(&curve, &kept, outside.as_ref(), smoothing);
+            let contrast = contrast(&curve, &widths, grey);
+            CoherentLine { curve, widths, contrast }
+        })
         .collect();
     CoherentLines { kept, skeleton, lines }
 }
@@ -79,6 +85,24 @@ fn widths(curve: &Curve, kept: &Raster<u8>, outside: Option<&Raster<u32>>, smoot
         .collect()
 }
 
+/// Pixels beside a line at which its surroundings are read, beyond its half width.
+const BESIDE: f64 = 2.0;
+
+fn contrast(curve: &Curve, widths: &[f64], grey: &Raster<f32>) -> f64 {
+    let last = curve.points.len() - 1;
+    let sum: f64 = (0..=last)
+        .map(|i| {
+            let way = curve.points[(i + 1).min(last)] - curve.points[i.saturating_sub(1)];
+            let side = if way.hypot() > 0.0 { way.normalize().turn_90() * (0.5 * widths[i] + BESIDE) } else { Vec2::ZERO };
+            let greys = [-1.0, 0.0, 1.0].map(|k| curve.points[i] + side * k).map(|p| grey.sample(p.x, p.y));
+            f64::from(
+                greys.iter().copied().fold(f32::NEG_INFINITY, f32::max) - greys.iter().copied().fold(f32::INFINITY, f32::min),
+            )
+        })
+        .sum();
+    sum / (last + 1) as f64
+}
+
 /// A line one pixel wide lies a pixel from what is beside it, one two pixels wide likewise or two.
 fn width_at(p: Point, kept: &Raster<u8>, outside: &Raster<u32>, columns: usize) -> f64 {
     let x = (p.x.max(0.0) as usize).min(kept.width() - 1);
@@ -96,10 +120,12 @@ mod tests {
     fn a_bar_s_middle_and_width_are_found_and_a_speck_is_left_out() {
         let line = Raster::from_fn(100, 40, |x, y| u8::from((10..90).contains(&x) && (18..23).contains(&y) || (x < 4 && y < 4)));
         let found = FlowLines { response: Raster::filled(100, 40, 0.0), line };
-        let lines = coherent_lines(&found, 3.0, 12.0).lines;
+        let grey = found.line.map(|v| 1.0 - 0.6 * f32::from(v));
+        let lines = coherent_lines(&found, &grey, 3.0, 12.0).lines;
         assert_eq!(lines.len(), 1);
         let middle = lines[0].curve.points.len() / 2;
         assert!((lines[0].curve.points[middle].y - 20.5).abs() < 0.6);
+        assert!((lines[0].contrast - 0.6).abs() < 0.05, "{}", lines[0].contrast);
         assert!((lines[0].widths[middle] - 5.0).abs() < 0.3, "{}", lines[0].widths[middle]);
     }
 }

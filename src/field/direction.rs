@@ -3,7 +3,7 @@
 use super::b_spline::{Datum, multilevel_b_spline};
 use super::trace::Curve;
 use crate::geometry::{Point, resample};
-use crate::raster::Raster;
+use crate::raster::{Raster, gaussian_blur};
 
 /// A direction without sign at each pixel.
 #[derive(Clone, Debug)]
@@ -35,18 +35,62 @@ pub struct Guides<'a> {
 /// Distance of the data read from a line, in pixels: a third of the shortest stripe's pitch in use.
 const DATUM_SPACING: f64 = 2.0;
 
-/// The directions of the lines' tangents, as tensors `(c^2, cs, s^2)`, interpolated by multi-level B-splines with cells down to
-/// `finest` pixels, and the eigenvector of the larger eigenvalue. Without lines the field is the diagonal's, as a printer's screen.
-pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, finest: f64) -> DirectionField {
+/// How the field between the lines is made; lengths in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldParameters {
+    /// The finest cells of the splines.
+    pub finest: f64,
+    /// Standard deviation of the calming: where lines disagree, the direction turns over this length and not at a wall.
+    pub calm: f64,
+}
+
+/// Nodes in the finest cell at which the field is worked out; between them it is bilinear.
+const NODES_PER_CELL: f64 = 6.0;
+/// Rounds of calming. One leaves walls where the splines' tensor passes through 0.
+const CALM_ROUNDS: usize = 2;
+
+/// The directions of the lines' tangents, as tensors `(c^2, cs, s^2)`, interpolated by multi-level B-splines, and the
+/// eigenvector of the larger eigenvalue. Without lines the field is the diagonal's, as a printer's screen.
+///
+/// Splines alone turn abruptly along lines where the tensor is nearly round. Calming makes every tensor equally long before it is
+/// averaged with its neighbours, so that the turn spreads.
+pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, parameters: FieldParameters) -> DirectionField {
     let data: Vec<Datum> =
         guides.iter().flat_map(|guide| guide.curves.iter().flat_map(|curve| tensors(curve, guide.weight))).collect();
-    let surface = multilevel_b_spline(&data, width as f64, height as f64, finest);
-    let deviator = Raster::from_fn(width, height, |x, y| {
-        let [a, b, c] = surface.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-        [a - c, 2.0 * b]
+    let surface = multilevel_b_spline(&data, width as f64, height as f64, parameters.finest);
+    let step = (parameters.finest / NODES_PER_CELL).max(1.0);
+    let count = |length: usize| (length as f64 / step).ceil().max(1.0) as usize + 1;
+    let mut nodes = Raster::from_fn(count(width), count(height), |i, j| {
+        let [a, b, c] = surface.at(Point::new(i as f64 * step, j as f64 * step));
+        unit([a - c, 2.0 * b])
     });
-    let singularities = singularities(&deviator, (0.5 * finest).round().max(1.0) as usize);
-    DirectionField { tangent: deviator.map(eigenvector), singularities }
+    if parameters.calm > 0.0 {
+        for _ in 0..CALM_ROUNDS {
+            nodes = calmed(&nodes, (parameters.calm / step) as f32);
+        }
+    }
+    let mut singularities = singularities(&nodes, 2);
+    for found in &mut singularities {
+        found.position = Point::new(found.position.x * step, found.position.y * step);
+    }
+    let planes = [0, 1].map(|c| nodes.map(|d| d[c]));
+    let tangent = Raster::from_fn(width, height, |x, y| {
+        // Nodes lie at whole steps from the corner; a raster's pixels half a pixel further.
+        let (u, v) = ((x as f64 + 0.5) / step + 0.5, (y as f64 + 0.5) / step + 0.5);
+        eigenvector([planes[0].sample(u, v), planes[1].sample(u, v)])
+    });
+    DirectionField { tangent, singularities }
+}
+
+/// Doubled angles of length 1; none where there is no direction.
+fn unit([x, y]: [f32; 2]) -> [f32; 2] {
+    let length = x.hypot(y);
+    if length < 1e-12 { [0.0, 0.0] } else { [x / length, y / length] }
+}
+
+fn calmed(nodes: &Raster<[f32; 2]>, sigma: f32) -> Raster<[f32; 2]> {
+    let plane = |c: usize| gaussian_blur(&nodes.map(|d| d[c]), sigma);
+    plane(0).zip_map(&plane(1), |x, y| unit([x, y]))
 }
 
 /// The unit tangent's tensor along a line.
@@ -72,7 +116,7 @@ fn tensors(curve: &Curve, weight: f32) -> Vec<Datum> {
 /// The larger eigenvalue's vector from the tensor's deviator `(a - c, 2b)`, which is the direction's doubled angle.
 fn eigenvector([x, y]: [f32; 2]) -> [f32; 2] {
     let length = x.hypot(y);
-    if length < 1e-12 {
+    if length < 1e-9 {
         return [std::f32::consts::FRAC_1_SQRT_2; 2];
     }
     let cosine = (0.5 * (1.0 + x / length)).max(0.0).sqrt();
@@ -80,7 +124,7 @@ fn eigenvector([x, y]: [f32; 2]) -> [f32; 2] {
     [cosine, if y < 0.0 { -sine } else { sine }]
 }
 
-/// Squares of `side` pixels around which the doubled angle makes a turn.
+/// Squares of `side` nodes around which the doubled angle makes a turn; places in nodes.
 fn singularities(deviator: &Raster<[f32; 2]>, side: usize) -> Vec<Singularity> {
     let mut found = Vec::new();
     for y in (0..deviator.height().saturating_sub(side)).step_by(side) {
@@ -94,7 +138,7 @@ fn singularities(deviator: &Raster<[f32; 2]>, side: usize) -> Vec<Singularity> {
                 .sum();
             let turns = (turn / std::f32::consts::TAU).round();
             if turns != 0.0 {
-                let middle = 0.5 * (side as f64 + 1.0);
+                let middle = 0.5 * side as f64;
                 found.push(Singularity { position: Point::new(x as f64 + middle, y as f64 + middle), index: 0.5 * turns });
             }
         }
@@ -116,7 +160,8 @@ mod tests {
     fn rings_make_a_field_of_circles_with_one_turn_at_the_centre() {
         let centre = Point::new(80.0, 70.0);
         let rings = [15.0, 35.0, 60.0].map(|r| circle(centre, r));
-        let field = direction_field(&[Guides { curves: &rings, weight: 1.0 }], 160, 140, 6.0);
+        let field =
+            direction_field(&[Guides { curves: &rings, weight: 1.0 }], 160, 140, FieldParameters { finest: 6.0, calm: 3.0 });
         for y in (5..135).step_by(10) {
             for x in (5..155).step_by(10) {
                 let away = Point::new(x as f64 + 0.5, y as f64 + 0.5) - centre;
@@ -133,7 +178,7 @@ mod tests {
 
     #[test]
     fn without_lines_it_is_the_diagonal() {
-        let field = direction_field(&[], 30, 20, 6.0);
+        let field = direction_field(&[], 30, 20, FieldParameters { finest: 6.0, calm: 3.0 });
         assert!(field.tangent.pixels().iter().all(|t| (t[0] - t[1]).abs() < 1e-6));
         assert!(field.singularities.is_empty());
     }

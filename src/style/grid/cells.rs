@@ -23,6 +23,10 @@ pub(super) struct Cell {
     pub area: f64,
     /// Wanted ink in square pixels, less what the feature lines put there.
     pub ink: f64,
+    /// Part of it lies under a feature line or beyond the subject.
+    pub is_cut: bool,
+    /// It fills a hole in the grid: no line runs through it.
+    pub is_filler: bool,
     /// Wanted ink as a share, 0 to 1.
     pub darkness: f64,
     /// More than half of it belongs to the subject.
@@ -51,7 +55,18 @@ pub(super) fn cells(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>
             let light = sum.light.map(|v| (v / sum.pixels.max(1.0)) as f32);
             let (ink, darkness) = (sum.ink(area), sum.ink / sum.pixels.max(1.0));
             let is_subject = sum.subject > 0.5 * sum.pixels;
-            Cell { centre, tangent: grid.tangent(centre), polygon, area, ink, darkness, is_subject, light }
+            Cell {
+                centre,
+                tangent: grid.tangent(centre),
+                polygon,
+                area,
+                ink,
+                is_cut: sum.covered > 0.0 || sum.is_open,
+                is_filler: i >= grid.true_crossings,
+                darkness,
+                is_subject,
+                light,
+            }
         })
         .collect()
 }

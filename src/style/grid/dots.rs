@@ -14,18 +14,21 @@ use rayon::prelude::*;
 
 /// Radius in pitches below which a dot is left out: 0.001 % ink.
 const LEAST_RADIUS: f64 = 0.002;
+/// The same for what a feature line or the subject's border has left of a dot: smaller ones look like dirt beside the line (seen on
+/// faces), larger ones carry the row across it.
+const LEAST_CUT_RADIUS: f64 = 0.16;
 
 pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], ink: &Raster<f32>) -> Layer {
     drawer.observer.begin("dots");
     let mixing = Mixing::new(drawer);
-    let least = LEAST_RADIUS * drawer.pitch();
     let mut layer = Layer::new("dots", 1);
     layer.marks = cells
         .par_iter()
         .enumerate()
         .filter_map(|(i, cell)| {
             let radius = radius(drawer, grid, &mixing, cell, ink);
-            (radius > least).then(|| Mark::Dot(mark(drawer, grid, cell, radius, i)))
+            let least = if cell.is_cut { LEAST_CUT_RADIUS } else { LEAST_RADIUS };
+            (radius > least * drawer.pitch()).then(|| Mark::Dot(mark(drawer, grid, cell, radius, i)))
         })
         .collect();
     layer
@@ -34,7 +37,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], i
 /// The radius in pixels; 0 for no dot.
 fn radius(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, cell: &Cell, ink: &Raster<f32>) -> f64 {
     let tone = 1.0 - f64::from(ink.sample(cell.centre.x, cell.centre.y));
-    let share = mixing.line_share(tone);
+    let share = if cell.is_filler { 0.0 } else { mixing.line_share(tone) };
     if share >= 1.0 {
         return 0.0;
     }

@@ -3,8 +3,8 @@
 use super::Drawer;
 use crate::drawing::{Colour, Ink, Layer, Mark, Stroke, Width};
 use crate::field::{
-    CoherentLine, Curve, DirectionField, Guides, LineParameters, coherent_lines, contours, detect_isophotes, direction_field,
-    edge_tangent_flow, flow_lines, lines_of,
+    CoherentLine, Curve, DirectionField, FieldParameters, Guides, LineParameters, coherent_lines, contours, detect_isophotes,
+    direction_field, edge_tangent_flow, flow_lines, lines_of,
 };
 use crate::geometry::{BezPath, Point, Vec2, smooth_polyline};
 use crate::raster::{Raster, thin};
@@ -13,7 +13,10 @@ use crate::style::Picture;
 
 /// The lines that steer the grid, and the field that they make; in working pixels.
 pub(super) struct Features {
+    /// Those that are drawn.
     pub lines: Vec<CoherentLine>,
+    /// Those of them that are long enough to steer.
+    pub guides: Vec<Curve>,
     pub field: DirectionField,
 }
 
@@ -35,7 +38,9 @@ impl Drawer<'_> {
             Some(mask) => self.hand_made(mask),
             None => self.found_isophotes(&lightness),
         };
-        let curves: Vec<Curve> = lines.iter().map(|line| line.curve.clone()).collect();
+        let least = self.pixels(self.parameters.steer_least_mm);
+        let steers = |line: &&CoherentLine| line.curve.length() >= least && line.contrast >= self.parameters.steer_contrast;
+        let curves: Vec<Curve> = lines.iter().filter(steers).map(|line| line.curve.clone()).collect();
         self.observer.picture("features", &|| {
             self.picture_of(vec![
                 self.thin_layer("lines", &curves, Colour { r: 20, g: 20, b: 20 }),
@@ -46,9 +51,16 @@ impl Drawer<'_> {
         let (width, height) = self.size();
         let guides =
             [Guides { curves: &curves, weight: 1.0 }, Guides { curves: &isophotes, weight: self.parameters.isophote_weight }];
-        let field = direction_field(&guides, width, height, self.pixels(self.parameters.field_detail_mm).max(2.0));
+        let field = direction_field(&guides, width, height, self.field_parameters());
         self.observer.picture("field", &|| self.picture_of(self.field_layers(&field)));
-        Features { lines, field }
+        Features { lines, guides: curves, field }
+    }
+
+    fn field_parameters(&self) -> FieldParameters {
+        FieldParameters {
+            finest: self.pixels(self.parameters.field_detail_mm).max(2.0),
+            calm: self.pixels(self.parameters.field_calm_mm),
+        }
     }
 
     /// Section 4.1: the flow along edges, and the lines that it carries.
@@ -72,10 +84,13 @@ impl Drawer<'_> {
         );
         self.observer.picture("flow-dog", &|| Picture::Grey(found.response.map(|h| 1.0 + h.min(0.0).tanh())));
         self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
-        let steps = coherent_lines(&found, self.pixels(parameters.smoothing_mm), self.pixels(parameters.line_least_mm));
+        let steps =
+            coherent_lines(&found, lightness, self.pixels(parameters.smoothing_mm), self.pixels(parameters.line_least_mm));
         self.observer.picture("lines-kept", &|| Picture::Mask(steps.kept.clone()));
         self.observer.picture("lines-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
-        steps.lines
+        let widest = self.pixels(parameters.line_widest_mm);
+        let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
+        steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect()
     }
 
     /// The subject's own border is a line, exactly; lines found beside it would double it.
@@ -99,7 +114,7 @@ impl Drawer<'_> {
     /// Lines of one width.
     fn plain(&self, curves: Vec<Curve>) -> Vec<CoherentLine> {
         let width = PLAIN_WIDTH * self.pitch();
-        curves.into_iter().map(|curve| CoherentLine { widths: vec![width; curve.points.len()], curve }).collect()
+        curves.into_iter().map(|curve| CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }).collect()
     }
 
     /// Section 4.1: the borders between levels of lightness.
@@ -108,7 +123,7 @@ impl Drawer<'_> {
             return Vec::new();
         }
         let smoothing = self.pixels(self.parameters.smoothing_mm).clamp(1.0, 6.0) as f32;
-        let least = self.pixels(self.parameters.line_least_mm) as f32;
+        let least = self.pixels(self.parameters.steer_least_mm) as f32;
         let levels = self.parameters.isophotes;
         let steps = detect_isophotes(lightness, levels, levels - 1, smoothing, least);
         self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
@@ -186,7 +201,7 @@ fn runs(line: &CoherentLine, keeps: impl Fn(&Point) -> bool) -> Vec<CoherentLine
         start += run.len();
         if run[0] && run.len() > 2 {
             let curve = Curve { points: line.curve.points[range.clone()].to_vec(), closed: false };
-            out.push(CoherentLine { curve, widths: line.widths[range].to_vec() });
+            out.push(CoherentLine { curve, widths: line.widths[range].to_vec(), contrast: line.contrast });
         }
     }
     out

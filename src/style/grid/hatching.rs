@@ -13,6 +13,8 @@ use rayon::prelude::*;
 const NODE_SPACING: f64 = 0.5;
 /// Width in pitches below which there is no line.
 const LEAST_WIDTH: f64 = 0.002;
+/// Width in pitches from which a line's end is no hair.
+const WHISKER: f64 = 0.25;
 
 pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>) -> Layer {
     drawer.observer.begin("hatching");
@@ -45,15 +47,26 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, line: &Cu
         let range = start..start + run.len();
         start += run.len();
         if run[0] > least {
-            // One node more at each end, where the width has come down to nothing.
-            let from = range.start.saturating_sub(1);
-            let to = (range.end + 1).min(nodes.len());
-            if to - from > 1 {
-                out.push(stroke(drawer, &nodes[from..to], widths[from..to].to_vec(), Ring::Open));
+            let kept = without_whiskers(&widths, range, WHISKER * drawer.pitch());
+            if kept.len() > 1 {
+                out.push(stroke(drawer, &nodes[kept.clone()], widths[kept].to_vec(), Ring::Open));
             }
         }
     }
     out
+}
+
+/// A run of nodes without the ends where the width falls to less than half from one node to the next: at the border of a dark
+/// shape such ends stand out like hairs.
+fn without_whiskers(widths: &[f64], mut run: std::ops::Range<usize>, thin: f64) -> std::ops::Range<usize> {
+    let is_whisker = |end: f64, inner: f64| end < thin && end < 0.5 * inner;
+    while run.len() > 1 && is_whisker(widths[run.start], widths[run.start + 1]) {
+        run.start += 1;
+    }
+    while run.len() > 1 && is_whisker(widths[run.end - 1], widths[run.end - 2]) {
+        run.end -= 1;
+    }
+    run
 }
 
 fn width(grid: &StructureGrid, mixing: &Mixing, p: Point, ink: &Raster<f32>) -> f64 {

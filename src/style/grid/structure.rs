@@ -5,10 +5,10 @@ use super::features::Features;
 use super::parameters::FeatureRows;
 use crate::drawing::{Colour, Dot, Layer, Mark};
 use crate::field::{
-    Curve, DirectionField, FeatureDistance, StripeLattice, StripeParameters, Wave, crossings, distance_to_curves, stripe_lines,
-    stripes,
+    Curve, DirectionField, FeatureDistance, StripeLattice, StripeParameters, Wave, crossings, distance_to_curves, holes,
+    stripe_lines, stripes,
 };
-use crate::geometry::{Point, Vec2, smooth_polyline};
+use crate::geometry::{Point, Rect, Vec2, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur};
 use crate::style::{Picture, random};
 use rand::RngExt;
@@ -21,6 +21,9 @@ const NODES_PER_PITCH: f64 = 2.0;
 const LEVELS: u32 = 5;
 /// No two dots are nearer than this, in pitches. At 0.5 twins stand at the ends of rows, at 0.7 holes show there.
 const LEAST_DISTANCE: f64 = 0.6;
+/// Radius of a place without any dot that gets one, in pitches; in an even grid it is 0.71. At 0.85 dots crowd where rows end, at
+/// 1.1 white spots show there.
+const HOLE: f64 = 0.95;
 /// How strongly a row is held where a feature line says it should run; at 1 rows break beside short lines.
 const HOLD: f64 = 0.25;
 /// Distance from a feature line at which the hold is let go, in pitches.
@@ -33,7 +36,10 @@ pub(super) struct StructureGrid {
     pub lines: [Vec<Curve>; 2],
     /// Density of each family at the lattice's nodes, lines a pixel.
     pub density: [Raster<f32>; 2],
+    /// Where lines of both families cross, then the points that fill holes between them.
     pub crossings: Vec<Point>,
+    /// How many of them are crossings.
+    pub true_crossings: usize,
     pub field: DirectionField,
 }
 
@@ -81,10 +87,13 @@ impl Drawer<'_> {
         );
         self.observer.begin("grid");
         let least = LEAST_DISTANCE * self.pitch() * f64::from(1.0 - self.parameters.adaptive);
-        let crossings: Vec<Point> = crossings(&a, &b, least).into_iter().filter(|p| self.contains(*p)).collect();
+        let mut crossings: Vec<Point> = crossings(&a, &b, least).into_iter().filter(|p| self.contains(*p)).collect();
+        let true_crossings = crossings.len();
+        let (width, height) = self.size();
+        crossings.extend(holes(&crossings, Rect::new(0.0, 0.0, width as f64, height as f64), HOLE * self.pitch()));
         let lines = [&a, &b].map(|family| self.smooth_lines(family));
         let density = [&a, &b].map(|family| gaussian_blur(&family.frequency(), (self.pitch() / step) as f32));
-        let grid = StructureGrid { stripes: [a, b], lines, density, crossings, field: features.field.clone() };
+        let grid = StructureGrid { stripes: [a, b], lines, density, crossings, true_crossings, field: features.field.clone() };
         self.show(&grid);
         grid
     }
@@ -111,9 +120,8 @@ impl Drawer<'_> {
             FeatureRows::On => 0.0,
             FeatureRows::Beside => 0.5,
         };
-        let curves: Vec<Curve> = features.lines.iter().map(|line| line.curve.clone()).collect();
         let (width, height) = self.size();
-        let distance = distance_to_curves(&curves, width, height)?;
+        let distance = distance_to_curves(&features.guides, width, height)?;
         let bare = StripeLattice::bare(width, height, step);
         Some(Raster::from_fn(bare.0, bare.1, |i, j| {
             let p = StripeLattice::bare_position(i, j, step);
