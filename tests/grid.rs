@@ -1,130 +1,355 @@
-//! The structure grid's promises.
+//! The structure grid's promises: alignment and holes on known fields and on the samples, tone on what resvg prints.
 
 mod common;
+#[path = "common/fields.rs"]
+mod fields;
+#[path = "common/paper_stripes.rs"]
+mod paper_stripes;
 
-use drypoint::field::{StripeParameters, Wave, crossings, stripe_lines, stripes};
-use drypoint::geometry::{Point, Vec2};
+use common::{mean_in, png_of_light, rendered, sample, svg_of};
+use drypoint::drawing::{Drawing, Mark, Page};
+use drypoint::field::{Curve, StripeLattice, Wave, distance_to_curves, stripe_lines, stripes};
+use drypoint::geometry::{Point, Rect, Vec2, flatten, smooth_polyline};
 use drypoint::raster::Raster;
+use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use drypoint::style::{Observer, Picture, Settings, find};
+use fields::{DEFAULTS, PITCH, both_families, dots_of, known_fields, noise, score, unit_raster};
+use paper_stripes::{paper_dots, paper_stripes};
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+use std::sync::Mutex;
 
-const PITCH: f64 = 6.0;
-
-/// A field of known direction: the tangent at a place, in pixels from the centre.
-type Field = fn(Vec2) -> Vec2;
-
-fn circular(p: Vec2) -> Vec2 {
-    p.turn_90().normalize()
+/// Inside a margin of three pitches, and as far from a field's centre.
+fn counted(p: Point, size: (usize, usize), centre: Option<Point>) -> bool {
+    let margin = 3.0 * PITCH;
+    let (width, height) = (size.0 as f64, size.1 as f64);
+    let inner = Rect::new(margin, margin, width - margin, height - margin);
+    inner.contains(p) && centre.is_none_or(|c| c.distance(p) > margin)
 }
 
-fn spiral(p: Vec2) -> Vec2 {
-    rotated(p.normalize(), 55.0)
-}
-
-fn saddle(p: Vec2) -> Vec2 {
-    Vec2::new(p.x, -p.y).normalize()
-}
-
-fn rotated(v: Vec2, degrees: f64) -> Vec2 {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
-}
-
-fn noise(seed: u64) -> impl Fn(u64) -> f32 + Sync {
-    move |n| {
-        let mut h = (n + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ seed.wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        h ^= h >> 31;
-        h = h.wrapping_mul(0x94d0_49bb_1331_11eb);
-        h ^= h >> 29;
-        (h >> 40) as f32 / (1_u64 << 24) as f32
-    }
-}
-
-struct Score {
-    degrees: f64,
-    variation: f64,
-    density: f64,
-}
-
-fn score(dots: &[Point], field: &dyn Fn(Point) -> Vec2, inside: &dyn Fn(Point) -> bool, area: f64) -> Score {
-    let (mut angles, mut distances, mut count) = (Vec::new(), Vec::new(), 0);
-    for a in dots.iter().filter(|p| inside(**p)) {
-        count += 1;
-        let mut near: Vec<(f64, Point)> =
-            dots.iter().map(|b| (a.distance(*b), *b)).filter(|(d, _)| *d > 0.0 && *d < 1.6 * PITCH).collect();
-        near.sort_by(|x, y| x.0.total_cmp(&y.0));
-        for (d, b) in near.into_iter().take(4) {
-            let t = field(a.midpoint(b));
-            let way = (b - *a).normalize();
-            let angle = way.cross(t).atan2(way.dot(t)).to_degrees().rem_euclid(90.0);
-            angles.push(angle.min(90.0 - angle));
-            distances.push(d);
-        }
-    }
-    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
-    let m = mean(&distances);
-    let variance = distances.iter().map(|d| (d - m).powi(2)).sum::<f64>() / distances.len() as f64;
-    Score { degrees: mean(&angles), variation: variance.sqrt() / m, density: f64::from(count) * PITCH * PITCH / area }
+fn counted_area(size: (usize, usize), centre: Option<Point>) -> f64 {
+    let margin = 6.0 * PITCH;
+    (size.0 as f64 - margin) * (size.1 as f64 - margin) - centre.map_or(0.0, |_| PI * (3.0 * PITCH).powi(2))
 }
 
 #[test]
-fn experiment() {
-    let (width, height) = (450_usize, 590_usize);
-    let centre = Point::new(225.3, 295.8);
-    let env = |name: &str, default: f64| std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default);
-    let parameters = StripeParameters {
-        step: PITCH * env("H", 0.5),
-        window: env("W", 4.0),
-        rounds: env("R", 5.0) as u32,
-        levels: env("L", 5.0) as u32,
-    };
-    let fields: Vec<(String, Box<dyn Fn(Point) -> Vec2 + Sync>)> = [0.0, 17.0, 30.0, 45.0, 71.0]
-        .into_iter()
-        .map(|a| {
-            (
-                format!("parallel {a}"),
-                Box::new(move |_: Point| rotated(Vec2::new(1.0, 0.0), a)) as Box<dyn Fn(Point) -> Vec2 + Sync>,
-            )
-        })
-        .chain([("circular", circular as Field), ("spiral", spiral), ("saddle", saddle)].map(|(n, f)| {
-            (n.to_owned(), Box::new(move |p: Point| f(p - Point::new(225.3, 295.8))) as Box<dyn Fn(Point) -> Vec2 + Sync>)
-        }))
-        .collect();
-    for (name, field) in &fields {
-        let wave = |turn: bool| {
-            Raster::from_fn(width, height, |x, y| {
-                let t = field(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-                let n = if turn { t.turn_90() } else { t } / PITCH;
-                [n.x as f32, n.y as f32] as Wave
-            })
-        };
-        let (wa, wb) = (wave(true), wave(false));
-        let started = std::time::Instant::now();
-        let a = stripes(&wa, parameters, &noise(1), None);
-        let b = stripes(&wb, parameters, &noise(2), None);
-        let t1 = started.elapsed().as_secs_f64();
-        let dots = crossings(&a, &b, env("D", 0.6) * PITCH);
-        let t2 = started.elapsed().as_secs_f64();
-        let lines = stripe_lines(&a).len() + stripe_lines(&b).len();
-        let t3 = started.elapsed().as_secs_f64();
-        let margin = 3.0 * PITCH;
-        let inside = |p: Point| {
-            p.x > margin
-                && p.y > margin
-                && p.x < width as f64 - margin
-                && p.y < height as f64 - margin
-                && (name.starts_with("par") || p.distance(centre) > 3.0 * PITCH)
-        };
-        let mut area = (width as f64 - 2.0 * margin) * (height as f64 - 2.0 * margin);
-        if !name.starts_with("par") {
-            area -= std::f64::consts::PI * 9.0 * PITCH * PITCH;
+fn dots_keep_to_known_fields() {
+    let (size, centre) = ((450, 590), Point::new(225.3, 295.8));
+    for seed in [1, 2, 3] {
+        for (name, centre, field) in known_fields(centre) {
+            let dots = dots_of(&both_families(&field, size, seed));
+            let found = score(&dots, PITCH, &|p| Some(field(p)), &|p| counted(p, size, centre));
+            let density = found.count as f64 * PITCH * PITCH / counted_area(size, centre);
+            println!("{name:12} {:.2} degrees, spacing +- {:.4}, density {density:.4}", found.degrees, found.variation);
+            let (degrees, variation) = if centre.is_none() { (2.0, 0.05) } else { (4.0, 0.075) };
+            assert!(found.degrees <= degrees, "{name}: {found:?}");
+            assert!(found.variation <= variation, "{name}: {found:?}");
+            assert!((density - 1.0).abs() <= 0.02, "{name}: {density}");
         }
-        let s = score(&dots, field, &inside, area);
-        println!(
-            "{name:14} {:.2} deg  cv {:.4}  density {:.4}  lines {lines} seconds {t1:.3} {:.3} {:.3}",
-            s.degrees,
-            s.variation,
-            s.density,
-            t2 - t1,
-            t3 - t2
-        );
     }
+}
+
+/// The paper's update from random distances, five rounds, on the same fields: the phase must be at least as regular.
+#[test]
+fn the_phase_is_at_least_as_regular_as_the_paper_s_update() {
+    let (size, centre) = ((150, 150), Point::new(75.3, 74.8));
+    for (name, centre, field) in
+        known_fields(centre).into_iter().filter(|(name, ..)| !name.ends_with("30") && !name.ends_with('5'))
+    {
+        let measure = |dots: &[Point]| score(dots, PITCH, &|p| Some(field(p)), &|p| counted(p, size, centre));
+        let ours = measure(&dots_of(&both_families(&field, size, 1)));
+        let [along, across] = [true, false].map(|is_turned| {
+            let random = noise(7 + u64::from(is_turned));
+            let start = Raster::from_fn(size.0, size.1, |x, y| 0.5 * PITCH as f32 * random((y * size.0 + x) as u64));
+            paper_stripes(&start, &unit_raster(&field, size, is_turned), 6, 6, 5)
+        });
+        let theirs = measure(&paper_dots(&along, &across, PITCH));
+        println!(
+            "{name:12} ours {:.2} deg {:.4}, the paper's {:.2} deg {:.4}",
+            ours.degrees, ours.variation, theirs.degrees, theirs.variation
+        );
+        assert!(ours.degrees <= theirs.degrees && ours.variation <= theirs.variation, "{name}: {ours:?} {theirs:?}");
+    }
+}
+
+/// One circle of radius 20 pitches is the feature line; every line of the family along it must be a circle.
+#[test]
+fn lines_along_a_circle_are_circles() {
+    let (size, centre) = ((400_usize, 400_usize), Point::new(200.3, 199.6));
+    let wave: Raster<Wave> = Raster::from_fn(size.0, size.1, |x, y| {
+        let n = (Point::new(x as f64 + 0.5, y as f64 + 0.5) - centre).normalize() / PITCH;
+        [n.x as f32, n.y as f32]
+    });
+    let step = DEFAULTS.step;
+    let (columns, rows) = StripeLattice::bare(size.0, size.1, step);
+    let anchor = Raster::from_fn(columns, rows, |i, j| {
+        let r = StripeLattice::bare_position(i, j, step).distance(centre);
+        let phase = TAU * (r - 20.0 * PITCH) / PITCH;
+        if (r - 20.0 * PITCH).abs() > 1.5 * PITCH { [0.0, 0.0] } else { [0.25 * phase.cos() as f32, 0.25 * phase.sin() as f32] }
+    });
+    let family = stripes(&wave, DEFAULTS, &noise(5), Some(&anchor));
+    let (mut worst, mut worst_turn, mut count) = (0.0_f64, 0.0_f64, 0);
+    for line in stripe_lines(&family) {
+        let points = smooth_polyline(&line.points, line.closed, 0.4 * PITCH, 0.1 * PITCH);
+        let inside = |p: &&Point| counted(**p, size, Some(centre));
+        if points.len() < 60 || !points.iter().all(|p| inside(&p)) {
+            continue;
+        }
+        count += 1;
+        let (middle, radius) = fitted_circle(&points);
+        let rms = (points.iter().map(|p| (p.distance(middle) - radius).powi(2)).sum::<f64>() / points.len() as f64).sqrt();
+        worst = worst.max(rms / PITCH);
+        let expected = (0.1 * PITCH / radius).to_degrees();
+        for triple in points.windows(3) {
+            let (a, b) = (triple[1] - triple[0], triple[2] - triple[1]);
+            worst_turn = worst_turn.max((a.cross(b).atan2(a.dot(b)).to_degrees().abs() - expected).abs());
+        }
+    }
+    println!(
+        "{count} circles: rms at most {worst:.4} pitch; turning within {worst_turn:.3} degrees of the circle's in 0.1 pitch"
+    );
+    assert!(count >= 25, "{count}");
+    assert!(worst <= 0.03, "{worst}");
+    // A staircase of pixels turns by 45 degrees at each step.
+    assert!(worst_turn <= 1.0, "{worst_turn}");
+}
+
+/// Least squares for `x^2 + y^2 + a x + b y + c = 0` (Kasa 1976), about the mean.
+fn fitted_circle(points: &[Point]) -> (Point, f64) {
+    let n = points.len() as f64;
+    let mean = points.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / n;
+    let (mut xx, mut xy, mut yy, mut xz, mut yz, mut z) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    for p in points {
+        let v = p.to_vec2() - mean;
+        let s = v.hypot2();
+        (xx, xy, yy) = (xx + v.x * v.x, xy + v.x * v.y, yy + v.y * v.y);
+        (xz, yz, z) = (xz + v.x * s, yz + v.y * s, z + s);
+    }
+    let determinant = 2.0 * (xx * yy - xy * xy);
+    let c = Vec2::new((xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant);
+    ((mean + c).to_point(), (c.hypot2() + z / n).sqrt())
+}
+
+/// A photograph, its masks and how it is drawn.
+struct Case<'a> {
+    style: &'a str,
+    photo: &'a [u8],
+    mask: Option<&'a [u8]>,
+    mm: (f64, f64),
+    tone: ToneTarget,
+    set: &'a [(&'a str, &'a str)],
+}
+
+/// Keeps the drawings among the stages.
+#[derive(Default)]
+struct Stages(Mutex<BTreeMap<String, Drawing>>);
+
+impl Observer for Stages {
+    fn begin(&self, _: &str) {}
+    fn progress(&self, _: f64) {}
+    fn picture(&self, name: &str, make: &dyn Fn() -> Picture) {
+        if ["field", "grid"].contains(&name)
+            && let Picture::Drawing(drawing) = make()
+        {
+            self.0.lock().unwrap().insert(name.to_owned(), *drawing);
+        }
+    }
+    fn warn(&self, _: &str) {}
+    fn is_interrupted(&self) -> bool {
+        false
+    }
+}
+
+impl Case<'_> {
+    fn draw(&self) -> (Portrait, Drawing, BTreeMap<String, Drawing>) {
+        let style = find(self.style).unwrap();
+        let given: Vec<(String, String)> = self.set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+        let settings = Settings::resolve(self.style, style.parameters(), &given).unwrap();
+        let photograph = Photograph::decode(self.photo, Limits::default()).unwrap();
+        let placement = Placement::new(Rect::new(0.0, 0.0, self.mm.0, self.mm.1), style.pixels_per_mm(&settings, &[]));
+        let (crop, page) = (Crop::all(&photograph), Page::new(self.mm.0, self.mm.1));
+        let mut portrait = Portrait::new(&photograph, crop, page, placement, self.tone, ToneCurve::default()).unwrap();
+        if let Some(bytes) = self.mask {
+            let mask = Photograph::decode(bytes, Limits::default()).unwrap();
+            portrait.add_mask(MaskRole::Subject, &mask, &photograph, crop).unwrap();
+        }
+        let stages = Stages::default();
+        let drawing = style.draw(&portrait, &settings, 0, &stages).unwrap();
+        (portrait, drawing, stages.0.into_inner().unwrap())
+    }
+}
+
+const SAMPLES: [(&str, (f64, f64), Option<&str>); 9] = [
+    ("astronaut.jpg", (90.0, 90.0), None),
+    ("astronaut-cutout.png", (90.0, 90.0), None),
+    ("grace-hopper.jpg", (90.0, 105.469), Some("grace-hopper-subject.png")),
+    ("chelsea.png", (90.0, 59.867), None),
+    ("coffee.png", (90.0, 60.0), None),
+    ("raccoon.jpg", (90.0, 67.5), None),
+    ("bust-light.png", (90.0, 120.0), Some("bust-mask-subject.png")),
+    ("bust-brown.png", (90.0, 120.0), Some("bust-mask-subject.png")),
+    ("bust-dark.png", (90.0, 120.0), Some("bust-mask-subject.png")),
+];
+
+/// The curves of a layer in working pixels.
+fn curves(drawing: &Drawing, layer: &str, pixels_per_mm: f64) -> Vec<Curve> {
+    let layer = drawing.layers.iter().find(|l| l.name == layer).unwrap();
+    let strokes = layer.marks.iter().filter_map(|mark| if let Mark::Stroke(stroke) = mark { Some(stroke) } else { None });
+    let scaled = |points: Vec<Point>| points.into_iter().map(|p| (p.to_vec2() * pixels_per_mm).to_point()).collect();
+    strokes
+        .flat_map(|stroke| flatten(&stroke.curve, 0.01))
+        .map(|(points, closed)| Curve { points: scaled(points), closed })
+        .collect()
+}
+
+fn dot_centres(drawing: &Drawing) -> Vec<Point> {
+    common::dots(drawing)
+}
+
+#[test]
+fn no_point_of_a_sample_is_far_from_a_line_of_either_family() {
+    for (name, mm, mask) in SAMPLES {
+        let (photo, mask) = (sample(name), mask.map(sample));
+        let case = Case { style: "grid", photo: &photo, mask: mask.as_deref(), mm, tone: ToneTarget::Lightness, set: &[] };
+        let (portrait, _, stages) = case.draw();
+        let ink = portrait.ink();
+        for family in ["along", "across"] {
+            let lines = curves(&stages["grid"], family, 10.0);
+            let distance = distance_to_curves(&lines, ink.width(), ink.height()).unwrap().distance;
+            let worst =
+                ink.pixels().iter().zip(distance.pixels()).filter(|(ink, _)| **ink > 0.0).map(|(_, d)| *d).fold(0.0, f32::max);
+            println!("{name} {family}: at most {:.3} pitch from a line", worst / 6.0);
+            assert!(worst / 6.0 <= 1.2, "{name} {family}: {worst} px");
+        }
+    }
+}
+
+#[test]
+fn portraits_are_better_aligned_than_the_hedcut_s() {
+    for (name, mm, mask) in SAMPLES.into_iter().filter(|(name, ..)| !["chelsea.png", "coffee.png", "raccoon.jpg"].contains(name))
+    {
+        let (photo, mask) = (sample(name), mask.map(sample));
+        // All crossings as dots, where the hedcut has all of its own.
+        let case = |style, set| Case { style, photo: &photo, mask: mask.as_deref(), mm, tone: ToneTarget::Lightness, set };
+        let (portrait, grid, stages) = case("grid", &[("size_max", "0.75mm"), ("lines", "off")]).draw();
+        let (_, hedcut, _) = case("hedcut", &[("highlights", "off"), ("outline", "off")]).draw();
+        let strokes = curves(&stages["field"], "field", 1.0);
+        // One stroke every two pitches, row by row.
+        let columns = (mm.0 / 1.2 + 1e-6) as usize;
+        let field = |p: Point| {
+            let (i, j) = ((p.x / 1.2) as usize, (p.y / 1.2) as usize);
+            let stroke = strokes.get(j * columns + i.min(columns - 1))?;
+            Some((stroke.points[1] - stroke.points[0]).normalize())
+        };
+        let inside = |p: Point| {
+            let (x, y) = ((p.x * 10.0) as usize, (p.y * 10.0) as usize);
+            x < portrait.subject.width() && y < portrait.subject.height() && portrait.subject.get(x, y) > 0.5
+        };
+        let [ours, theirs] = [&grid, &hedcut].map(|drawing| score(&dot_centres(drawing), 0.6, &field, &inside));
+        println!(
+            "{name}: grid {:.2} degrees, hedcut {:.2}, {:.2} times",
+            ours.degrees,
+            theirs.degrees,
+            theirs.degrees / ours.degrees
+        );
+        assert!(theirs.degrees >= 1.5 * ours.degrees, "{name}: {ours:?} {theirs:?}");
+    }
+}
+
+const FINE: f64 = 50.0;
+
+/// Twelve patches of 20 x 20 mm, linear luminance 0.05, 0.1, 0.2 ... 0.9, 0.95.
+fn tones() -> Vec<f64> {
+    let mut tones: Vec<f64> = (1..=9).map(|i| 0.1 * f64::from(i)).collect();
+    tones.extend([0.05, 0.95, 0.15]);
+    tones
+}
+
+fn wedge_errors(set: &[(&str, &str)]) -> Vec<(f64, f64)> {
+    let tones = tones();
+    let photo = png_of_light(600, 800, |x, y| tones[(x / 200 + 3 * (y / 200)) as usize]);
+    let case = Case { style: "grid", photo: &photo, mask: None, mm: (60.0, 80.0), tone: ToneTarget::Linear, set };
+    let white = rendered(&svg_of(&case.draw().1), FINE);
+    (0..12)
+        .map(|i| {
+            let (x, y) = (20.0 * f64::from(i % 3), 20.0 * f64::from(i / 3));
+            let tone = tones[i as usize];
+            (tone, mean_in(&white, Rect::new(x + 2.0, y + 2.0, x + 18.0, y + 18.0), FINE) - tone)
+        })
+        .collect()
+}
+
+fn check_wedge(name: &str, set: &[(&str, &str)]) {
+    let errors = wedge_errors(set);
+    println!("{name}: {}", errors.iter().map(|(t, e)| format!("{t:.2} {e:+.4}")).collect::<Vec<_>>().join(", "));
+    assert!(errors.iter().all(|(_, e)| e.abs() <= 0.015), "{name}");
+}
+
+#[test]
+fn pure_stippling_has_the_tone_of_the_wedge() {
+    check_wedge("stippling", &[("pitch", "0.8mm"), ("size_max", "0.8mm")]);
+}
+
+#[test]
+fn pure_hatching_has_the_tone_of_the_wedge() {
+    check_wedge("hatching", &[("pitch", "0.8mm"), ("size_max", "0")]);
+}
+
+#[test]
+fn hatching_along_has_the_tone_of_the_wedge() {
+    check_wedge("hatching along", &[("pitch", "0.8mm"), ("size_max", "0"), ("hatching", "along")]);
+}
+
+#[test]
+fn mixed_marks_have_the_tone_of_the_wedge() {
+    check_wedge("mixed", &[("pitch", "0.8mm")]);
+}
+
+/// A ramp of 200 mm; the error of tone may not jump from one strip of two pitches to the next.
+#[test]
+fn the_change_from_dots_to_lines_is_no_step() {
+    let photo = png_of_light(1600, 160, |x, _| f64::from(x) / 1600.0);
+    let set = [("pitch", "0.8mm"), ("isophotes", "0"), ("lines", "off")];
+    let case = Case { style: "grid", photo: &photo, mask: None, mm: (160.0, 16.0), tone: ToneTarget::Linear, set: &set };
+    let white = rendered(&svg_of(&case.draw().1), FINE);
+    let strip = 3.2;
+    let errors: Vec<f64> = (1..49)
+        .map(|i| {
+            let x = strip * f64::from(i);
+            mean_in(&white, Rect::new(x, 1.6, x + strip, 14.4), FINE) - (x + 0.5 * strip) / 160.0
+        })
+        .collect();
+    let worst = errors.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+    println!("ramp: errors {errors:.4?}, greatest step {worst:.4}");
+    assert!(worst <= 0.02, "{worst}");
+}
+
+#[test]
+fn tiles_do_not_overlap_and_carry_colours() {
+    let photo = sample("coffee.png");
+    let set = [("primitive", "tile"), ("pitch", "2mm")];
+    let case = Case { style: "grid", photo: &photo, mask: None, mm: (90.0, 60.0), tone: ToneTarget::Lightness, set: &set };
+    let (_, drawing, _) = case.draw();
+    let tiles: Vec<_> =
+        drawing.layers[0].marks.iter().filter_map(|m| if let Mark::Area(area) = m { Some(area) } else { None }).collect();
+    assert!(tiles.len() > 1000, "{}", tiles.len());
+    assert!(tiles.iter().all(|tile| tile.colour.is_some()));
+    let sum: f64 = tiles.iter().map(|tile| kurbo_area(&tile.outline)).sum();
+    assert!(sum < 90.0 * 60.0 && sum > 0.6 * 90.0 * 60.0, "{sum} mm2 of 5400");
+}
+
+fn kurbo_area(outline: &drypoint::geometry::BezPath) -> f64 {
+    flatten(outline, 0.01).iter().map(|(points, _)| drypoint::geometry::polygon_area(points).abs()).sum()
+}
+
+#[test]
+fn seeds_differ_and_repeat() {
+    let photo = png_of_light(90, 90, |x, y| f64::from(x + y) / 180.0);
+    let style = find("grid").unwrap();
+    let case = Case { style: "grid", photo: &photo, mask: None, mm: (20.0, 20.0), tone: ToneTarget::Lightness, set: &[] };
+    let (portrait, first, _) = case.draw();
+    let settings = Settings::resolve("grid", style.parameters(), &[]).unwrap();
+    let draw = |seed| svg_of(&style.draw(&portrait, &settings, seed, &drypoint::style::Silent).unwrap());
+    assert_eq!(svg_of(&first), draw(0));
+    assert_ne!(draw(1), draw(2));
 }
