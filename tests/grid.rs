@@ -87,7 +87,12 @@ fn lines_along_a_circle_are_circles() {
         let phase = TAU * (r - 20.0 * PITCH) / PITCH;
         if (r - 20.0 * PITCH).abs() > 1.5 * PITCH { [0.0, 0.0] } else { [0.25 * phase.cos() as f32, 0.25 * phase.sin() as f32] }
     });
-    let family = stripes(&wave, DEFAULTS, &noise(5), Some(&anchor));
+    let begin = |_: u64, p: Point, wave: Wave| {
+        let away = p - centre;
+        let sign = (away.x * f64::from(wave[0]) + away.y * f64::from(wave[1])).signum();
+        (sign * (away.hypot() - 20.0 * PITCH) / PITCH) as f32
+    };
+    let family = stripes(&wave, DEFAULTS, &begin, Some(&anchor));
     let (mut worst, mut worst_turn, mut count) = (0.0_f64, 0.0_f64, 0);
     for line in stripe_lines(&family) {
         let points = smooth_polyline(&line.points, line.closed, 0.4 * PITCH, 0.1 * PITCH);
@@ -235,7 +240,8 @@ fn portraits_are_better_aligned_than_the_hedcut_s() {
         let (_, hedcut, _) = case("hedcut", &[("highlights", "off"), ("outline", "off")]).draw();
         let strokes = curves(&stages["field"], "field", 1.0);
         // One stroke every two pitches, row by row.
-        let columns = (mm.0 / 1.2 + 1e-6) as usize;
+        let first_row = strokes[0].points[0].midpoint(strokes[0].points[1]).y;
+        let columns = strokes.iter().take_while(|s| (s.points[0].midpoint(s.points[1]).y - first_row).abs() < 0.1).count();
         let field = |p: Point| {
             let (i, j) = ((p.x / 1.2) as usize, (p.y / 1.2) as usize);
             let stroke = strokes.get(j * columns + i.min(columns - 1))?;

@@ -27,7 +27,7 @@ pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
 pub use flow_dog::{FlowLines, LineParameters, flow_lines};
 pub use isophotes::{IsophoteSteps, detect_isophotes};
 pub use lanes::{LaneParameters, Lanes, offset_lanes};
-pub use stripes::{StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
+pub use stripes::{Start, StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
 pub use tangent_flow::{EdgeTangentFlow, edge_tangent_flow};
 pub use trace::{Curve, trace};
 pub use voronoi::{Sites, cell_polygon};

@@ -60,7 +60,8 @@ pub fn unit_raster(field: &Field, (width, height): (usize, usize), is_turned: bo
 pub fn both_families(field: &Field, size: (usize, usize), seed: u64) -> [StripeLattice; 2] {
     [true, false].map(|is_turned| {
         let wave: Raster<Wave> = unit_raster(field, size, is_turned).map(|[x, y]| [x / PITCH as f32, y / PITCH as f32]);
-        stripes(&wave, DEFAULTS, &noise(2 * seed + u64::from(is_turned)), None)
+        let random = noise(2 * seed + u64::from(is_turned));
+        stripes(&wave, DEFAULTS, &|node, _, _| random(node), None)
     })
 }
 

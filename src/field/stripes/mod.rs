@@ -18,4 +18,4 @@ mod relaxation;
 pub use lattice::{StripeLattice, Wave};
 pub(crate) use lines::CellPhases;
 pub use lines::{StripeLine, stripe_lines};
-pub use relaxation::{StripeParameters, stripes};
+pub use relaxation::{Start, StripeParameters, stripes};

@@ -22,12 +22,14 @@ pub struct StripeParameters {
 /// Share of each of the four neighbours in one small step; above 0.25 steps overshoot.
 const SHARE: f32 = 0.2;
 
-/// Stripes along `wave` (full size, in pixels), begun from the given phases: `start(n)` in cycles for the coarsest level's node
-/// `n`. An anchor holds a phase (a complex number, its length the strength, 0 for none) at each node of the finest level.
+/// The phase, in cycles, that a node begins with: its number, its place in pixels and its wave.
+pub type Start<'a> = &'a (dyn Fn(u64, Point, Wave) -> f32 + Sync);
+
+/// Stripes along `wave` (full size, in pixels), begun on the coarsest level from the given phases. An anchor holds a phase (a complex number, its length the strength, 0 for none) at each node of the finest level.
 pub fn stripes(
     wave: &Raster<Wave>,
     parameters: StripeParameters,
-    start: &(dyn Fn(u64) -> f32 + Sync),
+    start: Start<'_>,
     anchor: Option<&Raster<[f32; 2]>>,
 ) -> StripeLattice {
     let margin = MARGIN * parameters.step;
@@ -41,8 +43,9 @@ pub fn stripes(
         let step = parameters.step * f64::from(1_u32 << level);
         let waves = if level == 0 { finest.wave.clone() } else { nodes(step) };
         let phase = match &coarser {
-            None => Raster::from_fn(waves.width(), waves.height(), |x, y| {
-                let angle = std::f32::consts::TAU * start((y * waves.width() + x) as u64);
+            None => Raster::from_fn(waves.width(), waves.height(), |i, j| {
+                let place = Point::new((i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin);
+                let angle = std::f32::consts::TAU * start((j * waves.width() + i) as u64, place, waves.get(i, j));
                 [angle.cos(), angle.sin()]
             }),
             Some(coarse) => refined(coarse, &finest, &waves, step),

@@ -78,18 +78,29 @@ impl Drawer<'_> {
             rounds: self.parameters.rounds,
             levels: LEVELS,
         };
-        let start = |stage: &'static str| move |node: u64| random::stream(self.seed, stage, node).random::<f32>();
+        let random = |stage: &'static str| move |node: u64| random::stream(self.seed, stage, node).random::<f32>();
         let across = waves(true);
-        let hold = self.hold(features, &across, &closeness, step);
+        let (width, height) = self.size();
+        let distance = distance_to_curves(&features.guides, width, height);
+        let hold = distance.as_ref().and_then(|distance| self.hold(distance, &across, &closeness, step));
+        let (by_chance, spacing) = (random("along"), self.pitch());
         let (a, b) = rayon::join(
-            || stripes(&across, parameters, &start("along"), hold.as_ref()),
-            || stripes(&waves(false), parameters, &start("across"), None),
+            || {
+                let start = |node: u64, p: Point, wave: Wave| match &distance {
+                    Some(distance) => (signed_distance(distance, wave, p) / spacing) as f32,
+                    None => by_chance(node),
+                };
+                stripes(&across, parameters, &start, hold.as_ref())
+            },
+            || {
+                let by_chance = random("across");
+                stripes(&waves(false), parameters, &|node, _, _| by_chance(node), None)
+            },
         );
         self.observer.begin("grid");
         let least = LEAST_DISTANCE * self.pitch() * f64::from(1.0 - self.parameters.adaptive);
         let mut crossings: Vec<Point> = crossings(&a, &b, least).into_iter().filter(|p| self.contains(*p)).collect();
         let true_crossings = crossings.len();
-        let (width, height) = self.size();
         crossings.extend(holes(&crossings, Rect::new(0.0, 0.0, width as f64, height as f64), HOLE * self.pitch()));
         let lines = [&a, &b].map(|family| self.smooth_lines(family));
         let density = [&a, &b].map(|family| gaussian_blur(&family.frequency(), (self.pitch() / step) as f32));
@@ -114,23 +125,28 @@ impl Drawer<'_> {
     }
 
     /// The phase that the nodes near feature lines are held to, so that rows run along them.
-    fn hold(&self, features: &Features, wave: &Raster<Wave>, closeness: &Raster<f32>, step: f64) -> Option<Raster<[f32; 2]>> {
+    fn hold(
+        &self,
+        distance: &FeatureDistance,
+        wave: &Raster<Wave>,
+        closeness: &Raster<f32>,
+        step: f64,
+    ) -> Option<Raster<[f32; 2]>> {
         let offset = match self.parameters.feature_rows {
             FeatureRows::Free => return None,
             FeatureRows::On => 0.0,
             FeatureRows::Beside => 0.5,
         };
         let (width, height) = self.size();
-        let distance = distance_to_curves(&features.guides, width, height)?;
-        let bare = StripeLattice::bare(width, height, step);
-        Some(Raster::from_fn(bare.0, bare.1, |i, j| {
+        let (columns, rows) = StripeLattice::bare(width, height, step);
+        Some(Raster::from_fn(columns, rows, |i, j| {
             let p = StripeLattice::bare_position(i, j, step);
             if !self.contains(p) {
                 return [0.0, 0.0];
             }
             let (x, y) = (p.x as usize, p.y as usize);
             let spacing = self.pitch() / f64::from(closeness.get(x, y));
-            held(&distance, wave.get(x, y), p, spacing, offset)
+            held(distance, wave.get(x, y), p, spacing, offset)
         }))
     }
 
@@ -176,21 +192,29 @@ impl Drawer<'_> {
 /// The held phase at one place: the distance from the feature line in cycles, grown along the wave; nothing far away, nor where
 /// the field runs across the line.
 fn held(distance: &FeatureDistance, wave: Wave, p: Point, spacing: f64, offset: f64) -> [f32; 2] {
-    let signed = |p: Point| {
-        let (x, y) = (p.x as isize, p.y as isize);
-        f64::from(distance.distance.clamped(x, y)) * f64::from(distance.side.clamped(x, y))
-    };
     let away = distance.distance.sample(p.x, p.y);
     let strength = HOLD * (1.0 - f64::from(away) / (HOLD_REACH * spacing));
-    if strength <= 0.0 {
-        return [0.0, 0.0];
-    }
-    let along = Vec2::new(f64::from(wave[0]), f64::from(wave[1])).normalize();
-    let slope = 0.25 * (signed(p + along * 2.0) - signed(p - along * 2.0));
     // The distance grows by one a pixel straight across the line; 0.8 is 37 degrees off.
-    if slope.abs() < 0.8 {
+    if strength <= 0.0 || slope_along(distance, wave, p).abs() < 0.8 {
         return [0.0, 0.0];
     }
-    let phase = TAU * (slope.signum() * signed(p) / spacing + offset);
+    let phase = TAU * (signed_distance(distance, wave, p) / spacing + offset);
     [(strength * phase.cos()) as f32, (strength * phase.sin()) as f32]
+}
+
+/// The distance from the nearest feature line, negative on one side.
+fn side_distance(distance: &FeatureDistance, p: Point) -> f64 {
+    let (x, y) = (p.x.floor() as isize, p.y.floor() as isize);
+    f64::from(distance.distance.clamped(x, y)) * f64::from(distance.side.clamped(x, y))
+}
+
+/// How it grows a pixel along the wave's direction.
+fn slope_along(distance: &FeatureDistance, wave: Wave, p: Point) -> f64 {
+    let along = Vec2::new(f64::from(wave[0]), f64::from(wave[1])).normalize();
+    0.25 * (side_distance(distance, p + along * 2.0) - side_distance(distance, p - along * 2.0))
+}
+
+/// The distance that grows along the wave (Son et al. 2011, section 5.2, begin with the distance, without its sign).
+fn signed_distance(distance: &FeatureDistance, wave: Wave, p: Point) -> f64 {
+    slope_along(distance, wave, p).signum() * side_distance(distance, p)
 }

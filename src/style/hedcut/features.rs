@@ -86,7 +86,12 @@ impl Drawer<'_> {
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
         let steering = self.pixels(self.parameters.edge_length_mm);
         let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
-        (self.with_silhouette(long), lines)
+        let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| {
+            let width = self.pixels(self.parameters.outline_width_mm);
+            CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }
+        });
+        let drawn = outline.chain(lines).collect();
+        (self.with_silhouette(long), drawn)
     }
 
     /// The subject's own border is its silhouette, exactly; edges found beside it (a pixel or two off) would leave a strip too

@@ -35,8 +35,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "lines",
-        kind: Kind::Choice(&["canny", "coherent"]),
-        meaning: "how edges are found: Canny's detector, or coherent lines along the edges' flow, drawn as wide as they are",
+        kind: Kind::Choice(&["coherent", "canny"]),
+        meaning: "how edges are found: coherent lines along the edges' flow, drawn as wide as they are, or Canny's detector",
         source: "Bruehl 2.1 and 4.3.1; Kang et al. 2007",
     },
     Parameter {
