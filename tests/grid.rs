@@ -8,8 +8,8 @@ mod paper_stripes;
 
 use common::{mean_in, png_of_light, rendered, sample, svg_of};
 use drypoint::drawing::{Drawing, Mark, Page};
-use drypoint::field::{Curve, StripeLattice, Wave, distance_to_curves, stripe_lines, stripes};
-use drypoint::geometry::{Point, Rect, Vec2, flatten, smooth_polyline};
+use drypoint::field::{Curve, StripeLattice, Wave, nearest_seed, stripe_lines, stripes};
+use drypoint::geometry::{Point, Rect, Vec2, flatten, resample, smooth_polyline};
 use drypoint::raster::Raster;
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use drypoint::style::{Observer, Picture, Settings, find};
@@ -207,6 +207,27 @@ fn curves(drawing: &Drawing, layer: &str, pixels_per_mm: f64) -> Vec<Curve> {
         .collect()
 }
 
+/// Parts of a pixel in which distances to lines are counted.
+const FINER: usize = 3;
+
+/// Lines on a finer raster.
+fn drawn(lines: &[Curve], width: usize, height: usize) -> Raster<u8> {
+    let mut marked = Raster::filled(FINER * width, FINER * height, 0_u8);
+    for line in lines {
+        let mut points = line.points.clone();
+        if line.closed {
+            points.push(points[0]);
+        }
+        for p in resample(&points, 0.2) {
+            let (x, y) = ((p.x * FINER as f64).floor(), (p.y * FINER as f64).floor());
+            if marked.contains(x as isize, y as isize) {
+                marked.set(x as usize, y as usize, 1);
+            }
+        }
+    }
+    marked
+}
+
 fn dot_centres(drawing: &Drawing) -> Vec<Point> {
     common::dots(drawing)
 }
@@ -220,9 +241,18 @@ fn no_point_of_a_sample_is_far_from_a_line_of_either_family() {
         let ink = portrait.ink();
         for family in ["along", "across"] {
             let lines = curves(&stages["grid"], family, 10.0);
-            let distance = distance_to_curves(&lines, ink.width(), ink.height()).unwrap().distance;
-            let worst =
-                ink.pixels().iter().zip(distance.pixels()).filter(|(ink, _)| **ink > 0.0).map(|(_, d)| *d).fold(0.0, f32::max);
+            let marked = drawn(&lines, ink.width(), ink.height());
+            let nearest = nearest_seed(&marked).unwrap();
+            let columns = marked.width();
+            let mut worst = 0.0_f32;
+            for y in 0..ink.height() {
+                for x in (0..ink.width()).filter(|&x| ink.get(x, y) > 0.0) {
+                    let (fx, fy) = (FINER * x + FINER / 2, FINER * y + FINER / 2);
+                    let seed = nearest.get(fx, fy) as usize;
+                    let away = (seed % columns).abs_diff(fx) as f32;
+                    worst = worst.max(away.hypot((seed / columns).abs_diff(fy) as f32) / FINER as f32);
+                }
+            }
             println!("{name} {family}: at most {:.3} pitch from a line", worst / 6.0);
             assert!(worst / 6.0 <= 1.2, "{name} {family}: {worst} px");
         }
