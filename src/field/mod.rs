@@ -2,18 +2,32 @@
 //!
 //! In: rasters and curves in working pixels. Out: one field each. Nothing here knows of styles, pages or files.
 
+mod b_spline;
+mod coherent_lines;
 mod contour;
+mod crossings;
+mod direction;
 mod distance;
 mod edges;
+mod flow_dog;
 mod isophotes;
 mod lanes;
+mod stripes;
+mod tangent_flow;
 mod trace;
 mod voronoi;
 
+pub use b_spline::{BSpline, Datum, multilevel_b_spline};
+pub use coherent_lines::{CoherentLine, CoherentLines, coherent_lines};
 pub use contour::contours;
+pub use crossings::{crossings, holes};
+pub use direction::{DirectionField, FieldParameters, Guides, Singularity, direction_field};
 pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
+pub use flow_dog::{FlowLines, LineParameters, flow_lines};
 pub use isophotes::{IsophoteSteps, detect_isophotes};
 pub use lanes::{LaneParameters, Lanes, offset_lanes};
+pub use stripes::{Start, StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
+pub use tangent_flow::{EdgeTangentFlow, edge_tangent_flow};
 pub use trace::{Curve, trace};
 pub use voronoi::{Sites, cell_polygon};

@@ -1,7 +1,10 @@
 //! Steps 1, 2 and 12: edges and isophotes, found or hand-made.
 
 use super::Drawer;
-use crate::field::{Curve, EdgeParameters, contours, detect_edges, detect_isophotes, distance_to_curves, lines_of};
+use crate::field::{
+    CoherentLine, Curve, EdgeParameters, LineParameters, coherent_lines, contours, detect_edges, detect_isophotes,
+    distance_to_curves, edge_tangent_flow, flow_lines, lines_of,
+};
 use crate::geometry::smooth_polyline;
 use crate::raster::{Raster, Thresholds, bilateral, thin};
 use crate::source::MaskRole;
@@ -10,6 +13,8 @@ use crate::style::Picture;
 /// The lines that steer the dots, in working pixels.
 pub(super) struct Features {
     pub edges: Vec<Curve>,
+    /// The coherent lines as found, with widths to draw them in; none of them where edges come from elsewhere.
+    pub drawn: Vec<CoherentLine>,
     pub isophotes: Vec<Curve>,
     /// Lightness of the subject on white, smoothed within regions.
     pub smoothed: Raster<f32>,
@@ -18,14 +23,23 @@ pub(super) struct Features {
 /// Brightness of a hand-made line above which it counts; low, since a thin line grows faint when the mask is reduced.
 const LINE_BRIGHTNESS: f32 = 0.25;
 
+/// Kang's figures for the edge tangent flow: the window's radius in pixels, and rounds.
+const FLOW_RADIUS: usize = 5;
+const FLOW_ROUNDS: u32 = 3;
+/// Kang's `sigma_m` in `sigma_c`.
+const LINE_LENGTH: f32 = 3.0;
+/// Coherent lines shorter than this, in pitches, are not drawn; an eyelid is three long.
+const LEAST_DRAWN: f64 = 2.0;
+
 impl Drawer<'_> {
     pub(super) fn features(&self) -> Features {
         self.observer.begin("edges");
         // The background is taken out first, so that the subject's silhouette is an edge and nothing beyond it is.
         let lightness = self.portrait.on_white(&self.portrait.lightness);
-        let edges = match self.portrait.masks.get(&MaskRole::Edges) {
-            Some(mask) => self.hand_made(mask),
-            None => self.with_silhouette(self.found_edges(&lightness)),
+        let (edges, drawn) = match self.portrait.masks.get(&MaskRole::Edges) {
+            Some(mask) => (self.hand_made(mask), Vec::new()),
+            None if self.parameters.has_coherent_lines => self.coherent_edges(&lightness),
+            None => (self.with_silhouette(self.found_edges(&lightness)), Vec::new()),
         };
         self.observer.begin("isophotes");
         let (isophotes, smoothed) = match self.portrait.masks.get(&MaskRole::Isophotes) {
@@ -36,7 +50,7 @@ impl Drawer<'_> {
             None => self.found_isophotes(&lightness),
         };
         self.observer.picture("features", &|| Picture::Drawing(Box::new(self.line_drawing(&edges, &isophotes))));
-        Features { edges, isophotes, smoothed }
+        Features { edges, drawn, isophotes, smoothed }
     }
 
     fn found_edges(&self, lightness: &Raster<f32>) -> Vec<Curve> {
@@ -57,6 +71,27 @@ impl Drawer<'_> {
         self.observer.picture("edges-kept", &|| Picture::Mask(steps.kept.clone()));
         self.observer.picture("edges-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
         lines_of(&steps.skeleton, parameters.smoothing, 0.5 * parameters.least_length)
+    }
+
+    /// Coherent lines in the place of Canny's edges (Bruehl 2023, section 4.3.1, wishes for them): those long enough to steer, and
+    /// all of them to be drawn.
+    fn coherent_edges(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Vec<CoherentLine>) {
+        let width = self.pixels(self.parameters.line_width_mm) as f32;
+        let flow = edge_tangent_flow(lightness, FLOW_RADIUS, FLOW_ROUNDS);
+        let parameters = LineParameters { width, length: LINE_LENGTH * width, contrast: 0.99, threshold: 0.5, rounds: 2 };
+        let found = flow_lines(lightness, &flow, parameters);
+        self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
+        let least = LEAST_DRAWN * self.pitch();
+        let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing_mm), least).lines;
+        lines.retain(|line| line.contrast >= self.parameters.line_contrast);
+        let steering = self.pixels(self.parameters.edge_length_mm);
+        let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
+        let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| {
+            let width = self.pixels(self.parameters.outline_width_mm);
+            CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }
+        });
+        let drawn = outline.chain(lines).collect();
+        (self.with_silhouette(long), drawn)
     }
 
     /// The subject's own border is its silhouette, exactly; edges found beside it (a pixel or two off) would leave a strip too

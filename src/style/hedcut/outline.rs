@@ -1,17 +1,31 @@
-//! Step 8: the longest edges as strokes that swell in the middle and taper at the ends (Bruehl 2023, section 4.3.2).
+//! Step 8: the longest edges as strokes that swell in the middle and taper at the ends (Bruehl 2023, section 4.3.2); or coherent lines
+//! as wide as they were found.
 
 use super::Drawer;
 use super::features::Features;
 use crate::drawing::{Layer, Mark, Stroke, Width};
-use crate::field::Curve;
+use crate::field::{CoherentLine, Curve};
 use crate::geometry::{catmull_rom, resample};
+use crate::style::feature_line::feature_stroke;
 
 /// Distance of an outline's nodes in pitches: far enough for long smooth arcs, near enough for the corner of an eye.
 const NODE_SPACING: f64 = 1.2;
 
+/// Most of a coherent line's end that tapers, in pitches.
+const LONGEST_TAPER: f64 = 4.0;
+
 pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
     let least = drawer.pixels(drawer.parameters.outline_length_mm);
     let mut layer = Layer::new("outline", 1);
+    if !features.drawn.is_empty() {
+        let widest = drawer.pixels(drawer.parameters.outline_width_mm);
+        let taper = LONGEST_TAPER * drawer.pitch();
+        let capped =
+            |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
+        let strokes = features.drawn.iter().filter_map(|line| feature_stroke(&capped(line), &drawer.portrait.placement, taper));
+        layer.marks = strokes.collect();
+        return layer;
+    }
     layer.marks = features.edges.iter().filter(|edge| edge.length() >= least).filter_map(|edge| stroke(drawer, edge)).collect();
     layer
 }

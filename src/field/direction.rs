@@ -1,0 +1,185 @@
+//! The feature field: directions interpolated from lines (Son et al. 2011, section 4.2), and its singular points.
+
+use super::b_spline::{Datum, multilevel_b_spline};
+use super::trace::Curve;
+use crate::geometry::{Point, resample};
+use crate::raster::{Raster, gaussian_blur};
+
+/// A direction without sign at each pixel.
+#[derive(Clone, Debug)]
+pub struct DirectionField {
+    /// Unit vectors along the features.
+    pub tangent: Raster<[f32; 2]>,
+    /// Where there is no direction, since it turns by half a circle or more around.
+    pub singularities: Vec<Singularity>,
+}
+
+/// A point around which the direction turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Singularity {
+    /// In pixels.
+    pub position: Point,
+    /// Turns of the direction in one way round: 1/2 (a loop's end), -1/2 (a triple point); 1 and -1 show as pairs of these.
+    pub index: f32,
+}
+
+/// Lines that steer the field, and how much they count.
+#[derive(Clone, Copy, Debug)]
+pub struct Guides<'a> {
+    /// In pixels.
+    pub curves: &'a [Curve],
+    /// Against other guides at the same place.
+    pub weight: f32,
+}
+
+/// Distance of the data read from a line, in pixels: a third of the shortest stripe's pitch in use.
+const DATUM_SPACING: f64 = 2.0;
+
+/// How the field between the lines is made; lengths in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldParameters {
+    /// The finest cells of the splines.
+    pub finest: f64,
+    /// Standard deviation of the calming: where lines disagree, the direction turns over this length and not at a wall.
+    pub calm: f64,
+}
+
+/// Nodes in the finest cell at which the field is worked out; between them it is bilinear.
+const NODES_PER_CELL: f64 = 6.0;
+/// Rounds of calming. One leaves walls where the splines' tensor passes through 0.
+const CALM_ROUNDS: usize = 2;
+
+/// The directions of the lines' tangents, as tensors `(c^2, cs, s^2)`, interpolated by multi-level B-splines, and the
+/// eigenvector of the larger eigenvalue. Without lines the field is the diagonal's, as a printer's screen.
+///
+/// Splines alone turn abruptly along lines where the tensor is nearly round. Calming makes every tensor equally long before it is
+/// averaged with its neighbours, so that the turn spreads.
+pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, parameters: FieldParameters) -> DirectionField {
+    let data: Vec<Datum> =
+        guides.iter().flat_map(|guide| guide.curves.iter().flat_map(|curve| tensors(curve, guide.weight))).collect();
+    let surface = multilevel_b_spline(&data, width as f64, height as f64, parameters.finest);
+    let step = (parameters.finest / NODES_PER_CELL).max(1.0);
+    let count = |length: usize| (length as f64 / step).ceil().max(1.0) as usize + 1;
+    let mut nodes = Raster::from_fn(count(width), count(height), |i, j| {
+        let [a, b, c] = surface.at(Point::new(i as f64 * step, j as f64 * step));
+        unit([a - c, 2.0 * b])
+    });
+    if parameters.calm > 0.0 {
+        for _ in 0..CALM_ROUNDS {
+            nodes = calmed(&nodes, (parameters.calm / step) as f32);
+        }
+    }
+    let mut singularities = singularities(&nodes, 2);
+    for found in &mut singularities {
+        found.position = Point::new(found.position.x * step, found.position.y * step);
+    }
+    let planes = [0, 1].map(|c| nodes.map(|d| d[c]));
+    let tangent = Raster::from_fn(width, height, |x, y| {
+        // Nodes lie at whole steps from the corner; a raster's pixels half a pixel further.
+        let (u, v) = ((x as f64 + 0.5) / step + 0.5, (y as f64 + 0.5) / step + 0.5);
+        eigenvector([planes[0].sample(u, v), planes[1].sample(u, v)])
+    });
+    DirectionField { tangent, singularities }
+}
+
+/// Doubled angles of length 1; none where there is no direction.
+fn unit([x, y]: [f32; 2]) -> [f32; 2] {
+    let length = x.hypot(y);
+    if length < 1e-12 { [0.0, 0.0] } else { [x / length, y / length] }
+}
+
+fn calmed(nodes: &Raster<[f32; 2]>, sigma: f32) -> Raster<[f32; 2]> {
+    let plane = |c: usize| gaussian_blur(&nodes.map(|d| d[c]), sigma);
+    plane(0).zip_map(&plane(1), |x, y| unit([x, y]))
+}
+
+/// The unit tangent's tensor along a line.
+fn tensors(curve: &Curve, weight: f32) -> Vec<Datum> {
+    let mut points = curve.points.clone();
+    if curve.closed
+        && let Some(&first) = points.first()
+    {
+        points.push(first);
+    }
+    let points = resample(&points, DATUM_SPACING);
+    points
+        .windows(2)
+        .filter(|pair| pair[0] != pair[1])
+        .map(|pair| {
+            let tangent = (pair[1] - pair[0]).normalize();
+            let (c, s) = (tangent.x as f32, tangent.y as f32);
+            Datum { position: pair[0].midpoint(pair[1]), value: [c * c, c * s, s * s], weight }
+        })
+        .collect()
+}
+
+/// The larger eigenvalue's vector from the tensor's deviator `(a - c, 2b)`, which is the direction's doubled angle.
+fn eigenvector([x, y]: [f32; 2]) -> [f32; 2] {
+    let length = x.hypot(y);
+    if length < 1e-9 {
+        return [std::f32::consts::FRAC_1_SQRT_2; 2];
+    }
+    let cosine = (0.5 * (1.0 + x / length)).max(0.0).sqrt();
+    let sine = (0.5 * (1.0 - x / length)).max(0.0).sqrt();
+    [cosine, if y < 0.0 { -sine } else { sine }]
+}
+
+/// Squares of `side` nodes around which the doubled angle makes a turn; places in nodes.
+fn singularities(deviator: &Raster<[f32; 2]>, side: usize) -> Vec<Singularity> {
+    let mut found = Vec::new();
+    for y in (0..deviator.height().saturating_sub(side)).step_by(side) {
+        for x in (0..deviator.width().saturating_sub(side)).step_by(side) {
+            let corners = [(0, 0), (side, 0), (side, side), (0, side)].map(|(dx, dy)| deviator.get(x + dx, y + dy));
+            let turn: f32 = (0..4)
+                .map(|k| {
+                    let (a, b) = (corners[k], corners[(k + 1) % 4]);
+                    (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+                })
+                .sum();
+            let turns = (turn / std::f32::consts::TAU).round();
+            if turns != 0.0 {
+                let middle = 0.5 * side as f64;
+                found.push(Singularity { position: Point::new(x as f64 + middle, y as f64 + middle), index: 0.5 * turns });
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+
+    fn circle(centre: Point, radius: f64) -> Curve {
+        let at = |i: u32| centre + Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 90.0) * radius;
+        Curve { points: (0..90).map(at).collect(), closed: true }
+    }
+
+    #[test]
+    fn rings_make_a_field_of_circles_with_one_turn_at_the_centre() {
+        let centre = Point::new(80.0, 70.0);
+        let rings = [15.0, 35.0, 60.0].map(|r| circle(centre, r));
+        let field =
+            direction_field(&[Guides { curves: &rings, weight: 1.0 }], 160, 140, FieldParameters { finest: 6.0, calm: 3.0 });
+        for y in (5..135).step_by(10) {
+            for x in (5..155).step_by(10) {
+                let away = Point::new(x as f64 + 0.5, y as f64 + 0.5) - centre;
+                let [tx, ty] = field.tangent.get(x, y);
+                if (10.0..65.0).contains(&away.hypot()) {
+                    let across = Vec2::new(f64::from(tx), f64::from(ty)).dot(away.normalize()).abs();
+                    assert!(across < 0.12, "{across} at {x}, {y}");
+                }
+            }
+        }
+        let turns: f32 = field.singularities.iter().filter(|s| s.position.distance(centre) < 14.0).map(|s| s.index).sum();
+        assert_eq!(turns, 1.0, "{:?}", field.singularities);
+    }
+
+    #[test]
+    fn without_lines_it_is_the_diagonal() {
+        let field = direction_field(&[], 30, 20, FieldParameters { finest: 6.0, calm: 3.0 });
+        assert!(field.tangent.pixels().iter().all(|t| (t[0] - t[1]).abs() < 1e-6));
+        assert!(field.singularities.is_empty());
+    }
+}

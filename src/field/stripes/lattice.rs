@@ -1,0 +1,116 @@
+//! Nodes with waves and phases, and how a phase is carried from one to another.
+
+use super::lines::CellPhases;
+use crate::geometry::{Point, Vec2};
+use crate::raster::Raster;
+use std::f64::consts::{PI, TAU};
+
+/// Nodes beyond the raster's border on each side, so that lines reach it.
+pub(super) const MARGIN: f64 = 2.0;
+
+/// The wave that the stripes should be: direction across them, cycles a pixel; of either sign.
+pub type Wave = [f32; 2];
+
+/// A lattice of nodes over a raster and a little beyond; node `(i, j)` lies at `((i + 0.5) step - margin, (j + 0.5) step - margin)`
+/// in pixels.
+#[derive(Clone, Debug)]
+pub struct StripeLattice {
+    /// Distance of neighbouring nodes in pixels.
+    pub step: f64,
+    /// How far it reaches beyond the raster on each side, in pixels.
+    pub margin: f64,
+    /// The wanted wave at each node.
+    pub wave: Raster<Wave>,
+    /// The stripes' phase at each node as a complex number; it grows along the node's wave.
+    pub phase: Raster<[f32; 2]>,
+}
+
+impl StripeLattice {
+    /// Where a node lies, in pixels.
+    pub fn position(&self, i: usize, j: usize) -> Point {
+        Point::new((i as f64 + 0.5) * self.step - self.margin, (j as f64 + 0.5) * self.step - self.margin)
+    }
+
+    /// Phase gained from one node to another in radians, and whether their waves point opposite ways; by the mean of both waves.
+    pub fn gain(&self, from: (usize, usize), to: (usize, usize)) -> (f64, bool) {
+        let (a, b) = (vector(self.wave.get(from.0, from.1)), vector(self.wave.get(to.0, to.1)));
+        let turned = a.dot(b) < 0.0;
+        let way = self.position(to.0, to.1) - self.position(from.0, from.1);
+        let mean = if turned { a - b } else { a + b };
+        (PI * mean.dot(way), turned)
+    }
+
+    /// The node's phase in radians.
+    pub fn angle(&self, i: usize, j: usize) -> f64 {
+        let [re, im] = self.phase.get(i, j);
+        f64::from(im).atan2(f64::from(re))
+    }
+
+    /// How much the phase really grows from one node to its neighbour, seen with the first one's wave: the wanted gain and the
+    /// remainder that brings it to the neighbour's phase, at most half a cycle.
+    pub fn step_between(&self, from: (usize, usize), to: (usize, usize)) -> (f64, f64) {
+        let (gain, turned) = self.gain(from, to);
+        let there = self.angle(to.0, to.1);
+        let there = if turned { -there } else { there };
+        let remainder = wrapped(there - self.angle(from.0, from.1) - gain);
+        (gain, remainder)
+    }
+
+    /// Columns and rows of the lattice of this step over a raster of this size.
+    pub fn bare(width: usize, height: usize, step: f64) -> (usize, usize) {
+        let count = |length: usize| (length as f64 / step + 2.0 * MARGIN).ceil().max(1.0) as usize;
+        (count(width), count(height))
+    }
+
+    /// Where a node of such a lattice lies, in pixels.
+    pub fn bare_position(i: usize, j: usize, step: f64) -> Point {
+        Point::new((i as f64 + 0.5 - MARGIN) * step, (j as f64 + 0.5 - MARGIN) * step)
+    }
+
+    /// The phase at a place in pixels, in radians, bilinear within its cell; of one sign in each cell only.
+    pub fn phase_at(&self, p: Point) -> f64 {
+        let x = (p.x + self.margin) / self.step - 0.5;
+        let y = (p.y + self.margin) / self.step - 0.5;
+        let i = (x.max(0.0) as usize).min(self.phase.width().saturating_sub(2));
+        let j = (y.max(0.0) as usize).min(self.phase.height().saturating_sub(2));
+        CellPhases::new(self, i, j).at(x - i as f64, y - j as f64).0
+    }
+
+    /// How dense the stripes really are at each node, in cycles a pixel.
+    pub fn frequency(&self) -> Raster<f32> {
+        let (width, height) = (self.phase.width(), self.phase.height());
+        Raster::from_fn(width, height, |i, j| {
+            let growth = |ni: usize, nj: usize| {
+                let (gain, remainder) = self.step_between((i, j), (ni, nj));
+                gain + remainder
+            };
+            let slope = |before: f64, after: f64, sides: usize| (after - before) / (sides.max(1) as f64 * self.step * TAU);
+            let x = slope(
+                if i > 0 { growth(i - 1, j) } else { 0.0 },
+                if i + 1 < width { growth(i + 1, j) } else { 0.0 },
+                usize::from(i > 0) + usize::from(i + 1 < width),
+            );
+            let y = slope(
+                if j > 0 { growth(i, j - 1) } else { 0.0 },
+                if j + 1 < height { growth(i, j + 1) } else { 0.0 },
+                usize::from(j > 0) + usize::from(j + 1 < height),
+            );
+            x.hypot(y) as f32
+        })
+    }
+
+    /// A raster of one value a node, read at a place in pixels.
+    pub fn read(&self, nodes: &Raster<f32>, p: Point) -> f32 {
+        nodes.sample((p.x + self.margin) / self.step, (p.y + self.margin) / self.step)
+    }
+}
+
+/// A wave as a vector.
+pub(super) fn vector(wave: Wave) -> Vec2 {
+    Vec2::new(f64::from(wave[0]), f64::from(wave[1]))
+}
+
+/// An angle within half a turn of 0.
+pub(super) fn wrapped(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}

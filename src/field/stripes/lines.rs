@@ -1,0 +1,195 @@
+//! The stripes' lines: where the phase is 0, followed from cell to cell at sub-pixel accuracy.
+
+use super::super::trace::Curve;
+use super::lattice::StripeLattice;
+use crate::geometry::Point;
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+/// One line of a family.
+pub type StripeLine = Curve;
+
+/// Phases at the corners of one cell, unwrapped: seen with the first corner's wave, and free of jumps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CellPhases {
+    /// In radians, in the order upper left, upper right, lower right, lower left.
+    pub corners: [f64; 4],
+    /// The side that the unwrapping could not close (a line ends there), if there is one: 0 top, 1 right, 2 bottom, 3 left.
+    pub broken: Option<usize>,
+}
+
+const CORNERS: [(usize, usize); 4] = [(0, 0), (1, 0), (1, 1), (0, 1)];
+
+impl CellPhases {
+    /// The cell whose upper left corner is node `(i, j)`.
+    pub(crate) fn new(lattice: &StripeLattice, i: usize, j: usize) -> Self {
+        let node = |k: usize| (i + CORNERS[k % 4].0, j + CORNERS[k % 4].1);
+        // Each side's real growth in the frame of its first corner, and whether the frame turns.
+        let mut growth = [0.0; 4];
+        let mut strain = [0.0_f64; 4];
+        let mut turned = [false; 4];
+        for k in 0..4 {
+            let (gain, remainder) = lattice.step_between(node(k), node(k + 1));
+            growth[k] = gain + remainder;
+            strain[k] = remainder.abs();
+            turned[k] = lattice.gain(node(k), node(k + 1)).1;
+        }
+        let mut sign = [1.0; 5];
+        for k in 0..4 {
+            sign[k + 1] = if turned[k] { -sign[k] } else { sign[k] };
+        }
+        let around: f64 = (0..4).map(|k| sign[k] * growth[k]).sum();
+        let is_closed = sign[4] > 0.0 && around.abs() < 1e-3;
+        let first = lattice.angle(i, j);
+        if is_closed {
+            let a = first + growth[0];
+            let b = a + sign[1] * growth[1];
+            return Self { corners: [first, a, b, b + sign[2] * growth[2]], broken: None };
+        }
+        let worst = (0..4).max_by(|&a, &b| strain[a].total_cmp(&strain[b])).unwrap_or(0);
+        // From the first corner both ways round, up to the side that breaks.
+        let mut corners = [first; 4];
+        for k in 0..worst {
+            if k + 1 < 4 {
+                corners[k + 1] = corners[k] + sign[k] * growth[k];
+            }
+        }
+        // Backwards: corner k from corner k + 1 over side k, with the frame turned where side k turns.
+        let mut back_sign = 1.0;
+        for k in (worst + 1..4).rev() {
+            let next = if k == 3 { corners[0] } else { corners[k + 1] };
+            if turned[k] {
+                back_sign = -back_sign;
+            }
+            corners[k] = next - back_sign * growth[k];
+        }
+        Self { corners, broken: Some(worst) }
+    }
+
+    /// The phase at a place in the cell, both coordinates 0 to 1, and its gradient by them.
+    pub(crate) fn at(&self, u: f64, v: f64) -> (f64, f64, f64) {
+        let [a, b, c, d] = self.corners;
+        let value = (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v;
+        ((value), (b - a) * (1.0 - v) + (c - d) * v, (d - a) * (1.0 - u) + (c - b) * u)
+    }
+
+    /// Least and greatest phase in the cell.
+    pub(crate) fn range(&self) -> (f64, f64) {
+        self.corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
+    }
+}
+
+/// A side of the lattice: its first node and whether it runs down (or right); and which of the crossings on it.
+type Key = (u32, u32, bool, u8);
+
+/// The lines of phase 0, in pixels.
+pub fn stripe_lines(lattice: &StripeLattice) -> Vec<StripeLine> {
+    let mut points: HashMap<Key, Point> = HashMap::new();
+    let mut links: HashMap<Key, [Option<Key>; 2]> = HashMap::new();
+    let mut order: Vec<Key> = Vec::new();
+    for j in 0..lattice.phase.height().saturating_sub(1) {
+        for i in 0..lattice.phase.width().saturating_sub(1) {
+            for (a, b) in cell_links(lattice, i, j, &mut points) {
+                for (from, to) in [(a, b), (b, a)] {
+                    let slots = links.entry(from).or_insert_with(|| {
+                        order.push(from);
+                        [None, None]
+                    });
+                    if slots[0].is_none() {
+                        slots[0] = Some(to);
+                    } else {
+                        slots[1] = Some(to);
+                    }
+                }
+            }
+        }
+    }
+    chain(&order, &links, &points)
+}
+
+/// Where the phase passes a whole number of cycles on a side of the cell, by the level as the cell counts it.
+fn crossings(lattice: &StripeLattice, (i, j): (usize, usize), side: usize, from: f64, to: f64) -> Vec<(i64, Key, Point)> {
+    // Sides are always looked at in one direction, so that both cells find the same points.
+    let forward = side < 2;
+    let (low, high) = if from < to { (from, to) } else { (to, from) };
+    let levels: Vec<i64> = ((low / TAU).ceil() as i64..=(high / TAU).floor() as i64).collect();
+    let (start, end) = (CORNERS[side], CORNERS[(side + 1) % 4]);
+    let (first, down) = match side {
+        0 => ((i, j), false),
+        1 => ((i + 1, j), true),
+        2 => ((i, j + 1), false),
+        _ => ((i, j), true),
+    };
+    let (a, b) = (lattice.position(i + start.0, j + start.1), lattice.position(i + end.0, j + end.1));
+    let count = levels.len();
+    let rising = (to > from) == forward;
+    levels
+        .into_iter()
+        .enumerate()
+        .map(|(n, level)| {
+            let t = (level as f64 * TAU - from) / (to - from);
+            let rank = if rising { n } else { count - 1 - n };
+            (level, (first.0 as u32, first.1 as u32, down, rank as u8), a.lerp(b, t))
+        })
+        .collect()
+}
+
+/// The pieces of line in one cell.
+fn cell_links(lattice: &StripeLattice, i: usize, j: usize, points: &mut HashMap<Key, Point>) -> Vec<(Key, Key)> {
+    let cell = CellPhases::new(lattice, i, j);
+    let (low, high) = cell.range();
+    if (low / TAU).ceil() > (high / TAU).floor() {
+        return Vec::new();
+    }
+    let mut by_level: Vec<(i64, Key)> = Vec::with_capacity(4);
+    for side in (0..4).filter(|&side| cell.broken != Some(side)) {
+        for (level, key, point) in crossings(lattice, (i, j), side, cell.corners[side], cell.corners[(side + 1) % 4]) {
+            points.entry(key).or_insert(point);
+            by_level.push((level, key));
+        }
+    }
+    by_level.sort_by_key(|entry| entry.0);
+    let mut links = Vec::new();
+    for group in by_level.chunk_by(|a, b| a.0 == b.0) {
+        for pair in group.chunks_exact(2) {
+            links.push((pair[0].1, pair[1].1));
+        }
+    }
+    links
+}
+
+/// Follows the links from the ends first, then round the loops.
+fn chain(order: &[Key], links: &HashMap<Key, [Option<Key>; 2]>, points: &HashMap<Key, Point>) -> Vec<StripeLine> {
+    let mut used: std::collections::HashSet<Key> = std::collections::HashSet::new();
+    let mut lines = Vec::new();
+    let ends = order.iter().filter(|key| links[*key][1].is_none());
+    for &start in ends.chain(order) {
+        if used.contains(&start) {
+            continue;
+        }
+        let mut line = vec![points[&start]];
+        used.insert(start);
+        let (mut here, mut before) = (start, None);
+        let closed = loop {
+            let next = links[&here]
+                .iter()
+                .flatten()
+                .copied()
+                .find(|next| Some(*next) != before && (!used.contains(next) || *next == start));
+            match next {
+                Some(next) if next == start => break line.len() > 2,
+                Some(next) => {
+                    line.push(points[&next]);
+                    used.insert(next);
+                    before = Some(here);
+                    here = next;
+                }
+                None => break false,
+            }
+        };
+        if line.len() > 1 {
+            lines.push(Curve { points: line, closed });
+        }
+    }
+    lines
+}

@@ -1,0 +1,236 @@
+//! From coarse to fine, in rounds: each node becomes what its neighbourhood foretells.
+
+use super::lattice::{MARGIN, StripeLattice, Wave, vector};
+use crate::geometry::{Point, Vec2};
+use crate::raster::Raster;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// How stripes are made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StripeParameters {
+    /// Distance of neighbouring nodes in pixels: half a pitch, at most 0.6 of the narrowest stripe.
+    pub step: f64,
+    /// Reach of the window in nodes (Son: `r`): two standard deviations of its Gaussian.
+    pub window: f64,
+    /// Rounds on each level (Son: 3 to 8 iterations).
+    pub rounds: u32,
+    /// Levels, each with nodes twice as far apart.
+    pub levels: u32,
+}
+
+/// Share of each of the four neighbours in one small step; above 0.25 steps overshoot.
+const SHARE: f32 = 0.2;
+
+/// The phase, in cycles, that a node begins with: its number, its place in pixels and its wave.
+pub type Start<'a> = &'a (dyn Fn(u64, Point, Wave) -> f32 + Sync);
+
+/// Stripes along `wave` (full size, in pixels), begun on the coarsest level from the given phases. An anchor holds a phase (a complex number, its length the strength, 0 for none) at each node of the finest level.
+pub fn stripes(
+    wave: &Raster<Wave>,
+    parameters: StripeParameters,
+    start: Start<'_>,
+    anchor: Option<&Raster<[f32; 2]>>,
+) -> StripeLattice {
+    let margin = MARGIN * parameters.step;
+    let count = |length: usize, step: f64| ((length as f64 + 2.0 * margin) / step).ceil().max(1.0) as usize;
+    let (width, height) = (wave.width(), wave.height());
+    let nodes = |step: f64| sampled(wave, step, margin, (count(width, step), count(height, step)));
+    let finest_waves = sampled(wave, parameters.step, margin, StripeLattice::bare(width, height, parameters.step));
+    let finest = StripeLattice { step: parameters.step, margin, wave: finest_waves, phase: Raster::filled(0, 0, [0.0; 2]) };
+    let mut coarser: Option<StripeLattice> = None;
+    for level in (0..parameters.levels.max(1)).rev() {
+        let step = parameters.step * f64::from(1_u32 << level);
+        let waves = if level == 0 { finest.wave.clone() } else { nodes(step) };
+        let phase = match &coarser {
+            None => Raster::from_fn(waves.width(), waves.height(), |i, j| {
+                let place = Point::new((i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin);
+                let angle = std::f32::consts::TAU * start((j * waves.width() + i) as u64, place, waves.get(i, j));
+                [angle.cos(), angle.sin()]
+            }),
+            Some(coarse) => refined(coarse, &finest, &waves, step),
+        };
+        let mut lattice = StripeLattice { step, margin, wave: waves, phase };
+        let edges = Edges::new(&lattice, &finest);
+        relax(&mut lattice, &edges, parameters, if level == 0 { anchor } else { None });
+        coarser = Some(lattice);
+    }
+    coarser.expect("there is at least one level")
+}
+
+/// The wave at the nodes of a lattice.
+fn sampled(wave: &Raster<Wave>, step: f64, margin: f64, (width, height): (usize, usize)) -> Raster<Wave> {
+    Raster::from_fn(width, height, |i, j| wave_at(wave, (i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin))
+}
+
+/// The wave between pixels (or nodes, with coordinates in their unit), those of the opposite sign turned round.
+fn wave_at(wave: &Raster<Wave>, x: f64, y: f64) -> Wave {
+    let (x, y) = (x - 0.5, y - 0.5);
+    let (x0, y0) = (x.floor(), y.floor());
+    let (tx, ty) = (x - x0, y - y0);
+    let first = wave.clamped(x0 as isize + isize::from(tx > 0.5), y0 as isize + isize::from(ty > 0.5));
+    let mut sum = [0.0_f32; 2];
+    for (dx, dy, weight) in [(0, 0, (1.0 - tx) * (1.0 - ty)), (1, 0, tx * (1.0 - ty)), (0, 1, (1.0 - tx) * ty), (1, 1, tx * ty)] {
+        let [wx, wy] = wave.clamped(x0 as isize + dx, y0 as isize + dy);
+        let weight = if wx * first[0] + wy * first[1] < 0.0 { -weight } else { weight } as f32;
+        sum = [sum[0] + weight * wx, sum[1] + weight * wy];
+    }
+    // Opposite directions shorten the mean; the stripes' frequency must not fall for that.
+    let (length, wanted) = (sum[0].hypot(sum[1]), first[0].hypot(first[1]));
+    if length > 1e-12 { [sum[0] * wanted / length, sum[1] * wanted / length] } else { first }
+}
+
+/// Phase gained along a straight way, beginning with the wave `first`; and the wave at its end, of the sign carried there.
+fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64, Vec2) {
+    let way = to - from;
+    let pieces = (way.hypot() / fine.step).ceil().max(1.0) as usize;
+    let (mut sum, mut carried) = (0.0, vector(first));
+    for piece in 0..pieces {
+        let p = from + way * ((piece as f64 + 0.5) / pieces as f64);
+        let here = vector(wave_at(&fine.wave, (p.x + fine.margin) / fine.step, (p.y + fine.margin) / fine.step));
+        carried = if here.dot(carried) < 0.0 { -here } else { here };
+        sum += carried.dot(way) / pieces as f64;
+    }
+    (TAU * sum, carried)
+}
+
+/// The start of a level: what the four coarser nodes around each node foretell.
+fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
+    Raster::from_fn(waves.width(), waves.height(), |i, j| {
+        let here = Point::new((i as f64 + 0.5) * step - fine.margin, (j as f64 + 0.5) * step - fine.margin);
+        let (x, y) = ((here.x + fine.margin) / coarse.step - 0.5, (here.y + fine.margin) / coarse.step - 0.5);
+        let mut sum = [0.0_f32; 2];
+        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let (cx, cy) = (x.floor() as isize + dx, y.floor() as isize + dy);
+            if !coarse.phase.contains(cx, cy) {
+                continue;
+            }
+            let weight = (1.0 - (x - cx as f64).abs()) * (1.0 - (y - cy as f64).abs());
+            let (cx, cy) = (cx as usize, cy as usize);
+            let (gain, carried) = gain_along(fine, coarse.position(cx, cy), here, coarse.wave.get(cx, cy));
+            let [re, im] = rotated(coarse.phase.get(cx, cy), gain as f32);
+            let turned = carried.dot(vector(waves.get(i, j))) < 0.0;
+            sum = [sum[0] + weight as f32 * re, sum[1] + weight as f32 * if turned { -im } else { im }];
+        }
+        unit(sum)
+    })
+}
+
+fn rotated([re, im]: [f32; 2], angle: f32) -> [f32; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [re * cos - im * sin, re * sin + im * cos]
+}
+
+/// Length 1; a value of no length, which foretells nothing, becomes 1.
+fn unit([re, im]: [f32; 2]) -> [f32; 2] {
+    let length = re.hypot(im);
+    if length > 1e-20 { [re / length, im / length] } else { [1.0, 0.0] }
+}
+
+/// From a node to its right or lower neighbour: the turn of the phase, and -1 where the waves are opposite.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    cos: f32,
+    sin: f32,
+    sign: f32,
+}
+
+impl Edge {
+    /// What the far node foretells for the near one.
+    fn back(self, [re, im]: [f32; 2]) -> [f32; 2] {
+        let im = self.sign * im;
+        [re * self.cos + im * self.sin, im * self.cos - re * self.sin]
+    }
+
+    /// What the near node foretells for the far one.
+    fn ahead(self, [re, im]: [f32; 2]) -> [f32; 2] {
+        [re * self.cos - im * self.sin, self.sign * (re * self.sin + im * self.cos)]
+    }
+}
+
+/// All edges of a lattice.
+struct Edges {
+    right: Raster<Edge>,
+    down: Raster<Edge>,
+}
+
+impl Edges {
+    fn new(lattice: &StripeLattice, fine: &StripeLattice) -> Self {
+        let (width, height) = (lattice.wave.width(), lattice.wave.height());
+        let is_finest = lattice.step == fine.step;
+        let edge = |i: usize, j: usize, di: usize, dj: usize| {
+            let (ni, nj) = (i + di, j + dj);
+            if ni >= width || nj >= height {
+                return Edge::default();
+            }
+            let (gain, turned) = if is_finest {
+                lattice.gain((i, j), (ni, nj))
+            } else {
+                let (from, to) = (lattice.position(i, j), lattice.position(ni, nj));
+                let (gain, carried) = gain_along(fine, from, to, lattice.wave.get(i, j));
+                (gain, carried.dot(vector(lattice.wave.get(ni, nj))) < 0.0)
+            };
+            let (sin, cos) = (gain as f32).sin_cos();
+            Edge { cos, sin, sign: if turned { -1.0 } else { 1.0 } }
+        };
+        Self {
+            right: Raster::from_fn(width, height, |i, j| edge(i, j, 1, 0)),
+            down: Raster::from_fn(width, height, |i, j| edge(i, j, 0, 1)),
+        }
+    }
+}
+
+/// Rounds of small steps; after each round every phase is of length 1 again, so that no patch fades into no stripe at all.
+fn relax(lattice: &mut StripeLattice, edges: &Edges, parameters: StripeParameters, anchor: Option<&Raster<[f32; 2]>>) {
+    // Each step adds 2 SHARE to the window's variance.
+    let steps = ((0.5 * parameters.window).powi(2) / f64::from(2.0 * SHARE)).round().max(1.0) as usize;
+    let mut next = lattice.phase.clone();
+    for _ in 0..parameters.rounds {
+        for step in 0..steps {
+            small_step(&lattice.phase, edges, &mut next, step + 1 == steps, anchor);
+            std::mem::swap(&mut lattice.phase, &mut next);
+        }
+    }
+}
+
+fn small_step(
+    phase: &Raster<[f32; 2]>,
+    edges: &Edges,
+    next: &mut Raster<[f32; 2]>,
+    is_last: bool,
+    anchor: Option<&Raster<[f32; 2]>>,
+) {
+    let (width, height) = (phase.width(), phase.height());
+    next.pixels_mut().par_chunks_mut(width).with_min_len(16).enumerate().for_each(|(j, out)| {
+        let (row, right, down) = (phase.row(j), edges.right.row(j), edges.down.row(j));
+        let above = (j > 0).then(|| (phase.row(j - 1), edges.down.row(j - 1)));
+        let below = (j + 1 < height).then(|| phase.row(j + 1));
+        for i in 0..width {
+            let (mut sum, mut count) = ([0.0_f32; 2], 0.0_f32);
+            let mut add = |[re, im]: [f32; 2]| {
+                sum = [sum[0] + re, sum[1] + im];
+                count += 1.0;
+            };
+            if i > 0 {
+                add(right[i - 1].ahead(row[i - 1]));
+            }
+            if i + 1 < width {
+                add(right[i].back(row[i + 1]));
+            }
+            if let Some((above, edges)) = above {
+                add(edges[i].ahead(above[i]));
+            }
+            if let Some(below) = below {
+                add(down[i].back(below[i]));
+            }
+            let own = 1.0 - SHARE * count;
+            let [re, im] = row[i];
+            let mut value = [own * re + SHARE * sum[0], own * im + SHARE * sum[1]];
+            if let Some(anchor) = anchor {
+                let [re, im] = anchor.get(i, j);
+                value = [value[0] + re, value[1] + im];
+            }
+            out[i] = if is_last { unit(value) } else { value };
+        }
+    });
+}

@@ -1,0 +1,134 @@
+//! The crossings' own cells: their outline, area and the ink that they call for.
+
+use super::Drawer;
+use super::features::Features;
+use super::structure::StructureGrid;
+use crate::field::{CoherentLine, Sites, cell_polygon};
+use crate::geometry::{Point, Rect, Vec2, polygon_area};
+use crate::raster::Raster;
+use rayon::prelude::*;
+
+/// Farthest that a cell is counted from its crossing, in pitches; at singular points and beyond the subject's border cells are
+/// open.
+const CELL_REACH: f64 = 1.5;
+
+/// One crossing with what surrounds it; in working pixels.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub centre: Point,
+    /// Unit vector along the features.
+    pub tangent: Vec2,
+    /// The Voronoi cell.
+    pub polygon: Vec<Point>,
+    pub area: f64,
+    /// Wanted ink in square pixels, less what the feature lines put there.
+    pub ink: f64,
+    /// Part of it lies under a feature line or beyond the subject.
+    pub is_cut: bool,
+    /// It fills a hole in the grid: no line runs through it.
+    pub is_filler: bool,
+    /// Wanted ink as a share, 0 to 1.
+    pub darkness: f64,
+    /// More than half of it belongs to the subject.
+    pub is_subject: bool,
+    /// Mean linear light of the photograph.
+    pub light: [f32; 3],
+}
+
+pub(super) fn cells(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>, features: &Features) -> Vec<Cell> {
+    drawer.observer.begin("cells");
+    if grid.crossings.is_empty() {
+        return Vec::new();
+    }
+    let (width, height) = drawer.size();
+    let field = Rect::new(0.0, 0.0, width as f64, height as f64);
+    let sites = Sites::new(&grid.crossings, field.x1, field.y1, drawer.pitch());
+    let covered = drawer.parameters.has_lines.then(|| coverage(&features.lines, width, height));
+    let wanted = sums(drawer, &sites, grid.crossings.len(), ink, covered.as_ref());
+    (0..grid.crossings.len())
+        .into_par_iter()
+        .map(|i| {
+            let centre = grid.crossings[i];
+            let polygon = cell_polygon(&sites, i, field, CELL_REACH * drawer.pitch());
+            let area = polygon_area(&polygon).abs();
+            let sum = &wanted[i];
+            let light = sum.light.map(|v| (v / sum.pixels.max(1.0)) as f32);
+            let (ink, darkness) = (sum.ink(area), sum.ink / sum.pixels.max(1.0));
+            let is_subject = sum.subject > 0.5 * sum.pixels;
+            Cell {
+                centre,
+                tangent: grid.tangent(centre),
+                polygon,
+                area,
+                ink,
+                is_cut: sum.covered > 0.0 || sum.is_open,
+                is_filler: i >= grid.true_crossings,
+                darkness,
+                is_subject,
+                light,
+            }
+        })
+        .collect()
+}
+
+/// What the pixels of one cell ask for.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    pixels: f64,
+    ink: f64,
+    /// Ink of the feature lines.
+    covered: f64,
+    light: [f64; 3],
+    subject: f64,
+    /// Part of the cell lies outside the subject, so that its polygon is larger than what is drawn.
+    is_open: bool,
+}
+
+impl Sum {
+    /// Ink area in a cell of this area: its mean tone's share, or, at the subject's border, what its pixels ask for.
+    fn ink(&self, cell: f64) -> f64 {
+        let wanted = (self.ink - self.covered).max(0.0);
+        if self.is_open || self.pixels == 0.0 { wanted } else { wanted / self.pixels * cell }
+    }
+}
+
+fn sums(drawer: &Drawer<'_>, sites: &Sites<'_>, count: usize, ink: &Raster<f32>, covered: Option<&Raster<f32>>) -> Vec<Sum> {
+    let subject = &drawer.portrait.subject;
+    let nearest = sites.nearest(subject);
+    let mut sums = vec![Sum::default(); count];
+    for (pixel, &site) in nearest.pixels().iter().enumerate() {
+        if site == u32::MAX {
+            continue;
+        }
+        let sum = &mut sums[site as usize];
+        sum.pixels += 1.0;
+        sum.ink += f64::from(ink.pixels()[pixel]);
+        sum.covered += covered.map_or(0.0, |raster| f64::from(raster.pixels()[pixel]));
+        sum.subject += f64::from(subject.pixels()[pixel]);
+        sum.is_open |= subject.pixels()[pixel] < 0.999;
+        for (total, light) in sum.light.iter_mut().zip(drawer.portrait.light.pixels()[pixel]) {
+            *total += f64::from(light);
+        }
+    }
+    sums
+}
+
+/// How much of each pixel the feature lines cover.
+fn coverage(lines: &[CoherentLine], width: usize, height: usize) -> Raster<f32> {
+    let mut covered = Raster::filled(width, height, 0.0_f32);
+    for line in lines {
+        for (p, w) in line.curve.points.iter().zip(&line.widths) {
+            let reach = 0.5 * w + 0.5;
+            let (x0, x1) = ((p.x - reach).max(0.0) as usize, ((p.x + reach).max(0.0) as usize).min(width - 1));
+            let (y0, y1) = ((p.y - reach).max(0.0) as usize, ((p.y + reach).max(0.0) as usize).min(height - 1));
+            for y in y0..=y1 {
+                for x in x0..=x1 {
+                    let away = p.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+                    let share = (reach - away).clamp(0.0, 1.0) as f32;
+                    covered.set(x, y, covered.get(x, y).max(share));
+                }
+            }
+        }
+    }
+    covered
+}

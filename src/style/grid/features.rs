@@ -1,0 +1,208 @@
+//! Feature lines, isophotes and the field between them (Son et al. 2011, section 4).
+
+use super::Drawer;
+use crate::drawing::{Colour, Ink, Layer, Mark, Stroke, Width};
+use crate::field::{
+    CoherentLine, Curve, DirectionField, FieldParameters, Guides, LineParameters, coherent_lines, contours, detect_isophotes,
+    direction_field, edge_tangent_flow, flow_lines, lines_of,
+};
+use crate::geometry::{BezPath, Point, Vec2, smooth_polyline};
+use crate::raster::{Raster, thin};
+use crate::source::MaskRole;
+use crate::style::Picture;
+
+/// The lines that steer the grid, and the field that they make; in working pixels.
+pub(super) struct Features {
+    /// Those that are drawn.
+    pub lines: Vec<CoherentLine>,
+    /// Those of them that are long enough to steer.
+    pub guides: Vec<Curve>,
+    pub field: DirectionField,
+}
+
+/// Brightness of a hand-made line above which it counts; low, since a thin line grows faint when the mask is reduced.
+const LINE_BRIGHTNESS: f32 = 0.25;
+/// Width of a line that was drawn by hand or is the subject's border, in pitches.
+const PLAIN_WIDTH: f64 = 0.25;
+
+impl Drawer<'_> {
+    pub(super) fn features(&self) -> Features {
+        self.observer.begin("lines");
+        let lightness = self.portrait.on_white(&self.portrait.lightness);
+        let lines = match self.portrait.masks.get(&MaskRole::Edges) {
+            Some(mask) => self.plain(self.hand_made(mask)),
+            None => self.with_silhouette(self.found_lines(&lightness)),
+        };
+        self.observer.begin("isophotes");
+        let isophotes = match self.portrait.masks.get(&MaskRole::Isophotes) {
+            Some(mask) => self.hand_made(mask),
+            None => self.found_isophotes(&lightness),
+        };
+        let least = self.pixels(self.parameters.steer_least_mm);
+        let steers = |line: &&CoherentLine| line.curve.length() >= least && line.contrast >= self.parameters.steer_contrast;
+        let curves: Vec<Curve> = lines.iter().filter(steers).map(|line| line.curve.clone()).collect();
+        self.observer.picture("features", &|| {
+            self.picture_of(vec![
+                self.thin_layer("lines", &curves, Colour { r: 20, g: 20, b: 20 }),
+                self.thin_layer("isophotes", &isophotes, Colour { r: 30, g: 90, b: 200 }),
+            ])
+        });
+        self.observer.begin("field");
+        let (width, height) = self.size();
+        let guides =
+            [Guides { curves: &curves, weight: 1.0 }, Guides { curves: &isophotes, weight: self.parameters.isophote_weight }];
+        let field = direction_field(&guides, width, height, self.field_parameters());
+        self.observer.picture("field", &|| self.picture_of(self.field_layers(&field)));
+        Features { lines, guides: curves, field }
+    }
+
+    fn field_parameters(&self) -> FieldParameters {
+        FieldParameters {
+            finest: self.pixels(self.parameters.field_detail_mm).max(2.0),
+            calm: self.pixels(self.parameters.field_calm_mm),
+        }
+    }
+
+    /// Section 4.1: the flow along edges, and the lines that it carries.
+    fn found_lines(&self, lightness: &Raster<f32>) -> Vec<CoherentLine> {
+        let parameters = &self.parameters;
+        let reach = self.pixels(parameters.flow_reach_mm).round() as usize;
+        let flow = edge_tangent_flow(lightness, reach, parameters.flow_rounds);
+        self.observer.picture("edge-tangent-flow", &|| {
+            Picture::Grey(flow.tangent.map(|[x, y]| if x == 0.0 && y == 0.0 { 1.0 } else { 0.5 + 0.5 * (x * x - y * y) }))
+        });
+        let found = flow_lines(
+            lightness,
+            &flow,
+            LineParameters {
+                width: self.pixels(parameters.line_width_mm) as f32,
+                length: self.pixels(parameters.line_length_mm) as f32,
+                contrast: parameters.line_contrast as f32,
+                threshold: parameters.line_threshold as f32,
+                rounds: parameters.line_rounds,
+            },
+        );
+        self.observer.picture("flow-dog", &|| Picture::Grey(found.response.map(|h| 1.0 + h.min(0.0).tanh())));
+        self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
+        let steps =
+            coherent_lines(&found, lightness, self.pixels(parameters.smoothing_mm), self.pixels(parameters.line_least_mm));
+        self.observer.picture("lines-kept", &|| Picture::Mask(steps.kept.clone()));
+        self.observer.picture("lines-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
+        let widest = self.pixels(parameters.line_widest_mm);
+        let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
+        steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect()
+    }
+
+    /// The subject's own border is a line, exactly; lines found beside it would double it.
+    fn with_silhouette(&self, lines: Vec<CoherentLine>) -> Vec<CoherentLine> {
+        let smoothing = self.pixels(self.parameters.smoothing_mm).max(1.0);
+        let least = self.pixels(self.parameters.line_least_mm);
+        let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
+            .into_iter()
+            .filter(|line| line.length() >= least)
+            .map(|line| Curve { points: smooth_polyline(&line.points, line.closed, smoothing, 1.5), closed: line.closed })
+            .filter(|line| line.points.len() > 2)
+            .collect();
+        let (width, height) = self.size();
+        let Some(border) = crate::field::distance_to_curves(&silhouette, width, height) else { return lines };
+        let reach = (0.9 * self.pitch()) as f32;
+        let is_apart = |p: &Point| border.distance.sample(p.x, p.y) >= reach;
+        let apart = lines.into_iter().flat_map(|line| runs(&line, is_apart)).filter(|line| line.curve.length() >= 0.5 * least);
+        self.plain(silhouette).into_iter().chain(apart).collect()
+    }
+
+    /// Lines of one width.
+    fn plain(&self, curves: Vec<Curve>) -> Vec<CoherentLine> {
+        let width = PLAIN_WIDTH * self.pitch();
+        curves.into_iter().map(|curve| CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }).collect()
+    }
+
+    /// Section 4.1: the borders between levels of lightness.
+    fn found_isophotes(&self, lightness: &Raster<f32>) -> Vec<Curve> {
+        if self.parameters.isophotes < 2 {
+            return Vec::new();
+        }
+        let smoothing = self.pixels(self.parameters.smoothing_mm).clamp(1.0, 6.0) as f32;
+        let least = self.pixels(self.parameters.steer_least_mm) as f32;
+        let levels = self.parameters.isophotes;
+        let steps = detect_isophotes(lightness, levels, levels - 1, smoothing, least);
+        self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
+        self.observer.picture("posterised", &|| Picture::Grey(steps.posterised.clone()));
+        steps.lines
+    }
+
+    /// The centre lines of white lines on black.
+    fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
+        let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
+        self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
+        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing_mm).min(3.0) as f32, 0.5 * self.pitch() as f32)
+    }
+
+    /// The field as short strokes two pitches apart, and its singular points: open rings where it turns one way, dots the other.
+    fn field_layers(&self, field: &DirectionField) -> Vec<Layer> {
+        let step = 2.0 * self.pitch();
+        let mut strokes = Vec::new();
+        let (width, height) = self.size();
+        for j in 0..(height as f64 / step) as usize {
+            for i in 0..(width as f64 / step) as usize {
+                let p = Point::new((i as f64 + 0.5) * step, (j as f64 + 0.5) * step);
+                let [x, y] = field.tangent.get(p.x as usize, p.y as usize);
+                let half = Vec2::new(f64::from(x), f64::from(y)) * (0.42 * step);
+                strokes.push(Curve { points: vec![p - half, p + half], closed: false });
+            }
+        }
+        let ring = |centre: Point| {
+            let points = (0..12).map(|k| centre + Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 12.0) * step).collect();
+            Curve { points, closed: true }
+        };
+        let singular = |sign: f32| -> Vec<Curve> {
+            field.singularities.iter().filter(|s| s.index * sign > 0.0).map(|s| ring(s.position)).collect()
+        };
+        vec![
+            self.thin_layer("field", &strokes, Colour { r: 60, g: 60, b: 60 }),
+            self.thin_layer("loop-ends", &singular(1.0), Colour { r: 200, g: 30, b: 30 }),
+            self.thin_layer("triple-points", &singular(-1.0), Colour { r: 30, g: 90, b: 200 }),
+        ]
+    }
+
+    /// Curves as thin lines of one colour.
+    pub(super) fn thin_layer(&self, name: &str, curves: &[Curve], colour: Colour) -> Layer {
+        let mut layer = Layer::new(name, 1);
+        layer.ink = Ink::Colour(colour);
+        layer.marks = curves
+            .iter()
+            .filter(|curve| curve.points.len() > 1)
+            .map(|curve| {
+                let mut path = BezPath::new();
+                for (i, p) in curve.points.iter().enumerate() {
+                    let p = self.portrait.placement.to_page(*p);
+                    if i == 0 { path.move_to(p) } else { path.line_to(p) }
+                }
+                if curve.closed {
+                    path.close_path();
+                }
+                Mark::Stroke(Stroke::new(path, Width::Constant(0.15 * self.parameters.pitch_mm)))
+            })
+            .collect();
+        layer
+    }
+}
+
+/// The parts of a line whose points all satisfy a condition, with their widths.
+fn runs(line: &CoherentLine, keeps: impl Fn(&Point) -> bool) -> Vec<CoherentLine> {
+    let kept: Vec<bool> = line.curve.points.iter().map(keeps).collect();
+    if kept.iter().all(|&keep| keep) {
+        return vec![line.clone()];
+    }
+    let mut out = Vec::new();
+    let mut start = 0;
+    for run in kept.chunk_by(|a, b| a == b) {
+        let range = start..start + run.len();
+        start += run.len();
+        if run[0] && run.len() > 2 {
+            let curve = Curve { points: line.curve.points[range.clone()].to_vec(), closed: false };
+            out.push(CoherentLine { curve, widths: line.widths[range].to_vec(), contrast: line.contrast });
+        }
+    }
+    out
+}

@@ -1,0 +1,93 @@
+//! Hatching lines along the grid's lines, as wide as the tone asks (Son et al. 2011, section 6.2; errata).
+
+use super::Drawer;
+use super::mixing::Mixing;
+use super::structure::StructureGrid;
+use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::field::Curve;
+use crate::geometry::{Point, catmull_rom, resample};
+use crate::raster::Raster;
+use rayon::prelude::*;
+
+/// Distance of a stroke's nodes in pitches: half a cell, so that its width can follow the tone from dot to dot.
+const NODE_SPACING: f64 = 0.5;
+/// Width in pitches below which there is no line.
+const LEAST_WIDTH: f64 = 0.002;
+/// Width in pitches from which a line's end is no hair.
+const WHISKER: f64 = 0.25;
+
+pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>) -> Layer {
+    drawer.observer.begin("hatching");
+    let mixing = Mixing::new(drawer);
+    let mut layer = Layer::new("hatching", 1);
+    for family in (0..2).filter(|&family| mixing.hatches(family)) {
+        let strokes: Vec<Vec<Mark>> =
+            grid.lines[family].par_iter().map(|line| strokes(drawer, grid, &mixing, line, ink)).collect();
+        layer.marks.extend(strokes.into_iter().flatten());
+    }
+    layer
+}
+
+/// The parts of one grid line where there is ink to draw.
+fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, line: &Curve, ink: &Raster<f32>) -> Vec<Mark> {
+    let mut points = line.points.clone();
+    if line.closed {
+        points.push(points[0]);
+    }
+    let nodes = resample(&points, NODE_SPACING * drawer.pitch());
+    let widths: Vec<f64> = nodes.iter().map(|p| width(grid, mixing, *p, ink)).collect();
+    let least = LEAST_WIDTH * drawer.pitch();
+    let is_whole = line.closed && nodes.len() > 3 && widths.iter().all(|&w| w > least);
+    if is_whole {
+        return vec![stroke(drawer, &nodes[..nodes.len() - 1], widths, Ring::Closed)];
+    }
+    let mut out = Vec::new();
+    let mut start = 0;
+    for run in widths.chunk_by(|a, b| (*a > least) == (*b > least)) {
+        let range = start..start + run.len();
+        start += run.len();
+        if run[0] > least {
+            let kept = without_whiskers(&widths, range, WHISKER * drawer.pitch());
+            if kept.len() > 1 {
+                out.push(stroke(drawer, &nodes[kept.clone()], widths[kept].to_vec(), Ring::Open));
+            }
+        }
+    }
+    out
+}
+
+/// A run of nodes without the ends where the width falls to less than half from one node to the next: at the border of a dark
+/// shape such ends stand out like hairs.
+fn without_whiskers(widths: &[f64], mut run: std::ops::Range<usize>, thin: f64) -> std::ops::Range<usize> {
+    let is_whisker = |end: f64, inner: f64| end < thin && end < 0.5 * inner;
+    while run.len() > 1 && is_whisker(widths[run.start], widths[run.start + 1]) {
+        run.start += 1;
+    }
+    while run.len() > 1 && is_whisker(widths[run.end - 1], widths[run.end - 2]) {
+        run.end -= 1;
+    }
+    run
+}
+
+fn width(grid: &StructureGrid, mixing: &Mixing, p: Point, ink: &Raster<f32>) -> f64 {
+    let tone = 1.0 - f64::from(ink.sample(p.x, p.y));
+    let share = mixing.line_share(tone);
+    if share <= 0.0 || tone >= 1.0 {
+        return 0.0;
+    }
+    share * mixing.full_width(tone, [0, 1].map(|family| grid.density_at(family, p)))
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Ring {
+    Open,
+    Closed,
+}
+
+fn stroke(drawer: &Drawer<'_>, nodes: &[Point], widths: Vec<f64>, ring: Ring) -> Mark {
+    let placement = &drawer.portrait.placement;
+    let page: Vec<Point> = nodes.iter().map(|p| placement.to_page(*p)).collect();
+    let scale = placement.mm_per_pixel();
+    let widths = widths.into_iter().map(|w| w * scale).collect();
+    Mark::Stroke(Stroke::new(catmull_rom(&page, ring == Ring::Closed), Width::Along(widths)))
+}

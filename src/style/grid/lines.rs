@@ -1,0 +1,17 @@
+//! The feature lines on top, as wide as they were found (Son et al. 2011, section 3).
+
+use super::Drawer;
+use super::features::Features;
+use crate::drawing::Layer;
+use crate::style::feature_line::feature_stroke;
+
+/// Most of a line's end that tapers, in pitches.
+const LONGEST_TAPER: f64 = 4.0;
+
+pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
+    drawer.observer.begin("feature lines");
+    let (placement, taper) = (&drawer.portrait.placement, LONGEST_TAPER * drawer.pitch());
+    let mut layer = Layer::new("lines", 1);
+    layer.marks = features.lines.iter().filter_map(|line| feature_stroke(line, placement, taper)).collect();
+    layer
+}

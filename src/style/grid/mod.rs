@@ -1,0 +1,126 @@
+//! The structure grid: dots lined up along and across the features, turning into hatching where it is dark (Son et al. 2011).
+
+mod cells;
+mod dots;
+mod features;
+mod hatching;
+mod lines;
+mod mixing;
+mod parameters;
+mod shape;
+mod structure;
+mod tiles;
+
+use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use crate::drawing::{Drawing, Layer, Page};
+use crate::raster::gaussian_blur;
+use crate::source::{MaskRole, Portrait};
+use parameters::{Gridding, PIXELS_PER_PITCH, Primitive};
+
+/// The style.
+pub(super) struct Grid;
+
+impl Style for Grid {
+    fn name(&self) -> &'static str {
+        "grid"
+    }
+
+    fn summary(&self) -> &'static str {
+        "dots lined up along and across the features, turning into hatching where it is dark"
+    }
+
+    fn source(&self) -> &'static str {
+        "Son, Lee, Kang and Lee 2011, Structure grid for directional stippling; Kang, Lee and Chui 2007"
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        parameters::PARAMETERS
+    }
+
+    fn masks(&self) -> &'static [MaskRole] {
+        &[MaskRole::Subject, MaskRole::Edges, MaskRole::Isophotes]
+    }
+
+    fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
+        PIXELS_PER_PITCH / settings.number("pitch")
+    }
+
+    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+        Drawer { portrait, parameters: Gridding::new(settings), seed, observer }.draw()
+    }
+}
+
+/// One drawing in the making.
+struct Drawer<'a> {
+    portrait: &'a Portrait,
+    parameters: Gridding,
+    seed: u64,
+    observer: &'a dyn Observer,
+}
+
+/// Blur of the tone that widths follow, in pitches: a line's width cannot show more than its own neighbourhood.
+const TONE_BLUR: f32 = 0.3;
+
+impl Drawer<'_> {
+    /// The paper's steps in its order.
+    fn draw(&self) -> Result<Drawing, StyleError> {
+        let ink = self.portrait.ink();
+        self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
+        if ink.pixels().iter().all(|&v| v <= 0.0) {
+            let why = "the picture, or the part inside the subject mask, is white all over";
+            return Err(StyleError::NothingToDraw(why.to_owned()));
+        }
+        let features = self.features();
+        self.pause()?;
+        let grid = self.structure(&features, &ink);
+        self.pause()?;
+        let cells = cells::cells(self, &grid, &ink, &features);
+        let blurred = gaussian_blur(&ink, TONE_BLUR * self.pitch() as f32);
+        let mut layers = match self.parameters.primitive {
+            Primitive::Mixed => {
+                vec![hatching::layer(self, &grid, &blurred), dots::layer(self, &grid, &cells, &blurred)]
+            }
+            Primitive::Tile => vec![tiles::layer(self, &cells)],
+            Primitive::TileLines => vec![tiles::line_layer(self, &cells)],
+        };
+        layers.retain(|layer| !layer.marks.is_empty());
+        if layers.is_empty() {
+            let why = "the subject is smaller than one dot; use a smaller --pitch or a whiter mask";
+            return Err(StyleError::NothingToDraw(why.to_owned()));
+        }
+        if self.parameters.has_lines {
+            layers.push(lines::layer(self, &features));
+        }
+        for (layer, pen) in layers.iter_mut().zip(1..) {
+            layer.pen = pen;
+        }
+        let page = self.portrait.page;
+        let drawing = Drawing { page, layers }.clipped(page.rect());
+        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
+        Ok(drawing)
+    }
+
+    fn pause(&self) -> Result<(), StyleError> {
+        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
+    }
+
+    /// A drawing of one or more layers on the portrait's page, for `stages`.
+    fn picture_of(&self, layers: Vec<Layer>) -> Picture {
+        let page: Page = self.portrait.page;
+        Picture::Drawing(Box::new(Drawing { page, layers }))
+    }
+
+    fn size(&self) -> (usize, usize) {
+        (self.portrait.placement.columns, self.portrait.placement.rows)
+    }
+
+    /// The pitch in working pixels.
+    fn pitch(&self) -> f64 {
+        self.pixels(self.parameters.pitch_mm)
+    }
+
+    /// A length of the page in working pixels.
+    fn pixels(&self, mm: f64) -> f64 {
+        mm / self.portrait.placement.mm_per_pixel()
+    }
+}

@@ -1,0 +1,220 @@
+//! The structure grid (Son et al. 2011, section 5): two families of stripes, their lines and crossings.
+
+use super::Drawer;
+use super::features::Features;
+use super::parameters::FeatureRows;
+use crate::drawing::{Colour, Dot, Layer, Mark};
+use crate::field::{
+    Curve, DirectionField, FeatureDistance, StripeLattice, StripeParameters, Wave, crossings, distance_to_curves, holes,
+    stripe_lines, stripes,
+};
+use crate::geometry::{Point, Rect, Vec2, smooth_polyline};
+use crate::raster::{Raster, gaussian_blur};
+use crate::style::{Picture, random};
+use rand::RngExt;
+use std::f64::consts::TAU;
+
+/// Nodes of the lattice in the narrowest pitch: with fewer a stripe between two nodes could be lost.
+const NODES_PER_PITCH: f64 = 2.0;
+/// Levels from coarse to fine: the coarsest nodes are eight pitches apart. With three levels parallel rows keep breaks (0.7
+/// degrees in place of 0.2); more change nothing on faces.
+const LEVELS: u32 = 5;
+/// No two dots are nearer than this, in pitches. At 0.5 twins stand at the ends of rows, at 0.7 holes show there.
+const LEAST_DISTANCE: f64 = 0.6;
+/// Radius of a place without any dot that gets one, in pitches; in an even grid it is 0.71. At 0.85 dots crowd where rows end, at
+/// 1.1 white spots show there.
+const HOLE: f64 = 0.95;
+/// How strongly a row is held where a feature line says it should run; at 1 rows break beside short lines.
+const HOLD: f64 = 0.25;
+/// Distance from a feature line at which the hold is let go, in pitches.
+const HOLD_REACH: f64 = 1.5;
+
+/// Both families: 0 runs along the features, 1 across them. In working pixels.
+pub(super) struct StructureGrid {
+    pub stripes: [StripeLattice; 2],
+    /// Lines of each family, smooth.
+    pub lines: [Vec<Curve>; 2],
+    /// Density of each family at the lattice's nodes, lines a pixel.
+    pub density: [Raster<f32>; 2],
+    /// Where lines of both families cross, then the points that fill holes between them.
+    pub crossings: Vec<Point>,
+    /// How many of them are crossings.
+    pub true_crossings: usize,
+    pub field: DirectionField,
+}
+
+impl StructureGrid {
+    /// Lines a pixel of one family at a place.
+    pub(super) fn density_at(&self, family: usize, p: Point) -> f64 {
+        f64::from(self.stripes[family].read(&self.density[family], p)).max(1e-6)
+    }
+
+    /// The direction of the features at a place.
+    pub(super) fn tangent(&self, p: Point) -> Vec2 {
+        let tangent = &self.field.tangent;
+        let x = (p.x.max(0.0) as usize).min(tangent.width() - 1);
+        let y = (p.y.max(0.0) as usize).min(tangent.height() - 1);
+        let [x, y] = tangent.get(x, y);
+        Vec2::new(f64::from(x), f64::from(y))
+    }
+}
+
+impl Drawer<'_> {
+    pub(super) fn structure(&self, features: &Features, ink: &Raster<f32>) -> StructureGrid {
+        self.observer.begin("stripes");
+        let closeness = self.closeness(ink);
+        let pitch = self.pitch() as f32;
+        let waves = |turned: bool| {
+            features.field.tangent.zip_map(&closeness, |[x, y], closeness| {
+                let scale = closeness / pitch;
+                let wave: Wave = if turned { [-y * scale, x * scale] } else { [x * scale, y * scale] };
+                wave
+            })
+        };
+        let step = self.pitch() / NODES_PER_PITCH * f64::from(1.0 - self.parameters.adaptive);
+        let parameters = StripeParameters {
+            step,
+            window: self.pixels(self.parameters.window_mm) / step,
+            rounds: self.parameters.rounds,
+            levels: LEVELS,
+        };
+        let random = |stage: &'static str| move |node: u64| random::stream(self.seed, stage, node).random::<f32>();
+        let across = waves(true);
+        let (width, height) = self.size();
+        let distance = distance_to_curves(&features.guides, width, height);
+        let hold = distance.as_ref().and_then(|distance| self.hold(distance, &across, &closeness, step));
+        let (by_chance, spacing) = (random("along"), self.pitch());
+        let (a, b) = rayon::join(
+            || {
+                let start = |node: u64, p: Point, wave: Wave| match &distance {
+                    Some(distance) => (signed_distance(distance, wave, p) / spacing) as f32,
+                    None => by_chance(node),
+                };
+                stripes(&across, parameters, &start, hold.as_ref())
+            },
+            || {
+                let by_chance = random("across");
+                stripes(&waves(false), parameters, &|node, _, _| by_chance(node), None)
+            },
+        );
+        self.observer.begin("grid");
+        let least = LEAST_DISTANCE * self.pitch() * f64::from(1.0 - self.parameters.adaptive);
+        let mut crossings: Vec<Point> = crossings(&a, &b, least).into_iter().filter(|p| self.contains(*p)).collect();
+        let true_crossings = crossings.len();
+        crossings.extend(holes(&crossings, Rect::new(0.0, 0.0, width as f64, height as f64), HOLE * self.pitch()));
+        let lines = [&a, &b].map(|family| self.smooth_lines(family));
+        let density = [&a, &b].map(|family| gaussian_blur(&family.frequency(), (self.pitch() / step) as f32));
+        let grid = StructureGrid { stripes: [a, b], lines, density, crossings, true_crossings, field: features.field.clone() };
+        self.show(&grid);
+        grid
+    }
+
+    fn contains(&self, p: Point) -> bool {
+        let (width, height) = self.size();
+        p.x >= 0.0 && p.y >= 0.0 && p.x < width as f64 && p.y < height as f64
+    }
+
+    /// How many times closer than a pitch lines stand at each pixel.
+    fn closeness(&self, ink: &Raster<f32>) -> Raster<f32> {
+        let adaptive = self.parameters.adaptive;
+        if adaptive == 0.0 {
+            return ink.map(|_| 1.0);
+        }
+        // Spacing must change slowly, or rows break at every step of the tone.
+        gaussian_blur(ink, 3.0 * self.pitch() as f32).map(|ink| 1.0 / (1.0 - adaptive * ink.clamp(0.0, 1.0)))
+    }
+
+    /// The phase that the nodes near feature lines are held to, so that rows run along them.
+    fn hold(
+        &self,
+        distance: &FeatureDistance,
+        wave: &Raster<Wave>,
+        closeness: &Raster<f32>,
+        step: f64,
+    ) -> Option<Raster<[f32; 2]>> {
+        let offset = match self.parameters.feature_rows {
+            FeatureRows::Free => return None,
+            FeatureRows::On => 0.0,
+            FeatureRows::Beside => 0.5,
+        };
+        let (width, height) = self.size();
+        let (columns, rows) = StripeLattice::bare(width, height, step);
+        Some(Raster::from_fn(columns, rows, |i, j| {
+            let p = StripeLattice::bare_position(i, j, step);
+            if !self.contains(p) {
+                return [0.0, 0.0];
+            }
+            let (x, y) = (p.x as usize, p.y as usize);
+            let spacing = self.pitch() / f64::from(closeness.get(x, y));
+            held(distance, wave.get(x, y), p, spacing, offset)
+        }))
+    }
+
+    fn smooth_lines(&self, family: &StripeLattice) -> Vec<Curve> {
+        let pitch = self.pitch();
+        stripe_lines(family)
+            .into_iter()
+            .map(|line| Curve {
+                points: smooth_polyline(&line.points, line.closed, 0.4 * pitch, 0.25 * pitch),
+                closed: line.closed,
+            })
+            .filter(|line| line.points.len() > 1)
+            .collect()
+    }
+
+    fn show(&self, grid: &StructureGrid) {
+        for (name, family) in ["stripes-along", "stripes-across"].iter().zip(&grid.stripes) {
+            self.observer.picture(name, &|| Picture::Grey(self.stripe_picture(family)));
+        }
+        self.observer.picture("grid", &|| {
+            let mut dots = Layer::new("crossings", 3);
+            let radius = 0.15 * self.parameters.pitch_mm;
+            dots.marks =
+                grid.crossings.iter().map(|p| Mark::Dot(Dot::circle(self.portrait.placement.to_page(*p), radius))).collect();
+            self.picture_of(vec![
+                self.thin_layer("along", &grid.lines[0], Colour { r: 200, g: 60, b: 40 }),
+                self.thin_layer("across", &grid.lines[1], Colour { r: 40, g: 100, b: 200 }),
+                dots,
+            ])
+        });
+    }
+
+    /// The distance from the nearest line, black on it (Son et al. 2011, figure 5).
+    fn stripe_picture(&self, family: &StripeLattice) -> Raster<f32> {
+        let (width, height) = self.size();
+        Raster::from_fn(width, height, |x, y| {
+            let phase = family.phase_at(Point::new(x as f64 + 0.5, y as f64 + 0.5)) / TAU;
+            (2.0 * (phase - phase.round()).abs()) as f32
+        })
+    }
+}
+
+/// The held phase at one place: the distance from the feature line in cycles, grown along the wave; nothing far away, nor where
+/// the field runs across the line.
+fn held(distance: &FeatureDistance, wave: Wave, p: Point, spacing: f64, offset: f64) -> [f32; 2] {
+    let away = distance.distance.sample(p.x, p.y);
+    let strength = HOLD * (1.0 - f64::from(away) / (HOLD_REACH * spacing));
+    // The distance grows by one a pixel straight across the line; 0.8 is 37 degrees off.
+    if strength <= 0.0 || slope_along(distance, wave, p).abs() < 0.8 {
+        return [0.0, 0.0];
+    }
+    let phase = TAU * (signed_distance(distance, wave, p) / spacing + offset);
+    [(strength * phase.cos()) as f32, (strength * phase.sin()) as f32]
+}
+
+/// The distance from the nearest feature line, negative on one side.
+fn side_distance(distance: &FeatureDistance, p: Point) -> f64 {
+    let (x, y) = (p.x.floor() as isize, p.y.floor() as isize);
+    f64::from(distance.distance.clamped(x, y)) * f64::from(distance.side.clamped(x, y))
+}
+
+/// How it grows a pixel along the wave's direction.
+fn slope_along(distance: &FeatureDistance, wave: Wave, p: Point) -> f64 {
+    let along = Vec2::new(f64::from(wave[0]), f64::from(wave[1])).normalize();
+    0.25 * (side_distance(distance, p + along * 2.0) - side_distance(distance, p - along * 2.0))
+}
+
+/// The distance that grows along the wave (Son et al. 2011, section 5.2, begin with the distance, without its sign).
+fn signed_distance(distance: &FeatureDistance, wave: Wave, p: Point) -> f64 {
+    slope_along(distance, wave, p).signum() * side_distance(distance, p)
+}
