@@ -5,15 +5,19 @@
 mod contour;
 mod distance;
 mod edges;
+mod flow_dog;
 mod isophotes;
 mod lanes;
+mod tangent_flow;
 mod trace;
 mod voronoi;
 
 pub use contour::contours;
 pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
+pub use flow_dog::{FlowLines, LineParameters, flow_lines};
 pub use isophotes::{IsophoteSteps, detect_isophotes};
 pub use lanes::{LaneParameters, Lanes, offset_lanes};
+pub use tangent_flow::{EdgeTangentFlow, edge_tangent_flow};
 pub use trace::{Curve, trace};
 pub use voronoi::{Sites, cell_polygon};

@@ -1,6 +1,6 @@
 //! Canny's edge detector (Canny 1986; Bruehl 2023, sections 1.4.3 and 2.1) on real-valued rasters.
 
-use super::Raster;
+use super::{Raster, sobel};
 
 /// Gradient thresholds, in raster units per pixel; `low <= high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,16 +19,6 @@ pub fn canny(raster: &Raster<f32>, thresholds: Thresholds) -> Raster<u8> {
     let strength = gradient.map(|[gx, gy]| gx.hypot(gy));
     let ridges = suppress_non_maxima(&gradient, &strength, thresholds.low);
     follow_from_strong(&ridges, &strength, thresholds.high)
-}
-
-/// Sobel's gradient scaled to raster units per pixel.
-fn sobel(raster: &Raster<f32>) -> Raster<[f32; 2]> {
-    Raster::from_fn(raster.width(), raster.height(), |x, y| {
-        let at = |dx: isize, dy: isize| raster.clamped(x as isize + dx, y as isize + dy);
-        let gx = at(1, -1) + 2.0 * at(1, 0) + at(1, 1) - at(-1, -1) - 2.0 * at(-1, 0) - at(-1, 1);
-        let gy = at(-1, 1) + 2.0 * at(0, 1) + at(1, 1) - at(-1, -1) - 2.0 * at(0, -1) - at(1, -1);
-        [gx / 8.0, gy / 8.0]
-    })
 }
 
 /// Keeps pixels whose gradient is at least that of both points one pixel ahead and behind along it.

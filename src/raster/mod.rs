@@ -8,12 +8,14 @@ mod bilateral;
 mod binary;
 mod blur;
 mod canny;
+mod gradient;
 mod thin;
 
 pub use bilateral::bilateral;
 pub use binary::{components, dilate, majority, remove_components};
 pub use blur::{box_blur, gaussian_blur};
 pub use canny::{Thresholds, canny};
+pub use gradient::sobel;
 pub use thin::thin;
 
 use rayon::prelude::*;
