@@ -42,8 +42,7 @@ fn engraving() {
         (1.0 - 0.4 * (u * u + v * v) + 0.05 * (9.0 * u).sin() * (7.0 * v).cos()).clamp(0.01, 1.0)
     };
     static FILES: std::sync::OnceLock<[Photograph; 2]> = std::sync::OnceLock::new();
-    let [photograph, depth] =
-        FILES.get_or_init(|| [picture(|x, y| 0.9 * bump(x, y).powi(3)), picture(bump)]);
+    let [photograph, depth] = FILES.get_or_init(|| [picture(|x, y| 0.9 * bump(x, y).powi(3)), picture(bump)]);
     let style = find("engrave").expect("the style is there");
     let given = [("look".to_owned(), "crosshatch".to_owned())];
     let settings = Settings::resolve("engrave", style.parameters(), &given).expect("the settings are sound");

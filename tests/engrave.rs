@@ -299,7 +299,7 @@ fn png_of_colours(width: u32, height: u32, colour: impl Fn(u32, u32) -> [u8; 3])
 }
 
 /// Two regions with a slanted straight border: dark grey left of it, light grey right.
-fn two_regions(hues: [[u8; 3]; 2], set: &[(&str, &str)]) -> (Drawing, impl Fn(Point) -> f64) {
+fn two_regions(hues: [[u8; 3]; 2], set: &[(&str, &str)]) -> (Drawing, impl Fn(Point) -> f64 + use<>) {
     let is_left = |x: u32, y: u32| f64::from(x) < 150.0 + 0.05 * f64::from(y);
     let photo = png_of_light(300, 300, |x, y| if is_left(x, y) { 0.35 } else { 0.65 });
     let scribbles = png_of_colours(300, 300, |x, y| match x {
@@ -363,7 +363,8 @@ fn regions_lines_do_not_run_side_by_side() {
         for pair in fine.windows(2) {
             let is_near = right.iter().any(|other| {
                 other.windows(2).any(|s| {
-                    let angle = (pair[1] - pair[0]).cross(s[1] - s[0]).abs() / ((pair[1] - pair[0]).hypot() * (s[1] - s[0]).hypot());
+                    let angle =
+                        (pair[1] - pair[0]).cross(s[1] - s[0]).abs() / ((pair[1] - pair[0]).hypot() * (s[1] - s[0]).hypot());
                     angle < 15.0_f64.to_radians().sin() && distance_to_segment(pair[0], s[0], s[1]) < 0.5 * PITCH
                 })
             });
@@ -388,7 +389,11 @@ fn strokes_are_few_smooth_curves() {
         let outline = stroke.outline().unwrap();
         pieces += outline.segments().count();
         length += stroke.length();
-        let ring = flatten(&outline, 0.002).remove(0).0;
+        let mut ring = flatten(&outline, 0.002).remove(0).0;
+        ring.dedup_by(|a, b| a.distance(*b) < 1e-6);
+        if ring[0].distance(ring[ring.len() - 1]) < 1e-6 {
+            ring.pop();
+        }
         assert!(!meets_itself(&ring), "an outline meets itself near {:?}", ring[0]);
     }
     let per_cm = f64::from(pieces as u32) / (0.1 * length);
@@ -430,7 +435,12 @@ fn a_style_without_use_for_depth_refuses_it() {
     let folder = env!("CARGO_MANIFEST_DIR");
     let run = |arguments: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-        command.current_dir(folder).args(["draw", "samples/bust-light.png", "--dry-run", "-o", "x.svg"]).args(arguments).output().unwrap()
+        command
+            .current_dir(folder)
+            .args(["draw", "samples/bust-light.png", "--dry-run", "-o", "x.svg"])
+            .args(arguments)
+            .output()
+            .unwrap()
     };
     let refused = run(&["--depth", "samples/bust-depth.png"]);
     let message = String::from_utf8(refused.stderr).unwrap();
@@ -444,7 +454,8 @@ fn a_style_without_use_for_depth_refuses_it() {
 #[test]
 fn the_same_bytes_on_any_number_of_threads() {
     let photo = sample("bust-light.png");
-    let sheet = Sheet { depth: Some(sample("bust-depth.png")), ..Sheet::new(&photo, (30.0, 40.0), &[("regions", "superpixels")]) };
+    let sheet =
+        Sheet { depth: Some(sample("bust-depth.png")), ..Sheet::new(&photo, (30.0, 40.0), &[("regions", "superpixels")]) };
     let portrait = sheet.portrait();
     let drawn = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

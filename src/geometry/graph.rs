@@ -94,14 +94,15 @@ impl Graph<'_> {
             .find(|place| *place > from + margin && *place < to - margin)
     }
 
+    /// Whether the cubic over a piece passes near each of the curve's corners in it, and near a few places between.
     fn is_near(&self, from: f64, to: f64, tolerance: f64) -> bool {
         let piece = (from, self.height(from), self.slope(from), to, self.height(to), self.slope(to));
-        // Twice a height, so that a piece does not bulge between two.
-        let steps = (2.0 * (to - from) / self.step).ceil().max(4.0);
-        (1..steps as usize).all(|i| {
-            let place = from + (to - from) * i as f64 / steps;
-            (hermite(piece, place) - self.height(place)).abs() <= tolerance
-        })
+        let is_near = |place: f64| (hermite(piece, place) - self.height(place)).abs() <= tolerance;
+        let first = ((from - self.first) / self.step).ceil();
+        let last = ((to - self.first) / self.step).floor();
+        let corners = (last - first + 1.0).max(0.0) as usize;
+        (1..4).all(|i| is_near(from + (to - from) * 0.25 * f64::from(i)))
+            && (0..corners).all(|i| is_near(self.first + (first + i as f64) * self.step))
     }
 
     /// Halves pieces until the width, as the outline of a stroke will interpolate it, is near to the one wanted.

@@ -22,24 +22,24 @@ const FARTHEST: f32 = 1.0 / 65535.0;
 /// each working pixel is the mean of the known depths under a tent of its size (at least a pixel of the file).
 pub(super) fn read_depth(depth: &Photograph, sense: DepthSense, crop: Crop, placement: Placement) -> Raster<f32> {
     let grey = depth.pixels.to_luma16();
-    let (width, height) = (grey.width() as isize, grey.height() as isize);
-    let nearness = |x: isize, y: isize| -> Option<f32> {
-        let value = grey.get_pixel(x.clamp(0, width - 1) as u32, y.clamp(0, height - 1) as u32).0[0];
+    let (width, height) = (grey.width() as usize, grey.height() as usize);
+    let nearness = |value: u16| {
         let unit = f32::from(value) / 65535.0;
-        (value > 0).then(|| if sense == DepthSense::NearWhite { unit } else { (1.0 - unit).max(FARTHEST) })
+        if sense == DepthSense::NearWhite { unit } else { (1.0 - unit).max(FARTHEST) }
     };
-    let columns = tents(crop.x, crop.width, placement.columns);
-    let rows = tents(crop.y, crop.height, placement.rows);
+    let columns = tents(crop.x, crop.width, placement.columns, width);
+    let rows = tents(crop.y, crop.height, placement.rows, height);
     let mut out = Raster::filled(placement.columns, placement.rows, 0.0_f32);
     out.pixels_mut().par_chunks_mut(placement.columns).zip(&rows).for_each(|(out, row)| {
         for (out, column) in out.iter_mut().zip(&columns) {
             let (mut sum, mut known, mut all) = (0.0, 0.0, 0.0);
-            for (y, wy) in row.weights() {
-                for (x, wx) in column.weights() {
+            for &(y, wy) in row {
+                let line = &grey.as_raw()[y * width..(y + 1) * width];
+                for &(x, wx) in column {
                     let weight = wx * wy;
                     all += weight;
-                    if let Some(near) = nearness(x, y) {
-                        sum += weight * near;
+                    if line[x] > 0 {
+                        sum += weight * nearness(line[x]);
                         known += weight;
                     }
                 }
@@ -50,21 +50,17 @@ pub(super) fn read_depth(depth: &Photograph, sense: DepthSense, crop: Crop, plac
     out
 }
 
-/// The file's pixels under one working pixel, in one direction.
-struct Tent {
-    centre: f64,
-    reach: f64,
-}
-
-impl Tent {
-    fn weights(&self) -> impl Iterator<Item = (isize, f32)> + '_ {
-        let first = (self.centre - self.reach - 0.5).ceil() as isize;
-        let last = (self.centre + self.reach - 0.5).floor() as isize;
-        (first..=last).map(|i| (i, (1.0 - (i as f64 + 0.5 - self.centre).abs() / self.reach).max(1e-6) as f32))
-    }
-}
-
-fn tents(from: f64, length: f64, count: usize) -> Vec<Tent> {
+/// For each working pixel in one direction the file's pixels under its tent, with their weights; the file's border repeats.
+fn tents(from: f64, length: f64, count: usize, end: usize) -> Vec<Vec<(usize, f32)>> {
     let step = length / count as f64;
-    (0..count).map(|i| Tent { centre: from + (i as f64 + 0.5) * step, reach: step.max(1.0) }).collect()
+    let reach = step.max(1.0);
+    (0..count)
+        .map(|i| {
+            let centre = from + (i as f64 + 0.5) * step - 0.5;
+            ((centre - reach).floor() as isize + 1..(centre + reach).ceil() as isize)
+                .map(|x| (x.clamp(0, end as isize - 1) as usize, (1.0 - (x as f64 - centre).abs() / reach) as f32))
+                .filter(|(_, weight)| *weight > 0.0)
+                .collect()
+        })
+        .collect()
 }

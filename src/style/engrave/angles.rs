@@ -23,9 +23,8 @@ impl Drawer<'_> {
         match p.angles {
             "flow" => self.flow_angles(labels, count),
             "random" => (1..=count).map(|label| stream(self.seed, "angles", label as u64).random_range(-90.0..90.0)).collect(),
-            "hue" if is_scribbled => self.hue_angles(count),
             "auto" if p.regions == "superpixels" => self.flow_angles(labels, count),
-            "auto" if is_scribbled => self.hue_angles(count),
+            "hue" | "auto" if is_scribbled => self.hue_angles(count),
             _ => vec![p.angle; count as usize],
         }
     }

@@ -92,7 +92,7 @@ impl Reading {
 impl Breaking<'_> {
     /// The pieces of one line.
     pub(super) fn pieces(&self, courses: &Courses<'_>, k: usize) -> Vec<Piece> {
-        let course = &courses.courses[k];
+        let course = &courses.lines[k];
         let mut pieces = Vec::new();
         // What is too little for a dot waits for the next one.
         let least_dot = std::f64::consts::FRAC_PI_4 * self.dot_min * self.dot_min;
@@ -121,7 +121,7 @@ impl Breaking<'_> {
     }
 
     fn readings(&self, courses: &Courses<'_>, k: usize, span: Span) -> Vec<Reading> {
-        let (course, line) = (&courses.courses[k], &courses.family.lines[k]);
+        let (course, line) = (&courses.lines[k], &courses.family.lines[k]);
         let step = courses.step();
         let inner = courses.readings_in(span);
         let places = std::iter::once(span.from)
@@ -197,7 +197,7 @@ impl Breaking<'_> {
         let radius = if self.is_stippled {
             let cell = Rect::new(-0.5 * length, -0.5 * nearest.room, 0.5 * length, 0.5 * nearest.room);
             let corners = [(cell.x0, cell.y0), (cell.x1, cell.y0), (cell.x1, cell.y1), (cell.x0, cell.y1)].map(Point::from);
-            radius_for_area(&corners, Point::ORIGIN, area.min(0.999 * cell.area()))
+            radius_for_area(&corners, Point::ORIGIN, area.min(0.999 * cell.area())).min(0.75 * length.max(nearest.room))
         } else {
             (area / std::f64::consts::PI).sqrt()
         };

@@ -5,12 +5,14 @@ use super::parameters::DepthFrom;
 use super::relief::Relief;
 use crate::field::{bend_by_shading, inflate};
 use crate::geometry::Vec2;
-use crate::raster::{Raster, bilateral, gaussian_blur};
+use crate::raster::{Raster, bilateral, enlarge, gaussian_blur, reduce};
 
 /// Smoothing of a photograph before its light is taken for depth, in pitches: finer detail is texture, not form.
 const PHOTO_SMOOTHING: f64 = 1.5;
 /// Difference of lightness that this smoothing keeps as an edge.
 const PHOTO_EDGE: f32 = 0.15;
+/// Shorter side of the raster on which forms are reckoned, in pixels, at least.
+const FORM_SIDE: usize = 200;
 /// What is brighter or darker over this part of the picture's shorter side is colour, not shading.
 const LOCAL: f64 = 0.12;
 /// Slope for a full step of lightness.
@@ -26,25 +28,29 @@ impl Drawer<'_> {
         let smoothed = gaussian_blur(&bilateral(&lightness, sigma, PHOTO_EDGE), 0.5 * sigma);
         match self.parameters.depth_from {
             DepthFrom::Luminance => smoothed.map(|v| v.max(1e-4)),
-            DepthFrom::Inflate => unit(&self.cushion()),
-            DepthFrom::Shape => self.shaped(&smoothed),
+            DepthFrom::Inflate => self.at_form_scale(&smoothed, |regions, _| unit(&inflate(regions))),
+            DepthFrom::Shape => self.at_form_scale(&smoothed, |regions, lightness| self.shaped(regions, lightness)),
         }
     }
 
-    /// The regions as cushions, in pixels: those of the scribbles, else the subject.
-    fn cushion(&self) -> Raster<f32> {
-        inflate(&self.great_regions())
+    /// Forms are smooth, so they are reckoned on a smaller raster, of the great regions and the lightness.
+    fn at_form_scale(&self, lightness: &Raster<f32>, form: impl Fn(&Raster<i32>, &Raster<f32>) -> Raster<f32>) -> Raster<f32> {
+        let (width, height) = (lightness.width(), lightness.height());
+        let factor = (width.min(height) / FORM_SIDE).max(1);
+        let small = reduce(lightness, factor);
+        let regions = self.great_regions();
+        let middle = |i: usize, end: usize| (i * factor + factor / 2).min(end - 1);
+        let regions = Raster::from_fn(small.width(), small.height(), |x, y| regions.get(middle(x, width), middle(y, height)));
+        enlarge(&form(&regions, &small), factor, width, height)
     }
 
-    fn shaped(&self, lightness: &Raster<f32>) -> Raster<f32> {
+    fn shaped(&self, regions: &Raster<i32>, lightness: &Raster<f32>) -> Raster<f32> {
         let side = lightness.width().min(lightness.height()) as f64;
         let local = gaussian_blur(lightness, (LOCAL * side) as f32);
         let shading = lightness.zip_map(&local, |v, mean| v - mean);
         let light = Vec2::from_angle(-self.parameters.light_azimuth.to_radians());
-        let base = self.cushion();
-        let bent = bend_by_shading(&base, &shading, &self.great_regions(), [light.x as f32, light.y as f32], SHADING_GAIN);
-        let form = unit(&bent);
-        form.zip_map(lightness, |form, light| ((1.0 - NEAR_IS_LIGHT) * form + NEAR_IS_LIGHT * light).max(1e-4))
+        let bent = bend_by_shading(&inflate(regions), &shading, regions, [light.x as f32, light.y as f32], SHADING_GAIN);
+        unit(&bent).zip_map(lightness, |form, light| ((1.0 - NEAR_IS_LIGHT) * form + NEAR_IS_LIGHT * light).max(1e-4))
     }
 
     /// The tone of the relief under a lamp far away (Lambert): the cosine between the surface's normal and the light.

@@ -4,6 +4,10 @@ use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::Placement;
 
+/// Lines end this far within the picture, in millimetres: less than is written, but never outside the page, where they would be
+/// cut again.
+const RIM: f64 = 1e-5;
+
 /// Working rasters read at places on the page, in millimetres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
@@ -34,7 +38,7 @@ impl Grid {
     /// How far inside the picture a place is; below 0 outside.
     fn inside_picture(&self, p: Point) -> f64 {
         let r = self.picture;
-        (p.x - r.x0).min(r.x1 - p.x).min((p.y - r.y0).min(r.y1 - p.y))
+        (p.x - r.x0).min(r.x1 - p.x).min((p.y - r.y0).min(r.y1 - p.y)) - RIM
     }
 }
 

@@ -25,11 +25,6 @@ impl Frame {
         (p.to_vec2().dot(self.along), p.to_vec2().dot(self.across))
     }
 
-    /// A vector of the page, along and across.
-    pub(super) fn turn(self, v: Vec2) -> Vec2 {
-        Vec2::new(v.dot(self.along), v.dot(self.across))
-    }
-
     /// The smallest rectangle in these axes around one of the page: x along, y across.
     fn bounds(self, page: Rect) -> Rect {
         let corners = [(page.x0, page.y0), (page.x1, page.y0), (page.x1, page.y1), (page.x0, page.y1)];
@@ -80,7 +75,7 @@ pub(super) struct Family {
 }
 
 /// Room for the fit of curves to the lines, on either side, in millimetres.
-pub(super) const FIT_ROOM: f64 = 0.004;
+pub(super) const FIT_ROOM: f64 = 0.005;
 
 impl Family {
     /// The base lines over a part of the page, each moved across by `displacement` at the place where it would be without.

@@ -29,6 +29,10 @@ use relief::Relief;
 use tones::Layers;
 use widths::{Courses, Wanted};
 
+/// An engraving's lines are whole from this part of the ink at which they are crossed: at 1 the cuts begin beside the crossings
+/// and cloth at half tone is speckled with both.
+const WHOLE_LINES: f64 = 0.75;
+
 /// The style.
 pub(super) struct Engrave;
 
@@ -143,7 +147,7 @@ impl Drawer<'_> {
         let breaking = self.breaking(ground);
         let lines = || {
             let breaking = Breaking { between: &crossing, ..breaking(&crossing) };
-            self.marks(&Courses::new(&family, wanted(&layers.lines)), &breaking)
+            marks(&Courses::new(&family, wanted(&layers.lines)), &breaking)
         };
         let cross = || {
             layers.cross.as_ref().map_or_else(Vec::new, |ink| {
@@ -154,7 +158,7 @@ impl Drawer<'_> {
                     period: 1.0,
                     ..breaking(&family)
                 };
-                self.marks(&Courses::new(&crossing, wanted(ink)), &breaking)
+                marks(&Courses::new(&crossing, wanted(ink)), &breaking)
             })
         };
         let (lines, cross) = rayon::join(lines, cross);
@@ -181,7 +185,8 @@ impl Drawer<'_> {
         let p = &self.parameters;
         let (look, grid) = (p.look, ground.grid);
         let (thinnest, dot_min, threshold) = (p.thinnest, p.dot_min, p.threshold);
-        let (cut_out, period) = (p.cut_out, (p.dash / p.pitch).max(0.25));
+        // Stipples stand as near to each other along a line as across.
+        let (cut_out, period) = (p.cut_out, if look == Look::Stipple { 1.0 } else { (p.dash / p.pitch).max(0.25) });
         move |between| Breaking {
             between,
             period,
@@ -189,19 +194,10 @@ impl Drawer<'_> {
             cover: None,
             grid,
             thinnest,
-            interruption: (look == Look::Engraving).then_some((1.0 - threshold, cut_out)),
+            interruption: (look == Look::Engraving).then_some((WHOLE_LINES * (1.0 - threshold), cut_out)),
             is_stippled: look == Look::Stipple,
             dot_min,
         }
-    }
-
-    fn marks(&self, courses: &Courses<'_>, breaking: &Breaking<'_>) -> Vec<Mark> {
-        let of_line = |k: usize| -> Vec<Mark> {
-            let line = &courses.family.lines[k];
-            breaking.pieces(courses, k).iter().filter_map(|piece| strokes::mark(courses.family, line, piece)).collect()
-        };
-        let lines: Vec<Vec<Mark>> = (0..courses.courses.len()).into_par_iter().map(of_line).collect();
-        lines.into_iter().flatten().collect()
     }
 
     fn drawing(&self, [lines, cross]: Marks) -> Drawing {
@@ -218,6 +214,16 @@ impl Drawer<'_> {
     fn pixels(&self, mm: f64) -> f64 {
         mm / self.portrait.placement.mm_per_pixel()
     }
+}
+
+/// The marks of every line, in order.
+fn marks(courses: &Courses<'_>, breaking: &Breaking<'_>) -> Vec<Mark> {
+    let of_line = |k: usize| -> Vec<Mark> {
+        let line = &courses.family.lines[k];
+        breaking.pieces(courses, k).iter().filter_map(|piece| strokes::mark(courses.family, line, piece)).collect()
+    };
+    let lines: Vec<Vec<Mark>> = (0..courses.lines.len()).into_par_iter().map(of_line).collect();
+    lines.into_iter().flatten().collect()
 }
 
 fn whiten(mark: &mut Mark) {

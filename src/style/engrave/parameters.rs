@@ -15,8 +15,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "look",
-        kind: Kind::Choice(&["engraving", "crosshatch", "hatch", "net", "stipple", "contour"]),
-        meaning: "engraving: lines interrupted in the light and crossed in the dark; crosshatch: whole lines, crossed in the dark; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in the shade only",
+        kind: Kind::Choice(&["crosshatch", "engraving", "hatch", "net", "stipple", "contour"]),
+        meaning: "crosshatch: swelling lines, crossed in the dark, dots in the light; engraving: the same, and white lines cut through them in the half light; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in the shade only",
         source: "Galarza 4.1 and 4.4",
     },
     Parameter {
@@ -221,12 +221,12 @@ impl Engraving {
         Self {
             pitch,
             look: match settings.word("look") {
-                "crosshatch" => Look::Crosshatch,
+                "engraving" => Look::Engraving,
                 "hatch" => Look::Hatch,
                 "net" => Look::Net,
                 "stipple" => Look::Stipple,
                 "contour" => Look::Contour,
-                _ => Look::Engraving,
+                _ => Look::Crosshatch,
             },
             displacement: settings.number("displacement"),
             sampling: settings.number("sampling").max(0.05 * pitch),

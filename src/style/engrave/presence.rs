@@ -1,6 +1,7 @@
 //! More lines where displacement opens the spacing, fewer where it closes it: both taper.
 
 use super::lines::{Family, Line};
+use rayon::prelude::*;
 
 /// Spacing above which a line is put between two, in pitches.
 const OPEN: f64 = 1.5;
@@ -24,6 +25,7 @@ impl Family {
             let apart = 1_i64 << (level - 1);
             let reach = apart as usize;
             let pressed: Vec<(usize, Vec<f32>)> = (reach..self.lines.len().saturating_sub(reach))
+                .into_par_iter()
                 .filter(|&k| (self.first_base + k as i64).rem_euclid(2 * apart) == apart)
                 .filter_map(|k| self.ends_between(k, reach).map(|presence| (k, presence)))
                 .collect();
@@ -61,16 +63,15 @@ impl Family {
     /// Puts tapered lines between those that are too far apart.
     pub(super) fn fill_in(&mut self) {
         let bases = std::mem::take(&mut self.lines);
-        let mut lines = Vec::with_capacity(bases.len());
+        let between: Vec<Vec<Line>> =
+            bases.par_windows(2).map(|pair| self.between(0, &pair[0].heights, &pair[1].heights, LEVELS)).collect();
         self.bases.clear();
-        let mut bases = bases.into_iter().peekable();
-        while let Some(line) = bases.next() {
-            let between = bases.peek().map(|above| self.between(0, &line.heights, &above.heights, LEVELS));
-            self.bases.push(lines.len());
-            lines.push(line);
-            lines.extend(between.into_iter().flatten());
+        let mut between = between.into_iter();
+        for line in bases {
+            self.bases.push(self.lines.len());
+            self.lines.push(line);
+            self.lines.extend(between.next().into_iter().flatten());
         }
-        self.lines = lines;
     }
 
     /// The lines between two curves whose first column is `first`, in order.
@@ -82,7 +83,7 @@ impl Family {
         let open = self.spaced(below, above, |spacing, was| spacing > self.pitch * if was { OPEN_ENOUGH } else { OPEN });
         let columns = (LEAST_LENGTH * self.pitch / self.step) as usize;
         let mut lines = Vec::new();
-        for (a, b) in open.into_iter().filter(|(a, b)| b - a >= columns) {
+        for (a, b) in joined(open, columns).into_iter().filter(|(a, b)| b - a >= columns) {
             let heights: Vec<f64> = below[a..b].iter().zip(&above[a..b]).map(|(a, b)| 0.5 * (a + b)).collect();
             if !self.keeps_gap(&heights, &below[a..b], &above[a..b]) {
                 continue;
@@ -136,4 +137,16 @@ impl Family {
         runs.extend(start.map(|from| (from, below.len())));
         runs
     }
+}
+
+/// Runs with those nearer than `least` made one, so that no line ends beside the start of the next.
+fn joined(runs: Vec<(usize, usize)>, least: usize) -> Vec<(usize, usize)> {
+    let mut joined: Vec<(usize, usize)> = Vec::with_capacity(runs.len());
+    for run in runs {
+        match joined.last_mut() {
+            Some(last) if run.0 - last.1 < least => last.1 = run.1,
+            _ => joined.push(run),
+        }
+    }
+    joined
 }

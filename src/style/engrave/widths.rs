@@ -10,8 +10,14 @@ use rayon::prelude::*;
 const READINGS: f64 = 8.0;
 /// Readings of tone from a line to the border of its strip.
 const DEPTHS: usize = 3;
-/// Farthest that a line answers for tone, in pitches, where it has no neighbour.
-const REACH: f64 = 1.5;
+/// Farthest that a line answers for tone where it has no neighbour, in pitches: with less the picture's rim is too light, with
+/// more lines that end at a slanting border end in knobs.
+const REACH: f64 = 0.7;
+/// A line farther away than this, in pitches, is no neighbour.
+const NEIGHBOURHOOD: f64 = 4.0;
+/// Rounds of smoothing of the widths along a line, each over a quarter of a pitch: without it fine texture makes lines shiver,
+/// with many it is lost.
+const SMOOTHING_ROUNDS: usize = 2;
 /// Nearer than this to a border with another region, in pitches, and along it, a line is left out: the other region's lines do
 /// the same, so that the two stay half a pitch apart.
 const BORDER_ROOM: f64 = 0.26;
@@ -44,6 +50,8 @@ pub(super) struct Course {
     /// The first reading; readings are numbered from the family's first column.
     pub first: usize,
     pub spans: Vec<Span>,
+    /// How far inside the region, in millimetres.
+    pub inside: Vec<f32>,
     /// How far the line is there, 0 to 1.
     pub weight: Vec<f32>,
     /// Ink of its strip, 0 to 1.
@@ -63,7 +71,7 @@ pub(super) struct Courses<'a> {
     /// Columns from one reading to the next.
     pub stride: usize,
     /// One for each line of the family.
-    pub courses: Vec<Course>,
+    pub lines: Vec<Course>,
 }
 
 /// The neighbours of a reading: distance across to the strip's border and to the neighbour's own line, below and above.
@@ -77,8 +85,8 @@ struct Sides {
 impl<'a> Courses<'a> {
     pub(super) fn new(family: &'a Family, wanted: Wanted<'a>) -> Self {
         let stride = (family.pitch / READINGS / family.step).round().max(1.0) as usize;
-        let mut courses = Self { family, wanted, stride, courses: Vec::new() };
-        courses.courses = family.lines.par_iter().map(|line| courses.find(line)).collect();
+        let mut courses = Self { family, wanted, stride, lines: Vec::new() };
+        courses.lines = family.lines.par_iter().map(|line| courses.find(line)).collect();
         courses.demand();
         courses.limit();
         courses
@@ -106,7 +114,12 @@ impl<'a> Courses<'a> {
             return Course::default();
         }
         let ground = self.wanted.ground;
-        let margin = if ground.has_neighbours() && ground.overlap <= 0.0 { 0.5 * self.family.gap.distance } else { 0.0 };
+        let margin = if ground.has_neighbours() && ground.overlap <= 0.0 {
+            // Half a pixel for the distances, which are read between pixels.
+            0.5 * (self.family.gap.distance + ground.grid.pixel_mm())
+        } else {
+            0.0
+        };
         let inside: Vec<f64> = (first..end)
             .map(|r| {
                 if line.presence[r * self.stride - line.first] == 0.0 && (r == first || r + 1 == end || self.is_gone(line, r)) {
@@ -120,7 +133,8 @@ impl<'a> Courses<'a> {
             self.leave_borders(line, first, &inside, &mut is_in);
         }
         let spans = self.spans(first, &inside, &is_in);
-        let mut course = Course { first, spans, weight: vec![0.0; end - first], ..Course::default() };
+        let inside = inside.iter().map(|&s| s as f32).collect();
+        let mut course = Course { first, spans, inside, weight: vec![0.0; end - first], ..Course::default() };
         for span in &course.spans {
             let range = self.readings_in(*span);
             for r in range.start.max(first)..range.end.min(end) {
@@ -157,7 +171,7 @@ impl<'a> Courses<'a> {
     }
 
     fn spans(&self, first: usize, inside: &[f64], is_in: &[bool]) -> Vec<Span> {
-        let mut spans = Vec::new();
+        let mut spans: Vec<Span> = Vec::new();
         for run in runs(is_in) {
             // To where the border is crossed between two readings.
             let crossing = |within: usize, beyond: Option<usize>| match beyond.filter(|&b| b < inside.len()) {
@@ -173,10 +187,15 @@ impl<'a> Courses<'a> {
                 to: crossing(last, Some(last + 1)),
                 is_cut: [start > 0 && inside[start - 1] > -1.0, last + 1 < inside.len() && inside[last + 1] > -1.0],
             };
-            if span.to - span.from >= STUB * self.family.pitch {
-                spans.push(span);
-            }
+            spans.push(span);
         }
+        // A line that leaves its region and comes back keeps the gap to itself.
+        for i in 1..spans.len() {
+            let lacking = 0.5 * (self.family.gap.distance - (spans[i].from - spans[i - 1].to)).max(0.0);
+            spans[i - 1].to -= lacking;
+            spans[i].from += lacking;
+        }
+        spans.retain(|span| span.to - span.from >= STUB * self.family.pitch);
         spans
     }
 
@@ -195,8 +214,8 @@ impl<'a> Courses<'a> {
     fn demand(&mut self) {
         let sides = self.sides();
         let step = self.step();
-        let courses = std::mem::take(&mut self.courses);
-        self.courses = courses
+        let courses = std::mem::take(&mut self.lines);
+        self.lines = courses
             .into_par_iter()
             .zip(&self.family.lines)
             .zip(sides)
@@ -211,10 +230,13 @@ impl<'a> Courses<'a> {
                     let slope =
                         (self.height(line, course.first + b) - self.height(line, course.first + a)) / ((b - a) as f64 * step);
                     let stretch = slope.hypot(1.0);
-                    let (area, within) = self.strip(self.place(r), self.height(line, r), sides[i]);
+                    let (area, within) = self.strip(self.place(r), self.height(line, r), sides[i], f64::from(course.inside[i]));
                     course.ink[i] = (area / within.max(1e-9)) as f32;
                     course.stretch[i] = stretch as f32;
-                    course.width[i] = (area / stretch).min(self.wanted.width_max) as f32;
+                    course.width[i] = (area / stretch) as f32;
+                }
+                for _ in 0..SMOOTHING_ROUNDS {
+                    smooth(&mut course.width, &course.weight);
                 }
                 course
             })
@@ -222,7 +244,7 @@ impl<'a> Courses<'a> {
     }
 
     /// Ink of a line's strip at one place and how much of it lies inside the region, in millimetres across.
-    fn strip(&self, u: f64, height: f64, sides: Sides) -> (f64, f64) {
+    fn strip(&self, u: f64, height: f64, sides: Sides, inside: f64) -> (f64, f64) {
         let ground = self.wanted.ground;
         let soft = ground.grid.pixel_mm();
         let (mut area, mut within) = (0.0, 0.0);
@@ -230,7 +252,12 @@ impl<'a> Courses<'a> {
             let slice = extent / DEPTHS as f64;
             for i in 0..DEPTHS {
                 let p = self.family.frame.to_page(u, height + side * slice * (i as f64 + 0.5));
-                let inside = (0.5 + ground.inside_or_over(self.wanted.region.label, p) / soft).clamp(0.0, 1.0);
+                // Deep inside, which most of a region is, there is nothing to look up.
+                let inside = if inside > extent + soft {
+                    1.0
+                } else {
+                    (0.5 + ground.inside_or_over(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
+                };
                 within += slice * inside;
                 if inside > 0.0 {
                     area += slice * inside * f64::from(ground.grid.read(self.wanted.ink, p)).clamp(0.0, 1.0);
@@ -242,16 +269,16 @@ impl<'a> Courses<'a> {
 
     /// For every reading of every line what lies below and above.
     fn sides(&self) -> Vec<Vec<Sides>> {
-        let mut sides: Vec<Vec<Sides>> = self.courses.iter().map(|c| vec![Sides::default(); c.weight.len()]).collect();
+        let mut sides: Vec<Vec<Sides>> = self.lines.iter().map(|c| vec![Sides::default(); c.weight.len()]).collect();
         let columns = self.family.columns / self.stride + 1;
-        let upwards: Vec<usize> = (0..self.courses.len()).collect();
+        let upwards: Vec<usize> = (0..self.lines.len()).collect();
         let downwards: Vec<usize> = upwards.iter().rev().copied().collect();
-        let reach = REACH * self.family.pitch;
+        let (reach, neighbourhood) = (REACH * self.family.pitch, NEIGHBOURHOOD * self.family.pitch);
         for (side, order) in [upwards, downwards].into_iter().enumerate() {
             // The last line met in each column: height, weight, width.
             let mut met = vec![(f64::INFINITY, 0.0_f32, 0.0_f32); columns + 1];
             for k in order {
-                let course = &self.courses[k];
+                let course = &self.lines[k];
                 for (i, &weight) in course.weight.iter().enumerate().filter(|(_, w)| **w > 0.0) {
                     let r = course.first + i;
                     let height = self.height(&self.family.lines[k], r);
@@ -260,7 +287,7 @@ impl<'a> Courses<'a> {
                     let distance = (height - other).abs();
                     let share = f64::from(weight / (weight + other_weight));
                     let out = &mut sides[k][i];
-                    out.border[side] = if distance < 2.0 * reach { (distance * share) as f32 } else { reach as f32 };
+                    out.border[side] = if distance < neighbourhood { (distance * share) as f32 } else { reach as f32 };
                     out.neighbour[side] = distance.min(1e6) as f32;
                     out.width[side] = other_width;
                     met[r] = (height, weight, width);
@@ -273,7 +300,7 @@ impl<'a> Courses<'a> {
     /// Widths at which neighbours touch at most.
     fn limit(&mut self) {
         let sides = self.sides();
-        for (course, sides) in self.courses.iter_mut().zip(sides) {
+        for (course, sides) in self.lines.iter_mut().zip(sides) {
             course.room = (0..course.width.len())
                 .map(|i| {
                     let (own, side, stretch) = (course.width[i], sides[i], course.stretch[i]);
@@ -287,6 +314,19 @@ impl<'a> Courses<'a> {
                 .collect();
             course.width.iter_mut().zip(&course.room).for_each(|(width, room)| *width = width.min(*room));
         }
+    }
+}
+
+/// One round of 1-2-1 smoothing among the readings that are there; the sum stays.
+fn smooth(values: &mut [f32], weight: &[f32]) {
+    let mut carried = 0.0;
+    for i in 1..values.len() {
+        let flow = if weight[i - 1] > 0.0 && weight[i] > 0.0 { 0.25 * (values[i] - values[i - 1]) } else { 0.0 };
+        values[i - 1] += flow - carried;
+        carried = flow;
+    }
+    if let Some(last) = values.last_mut() {
+        *last -= carried;
     }
 }
 
