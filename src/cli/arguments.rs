@@ -99,9 +99,16 @@ pub(super) struct PictureOptions {
     /// Distance of neighbouring dots or lines [default: the style's].
     #[arg(long, value_name = "LENGTH", value_parser = length_above_zero, allow_negative_numbers = true)]
     pub pitch: Option<f64>,
-    /// A region, white inside, on the photograph's pixel grid; ROLE is subject, detail, edges or isophotes.
+    /// A region, white inside, on the photograph's pixel grid; ROLE is subject, detail, edges or isophotes, or
+    /// scribbles with one colour for each region.
     #[arg(long, value_name = "ROLE=FILE", value_parser = key_value)]
     pub mask: Vec<(String, String)>,
+    /// Depth map of 8 or 16 bits on the photograph's pixel grid: white is near, 0 is unknown or background.
+    #[arg(long, value_name = "FILE")]
+    pub depth: Option<String>,
+    /// In the depth map white is far.
+    #[arg(long, requires = "depth")]
+    pub depth_far_white: bool,
     /// What the ink must match: CIE L*/100 or luminance Y.
     #[arg(long, value_enum, default_value_t = Tone::Lightness)]
     pub tone: Tone,

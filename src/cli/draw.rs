@@ -11,7 +11,7 @@ use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
-use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_pdf, write_svg};
 use serde_json::{Value, json};
@@ -115,6 +115,7 @@ pub(super) struct Task<'a> {
     pub settings: Settings,
     photograph: Photograph,
     masks: Vec<(MaskRole, String, Photograph)>,
+    depth: Option<(String, Photograph)>,
     layout: Layout,
 }
 
@@ -127,15 +128,21 @@ impl<'a> Task<'a> {
         }
         let mask_files: Vec<(MaskRole, &str)> =
             options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
+        if options.depth.is_some() && !style.uses_depth() {
+            let able: Vec<&str> = style::STYLES.iter().filter(|s| s.uses_depth()).map(|s| s.name()).collect();
+            let able = able.join(", ");
+            return Err(Failure::Usage(format!("--depth: {} has no use for a depth map; it is for {able}", style.name())));
+        }
         let photograph = photograph(&options.photo)?;
         let masks = mask_files
             .into_iter()
             .map(|(role, file)| Ok((role, file.to_owned(), self::photograph(file)?)))
             .collect::<Result<_, Failure>>()?;
+        let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
         let layout = lay_out(options, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
-        Ok(Self { options, style, settings, photograph, masks, layout })
+        Ok(Self { options, style, settings, photograph, masks, depth, layout })
     }
 
     pub(super) fn draw(&self, observer: &dyn Observer) -> Result<Drawing, Failure> {
@@ -168,6 +175,10 @@ impl<'a> Task<'a> {
         for (role, name, mask) in &self.masks {
             portrait.add_mask(*role, mask, &self.photograph, self.layout.crop).map_err(about(name))?;
         }
+        if let Some((name, depth)) = &self.depth {
+            let sense = if self.options.depth_far_white { DepthSense::FarWhite } else { DepthSense::NearWhite };
+            portrait.add_depth(depth, sense, &self.photograph, self.layout.crop).map_err(about(name))?;
+        }
         Ok(portrait)
     }
 
@@ -183,11 +194,15 @@ impl<'a> Task<'a> {
             .map(|((role, _), (_, name, mask))| (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 })))
             .collect();
         let picture = self.options;
+        let depth = self.depth.as_ref().map(
+            |(name, depth)| json!({ "file": file_name(name), "sha256": depth.info.sha256, "far_white": picture.depth_far_white }),
+        );
         json!({
             "drypoint": env!("CARGO_PKG_VERSION"),
             "command": "draw",
             "source": { "file": file_name(&picture.photo), "sha256": self.photograph.info.sha256 },
             "masks": masks,
+            "depth": depth,
             "style": self.style.name(),
             "set": set,
             "seed": picture.seed,

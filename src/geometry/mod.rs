@@ -2,12 +2,14 @@
 //!
 //! In and out: points, polygons and `kurbo` curves. Nothing here knows of photographs, styles or machines.
 
+mod apart;
 mod arc;
 mod blob;
 mod blue_noise;
 mod clip;
 mod direct_search;
 mod disc;
+mod graph;
 mod inset;
 mod length;
 mod polyline;
@@ -16,11 +18,13 @@ mod smooth;
 mod swell;
 mod thinning;
 
+pub use apart::Gap;
 pub use arc::{Step, fit_arcs, flatten_arc};
 pub use blob::blob;
 pub use blue_noise::blue_noise_order;
 pub use clip::{clip_disc, clip_polygon, clip_polyline, half_plane};
 pub use disc::{disc_area_in, radius_for_area};
+pub use graph::{FitTolerance, Graph, GraphNode};
 pub use inset::Insets;
 pub use length::{LengthError, parse_length, parse_size};
 pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, resample, simplify};

@@ -9,6 +9,7 @@ mod binary;
 mod blur;
 mod canny;
 mod gradient;
+mod scale;
 mod thin;
 
 pub use bilateral::bilateral;
@@ -16,6 +17,7 @@ pub use binary::{components, dilate, majority, remove_components};
 pub use blur::{box_blur, gaussian_blur};
 pub use canny::{Thresholds, canny};
 pub use gradient::sobel;
+pub use scale::{enlarge, reduce};
 pub use thin::thin;
 
 use rayon::prelude::*;
@@ -118,6 +120,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 
     /// The pixel at `(x, y)`, which must be inside.
+    #[inline]
     pub fn get(&self, x: usize, y: usize) -> T {
         self.data[y * self.width + x]
     }
@@ -128,6 +131,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 
     /// The pixel at `(x, y)`, or the border pixel nearest to it.
+    #[inline]
     pub fn clamped(&self, x: isize, y: isize) -> T {
         let x = x.clamp(0, self.width as isize - 1) as usize;
         let y = y.clamp(0, self.height as isize - 1) as usize;
@@ -143,6 +147,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
 
 impl Raster<f32> {
     /// The value at a place in pixel units (`0.5, 0.5` is the centre of the first pixel), bilinear between centres.
+    #[inline]
     pub fn sample(&self, x: f64, y: f64) -> f32 {
         let (fx, fy) = (x - 0.5, y - 0.5);
         let (x0, y0) = (fx.floor(), fy.floor());

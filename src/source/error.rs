@@ -72,6 +72,16 @@ pub enum SourceError {
         /// Rows of the photograph.
         expected_height: u32,
     },
+    /// Scribbles without a colour, or with too many to be regions.
+    #[error(
+        "has {colours} colours that could mark regions; mark 1 to {most} regions, one flat colour each, on black or transparent, without soft brushes or JPEG"
+    )]
+    Scribbles {
+        /// Colours that cover enough of the picture.
+        colours: usize,
+        /// Colours allowed.
+        most: usize,
+    },
     /// A crop without pixels, or outside the picture.
     #[error("has no pixel inside the crop {x},{y},{w},{h}: the picture is {width} x {height} px")]
     EmptyCrop {

@@ -6,12 +6,16 @@
 mod cmyk;
 mod colour;
 mod decode;
+mod depth;
 mod error;
 mod jpeg;
 mod linear;
 mod portrait;
+mod scribbles;
 
 pub use colour::{lightness, luminance, srgb_to_linear};
 pub use decode::{Limits, Photograph, SourceInfo};
+pub use depth::DepthSense;
 pub use error::SourceError;
 pub use portrait::{Crop, MaskRole, Placement, Portrait, ToneCurve, ToneTarget, fill_box};
+pub use scribbles::Scribbles;

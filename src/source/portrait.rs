@@ -2,7 +2,9 @@
 
 use super::colour::{lightness, luminance};
 use super::decode::Photograph;
+use super::depth::{DepthSense, read_depth};
 use super::error::SourceError;
+use super::scribbles::Scribbles;
 use crate::drawing::Page;
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
@@ -170,6 +172,10 @@ pub struct Portrait {
     is_on_white: bool,
     /// Other masks, 0 to 1.
     pub masks: BTreeMap<MaskRole, Raster<f32>>,
+    /// Nearness, 1 nearest and towards 0 far; 0 where nothing is known or there is background.
+    pub depth: Option<Raster<f32>>,
+    /// Regions marked by hand.
+    pub scribbles: Option<Scribbles>,
 }
 
 impl Portrait {
@@ -192,7 +198,18 @@ impl Portrait {
             ToneTarget::Lightness => lightness.map(|t| curve.apply(t)),
             ToneTarget::Linear => light.map(|rgb| curve.apply(luminance(rgb))),
         };
-        Ok(Self { page, placement, light, tone, lightness, subject, is_on_white: true, masks: BTreeMap::new() })
+        Ok(Self {
+            page,
+            placement,
+            light,
+            tone,
+            lightness,
+            subject,
+            is_on_white: true,
+            masks: BTreeMap::new(),
+            depth: None,
+            scribbles: None,
+        })
     }
 
     /// Adds a mask, resampled alike; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
@@ -204,13 +221,10 @@ impl Portrait {
         photograph: &Photograph,
         crop: Crop,
     ) -> Result<(), SourceError> {
-        if (mask.width(), mask.height()) != (photograph.width(), photograph.height()) {
-            return Err(SourceError::OtherSize {
-                width: mask.width(),
-                height: mask.height(),
-                expected_width: photograph.width(),
-                expected_height: photograph.height(),
-            });
+        check_grid(mask, photograph)?;
+        if role == MaskRole::Scribbles {
+            self.scribbles = Some(Scribbles::read(mask, crop.within(mask)?, self.placement)?);
+            return Ok(());
         }
         let planes = resample(mask, crop, self.placement)?;
         // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
@@ -228,6 +242,19 @@ impl Portrait {
         Ok(())
     }
 
+    /// Adds a depth map, resampled alike.
+    pub fn add_depth(
+        &mut self,
+        depth: &Photograph,
+        sense: DepthSense,
+        photograph: &Photograph,
+        crop: Crop,
+    ) -> Result<(), SourceError> {
+        check_grid(depth, photograph)?;
+        self.depth = Some(read_depth(depth, sense, crop.within(depth)?, self.placement));
+        Ok(())
+    }
+
     /// The wanted ink of a pixel, 0 to 1: nothing outside the subject.
     pub fn ink(&self) -> Raster<f32> {
         self.on_white(&self.tone).map(|tone| 1.0 - tone)
@@ -237,6 +264,18 @@ impl Portrait {
     pub fn on_white(&self, tone: &Raster<f32>) -> Raster<f32> {
         if self.is_on_white { tone.clone() } else { tone.zip_map(&self.subject, |tone, subject| 1.0 - (1.0 - tone) * subject) }
     }
+}
+
+fn check_grid(mask: &Photograph, photograph: &Photograph) -> Result<(), SourceError> {
+    if (mask.width(), mask.height()) == (photograph.width(), photograph.height()) {
+        return Ok(());
+    }
+    Err(SourceError::OtherSize {
+        width: mask.width(),
+        height: mask.height(),
+        expected_width: photograph.width(),
+        expected_height: photograph.height(),
+    })
 }
 
 /// Linear light on white, and alpha, at the working resolution; in bands, so that memory does not grow with the photograph.

@@ -3,6 +3,7 @@
 //! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
+mod engrave;
 mod feature_line;
 mod grid;
 mod hedcut;
@@ -29,6 +30,10 @@ pub trait Style: Sync {
     fn parameters(&self) -> &'static [Parameter];
     /// The mask roles that it uses; the others are refused.
     fn masks(&self) -> &'static [MaskRole];
+    /// Whether it can use a depth map; else one is refused.
+    fn uses_depth(&self) -> bool {
+        false
+    }
     /// Working pixels a millimetre, given the masks at hand.
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
     /// Draws the portrait.
@@ -36,7 +41,7 @@ pub trait Style: Sync {
 }
 
 /// Every style, the default first.
-pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid];
+pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid, &engrave::Engrave];
 
 /// Finds a style by name.
 pub fn find(name: &str) -> Option<&'static dyn Style> {

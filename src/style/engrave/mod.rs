@@ -1,0 +1,235 @@
+//! The engraving: parallel lines that depth bends over the form, that swell with the dark, cross where it is darkest and break
+//! into dots where it is light (Galarza 2017).
+
+mod angles;
+mod breaks;
+mod depths;
+mod ground;
+mod lines;
+mod outline;
+mod parameters;
+mod presence;
+mod regions;
+mod relief;
+mod strokes;
+mod tones;
+mod widths;
+
+use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use crate::drawing::{Colour, Drawing, Layer, Mark};
+use crate::geometry::Point;
+use crate::raster::Raster;
+use crate::source::{MaskRole, Portrait};
+use breaks::Breaking;
+use ground::{Ground, Region};
+use lines::{Family, Frame, Laying};
+use parameters::{Engraving, Look};
+use rayon::prelude::*;
+use relief::Relief;
+use tones::Layers;
+use widths::{Courses, Wanted};
+
+/// An engraving's lines are whole from this part of the ink at which they are crossed: at 1 the cuts begin beside the crossings
+/// and cloth at half tone is speckled with both.
+const WHOLE_LINES: f64 = 0.75;
+
+/// The style.
+pub(super) struct Engrave;
+
+impl Style for Engrave {
+    fn name(&self) -> &'static str {
+        "engrave"
+    }
+
+    fn summary(&self) -> &'static str {
+        "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes"
+    }
+
+    fn source(&self) -> &'static str {
+        "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects"
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        parameters::PARAMETERS
+    }
+
+    fn masks(&self) -> &'static [MaskRole] {
+        &[MaskRole::Subject, MaskRole::Scribbles]
+    }
+
+    fn uses_depth(&self) -> bool {
+        true
+    }
+
+    fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
+        parameters::PIXELS_PER_PITCH / settings.number("pitch")
+    }
+
+    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+        Drawer { portrait, parameters: Engraving::new(settings), seed, observer }.draw()
+    }
+}
+
+/// One drawing in the making.
+struct Drawer<'a> {
+    portrait: &'a Portrait,
+    parameters: Engraving,
+    seed: u64,
+    observer: &'a dyn Observer,
+}
+
+/// Marks of the lines and of those that cross them.
+type Marks = [Vec<Mark>; 2];
+
+impl Drawer<'_> {
+    /// The thesis' steps in its order.
+    fn draw(&self) -> Result<Drawing, StyleError> {
+        let relief = self.relief();
+        let ink = self.ink(&relief);
+        self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
+        if ink.pixels().iter().all(|&v| v <= 0.0) {
+            let why = "the picture, or the part inside the subject mask and with a known depth, asks for no ink anywhere";
+            return Err(StyleError::NothingToDraw(why.to_owned()));
+        }
+        let layers = tones::layers(&ink, self.parameters.look, self.parameters.threshold);
+        self.observer.picture("tone-of-lines", &|| Picture::Grey(layers.lines.map(|v| 1.0 - v)));
+        if let Some(cross) = &layers.cross {
+            self.observer.picture("tone-of-cross-lines", &|| Picture::Grey(cross.map(|v| 1.0 - v)));
+        }
+        let ground = self.ground(&relief);
+        self.observer.picture("regions", &|| Picture::Labels(ground.labels.clone()));
+        self.check()?;
+        self.observer.begin("lines");
+        let marks = self.all_regions(&ground, &relief, &layers);
+        self.check()?;
+        let mut drawing = self.drawing(marks);
+        if self.parameters.has_outline {
+            drawing.layers.push(self.outlines());
+        }
+        if self.parameters.is_on_black {
+            drawing.page.paper = Colour { r: 0, g: 0, b: 0 };
+            drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks).for_each(whiten);
+        }
+        let drawing = drawing.clipped(self.portrait.page.rect());
+        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
+        Ok(drawing)
+    }
+
+    fn check(&self) -> Result<(), StyleError> {
+        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
+    }
+
+    /// The wanted ink; on black paper the lines are the light.
+    fn ink(&self, relief: &Relief) -> Raster<f32> {
+        let tone = if self.parameters.is_lit { self.lit(relief) } else { self.portrait.on_white(&self.portrait.tone) };
+        let ink = if self.parameters.is_on_black { tone } else { tone.map(|t| 1.0 - t) };
+        ink.zip_map(&relief.cover, |ink, cover| if cover >= 0.02 { ink } else { 0.0 })
+    }
+
+    /// Every region's marks, in the order of the regions.
+    fn all_regions(&self, ground: &Ground, relief: &Relief, layers: &Layers) -> Marks {
+        let regions: Vec<Marks> = ground.regions.par_iter().map(|region| self.region(*region, ground, relief, layers)).collect();
+        let mut all: Marks = [Vec::new(), Vec::new()];
+        for marks in regions {
+            for (all, marks) in all.iter_mut().zip(marks) {
+                all.extend(marks);
+            }
+        }
+        all
+    }
+
+    fn region(&self, region: Region, ground: &Ground, relief: &Relief, layers: &Layers) -> Marks {
+        let (family, crossing) = rayon::join(
+            || self.family(region, region.angle, ground, relief),
+            || self.family(region, region.angle + self.parameters.cross_angle, ground, relief),
+        );
+        let wanted = |ink| Wanted { ground, region, ink, width_max: self.parameters.width_max };
+        let breaking = self.breaking(ground);
+        let lines = || {
+            let breaking = Breaking { between: &crossing, ..breaking(&crossing) };
+            marks(&Courses::new(&family, wanted(&layers.lines)), &breaking)
+        };
+        let cross = || {
+            layers.cross.as_ref().map_or_else(Vec::new, |ink| {
+                let breaking = Breaking {
+                    cover: Some(&layers.lines),
+                    interruption: None,
+                    is_staggered: false,
+                    period: 1.0,
+                    ..breaking(&family)
+                };
+                marks(&Courses::new(&crossing, wanted(ink)), &breaking)
+            })
+        };
+        let (lines, cross) = rayon::join(lines, cross);
+        [lines, cross]
+    }
+
+    fn family(&self, region: Region, angle: f64, ground: &Ground, relief: &Relief) -> Family {
+        let p = &self.parameters;
+        let range = [0.0, p.displacement];
+        let laying = Laying {
+            pitch: p.pitch,
+            sampling: p.sampling,
+            min_gap: p.min_gap,
+            displaced: (range[0].min(range[1]), range[0].max(range[1])),
+        };
+        let displacement = |place: Point| p.displacement * f64::from(ground.grid.read(&relief.nearness, place));
+        let mut family = Family::new(Frame::new(angle), region.bounds, laying, displacement);
+        family.thin_out();
+        family.fill_in();
+        family
+    }
+
+    fn breaking<'b>(&self, ground: &Ground) -> impl Fn(&'b Family) -> Breaking<'b> {
+        let p = &self.parameters;
+        let (look, grid) = (p.look, ground.grid);
+        let (thinnest, dot_min, threshold) = (p.thinnest, p.dot_min, p.threshold);
+        // Stipples stand as near to each other along a line as across.
+        let (cut_out, period) = (p.cut_out, if look == Look::Stipple { 1.0 } else { (p.dash / p.pitch).max(0.25) });
+        move |between| Breaking {
+            between,
+            period,
+            is_staggered: look != Look::Engraving,
+            cover: None,
+            grid,
+            thinnest,
+            interruption: (look == Look::Engraving).then_some((WHOLE_LINES * (1.0 - threshold), cut_out)),
+            is_stippled: look == Look::Stipple,
+            dot_min,
+        }
+    }
+
+    fn drawing(&self, [lines, cross]: Marks) -> Drawing {
+        let mut layers = vec![Layer::new("lines", 1)];
+        layers[0].marks = lines;
+        if !cross.is_empty() {
+            layers.push(Layer::new("cross lines", 1));
+            layers[1].marks = cross;
+        }
+        Drawing { page: self.portrait.page, layers }
+    }
+
+    /// A length of the page in working pixels.
+    fn pixels(&self, mm: f64) -> f64 {
+        mm / self.portrait.placement.mm_per_pixel()
+    }
+}
+
+/// The marks of every line, in order.
+fn marks(courses: &Courses<'_>, breaking: &Breaking<'_>) -> Vec<Mark> {
+    let of_line = |k: usize| -> Vec<Mark> {
+        let line = &courses.family.lines[k];
+        breaking.pieces(courses, k).iter().filter_map(|piece| strokes::mark(courses.family, line, piece)).collect()
+    };
+    let lines: Vec<Vec<Mark>> = (0..courses.lines.len()).into_par_iter().map(of_line).collect();
+    lines.into_iter().flatten().collect()
+}
+
+fn whiten(mark: &mut Mark) {
+    match mark {
+        Mark::Dot(dot) => dot.colour = Some(Colour::WHITE),
+        Mark::Stroke(stroke) => stroke.colour = Some(Colour::WHITE),
+        Mark::Area(area) => area.colour = Some(Colour::WHITE),
+    }
+}

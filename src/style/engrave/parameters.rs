@@ -1,0 +1,261 @@
+//! The engraving's parameters and their values.
+
+use crate::style::{Default, Kind, Parameter, Settings};
+
+/// Working pixels a pitch.
+pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
+
+/// All that a user can set.
+pub(super) const PARAMETERS: &[Parameter] = &[
+    Parameter {
+        name: "pitch",
+        kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
+        meaning: "distance of neighbouring lines where the depth is flat",
+        source: "Galarza 3.5.1, delta_y",
+    },
+    Parameter {
+        name: "look",
+        kind: Kind::Choice(&["crosshatch", "engraving", "hatch", "net", "stipple", "contour"]),
+        meaning: "crosshatch: swelling lines, crossed in the dark, dots in the light; engraving: the same, and white lines cut through them in the half light; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in the shade only",
+        source: "Galarza 4.1 and 4.4",
+    },
+    Parameter {
+        name: "displacement",
+        kind: Kind::Length { default: Default::Pitches(14.0), least: -1000.0, most: 1000.0 },
+        meaning: "how far the nearest depth moves a line to its left (up, at angle 0)",
+        source: "Galarza 3.5.1, phi, equation 3.5",
+    },
+    Parameter {
+        name: "sampling",
+        kind: Kind::Length { default: Default::Pitches(0.5), least: 0.01, most: 100.0 },
+        meaning: "distance of the depths that a line is bent by; larger draws rounder, simpler lines",
+        source: "Galarza 3.5.1, delta_x",
+    },
+    Parameter {
+        name: "width_max",
+        kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 100.0 },
+        meaning: "greatest width of a line; too little loses the darkest tones",
+        source: "Galarza 3.7, f_w",
+    },
+    Parameter {
+        name: "threshold",
+        kind: Kind::Number { default: 0.5, least: 0.0, most: 1.0 },
+        meaning: "tone below which lines are crossed by a second layer (0 black, 1 white)",
+        source: "Galarza 3.2, tau",
+    },
+    Parameter {
+        name: "angle",
+        kind: Kind::Number { default: 0.0, least: -360.0, most: 360.0 },
+        meaning: "direction of the lines in degrees, anticlockwise from the right",
+        source: "Galarza 3.6, Theta",
+    },
+    Parameter {
+        name: "cross_angle",
+        kind: Kind::Number { default: 90.0, least: 10.0, most: 170.0 },
+        meaning: "from the lines to those that cross them, in degrees",
+        source: "Galarza 3.6, alpha",
+    },
+    Parameter {
+        name: "regions",
+        kind: Kind::Choice(&["auto", "one", "superpixels"]),
+        meaning: "what has lines of its own direction: auto is the scribbles where --mask scribbles= is given, else one; superpixels are small regions of like colour",
+        source: "Galarza 3.3",
+    },
+    Parameter {
+        name: "region_size",
+        kind: Kind::Length { default: Default::Pitches(16.0), least: 0.5, most: 1000.0 },
+        meaning: "side of a superpixel",
+        source: "Galarza 2.3, SLIC",
+    },
+    Parameter {
+        name: "angles",
+        kind: Kind::Choice(&["auto", "given", "flow", "random", "hue"]),
+        meaning: "direction in each region: the angle given; along the edges' flow; random; hue: half the hue of its scribble (red 0, yellow 30, green 60, cyan 90, blue 120, magenta 150 degrees); auto is flow for superpixels, hue for scribbles, else given",
+        source: "Galarza 3.3.1 and 3.4",
+    },
+    Parameter {
+        name: "overlap",
+        kind: Kind::Length { default: Default::Millimetres(0.0), least: 0.0, most: 100.0 },
+        meaning: "how far lines run on into the next region",
+        source: "Galarza 3.7, dilation of the masks",
+    },
+    Parameter {
+        name: "min_gap",
+        kind: Kind::Length { default: Default::Pitches(0.25), least: 0.001, most: 50.0 },
+        meaning: "least distance of neighbouring lines of a layer, centre to centre; at least a tenth of the pitch, at most three quarters",
+        source: "the thesis lists crossing lines as its limit (4.2.2)",
+    },
+    Parameter {
+        name: "smoothing",
+        kind: Kind::Length { default: Default::Pitches(0.6), least: 0.0, most: 100.0 },
+        meaning: "smoothing of the depth within its edges",
+        source: "Galarza 5.1 asks for depth without noise",
+    },
+    Parameter {
+        name: "depth_from",
+        kind: Kind::Choice(&["shape", "inflate", "luminance"]),
+        meaning: "without --depth: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges, for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
+        source: "Galarza 4.4 and 5.2",
+    },
+    Parameter {
+        name: "tone_from",
+        kind: Kind::Choice(&["photo", "depth"]),
+        meaning: "depth: the tone is the depth map lit by a lamp, for when there is no photograph",
+        source: "Galarza 3.2",
+    },
+    Parameter {
+        name: "light_azimuth",
+        kind: Kind::Number { default: 135.0, least: -360.0, most: 360.0 },
+        meaning: "where the lamp stands: degrees anticlockwise from the right (135: upper left); also the light that depth_from=shape assumes",
+        source: "Galarza 3.2",
+    },
+    Parameter {
+        name: "light_height",
+        kind: Kind::Number { default: 45.0, least: 5.0, most: 90.0 },
+        meaning: "how high the lamp stands, in degrees above the page",
+        source: "Galarza 3.2",
+    },
+    Parameter {
+        name: "relief",
+        kind: Kind::Length { default: Default::Pitches(40.0), least: 0.0, most: 10_000.0 },
+        meaning: "with tone_from=depth: height of the nearest depth above the farthest",
+        source: "",
+    },
+    Parameter {
+        name: "thinnest",
+        kind: Kind::Length { default: Default::Pitches(0.14), least: 0.0, most: 50.0 },
+        meaning: "width below which a line breaks into dashes and dots; 0 never",
+        source: "the engraver's dotted ends",
+    },
+    Parameter {
+        name: "dash",
+        kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 1000.0 },
+        meaning: "from one dash to the next along a line that is interrupted",
+        source: "Galarza 4.1",
+    },
+    Parameter {
+        name: "cut_out",
+        kind: Kind::Number { default: 0.3, least: 0.0, most: 0.9 },
+        meaning: "with look=engraving: how much of a line's length the white crossing lines take out of it in the light",
+        source: "Galarza 4.1: hatching less thick crosshatching",
+    },
+    Parameter {
+        name: "dot_min",
+        kind: Kind::Length { default: Default::Pitches(0.12), least: 0.0, most: 50.0 },
+        meaning: "diameter of the smallest dot; what asks for less has fewer dots",
+        source: "",
+    },
+    Parameter {
+        name: "ground",
+        kind: Kind::Choice(&["white", "black"]),
+        meaning: "black: white lines on black paper",
+        source: "Galarza 4.4, figure 4.14",
+    },
+    Parameter {
+        name: "outline",
+        kind: Kind::Choice(&["off", "on"]),
+        meaning: "draw the photograph's coherent lines on top; their ink comes on top of the tone",
+        source: "Galarza 5.2; Kang et al. 2007",
+    },
+    Parameter {
+        name: "outline_width",
+        kind: Kind::Length { default: Default::Pitches(0.5), least: 0.01, most: 50.0 },
+        meaning: "width of the outlines in their middle",
+        source: "",
+    },
+];
+
+/// How lines are laid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    Engraving,
+    Crosshatch,
+    Hatch,
+    Net,
+    Stipple,
+    Contour,
+}
+
+/// Where depth comes from when no map is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DepthFrom {
+    Shape,
+    Inflate,
+    Luminance,
+}
+
+/// The values of one drawing, lengths in millimetres, angles in degrees.
+#[derive(Clone, Debug)]
+pub(super) struct Engraving {
+    pub pitch: f64,
+    pub look: Look,
+    pub displacement: f64,
+    pub sampling: f64,
+    pub width_max: f64,
+    pub threshold: f64,
+    pub angle: f64,
+    pub cross_angle: f64,
+    pub regions: &'static str,
+    pub region_size: f64,
+    pub angles: &'static str,
+    pub overlap: f64,
+    pub min_gap: f64,
+    pub smoothing: f64,
+    pub depth_from: DepthFrom,
+    pub is_lit: bool,
+    pub light_azimuth: f64,
+    pub light_height: f64,
+    pub relief: f64,
+    pub thinnest: f64,
+    pub dash: f64,
+    pub cut_out: f64,
+    pub dot_min: f64,
+    pub is_on_black: bool,
+    pub has_outline: bool,
+    pub outline_width: f64,
+}
+
+impl Engraving {
+    pub(super) fn new(settings: &Settings) -> Self {
+        let pitch = settings.number("pitch");
+        Self {
+            pitch,
+            look: match settings.word("look") {
+                "engraving" => Look::Engraving,
+                "hatch" => Look::Hatch,
+                "net" => Look::Net,
+                "stipple" => Look::Stipple,
+                "contour" => Look::Contour,
+                _ => Look::Crosshatch,
+            },
+            displacement: settings.number("displacement"),
+            sampling: settings.number("sampling").max(0.05 * pitch),
+            width_max: settings.number("width_max"),
+            threshold: settings.number("threshold"),
+            angle: settings.number("angle"),
+            cross_angle: settings.number("cross_angle"),
+            regions: settings.word("regions"),
+            region_size: settings.number("region_size").max(2.0 * pitch),
+            angles: settings.word("angles"),
+            overlap: settings.number("overlap"),
+            min_gap: settings.number("min_gap").clamp(0.1 * pitch, 0.75 * pitch),
+            smoothing: settings.number("smoothing"),
+            depth_from: match settings.word("depth_from") {
+                "inflate" => DepthFrom::Inflate,
+                "luminance" => DepthFrom::Luminance,
+                _ => DepthFrom::Shape,
+            },
+            is_lit: settings.word("tone_from") == "depth",
+            light_azimuth: settings.number("light_azimuth"),
+            light_height: settings.number("light_height"),
+            relief: settings.number("relief"),
+            thinnest: settings.number("thinnest"),
+            dash: settings.number("dash"),
+            cut_out: settings.number("cut_out"),
+            dot_min: settings.number("dot_min"),
+            is_on_black: settings.word("ground") == "black",
+            has_outline: settings.word("outline") == "on",
+            outline_width: settings.number("outline_width"),
+        }
+    }
+}

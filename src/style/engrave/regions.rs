@@ -1,0 +1,168 @@
+//! Step 3: regions, each with lines of a direction of its own (Galarza 2017, sections 3.3 and 3.4).
+
+use super::Drawer;
+use super::ground::{Grid, Ground, Region};
+use super::relief::Relief;
+use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
+use crate::geometry::{Rect, Vec2};
+use crate::raster::{Raster, gaussian_blur, sobel};
+use rayon::prelude::*;
+
+/// Distance to a border where there is none, in millimetres.
+const NO_BORDER: f32 = 1e6;
+/// Standard deviation of the smoothing of regions' borders, in pitches: less leaves the pixels' stairs, more rounds off corners.
+const BORDER_SMOOTHING: f64 = 0.5;
+/// SLIC's compactness for CIE Lab from 0 to 100, and its rounds (Achanta et al. 2012).
+const COMPACTNESS: f32 = 10.0;
+const ROUNDS: u32 = 10;
+
+impl Drawer<'_> {
+    pub(super) fn ground(&self, relief: &Relief) -> Ground {
+        self.observer.begin("regions");
+        let placement = &self.portrait.placement;
+        let scale = placement.mm_per_pixel() as f32;
+        let is_drawn = |label: i32, cover: f32| if cover >= 0.5 { label } else { 0 };
+        let silhouette = contours(&relief.cover, 0.5);
+        let parts = self.parts();
+        let (labels, mut curves) = match &parts {
+            Some(parts) => smooth_borders(parts, (BORDER_SMOOTHING * self.pixels(self.parameters.pitch)) as f32),
+            None => (relief.cover.map(|_| 1), Vec::new()),
+        };
+        let labels = labels.zip_map(&relief.cover, is_drawn);
+        curves.extend(silhouette);
+        let border = distance_to_curves(&curves, placement.columns, placement.rows)
+            .map_or_else(|| labels.map(|_| NO_BORDER), |field| field.distance.map(|d| d * scale));
+        let count = labels.pixels().iter().copied().max().unwrap_or(0);
+        let angles = self.angles(&labels, count);
+        let regions = bounds_of(&labels, count)
+            .into_iter()
+            .zip(angles)
+            .enumerate()
+            .filter_map(|(i, (bounds, angle))| Some(Region { label: i as i32 + 1, angle, bounds: self.on_page(bounds?) }))
+            .collect();
+        Ground { grid: Grid::new(placement), labels, border, regions, overlap: self.parameters.overlap }
+    }
+
+    /// Labels from 1; none for a single region.
+    fn parts(&self) -> Option<Raster<i32>> {
+        match self.parameters.regions {
+            "one" => None,
+            "superpixels" => {
+                let colours = self.portrait.light.map(lab);
+                let size = self.pixels(self.parameters.region_size).round() as usize;
+                Some(superpixels(&colours, size, COMPACTNESS, ROUNDS).map(|label| label + 1))
+            }
+            _ => self.flooded_scribbles(),
+        }
+    }
+
+    /// The scribbles' regions, grown along the photograph's edges.
+    fn flooded_scribbles(&self) -> Option<Raster<i32>> {
+        let scribbles = self.portrait.scribbles.as_ref()?;
+        let smoothed = gaussian_blur(&self.portrait.lightness, 1.5);
+        let slope = sobel(&smoothed).map(|[x, y]| x.hypot(y));
+        let steepest = slope.pixels().iter().copied().fold(1e-6, f32::max);
+        // The root tells faint edges apart, which most of a face's are.
+        Some(watershed(&slope.map(|s| (s / steepest).sqrt()), &scribbles.labels))
+    }
+
+    /// The regions that bulge when there is no depth map: those scribbled, else the subject; 0 is background.
+    pub(super) fn great_regions(&self) -> Raster<i32> {
+        let parts = self.flooded_scribbles().unwrap_or_else(|| self.portrait.subject.map(|_| 1));
+        parts.zip_map(&self.portrait.subject, |label, subject| if subject >= 0.5 { label } else { 0 })
+    }
+
+    /// A rectangle of working pixels on the page, with a pixel and the overlap around it.
+    fn on_page(&self, pixels: Rect) -> Rect {
+        let placement = &self.portrait.placement;
+        let wide = pixels.inflate(1.0, 1.0);
+        Rect::from_points(placement.to_page((wide.x0, wide.y0).into()), placement.to_page((wide.x1, wide.y1).into()))
+            .inflate(self.parameters.overlap, self.parameters.overlap)
+    }
+}
+
+/// Regions with smooth borders: each pixel goes to the region whose blurred area is greatest there; and the borders as curves.
+fn smooth_borders(labels: &Raster<i32>, sigma: f32) -> (Raster<i32>, Vec<Curve>) {
+    let count = labels.pixels().iter().copied().max().unwrap_or(0);
+    let pad = (3.5 * sigma).ceil() + 1.0;
+    let blurred: Vec<Option<Patch>> = bounds_of(labels, count)
+        .into_par_iter()
+        .enumerate()
+        .map(|(i, bounds)| {
+            let page = Rect::new(0.0, 0.0, labels.width() as f64, labels.height() as f64);
+            let patch = Patch::of(labels, i as i32 + 1, bounds?.inflate(f64::from(pad), f64::from(pad)).intersect(page));
+            Some(Patch { area: gaussian_blur(&patch.area, sigma), ..patch })
+        })
+        .collect();
+    // The greatest and the second greatest area at each pixel, and whose the greatest is.
+    let mut best = labels.map(|_| (0.0_f32, 0.0_f32, 0_i32));
+    for (i, patch) in blurred.iter().enumerate() {
+        let Some(patch) = patch else { continue };
+        patch.each(|x, y, area| {
+            let (first, second, label) = best.get(x, y);
+            best.set(x, y, if area > first { (area, first, i as i32 + 1) } else { (first, second.max(area), label) });
+        });
+    }
+    let curves = blurred
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, patch)| patch.iter().flat_map(|patch| patch.borders(&best, i as i32 + 1)).collect::<Vec<_>>());
+    (best.map(|(_, _, label)| label), curves.collect())
+}
+
+/// A region's own part of the raster.
+struct Patch {
+    left: usize,
+    top: usize,
+    area: Raster<f32>,
+}
+
+impl Patch {
+    fn of(labels: &Raster<i32>, label: i32, bounds: Rect) -> Self {
+        let (left, top) = (bounds.x0 as usize, bounds.y0 as usize);
+        let (width, height) = ((bounds.x1 as usize).max(left + 1) - left, (bounds.y1 as usize).max(top + 1) - top);
+        let area = Raster::from_fn(width, height, |x, y| if labels.get(left + x, top + y) == label { 1.0 } else { 0.0 });
+        Self { left, top, area }
+    }
+
+    fn each(&self, mut visit: impl FnMut(usize, usize, f32)) {
+        for y in 0..self.area.height() {
+            for (x, &area) in self.area.row(y).iter().enumerate() {
+                visit(self.left + x, self.top + y, area);
+            }
+        }
+    }
+
+    /// Where the region's area equals the greatest of the others'.
+    fn borders(&self, best: &Raster<(f32, f32, i32)>, label: i32) -> Vec<Curve> {
+        let lead = Raster::from_fn(self.area.width(), self.area.height(), |x, y| {
+            let (first, second, owner) = best.get(self.left + x, self.top + y);
+            self.area.get(x, y) - if owner == label { second } else { first }
+        });
+        let shift = Vec2::new(self.left as f64, self.top as f64);
+        let moved = |curve: Curve| Curve { points: curve.points.iter().map(|p| *p + shift).collect(), closed: curve.closed };
+        contours(&lead, 0.0).into_iter().map(moved).collect()
+    }
+}
+
+/// For labels 1 to `count` the smallest rectangle around each, in pixels; none where a label is not there.
+fn bounds_of(labels: &Raster<i32>, count: i32) -> Vec<Option<Rect>> {
+    let mut bounds: Vec<Option<Rect>> = vec![None; count.max(0) as usize];
+    for y in 0..labels.height() {
+        for (x, &label) in labels.row(y).iter().enumerate().filter(|(_, label)| **label > 0) {
+            let pixel = Rect::new(x as f64, y as f64, x as f64 + 1.0, y as f64 + 1.0);
+            let bounds = &mut bounds[label as usize - 1];
+            *bounds = Some(bounds.map_or(pixel, |b| b.union(pixel)));
+        }
+    }
+    bounds
+}
+
+/// CIE Lab (white D65, L from 0 to 100) of linear sRGB.
+fn lab([r, g, b]: [f32; 3]) -> [f32; 3] {
+    let f = |t: f32| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+    let x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505);
+    let y = f(0.2126 * r + 0.7152 * g + 0.0722 * b);
+    let z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}

@@ -1,0 +1,33 @@
+//! How much of the ink each layer lays (Galarza 2017, sections 3.2, 3.6 and 4.4).
+
+use super::parameters::Look;
+use crate::raster::Raster;
+
+/// Greatest share of the paper that a layer which is crossed covers: beyond it the holes of the net close in print.
+const MOST_COVERED: f32 = 0.999;
+
+/// Ink of the lines, and of those that cross them, 0 to 1 each: `(1 - lines) (1 - cross) = tone`, since layers that cross at an
+/// angle meet like chances.
+pub(super) struct Layers {
+    pub lines: Raster<f32>,
+    pub cross: Option<Raster<f32>>,
+}
+
+/// Ink of the two layers for the wanted ink, crossed below the tone `threshold`.
+pub(super) fn layers(ink: &Raster<f32>, look: Look, threshold: f64) -> Layers {
+    let threshold = threshold as f32;
+    match look {
+        Look::Hatch | Look::Stipple => Layers { lines: ink.clone(), cross: None },
+        // The shade only, and all of its ink from a quarter darker on.
+        Look::Contour => Layers { lines: ink.map(|v| v * ((v - (1.0 - threshold)) / 0.25).clamp(0.0, 1.0)), cross: None },
+        Look::Net => both(ink, |tone| 1.0 - tone.sqrt()),
+        // The lines stop growing where the others come in, until both are alike.
+        Look::Engraving | Look::Crosshatch => both(ink, |tone| (1.0 - tone.sqrt()).max((1.0 - tone).min(1.0 - threshold))),
+    }
+}
+
+fn both(ink: &Raster<f32>, lines: impl Fn(f32) -> f32 + Sync) -> Layers {
+    let covered = ink.map(|v| lines((1.0 - v).clamp(0.0, 1.0)).clamp(0.0, MOST_COVERED));
+    let cross = ink.zip_map(&covered, |v, covered| (1.0 - (1.0 - v.clamp(0.0, 1.0)) / (1.0 - covered)).clamp(0.0, 1.0));
+    Layers { lines: covered, cross: Some(cross) }
+}

@@ -1,0 +1,343 @@
+//! The width that each line must have so that its ink is the tone's (step 6 of the style).
+
+use super::ground::{Ground, Region};
+use super::lines::{Family, Line};
+use crate::geometry::Point;
+use crate::raster::Raster;
+use rayon::prelude::*;
+
+/// Courses are read at this many places a pitch.
+const READINGS: f64 = 8.0;
+/// Readings of tone from a line to the border of its strip.
+const DEPTHS: usize = 3;
+/// Farthest that a line answers for tone where it has no neighbour, in pitches: with less the picture's rim is too light, with
+/// more lines that end at a slanting border end in knobs.
+const REACH: f64 = 0.7;
+/// A line farther away than this, in pitches, is no neighbour.
+const NEIGHBOURHOOD: f64 = 4.0;
+/// Rounds of smoothing of the widths along a line, each over a quarter of a pitch: without it fine texture makes lines shiver,
+/// with many it is lost.
+const SMOOTHING_ROUNDS: usize = 2;
+/// Nearer than this to a border with another region, in pitches, and along it, a line is left out: the other region's lines do
+/// the same, so that the two stay half a pitch apart.
+const BORDER_ROOM: f64 = 0.26;
+/// Sine of the angle to a border below which a line runs along it: 20 degrees, since two lines may be 15 degrees apart.
+const ALONG_BORDER: f64 = 0.34;
+/// Pieces shorter than this are left out, in pitches.
+const STUB: f64 = 0.5;
+
+/// What a family is to draw.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    pub ground: &'a Ground,
+    pub region: Region,
+    /// Ink, 0 to 1, as a fraction of the paper.
+    pub ink: &'a Raster<f32>,
+    pub width_max: f64,
+}
+
+/// A piece of a line inside its region, by place along; whether its two ends are cut by the border.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub from: f64,
+    pub to: f64,
+    pub is_cut: [bool; 2],
+}
+
+/// One line read at every few columns.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Course {
+    /// The first reading; readings are numbered from the family's first column.
+    pub first: usize,
+    pub spans: Vec<Span>,
+    /// How far inside the region, in millimetres.
+    pub inside: Vec<f32>,
+    /// How far the line is there, 0 to 1.
+    pub weight: Vec<f32>,
+    /// Ink of its strip, 0 to 1.
+    pub ink: Vec<f32>,
+    /// Full width in millimetres.
+    pub width: Vec<f32>,
+    /// Width at which it touches a neighbour.
+    pub room: Vec<f32>,
+    /// Length of the line for each millimetre along.
+    pub stretch: Vec<f32>,
+}
+
+/// A family's lines with their widths.
+pub(super) struct Courses<'a> {
+    pub family: &'a Family,
+    pub wanted: Wanted<'a>,
+    /// Columns from one reading to the next.
+    pub stride: usize,
+    /// One for each line of the family.
+    pub lines: Vec<Course>,
+}
+
+/// The neighbours of a reading: distance across to the strip's border and to the neighbour's own line, below and above.
+#[derive(Clone, Copy, Default)]
+struct Sides {
+    border: [f32; 2],
+    neighbour: [f32; 2],
+    width: [f32; 2],
+}
+
+impl<'a> Courses<'a> {
+    pub(super) fn new(family: &'a Family, wanted: Wanted<'a>) -> Self {
+        let stride = (family.pitch / READINGS / family.step).round().max(1.0) as usize;
+        let mut courses = Self { family, wanted, stride, lines: Vec::new() };
+        courses.lines = family.lines.par_iter().map(|line| courses.find(line)).collect();
+        courses.demand();
+        courses.limit();
+        courses
+    }
+
+    /// Distance of readings.
+    pub(super) fn step(&self) -> f64 {
+        self.stride as f64 * self.family.step
+    }
+
+    /// Where a reading stands, along.
+    pub(super) fn place(&self, reading: usize) -> f64 {
+        self.family.first + (reading * self.stride) as f64 * self.family.step
+    }
+
+    fn height(&self, line: &Line, reading: usize) -> f64 {
+        line.heights[reading * self.stride - line.first]
+    }
+
+    /// Where a line is inside its region, and there.
+    fn find(&self, line: &Line) -> Course {
+        let first = line.first.div_ceil(self.stride);
+        let end = (line.first + line.heights.len() - 1) / self.stride + 1;
+        if end <= first + 1 {
+            return Course::default();
+        }
+        let ground = self.wanted.ground;
+        let margin = if ground.has_neighbours() && ground.overlap <= 0.0 {
+            // Half a pixel for the distances, which are read between pixels.
+            0.5 * (self.family.gap.distance + ground.grid.pixel_mm())
+        } else {
+            0.0
+        };
+        let inside: Vec<f64> = (first..end)
+            .map(|r| {
+                if line.presence[r * self.stride - line.first] == 0.0 && (r == first || r + 1 == end || self.is_gone(line, r)) {
+                    return -1.0;
+                }
+                ground.inside_or_over(self.wanted.region.label, self.point(line, r)) - margin
+            })
+            .collect();
+        let mut is_in: Vec<bool> = inside.iter().map(|&s| s > 0.0).collect();
+        if ground.has_neighbours() && ground.overlap <= 0.0 {
+            self.leave_borders(line, first, &inside, &mut is_in);
+        }
+        let spans = self.spans(first, &inside, &is_in);
+        let inside = inside.iter().map(|&s| s as f32).collect();
+        let mut course = Course { first, spans, inside, weight: vec![0.0; end - first], ..Course::default() };
+        for span in &course.spans {
+            let range = self.readings_in(*span);
+            for r in range.start.max(first)..range.end.min(end) {
+                course.weight[r - first] = line.presence[r * self.stride - line.first].max(1e-3);
+            }
+        }
+        course
+    }
+
+    /// Whether a line is absent at a reading and on both sides of it.
+    fn is_gone(&self, line: &Line, r: usize) -> bool {
+        let at = r * self.stride - line.first;
+        line.presence[at.saturating_sub(1)] == 0.0 && line.presence[(at + 1).min(line.presence.len() - 1)] == 0.0
+    }
+
+    /// Takes out what runs along a border for more than a pitch.
+    fn leave_borders(&self, line: &Line, first: usize, inside: &[f64], is_in: &mut [bool]) {
+        let label = self.wanted.region.label;
+        let room = BORDER_ROOM * self.family.pitch;
+        let beside: Vec<bool> = (0..is_in.len())
+            .map(|i| {
+                is_in[i] && inside[i] < room && {
+                    let (a, b) = (i.saturating_sub(1), (i + 1).min(is_in.len() - 1));
+                    let along = self.point(line, first + b) - self.point(line, first + a);
+                    let inwards = self.wanted.ground.inwards(label, self.point(line, first + i));
+                    along.dot(inwards).abs() < ALONG_BORDER * along.hypot()
+                }
+            })
+            .collect();
+        let least = (READINGS * self.family.pitch / (self.step() * READINGS)).ceil() as usize;
+        for run in runs(&beside).into_iter().filter(|run| run.len() >= least) {
+            is_in[run].fill(false);
+        }
+    }
+
+    fn spans(&self, first: usize, inside: &[f64], is_in: &[bool]) -> Vec<Span> {
+        let mut spans: Vec<Span> = Vec::new();
+        for run in runs(is_in) {
+            // To where the border is crossed between two readings.
+            let crossing = |within: usize, beyond: Option<usize>| match beyond.filter(|&b| b < inside.len()) {
+                Some(b) if inside[b] <= 0.0 && inside[b] > -1.0 => {
+                    let t = inside[within] / (inside[within] - inside[b]);
+                    self.place(first + within) + (self.place(first + b) - self.place(first + within)) * t
+                }
+                _ => self.place(first + within),
+            };
+            let (start, last) = (run.start, run.end - 1);
+            let span = Span {
+                from: crossing(start, start.checked_sub(1)),
+                to: crossing(last, Some(last + 1)),
+                is_cut: [start > 0 && inside[start - 1] > -1.0, last + 1 < inside.len() && inside[last + 1] > -1.0],
+            };
+            spans.push(span);
+        }
+        // A line that leaves its region and comes back keeps the gap to itself.
+        for i in 1..spans.len() {
+            let lacking = 0.5 * (self.family.gap.distance - (spans[i].from - spans[i - 1].to)).max(0.0);
+            spans[i - 1].to -= lacking;
+            spans[i].from += lacking;
+        }
+        spans.retain(|span| span.to - span.from >= STUB * self.family.pitch);
+        spans
+    }
+
+    /// The readings inside a span.
+    pub(super) fn readings_in(&self, span: Span) -> std::ops::Range<usize> {
+        let index = |u: f64| (u - self.family.first) / self.step();
+        let from = (index(span.from) - 1e-9).ceil().max(0.0) as usize;
+        from..((index(span.to) + 1e-9).floor().max(0.0) as usize + 1)
+    }
+
+    fn point(&self, line: &Line, reading: usize) -> Point {
+        self.family.frame.to_page(self.place(reading), self.height(line, reading))
+    }
+
+    /// The ink of each line's strip as a width.
+    fn demand(&mut self) {
+        let sides = self.sides();
+        let step = self.step();
+        let courses = std::mem::take(&mut self.lines);
+        self.lines = courses
+            .into_par_iter()
+            .zip(&self.family.lines)
+            .zip(sides)
+            .map(|((mut course, line), sides)| {
+                let count = course.weight.len();
+                course.ink = vec![0.0; count];
+                course.width = vec![0.0; count];
+                course.stretch = vec![1.0; count];
+                for i in (0..count).filter(|&i| course.weight[i] > 0.0) {
+                    let r = course.first + i;
+                    let (a, b) = (i.saturating_sub(1), (i + 1).min(count - 1));
+                    let slope =
+                        (self.height(line, course.first + b) - self.height(line, course.first + a)) / ((b - a) as f64 * step);
+                    let stretch = slope.hypot(1.0);
+                    let (area, within) = self.strip(self.place(r), self.height(line, r), sides[i], f64::from(course.inside[i]));
+                    course.ink[i] = (area / within.max(1e-9)) as f32;
+                    course.stretch[i] = stretch as f32;
+                    course.width[i] = (area / stretch) as f32;
+                }
+                for _ in 0..SMOOTHING_ROUNDS {
+                    smooth(&mut course.width, &course.weight);
+                }
+                course
+            })
+            .collect();
+    }
+
+    /// Ink of a line's strip at one place and how much of it lies inside the region, in millimetres across.
+    fn strip(&self, u: f64, height: f64, sides: Sides, inside: f64) -> (f64, f64) {
+        let ground = self.wanted.ground;
+        let soft = ground.grid.pixel_mm();
+        let (mut area, mut within) = (0.0, 0.0);
+        for (side, extent) in [(-1.0, f64::from(sides.border[0])), (1.0, f64::from(sides.border[1]))] {
+            let slice = extent / DEPTHS as f64;
+            for i in 0..DEPTHS {
+                let p = self.family.frame.to_page(u, height + side * slice * (i as f64 + 0.5));
+                // Deep inside, which most of a region is, there is nothing to look up.
+                let inside = if inside > extent + soft {
+                    1.0
+                } else {
+                    (0.5 + ground.inside_or_over(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
+                };
+                within += slice * inside;
+                if inside > 0.0 {
+                    area += slice * inside * f64::from(ground.grid.read(self.wanted.ink, p)).clamp(0.0, 1.0);
+                }
+            }
+        }
+        (area, within)
+    }
+
+    /// For every reading of every line what lies below and above.
+    fn sides(&self) -> Vec<Vec<Sides>> {
+        let mut sides: Vec<Vec<Sides>> = self.lines.iter().map(|c| vec![Sides::default(); c.weight.len()]).collect();
+        let columns = self.family.columns / self.stride + 1;
+        let upwards: Vec<usize> = (0..self.lines.len()).collect();
+        let downwards: Vec<usize> = upwards.iter().rev().copied().collect();
+        let (reach, neighbourhood) = (REACH * self.family.pitch, NEIGHBOURHOOD * self.family.pitch);
+        for (side, order) in [upwards, downwards].into_iter().enumerate() {
+            // The last line met in each column: height, weight, width.
+            let mut met = vec![(f64::INFINITY, 0.0_f32, 0.0_f32); columns + 1];
+            for k in order {
+                let course = &self.lines[k];
+                for (i, &weight) in course.weight.iter().enumerate().filter(|(_, w)| **w > 0.0) {
+                    let r = course.first + i;
+                    let height = self.height(&self.family.lines[k], r);
+                    let width = course.width.get(i).copied().unwrap_or(0.0);
+                    let (other, other_weight, other_width) = met[r];
+                    let distance = (height - other).abs();
+                    let share = f64::from(weight / (weight + other_weight));
+                    let out = &mut sides[k][i];
+                    out.border[side] = if distance < neighbourhood { (distance * share) as f32 } else { reach as f32 };
+                    out.neighbour[side] = distance.min(1e6) as f32;
+                    out.width[side] = other_width;
+                    met[r] = (height, weight, width);
+                }
+            }
+        }
+        sides
+    }
+
+    /// Widths at which neighbours touch at most.
+    fn limit(&mut self) {
+        let sides = self.sides();
+        for (course, sides) in self.lines.iter_mut().zip(sides) {
+            course.room = (0..course.width.len())
+                .map(|i| {
+                    let (own, side, stretch) = (course.width[i], sides[i], course.stretch[i]);
+                    let room = |j: usize| {
+                        // The gap is shared in the proportion of what both ask for.
+                        let share = if own + side.width[j] > 0.0 { own / (own + side.width[j]) } else { 0.5 };
+                        2.0 * side.neighbour[j] / stretch * share
+                    };
+                    room(0).min(room(1)).min(self.wanted.width_max as f32)
+                })
+                .collect();
+            course.width.iter_mut().zip(&course.room).for_each(|(width, room)| *width = width.min(*room));
+        }
+    }
+}
+
+/// One round of 1-2-1 smoothing among the readings that are there; the sum stays.
+fn smooth(values: &mut [f32], weight: &[f32]) {
+    let mut carried = 0.0;
+    for i in 1..values.len() {
+        let flow = if weight[i - 1] > 0.0 && weight[i] > 0.0 { 0.25 * (values[i] - values[i - 1]) } else { 0.0 };
+        values[i - 1] += flow - carried;
+        carried = flow;
+    }
+    if let Some(last) = values.last_mut() {
+        *last -= carried;
+    }
+}
+
+/// Runs of what is true.
+fn runs(flags: &[bool]) -> Vec<std::ops::Range<usize>> {
+    let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
+    for (i, _) in flags.iter().enumerate().filter(|(_, flag)| **flag) {
+        match runs.last_mut() {
+            Some(run) if run.end == i => run.end = i + 1,
+            _ => runs.push(i..i + 1),
+        }
+    }
+    runs
+}
