@@ -118,7 +118,8 @@ impl<'a> Task<'a> {
 
     fn portrait(&self) -> Result<Portrait, Failure> {
         let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
-        let placement = Placement::new(self.layout.picture, self.style.pixels_per_mm(&self.settings, &roles));
+        let picture = self.layout.picture;
+        let placement = Placement::new(picture, self.style.resolution(&self.settings, &roles, picture));
         let target = match self.options.tone {
             Tone::Lightness => ToneTarget::Lightness,
             Tone::Linear => ToneTarget::Linear,

@@ -8,12 +8,18 @@ mod bilateral;
 mod binary;
 mod blur;
 mod canny;
+mod flood;
+mod paper;
+mod ridges;
 mod thin;
 
 pub use bilateral::bilateral;
 pub use binary::{components, dilate, majority, remove_components};
 pub use blur::{box_blur, gaussian_blur};
 pub use canny::{Thresholds, canny};
+pub use flood::{flood_from_border, without_holes};
+pub use paper::paper_texture;
+pub use ridges::ridges;
 pub use thin::thin;
 
 use rayon::prelude::*;

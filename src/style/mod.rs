@@ -3,6 +3,7 @@
 //! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
+mod charcoal;
 mod hedcut;
 mod observer;
 mod parameter;
@@ -12,6 +13,7 @@ pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Settings};
 
 use crate::drawing::Drawing;
+use crate::geometry::Rect;
 use crate::source::{MaskRole, Portrait};
 use thiserror::Error;
 
@@ -29,12 +31,16 @@ pub trait Style: Sync {
     fn masks(&self) -> &'static [MaskRole];
     /// Working pixels a millimetre, given the masks at hand.
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
+    /// Working pixels a millimetre for a picture of this size on the page; for most styles the size does not matter.
+    fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
+        self.pixels_per_mm(settings, masks)
+    }
     /// Draws the portrait.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError>;
 }
 
 /// Every style, the default first.
-pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut];
+pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &charcoal::Charcoal];
 
 /// Finds a style by name.
 pub fn find(name: &str) -> Option<&'static dyn Style> {

@@ -5,10 +5,12 @@
 
 mod gcode;
 mod hpgl;
+mod inkml;
 mod number;
 mod svg;
 
 pub use gcode::write_gcode;
 pub use hpgl::write_hpgl;
+pub use inkml::write_inkml;
 pub use number::{decimal, thousandths};
 pub use svg::{SvgHead, write_svg, write_svg_plot};
