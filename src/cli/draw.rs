@@ -11,7 +11,7 @@ use crate::geometry::Rect;
 use crate::plot::{InkModel, Nibs, Profile, lower, mount};
 use crate::source::{Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
-use crate::write::{SvgHead, write_svg};
+use crate::write::{SvgHead, write_inkml, write_svg};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -58,7 +58,10 @@ fn write_one(
     head: &SvgHead,
 ) -> Result<Option<Prepared>, Failure> {
     if profile.is_none() {
-        let fill = |mut out: &mut dyn std::io::Write| write_svg(drawing, head, &mut out);
+        let fill = |mut out: &mut dyn std::io::Write| match format {
+            Format::Inkml => write_inkml(drawing, &head.title, &mut out),
+            _ => write_svg(drawing, head, &mut out),
+        };
         if options.dry_run {
             toolpaths::discard(fill)?;
         } else {

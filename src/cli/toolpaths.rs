@@ -23,9 +23,10 @@ pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Fa
         "svg" => Ok(Format::Svg),
         "hpgl" | "plt" => Ok(Format::Hpgl),
         "gcode" | "nc" | "ngc" => Ok(Format::Gcode),
-        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, hpgl or gcode".to_owned())),
+        "inkml" => Ok(Format::Inkml),
+        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, hpgl, gcode or inkml".to_owned())),
         _ => Err(Failure::Usage(format!(
-            "the format of {name} is not known by its extension; use .svg, .hpgl, .plt, .gcode, .nc or .ngc, or --format"
+            "the format of {name} is not known by its extension; use .svg, .hpgl, .plt, .gcode, .nc, .ngc or .inkml, or --format"
         ))),
     }
 }
@@ -63,6 +64,12 @@ fn told_speed(profile: &Profile, speed: f64) -> f64 {
 pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Result<(), Failure> {
     let needed = match format {
         Format::Svg => return Ok(()),
+        Format::Inkml if profile.is_some() => {
+            return Err(Failure::Usage(
+                "InkML holds a drawing's strokes, not a machine's tool paths; leave --profile out".to_owned(),
+            ));
+        }
+        Format::Inkml => return Ok(()),
         Format::Hpgl => Language::Hpgl,
         Format::Gcode => Language::Gcode,
     };

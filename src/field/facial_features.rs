@@ -27,8 +27,7 @@ pub enum FacialFeature {
 
 impl FacialFeature {
     /// All six, in the order of their labels from 1.
-    pub const ALL: [Self; 6] =
-        [Self::LeftEyebrow, Self::RightEyebrow, Self::LeftEye, Self::RightEye, Self::Nose, Self::Mouth];
+    pub const ALL: [Self; 6] = [Self::LeftEyebrow, Self::RightEyebrow, Self::LeftEye, Self::RightEye, Self::Nose, Self::Mouth];
 
     /// What it is called.
     pub const fn name(self) -> &'static str {
@@ -62,7 +61,7 @@ pub struct FacialFeatures {
     pub labels: Raster<u8>,
     /// The face's lightness divided by its skin's: 1 is skin.
     pub normalised: Raster<f32>,
-    /// How many clusters the thesholded face had before small ones were given to their neighbours and joined ones divided.
+    /// How many clusters the thresholded face had before small ones were given to their neighbours and joined ones divided.
     pub clusters: usize,
     /// Those of the six that were found.
     pub found: Vec<FacialFeature>,
@@ -173,7 +172,8 @@ fn named(dark: &Raster<u8>, windows: &Raster<u8>, normalised: &Raster<f32>, fram
         let (clusters, count) = components(&part);
         let mut sizes = vec![0_u32; count + 1];
         clusters.pixels().iter().for_each(|c| sizes[*c as usize] += 1);
-        let Some(main) = (1..=count).max_by_key(|c| (weight(&clusters, *c as u32, frame, name) * 1000.0) as u64) else { continue };
+        let weights = weights(&clusters, count, frame, name);
+        let Some(main) = (1..=count).max_by(|a, b| weights[*a].total_cmp(&weights[*b])) else { continue };
         if f64::from(sizes[main]) < least {
             continue;
         }
@@ -187,16 +187,16 @@ fn named(dark: &Raster<u8>, windows: &Raster<u8>, normalised: &Raster<f32>, fram
     labels
 }
 
-/// A cluster's pixels, those near its window's middle counting most.
-fn weight(clusters: &Raster<u32>, cluster: u32, frame: &FaceFrame, name: u8) -> f64 {
+/// Each cluster's pixels, those near the window's middle counting most.
+fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) -> Vec<f64> {
     let [cx, cy, hx, hy] = FacialFeature::ALL[usize::from(name) - 1].window();
-    let mut sum = 0.0;
-    for (i, _) in clusters.pixels().iter().enumerate().filter(|(_, c)| **c == cluster) {
+    let mut weights = vec![0.0; count + 1];
+    for (i, cluster) in clusters.pixels().iter().enumerate().filter(|(_, cluster)| **cluster != 0) {
         let p = Point::new((i % clusters.width()) as f64 + 0.5, (i / clusters.width()) as f64 + 0.5);
         let (across, down) = frame.relative(p);
-        sum += (-0.5 * (((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
+        weights[*cluster as usize] += (-0.5 * (((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
     }
-    sum
+    weights
 }
 
 /// Where the common threshold finds nothing: the darkest seventh of the window, if it is darker than the rest of it.

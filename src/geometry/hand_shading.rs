@@ -72,13 +72,12 @@ fn arc(from: Point, to: Point, radius: f64, side: Vec2) -> Vec<Point> {
     let normal = if normal.dot(side) < 0.0 { -normal } else { normal };
     let radius = radius.max(half);
     let depth = (radius * radius - half * half).sqrt();
-    let between = (1..POINTS_AN_ARC)
-        .map(|i| {
-            let t = i as f64 / POINTS_AN_ARC as f64;
-            let x = (2.0 * t - 1.0) * half;
-            let rise = (radius * radius - x * x).max(0.0).sqrt() - depth;
-            from + chord * t + normal * rise
-        });
+    let between = (1..POINTS_AN_ARC).map(|i| {
+        let t = i as f64 / POINTS_AN_ARC as f64;
+        let x = (2.0 * t - 1.0) * half;
+        let rise = (radius * radius - x * x).max(0.0).sqrt() - depth;
+        from + chord * t + normal * rise
+    });
     std::iter::once(from).chain(between).chain([to]).collect()
 }
 

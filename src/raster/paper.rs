@@ -34,17 +34,22 @@ fn equalised(raster: &Raster<f32>) -> Raster<f32> {
     let bounds = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
     let (low, high) = raster.pixels().par_iter().map(|&v| (v, v)).reduce(|| (f32::INFINITY, f32::NEG_INFINITY), bounds);
     let scale = if high > low { (LEVELS - 1) as f32 / (high - low) } else { 0.0 };
-    let mut below = vec![0_u32; LEVELS + 1];
-    let mut total = 0_u32;
-    for y in 0..raster.height() {
+    let counted = |mut below: Vec<u32>, y: usize| {
         for x in 0..raster.width() {
             for (dx, dy) in [(0.75, 0.75), (1.25, 0.75), (0.75, 1.25), (1.25, 1.25)] {
                 let value = raster.sample(x as f64 + dx, y as f64 + dy);
                 below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
-                total += 1;
             }
         }
-    }
+        below
+    };
+    let none = || vec![0_u32; LEVELS + 1];
+    let both = |mut a: Vec<u32>, b: Vec<u32>| {
+        a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+        a
+    };
+    let mut below = (0..raster.height()).into_par_iter().with_min_len(64).fold(none, counted).reduce(none, both);
+    let total: u32 = 4 * raster.len() as u32;
     for level in 0..LEVELS {
         below[level + 1] += below[level];
     }

@@ -4,13 +4,13 @@
 //! ```text
 //! ink
 //!   definitions
-//!     context      inkSource/traceFormat: X and Y in mm, F (force) in percent, T in ms from the timestamp
+//!     context      inkSource/traceFormat: X and Y in mm, F (force) from 0 to 1000, T in ms from the timestamp
 //!     brush        one for each layer: width, height, color, tip
 //!   traceGroup     one for each layer, with its context and brush
 //!     trace        one for each stroke: X Y F T at each vertex
 //! ```
 
-use super::number::{decimal, thousandths};
+use super::number::thousandths;
 use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::{Point, flatten};
 use std::fmt::Write as _;
@@ -20,11 +20,13 @@ use std::io;
 const TOLERANCE: f64 = 0.02;
 /// Millimetres a second that are assumed where a style says nothing.
 const USUAL_SPEED: f64 = 80.0;
+/// The force of full pressure, in the device's steps.
+const FULL_FORCE: f64 = 1000.0;
 /// Seconds between two strokes where a style says nothing.
 const USUAL_PAUSE: f64 = 0.2;
 
 /// Writes a drawing as InkML. Strokes become one trace each with their pressure as force (their width's share of the layer's
-/// widest where they have none); the outlines of dots and areas become traces with the type `penDown` and full force. `title` is
+/// widest where they have none); the outlines of dots and areas become traces at full force. `title` is
 /// kept as an annotation.
 pub fn write_inkml(drawing: &Drawing, title: &str, out: &mut impl io::Write) -> io::Result<()> {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ink xmlns=\"http://www.w3.org/2003/InkML\">\n");
@@ -50,20 +52,17 @@ pub fn write_inkml(drawing: &Drawing, title: &str, out: &mut impl io::Write) -> 
 
 fn definitions(text: &mut String, drawing: &Drawing) {
     text.push_str("<definitions>\n<inkSource xml:id=\"hand\">\n<traceFormat xml:id=\"force-and-time\">\n");
-    for (name, units, max) in [("X", "mm", Some(drawing.page.width)), ("Y", "mm", Some(drawing.page.height)), ("F", "%", Some(100.0))] {
-        let _ = write!(text, "<channel name=\"{name}\" type=\"decimal\" units=\"{units}\" min=\"0\"");
-        if let Some(max) = max {
-            text.push_str(" max=\"");
-            decimal(text, thousandths(max), 3);
-            text.push('"');
-        }
-        text.push_str("/>\n");
+    for (name, max) in [("X", drawing.page.width), ("Y", drawing.page.height)] {
+        let _ = write!(text, "<channel name=\"{name}\" type=\"decimal\" units=\"mm\" min=\"0\" max=\"");
+        plain_decimal(text, thousandths(max));
+        text.push_str("\"/>\n");
     }
+    let _ = writeln!(text, "<channel name=\"F\" type=\"integer\" units=\"dev\" min=\"0\" max=\"{FULL_FORCE}\"/>");
     text.push_str("<channel name=\"T\" type=\"integer\" units=\"ms\" min=\"0\" respectTo=\"#start\"/>\n");
     text.push_str("</traceFormat>\n</inkSource>\n<timestamp xml:id=\"start\" time=\"0\"/>\n");
     for (i, layer) in drawing.layers.iter().enumerate() {
         let mut width = String::new();
-        decimal(&mut width, thousandths(widest(layer)), 3);
+        plain_decimal(&mut width, thousandths(widest(layer)));
         let _ = writeln!(text, "<brush xml:id=\"brush{}\">", i + 1);
         for name in ["width", "height"] {
             let _ = writeln!(text, "<brushProperty name=\"{name}\" value=\"{width}\" units=\"mm\"/>");
@@ -154,7 +153,7 @@ fn stroke_trace(stroke: &Stroke, widest: f64, now: f64) -> Vec<Vertex> {
     trace
 }
 
-/// `X Y F T, X Y F T, ...`: millimetres to 0.001, force in percent to 0.1, whole milliseconds.
+/// `X Y F T, X Y F T, ...`: millimetres to 0.001, force in steps, whole milliseconds.
 fn write_trace(text: &mut String, trace: &[Vertex]) {
     if trace.is_empty() {
         return;
@@ -164,25 +163,22 @@ fn write_trace(text: &mut String, trace: &[Vertex]) {
         if i > 0 {
             text.push_str(", ");
         }
-        plain_decimal(text, thousandths(vertex.at.x), 1000);
+        plain_decimal(text, thousandths(vertex.at.x));
         text.push(' ');
-        plain_decimal(text, thousandths(vertex.at.y), 1000);
-        text.push(' ');
-        plain_decimal(text, (vertex.force.clamp(0.0, 1.0) * 1000.0).round() as i64, 10);
-        let _ = write!(text, " {}", (vertex.time * 1000.0).round() as i64);
+        plain_decimal(text, thousandths(vertex.at.y));
+        let (force, time) = (vertex.force.clamp(0.0, 1.0) * FULL_FORCE, vertex.time * 1000.0);
+        let _ = write!(text, " {} {}", force.round() as i64, time.round() as i64);
     }
     text.push_str("</trace>\n");
 }
 
-/// A decimal with a digit before its point, which InkML's grammar asks for.
-fn plain_decimal(text: &mut String, value: i64, scale: i64) {
-    let digits = if scale == 1000 { 3 } else { 1 };
+/// Thousandths as a decimal with a digit before its point, which InkML's grammar asks for.
+fn plain_decimal(text: &mut String, value: i64) {
     let (sign, size) = (if value < 0 { "-" } else { "" }, value.unsigned_abs());
-    let (whole, part) = (size / scale.unsigned_abs(), size % scale.unsigned_abs());
-    let _ = write!(text, "{sign}{whole}");
-    if part > 0 {
-        let padded = format!("{part:0digits$}");
-        let _ = write!(text, ".{}", padded.trim_end_matches('0'));
+    let _ = write!(text, "{sign}{}", size / 1000);
+    if size % 1000 > 0 {
+        let part = format!("{:03}", size % 1000);
+        let _ = write!(text, ".{}", part.trim_end_matches('0'));
     }
 }
 

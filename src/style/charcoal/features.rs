@@ -35,7 +35,8 @@ impl Drawer<'_> {
         let none = || Features { found: None, drawn: nothing(), eyes: nothing() };
         let Some(frame) = regions.frame.filter(|_| self.parameters.has_features) else { return none() };
         let found = facial_features(&self.portrait.lightness, &regions.face, &frame);
-        self.observer.picture("normalised", &|| Picture::Grey(found.normalised.zip_map(&regions.face, |n, f| 1.0 - f + f * n.min(1.0))));
+        self.observer
+            .picture("normalised", &|| Picture::Grey(found.normalised.zip_map(&regions.face, |n, f| 1.0 - f + f * n.min(1.0))));
         self.observer.picture("features", &|| Picture::Labels(found.labels.map(i32::from)));
         self.warn_of_missing(&found);
         let of = |wanted: &[u8]| found.labels.map(|label| u8::from(wanted.contains(&label)));

@@ -64,9 +64,9 @@ impl Drawer<'_> {
         let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
         let field = raw.smoothed(self.pixels(self.parameters.hair_smoothing_mm) as f32);
-        self.observer.picture("hair-orientation", &|| Picture::Grey(field.doubled().map(|[x, y]| {
-            (0.5 * y.atan2(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)
-        })));
+        self.observer.picture("hair-orientation", &|| {
+            Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.atan2(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
+        });
         field
     }
 

@@ -90,7 +90,14 @@ impl Drawer<'_> {
         let shading = self.shading(&regions, &features);
         let face = self.draw_features(&features);
         let background = self.background(&regions);
-        let layers = [("tone", tone), ("shading", shading), ("edges", edges), ("hair", hair), ("features", face), ("background", background)];
+        let layers = [
+            ("tone", tone),
+            ("shading", shading),
+            ("edges", edges),
+            ("hair", hair),
+            ("features", face),
+            ("background", background),
+        ];
         let drawing = Drawing { page: self.portrait.page, layers: self.layers(layers) };
         let mut drawing = drawing.clipped(drawing.page.rect());
         strokes::time(&mut drawing);

@@ -32,7 +32,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "brighten",
         kind: Kind::Number { default: 0.5, least: 0.0, most: 1.0 },
-        meaning: "how far the smudged tone is washed out: 0 keeps the photograph's tone, 1 leaves white paper",
+        meaning: "how far the smudged tone is brightened: 0 keeps the photograph's tone, 1 takes off 0.3 of ink everywhere and two fifths of the rest",
         source: "Wong 3.1.5",
     },
     Parameter {
@@ -49,13 +49,13 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "edge_high",
-        kind: Kind::Number { default: 0.2, least: 0.0, most: 5.0 },
+        kind: Kind::Number { default: 0.15, least: 0.0, most: 5.0 },
         meaning: "an edge needs somewhere this change of lightness (0 to 1) a pitch",
         source: "Wong 3.1.3",
     },
     Parameter {
         name: "edge_low",
-        kind: Kind::Number { default: 0.08, least: 0.0, most: 5.0 },
+        kind: Kind::Number { default: 0.05, least: 0.0, most: 5.0 },
         meaning: "an edge ends where the change a pitch falls below this",
         source: "Wong 3.1.3",
     },
@@ -109,7 +109,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "hair_ink",
-        kind: Kind::Number { default: 0.85, least: 0.0, most: 3.0 },
+        kind: Kind::Number { default: 1.0, least: 0.0, most: 3.0 },
         meaning: "ink of the hair's strokes against the photograph's darkness",
         source: "tone-aware, unlike the thesis",
     },

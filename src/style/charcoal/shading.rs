@@ -29,6 +29,9 @@ const SWATH_OVERLAP: f64 = 0.12;
 const ARCS_A_STROKE: usize = 60;
 /// Pieces shorter than this many widths are specks.
 const LEAST_WIDTHS: f64 = 1.5;
+/// Pressure of the background's strokes, and their width then as a share of the full one: lighter than anything in the portrait.
+const BACKGROUND_PRESSURE: f64 = 0.2;
+const BACKGROUND_WIDTH: f64 = 0.44;
 /// Tones of clothing lighter than this are left to the smudge.
 const LIGHT_CLOTH: f64 = 0.5;
 
@@ -98,7 +101,7 @@ impl Drawer<'_> {
             let patch = Patch {
                 region: gaussian_blur(&region, 1.0),
                 width_mm: self.parameters.stroke_width_mm,
-                spacing_mm: self.parameters.pitch_mm * (0.9 + 2.2 * (1.0 - darkness)),
+                spacing_mm: self.parameters.pitch_mm * (1.1 + 2.2 * (1.0 - darkness)),
                 length_mm: 0.55 * self.parameters.arc_length_mm,
                 orientation: self.parameters.arc_orient + 0.35 * i as f64,
                 pressure: 0.25 + 0.6 * darkness,
@@ -120,10 +123,10 @@ impl Drawer<'_> {
             region,
             width_mm: self.parameters.stroke_width_mm,
             // The ink of a stroke at the pressure below, spread over its spacing.
-            spacing_mm: 0.6 * self.parameters.stroke_width_mm / self.parameters.background_ink,
+            spacing_mm: BACKGROUND_WIDTH * self.parameters.stroke_width_mm / self.parameters.background_ink,
             length_mm: self.parameters.arc_length_mm,
             orientation: self.parameters.arc_orient,
-            pressure: 0.5,
+            pressure: BACKGROUND_PRESSURE,
         };
         self.shade_patch(&patch, "background", 0)
     }
