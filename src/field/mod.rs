@@ -22,7 +22,7 @@ pub use contour::contours;
 pub use covering::{Covering, cover};
 pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
-pub use face::{FaceFrame, find_face};
+pub use face::{FaceExpectation, FaceFrame, find_face};
 pub use facial_features::{FacialFeature, FacialFeatures, facial_features};
 pub use grain::grain_areas;
 pub use hough::{HoughFilter, HoughForm};

@@ -2,8 +2,8 @@
 
 use super::Drawer;
 use super::skin::may_be_skin;
-use crate::field::{FaceFrame, find_face};
-use crate::geometry::{Point, Rect};
+use crate::field::{FaceExpectation, FaceFrame, find_face};
+use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, components, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
 use crate::source::MaskRole;
 use crate::style::Picture;
@@ -23,9 +23,10 @@ pub(super) struct Regions {
 /// Least score of a face that nobody has pointed out. The search in whole pictures finds faces in suits and coffee with scores as
 /// good as a face's own, so it keeps to the head of a silhouette.
 const LEAST_SCORE: f64 = 0.12;
-/// Distance of the eyes as a share of a face's width, and of a head's with its hair.
-const FACE_EYES: (f64, f64) = (0.4, 0.5);
-const HEAD_EYES: (f64, f64) = (0.28, 0.44);
+/// Where the eyes are in the box of a face (brow to chin) and of a head with its hair: how far down, the tolerances across and down,
+/// and the eyes' distance, as shares of the box.
+const IN_FACE: [f64; 4] = [0.39, 0.08, 0.07, 0.44];
+const IN_HEAD: [f64; 4] = [0.64, 0.1, 0.12, 0.36];
 /// Greatest colour step between neighbours within a plain background, in encoded light; a blurred edge of a person is steeper.
 const BACKGROUND_STEP: f32 = 0.012;
 /// Greatest colour distance of a plain background from its border's median: a lit backdrop varies by a third.
@@ -34,6 +35,8 @@ const BACKGROUND_SPREAD: f32 = 0.3;
 const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
 /// Colour distance to the hair's own colour against that to the skin's: nearer to hair is hair.
 const HAIR_REACH: f32 = 0.16;
+/// Least colour distance between hair and skin; on the dark bust it is less, and half of the face would become hair.
+const LEAST_CONTRAST: f32 = 0.3;
 
 impl Drawer<'_> {
     pub(super) fn regions(&self) -> Regions {
@@ -41,7 +44,8 @@ impl Drawer<'_> {
         let mask = |role| self.portrait.masks.get(&role).cloned();
         let (subject, has_background) = self.subject();
         let given_face = mask(MaskRole::Face);
-        let frame = self.frame(&subject, has_background, given_face.as_ref());
+        let head = if has_background { head(&subject) } else { None };
+        let frame = self.frame(&subject, head, given_face.as_ref());
         let hair = mask(MaskRole::Hair).or_else(|| self.found_hair(&subject, given_face.as_ref(), frame.as_ref()));
         let nothing = || subject.map(|_| 0.0);
         if hair.is_none() {
@@ -51,10 +55,19 @@ impl Drawer<'_> {
         let face = given_face.or_else(|| frame.map(|frame| self.found_face(&frame))).unwrap_or_else(nothing);
         let face = face.zip_map(&subject, f32::min).zip_map(&hair, |face, hair| face.min(1.0 - hair));
         let rest = subject.zip_map(&hair, |s, hair| s.min(1.0 - hair)).zip_map(&face, |s, face| s.min(1.0 - face));
-        let clothing = mask(MaskRole::Clothing).map_or(rest.clone(), |clothing| clothing.zip_map(&rest, f32::min));
+        let clothing = mask(MaskRole::Clothing).map_or_else(
+            || if frame.is_some() { self.not_skin(&rest) } else { rest.clone() },
+            |cloth| cloth.zip_map(&rest, f32::min),
+        );
         let regions = Regions { subject, hair, face, frame, clothing, has_background };
         self.observer.picture("regions", &|| Picture::Labels(regions.labels()));
         regions
+    }
+
+    /// The rest of a person without neck and hands, which the smudge alone draws, like the face.
+    fn not_skin(&self, rest: &Raster<f32>) -> Raster<f32> {
+        let skin = gaussian_blur(&may_be_skin(&self.portrait.light), 2.0);
+        rest.zip_map(&skin, |rest, skin| rest * (1.0 - skin))
     }
 
     /// From the mask or alpha; else what a plain background leaves; else everything.
@@ -102,25 +115,13 @@ impl Drawer<'_> {
     }
 
     /// The face's pattern: inside the given mask; else in the head, which only a silhouette tells.
-    fn frame(&self, subject: &Raster<f32>, has_background: bool, given: Option<&Raster<f32>>) -> Option<FaceFrame> {
+    fn frame(&self, subject: &Raster<f32>, head: Option<Rect>, given: Option<&Raster<f32>>) -> Option<FaceFrame> {
         let lightness = &self.portrait.lightness;
         if let Some(face) = given {
-            let width = widest_row(face);
-            return find_face(lightness, face, face, FACE_EYES.0 * width, FACE_EYES.1 * width);
+            return find_face(lightness, face, &expected_in(bounds(face)?, &IN_FACE));
         }
         let skin = gaussian_blur(&may_be_skin(&self.portrait.light).zip_map(subject, f32::min), 3.0);
-        let head = if has_background { head(subject) } else { None };
-        let frame = head.and_then(|head| {
-            let (width, height) = self.size();
-            let zone = Rect::new(
-                head.x0 + 0.28 * head.width(),
-                head.y0 + 0.35 * head.height(),
-                head.x1 - 0.28 * head.width(),
-                head.y0 + 0.9 * head.height(),
-            );
-            let zone = Raster::from_fn(width, height, |x, y| f32::from(u8::from(zone.contains(Point::new(x as f64, y as f64)))));
-            find_face(lightness, &skin, &zone, HEAD_EYES.0 * head.width(), HEAD_EYES.1 * head.width())
-        });
+        let frame = head.and_then(|head| find_face(lightness, &skin, &expected_in(head, &IN_HEAD)));
         let frame = frame.filter(|frame| frame.score >= LEAST_SCORE);
         if frame.is_none() {
             self.observer.warn("no face was found: its features are not drawn; give --mask face=FILE");
@@ -161,6 +162,10 @@ impl Drawer<'_> {
             return None;
         }
         let hair = median(&crown);
+        // Hair as dark as the skin cannot be told from it by colour.
+        if distance(hair, skin) < LEAST_CONTRAST {
+            return None;
+        }
         let reach = HAIR_REACH.max(0.5 * distance(hair, skin));
         let (width, height) = self.size();
         let near = Raster::from_fn(width, height, |x, y| {
@@ -241,8 +246,19 @@ fn head(subject: &Raster<f32>) -> Option<Rect> {
     None
 }
 
-/// Pixels of a region in its widest row.
-fn widest_row(region: &Raster<f32>) -> f64 {
-    let widths = (0..region.height()).map(|y| region.row(y).iter().filter(|v| **v >= 0.5).count());
-    widths.max().unwrap_or(0) as f64
+fn expected_in(bounds: Rect, [down, across_tolerance, down_tolerance, distance]: &[f64; 4]) -> FaceExpectation {
+    FaceExpectation {
+        between_eyes: Point::new(bounds.center().x, bounds.y0 + down * bounds.height()),
+        tolerance: Vec2::new(across_tolerance * bounds.width(), down_tolerance * bounds.height()),
+        eye_distance: distance * bounds.width(),
+    }
+}
+
+/// The box round a region; none when it is empty.
+fn bounds(region: &Raster<f32>) -> Option<Rect> {
+    let inside = region.pixels().iter().enumerate().filter(|(_, v)| **v >= 0.5);
+    inside
+        .map(|(i, _)| ((i % region.width()) as f64, (i / region.width()) as f64))
+        .map(|(x, y)| Rect::new(x, y, x + 1.0, y + 1.0))
+        .reduce(|a, b| a.union(b))
 }
