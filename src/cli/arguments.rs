@@ -133,7 +133,7 @@ pub(super) struct PictureOptions {
 pub(super) struct DrawOptions {
     #[command(flatten)]
     pub picture: PictureOptions,
-    /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc; `-` for stdout. `{layer}` in
+    /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout. `{layer}` in
     /// it writes one file for each layer.
     #[arg(long, short, value_name = "FILE")]
     pub output: String,
@@ -382,6 +382,8 @@ pub(super) enum Format {
     Hpgl,
     /// G-code.
     Gcode,
+    /// InkML: the strokes with force and time, for painting programs; of `draw` only.
+    Inkml,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -13,7 +13,8 @@ use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
 use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
-use crate::write::{SvgHead, write_pdf, write_svg};
+use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
+use crate::write::{SvgHead, write_inkml, write_svg};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -74,6 +75,7 @@ fn write_one(
         let date = output::source_date()?;
         let fill = |mut out: &mut dyn std::io::Write| match format {
             Format::Pdf => write_pdf(drawing, head, date, &mut out),
+            Format::Inkml => write_inkml(drawing, &head.title, &mut out),
             _ => write_svg(drawing, head, &mut out),
         };
         if options.dry_run {
@@ -159,7 +161,8 @@ impl<'a> Task<'a> {
 
     fn portrait(&self) -> Result<Portrait, Failure> {
         let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
-        let placement = Placement::new(self.layout.picture, self.style.pixels_per_mm(&self.settings, &roles));
+        let picture = self.layout.picture;
+        let placement = Placement::new(picture, self.style.resolution(&self.settings, &roles, picture));
         let target = match self.options.tone {
             Tone::Lightness => ToneTarget::Lightness,
             Tone::Linear => ToneTarget::Linear,

@@ -26,9 +26,10 @@ pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Fa
         "pdf" => Ok(Format::Pdf),
         "hpgl" | "plt" => Ok(Format::Hpgl),
         "gcode" | "nc" | "ngc" => Ok(Format::Gcode),
-        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, pdf, hpgl or gcode".to_owned())),
+        "inkml" => Ok(Format::Inkml),
+        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, pdf, hpgl, gcode or inkml".to_owned())),
         _ => Err(Failure::Usage(format!(
-            "the format of {name} is not known by its extension; use .svg, .pdf, .hpgl, .plt, .gcode, .nc or .ngc, or --format"
+            "the format of {name} is not known by its extension; use .svg, .pdf, .hpgl, .plt, .gcode, .nc, .ngc or .inkml, or --format"
         ))),
     }
 }
@@ -83,7 +84,12 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
                 "PDF is for print, not for a plotter; leave out --profile, or write its own format".to_owned(),
             ));
         }
-        Format::Svg | Format::Pdf => return Ok(()),
+        Format::Inkml if profile.is_some() => {
+            return Err(Failure::Usage(
+                "InkML holds a drawing's strokes, not a machine's tool paths; leave --profile out".to_owned(),
+            ));
+        }
+        Format::Svg | Format::Pdf | Format::Inkml => return Ok(()),
         Format::Hpgl => Language::Hpgl,
         Format::Gcode => Language::Gcode,
     };

@@ -10,6 +10,9 @@ mod blur;
 mod canny;
 mod gradient;
 mod scale;
+mod flood;
+mod paper;
+mod ridges;
 mod thin;
 
 pub use bilateral::bilateral;
@@ -18,6 +21,9 @@ pub use blur::{box_blur, gaussian_blur};
 pub use canny::{Thresholds, canny};
 pub use gradient::sobel;
 pub use scale::{enlarge, reduce};
+pub use flood::{flood_from_border, without_holes};
+pub use paper::paper_texture;
+pub use ridges::ridges;
 pub use thin::thin;
 
 use rayon::prelude::*;

@@ -6,6 +6,7 @@
 mod engrave;
 mod feature_line;
 mod grid;
+mod charcoal;
 mod hedcut;
 mod observer;
 mod parameter;
@@ -15,6 +16,7 @@ pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Settings};
 
 use crate::drawing::Drawing;
+use crate::geometry::Rect;
 use crate::source::{MaskRole, Portrait};
 use thiserror::Error;
 
@@ -36,12 +38,16 @@ pub trait Style: Sync {
     }
     /// Working pixels a millimetre, given the masks at hand.
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
+    /// Working pixels a millimetre for a picture of this size on the page; for most styles the size does not matter.
+    fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
+        self.pixels_per_mm(settings, masks)
+    }
     /// Draws the portrait.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError>;
 }
 
 /// Every style, the default first.
-pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid, &engrave::Engrave];
+pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid, &engrave::Engrave, &charcoal::Charcoal];
 
 /// Finds a style by name.
 pub fn find(name: &str) -> Option<&'static dyn Style> {

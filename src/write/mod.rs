@@ -5,6 +5,7 @@
 
 mod gcode;
 mod hpgl;
+mod inkml;
 mod number;
 mod pdf;
 mod preview;
@@ -12,6 +13,7 @@ mod svg;
 
 pub use gcode::write_gcode;
 pub use hpgl::write_hpgl;
+pub use inkml::write_inkml;
 pub use number::{decimal, thousandths};
 pub use pdf::write_pdf;
 pub use preview::write_preview;

@@ -1,0 +1,192 @@
+//! Where a face is, by the pattern of its dark places (the template matching that Wong 1999, chapter 8 asks for).
+//!
+//! ```text
+//!      (--)   (--)      brows    -0.36        dark places are compared with light ones; the unit is the
+//!       o   .   o       eyes      0           distance of the eyes, and down the face a stretch of it,
+//!      .    .    .      cheeks                since faces differ in height and heads nod
+//!           ^           nose      0.60
+//!          ---          mouth     1.05
+//! ```
+
+use crate::geometry::{Point, Vec2};
+use crate::raster::{Raster, gaussian_blur};
+use rayon::prelude::*;
+
+/// A face's place and size in working pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceFrame {
+    /// The middle between the eyes.
+    pub between_eyes: Point,
+    /// Distance of the eyes' middles.
+    pub eye_distance: f64,
+    /// How much taller than the template the face is, about 1.
+    pub stretch: f64,
+    /// The tilt of the line through the eyes, in radians.
+    pub tilt: f64,
+    /// How far the pattern stands out, 0 (not at all) to about 1.
+    pub score: f64,
+}
+
+/// The template in units of the eyes' distance: place and weight; the weights of the dark and of the light places add up to one
+/// each. Tuned on the busts and portraits: with less on the brows they pass for the eyes of a dark face; without the upper lip, the
+/// shadow under the nose passes for the mouth.
+const DARK: [(f64, f64, f64); 7] = [
+    (-0.5, 0.0, 0.23),
+    (0.5, 0.0, 0.23),
+    (0.0, 1.08, 0.2),
+    (-0.2, 0.64, 0.04),
+    (0.2, 0.64, 0.04),
+    (-0.5, -0.34, 0.13),
+    (0.5, -0.34, 0.13),
+];
+const LIGHT: [(f64, f64, f64); 10] = [
+    (0.0, 0.12, 0.16),
+    (0.0, -0.6, 0.1),
+    (-0.5, 0.45, 0.13),
+    (0.5, 0.45, 0.13),
+    (-0.42, -0.7, 0.08),
+    (0.42, -0.7, 0.08),
+    (0.0, 1.45, 0.1),
+    (0.0, 0.85, 0.06),
+    (-0.45, 0.85, 0.08),
+    (0.45, 0.85, 0.08),
+];
+/// Limits of the light against its surroundings': a black cap is no darker than a brow, a white strap no lighter than a cheek.
+const RELIEF: (f32, f32) = (0.7, 1.05);
+/// Shares of the light places that must be skin, for a score of 0 and for the full score.
+const SKIN_SHARE: (f64, f64) = (0.45, 0.85);
+const STRETCHES: [f64; 5] = [0.8, 0.9, 1.0, 1.1, 1.2];
+const TILTS: [f64; 5] = [-0.12, -0.06, 0.0, 0.06, 0.12];
+/// What a face loses that is one of its expectation's tolerances off; a good face scores 0.3.
+const SURPRISE: f64 = 0.04;
+/// Tolerance of the eyes' distance, as a logarithm.
+const SIZE_TOLERANCE: f64 = 0.2;
+
+/// Where a face is looked for, in working pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceExpectation {
+    /// Where the middle between the eyes is likely to be.
+    pub between_eyes: Point,
+    /// How far off it may well be, across and down; two and a half times that is searched.
+    pub tolerance: Vec2,
+    /// The eyes' likely distance; a quarter more or less is searched.
+    pub eye_distance: f64,
+}
+
+impl FaceFrame {
+    /// A place of the template on the page's raster: `across` and `down` in eye distances from between the eyes.
+    pub fn place(&self, across: f64, down: f64) -> Point {
+        let along = Vec2::from_angle(self.tilt);
+        let downwards = Vec2::new(-along.y, along.x);
+        self.between_eyes + along * (across * self.eye_distance) + downwards * (down * self.eye_distance * self.stretch)
+    }
+
+    /// A place of the raster in eye distances from between the eyes: across and down.
+    pub fn relative(&self, p: Point) -> (f64, f64) {
+        let along = Vec2::from_angle(self.tilt);
+        let offset = p - self.between_eyes;
+        let downwards = Vec2::new(-along.y, along.x);
+        (offset.dot(along) / self.eye_distance, offset.dot(downwards) / (self.eye_distance * self.stretch))
+    }
+}
+
+/// The face in `lightness` (0 to 1) on `skin` (0 to 1) that is most like the template and the expectation; none where nothing is.
+pub fn find_face(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation) -> Option<FaceFrame> {
+    let sizes: Vec<f64> = (-3..=3).map(|i| expected.eye_distance * 1.08_f64.powi(i)).filter(|size| *size >= 4.0).collect();
+    let best: Vec<Option<FaceFrame>> = sizes.par_iter().map(|size| best_of_size(lightness, skin, expected, *size)).collect();
+    best.into_iter().flatten().fold(None, |best: Option<FaceFrame>, next| match best {
+        Some(best) if best.score >= next.score => Some(best),
+        _ => Some(next),
+    })
+}
+
+fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation, size: f64) -> Option<FaceFrame> {
+    let fine = gaussian_blur(lightness, (0.05 * size) as f32);
+    let mean = gaussian_blur(lightness, (0.4 * size) as f32);
+    // In shares of the surroundings' light, so that the dark side of a face and dark skin count alike.
+    let relief = fine.zip_map(&mean, |fine, mean| (fine / (mean + 0.01)).clamp(RELIEF.0, RELIEF.1));
+    // A feature may lie a little off its place.
+    let darkest = least_around(&relief, (0.08 * size) as usize);
+    let likeness = Likeness { relief: &relief, darkest: &darkest, skin };
+    let step = (0.06 * size).max(1.0);
+    let mut best: Option<FaceFrame> = None;
+    let reach = |tolerance: f64| (2.5 * tolerance / step) as isize;
+    for row in -reach(expected.tolerance.y)..=reach(expected.tolerance.y) {
+        for column in -reach(expected.tolerance.x)..=reach(expected.tolerance.x) {
+            let offset = Vec2::new(column as f64, row as f64) * step;
+            let off = [
+                offset.x / expected.tolerance.x,
+                offset.y / expected.tolerance.y,
+                (size / expected.eye_distance).ln() / SIZE_TOLERANCE,
+            ];
+            let surprise = SURPRISE * off.iter().map(|o| o * o).sum::<f64>();
+            for (stretch, tilt) in STRETCHES.into_iter().flat_map(|s| TILTS.map(|t| (s, t))) {
+                let between_eyes = expected.between_eyes + offset;
+                let frame = FaceFrame { between_eyes, eye_distance: size, stretch, tilt, score: 0.0 };
+                let score = likeness.of(&frame, surprise);
+                if best.is_none_or(|best| score > best.score) {
+                    best = Some(FaceFrame { score, ..frame });
+                }
+            }
+        }
+    }
+    best.filter(|best| best.score > 0.0)
+}
+
+/// The least value in a square of `2 radius + 1` pixels.
+fn least_around(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
+    let along = |raster: &Raster<f32>| {
+        let reach = radius as isize;
+        Raster::from_fn(raster.width(), raster.height(), |x, y| {
+            (-reach..=reach).map(|d| raster.clamped(x as isize + d, y as isize)).fold(f32::INFINITY, f32::min)
+        })
+    };
+    along(&along(raster).transposed()).transposed()
+}
+
+/// What a face is compared with.
+struct Likeness<'a> {
+    relief: &'a Raster<f32>,
+    darkest: &'a Raster<f32>,
+    skin: &'a Raster<f32>,
+}
+
+impl Likeness<'_> {
+    /// How much lighter the light places are than the dark ones; both sides must agree, and the light places be skin.
+    fn of(&self, frame: &FaceFrame, surprise: f64) -> f64 {
+        let value = |raster: &Raster<f32>, across: f64, down: f64| {
+            let p = frame.place(across, down);
+            f64::from(raster.clamped(p.x as isize, p.y as isize))
+        };
+        let sum = |raster: &Raster<f32>, places: &[(f64, f64, f64)]| -> f64 {
+            places.iter().map(|&(across, down, weight)| weight * value(raster, across, down)).sum()
+        };
+        let odd = (value(self.darkest, -0.5, 0.0) - value(self.darkest, 0.5, 0.0)).abs();
+        // Equal darkness decides for the plain face.
+        let strange = 0.1 * (frame.stretch - 0.97).abs() + 0.2 * frame.tilt.abs();
+        let share = sum(self.skin, &LIGHT);
+        let on_skin = ((share - SKIN_SHARE.0) / (SKIN_SHARE.1 - SKIN_SHARE.0)).clamp(0.0, 1.0);
+        (sum(self.relief, &LIGHT) - sum(self.darkest, &DARK) - 0.3 * odd - strange - surprise) * on_skin
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drawn_face_is_found() {
+        let spots = [(80.0, 90.0), (140.0, 90.0), (110.0, 153.0), (80.0, 68.0), (140.0, 68.0), (110.0, 127.0)];
+        let face = Raster::from_fn(220, 240, |x, y| {
+            let near = spots
+                .iter()
+                .any(|&(sx, sy): &(f32, f32)| ((x as f32 - sx) / 12.0).powi(2) + ((y as f32 - sy) / 5.0).powi(2) < 1.0);
+            if near { 0.25 } else { 0.7 }
+        });
+        let expected =
+            FaceExpectation { between_eyes: Point::new(103.0, 98.0), tolerance: Vec2::new(15.0, 15.0), eye_distance: 55.0 };
+        let frame = find_face(&face, &Raster::filled(220, 240, 1.0), &expected).unwrap();
+        assert!(frame.between_eyes.distance(Point::new(110.0, 90.0)) < 8.0, "{frame:?}");
+        assert!((frame.eye_distance - 60.0).abs() < 8.0 && frame.score > 0.1, "{frame:?}");
+    }
+}

@@ -1,0 +1,77 @@
+//! Paper: seeded irregular textures for charcoal and pastel.
+
+use super::{Raster, gaussian_blur};
+use rayon::prelude::*;
+
+/// Steps of the table that makes the texture's values even; a step is below what a mark's edge can show.
+const LEVELS: usize = 8192;
+
+/// An irregular texture whose values are spread evenly over 0 to 1 and whose hills are about `grain` pixels apart.
+///
+/// White noise (a hash of place and `seed`) less its own average over a grain, so that no tenth of the sheet is much darker than
+/// another, then equalised by rank. Nothing in it repeats. `grain` is at least 2.
+pub fn paper_texture(width: usize, height: usize, grain: f32, seed: u64) -> Raster<f32> {
+    let white = Raster::from_fn(width, height, |x, y| hash(seed, x as u64, y as u64));
+    // The band between the two blurs peaks at a wavelength of 2 pi * 1.26 sigma.
+    let sigma = grain / 5.0;
+    let (fine, coarse) = (gaussian_blur(&white, sigma), gaussian_blur(&white, 2.0 * sigma));
+    // Twice, since ranking bends the surface between the pixels.
+    equalised(&equalised(&fine.zip_map(&coarse, |a, b| a - b)))
+}
+
+/// Evenly distributed in -1 to 1 by place (`SplitMix64`'s finaliser).
+fn hash(seed: u64, x: u64, y: u64) -> f32 {
+    let mut z = seed.wrapping_add(x.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(y.wrapping_mul(0xd1b5_4a32_d192_ed03));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^= z >> 31;
+    (z >> 40) as f32 / 8_388_608.0 - 1.0
+}
+
+/// Each value replaced by its rank, 0 to 1, among the values of the surface between the pixels' centres (bilinear), since that is
+/// what outlines are drawn on; the pixels alone reach farther up and down.
+fn equalised(raster: &Raster<f32>) -> Raster<f32> {
+    let bounds = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
+    let (low, high) = raster.pixels().par_iter().map(|&v| (v, v)).reduce(|| (f32::INFINITY, f32::NEG_INFINITY), bounds);
+    let scale = if high > low { (LEVELS - 1) as f32 / (high - low) } else { 0.0 };
+    let counted = |mut below: Vec<u32>, y: usize| {
+        for x in 0..raster.width() {
+            for (dx, dy) in [(0.75, 0.75), (1.25, 0.75), (0.75, 1.25), (1.25, 1.25)] {
+                let value = raster.sample(x as f64 + dx, y as f64 + dy);
+                below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
+            }
+        }
+        below
+    };
+    let none = || vec![0_u32; LEVELS + 1];
+    let both = |mut a: Vec<u32>, b: Vec<u32>| {
+        a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+        a
+    };
+    let mut below = (0..raster.height()).into_par_iter().with_min_len(64).fold(none, counted).reduce(none, both);
+    let total: u32 = 4 * raster.len() as u32;
+    for level in 0..LEVELS {
+        below[level + 1] += below[level];
+    }
+    raster.map(|value| {
+        let at = (value - low) * scale;
+        let level = (at as usize).min(LEVELS - 1);
+        let (from, to) = (below[level] as f32, below[level + 1] as f32);
+        ((from + (to - from) * at.fract()) / total.max(1) as f32).clamp(0.0, 1.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_even_and_seeds_differ() {
+        let paper = paper_texture(200, 150, 5.0, 7);
+        for limit in [0.1, 0.25, 0.5, 0.9] {
+            let share = paper.pixels().iter().filter(|v| **v < limit).count() as f32 / paper.len() as f32;
+            assert!((share - limit).abs() < 0.04, "{share} below {limit}");
+        }
+        assert_ne!(paper, paper_texture(200, 150, 5.0, 8));
+    }
+}

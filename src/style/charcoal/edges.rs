@@ -1,0 +1,183 @@
+//! Step 3: edges (sections 3.1.3 and 6.3.2).
+
+use super::Drawer;
+use super::features::Features;
+use super::regions::Regions;
+use super::strokes::Touch;
+use crate::drawing::Mark;
+use crate::field::{Curve, EdgeParameters, contours, detect_edges, distance_to_curves, lines_of};
+use crate::geometry::{Point, Vec2, polyline_length, smooth_polyline};
+use crate::raster::{Raster, Thresholds, dilate};
+use crate::source::MaskRole;
+use crate::style::Picture;
+use crate::style::random::stream;
+use rand::{Rng, RngExt};
+
+/// Brightness of the keep mask above which an edge is kept.
+const KEPT: f32 = 0.25;
+/// Length of a displaced segment as a share of its line, and how far neighbours overlap.
+const SEGMENT: (f64, f64) = (0.3, 0.7);
+const OVERLAP: f64 = 0.3;
+/// Pressures of the displaced segments and of the line itself, which is emphasised (section 6.3.2).
+const SKETCH_PRESSURE: f64 = 0.35;
+const LINE_PRESSURE: f64 = 0.9;
+
+impl Drawer<'_> {
+    pub(super) fn edges(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
+        self.observer.begin("edges");
+        let lines = self.edge_lines(regions, features);
+        let touch = Touch {
+            width_mm: self.parameters.stroke_width_mm,
+            pressure: LINE_PRESSURE,
+            taper: 0.3,
+            node_mm: 2.0 * self.parameters.pitch_mm,
+        };
+        let mut marks = Vec::new();
+        for (i, line) in lines.iter().enumerate() {
+            let mut points = line.points.clone();
+            if line.closed {
+                points.push(points[0]);
+            }
+            let mut random = stream(self.seed, "sketch", i as u64);
+            for _ in 0..self.parameters.sketch_passes {
+                let light = Touch { pressure: SKETCH_PRESSURE, ..touch };
+                let segments = self.sketched(&points, &mut random);
+                marks.extend(segments.iter().filter_map(|segment| self.stroke(segment, light, |_| 1.0)));
+            }
+            let firmness = self.firmness(&points);
+            marks.extend(self.stroke(&points, touch, |_| firmness));
+        }
+        marks
+    }
+
+    /// Edges, less the image mask and the specks, by the user's keep mask; with the subject's own border.
+    fn edge_lines(&self, regions: &Regions, features: &Features) -> Vec<Curve> {
+        let parameters = self.edge_parameters();
+        let steps = detect_edges(&self.portrait.on_white(&self.portrait.lightness), parameters);
+        self.observer.picture("canny", &|| Picture::Mask(steps.canny.clone()));
+        let hidden = self.hidden(regions, features);
+        let kept = steps.skeleton.zip_map(&hidden, |edge, hidden| if hidden != 0 { 0 } else { edge });
+        let kept = match self.portrait.masks.get(&MaskRole::Edges) {
+            Some(mask) => kept.zip_map(&dilate(&mask.map(|v| u8::from(v >= KEPT)), 2), |edge, keep| edge & keep),
+            None => kept,
+        };
+        self.observer.picture("edges-kept", &|| Picture::Mask(kept.clone()));
+        let found = lines_of(&kept, parameters.smoothing, parameters.least_length);
+        self.with_silhouette(found, regions, &hidden)
+    }
+
+    fn edge_parameters(&self) -> EdgeParameters {
+        let per_pixel = 1.0 / self.pixels(self.parameters.pitch_mm);
+        EdgeParameters {
+            blur: self.pixels(self.parameters.edge_blur_mm) as f32,
+            thresholds: Thresholds {
+                low: (self.parameters.edge_low.min(self.parameters.edge_high) * per_pixel) as f32,
+                high: (self.parameters.edge_high * per_pixel) as f32,
+            },
+            least_length: self.pixels(self.parameters.edge_length_mm) as f32,
+            smoothing: self.pixels(self.parameters.pitch_mm) as f32,
+        }
+    }
+
+    /// The image mask: what other steps draw. The background gives way by a few pixels, since the subject's border is an edge; hair
+    /// takes its own border, which needs no line.
+    fn hidden(&self, regions: &Regions, features: &Features) -> Raster<u8> {
+        let margin = self.pixels(self.parameters.pitch_mm).round().max(1.0) as usize;
+        let near_subject = dilate(&regions.subject.map(|v| u8::from(v >= 0.5)), margin);
+        let hair = dilate(&regions.hair.map(|v| u8::from(v >= 0.5)), margin);
+        let drawn = dilate(&features.drawn.map(|v| u8::from(v > 0.0)), margin);
+        let hidden = near_subject.zip_map(&hair, |near, hair| u8::from(near == 0 || hair != 0));
+        hidden.zip_map(&drawn, |hidden, drawn| hidden | drawn)
+    }
+
+    /// The subject's border is its contour, exactly; edges found beside it give way.
+    fn with_silhouette(&self, found: Vec<Curve>, regions: &Regions, hidden: &Raster<u8>) -> Vec<Curve> {
+        if !regions.has_background {
+            return found;
+        }
+        let least = self.pixels(self.parameters.edge_length_mm);
+        let smoothing = self.pixels(1.5 * self.parameters.pitch_mm);
+        let (width, height) = self.size();
+        let is_hidden = |p: &Point| hidden.clamped(p.x as isize, p.y as isize) != 0;
+        let silhouette: Vec<Curve> = contours(&regions.subject, 0.5)
+            .into_iter()
+            .filter(|line| line.length() >= least)
+            .flat_map(|line| open_pieces(&line, is_hidden))
+            .filter(|piece| polyline_length(piece) >= least)
+            .map(|piece| Curve { points: smooth_polyline(&piece, false, smoothing, 1.5), closed: false })
+            .collect();
+        let Some(field) = distance_to_curves(&silhouette, width, height) else { return found };
+        let reach = self.pixels(1.6 * self.parameters.pitch_mm) as f32;
+        let beside = |p: &Point| field.distance.sample(p.x, p.y) < reach;
+        let apart = found.iter().flat_map(|line| open_pieces(line, beside)).filter(|piece| polyline_length(piece) >= least);
+        let apart: Vec<Curve> = apart.map(|points| Curve { points, closed: false }).collect();
+        silhouette.into_iter().chain(apart).collect()
+    }
+
+    /// How firmly an edge is drawn: by the step of tone that it marks.
+    fn firmness(&self, points: &[Point]) -> f64 {
+        let reach = self.pixels(1.5 * self.parameters.pitch_mm);
+        let lightness = &self.portrait.lightness;
+        let steps = points.windows(2).map(|pair| {
+            let along = pair[1] - pair[0];
+            let across = Vec2::new(-along.y, along.x).normalize() * reach;
+            let at = |p: Point| f64::from(lightness.sample(p.x, p.y));
+            if along.hypot() > 0.0 { (at(pair[0] + across) - at(pair[0] - across)).abs() } else { 0.0 }
+        });
+        let mean = steps.sum::<f64>() / (points.len().max(2) - 1) as f64;
+        (0.3 + 2.2 * mean).clamp(0.3, 1.0)
+    }
+
+    /// Overlapping pieces of a line, each with its ends displaced at random.
+    fn sketched(&self, points: &[Point], random: &mut impl Rng) -> Vec<Vec<Point>> {
+        let length = polyline_length(points);
+        let offset = self.pixels(self.parameters.sketch_offset_mm);
+        let least = 8.0 * self.pixels(self.parameters.pitch_mm);
+        let mut pieces = Vec::new();
+        let mut from = 0.0;
+        while from < length {
+            let share = random.random_range(SEGMENT.0..SEGMENT.1);
+            let long = (share * length).clamp(least.min(length), 5.0 * least);
+            let mut shift = || Vec2::new(random.random_range(-1.0..1.0), random.random_range(-1.0..1.0)) * offset;
+            let (first, last) = (shift(), shift());
+            let piece = between(points, from, (from + long).min(length));
+            let end = (piece.len().max(2) - 1) as f64;
+            pieces.push(piece.iter().enumerate().map(|(i, p)| *p + first.lerp(last, i as f64 / end)).collect());
+            if from + long >= length {
+                break;
+            }
+            from += long * (1.0 - OVERLAP);
+        }
+        pieces
+    }
+}
+
+/// The runs of a line for which `is_out` is false.
+fn open_pieces(line: &Curve, is_out: impl Fn(&Point) -> bool) -> Vec<Vec<Point>> {
+    let mut points = line.points.clone();
+    if line.closed {
+        // Begun where it is out, so that no run is cut at the seam.
+        let start = points.iter().position(&is_out).unwrap_or(0);
+        points.rotate_left(start);
+        points.push(points[0]);
+    }
+    points.split(is_out).filter(|run| run.len() > 1).map(<[Point]>::to_vec).collect()
+}
+
+/// The part of a polyline between two lengths along it.
+fn between(points: &[Point], from: f64, to: f64) -> Vec<Point> {
+    let mut part = Vec::new();
+    let mut travelled = 0.0;
+    for pair in points.windows(2) {
+        let piece = pair[0].distance(pair[1]);
+        let at = |length: f64| pair[0].lerp(pair[1], ((length - travelled) / piece.max(1e-12)).clamp(0.0, 1.0));
+        if travelled + piece >= from && travelled <= to {
+            if part.is_empty() {
+                part.push(at(from));
+            }
+            part.push(at(to));
+        }
+        travelled += piece;
+    }
+    part
+}

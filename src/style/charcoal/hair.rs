@@ -1,0 +1,96 @@
+//! Step 2: hair (sections 3.1.2, 4 and 6.3.3).
+
+use super::Drawer;
+use super::regions::Regions;
+use super::strokes::Touch;
+use crate::drawing::Mark;
+use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
+use crate::geometry::smooth_polyline;
+use crate::raster::{Raster, gaussian_blur, ridges};
+use crate::style::Picture;
+use crate::style::random::stream;
+
+/// Blur before lines are sought, in pixels (section 3.1.2).
+const LINE_BLUR: f32 = 2.0;
+/// Share of the hair's pixels that the curvature of a line must outdo: with fewer lines bald patches arise, with more the noise of
+/// the photograph counts.
+const LINE_QUANTILE: f64 = 0.5;
+/// Angles of the Hough accumulator.
+const ANGLES: usize = 36;
+
+impl Drawer<'_> {
+    pub(super) fn hair(&self, regions: &Regions) -> Vec<Mark> {
+        self.observer.begin("hair");
+        if regions.hair.pixels().iter().all(|v| *v < 0.5) {
+            return Vec::new();
+        }
+        let field = self.hair_orientation(&regions.hair);
+        let darkness = self.darkness();
+        let covering = Covering {
+            width: self.pixels(self.parameters.stroke_width_mm) * 0.75,
+            length: self.pixels(self.parameters.hair_length_mm),
+            length_spread: 0.6,
+            turn: self.parameters.hair_turn,
+            reach: self.pixels(0.9 * self.parameters.pitch_mm),
+        };
+        let ink = self.hair_ink(&darkness, &regions.hair);
+        self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
+        let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch_mm) as f32);
+        let touch = Touch {
+            width_mm: self.parameters.stroke_width_mm,
+            pressure: 1.0,
+            taper: 0.35,
+            node_mm: 2.0 * self.parameters.pitch_mm,
+        };
+        cover(&field, &regions.hair, &ink, covering, &mut stream(self.seed, "hair", 0))
+            .iter()
+            .filter_map(|line| {
+                let line = smooth_polyline(line, false, self.pixels(self.parameters.pitch_mm), 1.5);
+                self.stroke(&line, touch, |p| 0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0))
+            })
+            .collect()
+    }
+
+    /// Section 3.1.2: blur, lines, Hough filter, smoothing.
+    fn hair_orientation(&self, hair: &Raster<f32>) -> OrientationField {
+        let blurred = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
+        let region = hair.map(|v| u8::from(v >= 0.5));
+        let all = ridges(&blurred, 0.0);
+        let least = self.line_strength(&blurred, &region);
+        let lines = ridges(&blurred, least).zip_map(&region, |line, inside| line & inside);
+        let lines = if lines.pixels().iter().any(|v| *v != 0) { lines } else { all };
+        self.observer.picture("hair-lines", &|| Picture::Mask(lines.clone()));
+        let radius = (self.pixels(self.parameters.hough_radius_mm).round() as usize).max(2);
+        let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
+        let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
+        let field = raw.smoothed(self.pixels(self.parameters.hair_smoothing_mm) as f32);
+        self.observer.picture("hair-orientation", &|| {
+            Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.atan2(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
+        });
+        field
+    }
+
+    /// The curvature that a share of the hair's pixels stay below.
+    fn line_strength(&self, blurred: &Raster<f32>, region: &Raster<u8>) -> f32 {
+        let fine = gaussian_blur(blurred, 1.6 * LINE_BLUR);
+        let contrast = blurred.zip_map(&fine, |a, b| (a - b).abs());
+        let mut strengths: Vec<f32> =
+            contrast.pixels().iter().zip(region.pixels()).filter(|(_, r)| **r != 0).map(|(c, _)| *c).collect();
+        strengths.sort_by(f32::total_cmp);
+        let at = (LINE_QUANTILE * strengths.len() as f64) as usize;
+        // The difference of two Gaussians is about 0.8 sigma^2 times the curvature.
+        strengths.get(at).map_or(0.0, |c| c / (0.8 * LINE_BLUR * LINE_BLUR))
+    }
+
+    /// Ink of the strokes: the photograph's, with the lights and darks of the hair pulled apart so that strands show.
+    fn hair_ink(&self, darkness: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
+        let mut inside: Vec<f32> =
+            darkness.pixels().iter().zip(hair.pixels()).filter(|(_, h)| **h >= 0.5).map(|(d, _)| *d).collect();
+        inside.sort_by(f32::total_cmp);
+        let at = |share: f64| inside[((inside.len() - 1) as f64 * share) as usize];
+        let (light, middle, dark) = (at(0.03), at(0.5), at(0.97));
+        let spread = (dark - light).max(0.08);
+        let level = self.parameters.hair_ink * middle;
+        darkness.map(|d| (level * (0.35 + 1.3 * ((d - light) / spread).clamp(0.0, 1.0))).clamp(0.0, 1.2))
+    }
+}

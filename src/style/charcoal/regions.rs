@@ -1,0 +1,264 @@
+//! Step 1 (section 3.1): background, hair, face and what is left; each pixel belongs to one of them.
+
+use super::Drawer;
+use super::skin::may_be_skin;
+use crate::field::{FaceExpectation, FaceFrame, find_face};
+use crate::geometry::{Point, Rect, Vec2};
+use crate::raster::{Raster, components, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
+use crate::source::MaskRole;
+use crate::style::Picture;
+
+/// The regions, each 0 to 1, in working pixels; at most one of them holds any pixel.
+pub(super) struct Regions {
+    pub subject: Raster<f32>,
+    pub hair: Raster<f32>,
+    pub face: Raster<f32>,
+    /// Where the face's pattern lies, when one was found.
+    pub frame: Option<FaceFrame>,
+    /// Clothing, when it was given; else all that is neither hair nor face.
+    pub clothing: Raster<f32>,
+    pub has_background: bool,
+}
+
+/// Least score of a face that nobody has pointed out. The search in whole pictures finds faces in suits and coffee with scores as
+/// good as a face's own, so it keeps to the head of a silhouette.
+const LEAST_SCORE: f64 = 0.12;
+/// Where the eyes are in the box of a face (brow to chin) and of a head with its hair: how far down, the tolerances across and down,
+/// and the eyes' distance, as shares of the box.
+const IN_FACE: [f64; 4] = [0.39, 0.08, 0.07, 0.44];
+const IN_HEAD: [f64; 4] = [0.64, 0.1, 0.12, 0.36];
+/// Greatest colour step between neighbours within a plain background, in encoded light; a blurred edge of a person is steeper.
+const BACKGROUND_STEP: f32 = 0.012;
+/// Greatest colour distance of a plain background from its border's median: a lit backdrop varies by a third.
+const BACKGROUND_SPREAD: f32 = 0.3;
+/// Shares of the picture between which a flooded background is believed.
+const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
+/// Colour distance to the hair's own colour against that to the skin's: nearer to hair is hair.
+const HAIR_REACH: f32 = 0.16;
+/// Least colour distance between hair and skin; on the dark bust it is less, and half of the face would become hair.
+const LEAST_CONTRAST: f32 = 0.3;
+
+impl Drawer<'_> {
+    pub(super) fn regions(&self) -> Regions {
+        self.observer.begin("regions");
+        let mask = |role| self.portrait.masks.get(&role).cloned();
+        let (subject, has_background) = self.subject();
+        let given_face = mask(MaskRole::Face);
+        let head = if has_background { head(&subject) } else { None };
+        let frame = self.frame(&subject, head, given_face.as_ref());
+        let hair = mask(MaskRole::Hair).or_else(|| self.found_hair(&subject, given_face.as_ref(), frame.as_ref()));
+        let nothing = || subject.map(|_| 0.0);
+        if hair.is_none() {
+            self.observer.warn("no hair was found: it is drawn like the rest; give --mask hair=FILE to draw it in strokes");
+        }
+        let hair = hair.unwrap_or_else(nothing).zip_map(&subject, f32::min);
+        let face = given_face.or_else(|| frame.map(|frame| self.found_face(&frame))).unwrap_or_else(nothing);
+        let face = face.zip_map(&subject, f32::min).zip_map(&hair, |face, hair| face.min(1.0 - hair));
+        let rest = subject.zip_map(&hair, |s, hair| s.min(1.0 - hair)).zip_map(&face, |s, face| s.min(1.0 - face));
+        let clothing = mask(MaskRole::Clothing).map_or_else(
+            || if frame.is_some() { self.not_skin(&rest) } else { rest.clone() },
+            |cloth| cloth.zip_map(&rest, f32::min),
+        );
+        let regions = Regions { subject, hair, face, frame, clothing, has_background };
+        self.observer.picture("regions", &|| Picture::Labels(regions.labels()));
+        regions
+    }
+
+    /// The rest of a person without neck and hands, which the smudge alone draws, like the face.
+    fn not_skin(&self, rest: &Raster<f32>) -> Raster<f32> {
+        let skin = gaussian_blur(&may_be_skin(&self.portrait.light), 2.0);
+        rest.zip_map(&skin, |rest, skin| rest * (1.0 - skin))
+    }
+
+    /// From the mask or alpha; else what a plain background leaves; else everything.
+    fn subject(&self) -> (Raster<f32>, bool) {
+        if self.portrait.subject.pixels().iter().any(|s| *s < 0.5) {
+            return (self.portrait.subject.clone(), true);
+        }
+        if let Some(background) = self.plain_background() {
+            let soft = gaussian_blur(&background.map(f32::from), 1.0);
+            return (soft.map(|b| 1.0 - b), true);
+        }
+        self.observer.warn(
+            "the background is not plain enough to be told from the subject: all is drawn; give --mask subject=FILE or an alpha channel",
+        );
+        (self.portrait.subject.clone(), false)
+    }
+
+    /// Flooded from the border through small steps of colour near the border's own (section 3.1.1's blue screen).
+    fn plain_background(&self) -> Option<Raster<u8>> {
+        let colour = self.colours();
+        let (width, height) = self.size();
+        let mut border: Vec<[f32; 3]> = (0..width).map(|x| colour.get(x, 0)).collect();
+        border.extend((0..height * 2 / 3).flat_map(|y| [colour.get(0, y), colour.get(width - 1, y)]));
+        let middle = median(&border);
+        let pixels = colour.pixels();
+        let is_near = |i: usize| distance(pixels[i], middle) < BACKGROUND_SPREAD;
+        let plain = border.iter().filter(|c| distance(**c, middle) < BACKGROUND_SPREAD).count();
+        if (plain as f64) < 0.75 * border.len() as f64 {
+            return None;
+        }
+        let flooded = flood_from_border(width, height, is_near, |from, to| {
+            is_near(to) && distance(pixels[from], pixels[to]) < BACKGROUND_STEP
+        });
+        let subject = without_holes(&majority(&flooded, 2).map(|b| 1 - b));
+        let subject = largest(&subject, 0.05);
+        let background = subject.map(|s| 1 - s);
+        let share = background.pixels().iter().map(|b| f64::from(*b)).sum::<f64>() / background.len() as f64;
+        (BACKGROUND_SHARE.0..BACKGROUND_SHARE.1).contains(&share).then_some(background)
+    }
+
+    /// Encoded light, a little blurred.
+    fn colours(&self) -> Raster<[f32; 3]> {
+        let channel = |i: usize| gaussian_blur(&self.portrait.light.map(|rgb| rgb[i].cbrt()), 1.5);
+        channel(0).zip_map(&channel(1), |r, g| [r, g]).zip_map(&channel(2), |[r, g], b| [r, g, b])
+    }
+
+    /// The face's pattern: inside the given mask; else in the head, which only a silhouette tells.
+    fn frame(&self, subject: &Raster<f32>, head: Option<Rect>, given: Option<&Raster<f32>>) -> Option<FaceFrame> {
+        let lightness = &self.portrait.lightness;
+        if let Some(face) = given {
+            return find_face(lightness, face, &expected_in(bounds(face)?, &IN_FACE));
+        }
+        let skin = gaussian_blur(&may_be_skin(&self.portrait.light).zip_map(subject, f32::min), 3.0);
+        let frame = head.and_then(|head| find_face(lightness, &skin, &expected_in(head, &IN_HEAD)));
+        let frame = frame.filter(|frame| frame.score >= LEAST_SCORE);
+        if frame.is_none() {
+            self.observer.warn("no face was found: its features are not drawn; give --mask face=FILE");
+        }
+        frame
+    }
+
+    /// The oval of a face round its pattern.
+    fn found_face(&self, frame: &FaceFrame) -> Raster<f32> {
+        let (width, height) = self.size();
+        Raster::from_fn(width, height, |x, y| {
+            let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            // Brow to chin is wider above than below, as an egg is.
+            let breadth = if down < 0.3 { 1.12 } else { 1.12 - 0.2 * (down - 0.3) };
+            let reach = ((across / breadth).powi(2) + ((down - 0.42) / 1.28).powi(2)).sqrt();
+            ((1.0 - reach) as f32 * frame.eye_distance as f32 + 0.5).clamp(0.0, 1.0)
+        })
+    }
+
+    /// What lies round the upper head, nearer in colour to the crown than to the skin, and in one piece with the crown.
+    fn found_hair(&self, subject: &Raster<f32>, face: Option<&Raster<f32>>, frame: Option<&FaceFrame>) -> Option<Raster<f32>> {
+        let frame = frame?;
+        let colour = self.colours();
+        let at = |p: Point| colour.clamped(p.x as isize, p.y as isize);
+        let skin = median(
+            &[(0.0, -0.5), (0.4, 0.5), (-0.4, 0.5), (0.0, 0.3), (0.3, -0.6), (-0.3, -0.6)].map(|(a, d)| at(frame.place(a, d))),
+        );
+        let inside = |p: Point| subject.contains(p.x as isize, p.y as isize) && subject.sample(p.x, p.y) >= 0.5;
+        // Upwards from the brow until the subject ends: the far half of what is not skin is hair.
+        let crown: Vec<[f32; 3]> = (-3..=3)
+            .flat_map(|column| (0..60).map(move |i| (0.2 * f64::from(column), -0.6 - 0.03 * f64::from(i))))
+            .map(|(across, down)| frame.place(across, down))
+            .filter(|p| inside(*p))
+            .map(at)
+            .filter(|c| distance(*c, skin) > 0.1)
+            .collect();
+        if crown.len() < 20 {
+            return None;
+        }
+        let hair = median(&crown);
+        // Hair as dark as the skin cannot be told from it by colour.
+        if distance(hair, skin) < LEAST_CONTRAST {
+            return None;
+        }
+        let reach = HAIR_REACH.max(0.5 * distance(hair, skin));
+        let (width, height) = self.size();
+        let near = Raster::from_fn(width, height, |x, y| {
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let (across, down) = frame.relative(p);
+            let zone = (across / 1.9).powi(2) + ((down + 0.3) / 2.1).powi(2) < 1.0;
+            let features = across.abs() < 0.95 && (-0.62..1.5).contains(&down);
+            let c = colour.get(x, y);
+            u8::from(zone && !features && inside(p) && distance(c, hair) < reach && distance(c, hair) < distance(c, skin))
+        });
+        let near = face.map_or(near.clone(), |face| near.zip_map(face, |n, face| if face >= 0.5 { 0 } else { n }));
+        let whole = without_holes(&largest(&majority(&near, 2), 0.2));
+        let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
+        (area > 0.3 * frame.eye_distance.powi(2)).then(|| gaussian_blur(&whole.map(f32::from), 1.0))
+    }
+}
+
+impl Regions {
+    /// 0 background, 1 hair, 2 face, 3 clothing, 4 the rest.
+    fn labels(&self) -> Raster<i32> {
+        let (width, height) = (self.subject.width(), self.subject.height());
+        Raster::from_fn(width, height, |x, y| match (x, y) {
+            _ if self.subject.get(x, y) < 0.5 => 0,
+            _ if self.hair.get(x, y) >= 0.5 => 1,
+            _ if self.face.get(x, y) >= 0.5 => 2,
+            _ if self.clothing.get(x, y) >= 0.5 => 3,
+            _ => 4,
+        })
+    }
+
+    /// What no other step draws: 1 inside the subject where there is no hair (the image mask's complement).
+    pub(super) fn unmasked(&self) -> Raster<f32> {
+        self.subject.zip_map(&self.hair, |s, hair| s.min(1.0 - hair))
+    }
+}
+
+/// The components with at least `share` of the pixels of the largest.
+fn largest(mask: &Raster<u8>, share: f64) -> Raster<u8> {
+    let (labels, count) = components(mask);
+    let mut sizes = vec![0_usize; count + 1];
+    labels.pixels().iter().for_each(|label| sizes[*label as usize] += 1);
+    let most = sizes[1..].iter().copied().max().unwrap_or(0) as f64;
+    remove_components(mask, &labels, |label| sizes[label as usize] as f64 >= share * most)
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt()
+}
+
+fn median(colours: &[[f32; 3]]) -> [f32; 3] {
+    [0, 1, 2].map(|i| {
+        let mut channel: Vec<f32> = colours.iter().map(|c| c[i]).collect();
+        channel.sort_by(f32::total_cmp);
+        channel.get(channel.len() / 2).copied().unwrap_or(0.0)
+    })
+}
+
+/// The box round a silhouette's head: from its top to where it has narrowed to a neck; none when it never does.
+fn head(subject: &Raster<f32>) -> Option<Rect> {
+    let extent = |y: usize| {
+        let inside = |x: &usize| subject.get(*x, y) >= 0.5;
+        let columns = 0..subject.width();
+        Some((columns.clone().find(inside)? as f64, columns.rev().find(inside)? as f64 + 1.0))
+    };
+    let mut head: Option<Rect> = None;
+    for y in 0..subject.height() {
+        let Some((left, right)) = extent(y) else { continue };
+        let row = Rect::new(left, y as f64, right, y as f64 + 1.0);
+        let grown = head.map_or(row, |head| head.union(row));
+        if let Some(head) = head
+            && head.height() > 0.5 * head.width()
+            && right - left < 0.8 * head.width()
+        {
+            return Some(head);
+        }
+        head = Some(grown);
+    }
+    None
+}
+
+fn expected_in(bounds: Rect, [down, across_tolerance, down_tolerance, distance]: &[f64; 4]) -> FaceExpectation {
+    FaceExpectation {
+        between_eyes: Point::new(bounds.center().x, bounds.y0 + down * bounds.height()),
+        tolerance: Vec2::new(across_tolerance * bounds.width(), down_tolerance * bounds.height()),
+        eye_distance: distance * bounds.width(),
+    }
+}
+
+/// The box round a region; none when it is empty.
+fn bounds(region: &Raster<f32>) -> Option<Rect> {
+    let inside = region.pixels().iter().enumerate().filter(|(_, v)| **v >= 0.5);
+    inside
+        .map(|(i, _)| ((i % region.width()) as f64, (i / region.width()) as f64))
+        .map(|(x, y)| Rect::new(x, y, x + 1.0, y + 1.0))
+        .reduce(|a, b| a.union(b))
+}
