@@ -5,15 +5,21 @@
 mod contour;
 mod distance;
 mod edges;
+mod flow;
+mod glass;
 mod isophotes;
 mod lanes;
+mod ribbon;
 mod trace;
 mod voronoi;
 
 pub use contour::contours;
 pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
+pub use flow::Flow;
+pub use glass::{glass_pattern, line_integral_convolution};
 pub use isophotes::{IsophoteSteps, detect_isophotes};
 pub use lanes::{LaneParameters, Lanes, offset_lanes};
+pub use ribbon::{Ribbon, glass_ribbons};
 pub use trace::{Curve, trace};
 pub use voronoi::{Sites, cell_polygon};

@@ -8,13 +8,26 @@ mod bilateral;
 mod binary;
 mod blur;
 mod canny;
+mod diffusion;
+mod edge_preserving;
+mod frame;
+mod lattice_gaussian;
+mod rank;
+mod structure_tensor;
 mod thin;
 
 pub use bilateral::bilateral;
 pub use binary::{components, dilate, majority, remove_components};
 pub use blur::{box_blur, gaussian_blur};
 pub use canny::{Thresholds, canny};
+pub use diffusion::anisotropic_diffusion;
+pub use edge_preserving::edge_preserving;
+pub use lattice_gaussian::fast_gaussian;
+pub use rank::{equalised, sorted};
+pub use structure_tensor::{gaussian_gradient, gradient, structure_tensor};
 pub use thin::thin;
+
+use blur::gaussian_kernel;
 
 use rayon::prelude::*;
 

@@ -3,6 +3,7 @@
 //! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
+mod glass;
 mod hedcut;
 mod observer;
 mod parameter;
@@ -34,7 +35,7 @@ pub trait Style: Sync {
 }
 
 /// Every style, the default first.
-pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut];
+pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &glass::Glass];
 
 /// Finds a style by name.
 pub fn find(name: &str) -> Option<&'static dyn Style> {
