@@ -126,7 +126,8 @@ impl Bump {
         Blob { corners: self.rays.iter().enumerate().map(corner).collect() }
     }
 
-    /// Nodes and widths of the ribbon above a level; none where the blob is thinner than a tenth of a pixel.
+    /// Nodes and widths of the ribbon above a level; none where the blob is thinner than a tenth of a pixel or
+    /// the flow ends at once.
     fn ribbon(&self, level: f32) -> Option<(Vec<Point>, Vec<f64>)> {
         let blob = self.blob(level);
         let (low, high) = blob.across(f64::NEG_INFINITY, f64::INFINITY);
@@ -134,6 +135,9 @@ impl Bump {
             return None;
         }
         let gone = (self.upstream.len() - 1) as f64;
+        if gone < 1.0 {
+            return None;
+        }
         let (front, back) = (blob.front_cap(), blob.back_cap());
         let mut stations = vec![front];
         if front.s > 0.35 * (high - low) {

@@ -1,6 +1,8 @@
 //! Painting with the strokes of continuous Glass patterns (Papari and Petkov 2009; Papari 2009, chapter 7).
 
+mod body;
 mod colour;
+mod detail;
 mod discrete;
 mod hairs;
 mod noise;
@@ -20,6 +22,9 @@ use parameters::{Manner, Painting};
 /// Change of colour a pixel across which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes
 /// whirl in every pore; at three times it the astronaut's collar loses its corners.
 const DIFFUSION_CONTRAST: f32 = 0.024;
+
+/// Blur before the gradient that fine strokes follow, as a share of the others'.
+const FINE_FORMS: f32 = 0.35;
 
 /// The style.
 pub(super) struct Glass;
@@ -70,8 +75,10 @@ struct Ground {
     smoothed: Vec<Raster<f32>>,
     /// The subject, framed.
     subject: Raster<f32>,
-    /// The direction of strokes, framed; none outside the subject.
+    /// The direction of strokes, framed; none outside the subject, and in flat parts that of the parts around.
     flow: Flow,
+    /// That of fine strokes, along small forms too.
+    fine_flow: Flow,
 }
 
 impl Drawer<'_> {
@@ -109,13 +116,15 @@ impl Drawer<'_> {
         self.observer.begin("flow");
         let margin = self.pixels(self.parameters.length_mm).ceil() as usize + 4;
         let subject = self.portrait.subject.framed(margin);
-        let flow = self.flow(&smoothed).framed(margin).within(&subject);
-        Ground { margin, smoothed: smoothed.iter().map(|plane| plane.framed(margin)).collect(), subject, flow }
+        let sigma = self.pixels(self.parameters.whirls_mm) as f32;
+        let framed = |flow: Flow| flow.completed().framed(margin).within(&subject);
+        let (flow, fine_flow) = (framed(self.flow(&smoothed, sigma)), framed(self.flow(&smoothed, FINE_FORMS * sigma)));
+        let smoothed = smoothed.iter().map(|plane| plane.framed(margin)).collect();
+        Ground { margin, smoothed, subject, flow, fine_flow }
     }
 
     /// Equations 7.9, 7.10 and 7.14.
-    fn flow(&self, smoothed: &[Raster<f32>]) -> Flow {
-        let sigma = self.pixels(self.parameters.whirls_mm) as f32;
+    fn flow(&self, smoothed: &[Raster<f32>], sigma: f32) -> Flow {
         let blurred: Vec<Raster<f32>> = if self.parameters.diffuses {
             anisotropic_diffusion(smoothed, sigma, DIFFUSION_CONTRAST)
         } else {

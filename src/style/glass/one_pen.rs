@@ -23,7 +23,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
         return Err(StyleError::NothingToDraw("the picture, or the part inside the subject mask, is white all over".to_owned()));
     }
     drawer.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
-    let flow = ground.flow.completed().unframed(ground.margin);
+    let flow = ground.flow.unframed(ground.margin);
     let width = drawer.pixels(drawer.parameters.line_mm);
     let mut calibration = Calibration::default();
     let mut lines = Vec::new();

@@ -1,16 +1,24 @@
 //! The painting: the ribbons of the pattern as opaque strokes in the smoothed picture's colours (Papari 2009, section 7.3).
 
+use super::body::Body;
 use super::visible::{Canvas, Shown};
-use super::{Drawer, Ground, colour, hairs, noise};
-use crate::drawing::{Layer, Mark, Mixing, Stroke, Width};
-use crate::field::{Ribbon, glass_pattern, glass_ribbons};
-use crate::geometry::{BezPath, Point, catmull_rom};
-use crate::raster::{Raster, sorted};
+use super::{Drawer, Ground, colour, detail, hairs, noise};
+use crate::drawing::{Layer, Mark, Mixing};
+use crate::field::{GlassLevels, Ribbon, glass_pattern, glass_ribbons};
+use crate::geometry::{Point, Vec2};
+use crate::raster::Raster;
 use crate::style::StyleError;
 use rayon::prelude::*;
 
-/// Least area of a stroke that shows, in working pixels.
-const LEAST_SHOWN: f64 = 0.5;
+/// Least area of a stroke that shows, in working pixels: smaller flecks are not seen and make half of the strokes.
+const LEAST_SHOWN: f64 = 1.0;
+/// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a fresh one begins. At 0.05
+/// skin falls into scales, at 0.2 eyes and lips are drawn out over the face (looked at on the astronaut and Grace Hopper).
+const COLOUR_CHANGE: f32 = 0.1;
+/// Width of the strokes that fill what the pattern leaves bare, in grains.
+const FILLING_WIDTH: f64 = 4.0;
+/// Their length, as a share of the others'.
+const FILLING_LENGTH: f64 = 0.5;
 
 pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>, StyleError> {
     drawer.observer.begin("pattern");
@@ -23,10 +31,10 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     drawer.check()?;
     let mut layer = drawer.empty_layer("strokes");
     layer.mixing = Mixing::Paint;
-    let levels = Levels::new(&pattern, drawer.parameters.ribbons);
-    let ribbons = glass_ribbons(&noise, &ground.flow, length, |height| levels.below(height));
+    let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons);
+    let ribbons = glass_ribbons(&noise, &ground.flow, length, |height| levels.of(height));
     drawer.check()?;
-    layer.marks = marks(drawer, ground, &ribbons, &levels);
+    layer.marks = Painter { drawer, ground, levels: &levels }.paint(&ribbons);
     let mut layers = vec![layer];
     if drawer.parameters.hairs > 0.0 {
         layers.push(hairs::layer(drawer, ground, &pattern));
@@ -34,51 +42,113 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     Ok(layers)
 }
 
-/// The noise levels between equal shares of the pattern.
-struct Levels {
-    /// Lower bounds, ascending; the first lies below all noise.
-    bounds: Vec<f32>,
+/// Part of a stroke in one colour: which nodes, and what shows of it.
+struct Part {
+    first: usize,
+    last: usize,
+    shown: Shown,
 }
 
-impl Levels {
-    fn new(pattern: &Raster<f32>, count: usize) -> Self {
-        let sorted = sorted(pattern);
-        let bound = |i: usize| if i == 0 { f32::MIN } else { sorted[i * sorted.len() / count] };
-        Self { bounds: (0..count).map(bound).collect() }
+struct Painter<'a> {
+    drawer: &'a Drawer<'a>,
+    ground: &'a Ground,
+    levels: &'a GlassLevels,
+}
+
+impl Painter<'_> {
+    /// From the top down, so that what is hidden is never kept; then in painting order, and what is missing on top.
+    fn paint(&self, ribbons: &[Ribbon]) -> Vec<Mark> {
+        let bodies: Vec<Body> = ribbons.par_iter().map(|ribbon| Body::of_ribbon(ribbon, self.drawer.parameters.taper)).collect();
+        let mut canvas = Canvas::new(&pictured(self.ground));
+        let mut colours = Vec::new();
+        let mut kept: Vec<(usize, Part)> = Vec::new();
+        for (i, body) in bodies.iter().enumerate().rev() {
+            for part in cover(&mut canvas, body, &self.ground.smoothed, &mut colours) {
+                kept.push((i, part));
+            }
+        }
+        let mut marks = self.filling(&mut canvas, &mut colours);
+        marks.par_extend(kept.par_iter().rev().map(|(i, part)| {
+            let shift = self.drawer.parameters.contrast * self.levels.value(&ribbons[*i]);
+            self.mark(&bodies[*i], part, shift)
+        }));
+        marks.extend(detail::marks(self.drawer, self.ground, &canvas, &colours));
+        marks
     }
 
-    /// Those that a maximum of this height rises above.
-    fn below(&self, height: f32) -> Vec<f32> {
-        self.bounds.iter().copied().filter(|level| *level < height).collect()
+    /// Strokes under all others where these leave the canvas bare, which is where noise has saddles and the flow begins.
+    fn filling(&self, canvas: &mut Canvas, colours: &mut Vec<[f32; 3]>) -> Vec<Mark> {
+        let width = FILLING_WIDTH * self.drawer.pixels(self.drawer.parameters.grain_mm);
+        let length = FILLING_LENGTH * self.drawer.pixels(self.drawer.parameters.length_mm);
+        let flow = &self.ground.flow;
+        let mut marks = Vec::new();
+        for y in 0..canvas.rows() {
+            let bare: Vec<Point> = canvas.bare(y).collect();
+            for p in bare {
+                if !canvas.is_bare(p) {
+                    continue;
+                }
+                let mut nodes = flow.streamline(p, -0.5 * length, 2.0);
+                nodes.reverse();
+                nodes.extend_from_slice(&flow.streamline(p, 0.5 * length, 2.0)[1..]);
+                if nodes.len() < 2 {
+                    nodes = vec![p, p + Vec2::new(0.1, 0.0)];
+                }
+                let widths = vec![width; nodes.len()];
+                let body = Body::new(nodes, widths);
+                let (fresh, shown) = canvas.cover(&body, &self.ground.smoothed);
+                canvas.settle(&fresh, |_| Some(colours.len()));
+                let shown = shown.iter().fold(Shown::default(), |sum, shown| sum.with(shown));
+                colours.push(shown.colour());
+                let part = Part { first: 0, last: body.stretches(), shown };
+                marks.push(self.mark(&body, &part, -0.5 * self.drawer.parameters.contrast));
+            }
+        }
+        marks.reverse();
+        marks
     }
 
-    /// The equalised value of a level's share, -1/2 to 1/2.
-    fn value(&self, level: f32) -> f32 {
-        let i = self.bounds.partition_point(|bound| *bound < level);
-        (i as f32 + 0.5) / self.bounds.len() as f32 - 0.5
+    fn mark(&self, body: &Body, part: &Part, shift: f32) -> Mark {
+        let scale = self.drawer.portrait.placement.mm_per_pixel();
+        let mut stroke = body.stroke(part.first, part.last, scale, |p| self.drawer.to_page(self.ground, p));
+        stroke.colour = Some(colour::shifted(part.shown.colour(), shift));
+        stroke.group = Some(0);
+        Mark::Stroke(stroke)
     }
 }
 
-fn marks(drawer: &Drawer<'_>, ground: &Ground, ribbons: &[Ribbon], levels: &Levels) -> Vec<Mark> {
-    let strokes: Vec<Stroke> = ribbons.par_iter().map(|ribbon| stroke(drawer, ribbon)).collect();
-    let mut canvas = Canvas::new(&pictured(ground));
-    let mut kept: Vec<(usize, Shown)> = Vec::new();
-    for (i, stroke) in strokes.iter().enumerate().rev() {
-        let shown = canvas.cover(stroke, &ground.smoothed);
-        if shown.area >= LEAST_SHOWN {
-            kept.push((i, shown));
+/// Covers what a stroke covers; the parts of it that show, each the owner of what it covers under its colour's number.
+fn cover(canvas: &mut Canvas, body: &Body, planes: &[Raster<f32>], colours: &mut Vec<[f32; 3]>) -> Vec<Part> {
+    let (fresh, shown) = canvas.cover(body, planes);
+    let parts = parts(&shown);
+    let first = colours.len();
+    canvas.settle(&fresh, |stretch| {
+        parts.iter().position(|part| (part.first..part.last).contains(&stretch)).map(|i| first + i)
+    });
+    colours.extend(parts.iter().map(|part| part.shown.colour()));
+    parts
+}
+
+/// The stretches that show, joined to parts of about one colour; from the downstream end, where the brush is set down.
+fn parts(shown: &[Shown]) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    for (i, stretch) in shown.iter().enumerate().filter(|(_, stretch)| stretch.area() > 0.0) {
+        match parts.last_mut() {
+            Some(part) if is_alike(&part.shown, stretch) => {
+                part.last = i + 1;
+                part.shown = part.shown.with(stretch);
+            }
+            _ => parts.push(Part { first: i, last: i + 1, shown: *stretch }),
         }
     }
-    kept.reverse();
-    kept.par_iter()
-        .map(|&(i, shown)| {
-            let shift = drawer.parameters.contrast * levels.value(ribbons[i].level);
-            let mut stroke = on_page(drawer, ground, &strokes[i]);
-            stroke.colour = Some(colour::shifted(shown.colour(), shift));
-            stroke.group = Some(0);
-            Mark::Stroke(stroke)
-        })
-        .collect()
+    parts.retain(|part| part.shown.area() >= LEAST_SHOWN);
+    parts
+}
+
+fn is_alike(a: &Shown, b: &Shown) -> bool {
+    let (ca, cb) = (a.colour(), b.colour());
+    let squares: f32 = ca.iter().zip(cb).map(|(a, b)| (a - b) * (a - b)).sum();
+    b.area() < LEAST_SHOWN || squares < COLOUR_CHANGE * COLOUR_CHANGE
 }
 
 /// The subject, without the frame.
@@ -88,45 +158,4 @@ fn pictured(ground: &Ground) -> Raster<f32> {
         let is_inside = x >= margin && y >= margin && x < width - margin && y < height - margin;
         if is_inside { ground.subject.get(x, y) } else { 0.0 }
     })
-}
-
-/// A ribbon as a stroke in framed pixels, its upstream end run out to a tip.
-fn stroke(drawer: &Drawer<'_>, ribbon: &Ribbon) -> Stroke {
-    let length: f64 = ribbon.nodes.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    let taper = drawer.parameters.taper * length;
-    let mut left = 0.0;
-    let mut widths = ribbon.widths.clone();
-    for i in (0..widths.len()).rev() {
-        if left < taper {
-            widths[i] *= (0.25 + 0.75 * left / taper).min(1.0);
-        }
-        if i > 0 {
-            left += ribbon.nodes[i].distance(ribbon.nodes[i - 1]);
-        }
-    }
-    Stroke::new(catmull_rom(&ribbon.nodes, false), Width::Along(widths))
-}
-
-fn on_page(drawer: &Drawer<'_>, ground: &Ground, stroke: &Stroke) -> Stroke {
-    let scale = drawer.portrait.placement.mm_per_pixel();
-    let mut moved = stroke.clone();
-    moved.curve = mapped(&stroke.curve, |p| drawer.to_page(ground, p));
-    if let Width::Along(widths) = &mut moved.width {
-        widths.iter_mut().for_each(|w| *w *= scale);
-    }
-    moved
-}
-
-fn mapped(curve: &BezPath, place: impl Fn(Point) -> Point) -> BezPath {
-    use kurbo::PathEl;
-    curve
-        .iter()
-        .map(|element| match element {
-            PathEl::MoveTo(p) => PathEl::MoveTo(place(p)),
-            PathEl::LineTo(p) => PathEl::LineTo(place(p)),
-            PathEl::QuadTo(a, p) => PathEl::QuadTo(place(a), place(p)),
-            PathEl::CurveTo(a, b, p) => PathEl::CurveTo(place(a), place(b), place(p)),
-            PathEl::ClosePath => PathEl::ClosePath,
-        })
-        .collect()
 }

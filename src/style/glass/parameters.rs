@@ -60,7 +60,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "smoothing",
-        kind: Kind::Length { default: Default::Pitches(1.0), least: 0.0, most: 50.0 },
+        kind: Kind::Length { default: Default::Pitches(0.6), least: 0.0, most: 50.0 },
         meaning: "reach of the smoothing that takes out texture and sharpens edges; 0 for none",
         source: "Papari appendix A, sigma",
     },
@@ -86,6 +86,12 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         name: "taper",
         kind: Kind::Number { default: 0.35, least: 0.0, most: 1.0 },
         meaning: "part of a stroke over which it runs out to a tip; 0 leaves its end round",
+        source: "",
+    },
+    Parameter {
+        name: "detail",
+        kind: Kind::Number { default: 0.12, least: 0.01, most: 2.0 },
+        meaning: "difference of colour from which a fine stroke is set on top of the broad ones; 2 for none",
         source: "",
     },
     Parameter {
@@ -156,6 +162,7 @@ pub(super) struct Painting {
     pub contrast: f32,
     pub ribbons: usize,
     pub taper: f64,
+    pub detail: f32,
     pub hairs: f32,
     pub line_mm: f64,
     pub transform: Transform,
@@ -182,6 +189,7 @@ impl Painting {
             contrast: settings.number("contrast") as f32,
             ribbons: settings.number("ribbons") as usize,
             taper: settings.number("taper"),
+            detail: settings.number("detail") as f32,
             hairs: settings.number("hairs") as f32,
             line_mm: settings.number("line"),
             transform: match settings.word("transform") {
