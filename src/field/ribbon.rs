@@ -22,6 +22,10 @@ const RAYS: usize = 24;
 const RAY_STEP: f32 = 0.25;
 /// Samples along a ray at most: a blob of coarse noise (sigma 12 px) ends long before.
 const RAY_SAMPLES: usize = 240;
+/// Rise along a ray, as a share of its fall so far, that is no valley's other side.
+const RIPPLE: f32 = 0.03;
+/// A ribbon whose sides have drifted this many times farther apart than they began ends there: they go different ways.
+const MOST_SPREAD: f64 = 2.0;
 /// Distance of a ribbon's nodes in pixels where it has no end near; its curve bends over at least the flow's blur.
 const NODE_SPACING: f64 = 5.0;
 
@@ -50,7 +54,7 @@ pub fn glass_ribbons(noise: &Raster<f32>, flow: &Flow, length: f64, levels: impl
         .flat_map_iter(|(i, &(x, y))| {
             let height = noise.get(x, y);
             let from = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-            let levels = levels(height);
+            let levels = if flow.at(from) == Vec2::ZERO { Vec::new() } else { levels(height) };
             let bump = (!levels.is_empty()).then(|| Bump::new(noise, flow, from, length));
             levels.into_iter().filter_map(move |level| {
                 let (nodes, widths) = bump.as_ref()?.ribbon(level)?;
@@ -82,12 +86,12 @@ fn maxima(noise: &Raster<f32>) -> Vec<(usize, usize)> {
 }
 
 /// One maximum of the noise with what is needed to draw its ribbons.
-struct Bump {
+struct Bump<'a> {
+    flow: &'a Flow,
+    from: Point,
+    length: f64,
     /// Noise along each ray from the maximum to where it begins to rise again.
     rays: Vec<Vec<f32>>,
-    /// Places along the flow: `upstream[i]` at `-i` pixels, and so on.
-    upstream: Vec<Point>,
-    downstream: Vec<Point>,
     /// Direction of the flow at the maximum.
     along: Vec2,
 }
@@ -98,23 +102,16 @@ struct Blob {
     corners: Vec<(f64, f64)>,
 }
 
-impl Bump {
-    fn new(noise: &Raster<f32>, flow: &Flow, from: Point, length: f64) -> Self {
+impl<'a> Bump<'a> {
+    fn new(noise: &Raster<f32>, flow: &'a Flow, from: Point, length: f64) -> Self {
         let along = flow.at(from);
-        let axis = if along == Vec2::ZERO { Vec2::new(1.0, 0.0) } else { along };
         let rays = (0..RAYS)
             .map(|k| {
                 let angle = std::f64::consts::TAU * k as f64 / RAYS as f64;
-                let direction = axis * angle.cos() + axis.turn_90() * angle.sin();
-                falling_ray(noise, from, direction)
+                falling_ray(noise, from, along * angle.cos() + along.turn_90() * angle.sin())
             })
             .collect();
-        Self {
-            rays,
-            upstream: flow.streamline(from, -length, 1.0),
-            downstream: flow.streamline(from, 8.0, 1.0),
-            along: axis,
-        }
+        Self { flow, from, length, rays, along }
     }
 
     fn blob(&self, level: f32) -> Blob {
@@ -126,15 +123,16 @@ impl Bump {
         Blob { corners: self.rays.iter().enumerate().map(corner).collect() }
     }
 
-    /// Nodes and widths of the ribbon above a level; none where the blob is thinner than a tenth of a pixel or
-    /// the flow ends at once.
+    /// Nodes and widths of the ribbon above a level; none where the blob is thinner than a tenth of a pixel or the flow ends at
+    /// once.
     fn ribbon(&self, level: f32) -> Option<(Vec<Point>, Vec<f64>)> {
         let blob = self.blob(level);
         let (low, high) = blob.across(f64::NEG_INFINITY, f64::INFINITY);
         if high - low < 0.1 {
             return None;
         }
-        let gone = (self.upstream.len() - 1) as f64;
+        let sides = Sides::new(self, low, high);
+        let gone = sides.gone();
         if gone < 1.0 {
             return None;
         }
@@ -148,28 +146,61 @@ impl Bump {
         let to = if -back.s > 0.35 * (high - low) { -gone } else { tail.s };
         let steps = ((from - to) / NODE_SPACING).round().max(1.0);
         for i in 1..=steps as usize {
-            let s = from + (to - from) * i as f64 / steps;
-            stations.push(Station { s, low, high });
+            stations.push(Station { s: from + (to - from) * i as f64 / steps, low, high });
         }
         if to > tail.s {
             stations.push(tail);
         } else if let Some(last) = stations.last_mut() {
             (last.low, last.high) = (tail.low, tail.high);
         }
-        Some(stations.iter().map(|station| (self.place(station.s, 0.5 * (station.low + station.high)), station.high - station.low)).unzip())
+        Some(stations.iter().map(|station| sides.node(station)).unzip())
+    }
+}
+
+/// The streamlines along which a ribbon's two sides run upstream, from beside the maximum.
+struct Sides<'a> {
+    bump: &'a Bump<'a>,
+    low: f64,
+    high: f64,
+    low_side: Vec<Point>,
+    high_side: Vec<Point>,
+}
+
+impl<'a> Sides<'a> {
+    fn new(bump: &'a Bump<'a>, low: f64, high: f64) -> Self {
+        let side = |n: f64| bump.flow.streamline(bump.from + bump.along.turn_90() * n, -bump.length, 1.0);
+        let (mut low_side, mut high_side) = (side(low), side(high));
+        let is_spread = |(a, b): (&Point, &Point)| a.distance(*b) > MOST_SPREAD * (high - low);
+        let end = low_side.iter().zip(&high_side).position(is_spread).unwrap_or(low_side.len().min(high_side.len()));
+        low_side.truncate(end);
+        high_side.truncate(end);
+        Self { bump, low, high, low_side, high_side }
     }
 
-    /// The point at `s` along the streamline through the maximum and `n` beside it; straight on beyond its ends.
+    /// How far upstream both go, in pixels.
+    fn gone(&self) -> f64 {
+        self.low_side.len().saturating_sub(1) as f64
+    }
+
+    /// The middle and the width at a station.
+    fn node(&self, station: &Station) -> (Point, f64) {
+        let (a, b) = (self.place(station.s, station.low), self.place(station.s, station.high));
+        (a.midpoint(b), a.distance(b))
+    }
+
+    /// The point at `s` along the flow and `n` beside the maximum; straight on beyond the blob's side and the arc's end.
     fn place(&self, s: f64, n: f64) -> Point {
-        let line = if s < 0.0 { &self.upstream } else { &self.downstream };
-        let at = s.abs();
-        if line.len() < 2 {
-            return line[0] + self.along * s + self.along.turn_90() * n;
+        let share = (n - self.low) / (self.high - self.low);
+        let along = |side: &[Point]| {
+            let at = (-s).clamp(0.0, self.gone());
+            let i = (at as usize).min(side.len() - 2);
+            let (before, after) = (side[i], side[i + 1]);
+            before + (after - before) * (-s - i as f64)
+        };
+        if s > 0.0 {
+            return self.bump.from + self.bump.along * s + self.bump.along.turn_90() * n;
         }
-        let i = (at as usize).min(line.len() - 2);
-        let step = (line[i + 1] - line[i]).normalize();
-        let forward = if s < 0.0 { -step } else { step };
-        line[i] + step * (at - i as f64) + forward.turn_90() * n
+        along(&self.low_side).lerp(along(&self.high_side), share)
     }
 }
 
@@ -226,17 +257,21 @@ impl Blob {
     }
 }
 
-/// Noise samples from a point outwards while they fall.
+/// Noise samples from a point outwards as far as they fall; a ripple on the way (of bilinear interpolation) does not end it.
 fn falling_ray(noise: &Raster<f32>, from: Point, direction: Vec2) -> Vec<f32> {
     let mut samples = vec![noise.sample(from.x, from.y)];
+    let mut lowest = 0;
     for i in 1..RAY_SAMPLES {
         let p = from + direction * f64::from(RAY_STEP * i as f32);
         let value = noise.sample(p.x, p.y);
-        if value > samples[i - 1] {
+        samples.push(value);
+        if value <= samples[lowest] {
+            lowest = i;
+        } else if value > samples[lowest] + RIPPLE * (samples[0] - samples[lowest]) {
             break;
         }
-        samples.push(value);
     }
+    samples.truncate(lowest + 1);
     samples
 }
 

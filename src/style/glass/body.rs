@@ -7,6 +7,8 @@ use kurbo::ParamCurve;
 
 /// Steps between two nodes where a stroke is stamped on the canvas; nodes are at most 5 pixels apart.
 const STEPS: usize = 4;
+/// Greatest width in radii of the line's curve; at 2 the inner side shrinks to a point.
+const WIDEST_TURN: f64 = 1.7;
 /// Share of its width that a stroke keeps at its tip: a brush's last hairs.
 const TIP: f64 = 0.25;
 
@@ -21,7 +23,13 @@ pub(super) struct Body {
 }
 
 impl Body {
-    pub(super) fn new(nodes: Vec<Point>, widths: Vec<f64>) -> Self {
+    /// Where the line turns on less than the stroke's width, the width gives way: an outline beyond its own centre has holes.
+    pub(super) fn new(nodes: Vec<Point>, mut widths: Vec<f64>) -> Self {
+        for (triple, width) in nodes.windows(3).zip(&mut widths[1..]) {
+            let (a, b) = (triple[1] - triple[0], triple[2] - triple[1]);
+            let turn = a.cross(b).atan2(a.dot(b)).abs();
+            *width = width.min(WIDEST_TURN * a.hypot().min(b.hypot()) / turn.max(1e-9));
+        }
         let mut fine = vec![(nodes[0], widths[0])];
         let mut stretch_of = Vec::new();
         for (i, segment) in catmull_rom(&nodes, false).segments().enumerate() {

@@ -11,10 +11,10 @@ use crate::style::{Picture, StyleError};
 use arcs::{Arcs, Wanted};
 use coverage::Calibration;
 
-/// Rounds of drawing and measuring; each brings the ink of every tone nearer to what it should be, after three it is within 0.01.
-const ROUNDS: usize = 3;
+/// Rounds of drawing and measuring; each brings the ink of every tone nearer to what it should be.
+const ROUNDS: usize = 5;
 /// Distance of a curve's nodes in pixels.
-const NODE_SPACING: f64 = 3.0;
+const NODE_SPACING: f64 = 2.0;
 
 pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, StyleError> {
     let mut layer = drawer.empty_layer("lines");

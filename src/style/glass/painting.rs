@@ -4,7 +4,7 @@ use super::body::Body;
 use super::visible::{Canvas, Shown};
 use super::{Drawer, Ground, colour, detail, hairs, noise};
 use crate::drawing::{Layer, Mark, Mixing};
-use crate::field::{GlassLevels, Ribbon, glass_pattern, glass_ribbons};
+use crate::field::{Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use crate::style::StyleError;
@@ -19,6 +19,8 @@ const COLOUR_CHANGE: f32 = 0.1;
 const FILLING_WIDTH: f64 = 4.0;
 /// Their length, as a share of the others'.
 const FILLING_LENGTH: f64 = 0.5;
+/// Cosine of the angle by which they may turn from their middle.
+const MOST_FILLING_TURN: f64 = 0.7;
 
 pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>, StyleError> {
     drawer.observer.begin("pattern");
@@ -88,12 +90,7 @@ impl Painter<'_> {
                 if !canvas.is_bare(p) {
                     continue;
                 }
-                let mut nodes = flow.streamline(p, -0.5 * length, 2.0);
-                nodes.reverse();
-                nodes.extend_from_slice(&flow.streamline(p, 0.5 * length, 2.0)[1..]);
-                if nodes.len() < 2 {
-                    nodes = vec![p, p + Vec2::new(0.1, 0.0)];
-                }
+                let nodes = filling_line(flow, p, 0.5 * length);
                 let widths = vec![width; nodes.len()];
                 let body = Body::new(nodes, widths);
                 let (fresh, shown) = canvas.cover(&body, &self.ground.smoothed);
@@ -115,6 +112,22 @@ impl Painter<'_> {
         stroke.group = Some(0);
         Mark::Stroke(stroke)
     }
+}
+
+/// Along the flow both ways as long as it keeps about its direction, so that the stroke surely covers the place.
+fn filling_line(flow: &Flow, p: Point, reach: f64) -> Vec<Point> {
+    let along = flow.at(p);
+    let half = |length: f64| {
+        let line = flow.streamline(p, length, 2.0);
+        let keeps_on = |pair: &[Point]| (pair[1] - pair[0]).normalize().dot(along) * length.signum() > MOST_FILLING_TURN;
+        let count = line.windows(2).take_while(|pair| keeps_on(pair)).count();
+        line[1..=count].to_vec()
+    };
+    let mut nodes = half(-reach);
+    nodes.reverse();
+    nodes.push(p);
+    nodes.extend(half(reach));
+    if nodes.len() < 2 { vec![p, p + Vec2::new(0.1, 0.0)] } else { nodes }
 }
 
 /// Covers what a stroke covers; the parts of it that show, each the owner of what it covers under its colour's number.

@@ -12,8 +12,10 @@ const STEP: f64 = 0.5;
 /// A growing arc stops where it comes nearer to another than this share of the spacing there. At 0.5 arcs pinch and the spacing
 /// varies, at 0.9 they break up into dashes (Jobard and Lefer: 0.5 to 0.8).
 const LEAST_SHARE: f64 = 0.75;
-/// Arcs never come nearer than this share of their width, so that they overlap by less than half of it.
-const LEAST_WIDTHS: f64 = 0.55;
+/// Arcs never come nearer than this share of their width; with what smoothing moves them they then overlap by less than half of it.
+const LEAST_WIDTHS: f64 = 0.65;
+/// Cosine of the greatest turn in one step, a curve of about one pixel's radius: tighter whirls would be blots.
+const MOST_TURN: f64 = 0.88;
 /// Shortest arc, as a share of the length asked for; shorter ones look like dirt.
 const LEAST_LENGTH: f64 = 0.12;
 
@@ -127,8 +129,8 @@ impl<'a> Arcs<'a> {
             let middle = here + self.wanted.flow.at(here) * (0.5 * sign * STEP);
             let next_direction = self.wanted.flow.at(middle) * sign;
             let next = here + next_direction * STEP;
-            // A turn by more than a right angle is where the flow breaks off.
-            if next_direction == Vec2::ZERO || direction.dot(next_direction) < 0.0 || !self.is_free(next, line) {
+            let turns_off = direction != Vec2::ZERO && direction.dot(next_direction) < MOST_TURN;
+            if next_direction == Vec2::ZERO || turns_off || !self.is_free(next, line) {
                 return;
             }
             direction = next_direction;

@@ -7,6 +7,8 @@ use crate::raster::{Raster, fast_gaussian};
 const FINE: f64 = 6.0;
 /// Shares of ink for which the spacing is found one by one.
 const TONES: usize = 20;
+/// Pixels of a tone from which it is corrected.
+const LEAST_PIXELS: f64 = 200.0;
 /// Blur of the ink before it is sorted by tone, in pixels: tones at the foot of an edge are not those of the lines there.
 const BLUR: f32 = 2.0;
 
@@ -39,11 +41,13 @@ pub(super) fn coverage(lines: &[Vec<Point>], width: f64, like: &Raster<f32>) -> 
 /// How much closer than their width over the ink lines must stand, by ink.
 pub(super) struct Calibration {
     factors: [f32; TONES + 1],
+    /// For each tone the logarithms of the last factor and of the ink that came of it.
+    tried: [Option<(f64, f64)>; TONES + 1],
 }
 
 impl Default for Calibration {
     fn default() -> Self {
-        Self { factors: [0.9; TONES + 1] }
+        Self { factors: [0.9; TONES + 1], tried: [None; TONES + 1] }
     }
 }
 
@@ -73,12 +77,19 @@ impl Calibration {
                 sums[slot][2] += share * f64::from(laid);
             }
         }
-        for (factor, [count, wanted, laid]) in self.factors.iter_mut().zip(sums) {
-            if count > 200.0 && wanted > 0.0 {
-                // Ink grows like 1 - exp(-1 / spacing) where lines come close, so that the uncovered part is what is compared.
-                let depth = |ink: f64| -(1.0 - (ink / count).clamp(0.0, 0.985)).ln();
-                *factor = (f64::from(*factor) * (depth(laid).max(1e-3) / depth(wanted).max(1e-3)).clamp(0.5, 2.0)).clamp(0.3, 2.0) as f32;
+        for ((factor, tried), [count, wanted, laid]) in self.factors.iter_mut().zip(&mut self.tried).zip(sums) {
+            if count < LEAST_PIXELS || wanted <= 0.0 {
+                continue;
             }
+            // Lines that come close cover like 1 - exp(-1 / spacing), so that the uncovered part is what is compared.
+            let depth = |ink: f64| (-(1.0 - (ink / count).clamp(0.002, 0.99)).ln()).ln();
+            let now = (f64::from(*factor).ln(), depth(laid));
+            // By the secant through the last two; ink falls as the factor grows, about in proportion.
+            let slope = tried.map_or(-1.0, |before| (now.1 - before.1) / (now.0 - before.0));
+            let slope = if slope.is_finite() { slope.clamp(-3.0, -0.7) } else { -1.0 };
+            let step = ((depth(wanted) - now.1) / slope).clamp(-0.4, 0.4);
+            *tried = Some(now);
+            *factor = (now.0 + step).exp().clamp(0.3, 2.5) as f32;
         }
     }
 }
