@@ -38,7 +38,8 @@ impl Flow {
         let axes = tensor.map(principal_axis);
         let mut signed = axes.zip_map(luminance, |axis, slope| {
             let along = axis[0] * slope[0] + axis[1] * slope[1];
-            let is_clear = along * along > LEAST_LUMINANCE_SHARE * LEAST_LUMINANCE_SHARE * (axis[0] * axis[0] + axis[1] * axis[1]);
+            let is_clear =
+                along * along > LEAST_LUMINANCE_SHARE * LEAST_LUMINANCE_SHARE * (axis[0] * axis[0] + axis[1] * axis[1]);
             if is_clear { [axis[0] * along.signum(), axis[1] * along.signum()] } else { [0.0; 2] }
         });
         // Where signs are missing, those of a growing neighbourhood decide; where there are none at all, the axis stays as it is.
@@ -116,7 +117,8 @@ impl Flow {
         if nearest == Vec2::ZERO {
             return nearest;
         }
-        let mean = (vector(0, 0) * (1.0 - tx) + vector(1, 0) * tx) * (1.0 - ty) + (vector(0, 1) * (1.0 - tx) + vector(1, 1) * tx) * ty;
+        let mean =
+            (vector(0, 0) * (1.0 - tx) + vector(1, 0) * tx) * (1.0 - ty) + (vector(0, 1) * (1.0 - tx) + vector(1, 1) * tx) * ty;
         if mean.dot(nearest) > 0.3 { mean.normalize() } else { nearest }
     }
 

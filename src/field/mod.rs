@@ -22,6 +22,6 @@ pub use glass::{glass_pattern, line_integral_convolution};
 pub use glass_levels::GlassLevels;
 pub use isophotes::{IsophoteSteps, detect_isophotes};
 pub use lanes::{LaneParameters, Lanes, offset_lanes};
-pub use ribbon::{Ribbon, glass_ribbons};
+pub use ribbon::{Cut, Ribbon, glass_ribbons};
 pub use trace::{Curve, trace};
 pub use voronoi::{Sites, cell_polygon};

@@ -24,8 +24,11 @@ const RAY_STEP: f32 = 0.25;
 const RAY_SAMPLES: usize = 240;
 /// Rise along a ray, as a share of its fall so far, that is no valley's other side.
 const RIPPLE: f32 = 0.03;
-/// A ribbon whose sides have drifted this many times farther apart than they began ends there: they go different ways.
-const MOST_SPREAD: f64 = 2.0;
+/// Bounds of how far a ribbon's sides drift from its middle, in what they were: beyond, they go different ways.
+const LEAST_SPREAD: f64 = 0.4;
+const MOST_SPREAD: f64 = 1.8;
+/// A thinner ribbon is not drawn, in pixels.
+const LEAST_WIDTH: f64 = 0.1;
 /// Distance of a ribbon's nodes in pixels where it has no end near; its curve bends over at least the flow's blur.
 const NODE_SPACING: f64 = 5.0;
 
@@ -44,9 +47,27 @@ pub struct Ribbon {
     pub maximum: u32,
 }
 
-/// The ribbons of all maxima of the noise, in painting order: by level, then by height, then by maximum. `levels` gives a maximum's levels, ascending, for
-/// its height; `length` is the arc's, in pixels.
-pub fn glass_ribbons(noise: &Raster<f32>, flow: &Flow, length: f64, levels: impl Fn(f32) -> Vec<f32> + Sync) -> Vec<Ribbon> {
+/// How a blob's sweep is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cut {
+    /// As one ribbon.
+    Whole,
+    /// As strips side by side, none wider than this many pixels; the narrower, the nearer to the pattern, the more of them.
+    Strips(f64),
+}
+
+/// The ribbons of all maxima of the noise, in painting order: by level, then by height, then by maximum. `levels` gives a maximum's
+/// levels, ascending, for its height; `length` is the arc's, in pixels.
+///
+/// Noise blurred by `sigma` has `0.046 / sigma^2` maxima a pixel (`1 / (4 sqrt(3) pi sigma^2)`); an arc hides all lower ones within
+/// about its `length` times three `sigma`, so that of the whole set some `1 / (sigma * length)` a pixel show, times the levels.
+pub fn glass_ribbons(
+    noise: &Raster<f32>,
+    flow: &Flow,
+    length: f64,
+    cut: Cut,
+    levels: impl Fn(f32) -> Vec<f32> + Sync,
+) -> Vec<Ribbon> {
     let maxima = maxima(noise);
     let mut ribbons: Vec<Ribbon> = maxima
         .par_iter()
@@ -56,9 +77,12 @@ pub fn glass_ribbons(noise: &Raster<f32>, flow: &Flow, length: f64, levels: impl
             let from = Point::new(x as f64 + 0.5, y as f64 + 0.5);
             let levels = if flow.at(from) == Vec2::ZERO { Vec::new() } else { levels(height) };
             let bump = (!levels.is_empty()).then(|| Bump::new(noise, flow, from, length));
-            levels.into_iter().filter_map(move |level| {
-                let (nodes, widths) = bump.as_ref()?.ribbon(level)?;
-                Some(Ribbon { nodes, widths, level, height, maximum: i as u32 })
+            levels.into_iter().flat_map(move |level| {
+                let lines = bump.as_ref().map_or_else(Vec::new, |bump| match cut {
+                    Cut::Whole => bump.ribbon(level).into_iter().collect(),
+                    Cut::Strips(widest) => bump.strips(level, widest),
+                });
+                lines.into_iter().map(move |(nodes, widths)| Ribbon { nodes, widths, level, height, maximum: i as u32 })
             })
         })
         .collect();
@@ -128,12 +152,9 @@ impl<'a> Bump<'a> {
     fn ribbon(&self, level: f32) -> Option<(Vec<Point>, Vec<f64>)> {
         let blob = self.blob(level);
         let (low, high) = blob.across(f64::NEG_INFINITY, f64::INFINITY);
-        if high - low < 0.1 {
-            return None;
-        }
-        let sides = Sides::new(self, low, high);
-        let gone = sides.gone();
-        if gone < 1.0 {
+        let spine = Spine::new(self.flow, self.from, self.length, (low, high));
+        let gone = spine.gone();
+        if high - low < LEAST_WIDTH || gone < 1.0 {
             return None;
         }
         let (front, back) = (blob.front_cap(), blob.back_cap());
@@ -153,54 +174,77 @@ impl<'a> Bump<'a> {
         } else if let Some(last) = stations.last_mut() {
             (last.low, last.high) = (tail.low, tail.high);
         }
-        Some(stations.iter().map(|station| sides.node(station)).unzip())
+        Some(stations.iter().map(|station| spine.node(station)).unzip())
+    }
+
+    /// The ribbon cut lengthwise into strips no wider than `widest`, each with ends and a way of its own.
+    fn strips(&self, level: f32, widest: f64) -> Vec<(Vec<Point>, Vec<f64>)> {
+        let blob = self.blob(level);
+        let (low, high) = blob.across(f64::NEG_INFINITY, f64::INFINITY);
+        if high - low < LEAST_WIDTH {
+            return Vec::new();
+        }
+        let count = ((high - low) / widest).ceil().max(1.0);
+        let width = (high - low) / count;
+        let strip = |i: usize| {
+            let n = low + (i as f64 + 0.5) * width;
+            let (back, front) = blob.along(n)?;
+            // A half disc reaches as far as a square end of the same area would, less this.
+            let inset = (0.5 * std::f64::consts::FRAC_PI_4 * width).min(0.5 * (front - back));
+            let start = self.from + self.along * (front - inset) + self.along.turn_90() * n;
+            let spine = Spine::new(self.flow, start, self.length + front - back - 2.0 * inset, (-0.5 * width, 0.5 * width));
+            let steps = (spine.gone() / NODE_SPACING).round().max(1.0);
+            let station = |i: usize| Station { s: -spine.gone() * i as f64 / steps, low: -0.5 * width, high: 0.5 * width };
+            (spine.gone() >= 1.0).then(|| (0..=steps as usize).map(|i| spine.node(&station(i))).unzip())
+        };
+        (0..count as usize).filter_map(strip).collect()
     }
 }
 
-/// The streamlines along which a ribbon's two sides run upstream, from beside the maximum.
-struct Sides<'a> {
-    bump: &'a Bump<'a>,
-    low: f64,
-    high: f64,
+/// A streamline upstream, and how far beside it the flow carries what began beside its start.
+struct Spine {
+    line: Vec<Point>,
+    /// Reach to both sides at the start.
+    reach: (f64, f64),
     low_side: Vec<Point>,
     high_side: Vec<Point>,
 }
 
-impl<'a> Sides<'a> {
-    fn new(bump: &'a Bump<'a>, low: f64, high: f64) -> Self {
-        let side = |n: f64| bump.flow.streamline(bump.from + bump.along.turn_90() * n, -bump.length, 1.0);
-        let (mut low_side, mut high_side) = (side(low), side(high));
-        let is_spread = |(a, b): (&Point, &Point)| a.distance(*b) > MOST_SPREAD * (high - low);
-        let end = low_side.iter().zip(&high_side).position(is_spread).unwrap_or(low_side.len().min(high_side.len()));
-        low_side.truncate(end);
-        high_side.truncate(end);
-        Self { bump, low, high, low_side, high_side }
-    }
-
-    /// How far upstream both go, in pixels.
-    fn gone(&self) -> f64 {
-        self.low_side.len().saturating_sub(1) as f64
-    }
-
-    /// The middle and the width at a station.
-    fn node(&self, station: &Station) -> (Point, f64) {
-        let (a, b) = (self.place(station.s, station.low), self.place(station.s, station.high));
-        (a.midpoint(b), a.distance(b))
-    }
-
-    /// The point at `s` along the flow and `n` beside the maximum; straight on beyond the blob's side and the arc's end.
-    fn place(&self, s: f64, n: f64) -> Point {
-        let share = (n - self.low) / (self.high - self.low);
-        let along = |side: &[Point]| {
-            let at = (-s).clamp(0.0, self.gone());
-            let i = (at as usize).min(side.len() - 2);
-            let (before, after) = (side[i], side[i + 1]);
-            before + (after - before) * (-s - i as f64)
-        };
-        if s > 0.0 {
-            return self.bump.from + self.bump.along * s + self.bump.along.turn_90() * n;
+impl Spine {
+    fn new(flow: &Flow, from: Point, length: f64, reach: (f64, f64)) -> Self {
+        let beside = flow.at(from).turn_90();
+        let upstream = |from: Point| flow.streamline(from, -length, 1.0);
+        Self {
+            line: upstream(from),
+            reach,
+            low_side: upstream(from + beside * reach.0),
+            high_side: upstream(from + beside * reach.1),
         }
-        along(&self.low_side).lerp(along(&self.high_side), share)
+    }
+
+    /// How far upstream it goes, in pixels.
+    fn gone(&self) -> f64 {
+        (self.line.len() - 1) as f64
+    }
+
+    /// The middle and the width at a station; straight on beyond the line's ends.
+    fn node(&self, station: &Station) -> (Point, f64) {
+        let at = -station.s;
+        let i = (at.max(0.0) as usize).min(self.line.len() - 2);
+        let step = self.line[i + 1] - self.line[i];
+        let (here, beside) = (self.line[i] + step * (at - i as f64), -step.normalize().turn_90());
+        let (low, high) = (
+            station.low * self.spread(i, &self.low_side, self.reach.0),
+            station.high * self.spread(i, &self.high_side, self.reach.1),
+        );
+        (here + beside * (0.5 * (low + high)), high - low)
+    }
+
+    /// How many times farther from the line a side is than at the start.
+    fn spread(&self, i: usize, side: &[Point], reach: f64) -> f64 {
+        let (Some(&there), true) = (side.get(i), reach.abs() > 0.2) else { return 1.0 };
+        let beside = -(self.line[i + 1] - self.line[i]).normalize().turn_90();
+        ((there - self.line[i]).dot(beside) / reach).clamp(LEAST_SPREAD, MOST_SPREAD)
     }
 }
 
@@ -213,6 +257,19 @@ struct Station {
 }
 
 impl Blob {
+    /// Where it begins and ends along the flow, at one place across.
+    fn along(&self, n: f64) -> Option<(f64, f64)> {
+        let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+        for (i, &(s, at)) in self.corners.iter().enumerate() {
+            let (next_s, next_at) = self.corners[(i + 1) % self.corners.len()];
+            if (at - n) * (next_at - n) <= 0.0 && at != next_at {
+                let cut = s + (next_s - s) * (n - at) / (next_at - at);
+                range = (range.0.min(cut), range.1.max(cut));
+            }
+        }
+        (range.0 <= range.1).then_some(range)
+    }
+
     /// The reach to both sides of what lies between two places along the flow.
     fn across(&self, from: f64, to: f64) -> (f64, f64) {
         let mut range = (f64::INFINITY, f64::NEG_INFINITY);
@@ -303,9 +360,11 @@ mod tests {
     #[test]
     fn a_round_bump_is_a_ribbon_of_its_width_with_round_ends() {
         let level = (-0.5_f32).exp();
-        let ribbons = glass_ribbons(&bump(4.0, 4.0), &flow(), 30.0, |_| vec![level]);
+        let ribbons = glass_ribbons(&bump(4.0, 4.0), &flow(), 30.0, Cut::Whole, |_| vec![level]);
         let ribbon = &ribbons[0];
         assert_eq!(ribbons.len(), 1);
+        let strips = glass_ribbons(&bump(4.0, 4.0), &flow(), 30.0, Cut::Strips(2.0), |_| vec![level]);
+        assert!((4..=5).contains(&strips.len()) && strips.iter().all(|strip| strip.widths.iter().all(|w| *w <= 2.0)));
         assert!(ribbon.widths.iter().all(|w| (w - 8.0).abs() < 0.3), "{:?}", ribbon.widths);
         let (first, last) = (ribbon.nodes[0], ribbon.nodes[ribbon.nodes.len() - 1]);
         assert!(first.distance(Point::new(60.5, 20.5)) < 0.5 && last.distance(Point::new(30.5, 20.5)) < 0.5, "{first} {last}");
@@ -314,7 +373,7 @@ mod tests {
     #[test]
     fn the_ends_of_long_and_flat_bumps_are_where_the_pattern_ends() {
         for (sx, sy) in [(6.0, 2.5), (2.5, 6.0)] {
-            let ribbons = glass_ribbons(&bump(sx, sy), &flow(), 30.0, |_| vec![(-0.5_f32).exp()]);
+            let ribbons = glass_ribbons(&bump(sx, sy), &flow(), 30.0, Cut::Whole, |_| vec![(-0.5_f32).exp()]);
             let ribbon = &ribbons[0];
             let tip = ribbon.nodes[0].x + 0.5 * ribbon.widths[0];
             let tail = ribbon.nodes[ribbon.nodes.len() - 1].x - 0.5 * ribbon.widths[ribbon.widths.len() - 1];

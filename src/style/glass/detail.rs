@@ -20,8 +20,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
     let least = drawer.parameters.detail;
     let picture = |x: usize, y: usize| [0, 1, 2].map(|i| ground.smoothed[i].get(x, y));
     let (width, height) = (ground.subject.width(), ground.subject.height());
-    let missing =
-        Raster::from_fn(width, height, |x, y| canvas.colour(x, y, colours).map_or(0.0, |c| distance(c, picture(x, y))));
+    let missing = Raster::from_fn(width, height, |x, y| canvas.colour(x, y, colours).map_or(0.0, |c| distance(c, picture(x, y))));
     let mut seeds: Vec<usize> = (0..missing.len()).filter(|&i| missing.pixels()[i] > least).collect();
     seeds.sort_by(|a, b| missing.pixels()[*b].total_cmp(&missing.pixels()[*a]).then(a.cmp(b)));
     let touch = WIDTH * drawer.pixels(drawer.parameters.grain_mm);
@@ -63,7 +62,8 @@ fn arc(drawer: &Drawer<'_>, ground: &Ground, missing: &Raster<f32>, seed: Point)
     let start = at(seed);
     let called = missing.get(seed.x as usize, seed.y as usize);
     let goes_on = |p: &Point| {
-        distance(at(*p), start) < COLOUR_CHANGE * called && missing.get(p.x as usize, p.y as usize) > 0.5 * drawer.parameters.detail
+        distance(at(*p), start) < COLOUR_CHANGE * called
+            && missing.get(p.x as usize, p.y as usize) > 0.5 * drawer.parameters.detail
     };
     let mut line: Vec<Point> = ground.fine_flow.streamline(seed, -reach, 1.0)[1..].iter().copied().take_while(goes_on).collect();
     line.reverse();

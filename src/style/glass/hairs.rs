@@ -70,8 +70,8 @@ impl Hairs<'_> {
         }
         let page: Vec<Point> = resample(&line, 3.0).into_iter().map(|p| self.drawer.to_page(self.ground, p)).collect();
         let rgb: Vec<f32> = self.ground.smoothed.iter().map(|plane| plane.sample(middle.x, middle.y)).collect();
-        let shift = self.drawer.parameters.contrast
-            * (self.below.sample(middle.x, middle.y) + self.drawer.parameters.hairs * value);
+        let shift =
+            self.drawer.parameters.contrast * (self.below.sample(middle.x, middle.y) + self.drawer.parameters.hairs * value);
         let width = self.width * self.drawer.portrait.placement.mm_per_pixel();
         let mut stroke = Stroke::new(catmull_rom(&page, false), Width::Constant(width));
         stroke.colour = Some(colour::shifted([rgb[0], rgb[1], rgb[2]], shift));

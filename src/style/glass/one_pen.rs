@@ -30,7 +30,8 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
     for round in 0..ROUNDS {
         drawer.check()?;
         let spacing = calibration.spacing(&ink, width as f32);
-        let wanted = Wanted { flow: &flow, ink: &ink, spacing: &spacing, width, length: drawer.pixels(drawer.parameters.length_mm) };
+        let wanted =
+            Wanted { flow: &flow, ink: &ink, spacing: &spacing, width, length: drawer.pixels(drawer.parameters.length_mm) };
         lines = Arcs::draw(&wanted, drawer.seed);
         if round + 1 < ROUNDS {
             calibration.learn(&ink, &coverage::coverage(&lines, width, &ink));

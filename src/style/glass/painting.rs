@@ -4,7 +4,7 @@ use super::body::Body;
 use super::visible::{Canvas, Shown};
 use super::{Drawer, Ground, colour, detail, hairs, noise};
 use crate::drawing::{Layer, Mark, Mixing};
-use crate::field::{Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
+use crate::field::{Cut, Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use crate::style::StyleError;
@@ -34,7 +34,7 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     let mut layer = drawer.empty_layer("strokes");
     layer.mixing = Mixing::Paint;
     let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons);
-    let ribbons = glass_ribbons(&noise, &ground.flow, length, |height| levels.of(height));
+    let ribbons = glass_ribbons(&noise, &ground.flow, length, Cut::Whole, |height| levels.of(height));
     drawer.check()?;
     layer.marks = Painter { drawer, ground, levels: &levels }.paint(&ribbons);
     let mut layers = vec![layer];
@@ -135,9 +135,7 @@ fn cover(canvas: &mut Canvas, body: &Body, planes: &[Raster<f32>], colours: &mut
     let (fresh, shown) = canvas.cover(body, planes);
     let parts = parts(&shown);
     let first = colours.len();
-    canvas.settle(&fresh, |stretch| {
-        parts.iter().position(|part| (part.first..part.last).contains(&stretch)).map(|i| first + i)
-    });
+    canvas.settle(&fresh, |stretch| parts.iter().position(|part| (part.first..part.last).contains(&stretch)).map(|i| first + i));
     colours.extend(parts.iter().map(|part| part.shown.colour()));
     parts
 }

@@ -50,9 +50,7 @@ impl Canvas {
     /// Nothing is covered yet, but what lies outside the region (below one half) never shows.
     pub(super) fn new(region: &Raster<f32>) -> Self {
         let (width, height) = (region.width() * FINE, region.height() * FINE);
-        Self {
-            owner: Raster::from_fn(width, height, |x, y| if region.get(x / FINE, y / FINE) < 0.5 { OUTSIDE } else { BARE }),
-        }
+        Self { owner: Raster::from_fn(width, height, |x, y| if region.get(x / FINE, y / FINE) < 0.5 { OUTSIDE } else { BARE }) }
     }
 
     /// Covers what a stroke covers (in working pixels) and tells what of it had been bare; [`Canvas::settle`] must follow.
