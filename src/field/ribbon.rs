@@ -24,9 +24,8 @@ const RAY_STEP: f32 = 0.25;
 const RAY_SAMPLES: usize = 240;
 /// Rise along a ray, as a share of its fall so far, that is no valley's other side.
 const RIPPLE: f32 = 0.03;
-/// Bounds of how far a ribbon's sides drift from its middle, in what they were: beyond, they go different ways.
-const LEAST_SPREAD: f64 = 0.4;
-const MOST_SPREAD: f64 = 1.8;
+/// A side that has drifted this many widths from the ribbon's middle goes another way, and is followed no more.
+const MOST_SPREAD: f64 = 2.0;
 /// A thinner ribbon is not drawn, in pixels.
 const LEAST_WIDTH: f64 = 0.1;
 /// Distance of a ribbon's nodes in pixels where it has no end near; its curve bends over at least the flow's blur.
@@ -227,24 +226,28 @@ impl Spine {
         (self.line.len() - 1) as f64
     }
 
-    /// The middle and the width at a station; straight on beyond the line's ends.
+    /// The middle and the width at a station.
     fn node(&self, station: &Station) -> (Point, f64) {
-        let at = -station.s;
-        let i = (at.max(0.0) as usize).min(self.line.len() - 2);
-        let step = self.line[i + 1] - self.line[i];
-        let (here, beside) = (self.line[i] + step * (at - i as f64), -step.normalize().turn_90());
-        let (low, high) = (
-            station.low * self.spread(i, &self.low_side, self.reach.0),
-            station.high * self.spread(i, &self.high_side, self.reach.1),
-        );
-        (here + beside * (0.5 * (low + high)), high - low)
+        let (low, high) = (self.place(station.s, station.low), self.place(station.s, station.high));
+        (low.midpoint(high), low.distance(high))
     }
 
-    /// How many times farther from the line a side is than at the start.
-    fn spread(&self, i: usize, side: &[Point], reach: f64) -> f64 {
-        let (Some(&there), true) = (side.get(i), reach.abs() > 0.2) else { return 1.0 };
-        let beside = -(self.line[i + 1] - self.line[i]).normalize().turn_90();
-        ((there - self.line[i]).dot(beside) / reach).clamp(LEAST_SPREAD, MOST_SPREAD)
+    /// The point at `s` along the flow and `n` beside the line: as far between the sides as it was at the start. Straight on
+    /// beyond the start and the end.
+    fn place(&self, s: f64, n: f64) -> Point {
+        let at = -s;
+        let i = (at.max(0.0) as usize).min(self.line.len() - 2);
+        let step = self.line[i + 1] - self.line[i];
+        let beside = -step.normalize().turn_90();
+        let middle = self.line[i] + step * (at - i as f64);
+        let along = |side: &[Point], reach: f64| {
+            let straight = middle + beside * reach;
+            let (Some(&before), Some(&after)) = (side.get(i), side.get(i + 1)) else { return straight };
+            let there = before + (after - before) * (at - i as f64);
+            if there.distance(middle) > MOST_SPREAD * (self.reach.1 - self.reach.0) { straight } else { there }
+        };
+        let share = (n - self.reach.0) / (self.reach.1 - self.reach.0);
+        along(&self.low_side, self.reach.0).lerp(along(&self.high_side, self.reach.1), share)
     }
 }
 

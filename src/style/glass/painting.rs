@@ -61,7 +61,7 @@ impl Painter<'_> {
     /// From the top down, so that what is hidden is never kept; then in painting order, and what is missing on top.
     fn paint(&self, ribbons: &[Ribbon]) -> Vec<Mark> {
         let bodies: Vec<Body> = ribbons.par_iter().map(|ribbon| Body::of_ribbon(ribbon, self.drawer.parameters.taper)).collect();
-        let mut canvas = Canvas::new(&pictured(self.ground));
+        let mut canvas = Canvas::new(&pictured(self.ground), self.ground.margin);
         let mut colours = Vec::new();
         let mut kept: Vec<(usize, Part)> = Vec::new();
         for (i, body) in bodies.iter().enumerate().rev() {

@@ -1,7 +1,7 @@
 //! What of each stroke shows, and over what colours it lies: the painting is gone through from the top.
 
 use super::body::Body;
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 
 /// Sub-pixels a working pixel each way: slivers narrower than half a pixel are nobody's loss.
@@ -16,6 +16,8 @@ const TAKEN: u32 = u32::MAX - 2;
 /// The canvas at twice the working resolution: for each sub-pixel the number of what lies on top.
 pub(super) struct Canvas {
     owner: Raster<u32>,
+    /// The picture without its frame: what runs outside is cut off along its middle line, and covers nothing.
+    picture: Rect,
 }
 
 /// What a part of a stroke shows of itself.
@@ -48,15 +50,21 @@ impl Shown {
 
 impl Canvas {
     /// Nothing is covered yet, but what lies outside the region (below one half) never shows.
-    pub(super) fn new(region: &Raster<f32>) -> Self {
+    pub(super) fn new(region: &Raster<f32>, margin: usize) -> Self {
         let (width, height) = (region.width() * FINE, region.height() * FINE);
-        Self { owner: Raster::from_fn(width, height, |x, y| if region.get(x / FINE, y / FINE) < 0.5 { OUTSIDE } else { BARE }) }
+        let framed = Rect::new(0.0, 0.0, region.width() as f64, region.height() as f64);
+        let bare = |x: usize, y: usize| if region.get(x / FINE, y / FINE) < 0.5 { OUTSIDE } else { BARE };
+        Self { owner: Raster::from_fn(width, height, bare), picture: framed.inset(-(margin as f64)) }
     }
 
     /// Covers what a stroke covers (in working pixels) and tells what of it had been bare; [`Canvas::settle`] must follow.
     pub(super) fn cover(&mut self, body: &Body, planes: &[Raster<f32>]) -> (Fresh, Vec<Shown>) {
         let mut fresh = Fresh::new();
-        for (pair, stretch) in body.fine.windows(2).zip(&body.stretch_of) {
+        let picture = self.picture;
+        let is_inside = |pair: &[(Point, f64)]| picture.contains(pair[0].0) && picture.contains(pair[1].0);
+        let pieces: Vec<(&[(Point, f64)], &usize)> =
+            body.fine.windows(2).zip(&body.stretch_of).filter(|(pair, _)| is_inside(pair)).collect();
+        for (pair, stretch) in pieces {
             self.cover_piece([pair[0].0, pair[1].0], [pair[0].1, pair[1].1], *stretch as u32, &mut fresh);
         }
         let mut shown = vec![Shown::default(); body.stretches()];

@@ -13,9 +13,9 @@ const STEP: f64 = 0.5;
 /// varies, at 0.9 they break up into dashes (Jobard and Lefer: 0.5 to 0.8).
 const LEAST_SHARE: f64 = 0.75;
 /// Arcs never come nearer than this share of their width; with what smoothing moves them they then overlap by less than half of it.
-const LEAST_WIDTHS: f64 = 0.7;
-/// Cosine of the greatest turn in one step, a curve of about one pixel's radius: tighter whirls would be blots.
-const MOST_TURN: f64 = 0.88;
+const LEAST_WIDTHS: f64 = 0.75;
+/// Cosine of the greatest turn in one step, a curve of two pixels' radius: tighter whirls would be blots.
+const MOST_TURN: f64 = 0.969;
 /// Shortest arc, as a share of the length asked for; shorter ones look like dirt.
 const LEAST_LENGTH: f64 = 0.12;
 
