@@ -72,8 +72,12 @@ fn pieces(curve: &BezPath, widths: &[f64]) -> Vec<Swelling> {
     let segments: Vec<CubicBez> = curve.segments().filter(|s| s.arclen(1e-3) > 1e-9).map(to_cubic).collect();
     let widths = kept_widths(curve, widths);
     let slopes = width_slopes(&segments, &widths);
-    let piece =
-        |(i, &curve): (usize, &CubicBez)| Swelling { curve, from: (widths[i], slopes[i]), to: (widths[i + 1], slopes[i + 1]) };
+    let piece = |(i, &curve): (usize, &CubicBez)| Swelling {
+        curve,
+        length: curve.arclen(1e-4),
+        from: (widths[i], slopes[i]),
+        to: (widths[i + 1], slopes[i + 1]),
+    };
     segments.iter().enumerate().map(piece).collect()
 }
 
@@ -144,6 +148,8 @@ fn append_cap(outline: &mut BezPath, end: Point, forward: Vec2, width: f64, ends
 /// One cubic of the centre line with the width and its slope (per millimetre) at both ends.
 struct Swelling {
     curve: CubicBez,
+    /// The curve's length, measured once: each of its sides' points needs it.
+    length: f64,
     from: (f64, f64),
     to: (f64, f64),
 }
@@ -151,8 +157,7 @@ struct Swelling {
 impl Swelling {
     /// Width and its derivative by the curve's parameter (cubic Hermite).
     fn width(&self, t: f64) -> (f64, f64) {
-        let length = self.curve.arclen(1e-4);
-        let (w0, w1, m0, m1) = (self.from.0, self.to.0, self.from.1 * length, self.to.1 * length);
+        let (w0, w1, m0, m1) = (self.from.0, self.to.0, self.from.1 * self.length, self.to.1 * self.length);
         let (t2, t3) = (t * t, t * t * t);
         let value = (2.0 * t3 - 3.0 * t2 + 1.0) * w0 + (t3 - 2.0 * t2 + t) * m0 + (3.0 * t2 - 2.0 * t3) * w1 + (t3 - t2) * m1;
         let slope =

@@ -38,7 +38,7 @@ pub fn gaussian_blur(raster: &Raster<f32>, sigma: f32) -> Raster<f32> {
 }
 
 /// The right half of a normalised Gaussian kernel, centre first.
-fn gaussian_kernel(sigma: f32) -> Vec<f32> {
+pub(super) fn gaussian_kernel(sigma: f32) -> Vec<f32> {
     let radius = (3.5 * sigma).ceil() as i32;
     let mut half: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
     let sum = half[0] + 2.0 * half[1..].iter().sum::<f32>();

@@ -13,6 +13,12 @@ mod scale;
 mod flood;
 mod paper;
 mod ridges;
+mod diffusion;
+mod edge_preserving;
+mod frame;
+mod lattice_gaussian;
+mod rank;
+mod structure_tensor;
 mod thin;
 
 pub use bilateral::bilateral;
@@ -24,7 +30,14 @@ pub use scale::{enlarge, reduce};
 pub use flood::{flood_from_border, without_holes};
 pub use paper::paper_texture;
 pub use ridges::ridges;
+pub use diffusion::anisotropic_diffusion;
+pub use edge_preserving::edge_preserving;
+pub use lattice_gaussian::fast_gaussian;
+pub use rank::{equalised, sorted};
+pub use structure_tensor::{gaussian_gradient, gradient, structure_tensor};
 pub use thin::thin;
+
+use blur::gaussian_kernel;
 
 use rayon::prelude::*;
 

@@ -7,6 +7,7 @@ mod engrave;
 mod feature_line;
 mod grid;
 mod charcoal;
+mod glass;
 mod hedcut;
 mod observer;
 mod parameter;
@@ -47,7 +48,7 @@ pub trait Style: Sync {
 }
 
 /// Every style, the default first.
-pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid, &engrave::Engrave, &charcoal::Charcoal];
+pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid, &engrave::Engrave, &charcoal::Charcoal, &glass::Glass];
 
 /// Finds a style by name.
 pub fn find(name: &str) -> Option<&'static dyn Style> {

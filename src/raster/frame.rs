@@ -1,0 +1,33 @@
+//! A frame of repeated border pixels around a raster.
+
+use super::Raster;
+
+impl<T: Copy + Send + Sync> Raster<T> {
+    /// The raster with `margin` more pixels on each side, each the border pixel nearest to it.
+    #[must_use]
+    pub fn framed(&self, margin: usize) -> Self {
+        Self::from_fn(self.width() + 2 * margin, self.height() + 2 * margin, |x, y| {
+            self.clamped(x as isize - margin as isize, y as isize - margin as isize)
+        })
+    }
+
+    /// The raster without `margin` pixels on each side, which it must have.
+    #[must_use]
+    pub fn unframed(&self, margin: usize) -> Self {
+        Self::from_fn(self.width() - 2 * margin, self.height() - 2 * margin, |x, y| self.get(x + margin, y + margin))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_comes_off_again() {
+        let raster = Raster::from_fn(3, 2, |x, y| x + 10 * y);
+        let framed = raster.framed(4);
+        assert_eq!((framed.width(), framed.height()), (11, 10));
+        assert_eq!((framed.get(0, 0), framed.get(10, 9)), (0, 12));
+        assert_eq!(framed.unframed(4), raster);
+    }
+}

@@ -1,0 +1,88 @@
+//! Fine strokes on top where the broad ones miss the picture: eyes, lips, the rim of a cup.
+
+use super::body::Body;
+use super::visible::Canvas;
+use super::{Drawer, Ground, colour};
+use crate::drawing::Mark;
+use crate::geometry::{Point, Vec2};
+use crate::raster::Raster;
+
+/// Width of a fine stroke in grains: two thirds of a broad one's.
+const WIDTH: f64 = 2.0;
+/// Its greatest length, as a share of the others'.
+const LENGTH: f64 = 0.4;
+/// Change of colour at which it ends, as a share of the difference that called for it.
+const COLOUR_CHANGE: f32 = 0.5;
+
+/// Strokes where the painting's colours (of its strokes, by owner) are farther from the picture's than the parameter `detail`; the
+/// farthest on top.
+pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colours: &[[f32; 3]]) -> Vec<Mark> {
+    let least = drawer.parameters.detail;
+    let picture = |x: usize, y: usize| [0, 1, 2].map(|i| ground.smoothed[i].get(x, y));
+    let (width, height) = (ground.subject.width(), ground.subject.height());
+    let missing = Raster::from_fn(width, height, |x, y| canvas.colour(x, y, colours).map_or(0.0, |c| distance(c, picture(x, y))));
+    let mut seeds: Vec<usize> = (0..missing.len()).filter(|&i| missing.pixels()[i] > least).collect();
+    seeds.sort_by(|a, b| missing.pixels()[*b].total_cmp(&missing.pixels()[*a]).then(a.cmp(b)));
+    let touch = WIDTH * drawer.pixels(drawer.parameters.grain_mm);
+    let scale = drawer.portrait.placement.mm_per_pixel();
+    let mut done = Raster::filled(width, height, false);
+    let mut marks = Vec::new();
+    for seed in seeds {
+        let (x, y) = (seed % width, seed / width);
+        if done.get(x, y) {
+            continue;
+        }
+        let line = arc(drawer, ground, &missing, Point::new(x as f64 + 0.5, y as f64 + 0.5));
+        let mut sum = [0.0; 3];
+        for p in &line {
+            sum.iter_mut().zip(picture(p.x as usize, p.y as usize)).for_each(|(sum, v)| *sum += v / line.len() as f32);
+            mark_done(&mut done, *p, 0.5 * touch);
+        }
+        let mut nodes: Vec<Point> = line.iter().step_by(2).copied().collect();
+        if nodes.len() < 2 {
+            let along = ground.fine_flow.at(line[0]) * (0.3 * touch) + Vec2::new(1e-3, 0.0);
+            nodes = vec![line[0] - along, line[0] + along];
+        }
+        let mut widths = vec![touch; nodes.len()];
+        widths[0] *= 0.6;
+        let body = Body::new(nodes, widths);
+        let mut stroke = body.stroke(0, body.stretches(), scale, |p| drawer.to_page(ground, p));
+        stroke.colour = Some(colour::shifted(sum, 0.0));
+        stroke.group = Some(0);
+        marks.push(Mark::Stroke(stroke));
+    }
+    marks.reverse();
+    marks
+}
+
+/// Points a pixel apart through a seed, as far as the colour stays and a stroke is called for.
+fn arc(drawer: &Drawer<'_>, ground: &Ground, missing: &Raster<f32>, seed: Point) -> Vec<Point> {
+    let reach = 0.5 * LENGTH * drawer.pixels(drawer.parameters.length_mm);
+    let at = |p: Point| [0, 1, 2].map(|i: usize| ground.smoothed[i].get(p.x as usize, p.y as usize));
+    let start = at(seed);
+    let called = missing.get(seed.x as usize, seed.y as usize);
+    let goes_on = |p: &Point| {
+        distance(at(*p), start) < COLOUR_CHANGE * called
+            && missing.get(p.x as usize, p.y as usize) > 0.5 * drawer.parameters.detail
+    };
+    let mut line: Vec<Point> = ground.fine_flow.streamline(seed, -reach, 1.0)[1..].iter().copied().take_while(goes_on).collect();
+    line.reverse();
+    line.push(seed);
+    line.extend(ground.fine_flow.streamline(seed, reach, 1.0)[1..].iter().copied().take_while(goes_on));
+    line
+}
+
+fn mark_done(done: &mut Raster<bool>, p: Point, radius: f64) {
+    let range = |at: f64, most: usize| (at - radius).max(0.0) as usize..((at + radius) as usize + 1).min(most);
+    for y in range(p.y, done.height()) {
+        for x in range(p.x, done.width()) {
+            if Point::new(x as f64 + 0.5, y as f64 + 0.5).distance(p) <= radius {
+                done.set(x, y, true);
+            }
+        }
+    }
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt()
+}

@@ -1,0 +1,179 @@
+//! Painting with the strokes of continuous Glass patterns (Papari and Petkov 2009; Papari 2009, chapter 7).
+
+mod body;
+mod colour;
+mod detail;
+mod discrete;
+mod hairs;
+mod noise;
+mod one_pen;
+mod painting;
+mod parameters;
+mod visible;
+
+use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use crate::drawing::{Drawing, Layer};
+use crate::field::{Flow, glass_pattern, line_integral_convolution};
+use crate::geometry::Point;
+use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
+use crate::source::{MaskRole, Portrait, luminance};
+use parameters::{Manner, Painting};
+
+/// Change of colour a pixel across which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes
+/// whirl in every pore; at three times it the astronaut's collar loses its corners.
+const DIFFUSION_CONTRAST: f32 = 0.024;
+
+/// Blur before the gradient that fine strokes follow, as a share of the others'.
+const FINE_FORMS: f32 = 0.35;
+
+/// The style.
+pub(super) struct Glass;
+
+impl Style for Glass {
+    fn name(&self) -> &'static str {
+        "glass"
+    }
+
+    fn summary(&self) -> &'static str {
+        "brush strokes that follow contours and whirl where there are none, as in impressionist paintings"
+    }
+
+    fn source(&self) -> &'static str {
+        "Papari 2009, Texture vs contours, chapter 7; Papari and Petkov 2009, Continuous Glass Patterns for Painterly Rendering"
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        parameters::PARAMETERS
+    }
+
+    fn masks(&self) -> &'static [MaskRole] {
+        &[MaskRole::Subject]
+    }
+
+    fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
+        Painting::new(settings).pixels_per_mm()
+    }
+
+    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+        Drawer { portrait, parameters: Painting::new(settings), seed, observer }.draw()
+    }
+}
+
+/// One drawing in the making.
+struct Drawer<'a> {
+    portrait: &'a Portrait,
+    parameters: Painting,
+    seed: u64,
+    observer: &'a dyn Observer,
+}
+
+/// What all manners of drawing start from, with a frame around the picture so that strokes can come in from beyond its border.
+struct Ground {
+    /// Pixels of the frame on each side.
+    margin: usize,
+    /// The smoothed picture's channels, framed.
+    smoothed: Vec<Raster<f32>>,
+    /// The subject, framed.
+    subject: Raster<f32>,
+    /// The direction of strokes, framed; none outside the subject, and in flat parts that of the parts around.
+    flow: Flow,
+    /// That of fine strokes, along small forms too.
+    fine_flow: Flow,
+}
+
+impl Drawer<'_> {
+    /// The chapter's steps in its order.
+    fn draw(&self) -> Result<Drawing, StyleError> {
+        if self.portrait.subject.pixels().iter().all(|&s| s < 0.5) {
+            return Err(StyleError::NothingToDraw(
+                "nothing is inside the subject mask, which is nowhere more than half white; use a whiter mask".to_owned(),
+            ));
+        }
+        let ground = self.ground();
+        self.check()?;
+        let layers = match self.parameters.manner {
+            Manner::Painting => painting::layers(self, &ground)?,
+            Manner::OnePen => vec![one_pen::layer(self, &ground)?],
+            Manner::Discrete => vec![discrete::layer(self, &ground)?],
+        };
+        let drawing = Drawing { page: self.portrait.page, layers };
+        let drawing = drawing.clipped(self.portrait.placement.picture);
+        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
+        Ok(drawing)
+    }
+
+    fn check(&self) -> Result<(), StyleError> {
+        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
+    }
+
+    /// Edge preserving smoothing and the flow (section 7.3).
+    fn ground(&self) -> Ground {
+        self.observer.begin("smoothing");
+        let planes = colour::planes(&self.portrait.light);
+        let sigma = self.pixels(self.parameters.smoothing_mm) as f32;
+        let smoothed = if sigma > 0.0 { edge_preserving(&planes, sigma, self.parameters.sharpness) } else { planes };
+        self.observer.picture("smoothed", &|| Picture::Grey(grey(&smoothed)));
+        self.observer.begin("flow");
+        let margin = self.pixels(self.parameters.length_mm).ceil() as usize + 4;
+        let subject = self.portrait.subject.framed(margin);
+        let sigma = self.pixels(self.parameters.whirls_mm) as f32;
+        let framed = |flow: Flow| flow.completed().framed(margin).within(&subject);
+        let (flow, fine_flow) = (framed(self.flow(&smoothed, sigma)), framed(self.flow(&smoothed, FINE_FORMS * sigma)));
+        let smoothed = smoothed.iter().map(|plane| plane.framed(margin)).collect();
+        Ground { margin, smoothed, subject, flow, fine_flow }
+    }
+
+    /// Equations 7.9, 7.10 and 7.14.
+    fn flow(&self, smoothed: &[Raster<f32>], sigma: f32) -> Flow {
+        let blurred: Vec<Raster<f32>> = if self.parameters.diffuses {
+            anisotropic_diffusion(smoothed, sigma, DIFFUSION_CONTRAST)
+        } else {
+            smoothed.iter().map(|plane| fast_gaussian(plane, sigma)).collect()
+        };
+        let light = gradient(&grey(&blurred));
+        self.observer.picture("gradient", &|| Picture::Grey(shown_gradient(&light)));
+        let gradients: Vec<Raster<[f32; 2]>> = blurred.iter().map(gradient).collect();
+        let tensor = structure_tensor(&gradients).unwrap_or_else(|| light.map(|_| [0.0; 3]));
+        Flow::steepest(&tensor, &light).turned(self.parameters.angle)
+    }
+
+    /// The pattern as a raster and line integral convolution of the same noise, for `stages`.
+    fn show_patterns(&self, ground: &Ground, noise: &Raster<f32>) {
+        let length = self.pixels(self.parameters.length_mm) as f32;
+        let shown = |raster: Raster<f32>| Picture::Grey(equalised(&raster.unframed(ground.margin)).map(|u| u + 0.5));
+        self.observer.picture("noise", &|| shown(noise.clone()));
+        self.observer.picture("glass-pattern", &|| shown(glass_pattern(noise, &ground.flow, length)));
+        self.observer.picture("line-integral", &|| shown(line_integral_convolution(noise, &ground.flow, length)));
+    }
+
+    /// A length of the page in working pixels.
+    fn pixels(&self, mm: f64) -> f64 {
+        mm / self.portrait.placement.mm_per_pixel()
+    }
+
+    /// The page's place of one in framed pixels.
+    fn to_page(&self, ground: &Ground, p: Point) -> Point {
+        let margin = ground.margin as f64;
+        self.portrait.placement.to_page(Point::new(p.x - margin, p.y - margin))
+    }
+
+    /// A layer that every manner of drawing begins with.
+    fn empty_layer(&self, name: &str) -> Layer {
+        self.observer.begin(name);
+        Layer::new(name, 1)
+    }
+}
+
+/// Luminance's weights on the encoded channels.
+fn grey(planes: &[Raster<f32>]) -> Raster<f32> {
+    match planes {
+        [r, g, b] => Raster::from_fn(r.width(), r.height(), |x, y| luminance([r.get(x, y), g.get(x, y), b.get(x, y)])),
+        _ => planes[0].clone(),
+    }
+}
+
+fn shown_gradient(gradient: &Raster<[f32; 2]>) -> Raster<f32> {
+    let size = gradient.map(|[x, y]| x.hypot(y));
+    let most = size.pixels().iter().copied().fold(1e-6, f32::max);
+    size.map(|g| 1.0 - g / most)
+}

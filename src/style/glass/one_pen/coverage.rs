@@ -1,0 +1,95 @@
+//! The ink that lines lay down, measured, and the spacing that gives each tone its ink.
+
+use crate::geometry::{Point, distance_to_segment};
+use crate::raster::{Raster, fast_gaussian};
+
+/// Sub-pixels a line's width: finer changes the measured ink by less than 0.002.
+const FINE: f64 = 6.0;
+/// Shares of ink for which the spacing is found one by one.
+const TONES: usize = 20;
+/// Pixels of a tone from which it is corrected.
+const LEAST_PIXELS: f64 = 200.0;
+/// Blur of the ink before it is sorted by tone, in pixels: tones at the foot of an edge are not those of the lines there.
+const BLUR: f32 = 2.0;
+
+/// Share of each pixel that lines of this width (in pixels) with round ends cover.
+pub(super) fn coverage(lines: &[Vec<Point>], width: f64, like: &Raster<f32>) -> Raster<f32> {
+    let scale = (FINE / width).ceil().max(1.0);
+    let side = scale as usize;
+    let mut fine = Raster::filled(like.width() * side, like.height() * side, false);
+    let radius = 0.5 * width * scale;
+    for pair in lines.iter().flat_map(|line| line.windows(2)) {
+        let [a, b] = [pair[0], pair[1]].map(|p| Point::new(p.x * scale, p.y * scale));
+        let range = |low: f64, high: f64, most: usize| {
+            (low - radius).floor().max(0.0) as usize..((high + radius).ceil().max(0.0) as usize).min(most)
+        };
+        for y in range(a.y.min(b.y), a.y.max(b.y), fine.height()) {
+            for x in range(a.x.min(b.x), a.x.max(b.x), fine.width()) {
+                if distance_to_segment(Point::new(x as f64 + 0.5, y as f64 + 0.5), a, b) <= radius {
+                    fine.set(x, y, true);
+                }
+            }
+        }
+    }
+    let share = 1.0 / (side * side) as f32;
+    Raster::from_fn(like.width(), like.height(), |x, y| {
+        let row = |dy: usize| &fine.row(y * side + dy)[x * side..(x + 1) * side];
+        (0..side).map(|dy| row(dy).iter().filter(|v| **v).count()).sum::<usize>() as f32 * share
+    })
+}
+
+/// How much closer than their width over the ink lines must stand, by ink.
+pub(super) struct Calibration {
+    factors: [f32; TONES + 1],
+    /// For each tone the logarithms of the last factor and of the ink that came of it.
+    tried: [Option<(f64, f64)>; TONES + 1],
+}
+
+impl Default for Calibration {
+    fn default() -> Self {
+        Self { factors: [0.9; TONES + 1], tried: [None; TONES + 1] }
+    }
+}
+
+impl Calibration {
+    /// Distance of neighbouring lines in pixels; none (infinite) where hardly any ink is wanted.
+    pub(super) fn spacing(&self, ink: &Raster<f32>, width: f32) -> Raster<f32> {
+        ink.map(|ink| if ink < 0.01 { f32::INFINITY } else { self.factor(ink) * width / ink })
+    }
+
+    fn factor(&self, ink: f32) -> f32 {
+        let at = ink.clamp(0.0, 1.0) * TONES as f32;
+        let i = (at as usize).min(TONES - 1);
+        self.factors[i] + (self.factors[i + 1] - self.factors[i]) * (at - i as f32)
+    }
+
+    /// Corrects the factors by the ink that was laid down where each tone was wanted.
+    pub(super) fn learn(&mut self, ink: &Raster<f32>, laid: &Raster<f32>) {
+        let (ink, laid) = (fast_gaussian(ink, BLUR), fast_gaussian(laid, BLUR));
+        let mut sums = [[0.0_f64; 3]; TONES + 1];
+        for (&wanted, &laid) in ink.pixels().iter().zip(laid.pixels()) {
+            let at = wanted.clamp(0.0, 1.0) * TONES as f32;
+            let i = (at as usize).min(TONES - 1);
+            let t = f64::from(at - i as f32);
+            for (slot, share) in [(i, 1.0 - t), (i + 1, t)] {
+                sums[slot][0] += share;
+                sums[slot][1] += share * f64::from(wanted);
+                sums[slot][2] += share * f64::from(laid);
+            }
+        }
+        for ((factor, tried), [count, wanted, laid]) in self.factors.iter_mut().zip(&mut self.tried).zip(sums) {
+            if count < LEAST_PIXELS || wanted <= 0.0 {
+                continue;
+            }
+            // Lines that come close cover like 1 - exp(-1 / spacing), so that the uncovered part is what is compared.
+            let depth = |ink: f64| (-(1.0 - (ink / count).clamp(0.002, 0.99)).ln()).ln();
+            let now = (f64::from(*factor).ln(), depth(laid));
+            // By the secant through the last two; ink falls as the factor grows, about in proportion.
+            let slope = tried.map_or(-1.0, |before| (now.1 - before.1) / (now.0 - before.0));
+            let slope = if slope.is_finite() { slope.clamp(-3.0, -0.7) } else { -1.0 };
+            let step = ((depth(wanted) - now.1) / slope).clamp(-0.4, 0.4);
+            *tried = Some(now);
+            *factor = (now.0 + step).exp().clamp(0.3, 2.5) as f32;
+        }
+    }
+}

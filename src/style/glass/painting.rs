@@ -1,0 +1,172 @@
+//! The painting: the ribbons of the pattern as opaque strokes in the smoothed picture's colours (Papari 2009, section 7.3).
+
+use super::body::Body;
+use super::visible::{Canvas, Shown};
+use super::{Drawer, Ground, colour, detail, hairs, noise};
+use crate::drawing::{Layer, Mark, Mixing};
+use crate::field::{Cut, Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
+use crate::geometry::{Point, Vec2};
+use crate::raster::Raster;
+use crate::style::StyleError;
+use rayon::prelude::*;
+
+/// Least area of a stroke that shows, in working pixels: smaller flecks are not seen and make half of the strokes.
+const LEAST_SHOWN: f64 = 1.0;
+/// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a fresh one begins. At 0.05
+/// skin falls into scales, at 0.2 eyes and lips are drawn out over the face (looked at on the astronaut and Grace Hopper).
+const COLOUR_CHANGE: f32 = 0.1;
+/// Width of the strokes that fill what the pattern leaves bare, in grains.
+const FILLING_WIDTH: f64 = 4.0;
+/// Their length, as a share of the others'.
+const FILLING_LENGTH: f64 = 0.5;
+/// Cosine of the angle by which they may turn from their middle.
+const MOST_FILLING_TURN: f64 = 0.7;
+
+pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>, StyleError> {
+    drawer.observer.begin("pattern");
+    let sigma = drawer.pixels(drawer.parameters.grain_mm) as f32;
+    let (width, height) = (ground.subject.width(), ground.subject.height());
+    let noise = noise::noise(width, height, sigma, drawer.seed, "noise");
+    drawer.show_patterns(ground, &noise);
+    let length = drawer.pixels(drawer.parameters.length_mm);
+    let pattern = glass_pattern(&noise, &ground.flow, length as f32).unframed(ground.margin);
+    drawer.check()?;
+    let mut layer = drawer.empty_layer("strokes");
+    layer.mixing = Mixing::Paint;
+    let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons);
+    let ribbons = glass_ribbons(&noise, &ground.flow, length, Cut::Whole, |height| levels.of(height));
+    drawer.check()?;
+    layer.marks = Painter { drawer, ground, levels: &levels }.paint(&ribbons);
+    let mut layers = vec![layer];
+    if drawer.parameters.hairs > 0.0 {
+        layers.push(hairs::layer(drawer, ground, &pattern));
+    }
+    Ok(layers)
+}
+
+/// Part of a stroke in one colour: which nodes, and what shows of it.
+struct Part {
+    first: usize,
+    last: usize,
+    shown: Shown,
+}
+
+struct Painter<'a> {
+    drawer: &'a Drawer<'a>,
+    ground: &'a Ground,
+    levels: &'a GlassLevels,
+}
+
+impl Painter<'_> {
+    /// From the top down, so that what is hidden is never kept; then in painting order, and what is missing on top.
+    fn paint(&self, ribbons: &[Ribbon]) -> Vec<Mark> {
+        let bodies: Vec<Body> = ribbons.par_iter().map(|ribbon| Body::of_ribbon(ribbon, self.drawer.parameters.taper)).collect();
+        let mut canvas = Canvas::new(&pictured(self.ground), self.ground.margin);
+        let mut colours = Vec::new();
+        let mut kept: Vec<(usize, Part)> = Vec::new();
+        for (i, body) in bodies.iter().enumerate().rev() {
+            for part in cover(&mut canvas, body, &self.ground.smoothed, &mut colours) {
+                kept.push((i, part));
+            }
+        }
+        let mut marks = self.filling(&mut canvas, &mut colours);
+        marks.par_extend(kept.par_iter().rev().map(|(i, part)| {
+            let shift = self.drawer.parameters.contrast * self.levels.value(&ribbons[*i]);
+            self.mark(&bodies[*i], part, shift)
+        }));
+        marks.extend(detail::marks(self.drawer, self.ground, &canvas, &colours));
+        marks
+    }
+
+    /// Strokes under all others where these leave the canvas bare, which is where noise has saddles and the flow begins.
+    fn filling(&self, canvas: &mut Canvas, colours: &mut Vec<[f32; 3]>) -> Vec<Mark> {
+        let width = FILLING_WIDTH * self.drawer.pixels(self.drawer.parameters.grain_mm);
+        let length = FILLING_LENGTH * self.drawer.pixels(self.drawer.parameters.length_mm);
+        let flow = &self.ground.flow;
+        let mut marks = Vec::new();
+        for y in 0..canvas.rows() {
+            let bare: Vec<Point> = canvas.bare(y).collect();
+            for p in bare {
+                if !canvas.is_bare(p) {
+                    continue;
+                }
+                let nodes = filling_line(flow, p, 0.5 * length);
+                let widths = vec![width; nodes.len()];
+                let body = Body::new(nodes, widths);
+                let (fresh, shown) = canvas.cover(&body, &self.ground.smoothed);
+                canvas.settle(&fresh, |_| Some(colours.len()));
+                let shown = shown.iter().fold(Shown::default(), |sum, shown| sum.with(shown));
+                colours.push(shown.colour());
+                let part = Part { first: 0, last: body.stretches(), shown };
+                marks.push(self.mark(&body, &part, -0.5 * self.drawer.parameters.contrast));
+            }
+        }
+        marks.reverse();
+        marks
+    }
+
+    fn mark(&self, body: &Body, part: &Part, shift: f32) -> Mark {
+        let scale = self.drawer.portrait.placement.mm_per_pixel();
+        let mut stroke = body.stroke(part.first, part.last, scale, |p| self.drawer.to_page(self.ground, p));
+        stroke.colour = Some(colour::shifted(part.shown.colour(), shift));
+        stroke.group = Some(0);
+        Mark::Stroke(stroke)
+    }
+}
+
+/// Along the flow both ways as long as it keeps about its direction, so that the stroke surely covers the place.
+fn filling_line(flow: &Flow, p: Point, reach: f64) -> Vec<Point> {
+    let along = flow.at(p);
+    let half = |length: f64| {
+        let line = flow.streamline(p, length, 2.0);
+        let keeps_on = |pair: &[Point]| (pair[1] - pair[0]).normalize().dot(along) * length.signum() > MOST_FILLING_TURN;
+        let count = line.windows(2).take_while(|pair| keeps_on(pair)).count();
+        line[1..=count].to_vec()
+    };
+    let mut nodes = half(-reach);
+    nodes.reverse();
+    nodes.push(p);
+    nodes.extend(half(reach));
+    if nodes.len() < 2 { vec![p, p + Vec2::new(0.1, 0.0)] } else { nodes }
+}
+
+/// Covers what a stroke covers; the parts of it that show, each the owner of what it covers under its colour's number.
+fn cover(canvas: &mut Canvas, body: &Body, planes: &[Raster<f32>], colours: &mut Vec<[f32; 3]>) -> Vec<Part> {
+    let (fresh, shown) = canvas.cover(body, planes);
+    let parts = parts(&shown);
+    let first = colours.len();
+    canvas.settle(&fresh, |stretch| parts.iter().position(|part| (part.first..part.last).contains(&stretch)).map(|i| first + i));
+    colours.extend(parts.iter().map(|part| part.shown.colour()));
+    parts
+}
+
+/// The stretches that show, joined to parts of about one colour; from the downstream end, where the brush is set down.
+fn parts(shown: &[Shown]) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    for (i, stretch) in shown.iter().enumerate().filter(|(_, stretch)| stretch.area() > 0.0) {
+        match parts.last_mut() {
+            Some(part) if is_alike(&part.shown, stretch) => {
+                part.last = i + 1;
+                part.shown = part.shown.with(stretch);
+            }
+            _ => parts.push(Part { first: i, last: i + 1, shown: *stretch }),
+        }
+    }
+    parts.retain(|part| part.shown.area() >= LEAST_SHOWN);
+    parts
+}
+
+fn is_alike(a: &Shown, b: &Shown) -> bool {
+    let (ca, cb) = (a.colour(), b.colour());
+    let squares: f32 = ca.iter().zip(cb).map(|(a, b)| (a - b) * (a - b)).sum();
+    b.area() < LEAST_SHOWN || squares < COLOUR_CHANGE * COLOUR_CHANGE
+}
+
+/// The subject, without the frame.
+fn pictured(ground: &Ground) -> Raster<f32> {
+    let (width, height, margin) = (ground.subject.width(), ground.subject.height(), ground.margin);
+    Raster::from_fn(width, height, |x, y| {
+        let is_inside = x >= margin && y >= margin && x < width - margin && y < height - margin;
+        if is_inside { ground.subject.get(x, y) } else { 0.0 }
+    })
+}

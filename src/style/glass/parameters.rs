@@ -1,0 +1,213 @@
+//! The painting's parameters and their values.
+
+use crate::style::{Default, Kind, Parameter, Settings};
+
+/// Working resolution in millimetres a pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
+/// millimetres are Table 7.1's in pixels.
+const MM_PER_PIXEL: f64 = 0.28;
+/// Grain below which the working resolution grows with it, in millimetres: Table 7.1's 0.7 px.
+const DEFAULT_GRAIN_MM: f64 = 0.2;
+
+/// All that a user can set.
+pub(super) const PARAMETERS: &[Parameter] = &[
+    Parameter {
+        name: "pitch",
+        kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 50.0 },
+        meaning: "about the width of a stroke; the lengths below follow it. Also the distance of the points of a discrete pattern",
+        source: "Table 7.1 at 0.28 mm a pixel",
+    },
+    Parameter {
+        name: "colors",
+        kind: Kind::Choice(&["photo", "mono"]),
+        meaning: "photo paints opaque strokes in the photograph's colours; mono draws for one pen, as dense as the tone asks",
+        source: "",
+    },
+    Parameter {
+        name: "pattern",
+        kind: Kind::Choice(&["continuous", "discrete"]),
+        meaning: "continuous paints strokes; discrete draws points and where the flow takes them, as dots",
+        source: "Papari 7.2",
+    },
+    Parameter {
+        name: "length",
+        kind: Kind::Length { default: Default::Pitches(25.0 / 3.0), least: 0.1, most: 200.0 },
+        meaning: "length of the strokes",
+        source: "Papari 7.10, a = 18 px",
+    },
+    Parameter {
+        name: "grain",
+        kind: Kind::Length { default: Default::Pitches(1.0 / 3.0), least: 0.03, most: 20.0 },
+        meaning: "blur of the noise that the strokes grow from; a stroke is about three times as wide",
+        source: "Papari 7.8, sigma_z = 0.7 px",
+    },
+    Parameter {
+        name: "whirls",
+        kind: Kind::Length { default: Default::Pitches(17.0 / 6.0), least: 0.1, most: 100.0 },
+        meaning: "blur of the picture whose gradient the strokes follow; larger gives smoother strokes and larger whirls",
+        source: "Papari 7.9, sigma = 6 px",
+    },
+    Parameter {
+        name: "angle",
+        kind: Kind::Number { default: 90.0, least: -180.0, most: 180.0 },
+        meaning: "between the strokes and the steepest change, in degrees: 90 follows contours and whirls, 0 crosses them in stars",
+        source: "Papari 7.10, theta_0",
+    },
+    Parameter {
+        name: "gradient",
+        kind: Kind::Choice(&["gaussian", "diffusion"]),
+        meaning: "how the picture is blurred before its gradient is taken; diffusion keeps strokes from cutting corners, and is slow",
+        source: "Papari figure 7.14",
+    },
+    Parameter {
+        name: "smoothing",
+        kind: Kind::Length { default: Default::Pitches(0.6), least: 0.0, most: 50.0 },
+        meaning: "reach of the smoothing that takes out texture and sharpens edges; 0 for none",
+        source: "Papari appendix A, sigma",
+    },
+    Parameter {
+        name: "sharpness",
+        kind: Kind::Number { default: 4.0, least: 0.0, most: 16.0 },
+        meaning: "how sharp that smoothing leaves edges: 0 blurs them, 16 makes them hard",
+        source: "Papari appendix A, q",
+    },
+    Parameter {
+        name: "contrast",
+        kind: Kind::Number { default: 0.3, least: 0.0, most: 1.0 },
+        meaning: "range of lightness from the darkest stroke to the lightest over one colour",
+        source: "Papari 7.12, lambda",
+    },
+    Parameter {
+        name: "ribbons",
+        kind: Kind::Count { default: 3, least: 1, most: 16 },
+        meaning: "steps of lightness in which each stroke is built up",
+        source: "",
+    },
+    Parameter {
+        name: "taper",
+        kind: Kind::Number { default: 0.35, least: 0.0, most: 1.0 },
+        meaning: "part of a stroke over which it runs out to a tip; 0 leaves its end round",
+        source: "",
+    },
+    Parameter {
+        name: "detail",
+        kind: Kind::Number { default: 0.12, least: 0.01, most: 2.0 },
+        meaning: "difference of colour from which a fine stroke is set on top of the broad ones; 2 for none",
+        source: "",
+    },
+    Parameter {
+        name: "hairs",
+        kind: Kind::Number { default: 0.0, least: 0.0, most: 1.0 },
+        meaning: "strength of the brush hairs' marks on top of the strokes; 0 for none",
+        source: "Papari figures 7.15 and 7.16",
+    },
+    Parameter {
+        name: "line",
+        kind: Kind::Length { default: Default::Millimetres(0.3), least: 0.05, most: 5.0 },
+        meaning: "with colors=mono: width of the lines, best that of the pen",
+        source: "",
+    },
+    Parameter {
+        name: "transform",
+        kind: Kind::Choice(&["photo", "rotation", "scaling", "hyperbolic", "spiral", "translation", "nonlinear"]),
+        meaning: "with pattern=discrete: what moves the points; photo is the strokes' own flow",
+        source: "Papari figures 7.1 to 7.3",
+    },
+    Parameter {
+        name: "time",
+        kind: Kind::Number { default: 0.087_266, least: -10.0, most: 10.0 },
+        meaning: "with pattern=discrete: how long the points move; 0.0873 (5 degrees) turns them by that in a rotation",
+        source: "Papari 7.3, t",
+    },
+    Parameter {
+        name: "points",
+        kind: Kind::Choice(&["blue", "poisson"]),
+        meaning: "with pattern=discrete: evenly spread points, or wholly random ones",
+        source: "Papari 7.2.1",
+    },
+];
+
+/// What moves the points of a discrete pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Transform {
+    Photograph,
+    Rotation,
+    Scaling,
+    Hyperbolic,
+    Spiral,
+    Translation,
+    Nonlinear,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Manner {
+    Painting,
+    OnePen,
+    Discrete,
+}
+
+/// The parameters' values; lengths in millimetres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Painting {
+    pub manner: Manner,
+    pub pitch_mm: f64,
+    pub length_mm: f64,
+    pub grain_mm: f64,
+    pub whirls_mm: f64,
+    /// Radians.
+    pub angle: f64,
+    pub diffuses: bool,
+    pub smoothing_mm: f64,
+    pub sharpness: f32,
+    pub contrast: f32,
+    pub ribbons: usize,
+    pub taper: f64,
+    pub detail: f32,
+    pub hairs: f32,
+    pub line_mm: f64,
+    pub transform: Transform,
+    pub time: f64,
+    pub is_blue: bool,
+}
+
+impl Painting {
+    pub(super) fn new(settings: &Settings) -> Self {
+        Self {
+            manner: match (settings.word("pattern"), settings.word("colors")) {
+                ("discrete", _) => Manner::Discrete,
+                (_, "mono") => Manner::OnePen,
+                _ => Manner::Painting,
+            },
+            pitch_mm: settings.number("pitch"),
+            length_mm: settings.number("length"),
+            grain_mm: settings.number("grain"),
+            whirls_mm: settings.number("whirls"),
+            angle: settings.number("angle").to_radians(),
+            diffuses: settings.word("gradient") == "diffusion",
+            smoothing_mm: settings.number("smoothing"),
+            sharpness: settings.number("sharpness") as f32,
+            contrast: settings.number("contrast") as f32,
+            ribbons: settings.number("ribbons") as usize,
+            taper: settings.number("taper"),
+            detail: settings.number("detail") as f32,
+            hairs: settings.number("hairs") as f32,
+            line_mm: settings.number("line"),
+            transform: match settings.word("transform") {
+                "rotation" => Transform::Rotation,
+                "scaling" => Transform::Scaling,
+                "hyperbolic" => Transform::Hyperbolic,
+                "spiral" => Transform::Spiral,
+                "translation" => Transform::Translation,
+                "nonlinear" => Transform::Nonlinear,
+                _ => Transform::Photograph,
+            },
+            time: settings.number("time"),
+            is_blue: settings.word("points") == "blue",
+        }
+    }
+
+    /// Working pixels a millimetre.
+    pub(super) fn pixels_per_mm(&self) -> f64 {
+        (DEFAULT_GRAIN_MM / self.grain_mm).max(1.0) / MM_PER_PIXEL
+    }
+}
