@@ -27,6 +27,17 @@ Sending a file to its plotter:
   G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; printers take it from their card.
   SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order and those with ! wait.";
 
+/// What a test sheet says; the long form is docs/calibration.md.
+pub(super) const READING: &str = "\
+What to read off the sheet, and what to change (--set-profile KEY=VALUE, or the key in a TOML file that extends the profile):
+  square  Measure its sides, 100 mm where there is room. scale_x = scale_x * drawn / measured, along the side marked X; scale_y alike.
+  NIB     The first rung with white between its lines is wider than the nib: the one before it is --pen.
+  Z       The highest line, in mm above gcode.height.down, that has no gap: add it (towards up), less 0.2, to gcode.height.down.
+  DWELL   The shortest rest, in seconds, after which all touches are there and equally large: motion.touch_seconds.
+  FILL    The least overlap without white hairlines. 10 % is what areas are filled with; for another, --pen nib * (1 - overlap) / 0.9.
+  PENS    How far each cross lies off its ticks, in mm along the machine's X and Y: pen.N.offset = [x, y].
+  SPEED   The fastest squares with sharp, closed corners: motion.draw_speed; if even the slowest tremble, lower the acceleration.";
+
 // One of them is made, once.
 #[allow(clippy::large_enum_variant)]
 #[derive(Debug, Subcommand)]
@@ -43,6 +54,9 @@ pub(super) enum Command {
     Inspect(InspectOptions),
     /// Write the rest of a plotter's file from where the machine stopped: state, pen and position restored.
     Resume(ResumeOptions),
+    /// Draw a test sheet for a machine and its pens.
+    #[command(after_help = READING)]
+    Calibrate(CalibrateOptions),
     /// List the styles, or one style's parameters with default, unit, range, meaning and source.
     Styles(ListOptions),
     /// List the plotters, or print one profile as TOML.
@@ -164,6 +178,9 @@ pub(super) struct DrawOptions {
     /// The plotter: a name (`drypoint profiles` lists them) or a TOML file. With .svg the tool paths are written.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
+    /// Choose a larger pitch, if need be, so that the plot takes at most this long, such as 2h, 90min or 1h30m.
+    #[arg(long, value_name = "TIME", value_parser = duration, requires = "profile", allow_negative_numbers = true)]
+    pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
     /// Do all the work and write nothing.
@@ -171,6 +188,37 @@ pub(super) struct DrawOptions {
     pub dry_run: bool,
     #[command(flatten)]
     pub reporting: Reporting,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(super) struct CalibrateOptions {
+    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: String,
+    /// The file to write, its format by extension: .svg, .hpgl or .plt, .gcode, .nc or .ngc; `-` for stdout.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: String,
+    /// The format, whatever the extension.
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// Nib width that is written on the pen.
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    pub pen: f64,
+    /// How many pens draw a cross [default: as many as the machine holds].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub pen_count: Option<u32>,
+    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the machine's first, else a4-landscape or
+    /// smaller].
+    #[arg(long, value_name = "NAME|WxH")]
+    pub page: Option<String>,
+    #[command(flatten)]
+    pub toolpaths: ToolpathOptions,
+    /// Do all the work and write nothing.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// No summary; warnings and errors are still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
 }
 
 /// How tool paths are made.
@@ -504,6 +552,30 @@ fn seconds(text: &str) -> Result<f64, String> {
     number.parse().ok().filter(|s: &f64| (0.0..=60.0).contains(s)).ok_or_else(|| "must be from 0 to 60 seconds".to_owned())
 }
 
+/// A time such as `2h`, `90min`, `1h30m` or `45s`, in seconds.
+fn duration(text: &str) -> Result<f64, String> {
+    let refuse = || "write it as 2h, 90min, 1h30m or 45s, above 0".to_owned();
+    let (mut rest, mut seconds, mut last) = (text.trim(), 0.0, f64::INFINITY);
+    while !rest.is_empty() {
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(refuse)?;
+        let number: f64 = rest[..end].parse().map_err(|_| refuse())?;
+        let after = rest[end..].trim_start();
+        let unit = after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len());
+        let size = match &after[..unit] {
+            "h" => 3600.0,
+            "m" | "min" => 60.0,
+            "s" => 1.0,
+            _ => return Err(refuse()),
+        };
+        // Larger units come first, and each once.
+        if size >= last {
+            return Err(refuse());
+        }
+        (seconds, last, rest) = (seconds + number * size, size, after[unit..].trim_start());
+    }
+    if seconds > 0.0 && seconds <= 1e7 { Ok(seconds) } else { Err(refuse()) }
+}
+
 /// A length in metres, or with another unit, in millimetres.
 fn metres(text: &str) -> Result<f64, String> {
     let trimmed = text.trim();
@@ -568,6 +640,15 @@ mod tests {
         assert_eq!(metres("2.5"), Ok(2500.0));
         assert_eq!((metres("500mm"), metres("30cm")), (Ok(500.0), Ok(300.0)));
         assert!(metres("0m").is_err() && metres("far").is_err());
+    }
+
+    #[test]
+    fn durations() {
+        assert_eq!((duration("2h"), duration("90min"), duration("1h30m")), (Ok(7200.0), Ok(5400.0), Ok(5400.0)));
+        assert_eq!((duration("1.5h"), duration("1h 5 min"), duration("45s")), (Ok(5400.0), Ok(3900.0), Ok(45.0)));
+        for wrong in ["", "2", "h", "30m1h", "1h2h", "0h", "-2h", "2 days", "1..5h"] {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

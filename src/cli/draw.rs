@@ -3,6 +3,7 @@
 use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
 use super::failure::Failure;
 use super::layout::{Layout, lay_out};
+use super::max_time;
 use super::output;
 use super::pens::PenSet;
 use super::progress::{Watcher, is_interrupted};
@@ -14,37 +15,33 @@ use crate::press::Press;
 use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
-use crate::write::{SvgHead, write_inkml, write_svg};
 use serde_json::{Value, json};
 use std::path::Path;
 
 pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
+    limit_threads(options.picture.threads)?;
+    match options.max_time {
+        Some(limit) => draw(&max_time::within(options, limit)?),
+        None => draw(options),
+    }
+}
+
+fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
     if options.reporting.json && options.output == "-" {
         return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
-    let press = press(options)?;
+    press(options)?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     if profile.is_none() && options.toolpaths.preview.is_some() {
         return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
-    limit_threads(options.picture.threads)?;
     let watcher = Watcher::new(options.reporting.quiet);
-    let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
-    let task = Task::new(&options.picture, reach)?;
-    let mut drawing = task.draw(&watcher)?;
-    for layer in &mut drawing.layers {
-        layer.ink = options.ink.clone();
-    }
-    drawing.layers = chosen(drawing.layers, &options.layers)?;
-    if let Some(press) = press {
-        watcher.begin("press");
-        drawing = press.compensated(&drawing);
-    }
-    pens.assign(&mut drawing, profile.as_ref())?;
+    let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
+    let drawing = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
     watcher.begin("writing");
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&drawing, &options.output);
@@ -56,10 +53,38 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
         prepared.extend(write_one(name, drawing, format, profile.as_ref().map(|profile| (profile, &pens)), options, &head)?);
     }
     let seconds = watcher.finish();
+    let shorter = max_time::advice(options, &prepared);
     for prepared in &prepared {
-        toolpaths::warn(prepared, profile.as_ref(), "; a larger --pitch makes it shorter");
+        toolpaths::warn(prepared, profile.as_ref(), &shorter);
     }
+    max_time::warn_if_longer(&prepared, options.max_time);
     report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
+}
+
+/// What a machine reaches of a page.
+pub(super) fn reach_of(profile: Option<&Profile>) -> impl Fn(&Page) -> Option<Rect> {
+    move |page| Some(mount(profile?, page).ok()?.reach_on_page())
+}
+
+/// The layers asked for, each with its ink and its pen.
+pub(super) fn drawing_of(
+    task: &Task<'_>,
+    options: &DrawOptions,
+    profile: Option<&Profile>,
+    pens: &mut PenSet,
+    observer: &dyn Observer,
+) -> Result<Drawing, Failure> {
+    let mut drawing = task.draw(observer)?;
+    for layer in &mut drawing.layers {
+        layer.ink = options.ink.clone();
+    }
+    drawing.layers = chosen(drawing.layers, &options.layers)?;
+    if let Some(press) = press(options)? {
+        observer.begin("press");
+        drawing = press.compensated(&drawing);
+    }
+    pens.assign(&mut drawing, profile)?;
+    Ok(drawing)
 }
 
 /// One file; gives back the plot when it is one.
@@ -348,6 +373,7 @@ fn report(
         );
         for prepared in prepared {
             eprintln!("{}", toolpaths::summary(&prepared.report));
+            toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
         }
     }
     Ok(())

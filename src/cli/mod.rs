@@ -1,11 +1,13 @@
 //! The command line: the only place with files, stdout, progress and exit codes.
 
 mod arguments;
+mod calibrate;
 mod draw;
 mod failure;
 mod inspect;
 mod layout;
 mod lists;
+mod max_time;
 mod output;
 mod pens;
 mod plot;
@@ -47,6 +49,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Stages(options) => stages::run(&options),
         Command::Inspect(options) => inspect::run(&options),
         Command::Resume(options) => resume::run(&options),
+        Command::Calibrate(options) => calibrate::run(&options),
         Command::Styles(options) => lists::styles(&options),
         Command::Profiles(options) => lists::profiles(&options),
         Command::Completions { shell } => {

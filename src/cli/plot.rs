@@ -74,6 +74,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     }
     for (name, prepared) in plots.iter().filter(|_| !options.reporting.quiet) {
         eprintln!("{name}: {}", toolpaths::summary(&prepared.report));
+        toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
     }
     Ok(())
 }

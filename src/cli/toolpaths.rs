@@ -6,14 +6,14 @@ use super::output;
 use super::pens::PenSet;
 use crate::geometry::{Point, Rect};
 use crate::plot::{
-    Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, Plot, PlotReport, Profile, Seam,
-    Sequence, Travel, add_registration, built_in, clip_to, mount, pause_every, report, rest_touches,
+    Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, PenReport, Plot, PlotReport, Profile,
+    Seam, Sequence, Travel, add_registration, built_in, clip_to, mount, pause_every, report, rest_touches,
 };
 use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
 use std::io::Write;
 
 /// Plotting time above which the user is warned.
-const LONG_HOURS: f64 = 4.0;
+pub(super) const LONG_HOURS: f64 = 4.0;
 
 /// The format of an output file.
 pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Failure> {
@@ -112,6 +112,8 @@ pub(super) struct Prepared {
     pub plot: Plot,
     pub mounting: Option<Mounting>,
     pub report: PlotReport,
+    /// The same before ordering.
+    pub unordered: PlotReport,
     /// Millimetres and touches that --clip cut away.
     pub cut: (f64, usize),
     /// Where the pen starts, on the page.
@@ -145,18 +147,20 @@ pub(super) fn prepare(
         mounting.check(profile, &plot)?;
     }
     let home = home_of(mounting.as_ref(), &plot);
-    let before: Vec<f64> = report(&plot, home, None, None).pens.iter().map(|pen| pen.pen_up_mm).collect();
+    let machine = profile.zip(mounting.as_ref());
+    let unordered = report(&plot, home, machine, None);
+    let before: Vec<f64> = unordered.pens.iter().map(|pen| pen.pen_up_mm).collect();
     let duplicates = plot.put_in_order(home, &sequence(options));
     if options.registration {
         add_registration(&mut plot, drawable);
     }
     let usual = profile.map_or(0.0, |profile| profile.motion.touch_seconds);
     rest_touches(&mut plot, |pen| pens.dwell(pen).unwrap_or(usual));
-    let report = report(&plot, home, profile.zip(mounting.as_ref()), Some(&before));
+    let report = report(&plot, home, machine, Some(&before));
     if let Some(length) = options.pause_every {
         pause_every(&mut plot, length);
     }
-    Ok(Prepared { plot, mounting, report, cut, home, duplicates })
+    Ok(Prepared { plot, mounting, report, unordered, cut, home, duplicates })
 }
 
 fn bounds_of(plot: &Plot) -> Option<Rect> {
@@ -339,7 +343,20 @@ pub(super) fn summary(report: &PlotReport) -> String {
     )
 }
 
-fn duration(seconds: f64) -> String {
+/// A line for each pen: time, ink and lifts, and in brackets what they were before ordering.
+pub(super) fn pen_lines(prepared: &Prepared) -> Vec<String> {
+    let amounts = |pen: &PenReport| {
+        let time = pen.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();
+        format!("{time}{:.2} m of ink, {} lifts", pen.pen_down_mm / 1000.0, pen.pen_lifts)
+    };
+    let pens = prepared.report.pens.iter().zip(&prepared.unordered.pens);
+    pens.map(|(after, before)| {
+        format!("  pen {} {}: {} (before ordering: {})", after.pen, after.name, amounts(after), amounts(before))
+    })
+    .collect()
+}
+
+pub(super) fn duration(seconds: f64) -> String {
     let minutes = (seconds / 60.0).round() as u64;
     match (minutes / 60, minutes % 60) {
         (0, 0) => format!("{seconds:.0} s"),

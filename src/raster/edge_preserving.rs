@@ -13,7 +13,17 @@ const LEAST_VARIANCE: f32 = (0.5 / 255.0) * (0.5 / 255.0);
 ///
 /// On a plate of step edges with noise of 0.05 (figure 7.18, sigma 3), `cargo test --test glass figure -- --nocapture`:
 ///
-/// FIGURE-TABLE
+/// | q | noise rejected, PSNR in dB | edges lost |
+/// |---|---|---|
+/// | 0 | 48.5 | 0.1377 |
+/// | 1 | 48.6 | 0.1014 |
+/// | 2 | 48.6 | 0.0742 |
+/// | 3 | 48.6 | 0.0575 |
+/// | 4 | 48.6 | 0.0493 |
+/// | 6 | 48.6 | 0.0456 |
+/// | 8 | 48.6 | 0.0473 |
+/// | 16 | 48.4 | 0.0629 |
+/// | Gaussian-Kuwahara | 45.7 | 0.0813 |
 pub fn edge_preserving(planes: &[Raster<f32>], sigma: f32, q: f32) -> Vec<Raster<f32>> {
     let means: Vec<Raster<f32>> = planes.iter().map(|plane| fast_gaussian(plane, sigma)).collect();
     let Some(weights) = evenness(planes, &means, sigma, q) else { return Vec::new() };

@@ -3,11 +3,11 @@
 //! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
+mod charcoal;
 mod engrave;
 mod feature_line;
-mod grid;
-mod charcoal;
 mod glass;
+mod grid;
 mod hedcut;
 mod observer;
 mod parameter;

@@ -1,0 +1,66 @@
+//! A test on the sheet: a small drawing with a label above it.
+
+use super::font;
+use crate::geometry::{Point, Vec2};
+use crate::plot::Toolpath;
+
+/// Free space between tests, in millimetres.
+pub(super) const GAP: f64 = 1.5;
+
+/// A path with what draws it.
+#[derive(Clone, Debug)]
+pub(super) struct Drawn {
+    /// The pen's number.
+    pub pen: u32,
+    /// Speed in percent of the machine's.
+    pub speed_percent: Option<u32>,
+    /// In the cell's own millimetres until the sheet is laid out.
+    pub path: Toolpath,
+}
+
+/// A test with its label, from its upper left corner.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cell {
+    pub width: f64,
+    pub height: f64,
+    pub drawn: Vec<Drawn>,
+}
+
+impl Cell {
+    /// Nothing but a text.
+    pub(super) fn text(text: &str, height: f64) -> Self {
+        let mut cell = Self { width: font::width(text, height), height, drawn: Vec::new() };
+        font::written(text, Point::ORIGIN, height).into_iter().for_each(|line| cell.add(line));
+        cell
+    }
+
+    /// A label above a drawing of this size, which is then added at `below`.
+    pub(super) fn labelled(label: &str, text_height: f64, width: f64, height: f64) -> (Self, Vec2) {
+        let mut cell = Self::text(label, text_height);
+        let top = text_height + 1.0;
+        cell.width = cell.width.max(width);
+        cell.height = top + height;
+        (cell, Vec2::new(0.0, top))
+    }
+
+    /// A line of the first pen.
+    pub(super) fn add(&mut self, points: Vec<Point>) {
+        self.add_path(Toolpath::new(points));
+    }
+
+    /// A path of the first pen.
+    pub(super) fn add_path(&mut self, path: Toolpath) {
+        self.drawn.push(Drawn { pen: 1, speed_percent: None, path });
+    }
+
+    /// The cell's paths with its corner at a place on the sheet.
+    pub(super) fn placed(mut self, at: Vec2) -> Vec<Drawn> {
+        self.drawn.iter_mut().flat_map(|drawn| &mut drawn.path.points).for_each(|p| *p += at);
+        self.drawn
+    }
+}
+
+/// The outline of a square, closed.
+pub(super) fn square(corner: Point, side: f64) -> Vec<Point> {
+    [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side), (0.0, 0.0)].map(|(x, y)| corner + Vec2::new(x, y)).to_vec()
+}
