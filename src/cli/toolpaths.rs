@@ -63,13 +63,12 @@ fn told_speed(profile: &Profile, speed: f64) -> f64 {
 /// Refuses a format that the profile's machine does not read.
 pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Result<(), Failure> {
     let needed = match format {
-        Format::Svg => return Ok(()),
         Format::Inkml if profile.is_some() => {
             return Err(Failure::Usage(
                 "InkML holds a drawing's strokes, not a machine's tool paths; leave --profile out".to_owned(),
             ));
         }
-        Format::Inkml => return Ok(()),
+        Format::Svg | Format::Inkml => return Ok(()),
         Format::Hpgl => Language::Hpgl,
         Format::Gcode => Language::Gcode,
     };
