@@ -104,7 +104,7 @@ fn hough_orientation_is_right_on_lines_and_in_noise() {
                 let lines = line_drawing(size, degrees, spacing, flipped, step as u64);
                 let field = filter.orientations(&lines, &region).smoothed(15.0);
                 for (x, y) in (30..70).step_by(4).flat_map(|y| (30..70).step_by(4).map(move |x| (x, y))) {
-                    let found = field.angle(x as f64 + 0.5, y as f64 + 0.5).unwrap().to_degrees();
+                    let found = field.angle(f64::from(x) + 0.5, f64::from(y) + 0.5).unwrap().to_degrees();
                     let off = (found - degrees).rem_euclid(180.0);
                     sum += off.min(180.0 - off);
                     count += 1.0;
@@ -132,7 +132,9 @@ fn mixture(random: &mut ChaCha8Rng) -> Vec<(f64, f64, f64)> {
             .collect();
         parts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let total: f64 = parts.iter().map(|p| p.2).sum();
-        parts.iter_mut().for_each(|p| p.2 /= total);
+        for part in &mut parts {
+            part.2 /= total;
+        }
         let apart = parts.windows(2).all(|w| w[1].0 - w[0].0 >= 5.0 * w[0].1.max(w[1].1));
         if apart && parts.iter().all(|p| p.2 >= 0.1) {
             return parts;

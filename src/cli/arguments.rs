@@ -430,7 +430,7 @@ pub(super) enum Format {
     Hpgl,
     /// G-code.
     Gcode,
-    /// InkML: the strokes with force and time, for painting programs; of `draw` only.
+    /// `InkML`: the strokes with force and time, for painting programs; of `draw` only.
     Inkml,
 }
 

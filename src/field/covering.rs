@@ -56,7 +56,9 @@ pub fn cover(
         stroke.push(start);
         stroke.extend(run.follow(&bed, start, 1.0));
         if (stroke.len() - 1) as f64 * STEP >= LEAST_WIDTHS * covering.width {
-            stroke.iter().for_each(|p| bed.lay(*p));
+            for p in &stroke {
+                bed.lay(*p);
+            }
             strokes.push(stroke);
         }
     }

@@ -126,12 +126,12 @@ impl HoughFilter {
                 let wanted = |x: &usize| region.get(*x, y) != 0;
                 let (Some(first), Some(last)) = ((0..width).find(wanted), (0..width).rfind(wanted)) else { return };
                 self.fill(accumulator, lines, first, y);
-                for x in first..=last {
+                for (x, vector) in row.iter_mut().enumerate().take(last + 1).skip(first) {
                     if x > first {
                         self.slide(accumulator, lines, x, y);
                     }
                     if wanted(&x) && accumulator.points > 1 {
-                        row[x] = self.response(accumulator, x, y, ranks, histogram);
+                        *vector = self.response(accumulator, x, y, ranks, histogram);
                     }
                 }
             },

@@ -64,7 +64,7 @@ mod tests {
             [(2.0 * angle).cos(), (2.0 * angle).sin()]
         }));
         for x in 0..20 {
-            assert!((field.smoothed(4.0).angle(x as f64 + 0.5, 9.5).unwrap() - 1.5).abs() < 1e-3);
+            assert!((field.smoothed(4.0).angle(f64::from(x) + 0.5, 9.5).unwrap() - 1.5).abs() < 1e-3);
         }
         assert_eq!(OrientationField::new(Raster::filled(3, 3, [0.0; 2])).angle(1.0, 1.0), None);
     }

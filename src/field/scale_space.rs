@@ -167,7 +167,9 @@ impl Tree {
         if children.is_empty() || lasts * children.len() > total {
             stable.push(node);
         } else {
-            children.iter().for_each(|child| self.stable_under(*child, stable));
+            for child in children {
+                self.stable_under(*child, stable);
+            }
         }
     }
 }
@@ -213,7 +215,9 @@ fn standing_out(mut modes: Vec<Mode>, curve: &[f64]) -> Vec<Mode> {
 /// Samples go to the nearest mode; modes with too few give theirs up, the poorest first.
 fn counted(mut modes: Vec<Mode>, histogram: &[u32], least_samples: u32) -> Vec<Mode> {
     loop {
-        modes.iter_mut().for_each(|mode| mode.samples = 0);
+        for mode in &mut modes {
+            mode.samples = 0;
+        }
         for (bin, &count) in histogram.iter().enumerate() {
             let nearest = modes.iter_mut().min_by(|a, b| (a.at - bin as f64).abs().total_cmp(&(b.at - bin as f64).abs()));
             if let Some(mode) = nearest {

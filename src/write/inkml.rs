@@ -1,4 +1,4 @@
-//! InkML (W3C Recommendation, 20 September 2011): the strokes of a drawing as a pen would have recorded them, for painting
+//! `InkML` (W3C Recommendation, 20 September 2011): the strokes of a drawing as a pen would have recorded them, for painting
 //! programs and everything else that knows digital ink.
 //!
 //! ```text
@@ -25,7 +25,7 @@ const FULL_FORCE: f64 = 1000.0;
 /// Seconds between two strokes where a style says nothing.
 const USUAL_PAUSE: f64 = 0.2;
 
-/// Writes a drawing as InkML. Strokes become one trace each with their pressure as force (their width's share of the layer's
+/// Writes a drawing as `InkML`. Strokes become one trace each with their pressure as force (their width's share of the layer's
 /// widest where they have none); the outlines of dots and areas become traces at full force. `title` is
 /// kept as an annotation.
 pub fn write_inkml(drawing: &Drawing, title: &str, out: &mut impl io::Write) -> io::Result<()> {
@@ -172,7 +172,7 @@ fn write_trace(text: &mut String, trace: &[Vertex]) {
     text.push_str("</trace>\n");
 }
 
-/// Thousandths as a decimal with a digit before its point, which InkML's grammar asks for.
+/// Thousandths as a decimal with a digit before its point, which `InkML`'s grammar asks for.
 fn plain_decimal(text: &mut String, value: i64) {
     let (sign, size) = (if value < 0 { "-" } else { "" }, value.unsigned_abs());
     let _ = write!(text, "{sign}{}", size / 1000);

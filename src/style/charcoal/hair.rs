@@ -56,7 +56,7 @@ impl Drawer<'_> {
         let blurred = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
         let region = hair.map(|v| u8::from(v >= 0.5));
         let all = ridges(&blurred, 0.0);
-        let least = self.line_strength(&blurred, &region);
+        let least = Self::line_strength(&blurred, &region);
         let lines = ridges(&blurred, least).zip_map(&region, |line, inside| line & inside);
         let lines = if lines.pixels().iter().any(|v| *v != 0) { lines } else { all };
         self.observer.picture("hair-lines", &|| Picture::Mask(lines.clone()));
@@ -71,7 +71,7 @@ impl Drawer<'_> {
     }
 
     /// The curvature that a share of the hair's pixels stay below.
-    fn line_strength(&self, blurred: &Raster<f32>, region: &Raster<u8>) -> f32 {
+    fn line_strength(blurred: &Raster<f32>, region: &Raster<u8>) -> f32 {
         let fine = gaussian_blur(blurred, 1.6 * LINE_BLUR);
         let contrast = blurred.zip_map(&fine, |a, b| (a - b).abs());
         let mut strengths: Vec<f32> =

@@ -98,7 +98,7 @@ impl Drawer<'_> {
             ("features", face),
             ("background", background),
         ];
-        let drawing = Drawing { page: self.portrait.page, layers: self.layers(layers) };
+        let drawing = Drawing { page: self.portrait.page, layers: Self::layers(layers) };
         let mut drawing = drawing.clipped(drawing.page.rect());
         strokes::time(&mut drawing);
         if drawing.marks().next().is_none() {
@@ -109,7 +109,7 @@ impl Drawer<'_> {
     }
 
     /// A layer and a pen for each part that has marks.
-    fn layers<const N: usize>(&self, parts: [(&str, Vec<Mark>); N]) -> Vec<Layer> {
+    fn layers<const N: usize>(parts: [(&str, Vec<Mark>); N]) -> Vec<Layer> {
         let numbered = parts.into_iter().zip(1..).filter(|((_, marks), _)| !marks.is_empty());
         numbered
             .map(|((name, marks), pen)| {

@@ -79,7 +79,7 @@ impl Drawer<'_> {
                     skew: self.parameters.arc_skew,
                 };
                 let arcs = shading.arcs(random);
-                arcs.chunks(ARCS_A_STROKE).map(|arcs| arcs.concat()).collect::<Vec<_>>()
+                arcs.chunks(ARCS_A_STROKE).map(<[Vec<Point>]>::concat).collect::<Vec<_>>()
             })
             .collect()
     }
@@ -173,7 +173,9 @@ fn dark_levels(tone: &Raster<f32>, region: &Raster<f32>) -> Vec<(f64, f64)> {
         .map(|(i, mode)| (modes.get(i + 1).map_or(1.0, |next| 0.5 * (mode.at + next.at) / 255.0), mode.at / 255.0))
         .filter(|(_, mean)| *mean < LIGHT_CLOTH)
         .collect();
-    levels.iter_mut().for_each(|level| level.0 = level.0.min(LIGHT_CLOTH + 0.08));
+    for level in &mut levels {
+        level.0 = level.0.min(LIGHT_CLOTH + 0.08);
+    }
     levels.reverse();
     levels
 }

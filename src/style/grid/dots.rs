@@ -119,6 +119,8 @@ mod tests {
                 polygon: polygon.clone(),
                 area,
                 ink: darkness * area,
+                is_cut: false,
+                is_filler: false,
                 darkness,
                 is_subject: true,
                 light: [0.0; 3],
