@@ -117,16 +117,38 @@ impl Region {
         let contours = |region: &Self| -> Vec<Vec<[f64; 2]>> {
             region.polygons.iter().map(|polygon| polygon.iter().map(|p| [p.x, p.y]).collect()).collect()
         };
-        let shapes = contours(area).overlay(&contours(self), rule, FillRule::NonZero);
-        let mut path = BezPath::new();
-        for contour in shapes.into_iter().flatten() {
-            for (i, [x, y]) in contour.into_iter().enumerate() {
-                if i == 0 { path.move_to((x, y)) } else { path.line_to((x, y)) }
-            }
-            path.close_path();
-        }
-        path
+        path_of(contours(area).overlay(&contours(self), rule, FillRule::NonZero))
     }
+}
+
+/// How the inside of an outline is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Winding {
+    /// Where it winds round at all.
+    NonZero,
+    /// Where a ray out crosses it an odd number of times.
+    EvenOdd,
+}
+
+/// An outline with the same inside, whose borders run one way and its holes the other: the nonzero rule fills it, also together with
+/// others of its kind. Curves are flattened to `tolerance`.
+pub fn untangled(outline: &BezPath, winding: Winding, tolerance: f64) -> BezPath {
+    let contours: Vec<Vec<[f64; 2]>> =
+        flatten(outline, tolerance).into_iter().map(|(points, _)| points.into_iter().map(|p| [p.x, p.y]).collect()).collect();
+    let rule = if winding == Winding::EvenOdd { FillRule::EvenOdd } else { FillRule::NonZero };
+    let nothing: Vec<Vec<[f64; 2]>> = Vec::new();
+    path_of(contours.overlay(&nothing, OverlayRule::Subject, rule))
+}
+
+fn path_of(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> BezPath {
+    let mut path = BezPath::new();
+    for contour in shapes.into_iter().flatten() {
+        for (i, [x, y]) in contour.into_iter().enumerate() {
+            if i == 0 { path.move_to((x, y)) } else { path.line_to((x, y)) }
+        }
+        path.close_path();
+    }
+    path
 }
 
 /// Which side of an outline.
@@ -151,6 +173,13 @@ mod tests {
         assert_eq!(pieces.len(), 2);
         assert!(pieces[0][0].distance(Point::new(10.0, 5.0)) < 1e-9 && pieces[0][1].distance(Point::new(7.0, 5.0)) < 1e-9);
         assert!(pieces[1][0].distance(Point::new(3.0, 5.0)) < 1e-9 && pieces[1][1].distance(Point::new(0.0, 5.0)) < 1e-9);
+    }
+
+    #[test]
+    fn even_odd_outlines_keep_their_holes_by_the_nonzero_rule() {
+        let nested = BezPath::from_svg("M0,0 H10 V10 H0 Z M3,3 H7 V7 H3 Z").unwrap();
+        assert!((untangled(&nested, Winding::EvenOdd, 0.01).area().abs() - 84.0).abs() < 1e-6);
+        assert!((untangled(&nested, Winding::NonZero, 0.01).area().abs() - 100.0).abs() < 1e-6);
     }
 
     #[test]

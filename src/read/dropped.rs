@@ -22,6 +22,11 @@ impl Dropped {
         }
     }
 
+    /// Counts all that another has counted.
+    pub fn add_all(&mut self, other: &Self) {
+        other.counts.iter().for_each(|(kind, number)| self.add(kind, *number));
+    }
+
     /// How many of a kind.
     pub fn of(&self, kind: &str) -> usize {
         self.counts.get(kind).copied().unwrap_or(0)

@@ -1,11 +1,14 @@
 //! Layers, labels and the recipe: what usvg's tree does not keep, from one pass over the XML.
 
 use super::Dropped;
-use roxmltree::{Document, Node};
-use std::collections::HashMap;
+use roxmltree::{Document, Node, NodeId};
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+const SVG: &str = "http://www.w3.org/2000/svg";
+const XLINK: &str = "http://www.w3.org/1999/xlink";
 const DRYPOINT: &str = "urn:drypoint";
 
 /// What the XML says beside the geometry.
@@ -15,6 +18,8 @@ pub(super) struct Outline {
     pub layers: Vec<Label>,
     /// Which layer a group's id stands for.
     pub by_id: HashMap<String, usize>,
+    /// Ids of paths whose strokes keep their width whatever the drawing is scaled by.
+    pub fixed_widths: HashSet<String>,
     /// The recipe of a file that drypoint wrote.
     pub recipe: Option<String>,
     /// Elements that usvg passes over in silence.
@@ -65,50 +70,147 @@ impl Label {
     }
 }
 
-pub(super) fn outline(document: &Document<'_>) -> Outline {
-    let mut outline = Outline::default();
-    collect(document.root_element(), None, &mut outline);
-    outline
+/// Groups within groups beyond which a file is not read: every level takes room on the stack.
+const DEEPEST: usize = 256;
+
+/// What the XML says; none when it is nested too deep.
+pub(super) fn outline(document: &Document<'_>) -> Option<Outline> {
+    let is_shallow = document.descendants().try_fold(Vec::new(), nested).is_some();
+    is_shallow.then(|| {
+        let hidden = Rules::of(document, &["display:none", "visibility:hidden", "visibility:collapse"]);
+        let named = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
+        let mut collector = Collector { outline: Outline::default(), hidden, named, used: HashMap::new() };
+        collector.outline.fixed_widths = fixed_widths(document);
+        collector.collect(document.root_element(), None, 0);
+        collector.outline
+    })
 }
 
-/// The text with an id in every layer's group that has none: usvg's tree keeps nothing else to know it by.
-pub(super) fn with_layer_ids(text: &str, document: &Document<'_>) -> String {
-    let mut out = String::with_capacity(text.len() + 64);
+/// Keeps the ends of the elements that are open at a node; none where they are too many.
+fn nested(mut open: Vec<NodeId>, node: Node<'_, '_>) -> Option<Vec<NodeId>> {
+    let parent = node.parent().map(|parent| parent.id());
+    while !open.is_empty() && open.last().copied() != parent {
+        open.pop();
+    }
+    open.push(node.id());
+    (open.len() <= DEEPEST).then_some(open)
+}
+
+/// The text with an id in every layer's group, and on every stroke whose width stays, that has none: usvg's tree keeps nothing else
+/// to know them by.
+pub(super) fn with_ids<'a>(text: &'a str, document: &Document<'_>) -> Cow<'a, str> {
+    let fixed = FixedWidth::of(document);
+    let nameless = document.descendants().filter(|node| {
+        node.is_element() && (is_layer(*node) || fixed.holds(*node)) && node.attribute("id").is_none_or(str::is_empty)
+    });
+    let mut out = String::new();
     let mut at = 0;
-    for (i, node) in
-        document.descendants().filter(|node| is_layer(*node) && node.attribute("id").is_none_or(str::is_empty)).enumerate()
-    {
+    for (i, node) in nameless.enumerate() {
         let start = node.range().start;
         let name_end = start + text[start..].find(|c: char| c.is_whitespace() || c == '>' || c == '/').unwrap_or(0);
+        // What an entity holds lies where it was declared, and has no place of its own.
+        if start < at {
+            continue;
+        }
         out.push_str(&text[at..name_end]);
         let _ = write!(out, " id=\"drypoint-layer-{i}\"");
         at = name_end;
     }
-    out + &text[at..]
+    if at == 0 { Cow::Borrowed(text) } else { Cow::Owned(out + &text[at..]) }
 }
 
 fn is_layer(node: Node<'_, '_>) -> bool {
     node.tag_name().name() == "g" && node.attribute((INKSCAPE, "groupmode")) == Some("layer")
 }
 
-fn collect(node: Node<'_, '_>, layer: Option<usize>, outline: &mut Outline) {
-    for child in node.children().filter(Node::is_element) {
-        let tag = child.tag_name().name();
-        if is_hidden(child) {
-            continue;
+/// Which strokes keep their width whatever the drawing is scaled by.
+struct FixedWidth<'a> {
+    rules: Rules<'a>,
+    is_anywhere: bool,
+}
+
+impl<'a> FixedWidth<'a> {
+    fn of(document: &'a Document<'_>) -> Self {
+        let is_anywhere = document.input_text().contains("non-scaling-stroke");
+        Self { rules: Rules::of(document, &["vector-effect:non-scaling-stroke"]), is_anywhere }
+    }
+
+    fn holds(&self, node: Node<'_, '_>) -> bool {
+        self.is_anywhere && (node.attribute("vector-effect") == Some("non-scaling-stroke") || self.rules.apply_to(node))
+    }
+}
+
+fn fixed_widths(document: &Document<'_>) -> HashSet<String> {
+    let fixed = FixedWidth::of(document);
+    let held = document.descendants().filter(|node| node.is_element() && fixed.holds(*node));
+    held.filter_map(|node| node.attribute("id").map(str::to_owned)).collect()
+}
+
+struct Collector<'a, 'd> {
+    outline: Outline,
+    hidden: Rules<'a>,
+    named: HashMap<&'a str, Node<'a, 'd>>,
+    /// What is dropped in each element that is used elsewhere.
+    used: HashMap<NodeId, Dropped>,
+}
+
+impl<'a, 'd> Collector<'a, 'd> {
+    fn collect(&mut self, node: Node<'a, 'd>, layer: Option<usize>, depth: usize) {
+        for child in node.children().filter(Node::is_element) {
+            self.element(child, layer, depth);
         }
-        match tag {
-            "recipe" if child.tag_name().namespace() == Some(DRYPOINT) => outline.recipe = child.text().map(str::to_owned),
-            "defs" | "clipPath" | "mask" | "pattern" | "marker" | "symbol" | "style" | "title" | "desc" => {}
-            "text" => outline.dropped.count("text"),
-            "foreignObject" => outline.dropped.count("foreignObject"),
-            "script" => outline.dropped.count("script"),
+    }
+
+    fn element(&mut self, node: Node<'a, 'd>, layer: Option<usize>, depth: usize) {
+        let is_skipped = layer.is_some_and(|layer| self.outline.layers[layer].is_skipped);
+        let mut count = |kind: &str| self.outline.dropped.add(kind, usize::from(!is_skipped));
+        match node.tag_name().name() {
+            _ if self.hidden.apply_to(node) || is_hidden(node) || depth > DEEPEST => {}
+            "recipe" if node.tag_name().namespace() == Some(DRYPOINT) => self.outline.recipe = node.text().map(str::to_owned),
+            "defs" | "clipPath" | "mask" | "pattern" | "marker" | "symbol" | "style" | "title" | "desc" | "metadata" => {}
+            "foreignObject" if has_substitute(node) => {}
+            kind @ ("text" | "foreignObject" | "script" | "image") => count(kind),
+            "use" => match href(node).map(|href| (href, href.strip_prefix('#').and_then(|id| self.named.get(id)).copied())) {
+                Some((_, Some(target))) if !is_skipped => {
+                    let dropped = self.dropped_in(target, depth);
+                    self.outline.dropped.add_all(&dropped);
+                }
+                Some((href, None)) => count(if href.starts_with('#') { "use of nothing" } else { "use of another file" }),
+                _ => {}
+            },
             _ => {
-                let layer = if is_layer(child) { Some(add_layer(child, layer, outline)) } else { layer };
-                collect(child, layer, outline);
+                let layer = if is_layer(node) { Some(add_layer(node, layer, &mut self.outline)) } else { layer };
+                self.collect(node, layer, depth + 1);
             }
         }
     }
+
+    /// What an element that is used elsewhere holds and is not drawn.
+    fn dropped_in(&mut self, target: Node<'a, 'd>, depth: usize) -> Dropped {
+        if let Some(dropped) = self.used.get(&target.id()) {
+            return dropped.clone();
+        }
+        // An element that uses itself holds nothing of itself.
+        self.used.insert(target.id(), Dropped::default());
+        let outline = std::mem::take(&mut self.outline);
+        if target.tag_name().name() == "symbol" {
+            self.collect(target, None, depth + 1);
+        } else {
+            self.element(target, None, depth + 1);
+        }
+        let dropped = std::mem::replace(&mut self.outline, outline).dropped;
+        self.used.insert(target.id(), dropped.clone());
+        dropped
+    }
+}
+
+fn href<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).map(str::trim)
+}
+
+/// Whether a `switch` offers something else to readers that do not know its first choice.
+fn has_substitute(node: Node<'_, '_>) -> bool {
+    node.parent().is_some_and(|parent| parent.has_tag_name((SVG, "switch"))) && node.next_sibling_element().is_some()
 }
 
 /// The number of a group's layer. A layer within a layer is its own only when its label says something of pens.
@@ -130,8 +232,42 @@ fn add_layer(group: Node<'_, '_>, around: Option<usize>, outline: &mut Outline) 
 }
 
 fn is_hidden(node: Node<'_, '_>) -> bool {
-    let style = node.attribute("style").unwrap_or("").replace(' ', "");
-    node.attribute("display") == Some("none") || style.contains("display:none")
+    node.attribute("display") == Some("none") || matches!(node.attribute("visibility"), Some("hidden" | "collapse"))
+}
+
+/// Simple selectors (`.class`, `#id`, an element's name) of the style sheets' rules that declare one of some things.
+struct Rules<'a> {
+    selectors: HashSet<&'a str>,
+    declarations: &'static [&'static str],
+}
+
+impl<'a> Rules<'a> {
+    fn of(document: &'a Document<'_>, declarations: &'static [&'static str]) -> Self {
+        let sheets = document.descendants().filter(|node| node.is_element() && node.tag_name().name() == "style");
+        let rules =
+            sheets.filter_map(|sheet| sheet.text()).flat_map(|sheet| sheet.split('}')).filter_map(|rule| rule.split_once('{'));
+        let found = rules.filter(|(_, body)| declares(body, declarations));
+        let selectors = found.flat_map(|(selectors, _)| selectors.split(',')).map(str::trim).collect();
+        Self { selectors, declarations }
+    }
+
+    fn apply_to(&self, node: Node<'_, '_>) -> bool {
+        if node.attribute("style").is_some_and(|style| declares(style, self.declarations)) {
+            return true;
+        }
+        if self.selectors.is_empty() {
+            return false;
+        }
+        let has = |sign: &str, name: &str| self.selectors.contains(format!("{sign}{name}").as_str());
+        has("", node.tag_name().name())
+            || node.attribute("id").is_some_and(|id| has("#", id))
+            || node.attribute("class").is_some_and(|classes| classes.split_whitespace().any(|class| has(".", class)))
+    }
+}
+
+fn declares(body: &str, declarations: &[&str]) -> bool {
+    let tight: String = body.chars().filter(|c| !c.is_whitespace()).collect();
+    tight.split(';').any(|found| declarations.contains(&found))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod gcode;
 mod hpgl;
 mod layers;
 mod svg;
+mod text;
 
 pub use dropped::Dropped;
 pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights};

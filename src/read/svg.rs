@@ -1,10 +1,13 @@
 //! SVG as a drawing: usvg resolves the geometry, one pass over the XML the layers and kinds of marks.
 
 use super::Dropped;
-use super::layers::{Label, Outline, outline, with_layer_ids};
+use super::layers::{Label, Outline, outline, with_ids};
+use super::text::text_of;
 use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Handling, Ink, Layer, Mark, Mixing, Page, Painted, Stroke, Width};
-use crate::geometry::{Affine, BezPath, Point, Region, flatten};
+use crate::geometry::{Affine, BezPath, Point, Region, Winding, flatten, untangled};
 use kurbo::{PathEl, Shape};
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
 use thiserror::Error;
 use usvg::tiny_skia_path::PathSegment;
 
@@ -13,6 +16,8 @@ const MM_PER_PX: f64 = 25.4 / 96.0;
 /// Flattening where a path must be clipped or dashed, in millimetres.
 const CLIP_TOLERANCE: f64 = 0.005;
 
+/// The least red, green and blue of paint that is taken for paper: no pen's ink is as light.
+const WHITE: u8 = 250;
 /// Coordinates beyond which a path is not taken, in millimetres.
 const FARTHEST: f64 = 100_000.0;
 /// Dashes in one path beyond which the pattern is not taken.
@@ -22,8 +27,17 @@ const MOST_DASHES: f64 = 20_000.0;
 #[derive(Debug, Error)]
 pub enum SvgError {
     /// Not text.
-    #[error("is not an SVG: it is not UTF-8 text")]
+    #[error("is not an SVG: it is neither UTF-8 nor UTF-16 text")]
     NotText,
+    /// Broken gzip.
+    #[error("is not an SVG: it begins as gzip (.svgz) and cannot be unpacked")]
+    Packed,
+    /// More text than can be held.
+    #[error("cannot be used as an SVG: it unpacks to more than 1 GB")]
+    TooLong,
+    /// Groups within groups without end.
+    #[error("cannot be used as an SVG: its groups are nested more than 250 deep")]
+    TooDeep,
     /// Broken XML.
     #[error("is not an SVG: {0}")]
     Xml(#[from] roxmltree::Error),
@@ -75,18 +89,33 @@ impl Imported {
 
 /// Reads an SVG. Layers are Inkscape's, by their labels' conventions; without any, each colour is a layer.
 pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
-    let text = std::str::from_utf8(bytes).map_err(|_| SvgError::NotText)?;
-    let options = || roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
-    let text = with_layer_ids(text, &roxmltree::Document::parse_with_options(text, options())?);
-    let document = roxmltree::Document::parse_with_options(&text, options())?;
-    let outline = outline(&document);
-    let tree = usvg::Tree::from_xmltree(&document, &usvg::Options::default())?;
+    let given = text_of(bytes)?;
+    let document = parsed(&given)?;
+    let outline = outline(&document).ok_or(SvgError::TooDeep)?;
+    let (outline, tree) = match with_ids(&given, &document) {
+        Cow::Borrowed(_) => (outline, tree_of(&document)?),
+        Cow::Owned(text) => {
+            let document = parsed(&text)?;
+            (super::layers::outline(&document).ok_or(SvgError::TooDeep)?, tree_of(&document)?)
+        }
+    };
     let page = Page::new(f64::from(tree.size().width()) * MM_PER_PX, f64::from(tree.size().height()) * MM_PER_PX);
     let mut importer = Importer::new(&outline);
-    importer.group(tree.root(), Place { layer: None, kind: Kind::Foreign }, &[]);
+    importer.group(tree.root(), Place { layer: None, kind: Kind::Foreign, opacity: 1.0 }, &[]);
     let is_toolpaths = importer.is_toolpaths;
     let (layers, painting, dropped) = importer.finish();
     Ok(Imported { page, layers, painting, dropped, recipe: outline.recipe.clone(), is_toolpaths })
+}
+
+fn parsed(text: &str) -> Result<roxmltree::Document<'_>, SvgError> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+    Ok(roxmltree::Document::parse_with_options(text, options)?)
+}
+
+/// usvg's tree. Images are counted from the XML: none is decoded, and no file beside this one is opened.
+fn tree_of(document: &roxmltree::Document<'_>) -> Result<usvg::Tree, SvgError> {
+    let none = usvg::ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
+    Ok(usvg::Tree::from_xmltree(document, &usvg::Options { image_href_resolver: none, ..usvg::Options::default() })?)
 }
 
 /// What drypoint's own group ids say of the paths below them.
@@ -102,13 +131,15 @@ enum Kind {
 struct Place {
     layer: Option<usize>,
     kind: Kind,
+    /// Of all groups around.
+    opacity: f32,
 }
 
 struct Importer<'a> {
     outline: &'a Outline,
     /// One for each label, then one for each colour met outside all labels.
     layers: Vec<ImportedLayer>,
-    by_colour: Vec<(Colour, usize)>,
+    by_colour: HashMap<[u8; 3], usize>,
     painting: Vec<Painted>,
     dropped: Dropped,
     is_toolpaths: bool,
@@ -119,21 +150,21 @@ impl<'a> Importer<'a> {
         let layers = outline.layers.iter().enumerate().map(|(i, label)| labelled(label, i as u32 + 1)).collect();
         let mut dropped = outline.dropped.clone();
         dropped.add("pen height (+H)", outline.layers.iter().filter(|label| label.height.is_some()).count());
-        Self { outline, layers, by_colour: Vec::new(), painting: Vec::new(), dropped, is_toolpaths: false }
+        Self { outline, layers, by_colour: HashMap::new(), painting: Vec::new(), dropped, is_toolpaths: false }
     }
 
     fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Region]) {
-        let place = self.place_of(group.id(), place);
+        let place = Place { opacity: place.opacity * group.opacity().get(), ..self.place_of(group.id(), place) };
         if place.layer.is_some_and(|layer| self.outline.layers.get(layer).is_some_and(|label| label.is_skipped)) {
             return;
         }
         if group.opacity().get() <= 0.0 {
             return self.dropped.count("invisible group");
         }
-        let mut clips = clips.to_vec();
+        let mut clips = Cow::Borrowed(clips);
         let mut clip = group.clip_path();
         while let Some(path) = clip {
-            clips.push(clip_region(path, to_mm(group.abs_transform())));
+            clips.to_mut().push(clip_region(path, to_mm(group.abs_transform())));
             clip = path.clip_path();
         }
         self.dropped.add("mask (its group is drawn whole)", usize::from(group.mask().is_some()));
@@ -142,8 +173,8 @@ impl<'a> Importer<'a> {
             match node {
                 usvg::Node::Group(group) => self.group(group, place, &clips),
                 usvg::Node::Path(path) => self.path(path, place, &clips),
-                usvg::Node::Image(_) => self.dropped.count("image"),
-                usvg::Node::Text(_) => self.dropped.count("text"),
+                // Counted in the XML.
+                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
             }
         }
     }
@@ -160,7 +191,7 @@ impl<'a> Importer<'a> {
             }
             _ => place.kind,
         };
-        Place { layer, kind }
+        Place { layer, kind, ..place }
     }
 
     fn path(&mut self, path: &usvg::Path, place: Place, clips: &[Region]) {
@@ -173,47 +204,52 @@ impl<'a> Importer<'a> {
         if !bounds.is_finite() || [bounds.x0, bounds.y0, bounds.x1, bounds.y1].iter().any(|v| v.abs() > FARTHEST) {
             return self.dropped.count("path beyond 100 m");
         }
-        let scale = transform.determinant().abs().sqrt();
-        if let Some(fill) = path.fill() {
-            if is_white(fill.paint()) {
-                self.painting.push(Painted::White(clipped_outline(&curve, clips)));
-            }
-            if let Some(colour) = self.ink(fill.paint(), "fill") {
-                self.filled(&curve, colour, place, clips);
-            }
-        }
-        if let Some(stroke) = path.stroke()
-            && let Some(colour) = self.ink(stroke.paint(), "stroke")
-        {
-            self.stroked(&curve, stroke, scale, colour, place, clips);
-        }
-    }
-
-    /// A paint's colour, if it is ink: white is paper, gradients and patterns cannot be drawn with a pen.
-    fn ink(&mut self, paint: &usvg::Paint, what: &str) -> Option<Colour> {
-        match paint {
-            usvg::Paint::Color(_) if is_white(paint) => {
-                self.dropped.count(&format!("white {what}"));
-                None
-            }
-            usvg::Paint::Color(c) => Some(Colour { r: c.red, g: c.green, b: c.blue }),
-            usvg::Paint::Pattern(_) => {
-                self.dropped.count(&format!("pattern {what}"));
-                None
-            }
-            _ => {
-                self.dropped.count(&format!("gradient {what}"));
-                None
+        let fill = path.fill().map(|fill| (fill, Paint::of(fill.paint(), fill.opacity().get() * place.opacity)));
+        let stroke = path.stroke().map(|stroke| (stroke, Paint::of(stroke.paint(), stroke.opacity().get() * place.opacity)));
+        let is_stroke_above = path.paint_order() == usvg::PaintOrder::FillAndStroke;
+        for is_stroke in [!is_stroke_above, is_stroke_above] {
+            match (is_stroke, &fill, &stroke) {
+                (false, Some((fill, paint)), _) => self.filled(&curve, fill.rule(), *paint, place, clips),
+                (true, _, Some((stroke, paint))) => self.stroked(path, stroke, *paint, place, clips),
+                _ => {}
             }
         }
     }
 
-    fn filled(&mut self, curve: &BezPath, colour: Colour, place: Place, clips: &[Region]) {
-        let outline = clipped_outline(curve, clips);
+    /// A paint's colour, if it is ink.
+    fn ink(&mut self, paint: Paint, what: &str) -> Option<Colour> {
+        let reason = match paint.ink {
+            _ if paint.opacity <= 0.0 => "transparent",
+            Source::Ink(colour) => {
+                self.dropped.add("translucent paint (drawn solid)", usize::from(paint.opacity < 1.0));
+                return Some(colour);
+            }
+            Source::White => "white",
+            Source::Gradient { .. } => "gradient",
+            Source::Pattern => "pattern",
+        };
+        self.dropped.count(&format!("{reason} {what}"));
+        None
+    }
+
+    fn filled(&mut self, curve: &BezPath, rule: usvg::FillRule, paint: Paint, place: Place, clips: &[Region]) {
         // A straight line is filled by default in SVG, with nothing.
-        if outline.area().abs() < 1e-5 {
+        if is_flat(curve) {
             return;
         }
+        let colour = self.ink(paint, "fill");
+        if colour.is_none() && !paint.hides() {
+            return;
+        }
+        let outline = if rule == usvg::FillRule::EvenOdd && has_crossings(curve) {
+            clipped_outline(&untangled(curve, Winding::EvenOdd, CLIP_TOLERANCE), clips)
+        } else {
+            clipped_outline(curve, clips)
+        };
+        if outline.is_empty() {
+            return;
+        }
+        let Some(colour) = colour else { return self.painting.push(Painted::White(outline)) };
         let index = self.layer_for(place, colour);
         let layer = &mut self.layers[index];
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
@@ -226,25 +262,48 @@ impl<'a> Importer<'a> {
         }
     }
 
-    fn stroked(&mut self, curve: &BezPath, stroke: &usvg::Stroke, scale: f64, colour: Colour, place: Place, clips: &[Region]) {
-        let width = f64::from(stroke.width().get()) * scale;
-        let mut curve = curve.clone();
-        if let Some(dashes) = stroke.dasharray() {
-            let dashes: Vec<f64> = dashes.iter().map(|d| f64::from(*d) * scale).collect();
-            if crate::geometry::curve_length(&curve) > MOST_DASHES * dashes.iter().sum::<f64>() {
-                self.dropped.count("dash pattern too fine (its line is drawn whole)");
-            } else {
-                curve = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * scale, &dashes).collect();
-            }
+    fn stroked(&mut self, path: &usvg::Path, stroke: &usvg::Stroke, paint: Paint, place: Place, clips: &[Region]) {
+        let colour = self.ink(paint, "stroke");
+        if colour.is_none() && !paint.hides() {
+            return;
         }
+        let transform = to_mm(path.abs_transform());
+        let scale = transform.determinant().abs().sqrt();
+        let ends = if stroke.linecap() == usvg::LineCap::Butt { Ends::Flat } else { Ends::Round };
+        // A width that stays is in pixels of the whole drawing, and so are its dashes.
+        let is_fixed = self.outline.fixed_widths.contains(path.id());
+        let width = f64::from(stroke.width().get()) * if is_fixed { MM_PER_PX } else { scale };
+        let unit = if is_fixed { MM_PER_PX / scale.max(1e-12) } else { 1.0 };
+        let mut curve = transform * self.dashed(bez_path(path.data()), stroke, unit, ends);
         for clip in clips {
             curve = clip_curve(&curve, clip);
         }
+        let strokes = subpaths(&curve).into_iter().map(|curve| Stroke { ends, ..Stroke::new(curve, Width::Constant(width)) });
+        let Some(colour) = colour else {
+            return self.painting.extend(strokes.map(|stroke| Painted::White(stroke.ink_outline(CLIP_TOLERANCE))));
+        };
         let index = self.layer_for(place, colour);
         let own_colour = (self.layers[index].layer.ink.colour() != colour).then_some(colour);
-        let ends = if stroke.linecap() == usvg::LineCap::Butt { Ends::Flat } else { Ends::Round };
-        let stroke_of = |curve| Stroke { ends, colour: own_colour, ..Stroke::new(curve, Width::Constant(width)) };
-        self.paint(index, subpaths(&curve).into_iter().map(|curve| Mark::Stroke(stroke_of(curve))));
+        self.paint(index, strokes.map(|stroke| Mark::Stroke(Stroke { colour: own_colour, ..stroke })));
+    }
+
+    /// A curve's dashes, in its own units; `unit` is the length there of the pattern's.
+    fn dashed(&mut self, curve: BezPath, stroke: &usvg::Stroke, unit: f64, ends: Ends) -> BezPath {
+        let Some(pattern) = stroke.dasharray() else { return curve };
+        let period = unit * pattern.iter().map(|dash| f64::from(*dash)).sum::<f64>();
+        if crate::geometry::curve_length(&curve) > MOST_DASHES * period {
+            self.dropped.count("dash pattern too fine (its line is drawn whole)");
+            return curve;
+        }
+        // Dashes without length are dots where ends are round, and nothing where they are flat.
+        let least = 1e-5 * period;
+        let dashes: Vec<f64> = pattern.iter().map(|dash| (unit * f64::from(*dash)).max(least)).collect();
+        let mut dashed: BezPath = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * unit, &dashes).collect();
+        if ends == Ends::Flat && pattern.contains(&0.0) {
+            let long = subpaths(&dashed).into_iter().filter(|dash| crate::geometry::curve_length(dash) > 2.0 * least);
+            dashed = long.flat_map(|dash| dash.into_iter()).collect();
+        }
+        dashed
     }
 
     /// Adds marks to a layer and to the painting order.
@@ -260,12 +319,13 @@ impl<'a> Importer<'a> {
         let index = match place.layer {
             Some(layer) => layer,
             None => {
-                if let Some(&(_, index)) = self.by_colour.iter().find(|(c, _)| *c == colour) {
+                let key = [colour.r, colour.g, colour.b];
+                if let Some(&index) = self.by_colour.get(&key) {
                     index
                 } else {
                     let index = self.layers.len();
                     self.layers.push(labelled(&Label { name: colour.to_string(), ..Label::default() }, index as u32 + 1));
-                    self.by_colour.push((colour, index));
+                    self.by_colour.insert(key, index);
                     index
                 }
             }
@@ -277,8 +337,21 @@ impl<'a> Importer<'a> {
         index
     }
 
+    /// Gives the layers that hold something and name no pen the lowest numbers that no label names, in order.
+    fn number_pens(&mut self) {
+        let named = |index: usize| self.outline.layers.get(index).and_then(|label| label.pen);
+        let taken: HashSet<u32> = (0..self.outline.layers.len()).filter_map(named).collect();
+        let mut free = (1..).filter(|pen| !taken.contains(pen));
+        for (index, layer) in self.layers.iter_mut().enumerate() {
+            if self.outline.layers.get(index).is_none_or(|label| label.pen.is_none()) && !layer.layer.marks.is_empty() {
+                layer.layer.pen = free.next().unwrap_or(layer.layer.pen);
+            }
+        }
+    }
+
     /// Layers that hold something; those without a number of their own take the free ones in order.
-    fn finish(self) -> (Vec<ImportedLayer>, Vec<Painted>, Dropped) {
+    fn finish(mut self) -> (Vec<ImportedLayer>, Vec<Painted>, Dropped) {
+        self.number_pens();
         let mut held = 0;
         let number: Vec<usize> = self
             .layers
@@ -298,8 +371,68 @@ impl<'a> Importer<'a> {
     }
 }
 
-fn is_white(paint: &usvg::Paint) -> bool {
-    matches!(paint, usvg::Paint::Color(c) if (c.red, c.green, c.blue) == (255, 255, 255))
+/// What paint is, and how much of it.
+#[derive(Clone, Copy)]
+struct Paint {
+    ink: Source,
+    opacity: f32,
+}
+
+#[derive(Clone, Copy)]
+enum Source {
+    Ink(Colour),
+    White,
+    Gradient { is_opaque: bool },
+    Pattern,
+}
+
+impl Paint {
+    fn of(paint: &usvg::Paint, opacity: f32) -> Self {
+        let is_opaque = |stops: &[usvg::Stop]| stops.iter().all(|stop| stop.opacity().get() >= 1.0);
+        let ink = match paint {
+            usvg::Paint::Color(c) if [c.red, c.green, c.blue].iter().all(|&part| part >= WHITE) => Source::White,
+            usvg::Paint::Color(c) => Source::Ink(Colour { r: c.red, g: c.green, b: c.blue }),
+            usvg::Paint::LinearGradient(gradient) => Source::Gradient { is_opaque: is_opaque(gradient.stops()) },
+            usvg::Paint::RadialGradient(gradient) => Source::Gradient { is_opaque: is_opaque(gradient.stops()) },
+            usvg::Paint::Pattern(_) => Source::Pattern,
+        };
+        Self { ink, opacity }
+    }
+
+    /// Whether nothing below it is seen.
+    fn hides(self) -> bool {
+        self.opacity >= 1.0 && !matches!(self.ink, Source::Pattern | Source::Gradient { is_opaque: false })
+    }
+}
+
+/// Whether an outline holds nothing: its points lie on one line.
+fn is_flat(curve: &BezPath) -> bool {
+    let mut area = 0.0;
+    let (mut start, mut last) = (Point::ORIGIN, Point::ORIGIN);
+    for element in curve.elements() {
+        let points: &[Point] = match element {
+            PathEl::MoveTo(p) => {
+                (start, last) = (*p, *p);
+                &[]
+            }
+            PathEl::LineTo(p) => &[*p],
+            PathEl::QuadTo(a, p) => &[*a, *p],
+            PathEl::CurveTo(a, b, p) => &[*a, *b, *p],
+            PathEl::ClosePath => &[],
+        };
+        for p in points {
+            area += (last - start).cross(*p - start).abs();
+            last = *p;
+        }
+    }
+    area < 2e-5
+}
+
+/// Whether the two rules of filling could differ: not within one contour of four sides or fewer that is not crossed.
+fn has_crossings(curve: &BezPath) -> bool {
+    let lines = curve.elements().iter().filter(|element| matches!(element, PathEl::LineTo(_))).count();
+    let others = curve.elements().iter().filter(|element| matches!(element, PathEl::QuadTo(..) | PathEl::CurveTo(..))).count();
+    lines > 2 || others > 0
 }
 
 /// A filled outline within its clip paths.
@@ -331,8 +464,11 @@ fn dot(outline: BezPath, colour: Option<Colour>) -> Dot {
 }
 
 fn to_mm(t: usvg::Transform) -> Affine {
-    let of = |v: f32| f64::from(v);
-    Affine::scale(MM_PER_PX) * Affine::new([of(t.sx), of(t.ky), of(t.kx), of(t.sy), of(t.tx), of(t.ty)])
+    Affine::scale(MM_PER_PX) * affine(t)
+}
+
+fn affine(t: usvg::Transform) -> Affine {
+    Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from))
 }
 
 fn bez_path(path: &usvg::tiny_skia_path::Path) -> BezPath {
@@ -350,26 +486,34 @@ fn bez_path(path: &usvg::tiny_skia_path::Path) -> BezPath {
 
 /// The union of a clip path's shapes on the page.
 fn clip_region(clip: &usvg::ClipPath, user: Affine) -> Region {
-    let t = clip.transform();
-    let of = |v: f32| f64::from(v);
-    let own = user * Affine::new([of(t.sx), of(t.ky), of(t.kx), of(t.sy), of(t.tx), of(t.ty)]);
-    let mut outline = BezPath::new();
-    gather(clip.root(), own, &mut outline);
-    Region::new(&outline, CLIP_TOLERANCE)
+    let own = user * affine(clip.transform());
+    let mut shapes = Vec::new();
+    gather(clip.root(), own, &mut shapes);
+    Region::new(&shapes.into_iter().flatten().collect(), CLIP_TOLERANCE)
 }
 
-fn gather(group: &usvg::Group, own: Affine, outline: &mut BezPath) {
+/// The outlines of a clip path's shapes, each within its own clip paths, all running the same way.
+fn gather(group: &usvg::Group, own: Affine, shapes: &mut Vec<BezPath>) {
+    let first = shapes.len();
     for node in group.children() {
         match node {
-            usvg::Node::Group(group) => gather(group, own, outline),
-            usvg::Node::Path(path) => {
-                let t = path.abs_transform();
-                let of = |v: f32| f64::from(v);
-                let placed = own * Affine::new([of(t.sx), of(t.ky), of(t.kx), of(t.sy), of(t.tx), of(t.ty)]);
-                outline.extend((placed * bez_path(path.data())).iter());
+            usvg::Node::Group(group) => gather(group, own, shapes),
+            usvg::Node::Path(path) if path.is_visible() => {
+                let placed = own * affine(path.abs_transform()) * bez_path(path.data());
+                let is_even_odd = path.fill().is_some_and(|fill| fill.rule() == usvg::FillRule::EvenOdd);
+                let winding = if is_even_odd { Winding::EvenOdd } else { Winding::NonZero };
+                shapes.push(untangled(&placed, winding, CLIP_TOLERANCE));
             }
             _ => {}
         }
+    }
+    let mut clip = group.clip_path();
+    while let Some(path) = clip {
+        let region = clip_region(path, own * affine(group.abs_transform()));
+        for shape in &mut shapes[first..] {
+            *shape = region.clip_area(&Region::new(shape, CLIP_TOLERANCE));
+        }
+        clip = path.clip_path();
     }
 }
 
@@ -510,7 +654,7 @@ mod tests {
 
     #[test]
     fn faults_are_named() {
-        assert!(read_svg(b"\xff\xfe").unwrap_err().to_string().contains("UTF-8"));
+        assert!(read_svg(b"\xff\x00").unwrap_err().to_string().contains("UTF-8"));
         assert!(read_svg(b"<svg").is_err());
         assert!(read_svg(b"<html/>").is_err());
     }

@@ -1,0 +1,50 @@
+//! The text of an XML file: UTF-8, UTF-16 or Latin-1, compressed or not.
+
+use super::SvgError;
+use flate2::read::GzDecoder;
+use std::borrow::Cow;
+use std::io::Read;
+
+/// Beyond this an SVG's text is not unpacked, in bytes.
+const MOST_TEXT: u64 = 1 << 30;
+
+/// The text of a file's bytes.
+pub(super) fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>, SvgError> {
+    match bytes {
+        [0x1f, 0x8b, ..] => {
+            let unpacked = unpacked(bytes)?;
+            decoded(&unpacked).map(|text| Cow::Owned(text.into_owned()))
+        }
+        _ => decoded(bytes),
+    }
+}
+
+fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, SvgError> {
+    let mut text = Vec::new();
+    GzDecoder::new(bytes).take(MOST_TEXT + 1).read_to_end(&mut text).map_err(|_| SvgError::Packed)?;
+    if text.len() as u64 > MOST_TEXT { Err(SvgError::TooLong) } else { Ok(text) }
+}
+
+fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, SvgError> {
+    let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+        String::from_utf16(&units).map(Cow::Owned).map_err(|_| SvgError::NotText)
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => wide(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => wide(rest, u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] => std::str::from_utf8(rest).map(Cow::Borrowed).map_err(|_| SvgError::NotText),
+        _ => match std::str::from_utf8(bytes) {
+            Ok(text) => Ok(Cow::Borrowed(text)),
+            Err(_) if says_latin_1(bytes) => Ok(Cow::Owned(bytes.iter().copied().map(char::from).collect())),
+            Err(_) => Err(SvgError::NotText),
+        },
+    }
+}
+
+/// Whether the XML declaration names a one-byte encoding whose letters are Unicode's first 256.
+fn says_latin_1(bytes: &[u8]) -> bool {
+    let start: String = bytes.iter().take(120).map(|&byte| char::from(byte).to_ascii_lowercase()).collect();
+    let declaration = start.split("?>").next().unwrap_or_default();
+    ["iso-8859-1", "latin1", "windows-1252"].iter().any(|name| declaration.contains(name))
+}
