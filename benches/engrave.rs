@@ -1,7 +1,7 @@
 //! What engraving costs, against what was promised: `cargo bench --bench engrave`.
 //!
 //! Whole drawings on two threads, from decoded pictures to the drawing and to SVG; superpixels on one thread beside the figure
-//! that OpenCV's SLIC took for the same work on the machine where it was measured.
+//! that `OpenCV`'s SLIC took for the same work on the machine where it was measured.
 
 use drypoint::drawing::Page;
 use drypoint::field::superpixels;
@@ -14,7 +14,7 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Luma};
 use std::io::Cursor;
 use std::time::Instant;
 
-/// OpenCV's SLIC: 2048 x 2048, 32 px, 10 iterations, one thread, in seconds.
+/// `OpenCV`'s SLIC: 2048 x 2048, 32 px, 10 iterations, one thread, in seconds.
 const OPENCV_SLIC: f64 = 1.43;
 
 fn main() {
@@ -36,12 +36,14 @@ fn main() {
     line("  times OpenCV's", ratio, "at most 1", ratio <= 1.0);
 }
 
+/// The photograph and its depth, made once.
+static FILES: std::sync::OnceLock<[Photograph; 2]> = std::sync::OnceLock::new();
+
 fn engraving() {
     let bump = |x: u32, y: u32| {
         let (u, v) = (f64::from(x) / 750.0 - 1.0, f64::from(y) / 750.0 - 1.0);
         (1.0 - 0.4 * (u * u + v * v) + 0.05 * (9.0 * u).sin() * (7.0 * v).cos()).clamp(0.01, 1.0)
     };
-    static FILES: std::sync::OnceLock<[Photograph; 2]> = std::sync::OnceLock::new();
     let [photograph, depth] = FILES.get_or_init(|| [picture(|x, y| 0.9 * bump(x, y).powi(3)), picture(bump)]);
     let style = find("engrave").expect("the style is there");
     let given = [("look".to_owned(), "crosshatch".to_owned())];
@@ -58,7 +60,8 @@ fn engraving() {
     let mut svg = Vec::new();
     write_svg(&drawing, &SvgHead::default(), &mut svg).expect("memory takes it");
     let written = started.elapsed().as_secs_f64();
-    let counts = drawing.layers.iter().map(|l| l.counts()).fold([0; 3], |s, c| [s[0] + c[0], s[1] + c[1], s[2] + c[2]]);
+    let counts =
+        drawing.layers.iter().map(drypoint::drawing::Layer::counts).fold([0; 3], |s, c| [s[0] + c[0], s[1] + c[1], s[2] + c[2]]);
     println!(
         "  reading {read:.2} s, drawing {:.2} s, writing {:.2} s: {} strokes, {} dots, {} MB",
         drawn - read,

@@ -79,10 +79,13 @@ fn segment_distance(a: [Point; 2], b: [Point; 2]) -> f64 {
     ends.into_iter().map(|(p, s)| distance_to_segment(p, s[0], s[1])).fold(f64::INFINITY, f64::min)
 }
 
+/// A segment with the number of its line.
+type Leg = (usize, [Point; 2]);
+
 /// Least distance of any two lines of a set, by an exact test of all segments that share a cell; those farther than a cell
 /// count as a cell.
 fn least_distance(lines: &[Vec<Point>], cell: f64) -> f64 {
-    let mut cells: HashMap<(i64, i64), Vec<(usize, [Point; 2])>> = HashMap::new();
+    let mut cells: HashMap<(i64, i64), Vec<Leg>> = HashMap::new();
     for (k, line) in lines.iter().enumerate() {
         for pair in line.windows(2) {
             let around = Rect::from_points(pair[0], pair[1]).inflate(cell, cell);
@@ -184,7 +187,7 @@ fn lines_show_a_hemisphere_s_form() {
             }
         }
     }
-    println!("form: displacement within {:.4} at {count} places", worst);
+    println!("form: displacement within {worst:.4} at {count} places");
     assert!(count > 10_000 && worst <= 0.02, "{worst} at {count}");
     let mut steepest = 0.0_f64;
     for (&(k, i), &y) in &heights {

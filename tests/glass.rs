@@ -170,10 +170,13 @@ fn ribbons_are_flatter_along_and_sharper_across_than_line_integral_convolution()
     }
 }
 
+/// A hill's name and its gradient by place.
+type Hill = (&'static str, fn(f64, f64) -> Vec2);
+
 #[test]
 fn contours_close() {
     // Hills of several shapes, by their gradients.
-    let hills: [(&str, fn(f64, f64) -> Vec2); 3] = [
+    let hills: [Hill; 3] = [
         ("round", |x, y| Vec2::new(-x, -y)),
         ("long", |x, y| Vec2::new(-x / 9.0, -y)),
         ("cosines", |x, y| Vec2::new(-(x / 20.0).sin() * (y / 20.0).cos(), -(x / 20.0).cos() * (y / 20.0).sin())),
@@ -243,9 +246,9 @@ fn whirls_stand_where_the_gradient_vanishes_and_the_hessian_is_definite() {
         let definite = xx * yy - xy * xy > 0.0;
         assert!(slope.get(x, y) < 0.45 * mean, "the gradient vanishes there");
         if index > 0 {
-            whirls += 1
+            whirls += 1;
         } else {
-            saddles += 1
+            saddles += 1;
         }
         wrong += i32::from(definite != (index > 0));
     }

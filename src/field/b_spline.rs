@@ -25,6 +25,7 @@ pub struct BSpline {
 
 /// Fits a surface over `width` x `height` pixels: a lattice of one cell first, then of cells half as large on what is left, down
 /// to cells no smaller than `finest` pixels; all in one lattice at the end. Cost is linear in the data for each level.
+#[expect(clippy::missing_panics_doc, reason = "at least one level is fitted")]
 pub fn multilevel_b_spline(data: &[Datum], width: f64, height: f64, finest: f64) -> BSpline {
     let mut residual = data.to_vec();
     let mut surface: Option<BSpline> = None;

@@ -83,7 +83,7 @@ mod tests {
         let sparse = (0..400).map(|i| Point::new(f64::from(i % 20), f64::from(i / 20)));
         let dense = (0..3600).map(|i| Point::new(30.0 + f64::from(i % 60) / 3.0, f64::from(i / 60) / 3.0));
         let points: Vec<Point> = sparse.chain(dense).collect();
-        let stays = thinned(&points, &[0.4; 4000]);
+        let stays = thinned(&points, &vec![0.4; 4000]);
         let kept = stays[..400].iter().filter(|stays| **stays).count();
         assert!((155..=165).contains(&kept), "{kept} of 160");
         // By their ranks alone nearly all of the sparse ones would stay.

@@ -139,7 +139,7 @@ fn uncovered_stroke(stroke: &Stroke, cover: &Region) -> Vec<Mark> {
                 Width::Along(_) => Width::Along(piece.iter().map(|&(_, at)| between(&widths, at)).collect()),
             };
             let (colour, group, ends) = (stroke.colour, stroke.group, stroke.ends);
-            Mark::Stroke(Stroke { colour, group, ends, ..Stroke::new(curve, width) })
+            Mark::Stroke(Stroke { ends, colour, group, ..Stroke::new(curve, width) })
         })
         .collect()
 }

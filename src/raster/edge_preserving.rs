@@ -82,7 +82,7 @@ mod tests {
     fn extreme_powers_give_numbers() {
         for q in [0.0, 4.0, 16.0] {
             let smooth = edge_preserving(&[step(0.0), step(0.3)], 6.0, q);
-            assert!(smooth.iter().flat_map(|plane| plane.pixels()).all(|v| (0.0..=1.1).contains(v)), "q {q}");
+            assert!(smooth.iter().flat_map(super::super::Raster::pixels).all(|v| (0.0..=1.1).contains(v)), "q {q}");
         }
     }
 }

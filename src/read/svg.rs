@@ -301,7 +301,7 @@ impl<'a> Importer<'a> {
         let mut dashed: BezPath = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * unit, &dashes).collect();
         if ends == Ends::Flat && pattern.contains(&0.0) {
             let long = subpaths(&dashed).into_iter().filter(|dash| crate::geometry::curve_length(dash) > 2.0 * least);
-            dashed = long.flat_map(|dash| dash.into_iter()).collect();
+            dashed = long.flat_map(std::iter::IntoIterator::into_iter).collect();
         }
         dashed
     }
@@ -316,18 +316,17 @@ impl<'a> Importer<'a> {
 
     /// The layer of a mark: its labelled group, else that of its colour.
     fn layer_for(&mut self, place: Place, colour: Colour) -> usize {
-        let index = match place.layer {
-            Some(layer) => layer,
-            None => {
-                let key = [colour.r, colour.g, colour.b];
-                if let Some(&index) = self.by_colour.get(&key) {
-                    index
-                } else {
-                    let index = self.layers.len();
-                    self.layers.push(labelled(&Label { name: colour.to_string(), ..Label::default() }, index as u32 + 1));
-                    self.by_colour.insert(key, index);
-                    index
-                }
+        let index = if let Some(layer) = place.layer {
+            layer
+        } else {
+            let key = [colour.r, colour.g, colour.b];
+            if let Some(&index) = self.by_colour.get(&key) {
+                index
+            } else {
+                let index = self.layers.len();
+                self.layers.push(labelled(&Label { name: colour.to_string(), ..Label::default() }, index as u32 + 1));
+                self.by_colour.insert(key, index);
+                index
             }
         };
         let layer = &mut self.layers[index];

@@ -70,7 +70,7 @@ fn best_fit(w: &[f64], d: usize, r: isize) -> f32 {
 
 /// Where both distances are least: the local minima of `t0^2 + t1^2`, at the centre of weight of what is near 0 around them.
 pub fn paper_dots(along: &Raster<f32>, across: &Raster<f32>, d: f64) -> Vec<Point> {
-    let distance = along.zip_map(across, |a, b| a.hypot(b));
+    let distance = along.zip_map(across, f32::hypot);
     let mut dots = Vec::new();
     for y in 0..distance.height() as isize {
         for x in 0..distance.width() as isize {

@@ -25,7 +25,9 @@ const SHARE: f32 = 0.2;
 /// The phase, in cycles, that a node begins with: its number, its place in pixels and its wave.
 pub type Start<'a> = &'a (dyn Fn(u64, Point, Wave) -> f32 + Sync);
 
-/// Stripes along `wave` (full size, in pixels), begun on the coarsest level from the given phases. An anchor holds a phase (a complex number, its length the strength, 0 for none) at each node of the finest level.
+/// Stripes along `wave` (full size, in pixels), begun on the coarsest level from the given phases. An anchor holds a phase (a complex
+/// number, its length the strength, 0 for none) at each node of the finest level.
+#[expect(clippy::missing_panics_doc, reason = "there is at least one level")]
 pub fn stripes(
     wave: &Raster<Wave>,
     parameters: StripeParameters,

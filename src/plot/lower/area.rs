@@ -146,8 +146,8 @@ mod tests {
     #[test]
     fn a_comb_s_teeth_are_drawn() {
         // A back of 1 mm with teeth of 0.2 mm, thinner than the nib.
-        let teeth: String = (0..10).map(|i| format!("H{} V3 H{} V1 ", i + 1, f64::from(i) + 1.2)).collect();
-        let paths = filled(&format!("M12,1 V0 H0 V1 {teeth} Z"), 0.3);
+        let teeth: Vec<String> = (0..10).map(|i| format!("H{} V3 H{} V1", i + 1, f64::from(i) + 1.2)).collect();
+        let paths = filled(&format!("M12,1 V0 H0 V1 {} Z", teeth.join(" ")), 0.3);
         for i in 0..10 {
             let is_on = |p: &Point| p.y > 1.5 && (p.x - f64::from(i) - 1.1).abs() < 0.05;
             assert!(paths.iter().any(|path| path.points.iter().all(is_on)), "tooth {i}");

@@ -9,7 +9,7 @@ use crate::style::random;
 use rand::RngExt;
 use rayon::prelude::*;
 
-/// A hair's width in grains (figure 7.15: sigma_z falls from 3 to 0.6).
+/// A hair's width in grains (figure 7.15: `sigma_z` falls from 3 to 0.6).
 const WIDTH: f64 = 0.3;
 /// A hair mark's length in strokes' lengths (figure 7.15: a falls from 24 to 6).
 const LENGTH: f64 = 0.4;
