@@ -253,6 +253,10 @@ pub(super) struct ToolpathOptions {
     /// Join ends that lie this near, up to a turn of 90 degrees, or 150 where they coincide; 0 joins nothing.
     #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub merge: f64,
+    /// A wet line is not crossed or touched again for so many seconds: paths are put off, and where nothing else is left to draw
+    /// the machine waits (0 to 86400; G-code, and profiles whose language can wait).
+    #[arg(long, value_name = "SECONDS", value_parser = dry_time, allow_negative_numbers = true)]
+    pub dry_time: Option<f64>,
     /// Cut at the sheet and the machine's limits instead of refusing.
     #[arg(long)]
     pub clip: bool,
@@ -584,6 +588,11 @@ fn metres(text: &str) -> Result<f64, String> {
         _ => (trimmed, if trimmed.ends_with(|c: char| c.is_ascii_digit()) { 1000.0 } else { 1.0 }),
     };
     length_above_zero(number).map(|length| length * unit)
+}
+
+fn dry_time(text: &str) -> Result<f64, String> {
+    let seconds = number_above_zero(text).ok().filter(|seconds| *seconds <= 86_400.0);
+    seconds.ok_or_else(|| "must be a number of seconds above 0, up to 86400".to_owned())
 }
 
 fn gamma(text: &str) -> Result<f64, String> {

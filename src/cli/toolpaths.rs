@@ -7,7 +7,7 @@ use super::pens::PenSet;
 use crate::geometry::{Point, Rect};
 use crate::plot::{
     Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, PenReport, Plot, PlotReport, Profile,
-    Seam, Sequence, Travel, add_registration, built_in, clip_to, mount, pause_every, report, rest_touches,
+    Seam, Sequence, Travel, add_registration, built_in, clip_to, let_dry, mount, pause_every, report, rest_touches,
 };
 use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
 use std::io::Write;
@@ -156,6 +156,18 @@ pub(super) fn prepare(
     }
     let usual = profile.map_or(0.0, |profile| profile.motion.touch_seconds);
     rest_touches(&mut plot, |pen| pens.dwell(pen).unwrap_or(usual));
+    if let Some(seconds) = options.dry_time {
+        let Some(profile) = profile else {
+            return Err(Failure::Usage("--dry-time reckons with a machine's speeds: it needs --profile".to_owned()));
+        };
+        let waited = let_dry(&mut plot, seconds, home, &profile.motion);
+        if waited > 0.0 && profile.language != Language::Gcode {
+            return Err(Failure::Work(format!(
+                "--dry-time {seconds}: the machine would have to wait {} in all, for which its language has no word; ask for less",
+                duration(waited)
+            )));
+        }
+    }
     let report = report(&plot, home, machine, Some(&before));
     if let Some(length) = options.pause_every {
         pause_every(&mut plot, length);

@@ -192,17 +192,6 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_between_colours_of_one_lightness_takes_its_neighbours_sign() {
-        // Red gives way to green where y is small; below it grows lighter too.
-        let red = Raster::from_fn(60, 60, |x, y| 0.5 - 0.004 * x as f32 + 0.0002 * (x * y) as f32);
-        let green = Raster::from_fn(60, 60, |x, _| 0.3 + 0.004 * x as f32);
-        let flow = flow_of(&[red, green]);
-        for y in 0..8 {
-            assert!(flow.at(Point::new(30.5, f64::from(y) + 0.5)).x > 0.9, "row {y}");
-        }
-    }
-
-    #[test]
     fn flat_parts_have_none_until_they_are_completed() {
         let disc = Raster::from_fn(160, 160, |x, y| f32::from((x as f32 - 80.0).hypot(y as f32 - 80.0) < 20.0));
         let flow = flow_of(&[disc]);

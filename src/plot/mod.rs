@@ -5,6 +5,7 @@
 
 mod calibration;
 mod coverage;
+mod drying;
 mod errands;
 mod lower;
 mod mounting;
@@ -18,6 +19,7 @@ mod time;
 
 pub use calibration::{Calibration, CalibrationError, calibration_page, calibration_sheet};
 pub use coverage::{Coverage, coverage};
+pub use drying::let_dry;
 pub use errands::{add_registration, pause_every, rest_touches};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};

@@ -166,8 +166,12 @@ impl<'a, 'd> Collector<'a, 'd> {
         let mut count = |kind: &str| self.outline.dropped.add(kind, usize::from(!is_skipped));
         match node.tag_name().name() {
             _ if self.hidden.apply_to(node) || is_hidden(node) || depth > DEEPEST => {}
-            "recipe" if node.tag_name().namespace() == Some(DRYPOINT) => self.outline.recipe = node.text().map(str::to_owned),
-            "defs" | "clipPath" | "mask" | "pattern" | "marker" | "symbol" | "style" | "title" | "desc" | "metadata" => {}
+            "metadata" => {
+                let is_recipe = |node: &Node| node.tag_name().name() == "recipe" && node.tag_name().namespace() == Some(DRYPOINT);
+                let recipe = node.descendants().find(is_recipe).and_then(|node| node.text());
+                self.outline.recipe = recipe.map(str::to_owned).or(self.outline.recipe.take());
+            }
+            "defs" | "clipPath" | "mask" | "pattern" | "marker" | "symbol" | "style" | "title" | "desc" => {}
             "foreignObject" if has_substitute(node) => {}
             kind @ ("text" | "foreignObject" | "script" | "image") => count(kind),
             "use" => match href(node).map(|href| (href, href.strip_prefix('#').and_then(|id| self.named.get(id)).copied())) {

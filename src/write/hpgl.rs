@@ -207,7 +207,9 @@ mod tests {
             .collect();
         let mut text = String::new();
         path_instructions(&mut text, &circle, &dialect(true, false), Rect::new(0.0, 0.0, 1e4, 1e4), 1.6);
-        assert!(text.starts_with("PU6000,5000;PD;AA5000,5000,") && text.len() < 120, "{text}");
+        // Whole degrees do not always end on a vertex: what is left is drawn as lines, and every arc starts at a vertex.
+        assert!(text.starts_with("PU6000,5000;PD;AA") && text.matches("AA").count() > 1 && text.len() < 900, "{text}");
+        assert!(text.ends_with("PD6000,5000;"), "{text}");
     }
 
     #[test]

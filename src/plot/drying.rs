@@ -1,0 +1,167 @@
+//! Wet lines are not crossed again before they are dry: paths are put off, and waited for when nothing else is left to draw.
+
+use super::profile::Motion;
+use super::{PenPaths, Plot, Toolpath};
+use crate::geometry::Point;
+use std::collections::{HashMap, VecDeque};
+
+/// Cells a nib in which wet ink is looked for: lines whose middles lie less than about half a nib apart share or touch one.
+const CELLS_A_NIB: f64 = 2.0;
+
+/// Puts off every path that would touch ink of another path drawn less than `seconds` ago, in the order that the plot has, and has the
+/// machine wait with the pen up where only such paths are left. Speeds are taken as constant: a machine that must speed up leaves the
+/// ink more time. Returns the seconds waited.
+///
+/// A path of a group is put off by itself. O(length of ink / nib) for each round, and there
+/// are about as many rounds as paths lie on top of one another.
+pub fn let_dry(plot: &mut Plot, seconds: f64, home: Point, motion: &Motion) -> f64 {
+    let mut paper = Paper { wet: HashMap::new(), seconds, now: 0.0, at: home, waited: 0.0 };
+    let pens = std::mem::take(&mut plot.pens);
+    plot.pens = pens.into_iter().flat_map(|pen| paper.draw(pen, motion)).collect();
+    paper.waited
+}
+
+/// A cell of the page.
+type Cell = (i32, i32);
+
+/// The sheet as it is being drawn on.
+struct Paper {
+    /// When each inked cell was inked last.
+    wet: HashMap<Cell, f64>,
+    seconds: f64,
+    now: f64,
+    at: Point,
+    waited: f64,
+}
+
+impl Paper {
+    /// One pen's paths in the order in which they can be drawn, parted where the machine waits.
+    fn draw(&mut self, pen: PenPaths, motion: &Motion) -> Vec<PenPaths> {
+        let cell = pen.nib.max(0.05) / CELLS_A_NIB;
+        let speed = pen.handling.speed(motion.draw_speed);
+        let mut left: VecDeque<(Toolpath, Vec<Cell>)> =
+            pen.paths.iter().map(|path| (path.clone(), cells(&path.points, cell))).collect();
+        let empty = |delay_seconds: f64| {
+            let handling = crate::drawing::Handling { delay_seconds, ..pen.handling };
+            PenPaths { handling, paths: Vec::new(), ..pen.clone() }
+        };
+        let mut parts = vec![empty(pen.handling.delay_seconds)];
+        while !left.is_empty() {
+            let mut put_off = VecDeque::new();
+            let mut soonest = f64::INFINITY;
+            let before = left.len();
+            for (path, cells) in left {
+                let dry_at = self.dry_at(&cells);
+                if dry_at > self.now {
+                    soonest = soonest.min(dry_at);
+                    put_off.push_back((path, cells));
+                    continue;
+                }
+                let ends = path.ends();
+                self.now += self.at.distance(ends.start) / motion.travel_speed + motion.pen_down_seconds;
+                self.now += path.length() / speed + path.dwell_seconds + motion.pen_up_seconds;
+                self.at = ends.end;
+                cells.iter().for_each(|cell| drop(self.wet.insert(*cell, self.now)));
+                parts.last_mut().into_iter().for_each(|part| part.paths.push(path.clone()));
+            }
+            left = put_off;
+            if left.len() == before {
+                let wait = soonest - self.now;
+                self.now = soonest;
+                self.waited += wait;
+                // The first wait of a part that draws nothing yet adds to its own.
+                match parts.last_mut() {
+                    Some(part) if part.paths.is_empty() => part.handling.delay_seconds += wait,
+                    _ => parts.push(empty(wait)),
+                }
+            }
+        }
+        parts.retain(|part| !part.paths.is_empty());
+        parts
+    }
+
+    /// When the last of the ink in or beside these cells is dry.
+    fn dry_at(&self, cells: &[Cell]) -> f64 {
+        let around = |&(x, y): &Cell| [(x, y), (x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)];
+        let inked = cells.iter().flat_map(around).filter_map(|cell| self.wet.get(&cell));
+        inked.map(|at| at + self.seconds).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// The cells that a path's middle line runs through, each once.
+fn cells(points: &[Point], size: f64) -> Vec<Cell> {
+    let cell = |p: Point| ((p.x / size).floor() as i32, (p.y / size).floor() as i32);
+    let mut found: Vec<Cell> = points.iter().take(1).map(|p| cell(*p)).collect();
+    for pair in points.windows(2) {
+        let steps = (2.0 * pair[0].distance(pair[1]) / size).ceil().max(1.0) as usize;
+        found.extend((1..=steps).map(|i| cell(pair[0].lerp(pair[1], i as f64 / steps as f64))));
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Colour, Handling, Page};
+    use crate::plot::Profile;
+
+    fn plot(lines: &[[f64; 4]]) -> Plot {
+        let path = |&[x0, y0, x1, y1]: &[f64; 4]| Toolpath::new(vec![Point::new(x0, y0), Point::new(x1, y1)]);
+        let paths = lines.iter().map(path).collect();
+        let pen =
+            PenPaths { number: 1, name: "x".to_owned(), colour: Colour::BLACK, nib: 0.5, handling: Handling::default(), paths };
+        Plot { page: Page::new(100.0, 100.0), pens: vec![pen] }
+    }
+
+    fn motion() -> Motion {
+        Profile::built_in("grbl-servo").unwrap().motion
+    }
+
+    #[test]
+    fn a_crossing_line_waits_its_turn() {
+        let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0], [0.0, 90.0, 90.0, 90.0]]);
+        let waited = let_dry(&mut crossing, 2.0, Point::ORIGIN, &motion());
+        let first: Vec<f64> = crossing.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points[0].y).collect();
+        assert_eq!((first, waited, crossing.pens.len()), (vec![5.0, 90.0, 0.0], 0.0, 1));
+    }
+
+    #[test]
+    fn where_nothing_else_is_left_the_machine_waits() {
+        let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0]]);
+        let waited = let_dry(&mut crossing, 60.0, Point::ORIGIN, &motion());
+        assert_eq!(crossing.pens.len(), 2);
+        assert!((waited - 60.0).abs() < 1e-6 && (crossing.pens[1].handling.delay_seconds - 60.0).abs() < 1e-6, "{waited}");
+    }
+
+    #[test]
+    fn every_path_is_drawn_once_and_none_touches_wet_ink() {
+        let spread = |i: u32, step: f64| 90.0 * (f64::from(i) * step).fract();
+        let lines: Vec<[f64; 4]> =
+            (1..200).map(|i| [spread(i, 0.754_877), spread(i, 0.569_840), spread(i, 0.618_034), spread(i, 0.414_214)]).collect();
+        let mut drawn = plot(&lines);
+        let before = drawn.clone();
+        let_dry(&mut drawn, 30.0, Point::ORIGIN, &motion());
+        let paths = |plot: &Plot| -> Vec<String> {
+            let mut all: Vec<String> = plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| format!("{path:?}")).collect();
+            all.sort();
+            all
+        };
+        assert_eq!(paths(&before), paths(&drawn));
+        // Gone through again with the clock, no path comes upon ink younger than 30 s.
+        let mut paper = Paper { wet: HashMap::new(), seconds: 30.0 - 1e-6, now: 0.0, at: Point::ORIGIN, waited: 0.0 };
+        let motion = motion();
+        for pen in &drawn.pens {
+            paper.now += pen.handling.delay_seconds;
+            for path in &pen.paths {
+                let cells = cells(&path.points, 0.25);
+                assert!(paper.dry_at(&cells) <= paper.now, "{path:?}");
+                paper.now += paper.at.distance(path.points[0]) / motion.travel_speed + motion.pen_down_seconds;
+                paper.now += path.length() / motion.draw_speed + motion.pen_up_seconds;
+                paper.at = path.points[1];
+                cells.iter().for_each(|cell| drop(paper.wet.insert(*cell, paper.now)));
+            }
+        }
+    }
+}
