@@ -285,7 +285,7 @@ fn three_pens_on_a3_have_their_slots_their_pauses_and_their_preview() {
 
     let wide = ["--set-profile", "area.x=[0, 430]", "--profile", "grbl-servo", "-o", "a.gcode"];
     let (status, message) = run(&wide);
-    assert_eq!(status, 1, "{message}");
+    assert_eq!(status, 2, "{message}");
     assert!(message.contains("1 to 200 %"), "{message}");
     fs::write(folder.path().join("pens.toml"), "[red]\nwidth = 0.5\nspeed = 30\n").unwrap();
     let (status, message) = run(&wide);
@@ -301,7 +301,7 @@ fn three_pens_on_a3_have_their_slots_their_pauses_and_their_preview() {
 fn what_cannot_be_is_refused_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a3.svg"), A3).unwrap();
-    let line = |i: i32| format!("<path stroke=\"#{:06x}\" d=\"M{} 50v9\"/>", i * 5000, 10 + i / 10);
+    let line = |i: i32| format!("<path stroke=\"#{:06x}\" d=\"M{} 50v9\"/>", i * 5000, 20 + i / 10);
     let colours = (0..3000).map(line).collect::<Vec<_>>().concat();
     let head = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"420mm\" height=\"297mm\" viewBox=\"0 0 420 297\">";
     fs::write(folder.path().join("many.svg"), format!("{head}{colours}</svg>")).unwrap();
