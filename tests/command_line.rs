@@ -343,7 +343,9 @@ fn every_stage_is_written_numbered_and_named() {
     let mut names: Vec<String> =
         fs::read_dir(folder.path().join("stages")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    for step in ["tone", "coherent-lines", "smoothed", "posterised", "features", "lanes", "seeds", "relaxed", "highlights", "drawing"] {
+    for step in
+        ["tone", "coherent-lines", "smoothed", "posterised", "features", "lanes", "seeds", "relaxed", "highlights", "drawing"]
+    {
         assert!(names.iter().any(|name| name.contains(step)), "{step}: {names:?}");
     }
     assert!(names[0].starts_with("01-"));
