@@ -61,7 +61,7 @@ impl Paper {
                 self.now += self.at.distance(ends.start) / motion.travel_speed + motion.pen_down_seconds;
                 self.now += path.length() / speed + path.dwell_seconds + motion.pen_up_seconds;
                 self.at = ends.end;
-                cells.iter().for_each(|cell| drop(self.wet.insert(*cell, self.now)));
+                self.wet.extend(cells.iter().map(|cell| (*cell, self.now)));
                 parts.last_mut().into_iter().for_each(|part| part.paths.push(path.clone()));
             }
             left = put_off;
@@ -160,7 +160,8 @@ mod tests {
                 paper.now += paper.at.distance(path.points[0]) / motion.travel_speed + motion.pen_down_seconds;
                 paper.now += path.length() / motion.draw_speed + motion.pen_up_seconds;
                 paper.at = path.points[1];
-                cells.iter().for_each(|cell| drop(paper.wet.insert(*cell, paper.now)));
+                let now = paper.now;
+                paper.wet.extend(cells.into_iter().map(|cell| (cell, now)));
             }
         }
     }
