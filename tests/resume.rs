@@ -30,11 +30,13 @@ fn inked(strokes: &Strokes, units_per_mm: f64) -> HashSet<(u32, i64, i64)> {
     let cell = 0.05 * units_per_mm;
     let mut cells = HashSet::new();
     for (pen, points) in &strokes.paths {
-        let mut mark = |p: Point| cells.insert((*pen, (p.x / cell).round() as i64, (p.y / cell).round() as i64));
-        points.iter().for_each(|p| drop(mark(*p)));
+        let mut mark = |p: Point| {
+            cells.insert((*pen, (p.x / cell).round() as i64, (p.y / cell).round() as i64));
+        };
+        points.iter().for_each(|p| mark(*p));
         for pair in points.windows(2) {
             let steps = (pair[0].distance(pair[1]) / (0.25 * cell)).ceil().max(1.0) as usize;
-            (0..=steps).for_each(|i| drop(mark(pair[0].lerp(pair[1], i as f64 / steps as f64))));
+            (0..=steps).for_each(|i| mark(pair[0].lerp(pair[1], i as f64 / steps as f64)));
         }
     }
     cells

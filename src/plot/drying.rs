@@ -17,7 +17,7 @@ const CELLS_A_NIB: f64 = 2.0;
 pub fn let_dry(plot: &mut Plot, seconds: f64, home: Point, motion: &Motion) -> f64 {
     let mut paper = Paper { wet: HashMap::new(), seconds, now: 0.0, at: home, waited: 0.0 };
     let pens = std::mem::take(&mut plot.pens);
-    plot.pens = pens.into_iter().flat_map(|pen| paper.draw(pen, motion)).collect();
+    plot.pens = pens.iter().flat_map(|pen| paper.draw(pen, motion)).collect();
     paper.waited
 }
 
@@ -36,7 +36,7 @@ struct Paper {
 
 impl Paper {
     /// One pen's paths in the order in which they can be drawn, parted where the machine waits.
-    fn draw(&mut self, pen: PenPaths, motion: &Motion) -> Vec<PenPaths> {
+    fn draw(&mut self, pen: &PenPaths, motion: &Motion) -> Vec<PenPaths> {
         let cell = pen.nib.max(0.05) / CELLS_A_NIB;
         let speed = pen.handling.speed(motion.draw_speed);
         let mut left: VecDeque<(Toolpath, Vec<Cell>)> =
