@@ -4,6 +4,10 @@
 //! of the shortest links that fit together (`greedy`) is improved by exchanging links (`lin_kernighan`) and, as far as the
 //! effort allows, kicked out of its local optimum again and again (`kicks`, `sweeps`). Loops may be entered anywhere: they are seated between
 //! their neighbours in the tour (`seats`), and the search goes on from there.
+//!
+//! What is made short is the distance. Travel time under acceleration (100 mm/s, 250 mm/s^2) was tried in its place on 1000 and 10,000
+//! dots, segments and hatch lines: the time of travel fell by 0.05 to 0.9 %, less than half a percent of a plot's, and the distance grew
+//! by up to 4.5 %. Lifts do not depend on the order.
 
 #![allow(
     clippy::cast_possible_truncation,
