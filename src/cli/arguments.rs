@@ -383,6 +383,9 @@ pub(super) struct ResumeOptions {
     /// The pen-down path that was not finished, from 1 in the file's order; `inspect` says how many there are.
     #[arg(long, value_name = "N")]
     pub path: Option<usize>,
+    /// No summary; errors are still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
     /// How much of the line before the stop is drawn again.
     #[arg(long, value_name = "LENGTH", default_value = "3mm", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub again: f64,

@@ -24,7 +24,11 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
         resume_gcode(&text, stop, options.again)
     };
     let rest = rest.map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
-    output::write(&options.output, |out| out.write_all(rest.as_bytes()))
+    output::write(&options.output, |out| out.write_all(rest.as_bytes()))?;
+    if !options.quiet && options.output != "-" {
+        eprintln!("{}: {} of {} bytes are left to send", options.output, rest.len(), text.len());
+    }
+    Ok(())
 }
 
 /// HP-GL begins with `IN;`, after escape sequences for the interface at most.
