@@ -262,7 +262,7 @@ fn command(name: &str, arguments: &[&str]) -> (bool, String, serde_json::Value) 
 #[test]
 fn the_command_lists_and_counts_what_it_drops() {
     let (done, said, report) = command("text.svg", &["--quiet"]);
-    assert!(done && said.contains("warning: not drawn: 4 text"), "{said}");
+    assert!(done && said.contains("warning: left out or drawn otherwise: 4 text"), "{said}");
     assert_eq!(report["dropped"]["text"], 4);
     let (done, said, report) = command("inherited-fill.svg", &[]);
     assert!(done && said.contains("1 fills"), "{said}");

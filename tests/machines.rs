@@ -5,8 +5,8 @@ mod common;
 
 use assert_cmd::Command;
 use common::{Sheet, sample};
-use drypoint::drawing::{Colour, Drawing, Handling, Page};
-use drypoint::geometry::{Point, Rect, Vec2, distance_to_segment};
+use drypoint::drawing::{Colour, Drawing, Handling, Mark, Page};
+use drypoint::geometry::{BezPath, Point, Rect, Vec2, distance_to_segment, flatten};
 use drypoint::plot::{
     Direction, Effort, InkModel, Language, Lift, Mounting, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath, built_in_names,
     clip_to, lower, mount,
@@ -141,6 +141,34 @@ fn assert_safe_gcode(text: &str, profile: &Profile) {
     }
 }
 
+/// A plotter's SVG holds each path, in order and where it was asked for (its driver raises, parks and changes pens by itself), all of
+/// it on the sheet and within the machine's reach.
+fn assert_same_strokes(text: &str, plot: &Plot, profile: &Profile, mounting: &Mounting) {
+    let name = &profile.name;
+    let asked: Vec<&Toolpath> = plot.pens.iter().flat_map(|pen| &pen.paths).collect();
+    let imported = read_svg(text.as_bytes()).unwrap();
+    let drawn: Vec<&Mark> = imported.layers.iter().flat_map(|layer| &layer.layer.marks).collect();
+    assert_eq!(asked.len(), drawn.len(), "{name}");
+    let (sheet, limits) = (plot.page.rect().inflate(NEAR, NEAR), mounting.limits.inflate(NEAR, NEAR));
+    for (path, mark) in asked.into_iter().zip(drawn) {
+        let points = match mark {
+            Mark::Stroke(stroke) => flattened(&stroke.curve),
+            Mark::Dot(dot) => vec![dot.centre],
+            Mark::Area(_) => panic!("{name}: an area"),
+        };
+        let sent = &path.points;
+        assert!(sent.iter().all(|p| distance(*p, &points) <= NEAR), "{name}: {sent:?} is not {points:?}");
+        assert!(points.iter().all(|p| distance(*p, sent) <= NEAR), "{name}: {points:?} was not {sent:?}");
+        assert!(sent[0].distance(points[0]) <= NEAR, "{name}");
+        assert!(sent[sent.len() - 1].distance(points[points.len() - 1]) <= NEAR, "{name}");
+        assert!(points.iter().all(|p| sheet.contains(*p) && limits.contains(mounting.to_machine * *p)), "{name}: {points:?}");
+    }
+}
+
+fn flattened(curve: &BezPath) -> Vec<Point> {
+    flatten(curve, 0.001).into_iter().flat_map(|(points, _)| points).collect()
+}
+
 fn assert_holds(plot: &Plot, profile: &Profile) {
     let name = &profile.name;
     let mounting = mount(profile, &plot.page).unwrap();
@@ -154,9 +182,7 @@ fn assert_holds(plot: &Plot, profile: &Profile) {
     };
     assert!(!cannot_wait || changes == 0, "{name} cannot wait");
     if profile.language == Language::Svg {
-        let imported = read_svg(text.as_bytes()).unwrap();
-        let strokes: usize = imported.layers.iter().map(|layer| layer.layer.marks.len()).sum();
-        assert_eq!(strokes, plot.pens.iter().map(|pen| pen.paths.len()).sum::<usize>(), "{name}");
+        assert_same_strokes(&text, plot, profile, &mounting);
         assert_eq!(text.matches("inkscape:label=\"!").count(), changes, "{name}");
         return;
     }

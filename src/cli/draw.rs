@@ -16,6 +16,7 @@ use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrai
 use crate::style::{self, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::path::Path;
 
 pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
@@ -110,10 +111,7 @@ fn write_one(
         }
         return Ok(None);
     };
-    // Opaque paint: what it covers is not drawn.
-    let is_painted = drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
-    let seen = is_painted.then(|| occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours));
-    let drawing = seen.as_ref().unwrap_or(drawing);
+    let drawing = &*uncovered(drawing);
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs()));
@@ -122,6 +120,15 @@ fn write_one(
         toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
     }
     Ok(Some(prepared))
+}
+
+/// What a pen draws of a drawing: of opaque paint, not what other paint covers.
+pub(super) fn uncovered(drawing: &Drawing) -> Cow<'_, Drawing> {
+    if drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint) {
+        Cow::Owned(occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours))
+    } else {
+        Cow::Borrowed(drawing)
+    }
 }
 
 /// What the press does to ink, when something is to be done about it.
@@ -155,6 +162,11 @@ impl<'a> Task<'a> {
         }
         let mask_files: Vec<(MaskRole, &str)> =
             options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
+        if let Some((role, _)) =
+            options.mask.iter().enumerate().find_map(|(i, mask)| options.mask[..i].iter().find(|m| m.0 == mask.0))
+        {
+            return Err(Failure::Usage(format!("--mask {role}= is given twice")));
+        }
         if options.depth.is_some() && !style.uses_depth() {
             let able: Vec<&str> = style::STYLES.iter().filter(|s| s.uses_depth()).map(|s| s.name()).collect();
             let able = able.join(", ");

@@ -39,7 +39,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let mut drawing = place(&imported.drawing(), options, reach)?;
     if is_blank(&drawing, model) {
         let dropped =
-            if imported.dropped.is_empty() { String::new() } else { format!(" (not drawn: {})", imported.dropped.summary()) };
+            if imported.dropped.is_empty() { String::new() } else { format!(" (left out: {})", imported.dropped.summary()) };
         let advice = if model == InkModel::Lines { "; fills are drawn with --ink-model ink" } else { "" };
         return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}")));
     }
@@ -64,7 +64,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         plots.push((name, prepared));
     }
     if !imported.dropped.is_empty() {
-        eprintln!("drypoint: warning: not drawn: {}", imported.dropped.summary());
+        eprintln!("drypoint: warning: left out or drawn otherwise: {}", imported.dropped.summary());
     }
     if options.reporting.json {
         let mut value = plots.first().map_or_else(|| json!({}), |(_, prepared)| json!(prepared.report));

@@ -3,10 +3,14 @@
 //! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) and a count of what could
 //! not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
 
+mod clip_paths;
+mod curves;
 mod dropped;
 mod gcode;
 mod hpgl;
+mod importer;
 mod layers;
+mod paint;
 mod svg;
 mod text;
 

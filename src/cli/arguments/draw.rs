@@ -1,0 +1,134 @@
+//! Options of `draw` and `stages`: the photograph, its sheet and its style.
+
+use super::choices::{Fit, Format, Tone};
+use super::files::Reporting;
+use super::toolpaths::ToolpathOptions;
+use super::values::{
+    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, screen,
+    size_above_zero,
+};
+use crate::drawing::Ink;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct PictureOptions {
+    /// The photograph: JPEG, PNG, WebP, TIFF, BMP or GIF; `-` for stdin.
+    pub photo: String,
+    /// The style; `drypoint styles` lists them.
+    #[arg(long, default_value = "hedcut")]
+    pub style: String,
+    /// A parameter of the style; `drypoint styles NAME` lists them. May be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
+    pub set: Vec<(String, String)>,
+    /// Parameters from a TOML file; --set wins.
+    #[arg(long, value_name = "FILE")]
+    pub params: Option<PathBuf>,
+    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the picture's own size].
+    #[arg(long, value_name = "NAME|WxH")]
+    pub page: Option<String>,
+    /// Kept free on the sheet [default: 0, with --page 10mm].
+    #[arg(long, value_name = "LENGTH", value_parser = length_from_zero, allow_negative_numbers = true)]
+    pub margin: Option<f64>,
+    /// The box that the picture is fitted into [default: the sheet less its margin; without a sheet 90x120mm].
+    #[arg(long, value_name = "WxH", value_parser = size_above_zero, allow_hyphen_values = true)]
+    pub size: Option<(f64, f64)>,
+    /// How the photograph fills the box.
+    #[arg(long, value_enum, default_value_t = Fit::Contain)]
+    pub fit: Fit,
+    /// The part of the photograph used, in pixels or %.
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
+    pub crop: Option<[CropNumber; 4]>,
+    /// Distance of neighbouring dots or lines [default: the style's].
+    #[arg(long, value_name = "LENGTH", value_parser = length_above_zero, allow_negative_numbers = true)]
+    pub pitch: Option<f64>,
+    /// A region, white inside, on the photograph's pixel grid; ROLE is subject, detail, edges or isophotes, or
+    /// scribbles with one colour for each region.
+    #[arg(long, value_name = "ROLE=FILE", value_parser = key_value)]
+    pub mask: Vec<(String, String)>,
+    /// Depth map of 8 or 16 bits on the photograph's pixel grid: white is near, 0 is unknown or background.
+    #[arg(long, value_name = "FILE")]
+    pub depth: Option<String>,
+    /// In the depth map white is far.
+    #[arg(long, requires = "depth")]
+    pub depth_far_white: bool,
+    /// What the ink must match: CIE L*/100 or luminance Y.
+    #[arg(long, value_enum, default_value_t = Tone::Lightness)]
+    pub tone: Tone,
+    /// Middle tones: above 1 lightens (0.1 to 10).
+    #[arg(long, value_name = "G", default_value_t = 1.0, value_parser = gamma, allow_negative_numbers = true)]
+    pub gamma: f64,
+    /// Tone that becomes full ink (0 to 1).
+    #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = fraction, allow_negative_numbers = true)]
+    pub black: f64,
+    /// Tone that becomes bare paper (0 to 1).
+    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = fraction, allow_negative_numbers = true)]
+    pub white: f64,
+    /// All random choices follow from this number.
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Worker threads [default: all cores]; the bytes written do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct DrawOptions {
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout. `{layer}` in
+    /// it writes one file for each layer.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: String,
+    /// The format, whatever the extension.
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// Nib width: for plotter output, and for lines that have no width of their own.
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    pub pen: f64,
+    /// Smallest dot and thinnest line that print may use; smaller marks are thinned out so that the tone stays. For newsprint 0.065mm
+    /// (Torstar Printing Group: tints below 5 % do not print; the dot of that tint at 40 lines per cm), for books 0.03mm (Printing
+    /// Industry Exchange: a 2 % dot holds at 60 lines per cm), for lines 0.07mm (Consolidated Press: never below 0.2 points).
+    #[arg(long, value_name = "LENGTH", default_value = "0mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    pub min_mark: f64,
+    /// Ink spread of the press, compensated: what it adds to a 50 % screen tint (0 to 0.5). Aims of the standards: coated paper
+    /// 0.16, uncoated 0.22 (ISO 12647-2:2013, curves A and C), newsprint 0.26 with --dot-gain-screen 40 (ISO 12647-3:2013). Measured
+    /// or asked by printers: coated 0.22 for black (GATF, 35 sheetfed presses at 60 lines per cm), newsprint 0.25 (Torstar Printing
+    /// Group) to 0.33 (Telegram & Gazette). The same spread takes less from coarse marks than from that tint.
+    #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = dot_gain, allow_negative_numbers = true)]
+    pub dot_gain: f64,
+    /// The screen that --dot-gain is quoted for, in lines per cm (10 to 200).
+    #[arg(long, value_name = "N", default_value_t = 60.0, value_parser = screen, allow_negative_numbers = true)]
+    pub dot_gain_screen: f64,
+    /// CSS colour, or k for the black plate only, or spot:NAME.
+    #[arg(long, value_name = "COLOUR", default_value = "k", value_parser = ink)]
+    pub ink: Ink,
+    /// Write only these layers, by name, separated by commas.
+    #[arg(long, value_delimiter = ',', value_name = "LIST")]
+    pub layers: Vec<String>,
+    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file. With .svg the tool paths are written.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: Option<String>,
+    /// Choose a larger pitch, if need be, so that the plot takes at most this long, such as 2h, 90min or 1h30m.
+    #[arg(long, value_name = "TIME", value_parser = duration, requires = "profile", allow_negative_numbers = true)]
+    pub max_time: Option<f64>,
+    #[command(flatten)]
+    pub toolpaths: ToolpathOptions,
+    /// Do all the work and write nothing.
+    #[arg(long)]
+    pub dry_run: bool,
+    #[command(flatten)]
+    pub reporting: Reporting,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct StagesOptions {
+    #[command(flatten)]
+    pub picture: PictureOptions,
+    /// The folder to write into; it is made if need be.
+    #[arg(long, short, value_name = "DIR")]
+    pub output: PathBuf,
+    /// No progress and no summary; warnings and errors are still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
+}

@@ -1,0 +1,93 @@
+//! How to report, and the options of the commands that read files and machines.
+
+use super::choices::Format;
+use super::toolpaths::ToolpathOptions;
+use super::values::{length_above_zero, length_from_zero};
+use clap::Args;
+
+/// How to report.
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct Reporting {
+    /// No progress and no summary; warnings and errors are still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Print one JSON object on stdout.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What a photograph becomes.
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct CalibrateOptions {
+    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: String,
+    /// The file to write, its format by extension: .svg, .hpgl or .plt, .gcode, .nc or .ngc; `-` for stdout.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: String,
+    /// The format, whatever the extension.
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// Nib width that is written on the pen.
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    pub pen: f64,
+    /// How many pens draw a cross [default: as many as the machine holds].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub pen_count: Option<u32>,
+    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the machine's first, else a4-landscape or
+    /// smaller].
+    #[arg(long, value_name = "NAME|WxH")]
+    pub page: Option<String>,
+    #[command(flatten)]
+    pub toolpaths: ToolpathOptions,
+    /// Do all the work and write nothing.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// No summary; warnings and errors are still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct InspectOptions {
+    /// SVG, HP-GL or G-code; `-` for stdin.
+    pub file: String,
+    /// Adds the time on this plotter.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: Option<String>,
+    /// Print one JSON object on stdout.
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct ResumeOptions {
+    /// The HP-GL or G-code file that drypoint wrote; `-` for stdin.
+    pub file: String,
+    /// The line that was not finished, from 1, as a sender shows it.
+    #[arg(long, value_name = "N")]
+    pub line: Option<usize>,
+    /// The byte that was not taken, from 0, as HP-GL senders count.
+    #[arg(long, value_name = "N")]
+    pub byte: Option<usize>,
+    /// The pen-down path that was not finished, from 1 in the file's order; `inspect` says how many there are.
+    #[arg(long, value_name = "N")]
+    pub path: Option<usize>,
+    /// No summary; errors are still shown.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// How much of the line before the stop is drawn again.
+    #[arg(long, value_name = "LENGTH", default_value = "3mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    pub again: f64,
+    /// The file to write; `-` for stdout.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: String,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct ListOptions {
+    /// One of them.
+    pub name: Option<String>,
+    /// Print one JSON object on stdout.
+    #[arg(long)]
+    pub json: bool,
+}

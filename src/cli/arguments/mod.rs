@@ -1,0 +1,91 @@
+//! Options, their units and their help.
+
+mod choices;
+mod draw;
+mod files;
+mod toolpaths;
+mod values;
+
+pub(super) use choices::*;
+pub(super) use draw::*;
+pub(super) use files::*;
+pub(super) use toolpaths::*;
+pub(super) use values::CropNumber;
+
+use clap::{Parser, Subcommand};
+
+/// Turns a photograph into vector stroke art and takes it to ink.
+///
+/// Lengths take mm (the default), cm, in or pt. `-` is stdin or stdout. Data goes to stdout, everything else to stderr.
+/// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted.
+#[derive(Debug, Parser)]
+#[command(name = "drypoint", version, max_term_width = 100)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// How a file comes to its machine.
+const SENDING: &str = "\
+Sending a file to its plotter:
+  HP-GL   The plotter takes a few hundred bytes at once and stops the sender by handshake; without one it loses lines. Pens of the
+          1980s raise DTR (pin 20), which the cable must bring to the computer's CTS:
+              stty -F /dev/ttyUSB0 9600 cs8 -cstopb -parenb -ixon crtscts raw && cat drawing.hpgl > /dev/ttyUSB0
+          With a plain cable use a sender that asks the plotter for room (ESC.B), such as chiplotle's plot_hpgl_file, or put XON/XOFF
+          into the file: --set-profile 'hpgl.preamble=\"\\u001B.I81;;17:\\u001B.N;19:\"' with stty ... ixon -crtscts.
+  G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; printers take it from their card.
+  SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order and those with ! wait.";
+
+/// What a test sheet says; the long form is docs/calibration.md.
+pub(super) const READING: &str = "\
+What to read off the sheet, and what to change (--set-profile KEY=VALUE, or the key in a TOML file that extends the profile):
+  square  Measure its sides, 100 mm where there is room. scale_x = scale_x * drawn / measured, along the side marked X; scale_y alike.
+  NIB     The first rung with white between its lines is wider than the nib: the one before it is --pen.
+  Z       The highest line, in mm above gcode.height.down, that has no gap: add it (towards up), less 0.2, to gcode.height.down.
+  DWELL   The shortest rest, in seconds, after which all touches are there and equally large: motion.touch_seconds.
+  FILL    The least overlap without white hairlines. 10 % is what areas are filled with; for another, --pen nib * (1 - overlap) / 0.9.
+  PENS    How far each cross lies off its ticks, in mm along the machine's X and Y: pen.N.offset = [x, y].
+  SPEED   The fastest squares with sharp, closed corners: motion.draw_speed; if even the slowest tremble, lower the acceleration.";
+
+// One of them is made, once.
+#[allow(clippy::large_enum_variant)]
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Draw a photograph: to SVG or PDF for print, or with --profile to a plotter's HP-GL or G-code.
+    #[command(after_long_help = SENDING)]
+    Draw(DrawOptions),
+    /// Plot any SVG: ordered tool paths for a machine.
+    #[command(after_long_help = SENDING)]
+    Plot(PlotOptions),
+    /// Write every intermediate result of a style, numbered and named, as PNG or SVG.
+    Stages(StagesOptions),
+    /// Say what is in a drawing: sheet, layers, pens, marks, lengths, time.
+    Inspect(InspectOptions),
+    /// Write the rest of a plotter's file from where the machine stopped: state, pen and position restored.
+    Resume(ResumeOptions),
+    /// Draw a test sheet for a machine and its pens.
+    #[command(after_help = READING)]
+    Calibrate(CalibrateOptions),
+    /// List the styles, or one style's parameters with default, unit, range, meaning and source.
+    Styles(ListOptions),
+    /// List the plotters, or print one profile as TOML.
+    Profiles(ListOptions),
+    /// Print shell completions.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page.
+    Man,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,131 @@
+//! Options of `plot`, and of every tool path.
+
+use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, Rotate, SeamOption, StartCorner};
+use super::files::Reporting;
+use super::values::{dry_time, key_value, length_above_zero, length_from_zero, metres, number_above_zero, seconds};
+use clap::Args;
+
+/// How tool paths are made.
+// Switches of a command line are booleans.
+#[allow(clippy::struct_excessive_bools)]
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct ToolpathOptions {
+    /// Of flattening curves.
+    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    pub tolerance: f64,
+    /// How hard to look for a short way; counted in work, so that the order is the same everywhere.
+    #[arg(long, value_enum, default_value_t = Order::Full)]
+    pub order: Order,
+    /// Draw every path in its own direction.
+    #[arg(long)]
+    pub keep_direction: bool,
+    /// Where loops begin and end.
+    #[arg(long, value_enum, default_value_t = SeamOption::Nearest)]
+    pub seam: SeamOption,
+    /// Paths of one pen that repeat an earlier one within 0.005 mm, in either direction.
+    #[arg(long, value_enum, default_value_t = DuplicatesOption::Drop)]
+    pub duplicates: DuplicatesOption,
+    /// Draw the whole order backwards, from the last path to the first.
+    #[arg(long)]
+    pub reverse: bool,
+    /// The corner of the drawing where the order of each pen starts [default: the machine's home].
+    #[arg(long, value_enum)]
+    pub start_corner: Option<StartCorner>,
+    /// The random order that --order random takes (a whole number from 0).
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub order_seed: u64,
+    /// Join ends that lie this near, up to a turn of 90 degrees, or 150 where they coincide; 0 joins nothing.
+    #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    pub merge: f64,
+    /// A wet line is not crossed or touched again for so many seconds: paths are put off, and where nothing else is left to draw
+    /// the machine waits (0 to 86400; G-code, and profiles whose language can wait).
+    #[arg(long, value_name = "SECONDS", value_parser = dry_time, allow_negative_numbers = true)]
+    pub dry_time: Option<f64>,
+    /// Cut at the sheet and the machine's limits instead of refusing.
+    #[arg(long)]
+    pub clip: bool,
+    /// Drawing speed in mm/s [default: the profile's].
+    #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
+    pub speed: Option<f64>,
+    /// Pen-up speed in mm/s [default: the profile's].
+    #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
+    pub travel_speed: Option<f64>,
+    /// How long the pen rests on a touch, in seconds [default: the profile's].
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub dwell: Option<f64>,
+    /// A key of the profile, such as motion.acceleration=500 or paper.a4.zero=[10,206]. May be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
+    pub set_profile: Vec<(String, String)>,
+    /// The pens, a TOML file: for each layer's name or number its width, slot, colour, speed, dwell and offset. Layers that it does
+    /// not name go to the pen of the nearest colour.
+    #[arg(long, value_name = "FILE")]
+    pub pens: Option<String>,
+    /// Trace the drawing's outline with the pen up, then wait, before anything is drawn.
+    #[arg(long)]
+    pub frame: bool,
+    /// Draw small crosses into the corners with every pen, to see how pens meet.
+    #[arg(long)]
+    pub registration: bool,
+    /// Wait each time that a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
+    #[arg(long, value_name = "METRES", value_parser = metres, allow_negative_numbers = true)]
+    pub pause_every: Option<f64>,
+    /// A picture of what the machine will do: sheet, reach, ink at nib width, travel, start and park.
+    #[arg(long, value_name = "FILE.svg")]
+    pub preview: Option<String>,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct PlotOptions {
+    /// The SVG; `-` for stdin.
+    pub drawing: String,
+    /// The file to write, its format by extension: .svg, .hpgl or .plt, .gcode, .nc or .ngc; `-` for stdout.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: String,
+    /// The format, whatever the extension.
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file; needed for HP-GL and G-code.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: Option<String>,
+    /// Nib width.
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    pub pen: f64,
+    /// Draw only these layers, by name or pen number, separated by commas.
+    #[arg(long, value_delimiter = ',', value_name = "LIST")]
+    pub layers: Vec<String>,
+    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the SVG's own size].
+    #[arg(long, value_name = "NAME|WxH")]
+    pub page: Option<String>,
+    /// Kept free on the sheet with --fit page.
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    pub margin: f64,
+    /// lines: strokes' centre lines, fills are ignored and counted; ink: widths and fills are laid down with the nib. White is
+    /// never ink [default: ink for files that drypoint wrote, else lines].
+    #[arg(long, value_enum)]
+    pub ink_model: Option<InkModelOption>,
+    /// Leave out what lies hidden under opaque ink of another colour or under white; with lines, what lies under any fill.
+    #[arg(long)]
+    pub occlude: bool,
+    /// Scale the drawing to the page less its margin.
+    #[arg(long, value_enum, default_value_t = PlotFit::None)]
+    pub fit: PlotFit,
+    /// Scale by this factor.
+    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = number_above_zero, allow_negative_numbers = true)]
+    pub scale: f64,
+    /// Move the drawing to the middle of the page.
+    #[arg(long)]
+    pub center: bool,
+    /// Turn clockwise by degrees.
+    #[arg(long, value_enum, allow_negative_numbers = true, default_value_t = Rotate::None)]
+    pub rotate: Rotate,
+    #[command(flatten)]
+    pub toolpaths: ToolpathOptions,
+    /// Worker threads [default: all cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Do all the work and write nothing.
+    #[arg(long)]
+    pub dry_run: bool,
+    #[command(flatten)]
+    pub reporting: Reporting,
+}

@@ -1,0 +1,151 @@
+//! Values as they are written: lengths, times, shares, crops.
+
+use crate::drawing::Ink;
+use crate::geometry::{parse_length, parse_size};
+
+/// A border of the crop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::cli) enum CropNumber {
+    Pixels(f64),
+    Percent(f64),
+}
+
+pub(super) fn key_value(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
+        _ => Err("write it as KEY=VALUE".to_owned()),
+    }
+}
+
+pub(super) fn length_above_zero(text: &str) -> Result<f64, String> {
+    let mm = parse_length(text).map_err(|error| error.to_string())?;
+    if mm > 0.0 { length_from_zero(text) } else { Err("must be above 0".to_owned()) }
+}
+
+pub(super) fn length_from_zero(text: &str) -> Result<f64, String> {
+    let mm = parse_length(text).map_err(|error| error.to_string())?;
+    if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
+}
+
+pub(super) fn size_above_zero(text: &str) -> Result<(f64, f64), String> {
+    let (width, height) = parse_size(text).map_err(|error| error.to_string())?;
+    let sound = |mm: f64| (1.0..=100_000.0).contains(&mm);
+    if sound(width) && sound(height) { Ok((width, height)) } else { Err("both sides must be from 1 mm to 100 m".to_owned()) }
+}
+
+pub(super) fn number_above_zero(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("must be a number above 0".to_owned()),
+    }
+}
+
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.strip_suffix('s').unwrap_or(text).trim();
+    number.parse().ok().filter(|s: &f64| (0.0..=60.0).contains(s)).ok_or_else(|| "must be from 0 to 60 seconds".to_owned())
+}
+
+/// A time such as `2h`, `90min`, `1h30m` or `45s`, in seconds.
+pub(super) fn duration(text: &str) -> Result<f64, String> {
+    let refuse = || "write it as 2h, 90min, 1h30m or 45s, above 0".to_owned();
+    let (mut rest, mut seconds, mut last) = (text.trim(), 0.0, f64::INFINITY);
+    while !rest.is_empty() {
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(refuse)?;
+        let number: f64 = rest[..end].parse().map_err(|_| refuse())?;
+        let after = rest[end..].trim_start();
+        let unit = after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len());
+        let size = match &after[..unit] {
+            "h" => 3600.0,
+            "m" | "min" => 60.0,
+            "s" => 1.0,
+            _ => return Err(refuse()),
+        };
+        // Larger units come first, and each once.
+        if size >= last {
+            return Err(refuse());
+        }
+        (seconds, last, rest) = (seconds + number * size, size, after[unit..].trim_start());
+    }
+    if seconds > 0.0 && seconds <= 1e7 { Ok(seconds) } else { Err(refuse()) }
+}
+
+/// A length in metres, or with another unit, in millimetres.
+pub(super) fn metres(text: &str) -> Result<f64, String> {
+    let trimmed = text.trim();
+    let (number, unit) = match trimmed.strip_suffix('m') {
+        Some(number) if !number.ends_with(['m', 'c']) => (number.trim(), 1000.0),
+        _ => (trimmed, if trimmed.ends_with(|c: char| c.is_ascii_digit()) { 1000.0 } else { 1.0 }),
+    };
+    length_above_zero(number).map(|length| length * unit)
+}
+
+pub(super) fn dry_time(text: &str) -> Result<f64, String> {
+    let seconds = number_above_zero(text).ok().filter(|seconds| *seconds <= 86_400.0);
+    seconds.ok_or_else(|| "must be a number of seconds above 0, up to 86400".to_owned())
+}
+
+pub(super) fn gamma(text: &str) -> Result<f64, String> {
+    number_above_zero(text).ok().filter(|g| (0.1..=10.0).contains(g)).ok_or_else(|| "must be a number from 0.1 to 10".to_owned())
+}
+
+pub(super) fn fraction(text: &str) -> Result<f64, String> {
+    text.parse::<f64>().ok().filter(|f| (0.0..=1.0).contains(f)).ok_or_else(|| "must be a number from 0 to 1".to_owned())
+}
+
+pub(super) fn dot_gain(text: &str) -> Result<f64, String> {
+    fraction(text).ok().filter(|gain| *gain <= 0.5).ok_or_else(|| "must be a number from 0 to 0.5".to_owned())
+}
+
+pub(super) fn screen(text: &str) -> Result<f64, String> {
+    number_above_zero(text)
+        .ok()
+        .filter(|lines| (10.0..=200.0).contains(lines))
+        .ok_or_else(|| "must be from 10 to 200 lines per cm".to_owned())
+}
+
+pub(super) fn ink(text: &str) -> Result<Ink, String> {
+    text.parse().map_err(|error: crate::drawing::ColourError| error.to_string())
+}
+
+pub(super) fn crop(text: &str) -> Result<[CropNumber; 4], String> {
+    let refuse = || "write it as X,Y,W,H in pixels or %, such as 10%,0,80%,100%".to_owned();
+    let numbers: Vec<CropNumber> = text
+        .split(',')
+        .map(|part| {
+            let part = part.trim();
+            let (number, is_percent) = part.strip_suffix('%').map_or((part, false), |n| (n, true));
+            let value: f64 = number.trim().parse().ok().filter(|v: &f64| v.is_finite())?;
+            Some(if is_percent { CropNumber::Percent(value) } else { CropNumber::Pixels(value) })
+        })
+        .collect::<Option<_>>()
+        .ok_or_else(refuse)?;
+    numbers.try_into().map_err(|_| refuse())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lengths() {
+        assert_eq!(metres("20m"), Ok(20_000.0));
+        assert_eq!(metres("2.5"), Ok(2500.0));
+        assert_eq!((metres("500mm"), metres("30cm")), (Ok(500.0), Ok(300.0)));
+        assert!(metres("0m").is_err() && metres("far").is_err());
+    }
+
+    #[test]
+    fn durations() {
+        assert_eq!((duration("2h"), duration("90min"), duration("1h30m")), (Ok(7200.0), Ok(5400.0), Ok(5400.0)));
+        assert_eq!((duration("1.5h"), duration("1h 5 min"), duration("45s")), (Ok(5400.0), Ok(3900.0), Ok(45.0)));
+        for wrong in ["", "2", "h", "30m1h", "1h2h", "0h", "-2h", "2 days", "1..5h"] {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn crops() {
+        assert_eq!(crop("10%,0,80%,100").unwrap()[0], CropNumber::Percent(10.0));
+        assert!(crop("1,2,3").is_err() && crop("a,b,c,d").is_err() && crop("NaN,0,1,1").is_err());
+    }
+}

@@ -1,0 +1,285 @@
+//! The groups and paths of an SVG as layers of marks, in painting order.
+
+use super::Dropped;
+use super::clip_paths::{CLIP_TOLERANCE, clip_curve, clip_region, clipped_outline};
+use super::curves::{MM_PER_PX, bez_path, dot, has_crossings, is_flat, subpaths, to_mm};
+use super::layers::{Label, Outline};
+use super::paint::{Paint, Source};
+use super::svg::ImportedLayer;
+use crate::drawing::{Area, Colour, Ends, Handling, Ink, Layer, Mark, Mixing, Painted, Stroke, Width};
+use crate::geometry::{BezPath, Region, Winding, untangled};
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
+
+/// Coordinates beyond which a path is not taken, in millimetres.
+const FARTHEST: f64 = 100_000.0;
+/// Dashes in one path beyond which the pattern is not taken.
+const MOST_DASHES: f64 = 20_000.0;
+
+/// What drypoint's own group ids say of the paths below them.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Foreign,
+    Dots,
+    Swells,
+    Paper,
+}
+
+/// Where in the tree a path lies.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    layer: Option<usize>,
+    kind: Kind,
+    /// Of all groups around.
+    opacity: f32,
+}
+
+impl Place {
+    /// Outside all groups.
+    pub const TOP: Self = Self { layer: None, kind: Kind::Foreign, opacity: 1.0 };
+}
+
+/// The walk over usvg's tree: each path becomes marks of a layer, and what cannot is counted.
+pub(super) struct Importer<'a> {
+    outline: &'a Outline,
+    /// One for each label, then one for each colour met outside all labels.
+    layers: Vec<ImportedLayer>,
+    by_colour: HashMap<[u8; 3], usize>,
+    painting: Vec<Painted>,
+    dropped: Dropped,
+    pub is_toolpaths: bool,
+}
+
+impl<'a> Importer<'a> {
+    pub fn new(outline: &'a Outline) -> Self {
+        let layers = outline.layers.iter().enumerate().map(|(i, label)| labelled(label, i as u32 + 1)).collect();
+        let mut dropped = outline.dropped.clone();
+        dropped.add("pen height (+H)", outline.layers.iter().filter(|label| label.height.is_some()).count());
+        Self { outline, layers, by_colour: HashMap::new(), painting: Vec::new(), dropped, is_toolpaths: false }
+    }
+
+    pub fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Region]) {
+        let place = Place { opacity: place.opacity * group.opacity().get(), ..self.place_of(group.id(), place) };
+        if place.layer.is_some_and(|layer| self.outline.layers.get(layer).is_some_and(|label| label.is_skipped)) {
+            return;
+        }
+        if group.opacity().get() <= 0.0 {
+            return self.dropped.count("invisible group");
+        }
+        let mut clips = Cow::Borrowed(clips);
+        let mut clip = group.clip_path();
+        while let Some(path) = clip {
+            clips.to_mut().push(clip_region(path, to_mm(group.abs_transform())));
+            clip = path.clip_path();
+        }
+        self.dropped.add("mask (its group is drawn whole)", usize::from(group.mask().is_some()));
+        self.dropped.add("filter (its group is drawn plain)", group.filters().len());
+        for node in group.children() {
+            match node {
+                usvg::Node::Group(group) => self.group(group, place, &clips),
+                usvg::Node::Path(path) => self.path(path, place, &clips),
+                // Counted in the XML.
+                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+            }
+        }
+    }
+
+    fn place_of(&mut self, id: &str, place: Place) -> Place {
+        let layer = self.outline.by_id.get(id).copied().or(place.layer);
+        let own = if self.outline.recipe.is_some() { id.split_once('-').map_or("", |(_, kind)| kind) } else { "" };
+        let kind = match own.split('.').next().unwrap_or("") {
+            "dots" => Kind::Dots,
+            "swells" => Kind::Swells,
+            "toolpaths" => {
+                self.is_toolpaths = true;
+                Kind::Foreign
+            }
+            _ => place.kind,
+        };
+        Place { layer, kind, ..place }
+    }
+
+    fn path(&mut self, path: &usvg::Path, place: Place, clips: &[Region]) {
+        if !path.is_visible() || (path.id() == "paper" && self.outline.recipe.is_some()) || place.kind == Kind::Paper {
+            return;
+        }
+        let transform = to_mm(path.abs_transform());
+        let curve = transform * bez_path(path.data());
+        let bounds = curve.control_box();
+        if !bounds.is_finite() || [bounds.x0, bounds.y0, bounds.x1, bounds.y1].iter().any(|v| v.abs() > FARTHEST) {
+            return self.dropped.count("path beyond 100 m");
+        }
+        let fill = path.fill().map(|fill| (fill, Paint::of(fill.paint(), fill.opacity().get() * place.opacity)));
+        let stroke = path.stroke().map(|stroke| (stroke, Paint::of(stroke.paint(), stroke.opacity().get() * place.opacity)));
+        let is_stroke_above = path.paint_order() == usvg::PaintOrder::FillAndStroke;
+        for is_stroke in [!is_stroke_above, is_stroke_above] {
+            match (is_stroke, &fill, &stroke) {
+                (false, Some((fill, paint)), _) => self.filled(&curve, fill.rule(), *paint, place, clips),
+                (true, _, Some((stroke, paint))) => self.stroked(path, stroke, *paint, place, clips),
+                _ => {}
+            }
+        }
+    }
+
+    /// A paint's colour, if it is ink.
+    fn ink(&mut self, paint: Paint, what: &str) -> Option<Colour> {
+        let reason = match paint.ink {
+            _ if paint.opacity <= 0.0 => "transparent",
+            Source::Ink(colour) => {
+                self.dropped.add("translucent paint (drawn solid)", usize::from(paint.opacity < 1.0));
+                return Some(colour);
+            }
+            Source::White => "white",
+            Source::Gradient { .. } => "gradient",
+            Source::Pattern => "pattern",
+        };
+        self.dropped.count(&format!("{reason} {what}"));
+        None
+    }
+
+    fn filled(&mut self, curve: &BezPath, rule: usvg::FillRule, paint: Paint, place: Place, clips: &[Region]) {
+        // A straight line is filled by default in SVG, with nothing.
+        if is_flat(curve) {
+            return;
+        }
+        let colour = self.ink(paint, "fill");
+        if colour.is_none() && !paint.hides() {
+            return;
+        }
+        let outline = if rule == usvg::FillRule::EvenOdd && has_crossings(curve) {
+            clipped_outline(&untangled(curve, Winding::EvenOdd, CLIP_TOLERANCE), clips)
+        } else {
+            clipped_outline(curve, clips)
+        };
+        if outline.is_empty() {
+            return;
+        }
+        let Some(colour) = colour else { return self.painting.push(Painted::White(outline)) };
+        let index = self.layer_for(place, colour);
+        let layer = &mut self.layers[index];
+        let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
+        layer.swells += usize::from(place.kind == Kind::Swells);
+        if place.kind == Kind::Dots {
+            // Very large drawings hold many dots in one path.
+            self.paint(index, subpaths(&outline).into_iter().map(|piece| Mark::Dot(dot(piece, own_colour))));
+        } else {
+            self.paint(index, [Mark::Area(Area { outline, colour: own_colour })]);
+        }
+    }
+
+    fn stroked(&mut self, path: &usvg::Path, stroke: &usvg::Stroke, paint: Paint, place: Place, clips: &[Region]) {
+        let colour = self.ink(paint, "stroke");
+        if colour.is_none() && !paint.hides() {
+            return;
+        }
+        let transform = to_mm(path.abs_transform());
+        let scale = transform.determinant().abs().sqrt();
+        let ends = if stroke.linecap() == usvg::LineCap::Butt { Ends::Flat } else { Ends::Round };
+        // A width that stays is in pixels of the whole drawing, and so are its dashes.
+        let is_fixed = self.outline.fixed_widths.contains(path.id());
+        let width = f64::from(stroke.width().get()) * if is_fixed { MM_PER_PX } else { scale };
+        let unit = if is_fixed { MM_PER_PX / scale.max(1e-12) } else { 1.0 };
+        let mut curve = transform * self.dashed(bez_path(path.data()), stroke, unit, ends);
+        for clip in clips {
+            curve = clip_curve(&curve, clip);
+        }
+        let strokes = subpaths(&curve).into_iter().map(|curve| Stroke { ends, ..Stroke::new(curve, Width::Constant(width)) });
+        let Some(colour) = colour else {
+            return self.painting.extend(strokes.map(|stroke| Painted::White(stroke.ink_outline(CLIP_TOLERANCE))));
+        };
+        let index = self.layer_for(place, colour);
+        let own_colour = (self.layers[index].layer.ink.colour() != colour).then_some(colour);
+        self.paint(index, strokes.map(|stroke| Mark::Stroke(Stroke { colour: own_colour, ..stroke })));
+    }
+
+    /// A curve's dashes, in its own units; `unit` is the length there of the pattern's.
+    fn dashed(&mut self, curve: BezPath, stroke: &usvg::Stroke, unit: f64, ends: Ends) -> BezPath {
+        let Some(pattern) = stroke.dasharray() else { return curve };
+        let period = unit * pattern.iter().map(|dash| f64::from(*dash)).sum::<f64>();
+        if crate::geometry::curve_length(&curve) > MOST_DASHES * period {
+            self.dropped.count("dash pattern too fine (its line is drawn whole)");
+            return curve;
+        }
+        // Dashes without length are dots where ends are round, and nothing where they are flat.
+        let least = 1e-5 * period;
+        let dashes: Vec<f64> = pattern.iter().map(|dash| (unit * f64::from(*dash)).max(least)).collect();
+        let mut dashed: BezPath = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * unit, &dashes).collect();
+        if ends == Ends::Flat && pattern.contains(&0.0) {
+            let long = subpaths(&dashed).into_iter().filter(|dash| crate::geometry::curve_length(dash) > 2.0 * least);
+            dashed = long.flat_map(std::iter::IntoIterator::into_iter).collect();
+        }
+        dashed
+    }
+
+    /// Adds marks to a layer and to the painting order.
+    fn paint(&mut self, layer: usize, marks: impl IntoIterator<Item = Mark>) {
+        for mark in marks {
+            self.painting.push(Painted::Mark { layer, mark: self.layers[layer].layer.marks.len() });
+            self.layers[layer].layer.marks.push(mark);
+        }
+    }
+
+    /// The layer of a mark: its labelled group, else that of its colour.
+    fn layer_for(&mut self, place: Place, colour: Colour) -> usize {
+        let index = if let Some(layer) = place.layer {
+            layer
+        } else {
+            let key = [colour.r, colour.g, colour.b];
+            if let Some(&index) = self.by_colour.get(&key) {
+                index
+            } else {
+                let index = self.layers.len();
+                self.layers.push(labelled(&Label { name: colour.to_string(), ..Label::default() }, index as u32 + 1));
+                self.by_colour.insert(key, index);
+                index
+            }
+        };
+        let layer = &mut self.layers[index];
+        if layer.layer.marks.is_empty() && colour != Colour::BLACK {
+            layer.layer.ink = Ink::Colour(colour);
+        }
+        index
+    }
+
+    /// Gives the layers that hold something and name no pen the lowest numbers that no label names, in order.
+    fn number_pens(&mut self) {
+        let named = |index: usize| self.outline.layers.get(index).and_then(|label| label.pen);
+        let taken: HashSet<u32> = (0..self.outline.layers.len()).filter_map(named).collect();
+        let mut free = (1..).filter(|pen| !taken.contains(pen));
+        for (index, layer) in self.layers.iter_mut().enumerate() {
+            if self.outline.layers.get(index).is_none_or(|label| label.pen.is_none()) && !layer.layer.marks.is_empty() {
+                layer.layer.pen = free.next().unwrap_or(layer.layer.pen);
+            }
+        }
+    }
+
+    /// Layers that hold something; those without a number of their own take the free ones in order.
+    pub fn finish(mut self) -> (Vec<ImportedLayer>, Vec<Painted>, Dropped) {
+        self.number_pens();
+        let mut held = 0;
+        let number: Vec<usize> = self
+            .layers
+            .iter()
+            .map(|layer| {
+                held += usize::from(!layer.layer.marks.is_empty());
+                held.saturating_sub(1)
+            })
+            .collect();
+        let renumbered = |painted| match painted {
+            Painted::Mark { layer, mark } => Painted::Mark { layer: number[layer], mark },
+            white @ Painted::White(_) => white,
+        };
+        let painting = self.painting.into_iter().map(renumbered).collect();
+        let layers = self.layers.into_iter().filter(|layer| !layer.layer.marks.is_empty());
+        (layers.collect(), painting, self.dropped)
+    }
+}
+
+fn labelled(label: &Label, number: u32) -> ImportedLayer {
+    let pen = label.pen.unwrap_or(number);
+    let name = if label.name.is_empty() { format!("layer {number}") } else { label.name.clone() };
+    let delay_seconds = label.delay.unwrap_or(0.0).clamp(0.0, 60_000.0) / 1000.0;
+    let handling = Handling { pauses: label.pauses, speed_percent: label.speed, delay_seconds };
+    let layer = Layer { name, pen, ink: Ink::Black, mixing: Mixing::Paint, handling, marks: Vec::new() };
+    ImportedLayer { layer, swells: 0 }
+}
