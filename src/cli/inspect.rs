@@ -6,7 +6,7 @@ use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
 use crate::plot::{
-    InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, Profile, Toolpath, built_in_names, lower, mount, report,
+    InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, PlotReport, Profile, Toolpath, built_in_names, lower, mount, report,
 };
 use crate::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl, read_svg};
 use serde_json::{Value, json};
@@ -137,15 +137,31 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
     let to_machine = Affine::scale(profile.units_per_mm);
     let mounting = Mounting::new(profile, to_machine, bounds);
     let size: Vec2 = mm(Point::new(bounds.x1, bounds.y1)) - mm(Point::new(bounds.x0, bounds.y0));
+    let drawn = motion.paths.iter().flat_map(|(_, path)| path).map(|p| Rect::from_points(mm(*p), mm(*p)));
+    let drawn = drawn.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
     json!({
         "format": format,
         "profile": profile.name,
         "bounds_units": [bounds.x0, bounds.y0, bounds.x1, bounds.y1],
         "moves_over_mm": [size.x, size.y],
+        "draws_over_mm": [drawn.width(), drawn.height()],
         "pauses": motion.pauses,
         "ends_with_pen_up": motion.ends_up,
-        "plot": report(&plot, Point::ORIGIN, Some((profile, &mounting)), None),
+        "plot": told(report(&plot, Point::ORIGIN, Some((profile, &mounting)), None)),
     })
+}
+
+/// A report without what a machine's file does not tell: nibs, and what was asked for before lowering and ordering.
+fn told(report: PlotReport) -> Value {
+    let mut value = json!(report);
+    let strip = |amounts: &mut Value| {
+        if let Some(map) = amounts.as_object_mut() {
+            map.retain(|key, _| !["nib_mm", "covered_fraction", "spill_fraction", "pen_up_mm_before"].contains(&key.as_str()));
+        }
+    };
+    value["pens"].as_array_mut().into_iter().flatten().for_each(strip);
+    strip(&mut value["total"]);
+    value
 }
 
 /// The report as indented lines.

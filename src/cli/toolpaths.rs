@@ -10,6 +10,7 @@ use crate::plot::{
     Seam, Sequence, Travel, add_registration, built_in, clip_to, let_dry, mount, pause_every, report, rest_touches,
 };
 use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
+use std::collections::BTreeSet;
 use std::io::Write;
 
 /// Plotting time above which the user is warned.
@@ -345,7 +346,9 @@ pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str
 /// Such as `2 h 14 min, 3 pens, 41.0 m of ink, 6.2 m of travel`.
 pub(super) fn summary(report: &PlotReport) -> String {
     let time = report.total.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();
-    let pens = if report.pens.len() == 1 { "1 pen".to_owned() } else { format!("{} pens", report.pens.len()) };
+    // A pen may come back for another part.
+    let numbers: BTreeSet<u32> = report.pens.iter().map(|pen| pen.pen).collect();
+    let pens = if numbers.len() == 1 { "1 pen".to_owned() } else { format!("{} pens", numbers.len()) };
     format!(
         "{time}{pens}, {} paths, {:.1} m of ink, {:.1} m of travel ({:.1} m before ordering)",
         report.total.paths,
