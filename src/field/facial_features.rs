@@ -1,9 +1,10 @@
 //! The eyebrows, eyes, nose and mouth as the dark places of a face (Wong 1999, chapter 5).
 //!
 //! ```text
-//!   lightness -> divided by the skin's, column by column -> the darkest places -> grown into clusters -> named by position
+//!   lightness -> divided by the skin's, column by column -> the darkest thin places -> grown into clusters -> named by position
 //! ```
 
+use super::dark_relief::dark_relief;
 use super::face::FaceFrame;
 use crate::geometry::Point;
 use crate::raster::{Raster, components, gaussian_blur};
@@ -54,6 +55,15 @@ impl FacialFeature {
     }
 }
 
+/// Where the skin's own tone is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SkinTone<'a> {
+    /// As the median skin by column.
+    Found,
+    /// Round these places, in working pixels; at least one.
+    Given(&'a [Point]),
+}
+
 /// What was found in a face.
 #[derive(Clone, Debug)]
 pub struct FacialFeatures {
@@ -79,25 +89,44 @@ const WINDOW_REACH: f64 = 1.25;
 /// A window's darkest place must be darker than skin by this share, else there is no feature in it.
 const LEAST_DEPTH: f32 = 0.06;
 
+/// Radius round a given skin point that is averaged, in distances of the eyes.
+const SKIN_RADIUS: f64 = 0.06;
+
 /// Finds the features of a face whose pattern lies at `frame`, inside `face` (0 to 1), in `lightness` (0 to 1).
-pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> FacialFeatures {
-    let skin = skin_by_column(lightness, face, frame);
+pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame, tone: SkinTone<'_>) -> FacialFeatures {
+    let skin = skin_tone(lightness, face, frame, tone);
     let fine = gaussian_blur(lightness, (0.02 * frame.eye_distance) as f32);
     let normalised = Raster::from_fn(fine.width(), fine.height(), |x, y| (fine.get(x, y) / skin[x].max(0.02)).min(2.0));
+    // Darker than skin and than what lies above and below: shadows and hair over the brow are no features.
+    let depth = normalised.zip_map(&dark_relief(lightness, frame.eye_distance).relief, f32::max);
     let windows = windows(frame, face);
-    let threshold = threshold(&normalised, &windows);
-    let dark = normalised.zip_map(face, |n, face| u8::from(face >= 0.5 && n < threshold));
+    let threshold = threshold(&depth, &windows);
+    let dark = depth.zip_map(face, |n, face| u8::from(face >= 0.5 && n < threshold));
     let within = dark.zip_map(&windows, |dark, window| dark & u8::from(window != 0));
     let (_, clusters) = components(&within);
-    let labels = named(&dark, &windows, &normalised, frame);
+    let labels = named(&dark, &windows, &depth, frame);
     let has = |i: usize| labels.pixels().iter().any(|label| usize::from(*label) == i + 1);
     let found = FacialFeature::ALL.into_iter().enumerate().filter(|(i, _)| has(*i)).map(|(_, feature)| feature).collect();
     FacialFeatures { labels, normalised, clusters, found }
 }
 
-/// The skin's lightness in each column: the medians round five places across the face, interpolated (section 5.1; the thesis has
-/// them pointed out by hand).
-fn skin_by_column(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> Vec<f32> {
+/// The skin's lightness in each column, interpolated between places across the face (section 5.1): those pointed out by hand, as in the
+/// thesis, or the medians round five columns.
+pub(super) fn skin_tone(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame, tone: SkinTone<'_>) -> Vec<f32> {
+    let places = match tone {
+        SkinTone::Found => skin_columns(lightness, face, frame),
+        SkinTone::Given(points) => {
+            let soft = gaussian_blur(lightness, (SKIN_RADIUS * frame.eye_distance) as f32);
+            let mut places: Vec<(f64, f32)> = points.iter().map(|p| (p.x, soft.sample(p.x, p.y))).collect();
+            places.sort_by(|a, b| a.0.total_cmp(&b.0));
+            places
+        }
+    };
+    (0..lightness.width()).map(|x| interpolated(&places, x as f64 + 0.5)).collect()
+}
+
+/// The median skin of five columns of a face: where, and how light.
+fn skin_columns(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> Vec<(f64, f32)> {
     let place = |i: usize| -0.95 + 1.9 * (i as f64 + 0.5) / SKIN_POINTS as f64;
     let half = 0.95 / SKIN_POINTS as f64;
     let mut columns: Vec<(f64, Vec<f32>)> = (0..SKIN_POINTS).map(|i| (frame.place(place(i), 0.4).x, Vec::new())).collect();
@@ -112,7 +141,7 @@ fn skin_by_column(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame
             }
         }
     }
-    let medians: Vec<(f64, f32)> = columns
+    columns
         .into_iter()
         .filter(|(_, values)| !values.is_empty())
         .map(|(x, mut values)| {
@@ -120,8 +149,7 @@ fn skin_by_column(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame
             // A little above the median, since features darken their columns.
             (x, values[values.len() * 3 / 5])
         })
-        .collect();
-    (0..lightness.width()).map(|x| interpolated(&medians, x as f64 + 0.5)).collect()
+        .collect()
 }
 
 fn interpolated(points: &[(f64, f32)], x: f64) -> f32 {
@@ -152,22 +180,21 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
     })
 }
 
-/// The normalised lightness below which the wanted share of the windows lies.
-fn threshold(normalised: &Raster<f32>, windows: &Raster<u8>) -> f32 {
-    let mut values: Vec<f32> =
-        normalised.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w != 0).map(|(n, _)| *n).collect();
+/// The depth below which the wanted share of the windows lies.
+fn threshold(depth: &Raster<f32>, windows: &Raster<u8>) -> f32 {
+    let mut values: Vec<f32> = depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w != 0).map(|(n, _)| *n).collect();
     values.sort_by(f32::total_cmp);
     values.get((DARK_SHARE * values.len() as f64) as usize).copied().unwrap_or(0.0).min(1.0 - LEAST_DEPTH)
 }
 
 /// Clusters by name: in each window the largest one, joined by the smaller ones near it (the thesis's reclustering).
-fn named(dark: &Raster<u8>, windows: &Raster<u8>, normalised: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
+fn named(dark: &Raster<u8>, windows: &Raster<u8>, depth: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
     let least = LEAST_CLUSTER * frame.eye_distance.powi(2);
     let mut labels = dark.map(|_| 0_u8);
     for name in 1..=6_u8 {
         let mut part = dark.zip_map(windows, |d, w| u8::from(d != 0 && w == name));
         if part.pixels().iter().map(|v| f64::from(*v)).sum::<f64>() < least {
-            part = darkest_of(normalised, windows, name);
+            part = darkest_of(depth, windows, name);
         }
         let (clusters, count) = components(&part);
         let mut sizes = vec![0_u32; count + 1];
@@ -200,13 +227,13 @@ fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) ->
 }
 
 /// Where the common threshold finds nothing: the darkest seventh of the window, if it is darker than the rest of it.
-fn darkest_of(normalised: &Raster<f32>, windows: &Raster<u8>, name: u8) -> Raster<u8> {
+fn darkest_of(depth: &Raster<f32>, windows: &Raster<u8>, name: u8) -> Raster<u8> {
     let mut values: Vec<f32> =
-        normalised.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w == name).map(|(n, _)| *n).collect();
+        depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w == name).map(|(n, _)| *n).collect();
     values.sort_by(f32::total_cmp);
     let (Some(&least), middle) = (values.get(values.len() / 7), values.get(values.len() / 2)) else {
         return windows.map(|_| 0);
     };
     let is_deep = middle.is_some_and(|middle| middle - least > 0.5 * LEAST_DEPTH);
-    normalised.zip_map(windows, |n, w| u8::from(is_deep && w == name && n <= least))
+    depth.zip_map(windows, |n, w| u8::from(is_deep && w == name && n <= least))
 }

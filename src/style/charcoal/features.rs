@@ -2,9 +2,10 @@
 
 use super::Drawer;
 use super::regions::Regions;
-use super::shading::Patch;
+use super::shading::{Patch, Pressing};
 use crate::drawing::Mark;
-use crate::field::{FaceFrame, FacialFeature, FacialFeatures, facial_features, histogram_modes};
+use crate::field::{FaceFrame, FacialFeature, FacialFeatures, SkinTone, facial_features, histogram_modes};
+use crate::geometry::Point;
 use crate::raster::{Raster, dilate, gaussian_blur, without_holes};
 use crate::style::Picture;
 use std::f64::consts::PI;
@@ -27,6 +28,10 @@ const FEATURE_ORIENT: f64 = -35.0;
 const EYEBROW_ORIENT: f64 = -58.0;
 /// Eyebrows are shaded this much wider (6.3.4).
 const EYEBROW_SPACING: f64 = 1.7;
+/// Width of a stroke in distances of the eyes: an eighth of an eye's opening.
+const FEATURE_WIDTH: f64 = 0.018;
+/// Tone of the darkest lashes against skin's when a face has nothing darker: pale features stay pale.
+const DARKEST: f64 = 0.55;
 
 impl Drawer<'_> {
     pub(super) fn features(&self, regions: &Regions) -> Features {
@@ -34,7 +39,11 @@ impl Drawer<'_> {
         let nothing = || regions.face.map(|_| 0.0);
         let none = || Features { found: None, drawn: nothing(), eyes: nothing() };
         let Some(frame) = regions.frame.filter(|_| self.parameters.has_features) else { return none() };
-        let found = facial_features(&self.portrait.lightness, &regions.face, &frame);
+        let (width, height) = self.size();
+        let skin: Vec<Point> =
+            self.parameters.skin.shares().map(|(across, down)| Point::new(across * width as f64, down * height as f64)).collect();
+        let tone = if skin.is_empty() { SkinTone::Found } else { SkinTone::Given(&skin) };
+        let found = facial_features(&self.portrait.lightness, &regions.face, &frame, tone);
         self.observer
             .picture("normalised", &|| Picture::Grey(found.normalised.zip_map(&regions.face, |n, f| 1.0 - f + f * n.min(1.0))));
         self.observer.picture("features", &|| Picture::Labels(found.labels.map(i32::from)));
@@ -57,25 +66,26 @@ impl Drawer<'_> {
     /// Each feature's tones by scale-space filtering, each shaded by hand; eyebrows in one tone.
     pub(super) fn draw_features(&self, features: &Features) -> Vec<Mark> {
         let Some((found, frame)) = &features.found else { return Vec::new() };
+        let darkest = darkest_tone(found);
         let mut marks = Vec::new();
         for (i, feature) in FacialFeature::ALL.iter().enumerate().filter(|(_, feature)| found.found.contains(feature)) {
             let inside = found.labels.map(|label| u8::from(usize::from(label) == i + 1));
             let patches = match feature {
                 FacialFeature::LeftEyebrow => vec![self.eyebrow(&inside, EYEBROW_ORIENT, frame)],
                 FacialFeature::RightEyebrow => vec![self.eyebrow(&inside, -180.0 - EYEBROW_ORIENT, frame)],
-                _ => self.tones_of(&inside, found, frame),
+                _ => self.tones_of(&inside, found, frame, darkest),
             };
             for (level, patch) in patches.iter().enumerate() {
-                marks.extend(self.shade_patch(patch, "features", (i * 16 + level) as u64));
+                marks.extend(self.shade_patch(patch, "features", (i * 16 + level) as u64, |_| 1.0));
             }
         }
         marks
     }
 
-    /// The stroke's width in a face: a hand takes the stick's edge for small faces.
+    /// The stroke's width in a face: a hand takes the stick's edge, so that an eye's lids and pupil keep their shapes.
     fn feature_width(&self, frame: &FaceFrame) -> f64 {
         let eye_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
-        self.parameters.stroke_width_mm.min(0.035 * eye_mm).max(0.3 * self.parameters.stroke_width_mm)
+        self.parameters.stroke_width_mm.min(FEATURE_WIDTH * eye_mm).max(0.3 * self.parameters.stroke_width_mm)
     }
 
     fn eyebrow(&self, inside: &Raster<u8>, degrees: f64, frame: &FaceFrame) -> Patch {
@@ -86,12 +96,14 @@ impl Drawer<'_> {
             spacing_mm: EYEBROW_SPACING * width,
             length_mm: 0.45 * frame.eye_distance * self.portrait.placement.mm_per_pixel(),
             orientation: degrees * PI / 180.0 + frame.tilt,
-            pressure: 0.9,
+            pressure: 0.8,
+            inset_mm: 0.0,
+            pressing: Pressing::Filling,
         }
     }
 
     /// One patch for each tone darker than skin: what is at least as dark, closer and firmer the darker it is.
-    fn tones_of(&self, inside: &Raster<u8>, found: &FacialFeatures, frame: &FaceFrame) -> Vec<Patch> {
+    fn tones_of(&self, inside: &Raster<u8>, found: &FacialFeatures, frame: &FaceFrame, darkest: f64) -> Vec<Patch> {
         let mut histogram = vec![0_u32; BINS];
         let bin = |n: f32| ((n * BINS as f32 / 1.25) as usize).min(BINS - 1);
         for (n, _) in found.normalised.pixels().iter().zip(inside.pixels()).filter(|(_, i)| **i != 0) {
@@ -103,24 +115,33 @@ impl Drawer<'_> {
         let width = self.feature_width(frame);
         let size_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
         let limits: Vec<f64> = modes.windows(2).map(|pair| 0.5 * (pair[0].at + pair[1].at)).chain([BINS as f64]).collect();
-        let darkest = modes.first().map_or(0.5, |mode| tone(mode.at)).min(0.85);
         modes
             .iter()
             .zip(limits)
             .rev()
             .map(|(mode, limit)| {
                 let region = found.normalised.zip_map(inside, |n, i| f32::from(u8::from(i != 0 && (bin(n) as f64) < limit)));
-                // 1 for the darkest tone of the feature, 0 for skin.
+                // 1 for the darkest tone of the face's features, 0 for skin.
                 let depth = ((1.0 - tone(mode.at)) / (1.0 - darkest)).clamp(0.1, 1.0);
                 Patch {
                     region: gaussian_blur(&region, 0.7),
                     width_mm: width,
-                    spacing_mm: width * (0.75 + 1.6 * (1.0 - depth)),
+                    spacing_mm: width * (0.8 + 2.2 * (1.0 - depth)),
                     length_mm: 0.7 * size_mm,
                     orientation: FEATURE_ORIENT * PI / 180.0 + frame.tilt,
-                    pressure: 0.4 + 0.6 * depth,
+                    pressure: 0.25 + 0.75 * depth,
+                    inset_mm: 0.0,
+                    pressing: Pressing::Filling,
                 }
             })
             .collect()
     }
+}
+
+/// The tone, against skin's, that a fiftieth of the features stays below.
+fn darkest_tone(found: &FacialFeatures) -> f64 {
+    let mut tones: Vec<f32> =
+        found.normalised.pixels().iter().zip(found.labels.pixels()).filter(|(_, label)| **label != 0).map(|(n, _)| *n).collect();
+    tones.sort_by(f32::total_cmp);
+    tones.get(tones.len() / 50).map_or(DARKEST, |tone| f64::from(*tone).min(DARKEST))
 }
