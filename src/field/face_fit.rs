@@ -11,15 +11,21 @@ use crate::raster::{Raster, components};
 
 /// Shares of the face that are taken as dark; each gives its own clusters, since one threshold joins brows to eyes and another loses
 /// brows.
-const DARK_SHARES: [f64; 3] = [0.1, 0.14, 0.18];
+const DARK_SHARES: [f64; 8] = [0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.22];
 /// Relief above which nothing is dark.
 const FAINTEST: f32 = 0.94;
 /// Least area of a cluster in squared distances of the eyes.
 const LEAST_AREA: f64 = 0.004;
-/// Where the other features lie and how far off they may be, in distances of the eyes (down: stretched), and their weights. Proportions
-/// of the drawing schools: the mouth a little more than an eye distance down, the nose between.
-const OTHERS: [[f64; 5]; 4] =
-    [[-0.5, -0.33, 0.16, 0.1, 0.6], [0.5, -0.33, 0.16, 0.1, 0.6], [0.0, 0.62, 0.14, 0.14, 0.7], [0.0, 1.06, 0.14, 0.16, 1.0]];
+/// Where the other features lie, how far off they may be, how wide they are, in distances of the eyes (down: stretched), and their
+/// weights. Proportions of the drawing schools: the mouth a little more than an eye distance down and wider than the nose between.
+const OTHERS: [[f64; 6]; 4] = [
+    [-0.5, -0.33, 0.16, 0.1, 0.6, 0.6],
+    [0.5, -0.33, 0.16, 0.1, 0.6, 0.6],
+    [0.0, 0.62, 0.14, 0.14, 0.4, 0.7],
+    [0.0, 1.06, 0.14, 0.16, 0.7, 1.0],
+];
+/// Tolerance of a feature's width, as a logarithm: without it a smile passes for the nose of a longer face.
+const WIDTH_TOLERANCE: f64 = 0.5;
 const EYES_WEIGHT: f64 = 1.2;
 /// Greatest width and height of an eye with its lids and shadow.
 const LARGEST_EYE: (f64, f64) = (0.75, 0.5);
@@ -29,7 +35,7 @@ const DARK_ENOUGH: f64 = 0.02;
 const STEEPEST: f64 = 0.25;
 const SIZES: (f64, f64) = (0.7, 1.4);
 const TOLERANCES: (f64, f64, f64) = (0.12, 0.2, 0.2);
-/// Costs of a surprising frame, of unlike eyes and of another stretch.
+/// Costs of a surprising frame, of unlike eyes and of a stretch that is not the first one or is unusual.
 const COSTS: (f64, f64, f64) = (0.15, 0.15, 0.3);
 /// Total below which the first frame is kept: both eyes alone give 2.4.
 const LEAST_TOTAL: f64 = 1.2;
@@ -105,7 +111,7 @@ fn best_frame(first: &FaceFrame, clusters: &[Cluster]) -> Option<(f64, FaceFrame
             for stretch in STRETCHES {
                 let frame = FaceFrame { stretch, ..frame };
                 let others = clusters.iter().enumerate().filter(|(j, _)| *j != i && *j != k).map(|(_, cluster)| *cluster);
-                let total = eyes - COSTS.2 * (stretch - first.stretch).abs() + likeness(&frame, others);
+                let total = eyes - COSTS.2 * ((stretch - first.stretch).abs() + (stretch - 1.0).abs()) + likeness(&frame, others);
                 if best.is_none_or(|(most, _)| total > most) {
                     best = Some((total, frame));
                 }
@@ -137,8 +143,9 @@ fn likeness(frame: &FaceFrame, clusters: impl Iterator<Item = Cluster>) -> f64 {
     let mut most = [0.0_f64; OTHERS.len()];
     for cluster in clusters {
         let (across, down) = frame.relative(cluster.middle);
-        for (most, [x, y, reach_x, reach_y, _]) in most.iter_mut().zip(OTHERS) {
-            let off = ((across - x) / reach_x).powi(2) + ((down - y) / reach_y).powi(2);
+        for (most, [x, y, reach_x, reach_y, width, _]) in most.iter_mut().zip(OTHERS) {
+            let size = (cluster.size.0.max(0.05) / width).ln() / WIDTH_TOLERANCE;
+            let off = ((across - x) / reach_x).powi(2) + ((down - y) / reach_y).powi(2) + size * size;
             *most = most.max(weight(&cluster) * (-0.5 * off).exp());
         }
     }

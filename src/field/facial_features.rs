@@ -79,7 +79,7 @@ pub struct FacialFeatures {
 
 /// The share of the features' windows that is taken as dark: half of the brows' and eyes', less of nose and mouth. With less,
 /// light brows go missing; with more, cheeks join the mouth.
-const DARK_SHARE: f64 = 0.27;
+const DARK_SHARE: f64 = 0.22;
 /// Columns of skin between which the light is interpolated (section 5.1).
 const SKIN_POINTS: usize = 5;
 /// A cluster smaller than this, in squared eye distances, is a speck: its pixels go to the nearest large cluster.
@@ -89,6 +89,8 @@ const WINDOW_REACH: f64 = 1.25;
 /// A window's darkest place must be darker than skin by this share, else there is no feature in it.
 const LEAST_DEPTH: f32 = 0.06;
 
+/// Share of the largest cluster's pixels, counted by how near to the window's middle they are, from which another one belongs to it.
+const JOINED: f64 = 0.15;
 /// Radius round a given skin point that is averaged, in distances of the eyes.
 const SKIN_RADIUS: f64 = 0.06;
 
@@ -205,7 +207,7 @@ fn named(dark: &Raster<u8>, windows: &Raster<u8>, depth: &Raster<f32>, frame: &F
             continue;
         }
         for (label, (&cluster, &inside)) in labels.pixels_mut().iter_mut().zip(clusters.pixels().iter().zip(part.pixels())) {
-            let is_near = cluster as usize == main || f64::from(sizes[cluster as usize]) > 0.15 * f64::from(sizes[main]);
+            let is_near = cluster as usize == main || weights[cluster as usize] > JOINED * weights[main];
             if inside != 0 && is_near {
                 *label = name;
             }

@@ -8,8 +8,11 @@ use crate::raster::{Raster, components, dilate, remove_components};
 
 /// Lightness against the skin's below which a place may be hair: blond hair has 0.6, a cheek turned from a 2:1 light 0.85.
 const HAIR_TONE: f32 = 0.8;
-/// Between brows, temples and chin nothing is taken for hair: what is dark there is a shadow or a feature (distances of the eyes).
-const CORE: [f64; 3] = [0.8, -0.42, 1.4];
+/// Inside an oval from the brows to the chin nothing is taken for hair, since what is dark there is a shadow or a feature: half its
+/// breadth, its middle and half its height, in distances of the eyes.
+const CORE: [f64; 3] = [0.95, 0.5, 0.97];
+/// Gaps of the hair that are closed, half their breadth in distances of the eyes: a lit crown is as light as skin.
+const GAP: f64 = 0.2;
 /// Where the crown begins, and the zone round a head that is looked at.
 const CROWN: f64 = -0.75;
 const ZONE: [f64; 3] = [2.2, -2.4, 1.5];
@@ -23,13 +26,14 @@ pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &Fa
     let relative = |x: usize, y: usize| frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let within =
         |[breadth, top, bottom]: [f64; 3], (across, down): (f64, f64)| across.abs() < breadth && (top..bottom).contains(&down);
+    let is_core = |(across, down): (f64, f64)| (across / CORE[0]).hypot((down - CORE[1]) / CORE[2]) < 1.0;
     let (width, height) = (lightness.width(), lightness.height());
     let cheeks = Raster::from_fn(width, height, |x, y| f32::from(u8::from(within(CHEEKS, relative(x, y)))));
     let skin = skin_tone(lightness, &cheeks, frame, SkinTone::Found);
     let filled = dark_relief(lightness, frame.eye_distance).filled;
     let dark = Raster::from_fn(width, height, |x, y| {
         let place = relative(x, y);
-        let is_free = within(ZONE, place) && !within(CORE, place) && subject.get(x, y) >= 0.5;
+        let is_free = within(ZONE, place) && !is_core(place) && subject.get(x, y) >= 0.5;
         u8::from(is_free && filled.get(x, y) < HAIR_TONE * skin[x])
     });
     let (labels, count) = components(&dark);
@@ -40,7 +44,9 @@ pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &Fa
         }
     }
     let hair = remove_components(&dark, &labels, |label| crowned[label as usize]);
-    dilate(&hair, (BORDER * frame.eye_distance).round() as usize)
+    let pixels = |share: f64| (share * frame.eye_distance).round() as usize;
+    let grown = dilate(&hair, pixels(GAP + BORDER)).map(|hair| 1 - hair);
+    dilate(&grown, pixels(GAP)).map(|free| 1 - free)
 }
 
 #[cfg(test)]

@@ -28,10 +28,13 @@ const FEATURE_ORIENT: f64 = -35.0;
 const EYEBROW_ORIENT: f64 = -58.0;
 /// Eyebrows are shaded this much wider (6.3.4).
 const EYEBROW_SPACING: f64 = 1.7;
-/// Width of a stroke in distances of the eyes: an eighth of an eye's opening.
-const FEATURE_WIDTH: f64 = 0.018;
+/// Width of a stroke in distances of the eyes: a fifteenth of an eye's opening.
+const FEATURE_WIDTH: f64 = 0.01;
 /// Tone of the darkest lashes against skin's when a face has nothing darker: pale features stay pale.
 const DARKEST: f64 = 0.55;
+/// The least share of the pressure in a feature, and the tone against skin's from which it is left to the smudge.
+const FAINTEST: f64 = 0.08;
+const PALEST: f64 = 0.9;
 
 impl Drawer<'_> {
     pub(super) fn features(&self, regions: &Regions) -> Features {
@@ -75,8 +78,10 @@ impl Drawer<'_> {
                 FacialFeature::RightEyebrow => vec![self.eyebrow(&inside, -180.0 - EYEBROW_ORIENT, frame)],
                 _ => self.tones_of(&inside, found, frame, darkest),
             };
+            // Firmer where it is darker, so that lids, pupils and the parting of the lips keep their shapes.
+            let press = |p: Point| ((1.0 - f64::from(found.normalised.sample(p.x, p.y))) / (1.0 - darkest)).clamp(FAINTEST, 1.0);
             for (level, patch) in patches.iter().enumerate() {
-                marks.extend(self.shade_patch(patch, "features", (i * 16 + level) as u64, |_| 1.0));
+                marks.extend(self.shade_patch(patch, "features", (i * 16 + level) as u64, press));
             }
         }
         marks
@@ -114,7 +119,8 @@ impl Drawer<'_> {
         let tone = |at: f64| at * 1.25 / BINS as f64;
         let width = self.feature_width(frame);
         let size_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
-        let limits: Vec<f64> = modes.windows(2).map(|pair| 0.5 * (pair[0].at + pair[1].at)).chain([BINS as f64]).collect();
+        let limits: Vec<f64> =
+            modes.windows(2).map(|pair| 0.5 * (pair[0].at + pair[1].at)).chain([PALEST * BINS as f64 / 1.25]).collect();
         modes
             .iter()
             .zip(limits)
@@ -126,10 +132,10 @@ impl Drawer<'_> {
                 Patch {
                     region: gaussian_blur(&region, 0.7),
                     width_mm: width,
-                    spacing_mm: width * (0.8 + 2.2 * (1.0 - depth)),
+                    spacing_mm: width * (0.85 + 1.2 * (1.0 - depth)),
                     length_mm: 0.7 * size_mm,
                     orientation: FEATURE_ORIENT * PI / 180.0 + frame.tilt,
-                    pressure: 0.25 + 0.75 * depth,
+                    pressure: 1.0,
                     inset_mm: 0.0,
                     pressing: Pressing::Filling,
                 }

@@ -19,7 +19,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "grain",
-        kind: Kind::Length { default: Default::Pitches(0.7), least: 0.1, most: 50.0 },
+        kind: Kind::Length { default: Default::Pitches(0.5), least: 0.1, most: 50.0 },
         meaning: "distance from one grain of the smudged tone to the next",
         source: "Wong 6.3.1, the paper's texture",
     },

@@ -4,7 +4,7 @@ use super::Drawer;
 use super::skin::may_be_skin;
 use crate::field::{FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
-use crate::raster::{Raster, components, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
+use crate::raster::{Raster, components, dilate, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
 use crate::source::MaskRole;
 use crate::style::Picture;
 
@@ -42,6 +42,8 @@ const CLEAR_CONTRAST: f32 = 0.3;
 /// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
 const LOWEST_FRINGE: f64 = 0.75;
 const CROWN: f64 = -0.85;
+/// Half the breadth of a gap in the crown that is closed: a lit parting is as light as skin.
+const CLOSED: f64 = 0.3;
 
 impl Drawer<'_> {
     pub(super) fn regions(&self) -> Regions {
@@ -179,7 +181,13 @@ impl Drawer<'_> {
             u8::from(zone && (hangs || is_crown || (!is_face && is_hair && contrast >= CLEAR_CONTRAST)))
         });
         let near = face.map_or(near.clone(), |face| near.zip_map(face, |n, face| if face >= 0.5 { 0 } else { n }));
-        let whole = without_holes(&largest(&majority(&near, 2), 0.2));
+        let gap = (CLOSED * frame.eye_distance).round() as usize;
+        let closed = dilate(&dilate(&majority(&near, 2), gap).map(|v| 1 - v), gap).map(|v| 1 - v);
+        let closed = Raster::from_fn(width, height, |x, y| {
+            let down = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5)).1;
+            if down < CROWN && subject.get(x, y) >= 0.5 { closed.get(x, y) } else { near.get(x, y) }
+        });
+        let whole = without_holes(&largest(&majority(&closed, 2), 0.2));
         let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
         (area > 0.3 * frame.eye_distance.powi(2)).then(|| gaussian_blur(&whole.map(f32::from), 1.0))
     }

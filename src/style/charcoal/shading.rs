@@ -36,7 +36,7 @@ pub(super) enum Pressing {
 }
 
 /// Neighbouring swaths overlap by this share of an arc, as a hand's do.
-const SWATH_OVERLAP: f64 = 0.12;
+const SWATH_OVERLAP: f64 = 0.2;
 /// Arcs that a hand draws before it is set down anew, a little to the side, and how far aside, along and askew (shares of an arc's
 /// length, radians). Without it the turns of all chains stand in rows, and the background is one wave repeated.
 const ARCS_A_GROUP: std::ops::Range<usize> = 7..24;
@@ -68,7 +68,7 @@ impl Drawer<'_> {
             width_mm: patch.width_mm,
             pressure: patch.pressure,
             taper: if is_hatching { TURN } else { 0.06 },
-            node_mm: (0.08 * patch.length_mm).clamp(0.6 * patch.width_mm, 1.2 * self.parameters.pitch_mm),
+            node_mm: if is_hatching { 1.2 * self.parameters.pitch_mm } else { 1.5 * patch.width_mm },
         };
         let region = inset(&patch.region, self.pixels(patch.inset_mm));
         let least = LEAST_WIDTHS * self.pixels(patch.width_mm);
