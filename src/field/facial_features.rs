@@ -7,7 +7,7 @@
 use super::dark_relief::dark_relief;
 use super::face::FaceFrame;
 use crate::geometry::Point;
-use crate::raster::{Raster, components, gaussian_blur};
+use crate::raster::{Raster, components, dilate, gaussian_blur};
 
 /// A feature's name; left and right are the picture's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -90,7 +90,9 @@ const WINDOW_REACH: f64 = 1.25;
 const LEAST_DEPTH: f32 = 0.06;
 
 /// Share of the largest cluster's pixels, counted by how near to the window's middle they are, from which another one belongs to it.
-const JOINED: f64 = 0.15;
+const JOINED: f64 = 0.3;
+/// Breadth of the face's border in which no brow lies, in distances of the eyes.
+const RIM: f64 = 0.08;
 /// Radius round a given skin point that is averaged, in distances of the eyes.
 const SKIN_RADIUS: f64 = 0.06;
 
@@ -168,6 +170,7 @@ fn interpolated(points: &[(f64, f32)], x: f64) -> f32 {
 
 /// For each pixel of the face the feature in whose window it lies: its place plus 1, the nearest where windows overlap.
 fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
+    let rim = dilate(&face.map(|face| u8::from(face < 0.5)), (RIM * frame.eye_distance).round() as usize);
     Raster::from_fn(face.width(), face.height(), |x, y| {
         if face.get(x, y) < 0.5 {
             return 0;
@@ -178,7 +181,9 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
             ((across - cx) / hx).hypot((down - cy) / hy)
         };
         let nearest = (0..6).min_by(|a, b| off(FacialFeature::ALL[*a]).total_cmp(&off(FacialFeature::ALL[*b])));
-        nearest.filter(|i| off(FacialFeature::ALL[*i]) <= WINDOW_REACH).map_or(0, |i| i as u8 + 1)
+        // What is dark at the face's upper border is hair that comes down to it, not a brow.
+        let is_hairline = |i: usize| i < 2 && rim.get(x, y) != 0;
+        nearest.filter(|i| off(FacialFeature::ALL[*i]) <= WINDOW_REACH && !is_hairline(*i)).map_or(0, |i| i as u8 + 1)
     })
 }
 
@@ -223,7 +228,7 @@ fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) ->
     for (i, cluster) in clusters.pixels().iter().enumerate().filter(|(_, cluster)| **cluster != 0) {
         let p = Point::new((i % clusters.width()) as f64 + 0.5, (i / clusters.width()) as f64 + 0.5);
         let (across, down) = frame.relative(p);
-        weights[*cluster as usize] += (-0.5 * (((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
+        weights[*cluster as usize] += (-(((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
     }
     weights
 }

@@ -6,7 +6,7 @@ use super::shading::{Patch, Pressing};
 use crate::drawing::Mark;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, SkinTone, facial_features, histogram_modes};
 use crate::geometry::Point;
-use crate::raster::{Raster, dilate, gaussian_blur, without_holes};
+use crate::raster::{Raster, gaussian_blur, without_holes};
 use crate::style::Picture;
 use std::f64::consts::PI;
 
@@ -26,12 +26,17 @@ const LEAST_SHARE: f64 = 0.06;
 /// Direction of the strokes in eyes, nose and mouth, in degrees, and in the left eyebrow; the right one's is opposed (6.3.4).
 const FEATURE_ORIENT: f64 = -35.0;
 const EYEBROW_ORIENT: f64 = -58.0;
+/// Tone against skin's above which a place in an eye is its white or its light.
+const EYE_LIGHT: f32 = 0.9;
 /// Eyebrows are shaded this much wider (6.3.4).
 const EYEBROW_SPACING: f64 = 1.7;
 /// Width of a stroke in distances of the eyes: a fifteenth of an eye's opening.
 const FEATURE_WIDTH: f64 = 0.01;
 /// Tone of the darkest lashes against skin's when a face has nothing darker: pale features stay pale.
 const DARKEST: f64 = 0.55;
+/// Depth, as a share of that of the darkest lashes, from which a feature's dark core is closed up, and how far its strokes are turned.
+const ACCENT: f64 = 0.68;
+const ACCENT_TURN: f64 = 0.4;
 /// The least share of the pressure in a feature, and the tone against skin's from which it is left to the smudge.
 const FAINTEST: f64 = 0.08;
 const PALEST: f64 = 0.9;
@@ -52,8 +57,9 @@ impl Drawer<'_> {
         self.observer.picture("features", &|| Picture::Labels(found.labels.map(i32::from)));
         self.warn_of_missing(&found);
         let of = |wanted: &[u8]| found.labels.map(|label| u8::from(wanted.contains(&label)));
-        let margin = (0.03 * frame.eye_distance).round() as usize;
-        let eyes = without_holes(&dilate(&of(&[3, 4]), margin)).map(f32::from);
+        // Only the lights: round the lids of dark skin a white rim would look like goggles.
+        let eyes =
+            without_holes(&of(&[3, 4])).zip_map(&found.normalised, |eye, n| f32::from(u8::from(eye != 0 && n > EYE_LIGHT)));
         let drawn = of(&[1, 2, 3, 4, 5, 6]).map(f32::from);
         Features { eyes, drawn, found: Some((found, frame)) }
     }
@@ -76,7 +82,11 @@ impl Drawer<'_> {
             let patches = match feature {
                 FacialFeature::LeftEyebrow => vec![self.eyebrow(&inside, EYEBROW_ORIENT, frame)],
                 FacialFeature::RightEyebrow => vec![self.eyebrow(&inside, -180.0 - EYEBROW_ORIENT, frame)],
-                _ => self.tones_of(&inside, found, frame, darkest),
+                _ => {
+                    let mut patches = self.tones_of(&inside, found, frame, darkest);
+                    patches.push(self.accent(&inside, found, frame, darkest));
+                    patches
+                }
             };
             // Firmer where it is darker, so that lids, pupils and the parting of the lips keep their shapes.
             let press = |p: Point| ((1.0 - f64::from(found.normalised.sample(p.x, p.y))) / (1.0 - darkest)).clamp(FAINTEST, 1.0);
@@ -90,7 +100,7 @@ impl Drawer<'_> {
     /// The stroke's width in a face: a hand takes the stick's edge, so that an eye's lids and pupil keep their shapes.
     fn feature_width(&self, frame: &FaceFrame) -> f64 {
         let eye_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
-        self.parameters.stroke_width_mm.min(FEATURE_WIDTH * eye_mm).max(0.3 * self.parameters.stroke_width_mm)
+        self.parameters.stroke_width_mm.min(FEATURE_WIDTH * eye_mm).max(0.2 * self.parameters.stroke_width_mm)
     }
 
     fn eyebrow(&self, inside: &Raster<u8>, degrees: f64, frame: &FaceFrame) -> Patch {
@@ -102,6 +112,23 @@ impl Drawer<'_> {
             length_mm: 0.45 * frame.eye_distance * self.portrait.placement.mm_per_pixel(),
             orientation: degrees * PI / 180.0 + frame.tilt,
             pressure: 0.8,
+            inset_mm: 0.0,
+            pressing: Pressing::Filling,
+        }
+    }
+
+    /// Pupils, nostrils and the parting of the lips: closed up across the other strokes.
+    fn accent(&self, inside: &Raster<u8>, found: &FacialFeatures, frame: &FaceFrame, darkest: f64) -> Patch {
+        let limit = (1.0 - ACCENT * (1.0 - darkest)) as f32;
+        let region = found.normalised.zip_map(inside, |n, i| f32::from(u8::from(i != 0 && n < limit)));
+        let width = self.feature_width(frame);
+        Patch {
+            region: gaussian_blur(&region, 0.7),
+            width_mm: width,
+            spacing_mm: 0.7 * width,
+            length_mm: 0.5 * frame.eye_distance * self.portrait.placement.mm_per_pixel(),
+            orientation: FEATURE_ORIENT * PI / 180.0 + ACCENT_TURN + frame.tilt,
+            pressure: 1.0,
             inset_mm: 0.0,
             pressing: Pressing::Filling,
         }
