@@ -8,6 +8,8 @@
 //!          ---          mouth     1.05
 //! ```
 
+use super::dark_relief::dark_relief;
+use super::face_fit::fitted;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
 use rayon::prelude::*;
@@ -51,16 +53,22 @@ const LIGHT: [(f64, f64, f64); 10] = [
     (-0.45, 0.85, 0.08),
     (0.45, 0.85, 0.08),
 ];
-/// Limits of the light against its surroundings': a black cap is no darker than a brow, a white strap no lighter than a cheek.
-const RELIEF: (f32, f32) = (0.7, 1.05);
+/// The least relief that counts: a black cap's edge is no darker than a brow.
+const LEAST_RELIEF: f32 = 0.55;
+/// What a face loses for light places of unequal tone, as logarithms, up to a limit. Tuned on the busts and portraits in even light and
+/// with the light falling to half: without it hair over the brow passes for a forehead; with twice as much the lit side of a face does
+/// not agree with the dark one.
+const UNEVEN: f64 = 0.3;
+const UNEVEN_LIMIT: f64 = 0.5;
 /// Shares of the light places that must be skin, for a score of 0 and for the full score.
 const SKIN_SHARE: (f64, f64) = (0.45, 0.85);
 const STRETCHES: [f64; 5] = [0.8, 0.9, 1.0, 1.1, 1.2];
 const TILTS: [f64; 5] = [-0.12, -0.06, 0.0, 0.06, 0.12];
 /// What a face loses that is one of its expectation's tolerances off; a good face scores 0.3.
 const SURPRISE: f64 = 0.04;
-/// Tolerance of the eyes' distance, as a logarithm.
-const SIZE_TOLERANCE: f64 = 0.2;
+/// Tolerance of the eyes' distance, as a logarithm, and the sizes that are searched, in steps of 8 %: much hair makes a head wide.
+const SIZE_TOLERANCE: f64 = 0.25;
+const SIZES: std::ops::RangeInclusive<i32> = -7..=3;
 
 /// Where a face is looked for, in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +77,7 @@ pub struct FaceExpectation {
     pub between_eyes: Point,
     /// How far off it may well be, across and down; two and a half times that is searched.
     pub tolerance: Vec2,
-    /// The eyes' likely distance; a quarter more or less is searched.
+    /// The eyes' likely distance; from three fifths to five quarters of it are searched.
     pub eye_distance: f64,
 }
 
@@ -92,22 +100,22 @@ impl FaceFrame {
 
 /// The face in `lightness` (0 to 1) on `skin` (0 to 1) that is most like the template and the expectation; none where nothing is.
 pub fn find_face(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation) -> Option<FaceFrame> {
-    let sizes: Vec<f64> = (-3..=3).map(|i| expected.eye_distance * 1.08_f64.powi(i)).filter(|size| *size >= 4.0).collect();
+    let sizes: Vec<f64> = SIZES.map(|i| expected.eye_distance * 1.08_f64.powi(i)).filter(|size| *size >= 4.0).collect();
     let best: Vec<Option<FaceFrame>> = sizes.par_iter().map(|size| best_of_size(lightness, skin, expected, *size)).collect();
-    best.into_iter().flatten().fold(None, |best: Option<FaceFrame>, next| match best {
+    let best = best.into_iter().flatten().fold(None, |best: Option<FaceFrame>, next| match best {
         Some(best) if best.score >= next.score => Some(best),
         _ => Some(next),
-    })
+    });
+    best.map(|frame| fitted(&frame, lightness, skin))
 }
 
 fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation, size: f64) -> Option<FaceFrame> {
-    let fine = gaussian_blur(lightness, (0.05 * size) as f32);
-    let mean = gaussian_blur(lightness, (0.4 * size) as f32);
-    // In shares of the surroundings' light, so that the dark side of a face and dark skin count alike.
-    let relief = fine.zip_map(&mean, |fine, mean| (fine / (mean + 0.01)).clamp(RELIEF.0, RELIEF.1));
+    // In shares of the light around, so that the dark side of a face and dark skin count alike.
+    let relief = dark_relief(lightness, size).relief.map(|relief| relief.clamp(LEAST_RELIEF, 1.0));
+    let tone = gaussian_blur(lightness, (0.08 * size) as f32).map(|tone| (tone + 0.02).ln());
     // A feature may lie a little off its place.
     let darkest = least_around(&relief, (0.08 * size) as usize);
-    let likeness = Likeness { relief: &relief, darkest: &darkest, skin };
+    let likeness = Likeness { relief: &relief, darkest: &darkest, tone: &tone, skin };
     let step = (0.06 * size).max(1.0);
     let mut best: Option<FaceFrame> = None;
     let reach = |tolerance: f64| (2.5 * tolerance / step) as isize;
@@ -148,11 +156,13 @@ fn least_around(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
 struct Likeness<'a> {
     relief: &'a Raster<f32>,
     darkest: &'a Raster<f32>,
+    /// The logarithm of the blurred lightness.
+    tone: &'a Raster<f32>,
     skin: &'a Raster<f32>,
 }
 
 impl Likeness<'_> {
-    /// How much lighter the light places are than the dark ones; both sides must agree, and the light places be skin.
+    /// How much lighter the light places are than the dark ones; both sides must agree, and the light places be skin of one tone.
     fn of(&self, frame: &FaceFrame, surprise: f64) -> f64 {
         let value = |raster: &Raster<f32>, across: f64, down: f64| {
             let p = frame.place(across, down);
@@ -166,7 +176,20 @@ impl Likeness<'_> {
         let strange = 0.1 * (frame.stretch - 0.97).abs() + 0.2 * frame.tilt.abs();
         let share = sum(self.skin, &LIGHT);
         let on_skin = ((share - SKIN_SHARE.0) / (SKIN_SHARE.1 - SKIN_SHARE.0)).clamp(0.0, 1.0);
-        (sum(self.relief, &LIGHT) - sum(self.darkest, &DARK) - 0.3 * odd - strange - surprise) * on_skin
+        let likeness = sum(self.relief, &LIGHT) - sum(self.darkest, &DARK);
+        (likeness - 0.3 * odd - strange - surprise - UNEVEN * self.unevenness(frame)) * on_skin
+    }
+
+    /// Mean difference of the light places' tones from their median.
+    fn unevenness(&self, frame: &FaceFrame) -> f64 {
+        let tones = LIGHT.map(|(across, down, _)| {
+            let p = frame.place(across, down);
+            f64::from(self.tone.clamped(p.x as isize, p.y as isize))
+        });
+        let mut sorted = tones;
+        sorted.sort_by(f64::total_cmp);
+        let median = f64::midpoint(sorted[4], sorted[5]);
+        tones.iter().zip(LIGHT).map(|(tone, (_, _, weight))| weight * (tone - median).abs().min(UNEVEN_LIMIT)).sum()
     }
 }
 

@@ -1,12 +1,13 @@
 //! The eyebrows, eyes, nose and mouth as the dark places of a face (Wong 1999, chapter 5).
 //!
 //! ```text
-//!   lightness -> divided by the skin's, column by column -> the darkest places -> grown into clusters -> named by position
+//!   lightness -> divided by the skin's, column by column -> the darkest thin places -> grown into clusters -> named by position
 //! ```
 
+use super::dark_relief::dark_relief;
 use super::face::FaceFrame;
 use crate::geometry::Point;
-use crate::raster::{Raster, components, gaussian_blur};
+use crate::raster::{Raster, components, dilate, gaussian_blur};
 
 /// A feature's name; left and right are the picture's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,6 +55,15 @@ impl FacialFeature {
     }
 }
 
+/// Where the skin's own tone is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SkinTone<'a> {
+    /// As the median skin by column.
+    Found,
+    /// Round these places, in working pixels; at least one.
+    Given(&'a [Point]),
+}
+
 /// What was found in a face.
 #[derive(Clone, Debug)]
 pub struct FacialFeatures {
@@ -69,7 +79,7 @@ pub struct FacialFeatures {
 
 /// The share of the features' windows that is taken as dark: half of the brows' and eyes', less of nose and mouth. With less,
 /// light brows go missing; with more, cheeks join the mouth.
-const DARK_SHARE: f64 = 0.27;
+const DARK_SHARE: f64 = 0.22;
 /// Columns of skin between which the light is interpolated (section 5.1).
 const SKIN_POINTS: usize = 5;
 /// A cluster smaller than this, in squared eye distances, is a speck: its pixels go to the nearest large cluster.
@@ -79,25 +89,48 @@ const WINDOW_REACH: f64 = 1.25;
 /// A window's darkest place must be darker than skin by this share, else there is no feature in it.
 const LEAST_DEPTH: f32 = 0.06;
 
+/// Share of the largest cluster's pixels, counted by how near to the window's middle they are, from which another one belongs to it.
+const JOINED: f64 = 0.3;
+/// Breadth of the face's border in which no brow lies, in distances of the eyes.
+const RIM: f64 = 0.08;
+/// Radius round a given skin point that is averaged, in distances of the eyes.
+const SKIN_RADIUS: f64 = 0.06;
+
 /// Finds the features of a face whose pattern lies at `frame`, inside `face` (0 to 1), in `lightness` (0 to 1).
-pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> FacialFeatures {
-    let skin = skin_by_column(lightness, face, frame);
+pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame, tone: SkinTone<'_>) -> FacialFeatures {
+    let skin = skin_tone(lightness, face, frame, tone);
     let fine = gaussian_blur(lightness, (0.02 * frame.eye_distance) as f32);
     let normalised = Raster::from_fn(fine.width(), fine.height(), |x, y| (fine.get(x, y) / skin[x].max(0.02)).min(2.0));
+    // Darker than skin and than what lies above and below: shadows and hair over the brow are no features.
+    let depth = normalised.zip_map(&dark_relief(lightness, frame.eye_distance).relief, f32::max);
     let windows = windows(frame, face);
-    let threshold = threshold(&normalised, &windows);
-    let dark = normalised.zip_map(face, |n, face| u8::from(face >= 0.5 && n < threshold));
+    let threshold = threshold(&depth, &windows);
+    let dark = depth.zip_map(face, |n, face| u8::from(face >= 0.5 && n < threshold));
     let within = dark.zip_map(&windows, |dark, window| dark & u8::from(window != 0));
     let (_, clusters) = components(&within);
-    let labels = named(&dark, &windows, &normalised, frame);
+    let labels = named(&dark, &windows, &depth, frame);
     let has = |i: usize| labels.pixels().iter().any(|label| usize::from(*label) == i + 1);
     let found = FacialFeature::ALL.into_iter().enumerate().filter(|(i, _)| has(*i)).map(|(_, feature)| feature).collect();
     FacialFeatures { labels, normalised, clusters, found }
 }
 
-/// The skin's lightness in each column: the medians round five places across the face, interpolated (section 5.1; the thesis has
-/// them pointed out by hand).
-fn skin_by_column(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> Vec<f32> {
+/// The skin's lightness in each column, interpolated between places across the face (section 5.1): those pointed out by hand, as in the
+/// thesis, or the medians round five columns.
+pub(super) fn skin_tone(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame, tone: SkinTone<'_>) -> Vec<f32> {
+    let places = match tone {
+        SkinTone::Found => skin_columns(lightness, face, frame),
+        SkinTone::Given(points) => {
+            let soft = gaussian_blur(lightness, (SKIN_RADIUS * frame.eye_distance) as f32);
+            let mut places: Vec<(f64, f32)> = points.iter().map(|p| (p.x, soft.sample(p.x, p.y))).collect();
+            places.sort_by(|a, b| a.0.total_cmp(&b.0));
+            places
+        }
+    };
+    (0..lightness.width()).map(|x| interpolated(&places, x as f64 + 0.5)).collect()
+}
+
+/// The median skin of five columns of a face: where, and how light.
+fn skin_columns(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> Vec<(f64, f32)> {
     let place = |i: usize| -0.95 + 1.9 * (i as f64 + 0.5) / SKIN_POINTS as f64;
     let half = 0.95 / SKIN_POINTS as f64;
     let mut columns: Vec<(f64, Vec<f32>)> = (0..SKIN_POINTS).map(|i| (frame.place(place(i), 0.4).x, Vec::new())).collect();
@@ -112,7 +145,7 @@ fn skin_by_column(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame
             }
         }
     }
-    let medians: Vec<(f64, f32)> = columns
+    columns
         .into_iter()
         .filter(|(_, values)| !values.is_empty())
         .map(|(x, mut values)| {
@@ -120,8 +153,7 @@ fn skin_by_column(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame
             // A little above the median, since features darken their columns.
             (x, values[values.len() * 3 / 5])
         })
-        .collect();
-    (0..lightness.width()).map(|x| interpolated(&medians, x as f64 + 0.5)).collect()
+        .collect()
 }
 
 fn interpolated(points: &[(f64, f32)], x: f64) -> f32 {
@@ -138,6 +170,7 @@ fn interpolated(points: &[(f64, f32)], x: f64) -> f32 {
 
 /// For each pixel of the face the feature in whose window it lies: its place plus 1, the nearest where windows overlap.
 fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
+    let rim = dilate(&face.map(|face| u8::from(face < 0.5)), (RIM * frame.eye_distance).round() as usize);
     Raster::from_fn(face.width(), face.height(), |x, y| {
         if face.get(x, y) < 0.5 {
             return 0;
@@ -148,26 +181,27 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
             ((across - cx) / hx).hypot((down - cy) / hy)
         };
         let nearest = (0..6).min_by(|a, b| off(FacialFeature::ALL[*a]).total_cmp(&off(FacialFeature::ALL[*b])));
-        nearest.filter(|i| off(FacialFeature::ALL[*i]) <= WINDOW_REACH).map_or(0, |i| i as u8 + 1)
+        // What is dark at the face's upper border is hair that comes down to it, not a brow.
+        let is_hairline = |i: usize| i < 2 && rim.get(x, y) != 0;
+        nearest.filter(|i| off(FacialFeature::ALL[*i]) <= WINDOW_REACH && !is_hairline(*i)).map_or(0, |i| i as u8 + 1)
     })
 }
 
-/// The normalised lightness below which the wanted share of the windows lies.
-fn threshold(normalised: &Raster<f32>, windows: &Raster<u8>) -> f32 {
-    let mut values: Vec<f32> =
-        normalised.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w != 0).map(|(n, _)| *n).collect();
+/// The depth below which the wanted share of the windows lies.
+fn threshold(depth: &Raster<f32>, windows: &Raster<u8>) -> f32 {
+    let mut values: Vec<f32> = depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w != 0).map(|(n, _)| *n).collect();
     values.sort_by(f32::total_cmp);
     values.get((DARK_SHARE * values.len() as f64) as usize).copied().unwrap_or(0.0).min(1.0 - LEAST_DEPTH)
 }
 
 /// Clusters by name: in each window the largest one, joined by the smaller ones near it (the thesis's reclustering).
-fn named(dark: &Raster<u8>, windows: &Raster<u8>, normalised: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
+fn named(dark: &Raster<u8>, windows: &Raster<u8>, depth: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
     let least = LEAST_CLUSTER * frame.eye_distance.powi(2);
     let mut labels = dark.map(|_| 0_u8);
     for name in 1..=6_u8 {
         let mut part = dark.zip_map(windows, |d, w| u8::from(d != 0 && w == name));
         if part.pixels().iter().map(|v| f64::from(*v)).sum::<f64>() < least {
-            part = darkest_of(normalised, windows, name);
+            part = darkest_of(depth, windows, name);
         }
         let (clusters, count) = components(&part);
         let mut sizes = vec![0_u32; count + 1];
@@ -178,7 +212,7 @@ fn named(dark: &Raster<u8>, windows: &Raster<u8>, normalised: &Raster<f32>, fram
             continue;
         }
         for (label, (&cluster, &inside)) in labels.pixels_mut().iter_mut().zip(clusters.pixels().iter().zip(part.pixels())) {
-            let is_near = cluster as usize == main || f64::from(sizes[cluster as usize]) > 0.15 * f64::from(sizes[main]);
+            let is_near = cluster as usize == main || weights[cluster as usize] > JOINED * weights[main];
             if inside != 0 && is_near {
                 *label = name;
             }
@@ -194,19 +228,19 @@ fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) ->
     for (i, cluster) in clusters.pixels().iter().enumerate().filter(|(_, cluster)| **cluster != 0) {
         let p = Point::new((i % clusters.width()) as f64 + 0.5, (i / clusters.width()) as f64 + 0.5);
         let (across, down) = frame.relative(p);
-        weights[*cluster as usize] += (-0.5 * (((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
+        weights[*cluster as usize] += (-(((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
     }
     weights
 }
 
 /// Where the common threshold finds nothing: the darkest seventh of the window, if it is darker than the rest of it.
-fn darkest_of(normalised: &Raster<f32>, windows: &Raster<u8>, name: u8) -> Raster<u8> {
+fn darkest_of(depth: &Raster<f32>, windows: &Raster<u8>, name: u8) -> Raster<u8> {
     let mut values: Vec<f32> =
-        normalised.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w == name).map(|(n, _)| *n).collect();
+        depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w == name).map(|(n, _)| *n).collect();
     values.sort_by(f32::total_cmp);
     let (Some(&least), middle) = (values.get(values.len() / 7), values.get(values.len() / 2)) else {
         return windows.map(|_| 0);
     };
     let is_deep = middle.is_some_and(|middle| middle - least > 0.5 * LEAST_DEPTH);
-    normalised.zip_map(windows, |n, w| u8::from(is_deep && w == name && n <= least))
+    depth.zip_map(windows, |n, w| u8::from(is_deep && w == name && n <= least))
 }

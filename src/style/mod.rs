@@ -14,7 +14,7 @@ mod parameter;
 mod random;
 
 pub use observer::{Observer, Picture, Silent};
-pub use parameter::{Default, Kind, Parameter, ParameterError, Settings};
+pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};
 
 use crate::drawing::Drawing;
 use crate::geometry::Rect;

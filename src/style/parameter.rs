@@ -49,6 +49,51 @@ pub enum Kind {
     },
     /// One of some words; the first is the default.
     Choice(&'static [&'static str]),
+    /// Places in the picture; none by default.
+    Places {
+        /// How many at most, up to [`Places::MOST`].
+        most: usize,
+    },
+}
+
+/// A few places in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Places {
+    /// Across and down, in percent of the picture.
+    percent: [(f64, f64); Self::MOST],
+    count: usize,
+}
+
+impl Places {
+    /// The most that a parameter can ask for.
+    pub const MOST: usize = 8;
+
+    /// Across and down, 0 to 1 of the picture's width and height.
+    pub fn shares(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.percent[..self.count].iter().map(|(across, down)| (across / 100.0, down / 100.0))
+    }
+
+    /// Reads `x,y;x,y` in percent.
+    fn parse(text: &str, most: usize) -> Option<Self> {
+        let mut places = Self { percent: [(0.0, 0.0); Self::MOST], count: 0 };
+        for place in text.split(';').map(str::trim).filter(|place| !place.is_empty()) {
+            let (across, down) = place.split_once(',')?;
+            let percent = |text: &str| {
+                let number: f64 = text.trim().trim_end_matches('%').parse().ok()?;
+                (0.0..=100.0).contains(&number).then_some(number)
+            };
+            if places.count == most.min(Self::MOST) {
+                return None;
+            }
+            places.percent[places.count] = (percent(across)?, percent(down)?);
+            places.count += 1;
+        }
+        Some(places)
+    }
+
+    fn text(&self) -> String {
+        self.percent[..self.count].iter().map(|(across, down)| format!("{across},{down}")).collect::<Vec<_>>().join(";")
+    }
 }
 
 /// The default of a length.
@@ -92,6 +137,7 @@ pub enum ParameterError {
 enum Value {
     Number(f64),
     Word(&'static str),
+    Places(Places),
 }
 
 /// All parameters of one style with their values.
@@ -117,6 +163,7 @@ impl Settings {
         for parameter in parameters {
             values.entry(parameter.name).or_insert_with(|| match parameter.kind {
                 Kind::Choice(words) => Value::Word(words[0]),
+                Kind::Places { .. } => Value::Places(Places { percent: [(0.0, 0.0); Places::MOST], count: 0 }),
                 kind => Value::Number(kind.default_number(pitch).unwrap_or(0.0)),
             });
         }
@@ -145,12 +192,24 @@ impl Settings {
         }
     }
 
+    /// Places in the picture.
+    ///
+    /// # Panics
+    /// If the style has no such parameter: a fault of the style, not of its user.
+    pub fn places(&self, name: &str) -> Places {
+        match self.values.get(name) {
+            Some(Value::Places(places)) => *places,
+            other => panic!("{name} is not places of this style: {other:?}"),
+        }
+    }
+
     /// Every key and value as text that `--set` would take.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, String)> {
         self.values.iter().map(|(name, value)| {
             let text = match value {
                 Value::Number(number) => format!("{}", (number * 1e6).round() / 1e6),
                 Value::Word(word) => (*word).to_owned(),
+                Value::Places(places) => places.text(),
             };
             (*name, text)
         })
@@ -165,7 +224,7 @@ impl Kind {
             Self::Length { default: Default::Pitches(pitches), .. } => Some(pitches * pitch),
             Self::Number { default, .. } => Some(default),
             Self::Count { default, .. } => Some(f64::from(default)),
-            Self::Choice(_) => None,
+            Self::Choice(_) | Self::Places { .. } => None,
         }
     }
 
@@ -177,6 +236,7 @@ impl Kind {
             Self::Number { default, .. } => default.to_string(),
             Self::Count { default, .. } => default.to_string(),
             Self::Choice(words) => words[0].to_owned(),
+            Self::Places { .. } => "none".to_owned(),
         }
     }
 
@@ -187,6 +247,7 @@ impl Kind {
             Self::Number { least, most, .. } => format!("number, {least} to {most}"),
             Self::Count { least, most, .. } => format!("whole number, {least} to {most}"),
             Self::Choice(words) => format!("one of {}", words.join(", ")),
+            Self::Places { most } => format!("up to {most} places x,y;x,y in percent of the picture"),
         }
     }
 }
@@ -208,6 +269,7 @@ fn parse(parameter: &Parameter, text: &str) -> Result<Value, ParameterError> {
             within(f64::from(count), f64::from(least), f64::from(most))
         }
         Kind::Choice(words) => words.iter().find(|word| **word == text.trim()).map(|word| Value::Word(word)).ok_or_else(refuse),
+        Kind::Places { most } => Places::parse(text, most).map(Value::Places).ok_or_else(refuse),
     }
 }
 
@@ -245,6 +307,7 @@ mod tests {
         },
         Parameter { name: "gamma", kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 }, meaning: "", source: "" },
         Parameter { name: "size", kind: Kind::Choice(&["exact", "paper"]), meaning: "", source: "" },
+        Parameter { name: "skin", kind: Kind::Places { most: 2 }, meaning: "", source: "" },
     ];
 
     fn given(pairs: &[(&str, &str)]) -> Result<Settings, ParameterError> {
@@ -261,10 +324,26 @@ mod tests {
     }
 
     #[test]
+    fn places_are_read_and_written_alike() {
+        let settings = given(&[("skin", "25,40; 75%,12.5")]).unwrap();
+        assert_eq!(settings.places("skin").shares().collect::<Vec<_>>(), [(0.25, 0.4), (0.75, 0.125)]);
+        assert_eq!(settings.entries().find(|(name, _)| *name == "skin").unwrap().1, "25,40;75,12.5");
+        assert_eq!(given(&[]).unwrap().places("skin").shares().count(), 0);
+    }
+
+    #[test]
     fn errors_say_what_would_work() {
-        for (key, value) in
-            [("pitch", "NaN"), ("pitch", "-1"), ("gamma", "nan"), ("gamma", "inf"), ("size", "round"), ("pitch", "")]
-        {
+        for (key, value) in [
+            ("pitch", "NaN"),
+            ("pitch", "-1"),
+            ("gamma", "nan"),
+            ("gamma", "inf"),
+            ("size", "round"),
+            ("pitch", ""),
+            ("skin", "1,2;3,4;5,6"),
+            ("skin", "1;2"),
+            ("skin", "1,101"),
+        ] {
             let error = given(&[(key, value)]).unwrap_err();
             assert!(matches!(error, ParameterError::Value { .. }), "{key}={value}: {error}");
         }

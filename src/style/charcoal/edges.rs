@@ -7,27 +7,34 @@ use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::field::{Curve, EdgeParameters, contours, detect_edges, distance_to_curves, lines_of};
 use crate::geometry::{Point, Vec2, polyline_length, smooth_polyline};
-use crate::raster::{Raster, Thresholds, dilate};
+use crate::raster::{Raster, Thresholds, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::random::stream;
 use rand::{Rng, RngExt};
+use std::f64::consts::TAU;
 
 /// Brightness of the keep mask above which an edge is kept.
 const KEPT: f32 = 0.25;
+/// Pixels by which an edge may lie beside the keep mask's.
+const KEPT_REACH: usize = 2;
 /// Length of a displaced segment as a share of its line, and how far neighbours overlap.
 const SEGMENT: (f64, f64) = (0.3, 0.7);
 const OVERLAP: f64 = 0.3;
 /// Pressures of the displaced segments and of the line itself, which is emphasised (section 6.3.2).
-const SKETCH_PRESSURE: f64 = 0.35;
+const SKETCH_PRESSURE: f64 = 0.25;
 const LINE_PRESSURE: f64 = 0.9;
+/// Width of an edge as a share of the stick's: contours stay lighter than the features.
+const LINE_WIDTH: f64 = 0.8;
+/// Lengths of line, in pitches, over which the hand's pressure wanders, and how far.
+const WANDER: (f64, f64) = (9.0, 0.35);
 
 impl Drawer<'_> {
     pub(super) fn edges(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
         self.observer.begin("edges");
         let lines = self.edge_lines(regions, features);
         let touch = Touch {
-            width_mm: self.parameters.stroke_width_mm,
+            width_mm: LINE_WIDTH * self.parameters.stroke_width_mm,
             pressure: LINE_PRESSURE,
             taper: 0.3,
             node_mm: 2.0 * self.parameters.pitch_mm,
@@ -44,8 +51,8 @@ impl Drawer<'_> {
                 let segments = self.sketched(&points, &mut random);
                 marks.extend(segments.iter().filter_map(|segment| self.stroke(segment, light, |_| 1.0)));
             }
-            let firmness = self.firmness(&points);
-            marks.extend(self.stroke(&points, touch, |_| firmness));
+            let firm = self.firmness(&points, &mut random);
+            marks.extend(self.stroke(&points, touch, |p| firm.get(nearest(&points, p)).copied().unwrap_or(1.0)));
         }
         marks
     }
@@ -57,13 +64,28 @@ impl Drawer<'_> {
         self.observer.picture("canny", &|| Picture::Mask(steps.canny.clone()));
         let hidden = self.hidden(regions, features);
         let kept = steps.skeleton.zip_map(&hidden, |edge, hidden| if hidden != 0 { 0 } else { edge });
-        let kept = match self.portrait.masks.get(&MaskRole::Edges) {
-            Some(mask) => kept.zip_map(&dilate(&mask.map(|v| u8::from(v >= KEPT)), 2), |edge, keep| edge & keep),
-            None => kept,
+        let Some(wanted) = self.portrait.masks.get(&MaskRole::Edges).map(|mask| mask.map(|v| u8::from(v >= KEPT))) else {
+            self.observer.picture("edges-kept", &|| Picture::Mask(kept.clone()));
+            let found = lines_of(&kept, parameters.smoothing, parameters.least_length);
+            return self.with_silhouette(found, regions, &hidden);
         };
+        let near = dilate(&wanted, KEPT_REACH);
+        let drawn = self.drawn_by_hand(&wanted, &kept);
+        let kept = kept.zip_map(&near, |edge, keep| edge & keep).zip_map(&drawn, |edge, drawn| edge | drawn);
         self.observer.picture("edges-kept", &|| Picture::Mask(kept.clone()));
-        let found = lines_of(&kept, parameters.smoothing, parameters.least_length);
+        // What the user kept is no speck, however short.
+        let found = lines_of(&kept, parameters.smoothing, self.pixels(self.parameters.pitch_mm) as f32);
+        let hidden = hidden.zip_map(&near, |hidden, near| hidden | (1 - near));
         self.with_silhouette(found, regions, &hidden)
+    }
+
+    /// The lines of a keep mask that no found edge follows, thinned; broad strokes of the mask only choose among the edges.
+    fn drawn_by_hand(&self, wanted: &Raster<u8>, found: &Raster<u8>) -> Raster<u8> {
+        let pitch = self.pixels(self.parameters.pitch_mm).round().max(1.0) as usize;
+        let outside = dilate(&wanted.map(|v| 1 - v), pitch);
+        let broad = dilate(&outside.map(|v| 1 - v), 2 * pitch);
+        let followed = dilate(found, pitch);
+        thin(&wanted.zip_map(&broad, |v, broad| v & (1 - broad)).zip_map(&followed, |v, followed| v & (1 - followed)))
     }
 
     fn edge_parameters(&self) -> EdgeParameters {
@@ -114,18 +136,24 @@ impl Drawer<'_> {
         silhouette.into_iter().chain(apart).collect()
     }
 
-    /// How firmly an edge is drawn: by the step of tone that it marks.
-    fn firmness(&self, points: &[Point]) -> f64 {
+    /// How firmly an edge is drawn at each of its points: by the step of tone that it marks there, and as a hand wanders.
+    fn firmness(&self, points: &[Point], random: &mut impl Rng) -> Vec<f64> {
         let reach = self.pixels(1.5 * self.parameters.pitch_mm);
         let lightness = &self.portrait.lightness;
+        let phase = random.random_range(0.0..TAU);
+        let wave = TAU / (WANDER.0 * self.pixels(self.parameters.pitch_mm) * random.random_range(0.7..1.4));
+        let mut travelled = 0.0;
         let steps = points.windows(2).map(|pair| {
             let along = pair[1] - pair[0];
-            let across = Vec2::new(-along.y, along.x).normalize() * reach;
+            travelled += along.hypot();
+            let across = Vec2::new(-along.y, along.x) / along.hypot().max(1e-9) * reach;
             let at = |p: Point| f64::from(lightness.sample(p.x, p.y));
-            if along.hypot() > 0.0 { (at(pair[0] + across) - at(pair[0] - across)).abs() } else { 0.0 }
+            let step = (at(pair[0] + across) - at(pair[0] - across)).abs();
+            let wander = 1.0 - WANDER.1 * (0.5 + 0.5 * (wave * travelled + phase).sin());
+            ((0.1 + 2.1 * step) * wander).clamp(0.08, 1.0)
         });
-        let mean = steps.sum::<f64>() / (points.len().max(2) - 1) as f64;
-        (0.3 + 2.2 * mean).clamp(0.3, 1.0)
+        let firm: Vec<f64> = steps.collect();
+        running_mean(&firm, (4.0 * self.pixels(self.parameters.pitch_mm)) as usize)
     }
 
     /// Overlapping pieces of a line, each with its ends displaced at random.
@@ -162,6 +190,24 @@ fn open_pieces(line: &Curve, is_out: impl Fn(&Point) -> bool) -> Vec<Vec<Point>>
         points.push(points[0]);
     }
     points.split(is_out).filter(|run| run.len() > 1).map(<[Point]>::to_vec).collect()
+}
+
+/// The index of the point nearest to a place.
+fn nearest(points: &[Point], p: Point) -> usize {
+    (0..points.len()).min_by(|a, b| points[*a].distance_squared(p).total_cmp(&points[*b].distance_squared(p))).unwrap_or(0)
+}
+
+/// Each value's mean with its `reach` neighbours on either side.
+fn running_mean(values: &[f64], reach: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; values.len() + 1];
+    for (i, value) in values.iter().enumerate() {
+        sums[i + 1] = sums[i] + value;
+    }
+    let mean = |i: usize| {
+        let (from, to) = (i.saturating_sub(reach), (i + reach + 1).min(values.len()));
+        (sums[to] - sums[from]) / (to - from) as f64
+    };
+    (0..values.len()).map(mean).collect()
 }
 
 /// The part of a polyline between two lengths along it.

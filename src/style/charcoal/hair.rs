@@ -15,6 +15,8 @@ const LINE_BLUR: f32 = 2.0;
 /// Share of the hair's pixels that the curvature of a line must outdo: with fewer lines bald patches arise, with more the noise of
 /// the photograph counts.
 const LINE_QUANTILE: f64 = 0.5;
+/// Width of a strand at full pressure as a share of the stick's: with the whole of it hair looks cut in wood.
+const HAIR_WIDTH: f64 = 0.7;
 /// Angles of the Hough accumulator.
 const ANGLES: usize = 36;
 
@@ -27,7 +29,7 @@ impl Drawer<'_> {
         let field = self.hair_orientation(&regions.hair);
         let darkness = self.darkness();
         let covering = Covering {
-            width: self.pixels(self.parameters.stroke_width_mm) * 0.75,
+            width: self.pixels(HAIR_WIDTH * self.parameters.stroke_width_mm) * 0.75,
             length: self.pixels(self.parameters.hair_length_mm),
             length_spread: 0.6,
             turn: self.parameters.hair_turn,
@@ -37,7 +39,7 @@ impl Drawer<'_> {
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch_mm) as f32);
         let touch = Touch {
-            width_mm: self.parameters.stroke_width_mm,
+            width_mm: HAIR_WIDTH * self.parameters.stroke_width_mm,
             pressure: 1.0,
             taper: 0.35,
             node_mm: 2.0 * self.parameters.pitch_mm,

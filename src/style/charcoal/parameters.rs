@@ -1,7 +1,7 @@
 //! Charcoal's parameters and their values.
 
 use crate::field::HoughForm;
-use crate::style::{Default, Kind, Parameter, Settings};
+use crate::style::{Default, Kind, Parameter, Places, Settings};
 
 /// All that a user can set.
 pub(super) const PARAMETERS: &[Parameter] = &[
@@ -19,7 +19,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "grain",
-        kind: Kind::Length { default: Default::Pitches(0.7), least: 0.1, most: 50.0 },
+        kind: Kind::Length { default: Default::Pitches(0.5), least: 0.1, most: 50.0 },
         meaning: "distance from one grain of the smudged tone to the next",
         source: "Wong 6.3.1, the paper's texture",
     },
@@ -120,6 +120,12 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         source: "Wong 5",
     },
     Parameter {
+        name: "skin",
+        kind: Kind::Places { most: 5 },
+        meaning: "places of plain skin, from one edge of the face to the other, by which its light is evened out; without them the median skin by column",
+        source: "Wong 5.1, five points",
+    },
+    Parameter {
         name: "shading",
         kind: Kind::Choice(&["on", "off"]),
         meaning: "shade the dark parts of clothing and of all that is neither face nor hair by hand",
@@ -185,6 +191,7 @@ pub(super) struct Charcoaling {
     pub hair_turn: f64,
     pub hair_ink: f32,
     pub has_features: bool,
+    pub skin: Places,
     pub has_shading: bool,
     pub has_background: bool,
     pub background_ink: f64,
@@ -216,6 +223,7 @@ impl Charcoaling {
             hair_length_mm: number("hair_length"),
             hair_turn: number("hair_turn").to_radians(),
             hair_ink: number("hair_ink") as f32,
+            skin: settings.places("skin"),
             has_features: settings.word("features") == "on",
             has_shading: settings.word("shading") == "on",
             has_background: settings.word("background") == "on",

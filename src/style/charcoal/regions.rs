@@ -2,9 +2,9 @@
 
 use super::Drawer;
 use super::skin::may_be_skin;
-use crate::field::{FaceExpectation, FaceFrame, find_face};
+use crate::field::{FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
-use crate::raster::{Raster, components, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
+use crate::raster::{Raster, components, dilate, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
 use crate::source::MaskRole;
 use crate::style::Picture;
 
@@ -35,8 +35,15 @@ const BACKGROUND_SPREAD: f32 = 0.3;
 const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
 /// Colour distance to the hair's own colour against that to the skin's: nearer to hair is hair.
 const HAIR_REACH: f32 = 0.16;
-/// Least colour distance between hair and skin; on the dark bust it is less, and half of the face would become hair.
-const LEAST_CONTRAST: f32 = 0.3;
+/// Least colour distance between hair and skin at all, and that from which colour alone tells hair: on the dark bust it is less, and
+/// half of the face would become hair; blond hair has half as much, and only its crown and what hangs from it are taken.
+const LEAST_CONTRAST: f32 = 0.12;
+const CLEAR_CONTRAST: f32 = 0.3;
+/// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
+const LOWEST_FRINGE: f64 = 0.75;
+const CROWN: f64 = -0.85;
+/// Half the breadth of a gap in the crown that is closed: a lit parting is as light as skin.
+const CLOSED: f64 = 0.3;
 
 impl Drawer<'_> {
     pub(super) fn regions(&self) -> Regions {
@@ -46,13 +53,17 @@ impl Drawer<'_> {
         let given_face = mask(MaskRole::Face);
         let head = if has_background { head(&subject) } else { None };
         let frame = self.frame(&subject, head, given_face.as_ref());
-        let hair = mask(MaskRole::Hair).or_else(|| self.found_hair(&subject, given_face.as_ref(), frame.as_ref()));
+        let fringe = frame.map(|frame| hair_over_face(&self.portrait.lightness, &subject, &frame));
+        let hair =
+            mask(MaskRole::Hair).or_else(|| self.found_hair(&subject, given_face.as_ref(), frame.as_ref()?, fringe.as_ref()?));
         let nothing = || subject.map(|_| 0.0);
         if hair.is_none() {
             self.observer.warn("no hair was found: it is drawn like the rest; give --mask hair=FILE to draw it in strokes");
         }
         let hair = hair.unwrap_or_else(nothing).zip_map(&subject, f32::min);
-        let face = given_face.or_else(|| frame.map(|frame| self.found_face(&frame))).unwrap_or_else(nothing);
+        let face = given_face
+            .or_else(|| frame.zip(fringe).map(|(frame, fringe)| self.found_face(&frame, &fringe)))
+            .unwrap_or_else(nothing);
         let face = face.zip_map(&subject, f32::min).zip_map(&hair, |face, hair| face.min(1.0 - hair));
         let rest = subject.zip_map(&hair, |s, hair| s.min(1.0 - hair)).zip_map(&face, |s, face| s.min(1.0 - face));
         let clothing = mask(MaskRole::Clothing).map_or_else(
@@ -129,27 +140,64 @@ impl Drawer<'_> {
         frame
     }
 
-    /// The oval of a face round its pattern.
-    fn found_face(&self, frame: &FaceFrame) -> Raster<f32> {
+    /// The oval of a face round its pattern, less the hair that hangs into it.
+    fn found_face(&self, frame: &FaceFrame, fringe: &Raster<u8>) -> Raster<f32> {
         let (width, height) = self.size();
         Raster::from_fn(width, height, |x, y| {
             let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             // Brow to chin is wider above than below, as an egg is.
             let breadth = if down < 0.3 { 1.12 } else { 1.12 - 0.2 * (down - 0.3) };
             let reach = ((across / breadth).powi(2) + ((down - 0.42) / 1.28).powi(2)).sqrt();
-            ((1.0 - reach) as f32 * frame.eye_distance as f32 + 0.5).clamp(0.0, 1.0)
+            let inside = ((1.0 - reach) as f32 * frame.eye_distance as f32 + 0.5).clamp(0.0, 1.0);
+            inside * f32::from(1 - fringe.get(x, y))
         })
     }
 
-    /// What lies round the upper head, nearer in colour to the crown than to the skin, and in one piece with the crown.
-    fn found_hair(&self, subject: &Raster<f32>, face: Option<&Raster<f32>>, frame: Option<&FaceFrame>) -> Option<Raster<f32>> {
-        let frame = frame?;
+    /// What lies round the upper head, nearer in colour to the crown than to the skin, with what hangs from it over the face.
+    fn found_hair(
+        &self,
+        subject: &Raster<f32>,
+        face: Option<&Raster<f32>>,
+        frame: &FaceFrame,
+        fringe: &Raster<u8>,
+    ) -> Option<Raster<f32>> {
         let colour = self.colours();
+        let (hair, skin) = Self::hair_and_skin(&colour, subject, frame)?;
+        let contrast = distance(hair, skin);
+        if contrast < LEAST_CONTRAST {
+            return None;
+        }
+        let reach = HAIR_REACH.max(0.5 * contrast);
+        let (width, height) = self.size();
+        let near = Raster::from_fn(width, height, |x, y| {
+            let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            let zone = (across / 1.9).powi(2) + ((down + 0.3) / 2.1).powi(2) < 1.0 && subject.get(x, y) >= 0.5;
+            let is_face = across.abs() < 0.95 && (-0.62..1.5).contains(&down);
+            let c = colour.get(x, y);
+            let hangs = fringe.get(x, y) != 0 && down < LOWEST_FRINGE;
+            let is_hair = distance(c, hair) < reach && distance(c, hair) < distance(c, skin);
+            // Above the brow nothing but hair or skin is in a head.
+            let is_crown = down < CROWN && distance(c, hair) < distance(c, skin);
+            u8::from(zone && (hangs || is_crown || (!is_face && is_hair && contrast >= CLEAR_CONTRAST)))
+        });
+        let near = face.map_or(near.clone(), |face| near.zip_map(face, |n, face| if face >= 0.5 { 0 } else { n }));
+        let gap = (CLOSED * frame.eye_distance).round() as usize;
+        let closed = dilate(&dilate(&majority(&near, 2), gap).map(|v| 1 - v), gap).map(|v| 1 - v);
+        let closed = Raster::from_fn(width, height, |x, y| {
+            let down = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5)).1;
+            if down < CROWN && subject.get(x, y) >= 0.5 { closed.get(x, y) } else { near.get(x, y) }
+        });
+        let whole = without_holes(&largest(&majority(&closed, 2), 0.2));
+        let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
+        (area > 0.3 * frame.eye_distance.powi(2)).then(|| gaussian_blur(&whole.map(f32::from), 1.0))
+    }
+
+    /// The colours of the crown and of the skin; none where the subject has nothing above its brow but skin.
+    fn hair_and_skin(colour: &Raster<[f32; 3]>, subject: &Raster<f32>, frame: &FaceFrame) -> Option<([f32; 3], [f32; 3])> {
         let at = |p: Point| colour.clamped(p.x as isize, p.y as isize);
-        let skin = median(
-            &[(0.0, -0.5), (0.4, 0.5), (-0.4, 0.5), (0.0, 0.3), (0.3, -0.6), (-0.3, -0.6)].map(|(a, d)| at(frame.place(a, d))),
-        );
         let inside = |p: Point| subject.contains(p.x as isize, p.y as isize) && subject.sample(p.x, p.y) >= 0.5;
+        let cheeks = [(0.0, -0.25), (0.4, 0.5), (-0.4, 0.5), (0.0, 0.3), (0.3, 0.4), (-0.3, 0.4)];
+        let skin = median(&cheeks.map(|(across, down)| at(frame.place(across, down))));
         // Upwards from the brow until the subject ends: the far half of what is not skin is hair.
         let crown: Vec<[f32; 3]> = (-3..=3)
             .flat_map(|column| (0..60).map(move |i| (0.2 * f64::from(column), -0.6 - 0.03 * f64::from(i))))
@@ -158,28 +206,7 @@ impl Drawer<'_> {
             .map(at)
             .filter(|c| distance(*c, skin) > 0.1)
             .collect();
-        if crown.len() < 20 {
-            return None;
-        }
-        let hair = median(&crown);
-        // Hair as dark as the skin cannot be told from it by colour.
-        if distance(hair, skin) < LEAST_CONTRAST {
-            return None;
-        }
-        let reach = HAIR_REACH.max(0.5 * distance(hair, skin));
-        let (width, height) = self.size();
-        let near = Raster::from_fn(width, height, |x, y| {
-            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-            let (across, down) = frame.relative(p);
-            let zone = (across / 1.9).powi(2) + ((down + 0.3) / 2.1).powi(2) < 1.0;
-            let features = across.abs() < 0.95 && (-0.62..1.5).contains(&down);
-            let c = colour.get(x, y);
-            u8::from(zone && !features && inside(p) && distance(c, hair) < reach && distance(c, hair) < distance(c, skin))
-        });
-        let near = face.map_or(near.clone(), |face| near.zip_map(face, |n, face| if face >= 0.5 { 0 } else { n }));
-        let whole = without_holes(&largest(&majority(&near, 2), 0.2));
-        let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
-        (area > 0.3 * frame.eye_distance.powi(2)).then(|| gaussian_blur(&whole.map(f32::from), 1.0))
+        (crown.len() >= 20).then(|| (median(&crown), skin))
     }
 }
 

@@ -5,11 +5,11 @@ use super::features::Features;
 use super::regions::Regions;
 use super::strokes::Touch;
 use crate::drawing::Mark;
-use crate::field::{histogram_modes, pieces_inside};
+use crate::field::{contours, distance_to_curves, histogram_modes, pieces_inside};
 use crate::geometry::{HandShading, Point, Rect, Vec2, polyline_length};
 use crate::raster::{Raster, gaussian_blur, paper_texture};
 use crate::style::random::stream;
-use rand::Rng;
+use rand::{Rng, RngExt};
 
 /// A region to be shaded in one tone; lengths in millimetres, the orientation in radians.
 pub(super) struct Patch {
@@ -21,40 +21,69 @@ pub(super) struct Patch {
     pub length_mm: f64,
     pub orientation: f64,
     pub pressure: f64,
+    /// How far inside the region's border the middle of a stroke stays.
+    pub inset_mm: f64,
+    pub pressing: Pressing,
 }
 
-/// Swaths of arcs overlap by this share of an arc, as a hand's do.
-const SWATH_OVERLAP: f64 = 0.12;
-/// Arcs per stroke after which the hand lifts.
-const ARCS_A_STROKE: usize = 60;
+/// How the hand presses while it swings to and fro.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Pressing {
+    /// Evenly: a small form is filled.
+    Filling,
+    /// Firm in the swing's middle, light at its turns, where the hand often lifts: open hatching.
+    Hatching,
+}
+
+/// Neighbouring swaths overlap by this share of an arc, as a hand's do.
+const SWATH_OVERLAP: f64 = 0.2;
+/// Arcs that a hand draws before it is set down anew, a little to the side, and how far aside, along and askew (shares of an arc's
+/// length, radians). Without it the turns of all chains stand in rows, and the background is one wave repeated.
+const ARCS_A_GROUP: std::ops::Range<usize> = 7..24;
+const ASIDE: f64 = 0.2;
+const LONGER: std::ops::Range<f64> = 0.8..1.2;
+const ASKEW: f64 = 0.07;
+/// Share of the turns at which the hand keeps the stick on the paper, in open hatching.
+const KEPT_TURNS: f64 = 0.2;
+/// Share of a swing's length at either end over which the pressure grows.
+const TURN: f64 = 0.3;
 /// Pieces shorter than this many widths are specks.
 const LEAST_WIDTHS: f64 = 1.5;
 /// Pressure of the background's strokes, and their width then as a share of the full one: lighter than anything in the portrait.
-const BACKGROUND_PRESSURE: f64 = 0.2;
+const BACKGROUND_PRESSURE: f64 = 0.3;
 const BACKGROUND_WIDTH: f64 = 0.44;
+/// Its stroke's width as a share of the stick's.
+const BACKGROUND_STROKE: f64 = 0.7;
+/// Pressure of the background far from the subject, as a share of that beside it, and how far it takes to fall, in sheets' widths.
+const FAR_PRESSURE: f64 = 0.35;
+const FALL: f64 = 0.22;
 /// Tones of clothing lighter than this are left to the smudge.
 const LIGHT_CLOTH: f64 = 0.5;
 
 impl Drawer<'_> {
-    /// The strokes of a patch: chains of arcs side by side, cut to the region.
-    pub(super) fn shade_patch(&self, patch: &Patch, stage: &str, element: u64) -> Vec<Mark> {
+    /// The strokes of a patch: chains of arcs side by side, cut to the region; `local` scales the pressure at a place.
+    pub(super) fn shade_patch(&self, patch: &Patch, stage: &str, element: u64, local: impl Fn(Point) -> f64) -> Vec<Mark> {
+        let is_hatching = patch.pressing == Pressing::Hatching;
         let touch = Touch {
             width_mm: patch.width_mm,
             pressure: patch.pressure,
-            taper: 0.04,
-            node_mm: (0.08 * patch.length_mm).clamp(0.6 * patch.width_mm, 1.2 * self.parameters.pitch_mm),
+            taper: if is_hatching { TURN } else { 0.06 },
+            node_mm: if is_hatching { 1.2 * self.parameters.pitch_mm } else { 1.5 * patch.width_mm },
         };
+        let region = inset(&patch.region, self.pixels(patch.inset_mm));
         let least = LEAST_WIDTHS * self.pixels(patch.width_mm);
         let mut random = stream(self.seed, stage, element);
-        self.chains(patch, &mut random)
-            .iter()
-            .flat_map(|chain| pieces_inside(chain, &patch.region))
-            .filter(|piece| polyline_length(piece) >= least)
-            .filter_map(|piece| self.stroke(&piece, touch, |_| 1.0))
-            .collect()
+        let mut marks = Vec::new();
+        for stroke in self.chains(patch, &mut random) {
+            for piece in pieces_inside(&stroke, &region).iter().filter(|piece| polyline_length(piece) >= least) {
+                let firm = if is_hatching { random.random_range(0.7..1.15) } else { 1.0 };
+                marks.extend(self.stroke(piece, touch, |p| firm * local(p)));
+            }
+        }
+        marks
     }
 
-    /// Chains of arcs that cover the region's bounds, turned to its orientation, each lifted now and then.
+    /// Strokes that cover the region's bounds, turned to its orientation: groups of arcs, one below another in swaths.
     fn chains(&self, patch: &Patch, random: &mut impl Rng) -> Vec<Vec<Point>> {
         let along = Vec2::from_angle(patch.orientation);
         let across = Vec2::new(-along.y, along.x);
@@ -64,24 +93,34 @@ impl Drawer<'_> {
         let swaths = (bounds.width() / (most * (1.0 - SWATH_OVERLAP))).ceil().max(1.0);
         let swath = bounds.width() / swaths;
         let length = (swath / (1.0 - SWATH_OVERLAP)).max(2.0 * spacing);
-        let count = (bounds.height() / spacing).ceil() as usize + 2;
         let radius = self.pixels(self.parameters.arc_radius_mm).min(4.0 * length);
-        (0..swaths as usize)
-            .flat_map(|i| {
-                let (u, v) = (bounds.x0 + (i as f64 + 0.5) * swath, bounds.y0 - spacing);
+        let mut strokes = Vec::new();
+        // A form that one swing spans is filled in one go.
+        let is_regular = patch.pressing == Pressing::Filling;
+        for i in 0..swaths as usize {
+            let mut down = bounds.y0 - spacing * random.random_range(1.0..4.0);
+            while down < bounds.y1 + spacing {
+                let count =
+                    if is_regular { ((bounds.y1 - down) / spacing) as usize + 2 } else { random.random_range(ARCS_A_GROUP) };
+                let mut vary = |size: f64| if is_regular { 0.0 } else { random.random_range(-size..size) };
+                let middle = bounds.x0 + (i as f64 + 0.5 + vary(ASIDE)) * swath;
+                let orientation = patch.orientation + vary(ASKEW);
+                let longer = if is_regular { 1.0 } else { random.random_range(LONGER) };
+                let centre = (along * middle + across * down).to_point();
                 let shading = HandShading {
-                    centre: (along * u + across * v).to_point(),
-                    length,
+                    centre,
+                    length: length * longer,
                     radius,
-                    orientation: patch.orientation,
+                    orientation,
                     spacing,
                     count,
                     skew: self.parameters.arc_skew,
                 };
-                let arcs = shading.arcs(random);
-                arcs.chunks(ARCS_A_STROKE).map(<[Vec<Point>]>::concat).collect::<Vec<_>>()
-            })
-            .collect()
+                strokes.extend(lifted(&shading.arcs(random), patch.pressing, random));
+                down += (count as f64 + if is_regular { 0.0 } else { random.random_range(-0.5..0.8) }) * spacing;
+            }
+        }
+        strokes
     }
 
     /// Dark clothing, and all that is neither face nor hair: its tones by scale-space filtering, the darker ones shaded over the
@@ -105,8 +144,10 @@ impl Drawer<'_> {
                 length_mm: 0.55 * self.parameters.arc_length_mm,
                 orientation: self.parameters.arc_orient + 0.35 * i as f64,
                 pressure: 0.25 + 0.6 * darkness,
+                inset_mm: 0.5 * self.parameters.stroke_width_mm,
+                pressing: Pressing::Hatching,
             };
-            marks.extend(self.shade_patch(&patch, "shading", i as u64));
+            marks.extend(self.shade_patch(&patch, "shading", i as u64, |_| 1.0));
         }
         marks
     }
@@ -119,16 +160,33 @@ impl Drawer<'_> {
         self.observer.begin("background");
         let region = self.ragged(&regions.subject);
         self.show("background", &region);
+        let width_mm = BACKGROUND_STROKE * self.parameters.stroke_width_mm;
         let patch = Patch {
             region,
-            width_mm: self.parameters.stroke_width_mm,
+            width_mm,
             // The ink of a stroke at the pressure below, spread over its spacing.
-            spacing_mm: BACKGROUND_WIDTH * self.parameters.stroke_width_mm / self.parameters.background_ink,
+            spacing_mm: BACKGROUND_WIDTH * width_mm / self.parameters.background_ink,
             length_mm: self.parameters.arc_length_mm,
             orientation: self.parameters.arc_orient,
             pressure: BACKGROUND_PRESSURE,
+            inset_mm: 0.5 * width_mm,
+            pressing: Pressing::Hatching,
         };
-        self.shade_patch(&patch, "background", 0)
+        let nearness = self.nearness(&regions.subject);
+        self.shade_patch(&patch, "background", 0, |p| f64::from(nearness.sample(p.x, p.y)))
+    }
+
+    /// How hard the background is pressed at a place: the subject is set off, and the sheet's border left airy.
+    fn nearness(&self, subject: &Raster<f32>) -> Raster<f32> {
+        let (width, height) = self.size();
+        let reach = (FALL * width.min(height) as f64) as f32;
+        let wide = gaussian_blur(subject, reach);
+        let cloud = paper_texture(width / 8 + 2, height / 8 + 2, 14.0, self.seed ^ 0xc10d);
+        let far = FAR_PRESSURE as f32;
+        Raster::from_fn(width, height, |x, y| {
+            let near = (far + 2.2 * (1.0 - far) * wide.get(x, y)).min(1.0);
+            near * (0.55 + 0.9 * cloud.sample(x as f64 / 8.0 + 0.5, y as f64 / 8.0 + 0.5))
+        })
     }
 
     /// The background without a wavering margin.
@@ -143,6 +201,32 @@ impl Drawer<'_> {
             inner.min(1.0 - subject.get(x, y))
         })
     }
+}
+
+/// The arcs as strokes: one for all, or in open hatching a new one after most turns.
+fn lifted(arcs: &[Vec<Point>], pressing: Pressing, random: &mut impl Rng) -> Vec<Vec<Point>> {
+    let mut strokes: Vec<Vec<Point>> = Vec::new();
+    for arc in arcs {
+        let goes_on = pressing == Pressing::Filling || random.random_bool(KEPT_TURNS);
+        match strokes.last_mut() {
+            Some(stroke) if goes_on => stroke.extend(&arc[1..]),
+            _ => strokes.push(arc.clone()),
+        }
+    }
+    strokes
+}
+
+/// A region less a border of this many pixels.
+fn inset(region: &Raster<f32>, by: f64) -> Raster<f32> {
+    if by <= 0.0 {
+        return region.clone();
+    }
+    let Some(outside) = distance_to_curves(&contours(region, 0.5), region.width(), region.height()) else {
+        return region.clone();
+    };
+    let within = region.zip_map(&outside.distance, |inside, distance| if inside >= 0.5 { distance } else { -distance });
+    // Half where the border is `by` away, so that the border of the inset lies there.
+    within.map(|distance| (0.5 + distance - by as f32).clamp(0.0, 1.0))
 }
 
 /// Bounds of a region along and across a direction, or none when it is empty.

@@ -1,0 +1,63 @@
+//! Hair and headgear that reach into a face, told by tone: darker than the skin, too tall for a feature, in one piece with the crown.
+
+use super::dark_relief::dark_relief;
+use super::face::FaceFrame;
+use super::facial_features::{SkinTone, skin_tone};
+use crate::geometry::Point;
+use crate::raster::{Raster, components, dilate, remove_components};
+
+/// Lightness against the skin's below which a place may be hair: blond hair has 0.6, a cheek turned from a 2:1 light 0.85.
+const HAIR_TONE: f32 = 0.8;
+/// Inside an oval from the brows to the chin nothing is taken for hair, since what is dark there is a shadow or a feature: half its
+/// breadth, its middle and half its height, in distances of the eyes.
+const CORE: [f64; 3] = [0.95, 0.5, 0.97];
+/// Gaps of the hair that are closed, half their breadth in distances of the eyes: a lit crown is as light as skin.
+const GAP: f64 = 0.2;
+/// Where the crown begins, and the zone round a head that is looked at.
+const CROWN: f64 = -0.75;
+const ZONE: [f64; 3] = [2.2, -2.4, 1.5];
+/// Skin between brow and mouth that tells the tone of all of it.
+const CHEEKS: [f64; 3] = [0.75, -0.2, 0.95];
+/// The border's blur, in distances of the eyes, which belongs to the hair.
+const BORDER: f64 = 0.05;
+
+/// 1 where hair or headgear of the subject comes down over a face whose pattern lies at `frame`.
+pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
+    let relative = |x: usize, y: usize| frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+    let within =
+        |[breadth, top, bottom]: [f64; 3], (across, down): (f64, f64)| across.abs() < breadth && (top..bottom).contains(&down);
+    let is_core = |(across, down): (f64, f64)| (across / CORE[0]).hypot((down - CORE[1]) / CORE[2]) < 1.0;
+    let (width, height) = (lightness.width(), lightness.height());
+    let cheeks = Raster::from_fn(width, height, |x, y| f32::from(u8::from(within(CHEEKS, relative(x, y)))));
+    let skin = skin_tone(lightness, &cheeks, frame, SkinTone::Found);
+    let filled = dark_relief(lightness, frame.eye_distance).filled;
+    let dark = Raster::from_fn(width, height, |x, y| {
+        let place = relative(x, y);
+        let is_free = within(ZONE, place) && !is_core(place) && subject.get(x, y) >= 0.5;
+        u8::from(is_free && filled.get(x, y) < HAIR_TONE * skin[x])
+    });
+    let (labels, count) = components(&dark);
+    let mut crowned = vec![false; count + 1];
+    for y in 0..height {
+        for x in (0..width).filter(|x| labels.get(*x, y) != 0 && relative(*x, y).1 < CROWN) {
+            crowned[labels.get(x, y) as usize] = true;
+        }
+    }
+    let hair = remove_components(&dark, &labels, |label| crowned[label as usize]);
+    let pixels = |share: f64| (share * frame.eye_distance).round() as usize;
+    let grown = dilate(&hair, pixels(GAP + BORDER)).map(|hair| 1 - hair);
+    dilate(&grown, pixels(GAP)).map(|free| 1 - free)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fringe_is_hair_and_a_brow_is_not() {
+        let frame = FaceFrame { between_eyes: Point::new(100.0, 150.0), eye_distance: 60.0, stretch: 1.0, tilt: 0.0, score: 0.3 };
+        let page = Raster::from_fn(200, 300, |_, y| if y < 120 || (129..134).contains(&y) { 0.4 } else { 0.8 });
+        let hair = hair_over_face(&page, &Raster::filled(200, 300, 1.0), &frame);
+        assert_eq!((hair.get(100, 60), hair.get(100, 118), hair.get(100, 131), hair.get(100, 200)), (1, 1, 0, 0));
+    }
+}
