@@ -130,7 +130,6 @@ fn lines_never_cross_on_smooth_depth() {
 }
 
 #[test]
-#[ignore = "open: curves fitted to lines over pure noise stray from them, and come nearer than the gap"]
 fn lines_never_cross_on_noise() {
     assert_never_crossing(200..250);
 }
@@ -396,7 +395,6 @@ fn no_outline_meets_itself() {
 }
 
 #[test]
-#[ignore = "open: 12 segments a centimetre are promised, 14.0 are reached"]
 fn strokes_are_few_smooth_curves() {
     let per_cm = segments_a_centimetre();
     assert!(per_cm <= 12.0, "{per_cm}");

@@ -104,7 +104,14 @@ impl Breaking<'_> {
             for (i, run) in runs.iter().enumerate() {
                 let before = i.checked_sub(1).map_or(span.from, |i| 0.5 * (runs[i].to + run.from));
                 let after = runs.get(i + 1).map_or(span.to, |next| 0.5 * (run.to + next.from));
-                let wanted = ink.between(before, after) + carry;
+                let mut wanted = ink.between(before, after) + carry;
+                // What is left free before a border gives its ink to the piece beside it.
+                if i == 0 {
+                    wanted += span.lacking[0] * readings[0].ink();
+                }
+                if i + 1 == runs.len() {
+                    wanted += span.lacking[1] * readings[readings.len() - 1].ink();
+                }
                 let is_whole = run.to - run.from >= LEAST_DASH * courses.family.pitch && !self.is_stippled;
                 if is_whole {
                     pieces.push(dash(&readings, *run, span, wanted, courses.family.pitch));

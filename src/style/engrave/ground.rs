@@ -61,13 +61,28 @@ pub(super) struct Ground {
     /// Distance to the nearest border of a region, in millimetres.
     pub border: Raster<f32>,
     pub regions: Vec<Region>,
+    /// Direction of the lines for each label from 1, in degrees.
+    pub angles: Vec<f64>,
     /// How far lines run on into another region, in millimetres.
     pub overlap: f64,
+    /// Least distance of lines, in millimetres.
+    pub gap: f64,
+    /// Nearer to a border than this it matters what is beyond, in millimetres.
+    pub near: f64,
+}
+
+/// Least angle of two regions' lines, in degrees, for them to overlap: at less they would run side by side.
+const LEAST_ANGLE: f64 = 30.0;
+
+/// Between two lines, in degrees, 0 to 90.
+pub(super) fn angle_between(a: f64, b: f64) -> f64 {
+    let apart = (a - b).rem_euclid(180.0);
+    apart.min(180.0 - apart)
 }
 
 impl Ground {
-    /// How far inside a region a place lies, in millimetres; below 0 outside.
-    pub(super) fn inside(&self, label: i32, p: Point) -> f64 {
+    /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is no border.
+    pub(super) fn from_border(&self, label: i32, p: Point) -> f64 {
         let pixel = self.grid.pixel(p);
         let (fx, fy) = (pixel.x - 0.5, pixel.y - 0.5);
         let (x, y) = (fx.floor(), fy.floor());
@@ -79,23 +94,49 @@ impl Ground {
         };
         let top = signed(x, y) * (1.0 - tx) + signed(x + 1, y) * tx;
         let bottom = signed(x, y + 1) * (1.0 - tx) + signed(x + 1, y + 1) * tx;
-        (top * (1.0 - ty) + bottom * ty).min(self.grid.inside_picture(p))
+        top * (1.0 - ty) + bottom * ty
     }
 
-    /// The same with the overlap: a place in another region counts as inside as far as lines run on.
-    pub(super) fn inside_or_over(&self, label: i32, p: Point) -> f64 {
-        let inside = self.inside(label, p);
-        if self.overlap <= 0.0 || inside > 0.0 || self.grid.inside_picture(p) <= 0.0 {
-            return inside;
+    /// How far a region's lines may run on beyond the border that is nearest to a place: the overlap into a region whose lines
+    /// have another direction, a little less than to the border of one whose lines have nearly the same, which would meet them.
+    fn leave(&self, label: i32, p: Point, inside: f64) -> f64 {
+        if !self.has_neighbours() || inside > self.near {
+            return 0.0;
         }
-        let pixel = self.grid.pixel(p);
-        if self.labels.clamped(pixel.x as isize, pixel.y as isize) > 0 { inside + self.overlap } else { inside }
+        let beyond = if inside > 0.0 { p - self.inwards(label, p) * (inside + self.grid.pixel_mm()) } else { p };
+        let pixel = self.grid.pixel(beyond);
+        let other = self.labels.clamped(pixel.x.floor() as isize, pixel.y.floor() as isize);
+        if other <= 0 || other == label {
+            0.0
+        } else if self.overlap > 0.0 && angle_between(self.angle(label), self.angle(other)) >= LEAST_ANGLE {
+            self.overlap
+        } else {
+            -0.5 * self.gap
+        }
+    }
+
+    /// How far inside what a region's lines may reach a place lies, and inside the picture; below 0 outside. And what of that is
+    /// beyond the region's border, or lacks to it.
+    pub(super) fn reach(&self, label: i32, p: Point) -> (f64, f64) {
+        let inside = self.from_border(label, p);
+        let leave = self.leave(label, p, inside);
+        ((inside + leave).min(self.grid.inside_picture(p)), leave)
+    }
+
+    /// How far inside what a region's ink may cover a place lies; the picture's rim is no border.
+    pub(super) fn cover(&self, label: i32, p: Point) -> f64 {
+        let inside = self.from_border(label, p);
+        inside + self.leave(label, p, inside).max(0.0)
+    }
+
+    fn angle(&self, label: i32) -> f64 {
+        self.angles[label as usize - 1]
     }
 
     /// Towards the inside of a region.
     pub(super) fn inwards(&self, label: i32, p: Point) -> Vec2 {
         let h = 0.5 * self.grid.pixel_mm();
-        let along = |step: Vec2| self.inside(label, p + step) - self.inside(label, p - step);
+        let along = |step: Vec2| self.from_border(label, p + step) - self.from_border(label, p - step);
         let gradient = Vec2::new(along(Vec2::new(h, 0.0)), along(Vec2::new(0.0, h)));
         gradient / gradient.hypot().max(1e-9)
     }

@@ -23,6 +23,10 @@ const SMOOTHING_ROUNDS: usize = 2;
 const BORDER_ROOM: f64 = 0.26;
 /// Sine of the angle to a border below which a line runs along it: 20 degrees, since two lines may be 15 degrees apart.
 const ALONG_BORDER: f64 = 0.34;
+/// Least sine of a line's angle to a border for what is left free there: at less a long end would give its ink to what is left.
+const MOST_LACKING: f64 = 0.3;
+/// Least share of a line's side that a border takes: along a border it is half the distance that counts.
+const LEAST_ACROSS: f64 = 0.1;
 /// Pieces shorter than this are left out, in pitches.
 const STUB: f64 = 0.5;
 
@@ -36,12 +40,14 @@ pub(super) struct Wanted<'a> {
     pub width_max: f64,
 }
 
-/// A piece of a line inside its region, by place along; whether its two ends are cut by the border.
+/// A piece of a line inside its region, by place along; whether its two ends are cut by the border, and how much of the line
+/// is left free between each and the border.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub from: f64,
     pub to: f64,
     pub is_cut: [bool; 2],
+    pub lacking: [f64; 2],
 }
 
 /// One line read at every few columns.
@@ -114,25 +120,20 @@ impl<'a> Courses<'a> {
             return Course::default();
         }
         let ground = self.wanted.ground;
-        let margin = if ground.has_neighbours() && ground.overlap <= 0.0 {
-            // Half a pixel for the distances, which are read between pixels.
-            0.5 * (self.family.gap.distance + ground.grid.pixel_mm())
-        } else {
-            0.0
-        };
-        let inside: Vec<f64> = (first..end)
+        let (inside, leave): (Vec<f64>, Vec<f64>) = (first..end)
             .map(|r| {
                 if line.presence[r * self.stride - line.first] == 0.0 && (r == first || r + 1 == end || self.is_gone(line, r)) {
-                    return -1.0;
+                    return (-1.0, 0.0);
                 }
-                ground.inside_or_over(self.wanted.region.label, self.point(line, r)) - margin
+                ground.reach(self.wanted.region.label, self.point(line, r))
             })
-            .collect();
+            .unzip();
         let mut is_in: Vec<bool> = inside.iter().map(|&s| s > 0.0).collect();
-        if ground.has_neighbours() && ground.overlap <= 0.0 {
-            self.leave_borders(line, first, &inside, &mut is_in);
+        if ground.has_neighbours() {
+            let own: Vec<f64> = inside.iter().zip(&leave).map(|(inside, leave)| inside - leave).collect();
+            self.leave_borders(line, first, &own, &mut is_in);
         }
-        let spans = self.spans(first, &inside, &is_in);
+        let spans = self.spans(first, &inside, &leave, &is_in);
         let inside = inside.iter().map(|&s| s as f32).collect();
         let mut course = Course { first, spans, inside, weight: vec![0.0; end - first], ..Course::default() };
         for span in &course.spans {
@@ -170,7 +171,7 @@ impl<'a> Courses<'a> {
         }
     }
 
-    fn spans(&self, first: usize, inside: &[f64], is_in: &[bool]) -> Vec<Span> {
+    fn spans(&self, first: usize, inside: &[f64], leave: &[f64], is_in: &[bool]) -> Vec<Span> {
         let mut spans: Vec<Span> = Vec::new();
         for run in runs(is_in) {
             // To where the border is crossed between two readings.
@@ -181,19 +182,27 @@ impl<'a> Courses<'a> {
                 }
                 _ => self.place(first + within),
             };
+            // What is left free before a border, along the line.
+            let lacking = |within: usize, beyond: Option<usize>| match beyond.filter(|&b| b < inside.len()) {
+                Some(b) if inside[b] <= 0.0 && inside[b] > -1.0 => {
+                    (-leave[b]).max(0.0) * self.step() / (inside[within] - inside[b]).max(MOST_LACKING * self.step())
+                }
+                _ => 0.0,
+            };
             let (start, last) = (run.start, run.end - 1);
             let span = Span {
                 from: crossing(start, start.checked_sub(1)),
                 to: crossing(last, Some(last + 1)),
                 is_cut: [start > 0 && inside[start - 1] > -1.0, last + 1 < inside.len() && inside[last + 1] > -1.0],
+                lacking: [lacking(start, start.checked_sub(1)), lacking(last, Some(last + 1))],
             };
             spans.push(span);
         }
         // A line that leaves its region and comes back keeps the gap to itself.
         for i in 1..spans.len() {
-            let lacking = 0.5 * (self.family.gap.distance - (spans[i].from - spans[i - 1].to)).max(0.0);
-            spans[i - 1].to -= lacking;
-            spans[i].from += lacking;
+            let short = 0.5 * (self.family.gap.distance - (spans[i].from - spans[i - 1].to)).max(0.0);
+            spans[i - 1].to -= short;
+            spans[i].from += short;
         }
         spans.retain(|span| span.to - span.from >= STUB * self.family.pitch);
         spans
@@ -256,7 +265,7 @@ impl<'a> Courses<'a> {
                 let inside = if inside > extent + soft {
                     1.0
                 } else {
-                    (0.5 + ground.inside_or_over(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
+                    (0.5 + ground.cover(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
                 };
                 within += slice * inside;
                 if inside > 0.0 {
@@ -297,10 +306,37 @@ impl<'a> Courses<'a> {
         sides
     }
 
+    /// The width at which a line's side meets a border that runs slanting to it: its end is a point there, not a square one that
+    /// stands out.
+    fn border_room(&self, line: &Line, course: &Course, i: usize) -> f32 {
+        let Wanted { ground, region, width_max, .. } = self.wanted;
+        if f64::from(course.inside[i]) > ground.near.max(0.5 * width_max) {
+            return f32::INFINITY;
+        }
+        let r = course.first + i;
+        let (a, b) = (i.saturating_sub(1), (i + 1).min(course.weight.len() - 1));
+        let along = self.point(line, course.first + b) - self.point(line, course.first + a);
+        let here = self.point(line, r);
+        let across = along.cross(ground.inwards(region.label, here)).abs() / along.hypot().max(1e-9);
+        if across < LEAST_ACROSS {
+            return f32::INFINITY;
+        }
+        (2.0 * ground.cover(region.label, here).max(0.0) / across) as f32
+    }
+
     /// Widths at which neighbours touch at most.
     fn limit(&mut self) {
         let sides = self.sides();
-        for (course, sides) in self.lines.iter_mut().zip(sides) {
+        let borders: Vec<Vec<f32>> = self
+            .lines
+            .par_iter()
+            .zip(&self.family.lines)
+            .map(|(course, line)| {
+                let is_there = |i: usize| course.weight[i] > 0.0;
+                (0..course.width.len()).map(|i| if is_there(i) { self.border_room(line, course, i) } else { 0.0 }).collect()
+            })
+            .collect();
+        for ((course, sides), borders) in self.lines.iter_mut().zip(sides).zip(borders) {
             course.room = (0..course.width.len())
                 .map(|i| {
                     let (own, side, stretch) = (course.width[i], sides[i], course.stretch[i]);
@@ -309,7 +345,7 @@ impl<'a> Courses<'a> {
                         let share = if own + side.width[j] > 0.0 { own / (own + side.width[j]) } else { 0.5 };
                         2.0 * side.neighbour[j] / stretch * share
                     };
-                    room(0).min(room(1)).min(self.wanted.width_max as f32)
+                    room(0).min(room(1)).min(self.wanted.width_max as f32).min(borders[i])
                 })
                 .collect();
             course.width.iter_mut().zip(&course.room).for_each(|(width, room)| *width = width.min(*room));
