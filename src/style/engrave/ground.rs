@@ -1,12 +1,15 @@
 //! The regions as places on the page: how far inside its region a point lies, and what a raster says there.
 
+use super::lines::FIT_ROOM;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::Placement;
 
-/// Lines end this far within the picture, in millimetres: less than is written, but never outside the page, where they would be
-/// cut again.
-const RIM: f64 = 1e-5;
+/// Lines end this far within the picture: the room that their curves have, so that none bulges over the rim, is cut there and
+/// comes too near to itself.
+const RIM: f64 = FIT_ROOM;
+/// What distances to curved borders, read between pixels, may be off, in pixels.
+const BORDER_ERROR: f64 = 0.25;
 
 /// Working rasters read at places on the page, in millimetres.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +39,7 @@ impl Grid {
     }
 
     /// How far inside the picture a place is; below 0 outside.
-    fn inside_picture(&self, p: Point) -> f64 {
+    pub(super) fn inside_picture(&self, p: Point) -> f64 {
         let r = self.picture;
         (p.x - r.x0).min(r.x1 - p.x).min((p.y - r.y0).min(r.y1 - p.y)) - RIM
     }
@@ -82,7 +85,7 @@ pub(super) fn angle_between(a: f64, b: f64) -> f64 {
 
 impl Ground {
     /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is no border.
-    pub(super) fn from_border(&self, label: i32, p: Point) -> f64 {
+    pub(super) fn inside_region(&self, label: i32, p: Point) -> f64 {
         let pixel = self.grid.pixel(p);
         let (fx, fy) = (pixel.x - 0.5, pixel.y - 0.5);
         let (x, y) = (fx.floor(), fy.floor());
@@ -100,32 +103,36 @@ impl Ground {
     /// How far a region's lines may run on beyond the border that is nearest to a place: the overlap into a region whose lines
     /// have another direction, a little less than to the border of one whose lines have nearly the same, which would meet them.
     fn leave(&self, label: i32, p: Point, inside: f64) -> f64 {
-        if !self.has_neighbours() || inside > self.near {
+        if !self.has_neighbours() || inside > self.near || inside < -self.overlap - self.gap {
             return 0.0;
         }
-        let beyond = if inside > 0.0 { p - self.inwards(label, p) * (inside + self.grid.pixel_mm()) } else { p };
-        let pixel = self.grid.pixel(beyond);
-        let other = self.labels.clamped(pixel.x.floor() as isize, pixel.y.floor() as isize);
-        if other <= 0 || other == label {
+        let across = |way: f64| {
+            let pixel = self.grid.pixel(p + self.inwards(label, p) * way);
+            self.labels.clamped(pixel.x.floor() as isize, pixel.y.floor() as isize)
+        };
+        let pixel = self.grid.pixel_mm();
+        let (here, other) = if inside > 0.0 { (label, across(-inside - pixel)) } else { (across(pixel - inside), across(0.0)) };
+        // Outside, the nearest border may be one between two other regions.
+        if other <= 0 || other == label || here != label {
             0.0
         } else if self.overlap > 0.0 && angle_between(self.angle(label), self.angle(other)) >= LEAST_ANGLE {
             self.overlap
         } else {
-            -0.5 * self.gap
+            -0.5 * self.gap - BORDER_ERROR * pixel
         }
     }
 
     /// How far inside what a region's lines may reach a place lies, and inside the picture; below 0 outside. And what of that is
     /// beyond the region's border, or lacks to it.
     pub(super) fn reach(&self, label: i32, p: Point) -> (f64, f64) {
-        let inside = self.from_border(label, p);
+        let inside = self.inside_region(label, p);
         let leave = self.leave(label, p, inside);
         ((inside + leave).min(self.grid.inside_picture(p)), leave)
     }
 
     /// How far inside what a region's ink may cover a place lies; the picture's rim is no border.
     pub(super) fn cover(&self, label: i32, p: Point) -> f64 {
-        let inside = self.from_border(label, p);
+        let inside = self.inside_region(label, p);
         inside + self.leave(label, p, inside).max(0.0)
     }
 
@@ -136,7 +143,7 @@ impl Ground {
     /// Towards the inside of a region.
     pub(super) fn inwards(&self, label: i32, p: Point) -> Vec2 {
         let h = 0.5 * self.grid.pixel_mm();
-        let along = |step: Vec2| self.from_border(label, p + step) - self.from_border(label, p - step);
+        let along = |step: Vec2| self.inside_region(label, p + step) - self.inside_region(label, p - step);
         let gradient = Vec2::new(along(Vec2::new(h, 0.0)), along(Vec2::new(0.0, h)));
         gradient / gradient.hypot().max(1e-9)
     }

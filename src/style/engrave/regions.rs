@@ -1,7 +1,7 @@
 //! Step 3: regions, each with lines of a direction of its own (Galarza 2017, sections 3.3 and 3.4).
 
 use super::Drawer;
-use super::angles::join_alike;
+use super::alike::join_alike;
 use super::ground::{Grid, Ground, Region};
 use super::lines::FIT_ROOM;
 use super::relief::Relief;
