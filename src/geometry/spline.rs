@@ -105,7 +105,7 @@ mod tests {
         let knots: Vec<Knot> =
             [0.0, 1.0, 4.0, 5.0, 9.0].map(|at| Knot { at, height: cubic(at), slope: slope(at) + 0.1 }).to_vec();
         for knot in least_squares(&knots, cubic, 0.1) {
-            assert!((knot.height - cubic(knot.at)).abs() < 1e-3 && (knot.slope - slope(knot.at)).abs() < 2e-3, "{knot:?}");
+            assert!((knot.height - cubic(knot.at)).abs() < 1e-3 && (knot.slope - slope(knot.at)).abs() < 4e-3, "{knot:?}");
         }
     }
 }
