@@ -12,6 +12,9 @@ const ALONG_BORDER: f64 = 0.34;
 const MOST_LACKING: f64 = 0.3;
 /// A place this far beyond the rim, in millimetres, was cut there.
 const ON_RIM: f64 = 1e-9;
+/// How far a line runs on over a border at least, if the overlap allows, in pitches: two that do so from both sides stay below
+/// two pitches together.
+const BESIDE: f64 = 0.9;
 /// Pieces shorter than this are left out, in pitches.
 const STUB: f64 = 0.5;
 
@@ -44,8 +47,12 @@ impl Courses<'_> {
             .unzip();
         let mut is_in: Vec<bool> = inside.iter().map(|&s| s > 0.0).collect();
         if ground.has_neighbours() {
+            // Less what may be run over, more what is to be left free.
             let own: Vec<f64> = inside.iter().zip(&leave).map(|(inside, leave)| inside - leave).collect();
             self.leave_borders(line, first, &own, &mut is_in);
+            if ground.overlap > 0.0 {
+                self.shorten_overlaps(line, first, &own, &mut is_in);
+            }
         }
         let spans = self.spans(line, first, &inside, &leave, &is_in);
         let inside = inside.iter().map(|&s| s as f32).collect();
@@ -83,6 +90,21 @@ impl Courses<'_> {
         for run in runs(&beside).into_iter().filter(|run| run.len() >= least) {
             is_in[run].fill(false);
         }
+    }
+
+    /// Takes out what a line that crosses a border slantwise runs on too far beside the lines over there.
+    fn shorten_overlaps(&self, line: &Line, first: usize, own: &[f64], is_in: &mut [bool]) {
+        let most = self.wanted.ground.overlap.max(BESIDE * self.family.pitch);
+        let way = |i: usize| (self.point(line, first + i) - self.point(line, first + i - 1)).hypot();
+        // How far the line has run since it was inside, from either side.
+        let mut away = vec![f64::INFINITY; own.len()];
+        for i in 0..own.len() {
+            away[i] = if own[i] > 0.0 { 0.0 } else { i.checked_sub(1).map_or(f64::INFINITY, |before| away[before] + way(i)) };
+        }
+        for i in (0..own.len().saturating_sub(1)).rev() {
+            away[i] = away[i].min(away[i + 1] + way(i + 1));
+        }
+        is_in.iter_mut().zip(away).for_each(|(is_in, away)| *is_in &= away <= most);
     }
 
     fn spans(&self, line: &Line, first: usize, inside: &[f64], leave: &[f64], is_in: &[bool]) -> Vec<Span> {
