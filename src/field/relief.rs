@@ -1,23 +1,65 @@
 //! Depth guessed from regions and shading (Galarza 2017, sections 4.4 and 5.2).
 
+use super::distance::nearest_seed;
 use super::poisson::poisson;
-use crate::raster::Raster;
+use crate::raster::{Raster, gaussian_blur};
 
 /// V-cycles of the solver.
 const CYCLES: usize = 8;
 
-/// Bulges each region (labels above 0) into a cushion that is round at its border and 0 on it: the root of Poisson's solution
-/// for an even load, so a disc becomes a hemisphere. In pixels.
+/// Standard deviation of the smoothing of the load, as a fraction of the greatest distance from a border: with none the distances'
+/// ridges stay, with much more a region's arms lose their own height.
+const RIDGE_SMOOTHING: f32 = 0.15;
+
+/// Bulges each region (labels above 0) into a cushion that is round at its border and 0 on it; in pixels.
+///
+/// From the distance `d` to the region's border, at most `R` in it, the square of a height is `d (2 R - d)`, which makes a disc a
+/// hemisphere but leaves a ridge wherever two sides meet. Its Laplacian, smoothed, is the load of Poisson's equation with the
+/// borders at 0, whose solution has none. A raster without any border stays flat.
 pub fn inflate(labels: &Raster<i32>) -> Raster<f32> {
-    let given = Raster::from_fn(labels.width(), labels.height(), |x, y| {
+    let is_border = Raster::from_fn(labels.width(), labels.height(), |x, y| {
         let label = labels.get(x, y);
-        let is_border = |dx: isize, dy: isize| {
+        let differs = |dx: isize, dy: isize| {
             let (x, y) = (x as isize + dx, y as isize + dy);
             labels.contains(x, y) && labels.clamped(x, y) != label
         };
-        (label <= 0 || is_border(1, 0) || is_border(0, 1)).then_some(0.0_f32)
+        u8::from(label <= 0 || differs(1, 0) || differs(0, 1))
     });
-    poisson(&labels.map(|_| -4.0), &given, CYCLES).map(|z| z.max(0.0).sqrt())
+    let Some(nearest) = nearest_seed(&is_border) else { return labels.map(|_| 0.0) };
+    let distance = distances(&nearest);
+    let squared = squared_heights(labels, &distance);
+    let load = Raster::from_fn(labels.width(), labels.height(), |x, y| {
+        let (x, y) = (x as isize, y as isize);
+        let beside =
+            squared.clamped(x - 1, y) + squared.clamped(x + 1, y) + squared.clamped(x, y - 1) + squared.clamped(x, y + 1);
+        if is_border.clamped(x, y) > 0 { 0.0 } else { beside - 4.0 * squared.clamped(x, y) }
+    });
+    // Only what is inside counts, so that nothing leaks from one region into the next.
+    let deepest = distance.pixels().iter().copied().fold(0.0, f32::max);
+    let blurred = |raster: &Raster<f32>| gaussian_blur(raster, (RIDGE_SMOOTHING * deepest).max(0.5));
+    let share = blurred(&is_border.map(|border| 1.0 - f32::from(border)));
+    let load = blurred(&load).zip_map(&share, |load, share| load / share.max(1e-3));
+    poisson(&load, &is_border.map(|border| (border > 0).then_some(0.0)), CYCLES).map(|z| z.max(0.0).sqrt())
+}
+
+/// Distance in pixels from each pixel to the one named.
+fn distances(nearest: &Raster<u32>) -> Raster<f32> {
+    let width = nearest.width();
+    Raster::from_fn(width, nearest.height(), |x, y| {
+        let seed = nearest.get(x, y) as usize;
+        (x as f32 - (seed % width) as f32).hypot(y as f32 - (seed / width) as f32)
+    })
+}
+
+/// `d (2 R - d)` with each region's own greatest distance.
+fn squared_heights(labels: &Raster<i32>, distance: &Raster<f32>) -> Raster<f32> {
+    let count = labels.pixels().iter().copied().max().unwrap_or(0).max(0) as usize;
+    let mut greatest = vec![0.0_f32; count + 1];
+    for (&label, &d) in labels.pixels().iter().zip(distance.pixels()) {
+        let greatest = &mut greatest[label.max(0) as usize];
+        *greatest = greatest.max(d);
+    }
+    labels.zip_map(distance, |label, d| d * (2.0 * greatest[label.max(0) as usize] - d))
 }
 
 /// Bends a relief (`base`, in pixels) until its slopes towards the light agree with the shading: shape from shading with the
@@ -62,6 +104,17 @@ mod tests {
         assert!((domes.get(95, 29) - 15.0).abs() < 1.5, "{}", domes.get(95, 29));
         assert!((domes.get(35 + 15, 29) - 20.0).abs() < 1.5);
         assert_eq!(domes.get(65, 29), 0.0);
+    }
+
+    #[test]
+    fn an_l_has_no_ridges() {
+        let labels =
+            Raster::from_fn(120, 120, |x, y| i32::from((5..115).contains(&x) && (5..115).contains(&y) && (x < 55 || y > 65)));
+        let cushion = inflate(&labels);
+        let bend = |x: usize, y: usize| cushion.get(x - 2, y) + cushion.get(x + 2, y) - 2.0 * cushion.get(x, y);
+        // Across the arm, where the plain distance has a ridge of -4.
+        assert!((15..45).all(|x| bend(x, 30) > -1.0), "{:?}", (15..45).map(|x| bend(x, 30)).collect::<Vec<_>>());
+        assert!(cushion.get(30, 30) > 15.0 && cushion.get(30, 90) > cushion.get(30, 30));
     }
 
     #[test]

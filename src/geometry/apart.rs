@@ -31,6 +31,11 @@ impl Gap {
         Self { distance, step, hood }
     }
 
+    /// How many steps aside another curve can come nearer than the distance.
+    pub const fn reach(&self) -> usize {
+        self.hood.len() - 1
+    }
+
     /// Raises a curve until it lies above `lower` by the gap.
     pub fn raise(&self, curve: &mut [f64], lower: &[f64]) {
         for (j, &rise) in self.hood.iter().enumerate().take(curve.len()) {

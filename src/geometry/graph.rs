@@ -1,4 +1,11 @@
-//! A swelling stroke along a curve over one axis, with as few cubics as a tolerance allows.
+//! A swelling stroke along a curve over one axis, with few cubics within a tolerance.
+
+use super::spline::{Knot, least_squares};
+
+/// Rounds of halving: enough for pieces of a few millimetres to come down to the steps.
+const ROUNDS: usize = 9;
+/// Where in a piece its width is looked at.
+const WIDTH_PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A curve over one axis, given by heights at even steps and straight between them.
 #[derive(Clone, Copy, Debug)]
@@ -53,35 +60,54 @@ impl Graph<'_> {
         if b > a { (self.height(b) - self.height(a)) / (b - a) } else { 0.0 }
     }
 
-    /// The nodes of a stroke that passes through `places` (ascending, at least two) and as many more as the tolerance asks
-    /// for, its width given at every place.
+    /// The nodes of a stroke over `places` (ascending, at least two) and as many more as the tolerance asks for, its width given
+    /// at every place: the smooth piecewise cubic nearest to the curve, its pieces halved where it is not near enough. What
+    /// noise makes of the curve's last steps is followed straight.
     pub fn fit(&self, places: &[f64], width: impl Fn(f64) -> f64, tolerance: FitTolerance) -> Vec<GraphNode> {
         let mut at = Vec::with_capacity(4 * places.len());
         at.push(places[0]);
         for pair in places.windows(2).filter(|pair| pair[1] > pair[0]) {
             let pieces = ((pair[1] - pair[0]) / tolerance.piece).ceil().max(1.0) as usize;
-            for i in 1..=pieces {
-                let from = at[at.len() - 1];
-                self.split(from, pair[0] + (pair[1] - pair[0]) * i as f64 / pieces as f64, tolerance.height, &mut at);
-            }
+            at.extend((1..=pieces).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / pieces as f64));
         }
-        self.split_for_width(&mut at, &width, tolerance.width);
-        // A piece that was halved has slopes of its own.
-        let mut fitted = vec![at[0]];
-        at.windows(2).for_each(|pair| self.split(pair[0], pair[1], tolerance.height, &mut fitted));
-        let at = fitted;
-        self.nodes(&at, &width, tolerance.height)
+        let mut knots = self.knots(&at);
+        for _ in 0..ROUNDS {
+            let refined = self.refined(&knots, &width, tolerance);
+            if refined.len() == knots.len() {
+                break;
+            }
+            knots = self.knots(&refined);
+        }
+        self.nodes(&knots, &width, tolerance.height)
     }
 
-    /// Appends the ends of pieces from `from` (already there) to `to`; a piece is near to the curve or holds none of its corners.
-    fn split(&self, from: f64, to: f64, tolerance: f64, at: &mut Vec<f64>) {
-        match self.corner_between(from, to) {
-            Some(middle) if !self.is_near(from, to, tolerance) => {
-                self.split(from, middle, tolerance, at);
-                self.split(middle, to, tolerance, at);
+    /// The nearest smooth curve with knots at these places.
+    fn knots(&self, at: &[f64]) -> Vec<Knot> {
+        let knots: Vec<Knot> = at.iter().map(|&at| Knot { at, height: self.height(at), slope: self.slope(at) }).collect();
+        least_squares(&knots, |place| self.height(place), self.step)
+    }
+
+    /// The places of the knots, and one more in each piece that is not near to the curve or to the width.
+    fn refined(&self, knots: &[Knot], width: &impl Fn(f64) -> f64, tolerance: FitTolerance) -> Vec<f64> {
+        let at: Vec<f64> = knots.iter().map(|knot| knot.at).collect();
+        let widths: Vec<f64> = at.iter().map(|&u| width(u)).collect();
+        let slopes = monotone_slopes(&at, &widths);
+        let swelling = |i: usize| Knot { at: at[i], height: widths[i], slope: slopes[i] };
+        let mut refined = Vec::with_capacity(2 * at.len());
+        for i in 0..at.len() - 1 {
+            refined.push(at[i]);
+            let length = at[i + 1] - at[i];
+            if !self.is_near(knots[i], knots[i + 1], tolerance.height) {
+                refined.extend(self.corner_between(at[i], at[i + 1]));
+            } else if length > 2.0 * self.step {
+                let cubic = Cubic::new(swelling(i), swelling(i + 1));
+                // The outline interpolates widths as this does.
+                let is_near = |t: f64| (cubic.at(t * length) - width(at[i] + t * length)).abs() <= tolerance.width;
+                refined.extend((!WIDTH_PLACES.into_iter().all(is_near)).then_some(at[i] + 0.5 * length));
             }
-            _ => at.push(to),
         }
+        refined.push(at[at.len() - 1]);
+        refined
     }
 
     /// The given height nearest to the middle of a piece, if one lies inside.
@@ -94,69 +120,84 @@ impl Graph<'_> {
             .find(|place| *place > from + margin && *place < to - margin)
     }
 
-    /// Whether the cubic over a piece passes near each of the curve's corners in it, and near a few places between.
-    fn is_near(&self, from: f64, to: f64, tolerance: f64) -> bool {
-        let piece = (from, self.height(from), self.slope(from), to, self.height(to), self.slope(to));
-        let is_near = |place: f64| (hermite(piece, place) - self.height(place)).abs() <= tolerance;
-        let first = ((from - self.first) / self.step).ceil();
-        let last = ((to - self.first) / self.step).floor();
-        let corners = (last - first + 1.0).max(0.0) as usize;
-        (1..4).all(|i| is_near(from + (to - from) * 0.25 * f64::from(i)))
-            && (0..corners).all(|i| is_near(self.first + (first + i as f64) * self.step))
-    }
-
-    /// Halves pieces until the width, as the outline of a stroke will interpolate it, is near to the one wanted.
-    fn split_for_width(&self, at: &mut Vec<f64>, width: &impl Fn(f64) -> f64, tolerance: f64) {
-        for _ in 0..6 {
-            let widths: Vec<f64> = at.iter().map(|&u| width(u)).collect();
-            let slopes = monotone_slopes(at, &widths);
-            let mut refined = Vec::with_capacity(2 * at.len());
-            for i in 0..at.len() - 1 {
-                refined.push(at[i]);
-                let piece = (at[i], widths[i], slopes[i], at[i + 1], widths[i + 1], slopes[i + 1]);
-                let is_near = [0.25, 0.5, 0.75].iter().all(|t| {
-                    let place = at[i] + (at[i + 1] - at[i]) * t;
-                    (hermite(piece, place) - width(place)).abs() <= tolerance
-                });
-                if !is_near && at[i + 1] - at[i] > 2.0 * self.step {
-                    refined.push(0.5 * (at[i] + at[i + 1]));
-                }
-            }
-            refined.push(at[at.len() - 1]);
-            if refined.len() == at.len() {
-                return;
-            }
-            *at = refined;
+    /// Whether a cubic piece lies within the tolerance of the curve everywhere, in height.
+    fn is_near(&self, from: Knot, to: Knot, tolerance: f64) -> bool {
+        let cubic = Cubic::new(from, to);
+        let length = to.at - from.at;
+        let is_far = |t: f64| (cubic.at(t * length) - self.height(from.at + t * length)).abs() > tolerance;
+        if [0.5, 0.2, 0.8].into_iter().any(is_far) {
+            return false;
         }
+        // Where the curve is straight the cubic leaves the chord by an eighth of its bend times the step's square.
+        let slack = 0.125 * self.step * self.step;
+        let mut before: (f64, f64) = (0.0, 0.0);
+        self.corners(from.at, to.at).all(|(place, height)| {
+            let x = place - from.at;
+            let here = ((cubic.at(x) - height).abs(), cubic.bend(x).abs());
+            let off = here.0.max(before.0) + slack * here.1.max(before.1);
+            before = here;
+            off <= tolerance
+        })
     }
 
-    fn nodes(&self, at: &[f64], width: &impl Fn(f64) -> f64, tolerance: f64) -> Vec<GraphNode> {
-        let mut nodes: Vec<GraphNode> = at
-            .iter()
-            .map(|&at| {
-                let slope = self.slope(at);
-                GraphNode { at, height: self.height(at), slope_before: slope, slope_after: slope, width: width(at) }
-            })
-            .collect();
-        for i in 1..nodes.len() {
-            let (a, b) = (nodes[i - 1], nodes[i]);
-            if !self.is_near(a.at, b.at, tolerance) {
-                // Noise finer than the steps: straight, so that nothing bulges into a neighbour.
-                let secant = (b.height - a.height) / (b.at - a.at);
-                nodes[i - 1].slope_after = secant;
-                nodes[i].slope_before = secant;
+    /// The curve's corners from one place to another, those two included, each with its height.
+    fn corners(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+        let margin = 1e-6 * self.step;
+        let first = ((from + margin - self.first) / self.step).ceil().max(0.0) as usize;
+        let last = ((to - margin - self.first) / self.step).floor().max(0.0) as usize;
+        let inner = (first..=last.min(self.heights.len() - 1)).map(|i| (self.first + i as f64 * self.step, self.heights[i]));
+        std::iter::once((from, self.height(from))).chain(inner).chain(std::iter::once((to, self.height(to))))
+    }
+
+    /// The nodes; pieces that are not near to the curve run straight from corner to corner.
+    fn nodes(&self, knots: &[Knot], width: &impl Fn(f64) -> f64, tolerance: f64) -> Vec<GraphNode> {
+        let near: Vec<bool> = knots.windows(2).map(|pair| self.is_near(pair[0], pair[1], tolerance)).collect();
+        // A knot with no good piece beside it may lie anywhere.
+        let is_sound = |i: usize| near[i.saturating_sub(1)] || near[i.min(near.len() - 1)];
+        let sound = |i: usize| if is_sound(i) { knots[i] } else { Knot { height: self.height(knots[i].at), ..knots[i] } };
+        let node =
+            |k: Knot| GraphNode { at: k.at, height: k.height, slope_before: k.slope, slope_after: k.slope, width: width(k.at) };
+        let mut nodes: Vec<GraphNode> = vec![node(sound(0))];
+        for (i, &near) in near.iter().enumerate() {
+            let (from, to) = (sound(i), sound(i + 1));
+            if near {
+                nodes.push(node(to));
+                continue;
+            }
+            let inner = self.corners(from.at, to.at).filter(|(at, _)| *at > from.at && *at < to.at);
+            let corners = inner.map(|(at, height)| Knot { at, height, slope: 0.0 }).chain(std::iter::once(to));
+            for next in corners {
+                let before = nodes.len() - 1;
+                let secant = (next.height - nodes[before].height) / (next.at - nodes[before].at);
+                nodes[before].slope_after = secant;
+                nodes.push(GraphNode { slope_before: secant, ..node(next) });
             }
         }
         nodes
     }
 }
 
-/// The cubic between two ends (place, height, slope each).
-fn hermite((u0, h0, s0, u1, h1, s1): (f64, f64, f64, f64, f64, f64), at: f64) -> f64 {
-    let length = u1 - u0;
-    let t = (at - u0) / length;
-    let (t2, t3) = (t * t, t * t * t);
-    (2.0 * t3 - 3.0 * t2 + 1.0) * h0 + (t3 - 2.0 * t2 + t) * length * s0 + (3.0 * t2 - 2.0 * t3) * h1 + (t3 - t2) * length * s1
+/// The cubic between two knots, by the distance from the first.
+struct Cubic([f64; 4]);
+
+impl Cubic {
+    fn new(from: Knot, to: Knot) -> Self {
+        let length = to.at - from.at;
+        let secant = (to.height - from.height) / length;
+        let second = (3.0 * secant - 2.0 * from.slope - to.slope) / length;
+        let third = (from.slope + to.slope - 2.0 * secant) / (length * length);
+        Self([from.height, from.slope, second, third])
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        let [a, b, c, d] = self.0;
+        a + x * (b + x * (c + x * d))
+    }
+
+    /// The second derivative.
+    fn bend(&self, x: f64) -> f64 {
+        2.0 * self.0[2] + 6.0 * self.0[3] * x
+    }
 }
 
 /// Slopes by the harmonic mean of the neighbours' secants, 0 at a peak (Fritsch and Butland 1984), as outlines use them.
@@ -175,7 +216,12 @@ fn monotone_slopes(at: &[f64], values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    const FINE: FitTolerance = FitTolerance { height: 0.005, width: 0.01, piece: 2.0 };
+    fn piece(pair: &[GraphNode]) -> Cubic {
+        let knot = |node: &GraphNode, slope| Knot { at: node.at, height: node.height, slope };
+        Cubic::new(knot(&pair[0], pair[0].slope_after), knot(&pair[1], pair[1].slope_before))
+    }
+
+    const FINE: FitTolerance = FitTolerance { height: 0.005, width: 0.01, piece: 8.0 };
 
     #[test]
     fn a_wave_takes_few_pieces_and_stays_near() {
@@ -183,12 +229,12 @@ mod tests {
         let heights: Vec<f64> = (0..1001).map(|i| wave(f64::from(i) * 0.04)).collect();
         let graph = Graph { first: 0.0, step: 0.04, heights: &heights };
         let nodes = graph.fit(&[0.0, 40.0], |u| 0.3 + 0.2 * (u / 5.0).cos(), FINE);
-        assert!(nodes.len() <= 25, "{}", nodes.len());
+        assert!(nodes.len() <= 18, "{}", nodes.len());
         for pair in nodes.windows(2) {
-            let piece = (pair[0].at, pair[0].height, pair[0].slope_after, pair[1].at, pair[1].height, pair[1].slope_before);
+            let cubic = piece(pair);
             for i in 0..10 {
                 let at = pair[0].at + (pair[1].at - pair[0].at) * f64::from(i) / 10.0;
-                assert!((hermite(piece, at) - wave(at)).abs() < 0.006);
+                assert!((cubic.at(at - pair[0].at) - wave(at)).abs() < 0.0055);
             }
         }
     }
@@ -198,10 +244,10 @@ mod tests {
         let heights: Vec<f64> = (0..200).map(|i| f64::from(i * 7919 % 13) * 0.1).collect();
         let graph = Graph { first: 0.0, step: 0.1, heights: &heights };
         for pair in graph.fit(&[0.0, 19.9], |_| 0.1, FINE).windows(2) {
-            let piece = (pair[0].at, pair[0].height, pair[0].slope_after, pair[1].at, pair[1].height, pair[1].slope_before);
+            let cubic = piece(pair);
             for i in 0..=10 {
                 let at = pair[0].at + (pair[1].at - pair[0].at) * f64::from(i) / 10.0;
-                assert!((hermite(piece, at) - graph.height(at)).abs() < 0.02 + 1e-9, "at {at}");
+                assert!((cubic.at(at - pair[0].at) - graph.height(at)).abs() <= FINE.height + 1e-9, "at {at}");
             }
         }
     }

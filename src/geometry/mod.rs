@@ -16,6 +16,7 @@ mod length;
 mod polyline;
 mod region;
 mod smooth;
+mod spline;
 mod swell;
 mod thinning;
 

@@ -5,6 +5,7 @@ use crate::field::edge_tangent_flow;
 use crate::raster::Raster;
 use crate::style::random::stream;
 use rand::RngExt;
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 /// Kang's window of 5 pixels at the papers' 6 pixels a pitch, and rounds.
@@ -56,7 +57,7 @@ impl Drawer<'_> {
 }
 
 /// Degrees from -90 to 90, so that left of the line is up.
-fn upright(angle: f64) -> f64 {
+pub(super) fn upright(angle: f64) -> f64 {
     let half = angle.rem_euclid(PI);
     if half > 0.5 * PI { half - PI } else { half }.to_degrees()
 }
@@ -80,8 +81,8 @@ fn hue([r, g, b]: [u8; 3]) -> Option<f64> {
 }
 
 /// Which regions touch, each pair both ways.
-fn neighbours(labels: &Raster<i32>, count: i32) -> Vec<Vec<usize>> {
-    let mut touching = vec![std::collections::BTreeSet::new(); count as usize];
+pub(super) fn neighbours(labels: &Raster<i32>, count: i32) -> Vec<Vec<usize>> {
+    let mut touching = vec![BTreeSet::new(); count as usize];
     for y in 0..labels.height() {
         for x in 0..labels.width() {
             let a = labels.get(x, y);

@@ -2,7 +2,8 @@
 
 use super::ground::Grid;
 use super::lines::Family;
-use super::widths::{Course, Courses, Span};
+use super::spans::Span;
+use super::widths::{Course, Courses};
 use crate::geometry::{Point, Rect, radius_for_area};
 use crate::raster::Raster;
 
@@ -57,6 +58,7 @@ struct Reading {
     width: f64,
     room: f64,
     stretch: f64,
+    strip: f64,
     /// Share of the length that is drawn, 0 to 1.
     duty: f64,
     /// Share of the line's ink that the dashes carry.
@@ -104,7 +106,14 @@ impl Breaking<'_> {
             for (i, run) in runs.iter().enumerate() {
                 let before = i.checked_sub(1).map_or(span.from, |i| 0.5 * (runs[i].to + run.from));
                 let after = runs.get(i + 1).map_or(span.to, |next| 0.5 * (run.to + next.from));
-                let wanted = ink.between(before, after) + carry;
+                let mut wanted = ink.between(before, after) + carry;
+                // What is left free before a border gives its ink to the piece beside it.
+                if i == 0 {
+                    wanted += span.lacking[0] * readings[0].ink();
+                }
+                if i + 1 == runs.len() {
+                    wanted += span.lacking[1] * readings[readings.len() - 1].ink();
+                }
                 let is_whole = run.to - run.from >= LEAST_DASH * courses.family.pitch && !self.is_stippled;
                 if is_whole {
                     pieces.push(dash(&readings, *run, span, wanted, courses.family.pitch));
@@ -128,7 +137,7 @@ impl Breaking<'_> {
             .chain(inner.map(|r| courses.place(r)).filter(|u| *u > span.from + 0.05 * step && *u < span.to - 0.05 * step))
             .chain(std::iter::once(span.to));
         let mut hint = self.between.bases.len() / 2;
-        places
+        let mut readings: Vec<Reading> = places
             .map(|at| {
                 let value = |values: &[f32]| interpolate(course, values, (at - courses.place(course.first)) / step);
                 let x = ((at - courses.family.first) / courses.family.step - line.first as f64).max(0.0);
@@ -137,11 +146,15 @@ impl Breaking<'_> {
                 let ink = value(&course.ink);
                 let cover = self.cover.map_or(0.0, |cover| f64::from(self.grid.read(cover, place)));
                 let (duty, carried) = self.duty(ink, courses.family.pitch, cover);
-                let phase = if duty < 1.0 { self.phase(place, k, &mut hint) } else { 0.0 };
-                let (width, room, stretch) = (value(&course.width), value(&course.room), value(&course.stretch));
-                Reading { at, width, room, stretch, duty, carried, phase }
+                let phase = if duty < 1.0 && !self.is_stippled { self.phase(place, k, &mut hint) } else { 0.0 };
+                let (width, room) = (value(&course.width), value(&course.room));
+                Reading { at, width, room, stretch: value(&course.stretch), strip: value(&course.strip), duty, carried, phase }
             })
-            .collect()
+            .collect();
+        if self.is_stippled {
+            space_stipples(&mut readings, k, courses.family.pitch);
+        }
+        readings
     }
 
     /// The share of the length that is drawn, and the share of the line's ink that this carries.
@@ -195,14 +208,27 @@ impl Breaking<'_> {
         let middle = 0.5 * (run.from + run.to);
         let nearest = &readings[readings.partition_point(|r| r.at < middle).min(readings.len() - 1)];
         let radius = if self.is_stippled {
-            let cell = Rect::new(-0.5 * length, -0.5 * nearest.room, 0.5 * length, 0.5 * nearest.room);
+            let (length, strip) = (length * nearest.stretch, nearest.strip);
+            let cell = Rect::new(-0.5 * length, -0.5 * strip, 0.5 * length, 0.5 * strip);
             let corners = [(cell.x0, cell.y0), (cell.x1, cell.y0), (cell.x1, cell.y1), (cell.x0, cell.y1)].map(Point::from);
-            radius_for_area(&corners, Point::ORIGIN, area.min(0.999 * cell.area())).min(0.75 * length.max(nearest.room))
+            radius_for_area(&corners, Point::ORIGIN, area.min(0.999 * cell.area())).min(0.75 * length.max(strip))
         } else {
             (area / std::f64::consts::PI).sqrt()
         };
         let room = (0.5 * (span.to - span.from)).min(radius);
         Piece::Dot { at: middle.clamp(span.from + room, span.to - room), radius }
+    }
+}
+
+/// Sets the places of a line's stipples, those of every second line half a place on, as far apart as the line is from its
+/// neighbours: at the crossings of another family they would run together wherever the two are sheared.
+fn space_stipples(readings: &mut [Reading], k: usize, pitch: f64) {
+    let spaces = |r: &Reading| r.stretch / r.strip.clamp(0.5 * pitch, 2.0 * pitch);
+    readings[0].phase = readings[0].at / pitch + 0.5 * (k % 2) as f64;
+    for i in 1..readings.len() {
+        let (before, after) = (&readings[i - 1], &readings[i]);
+        let gained = 0.5 * (spaces(before) + spaces(after)) * (after.at - before.at);
+        readings[i].phase = before.phase + gained;
     }
 }
 

@@ -28,7 +28,7 @@ impl Drawer<'_> {
         let smoothed = gaussian_blur(&bilateral(&lightness, sigma, PHOTO_EDGE), 0.5 * sigma);
         match self.parameters.depth_from {
             DepthFrom::Luminance => smoothed.map(|v| v.max(1e-4)),
-            DepthFrom::Inflate => self.at_form_scale(&smoothed, |regions, _| unit(&inflate(regions))),
+            DepthFrom::Inflate => self.at_form_scale(&smoothed, |regions, _| unit(&inflate(&framed(regions)))),
             DepthFrom::Shape => self.at_form_scale(&smoothed, |regions, lightness| self.shaped(regions, lightness)),
         }
     }
@@ -67,6 +67,17 @@ impl Drawer<'_> {
             ((lz - slope_x * lx - slope_y * ly) / (1.0 + slope_x * slope_x + slope_y * slope_y).sqrt()).clamp(0.0, 1.0)
         })
     }
+}
+
+/// A single region that fills the picture with the picture's rim as its border; others as they are.
+fn framed(regions: &Raster<i32>) -> Raster<i32> {
+    let first = regions.get(0, 0);
+    if regions.pixels().iter().any(|&label| label != first) {
+        return regions.clone();
+    }
+    let (right, bottom) = (regions.width() - 1, regions.height() - 1);
+    let is_rim = |x: usize, y: usize| x == 0 || y == 0 || x == right || y == bottom;
+    Raster::from_fn(regions.width(), regions.height(), |x, y| if is_rim(x, y) { 0 } else { first })
 }
 
 /// Scaled to 0 to 1; above 0 everywhere, since 0 is unknown.

@@ -1,12 +1,15 @@
 //! The regions as places on the page: how far inside its region a point lies, and what a raster says there.
 
+use super::lines::FIT_ROOM;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::Placement;
 
-/// Lines end this far within the picture, in millimetres: less than is written, but never outside the page, where they would be
-/// cut again.
-const RIM: f64 = 1e-5;
+/// Lines end this far within the picture: the room that their curves have, so that none bulges over the rim, is cut there and
+/// comes too near to itself.
+const RIM: f64 = FIT_ROOM;
+/// What distances to curved borders, read between pixels, may be off, in pixels.
+const BORDER_ERROR: f64 = 0.25;
 
 /// Working rasters read at places on the page, in millimetres.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +39,7 @@ impl Grid {
     }
 
     /// How far inside the picture a place is; below 0 outside.
-    fn inside_picture(&self, p: Point) -> f64 {
+    pub(super) fn inside_picture(&self, p: Point) -> f64 {
         let r = self.picture;
         (p.x - r.x0).min(r.x1 - p.x).min((p.y - r.y0).min(r.y1 - p.y)) - RIM
     }
@@ -61,13 +64,28 @@ pub(super) struct Ground {
     /// Distance to the nearest border of a region, in millimetres.
     pub border: Raster<f32>,
     pub regions: Vec<Region>,
+    /// Direction of the lines for each label from 1, in degrees.
+    pub angles: Vec<f64>,
     /// How far lines run on into another region, in millimetres.
     pub overlap: f64,
+    /// Least distance of lines, in millimetres.
+    pub gap: f64,
+    /// Nearer to a border than this it matters what is beyond, in millimetres.
+    pub near: f64,
+}
+
+/// Least angle of two regions' lines, in degrees, for them to overlap: at less they would run side by side.
+const LEAST_ANGLE: f64 = 30.0;
+
+/// Between two lines, in degrees, 0 to 90.
+pub(super) fn angle_between(a: f64, b: f64) -> f64 {
+    let apart = (a - b).rem_euclid(180.0);
+    apart.min(180.0 - apart)
 }
 
 impl Ground {
-    /// How far inside a region a place lies, in millimetres; below 0 outside.
-    pub(super) fn inside(&self, label: i32, p: Point) -> f64 {
+    /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is no border.
+    pub(super) fn inside_region(&self, label: i32, p: Point) -> f64 {
         let pixel = self.grid.pixel(p);
         let (fx, fy) = (pixel.x - 0.5, pixel.y - 0.5);
         let (x, y) = (fx.floor(), fy.floor());
@@ -79,23 +97,53 @@ impl Ground {
         };
         let top = signed(x, y) * (1.0 - tx) + signed(x + 1, y) * tx;
         let bottom = signed(x, y + 1) * (1.0 - tx) + signed(x + 1, y + 1) * tx;
-        (top * (1.0 - ty) + bottom * ty).min(self.grid.inside_picture(p))
+        top * (1.0 - ty) + bottom * ty
     }
 
-    /// The same with the overlap: a place in another region counts as inside as far as lines run on.
-    pub(super) fn inside_or_over(&self, label: i32, p: Point) -> f64 {
-        let inside = self.inside(label, p);
-        if self.overlap <= 0.0 || inside > 0.0 || self.grid.inside_picture(p) <= 0.0 {
-            return inside;
+    /// How far a region's lines may run on beyond the border that is nearest to a place: the overlap into a region whose lines
+    /// have another direction, a little less than to the border of one whose lines have nearly the same, which would meet them.
+    fn leave(&self, label: i32, p: Point, inside: f64) -> f64 {
+        if !self.has_neighbours() || inside > self.near || inside < -self.overlap - self.gap {
+            return 0.0;
         }
-        let pixel = self.grid.pixel(p);
-        if self.labels.clamped(pixel.x as isize, pixel.y as isize) > 0 { inside + self.overlap } else { inside }
+        let across = |way: f64| {
+            let pixel = self.grid.pixel(p + self.inwards(label, p) * way);
+            self.labels.clamped(pixel.x.floor() as isize, pixel.y.floor() as isize)
+        };
+        let pixel = self.grid.pixel_mm();
+        let (here, other) = if inside > 0.0 { (label, across(-inside - pixel)) } else { (across(pixel - inside), across(0.0)) };
+        // Outside, the nearest border may be one between two other regions.
+        if other <= 0 || other == label || here != label {
+            0.0
+        } else if self.overlap > 0.0 && angle_between(self.angle(label), self.angle(other)) >= LEAST_ANGLE {
+            self.overlap
+        } else {
+            -0.5 * self.gap - BORDER_ERROR * pixel
+        }
+    }
+
+    /// How far inside what a region's lines may reach a place lies, and inside the picture; below 0 outside. And what of that is
+    /// beyond the region's border, or lacks to it.
+    pub(super) fn reach(&self, label: i32, p: Point) -> (f64, f64) {
+        let inside = self.inside_region(label, p);
+        let leave = self.leave(label, p, inside);
+        ((inside + leave).min(self.grid.inside_picture(p)), leave)
+    }
+
+    /// How far inside what a region's ink may cover a place lies; the picture's rim is no border.
+    pub(super) fn cover(&self, label: i32, p: Point) -> f64 {
+        let inside = self.inside_region(label, p);
+        inside + self.leave(label, p, inside).max(0.0)
+    }
+
+    fn angle(&self, label: i32) -> f64 {
+        self.angles[label as usize - 1]
     }
 
     /// Towards the inside of a region.
     pub(super) fn inwards(&self, label: i32, p: Point) -> Vec2 {
         let h = 0.5 * self.grid.pixel_mm();
-        let along = |step: Vec2| self.inside(label, p + step) - self.inside(label, p - step);
+        let along = |step: Vec2| self.inside_region(label, p + step) - self.inside_region(label, p - step);
         let gradient = Vec2::new(along(Vec2::new(h, 0.0)), along(Vec2::new(0.0, h)));
         gradient / gradient.hypot().max(1e-9)
     }

@@ -1,6 +1,7 @@
 //! The engraving: parallel lines that depth bends over the form, that swell with the dark, cross where it is darkest and break
 //! into dots where it is light (Galarza 2017).
 
+mod alike;
 mod angles;
 mod breaks;
 mod depths;
@@ -11,6 +12,7 @@ mod parameters;
 mod presence;
 mod regions;
 mod relief;
+mod spans;
 mod strokes;
 mod tones;
 mod widths;

@@ -94,7 +94,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "depth_from",
         kind: Kind::Choice(&["shape", "inflate", "luminance"]),
-        meaning: "without --depth: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges, for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
+        meaning: "without --depth: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
         source: "Galarza 4.4 and 5.2",
     },
     Parameter {

@@ -104,13 +104,15 @@ impl Family {
         raised == heights && sunk == heights
     }
 
-    /// Presence of an inserted line of so many columns; what ends at the first or last column of all does not taper there.
+    /// Presence of an inserted line of so many columns; what ends at the first or last column of all does not taper there. Its
+    /// neighbours were looked at between its ends only, so it is not there so near to them that what is beyond could matter.
     fn tapered(&self, columns: usize, first: usize, end: usize) -> Vec<f32> {
         let taper = (TAPER * self.pitch / self.step).max(1.0);
+        let seen = |columns: usize| columns.saturating_sub(self.gap.reach()) as f64;
         (0..columns)
             .map(|i| {
-                let from_start = if first == 0 { f64::INFINITY } else { i as f64 };
-                let to_end = if end == self.columns { f64::INFINITY } else { (columns - 1 - i) as f64 };
+                let from_start = if first == 0 { f64::INFINITY } else { seen(i) };
+                let to_end = if end == self.columns { f64::INFINITY } else { seen(columns - 1 - i) };
                 (from_start.min(to_end) / taper).min(1.0) as f32
             })
             .collect()

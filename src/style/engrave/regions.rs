@@ -1,7 +1,9 @@
 //! Step 3: regions, each with lines of a direction of its own (Galarza 2017, sections 3.3 and 3.4).
 
 use super::Drawer;
+use super::alike::join_alike;
 use super::ground::{Grid, Ground, Region};
+use super::lines::FIT_ROOM;
 use super::relief::Relief;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
 use crate::geometry::{Rect, Vec2};
@@ -21,26 +23,40 @@ impl Drawer<'_> {
         self.observer.begin("regions");
         let placement = &self.portrait.placement;
         let scale = placement.mm_per_pixel() as f32;
-        let is_drawn = |label: i32, cover: f32| if cover >= 0.5 { label } else { 0 };
         let silhouette = contours(&relief.cover, 0.5);
-        let parts = self.parts();
+        let (parts, angles) = self.directed_parts(&relief.cover);
         let (labels, mut curves) = match &parts {
             Some(parts) => smooth_borders(parts, (BORDER_SMOOTHING * self.pixels(self.parameters.pitch)) as f32),
             None => (relief.cover.map(|_| 1), Vec::new()),
         };
-        let labels = labels.zip_map(&relief.cover, is_drawn);
+        let labels = labels.zip_map(&relief.cover, drawn_label);
         curves.extend(silhouette);
         let border = distance_to_curves(&curves, placement.columns, placement.rows)
             .map_or_else(|| labels.map(|_| NO_BORDER), |field| field.distance.map(|d| d * scale));
-        let count = labels.pixels().iter().copied().max().unwrap_or(0);
-        let angles = self.angles(&labels, count);
-        let regions = bounds_of(&labels, count)
+        let regions = bounds_of(&labels, angles.len() as i32)
             .into_iter()
-            .zip(angles)
+            .zip(&angles)
             .enumerate()
-            .filter_map(|(i, (bounds, angle))| Some(Region { label: i as i32 + 1, angle, bounds: self.on_page(bounds?) }))
+            .filter_map(|(i, (bounds, angle))| Some(Region { label: i as i32 + 1, angle: *angle, bounds: self.on_page(bounds?) }))
             .collect();
-        Ground { grid: Grid::new(placement), labels, border, regions, overlap: self.parameters.overlap }
+        let (overlap, gap) = (self.parameters.overlap, self.parameters.min_gap + 2.0 * FIT_ROOM);
+        let near = 0.5 * self.parameters.width_max + gap;
+        Ground { grid: Grid::new(placement), labels, border, regions, angles, overlap, gap, near }
+    }
+
+    /// Labels from 1, none for a single region, and the direction of each; superpixels of nearly the same direction are one.
+    fn directed_parts(&self, cover: &Raster<f32>) -> (Option<Raster<i32>>, Vec<f64>) {
+        let Some(parts) = self.parts() else {
+            return (None, self.angles(&cover.map(|_| 1).zip_map(cover, drawn_label), 1));
+        };
+        let count = parts.pixels().iter().copied().max().unwrap_or(0);
+        let drawn = parts.zip_map(cover, drawn_label);
+        let angles = self.angles(&drawn, count);
+        if self.parameters.regions != "superpixels" {
+            return (Some(parts), angles);
+        }
+        let (joined, angles) = join_alike(&drawn, &angles);
+        (Some(parts.map(|label| joined[label as usize - 1])), angles)
     }
 
     /// Labels from 1; none for a single region.
@@ -79,6 +95,11 @@ impl Drawer<'_> {
         Rect::from_points(placement.to_page((wide.x0, wide.y0).into()), placement.to_page((wide.x1, wide.y1).into()))
             .inflate(self.parameters.overlap, self.parameters.overlap)
     }
+}
+
+/// The label of a pixel that is drawn, 0 of one that is not.
+fn drawn_label(label: i32, cover: f32) -> i32 {
+    if cover >= 0.5 { label } else { 0 }
 }
 
 /// Regions with smooth borders: each pixel goes to the region whose blurred area is greatest there; and the borders as curves.

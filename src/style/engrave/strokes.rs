@@ -5,8 +5,8 @@ use super::lines::{FIT_ROOM, Family, Line};
 use crate::drawing::{Dot, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, FitTolerance, Graph, GraphNode};
 
-/// Longest piece of a stroke's curve, in millimetres: four on each side of a centimetre leave room for the outline to halve some.
-const LONGEST_PIECE: f64 = 2.5;
+/// Longest piece of a stroke's curve, in millimetres: longer ones are halved on nearly any form.
+const LONGEST_PIECE: f64 = 8.0;
 /// Greatest error of the width, as a fraction of the pitch; the ink is exact in the mean whatever this is.
 const WIDTH_TOLERANCE: f64 = 0.03;
 /// Widths below this are no ink, in millimetres.

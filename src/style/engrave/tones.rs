@@ -6,6 +6,10 @@ use crate::raster::Raster;
 /// Greatest share of the paper that a layer which is crossed covers: beyond it the holes of the net close in print.
 const MOST_COVERED: f32 = 0.999;
 
+/// Power of the tone that the lines alone leave in the dark: at a half both layers are alike and dark cloth is a net without a
+/// direction, at 1 nothing crosses and the slits between the lines close.
+const LINES_SHARE: f32 = 0.65;
+
 /// Ink of the lines, and of those that cross them, 0 to 1 each: `(1 - lines) (1 - cross) = tone`, since layers that cross at an
 /// angle meet like chances.
 pub(super) struct Layers {
@@ -21,8 +25,10 @@ pub(super) fn layers(ink: &Raster<f32>, look: Look, threshold: f64) -> Layers {
         // The shade only, and all of its ink from a quarter darker on.
         Look::Contour => Layers { lines: ink.map(|v| v * ((v - (1.0 - threshold)) / 0.25).clamp(0.0, 1.0)), cross: None },
         Look::Net => both(ink, |tone| 1.0 - tone.sqrt()),
-        // The lines stop growing where the others come in, until both are alike.
-        Look::Engraving | Look::Crosshatch => both(ink, |tone| (1.0 - tone.sqrt()).max((1.0 - tone).min(1.0 - threshold))),
+        // The lines stop growing where the others come in, and go on before both are alike.
+        Look::Engraving | Look::Crosshatch => {
+            both(ink, |tone| (1.0 - tone.powf(LINES_SHARE)).max((1.0 - tone).min(1.0 - threshold)))
+        }
     }
 }
 

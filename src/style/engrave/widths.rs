@@ -2,12 +2,13 @@
 
 use super::ground::{Ground, Region};
 use super::lines::{Family, Line};
+use super::spans::Span;
 use crate::geometry::Point;
 use crate::raster::Raster;
 use rayon::prelude::*;
 
 /// Courses are read at this many places a pitch.
-const READINGS: f64 = 8.0;
+pub(super) const READINGS: f64 = 8.0;
 /// Readings of tone from a line to the border of its strip.
 const DEPTHS: usize = 3;
 /// Farthest that a line answers for tone where it has no neighbour, in pitches: with less the picture's rim is too light, with
@@ -18,13 +19,8 @@ const NEIGHBOURHOOD: f64 = 4.0;
 /// Rounds of smoothing of the widths along a line, each over a quarter of a pitch: without it fine texture makes lines shiver,
 /// with many it is lost.
 const SMOOTHING_ROUNDS: usize = 2;
-/// Nearer than this to a border with another region, in pitches, and along it, a line is left out: the other region's lines do
-/// the same, so that the two stay half a pitch apart.
-const BORDER_ROOM: f64 = 0.26;
-/// Sine of the angle to a border below which a line runs along it: 20 degrees, since two lines may be 15 degrees apart.
-const ALONG_BORDER: f64 = 0.34;
-/// Pieces shorter than this are left out, in pitches.
-const STUB: f64 = 0.5;
+/// Least share of a line's side that a border takes: along a border it is half the distance that counts.
+const LEAST_ACROSS: f64 = 0.1;
 
 /// What a family is to draw.
 #[derive(Clone, Copy)]
@@ -34,14 +30,6 @@ pub(super) struct Wanted<'a> {
     /// Ink, 0 to 1, as a fraction of the paper.
     pub ink: &'a Raster<f32>,
     pub width_max: f64,
-}
-
-/// A piece of a line inside its region, by place along; whether its two ends are cut by the border.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
-    pub from: f64,
-    pub to: f64,
-    pub is_cut: [bool; 2],
 }
 
 /// One line read at every few columns.
@@ -62,6 +50,8 @@ pub(super) struct Course {
     pub room: Vec<f32>,
     /// Length of the line for each millimetre along.
     pub stretch: Vec<f32>,
+    /// Width of its strip, halfway to its neighbours on both sides, in millimetres.
+    pub strip: Vec<f32>,
 }
 
 /// A family's lines with their widths.
@@ -106,107 +96,7 @@ impl<'a> Courses<'a> {
         line.heights[reading * self.stride - line.first]
     }
 
-    /// Where a line is inside its region, and there.
-    fn find(&self, line: &Line) -> Course {
-        let first = line.first.div_ceil(self.stride);
-        let end = (line.first + line.heights.len() - 1) / self.stride + 1;
-        if end <= first + 1 {
-            return Course::default();
-        }
-        let ground = self.wanted.ground;
-        let margin = if ground.has_neighbours() && ground.overlap <= 0.0 {
-            // Half a pixel for the distances, which are read between pixels.
-            0.5 * (self.family.gap.distance + ground.grid.pixel_mm())
-        } else {
-            0.0
-        };
-        let inside: Vec<f64> = (first..end)
-            .map(|r| {
-                if line.presence[r * self.stride - line.first] == 0.0 && (r == first || r + 1 == end || self.is_gone(line, r)) {
-                    return -1.0;
-                }
-                ground.inside_or_over(self.wanted.region.label, self.point(line, r)) - margin
-            })
-            .collect();
-        let mut is_in: Vec<bool> = inside.iter().map(|&s| s > 0.0).collect();
-        if ground.has_neighbours() && ground.overlap <= 0.0 {
-            self.leave_borders(line, first, &inside, &mut is_in);
-        }
-        let spans = self.spans(first, &inside, &is_in);
-        let inside = inside.iter().map(|&s| s as f32).collect();
-        let mut course = Course { first, spans, inside, weight: vec![0.0; end - first], ..Course::default() };
-        for span in &course.spans {
-            let range = self.readings_in(*span);
-            for r in range.start.max(first)..range.end.min(end) {
-                course.weight[r - first] = line.presence[r * self.stride - line.first].max(1e-3);
-            }
-        }
-        course
-    }
-
-    /// Whether a line is absent at a reading and on both sides of it.
-    fn is_gone(&self, line: &Line, r: usize) -> bool {
-        let at = r * self.stride - line.first;
-        line.presence[at.saturating_sub(1)] == 0.0 && line.presence[(at + 1).min(line.presence.len() - 1)] == 0.0
-    }
-
-    /// Takes out what runs along a border for more than a pitch.
-    fn leave_borders(&self, line: &Line, first: usize, inside: &[f64], is_in: &mut [bool]) {
-        let label = self.wanted.region.label;
-        let room = BORDER_ROOM * self.family.pitch;
-        let beside: Vec<bool> = (0..is_in.len())
-            .map(|i| {
-                is_in[i] && inside[i] < room && {
-                    let (a, b) = (i.saturating_sub(1), (i + 1).min(is_in.len() - 1));
-                    let along = self.point(line, first + b) - self.point(line, first + a);
-                    let inwards = self.wanted.ground.inwards(label, self.point(line, first + i));
-                    along.dot(inwards).abs() < ALONG_BORDER * along.hypot()
-                }
-            })
-            .collect();
-        let least = (READINGS * self.family.pitch / (self.step() * READINGS)).ceil() as usize;
-        for run in runs(&beside).into_iter().filter(|run| run.len() >= least) {
-            is_in[run].fill(false);
-        }
-    }
-
-    fn spans(&self, first: usize, inside: &[f64], is_in: &[bool]) -> Vec<Span> {
-        let mut spans: Vec<Span> = Vec::new();
-        for run in runs(is_in) {
-            // To where the border is crossed between two readings.
-            let crossing = |within: usize, beyond: Option<usize>| match beyond.filter(|&b| b < inside.len()) {
-                Some(b) if inside[b] <= 0.0 && inside[b] > -1.0 => {
-                    let t = inside[within] / (inside[within] - inside[b]);
-                    self.place(first + within) + (self.place(first + b) - self.place(first + within)) * t
-                }
-                _ => self.place(first + within),
-            };
-            let (start, last) = (run.start, run.end - 1);
-            let span = Span {
-                from: crossing(start, start.checked_sub(1)),
-                to: crossing(last, Some(last + 1)),
-                is_cut: [start > 0 && inside[start - 1] > -1.0, last + 1 < inside.len() && inside[last + 1] > -1.0],
-            };
-            spans.push(span);
-        }
-        // A line that leaves its region and comes back keeps the gap to itself.
-        for i in 1..spans.len() {
-            let lacking = 0.5 * (self.family.gap.distance - (spans[i].from - spans[i - 1].to)).max(0.0);
-            spans[i - 1].to -= lacking;
-            spans[i].from += lacking;
-        }
-        spans.retain(|span| span.to - span.from >= STUB * self.family.pitch);
-        spans
-    }
-
-    /// The readings inside a span.
-    pub(super) fn readings_in(&self, span: Span) -> std::ops::Range<usize> {
-        let index = |u: f64| (u - self.family.first) / self.step();
-        let from = (index(span.from) - 1e-9).ceil().max(0.0) as usize;
-        from..((index(span.to) + 1e-9).floor().max(0.0) as usize + 1)
-    }
-
-    fn point(&self, line: &Line, reading: usize) -> Point {
+    pub(super) fn point(&self, line: &Line, reading: usize) -> Point {
         self.family.frame.to_page(self.place(reading), self.height(line, reading))
     }
 
@@ -224,6 +114,7 @@ impl<'a> Courses<'a> {
                 course.ink = vec![0.0; count];
                 course.width = vec![0.0; count];
                 course.stretch = vec![1.0; count];
+                course.strip = vec![0.0; count];
                 for i in (0..count).filter(|&i| course.weight[i] > 0.0) {
                     let r = course.first + i;
                     let (a, b) = (i.saturating_sub(1), (i + 1).min(count - 1));
@@ -234,6 +125,7 @@ impl<'a> Courses<'a> {
                     course.ink[i] = (area / within.max(1e-9)) as f32;
                     course.stretch[i] = stretch as f32;
                     course.width[i] = (area / stretch) as f32;
+                    course.strip[i] = (sides[i].border[0] + sides[i].border[1]) / stretch as f32;
                 }
                 for _ in 0..SMOOTHING_ROUNDS {
                     smooth(&mut course.width, &course.weight);
@@ -256,7 +148,7 @@ impl<'a> Courses<'a> {
                 let inside = if inside > extent + soft {
                     1.0
                 } else {
-                    (0.5 + ground.inside_or_over(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
+                    (0.5 + ground.cover(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
                 };
                 within += slice * inside;
                 if inside > 0.0 {
@@ -297,10 +189,37 @@ impl<'a> Courses<'a> {
         sides
     }
 
+    /// The width at which a line's side meets a border that runs slanting to it: its end is a point there, not a square one that
+    /// stands out.
+    fn border_room(&self, line: &Line, course: &Course, i: usize) -> f32 {
+        let Wanted { ground, region, width_max, .. } = self.wanted;
+        if f64::from(course.inside[i]) > ground.near.max(0.5 * width_max) {
+            return f32::INFINITY;
+        }
+        let r = course.first + i;
+        let (a, b) = (i.saturating_sub(1), (i + 1).min(course.weight.len() - 1));
+        let along = self.point(line, course.first + b) - self.point(line, course.first + a);
+        let here = self.point(line, r);
+        let across = along.cross(ground.inwards(region.label, here)).abs() / along.hypot().max(1e-9);
+        if across < LEAST_ACROSS {
+            return f32::INFINITY;
+        }
+        (2.0 * ground.cover(region.label, here).max(0.0) / across) as f32
+    }
+
     /// Widths at which neighbours touch at most.
     fn limit(&mut self) {
         let sides = self.sides();
-        for (course, sides) in self.lines.iter_mut().zip(sides) {
+        let borders: Vec<Vec<f32>> = self
+            .lines
+            .par_iter()
+            .zip(&self.family.lines)
+            .map(|(course, line)| {
+                let is_there = |i: usize| course.weight[i] > 0.0;
+                (0..course.width.len()).map(|i| if is_there(i) { self.border_room(line, course, i) } else { 0.0 }).collect()
+            })
+            .collect();
+        for ((course, sides), borders) in self.lines.iter_mut().zip(sides).zip(borders) {
             course.room = (0..course.width.len())
                 .map(|i| {
                     let (own, side, stretch) = (course.width[i], sides[i], course.stretch[i]);
@@ -309,7 +228,7 @@ impl<'a> Courses<'a> {
                         let share = if own + side.width[j] > 0.0 { own / (own + side.width[j]) } else { 0.5 };
                         2.0 * side.neighbour[j] / stretch * share
                     };
-                    room(0).min(room(1)).min(self.wanted.width_max as f32)
+                    room(0).min(room(1)).min(self.wanted.width_max as f32).min(borders[i])
                 })
                 .collect();
             course.width.iter_mut().zip(&course.room).for_each(|(width, room)| *width = width.min(*room));
@@ -328,16 +247,4 @@ fn smooth(values: &mut [f32], weight: &[f32]) {
     if let Some(last) = values.last_mut() {
         *last -= carried;
     }
-}
-
-/// Runs of what is true.
-fn runs(flags: &[bool]) -> Vec<std::ops::Range<usize>> {
-    let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
-    for (i, _) in flags.iter().enumerate().filter(|(_, flag)| **flag) {
-        match runs.last_mut() {
-            Some(run) if run.end == i => run.end = i + 1,
-            _ => runs.push(i..i + 1),
-        }
-    }
-    runs
 }
