@@ -487,7 +487,6 @@ fn mono_wedge() -> Drawing {
 }
 
 #[test]
-#[ignore = "open: one patch is 0.039 off, 0.03 is promised"]
 fn one_pen_has_the_tone_of_the_wedge() {
     let drawing = mono_wedge();
     let white = rendered(&svg_of(&drawing), FINE);
