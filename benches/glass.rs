@@ -23,7 +23,7 @@ fn main() {
 
     let raster = glass_pattern(&noise, &flow, 18.0);
     let levels = GlassLevels::new(&raster, 3);
-    let ribbons = least(3, || glass_ribbons(&noise, &raster, &flow, 18.0, |height| levels.of(height)));
+    let ribbons = least(3, || glass_ribbons(&noise, &raster, &flow, 18.0, 1.0, |height| levels.of(height)));
     println!("{:44} {ribbons:8.3}", "  its ribbons at three levels, s");
 
     let photo = photograph();

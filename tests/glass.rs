@@ -69,7 +69,7 @@ fn photograph_flow(name: &str) -> Flow {
 fn painted(noise: &Raster<f32>, flow: &Flow, length: f64, pattern: &Raster<f32>, count: usize) -> Raster<f32> {
     let levels = GlassLevels::new(pattern, count);
     let mut layer = Layer::new("strokes", 1);
-    for ribbon in glass_ribbons(noise, pattern, flow, length, |height| levels.of(height)) {
+    for ribbon in glass_ribbons(noise, pattern, flow, length, 2.5, |height| levels.of(height)) {
         let grey = ((levels.value(&ribbon) + 0.5) * 235.0 + 15.0).round() as u8;
         let mut stroke = Stroke::new(catmull_rom(&ribbon.nodes, false), Width::Along(ribbon.widths.clone()));
         stroke.colour = Some(Colour { r: grey, g: grey, b: grey });

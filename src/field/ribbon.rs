@@ -40,7 +40,8 @@ pub struct Ribbon {
 }
 
 /// The ribbons of all maxima of the noise, in painting order: by level, then by height, then by maximum. `pattern` is the noise's
-/// [`super::glass_pattern`] for arcs of `length` pixels; `levels` gives a maximum's levels, ascending, for its height.
+/// [`super::glass_pattern`] for arcs of `length` pixels; a ribbon
+/// is at most `reach` times as wide to each side as its blob (1 keeps it like a brush stroke, 2.5 comes nearest to the pattern); `levels` gives a maximum's levels, ascending, for its height.
 ///
 /// Noise blurred by `sigma` has `0.046 / sigma^2` maxima a pixel (`1 / (4 sqrt(3) pi sigma^2)`); an arc hides all lower ones within
 /// about its `length` times three `sigma`, so that of the whole set some `1 / (sigma * length)` a pixel show, times the levels.
@@ -49,6 +50,7 @@ pub fn glass_ribbons(
     pattern: &Raster<f32>,
     flow: &Flow,
     length: f64,
+    reach: f64,
     levels: impl Fn(f32) -> Vec<f32> + Sync,
 ) -> Vec<Ribbon> {
     let maxima = maxima(noise);
@@ -62,7 +64,7 @@ pub fn glass_ribbons(
             let levels = if along == Vec2::ZERO { Vec::new() } else { levels(height) };
             levels.into_iter().filter_map(move |level| {
                 let blob = Blob::new(noise, from, along, level);
-                let sweep = Sweep { pattern, flow, blob: &blob, length, level };
+                let sweep = Sweep { pattern, flow, blob: &blob, length, reach, level };
                 let (nodes, widths) = sweep.best()?;
                 Some(Ribbon { nodes, widths, level, height, maximum: i as u32 })
             })
@@ -108,7 +110,7 @@ mod tests {
 
     fn only(noise: &Raster<f32>, flow: &Flow) -> Ribbon {
         let pattern = glass_pattern(noise, flow, 30.0);
-        let ribbons = glass_ribbons(noise, &pattern, flow, 30.0, |_| vec![(-0.5_f32).exp()]);
+        let ribbons = glass_ribbons(noise, &pattern, flow, 30.0, 1.5, |_| vec![(-0.5_f32).exp()]);
         assert_eq!(ribbons.len(), 1);
         ribbons[0].clone()
     }

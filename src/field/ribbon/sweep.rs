@@ -14,9 +14,6 @@ const SAME_WAY: f64 = 0.98;
 /// Distance of cross-sections along the streamline, and of samples along a cross-section, in pixels.
 const STEP: f64 = 1.0;
 const SAMPLE_STEP: f64 = 0.5;
-/// A cross-section ends at this many times the blob's reach to the side, and this many pixels more, even if the region goes on: it
-/// is another ribbon's there. At once the reach spreading flows leave gaps, at three times it ribbons run over what they miss.
-const MOST_REACH: (f64, f64) = (2.0, 1.0);
 /// A side may open by this much a pixel along the line. At 2 the outline gets horns where other ribbons branch off; at 0.4 ends are cut off.
 const MOST_SLOPE: f64 = 0.8;
 /// An end's half disc stands at this share of its radius from where the region ends: less than 1, for the region ends more squarely.
@@ -38,6 +35,8 @@ pub(super) struct Sweep<'a> {
     pub blob: &'a Blob,
     /// The arc's length.
     pub length: f64,
+    /// A cross-section ends at this many times the blob's reach to the side, even if the region goes on: it is another ribbon's there.
+    pub reach: f64,
     pub level: f32,
 }
 
@@ -118,8 +117,7 @@ impl Sweep<'_> {
     }
 
     fn section(&self, at: Point, beside: Vec2) -> Option<Section> {
-        let most = |reach: f64| MOST_REACH.0 * reach + MOST_REACH.1;
-        let (most_low, most_high) = (most(self.blob.low), most(self.blob.high));
+        let (most_low, most_high) = (self.reach * self.blob.low, self.reach * self.blob.high);
         if self.level == f32::MIN {
             return Some(Section { at, beside, low: -most_low, high: most_high });
         }
@@ -129,13 +127,13 @@ impl Sweep<'_> {
             .chain((1..=tries).flat_map(|i| [SAMPLE_STEP * i as f64, -SAMPLE_STEP * i as f64]))
             .find(is_above)?;
         let from = at + beside * inside;
-        let high = inside + self.reach(from, beside, (most_high - inside).max(0.0));
-        let low = inside - self.reach(from, -beside, (most_low + inside).max(0.0));
+        let high = inside + self.extent(from, beside, (most_high - inside).max(0.0));
+        let low = inside - self.extent(from, -beside, (most_low + inside).max(0.0));
         Some(Section { at, beside, low, high })
     }
 
     /// How far the region goes on from a place inside, but not beyond the raster.
-    fn reach(&self, from: Point, direction: Vec2, most: f64) -> f64 {
+    fn extent(&self, from: Point, direction: Vec2, most: f64) -> f64 {
         let mut before = self.value(from);
         for i in 1..=(most / SAMPLE_STEP).ceil() as usize {
             let at = SAMPLE_STEP * i as f64;

@@ -9,6 +9,7 @@ mod noise;
 mod one_pen;
 mod painting;
 mod parameters;
+mod underpainting;
 mod visible;
 
 use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
