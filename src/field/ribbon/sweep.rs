@@ -118,9 +118,6 @@ impl Sweep<'_> {
 
     fn section(&self, at: Point, beside: Vec2) -> Option<Section> {
         let (most_low, most_high) = (self.reach * self.blob.low, self.reach * self.blob.high);
-        if self.level == f32::MIN {
-            return Some(Section { at, beside, low: -most_low, high: most_high });
-        }
         let is_above = |n: &f64| self.value(at + beside * *n) >= self.level;
         let tries = (most_low.max(most_high) / SAMPLE_STEP) as usize;
         let inside = std::iter::once(0.0)
@@ -132,13 +129,13 @@ impl Sweep<'_> {
         Some(Section { at, beside, low, high })
     }
 
-    /// How far the region goes on from a place inside, but not beyond the raster.
+    /// How far the region goes on from a place inside, but not beyond the raster nor to where nothing flows.
     fn extent(&self, from: Point, direction: Vec2, most: f64) -> f64 {
         let mut before = self.value(from);
         for i in 1..=(most / SAMPLE_STEP).ceil() as usize {
             let at = SAMPLE_STEP * i as f64;
             let p = from + direction * at;
-            if !self.flow.contains(p) {
+            if !self.flow.contains(p) || self.flow.directions().get(p.x as usize, p.y as usize) == [0.0; 2] {
                 return at.min(most);
             }
             let value = self.value(p);

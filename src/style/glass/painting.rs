@@ -20,6 +20,8 @@ const BRUSH_REACH: f64 = 1.0;
 const COLOUR_CHANGE: f32 = 0.1;
 /// Width of the strokes that fill what the pattern leaves bare, in grains.
 const FILLING_WIDTH: f64 = 4.0;
+/// Their value, that of the pattern's lowest third: darker, they stand out as cracks and the painting comes out too dark.
+const FILLING_VALUE: f32 = -0.35;
 /// Their length, as a share of the others'.
 const FILLING_LENGTH: f64 = 0.5;
 /// Cosine of the angle by which they may turn from their middle.
@@ -103,7 +105,7 @@ impl Painter<'_> {
                 let shown = shown.iter().fold(Shown::default(), |sum, shown| sum.with(shown));
                 colours.push(shown.colour());
                 let part = Part { first: 0, last: body.stretches(), shown };
-                marks.push(self.mark(&body, &part, -0.5 * self.drawer.parameters.contrast));
+                marks.push(self.mark(&body, &part, FILLING_VALUE * self.drawer.parameters.contrast));
             }
         }
         marks.reverse();
