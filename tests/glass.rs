@@ -134,6 +134,24 @@ fn slope_ratio(raster: &Raster<f32>, flow: &Flow) -> f64 {
     across / along
 }
 
+/// The median slope across the flow over the median slope along it: what the strokes are between their ends.
+fn typical_ratio(raster: &Raster<f32>, flow: &Flow) -> f64 {
+    let slopes = gradient(raster);
+    let (mut alongs, mut acrosses) = (Vec::new(), Vec::new());
+    for y in 8..raster.height() - 8 {
+        for x in 8..raster.width() - 8 {
+            let ([gx, gy], [vx, vy]) = (slopes.get(x, y), flow.directions().get(x, y));
+            alongs.push(f64::from(gx * vx + gy * vy).abs());
+            acrosses.push(f64::from(gy * vx - gx * vy).abs());
+        }
+    }
+    let median = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2]
+    };
+    median(acrosses) / median(alongs)
+}
+
 /// The shares of slope along the flow that are next to nothing (a tenth of the mean slope across).
 fn flat_share(raster: &Raster<f32>, flow: &Flow) -> f64 {
     let slopes = gradient(raster);
@@ -160,6 +178,9 @@ fn ribbons_are_flatter_along_and_sharper_across_than_line_integral_convolution()
         let pattern = equalised(&pattern);
         let flat = [&pattern, &ribbons, &lic].map(|raster| flat_share(raster, &flow));
         let ratio = [&pattern, &ribbons, &lic].map(|raster| slope_ratio(raster, &flow));
+        let steady = [&pattern, &ribbons, &lic].map(|raster| typical_ratio(raster, &flow));
+        println!("{name}: typical slope across to along: {steady:.2?}");
+        assert!(steady[0] > 4.0 * steady[2] && steady[1] > 1.5 * steady[2], "{name}: {steady:?}");
         // The energy along lies in the strokes' ends, which are as sharp as their sides; the strokes themselves are flat.
         assert!(flat[0] > 2.0 * flat[2] && flat[1] > 1.5 * flat[2], "{name}: {flat:?}");
         println!(
