@@ -94,7 +94,7 @@ impl Painter<'_> {
         for y in 0..canvas.rows() {
             let bare: Vec<Point> = canvas.bare(y).collect();
             for p in bare {
-                if !canvas.is_bare(p) {
+                if !canvas.is_bare(p) || !self.ground.holds(p, 0.5 * width) {
                     continue;
                 }
                 let nodes = filling_line(flow, p, 0.5 * length);
