@@ -6,22 +6,29 @@ use crate::raster::Raster;
 /// Euler step in pixels. At 1 the finest noise (sigma 0.7) loses peaks between two samples; below 0.5 nothing changes.
 const STEP: f32 = 0.5;
 
+/// Places along an arc are whole numbers of this share of a pixel: whole part and remainder are then had without rounding calls, which
+/// took a third of the time.
+const BITS: u32 = 16;
+const UNIT: f32 = (1 << BITS) as f32;
+
 /// `G(r) = max z(Phi(r, t))` over an arc of `length` pixels downstream (equation 7.7), by Euler steps; the arc ends where the flow or
 /// the raster does. Noise and flow have one size.
 pub fn glass_pattern(noise: &Raster<f32>, flow: &Flow, length: f32) -> Raster<f32> {
+    let arcs = Arcs::new(noise, flow, length);
     Raster::from_fn(noise.width(), noise.height(), |x, y| {
         let mut highest = noise.get(x, y);
-        walk(noise, flow, (x, y), length, |value| highest = highest.max(value));
+        arcs.walk((x, y), 1, |value| highest = highest.max(value));
         highest
     })
 }
 
 /// The mean of the noise over an arc of `length` pixels, half of it to either side (figure 7.15).
 pub fn line_integral_convolution(noise: &Raster<f32>, flow: &Flow, length: f32) -> Raster<f32> {
+    let arcs = Arcs::new(noise, flow, 0.5 * length);
     Raster::from_fn(noise.width(), noise.height(), |x, y| {
         let (mut sum, mut count) = (noise.get(x, y), 1.0);
-        for half in [0.5 * length, -0.5 * length] {
-            walk(noise, flow, (x, y), half, |value| {
+        for sign in [1, -1] {
+            arcs.walk((x, y), sign, |value| {
                 sum += value;
                 count += 1.0;
             });
@@ -30,39 +37,55 @@ pub fn line_integral_convolution(noise: &Raster<f32>, flow: &Flow, length: f32) 
     })
 }
 
-/// Visits the noise along an arc from a pixel's centre, that pixel left out.
-#[inline]
-fn walk(noise: &Raster<f32>, flow: &Flow, (x, y): (usize, usize), length: f32, mut visit: impl FnMut(f32)) {
-    let (width, height) = (noise.width() as f32, noise.height() as f32);
-    let count = (length.abs() / STEP).ceil().max(1.0);
-    let stride = length / count;
-    let (mut px, mut py) = (x as f32 + 0.5, y as f32 + 0.5);
-    let directions = flow.directions();
-    for _ in 0..count as usize {
-        let [dx, dy] = directions.get(px as usize, py as usize);
-        px += stride * dx;
-        py += stride * dy;
-        let is_inside = px >= 0.0 && py >= 0.0 && px < width && py < height;
-        if !is_inside || (dx == 0.0 && dy == 0.0) {
-            return;
-        }
-        visit(bilinear(noise, px, py));
-    }
+/// What is needed to go along arcs.
+struct Arcs {
+    /// The noise within a frame of one pixel, so that every place on the raster lies between four samples.
+    framed: Raster<f32>,
+    /// The way to go at each pixel in `UNIT`s of a pixel.
+    strides: Raster<[i32; 2]>,
+    count: usize,
 }
 
-/// The noise at a place on the raster in pixels; `Raster::sample` in single precision and without its calls, since this is the inner
-/// loop.
-#[inline]
-fn bilinear(noise: &Raster<f32>, x: f32, y: f32) -> f32 {
-    let (width, height) = (noise.width(), noise.height());
-    let (fx, fy) = ((x - 0.5).max(0.0), (y - 0.5).max(0.0));
-    let (x0, y0) = (fx as usize, fy as usize);
-    let (tx, ty) = (fx - x0 as f32, fy - y0 as f32);
-    let (x1, y1) = ((x0 + 1).min(width - 1), (y0 + 1).min(height - 1));
-    let (top, bottom) = (noise.row(y0.min(height - 1)), noise.row(y1));
-    let upper = top[x0] + (top[x1] - top[x0]) * tx;
-    let lower = bottom[x0] + (bottom[x1] - bottom[x0]) * tx;
-    upper + (lower - upper) * ty
+impl Arcs {
+    fn new(noise: &Raster<f32>, flow: &Flow, length: f32) -> Self {
+        let count = (length / STEP).ceil().max(1.0);
+        let stride = length / count * UNIT;
+        let strides = flow.directions().map(|d| d.map(|v| (v * stride).round() as i32));
+        Self { framed: noise.framed(1), strides, count: count as usize }
+    }
+
+    /// Visits the noise along an arc from a pixel's centre, that pixel left out.
+    #[inline]
+    fn walk(&self, (x, y): (usize, usize), sign: i64, mut visit: impl FnMut(f32)) {
+        let centre = |at: usize| ((at as i64) << BITS) + (1 << (BITS - 1));
+        let (mut px, mut py) = (centre(x), centre(y));
+        let [mut dx, mut dy] = self.strides.get(x, y);
+        for _ in 0..self.count {
+            px += sign * i64::from(dx);
+            py += sign * i64::from(dy);
+            // A place left of or above the raster is far beyond its other end as an unsigned number.
+            let (column, row) = ((px >> BITS) as usize, (py >> BITS) as usize);
+            if column >= self.strides.width() || row >= self.strides.height() || (dx, dy) == (0, 0) {
+                return;
+            }
+            visit(self.between(px, py));
+            [dx, dy] = self.strides.get(column, row);
+        }
+    }
+
+    /// The noise at a place on the raster, bilinear between the pixels' centres.
+    #[inline]
+    fn between(&self, px: i64, py: i64) -> f32 {
+        let (fx, fy) = (px + (1 << (BITS - 1)), py + (1 << (BITS - 1)));
+        let share = |at: i64| (at as i32 & ((1 << BITS) - 1)) as f32 * (1.0 / UNIT);
+        let (tx, ty) = (share(fx), share(fy));
+        let width = self.framed.width();
+        let from = (fy >> BITS) as usize * width + (fx >> BITS) as usize;
+        let window = &self.framed.pixels()[from..from + width + 2];
+        let upper = window[0] + (window[1] - window[0]) * tx;
+        let lower = window[width] + (window[width + 1] - window[width]) * tx;
+        upper + (lower - upper) * ty
+    }
 }
 
 #[cfg(test)]

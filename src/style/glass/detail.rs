@@ -29,7 +29,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
     let mut marks = Vec::new();
     for seed in seeds {
         let (x, y) = (seed % width, seed / width);
-        if done.get(x, y) {
+        if done.get(x, y) || !ground.holds(Point::new(x as f64 + 0.5, y as f64 + 0.5), 0.5 * touch) {
             continue;
         }
         let line = arc(drawer, ground, &missing, Point::new(x as f64 + 0.5, y as f64 + 0.5));

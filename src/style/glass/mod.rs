@@ -9,6 +9,7 @@ mod noise;
 mod one_pen;
 mod painting;
 mod parameters;
+mod underpainting;
 mod visible;
 
 use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
@@ -79,6 +80,18 @@ struct Ground {
     flow: Flow,
     /// That of fine strokes, along small forms too.
     fine_flow: Flow,
+}
+
+impl Ground {
+    /// Whether a disc around a place, in framed pixels, lies inside the subject: a dab on its border would stick out, in the
+    /// background's colour.
+    fn holds(&self, middle: Point, radius: f64) -> bool {
+        (0..8).all(|i| {
+            let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
+            let (x, y) = (middle.x + radius * cos, middle.y + radius * sin);
+            self.subject.clamped(x.floor() as isize, y.floor() as isize) >= 0.5
+        })
+    }
 }
 
 impl Drawer<'_> {

@@ -2,9 +2,9 @@
 
 use super::body::Body;
 use super::visible::{Canvas, Shown};
-use super::{Drawer, Ground, colour, detail, hairs, noise};
+use super::{Drawer, Ground, colour, detail, hairs, noise, underpainting};
 use crate::drawing::{Layer, Mark, Mixing};
-use crate::field::{Cut, Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
+use crate::field::{Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use crate::style::StyleError;
@@ -12,11 +12,16 @@ use rayon::prelude::*;
 
 /// Least area of a stroke that shows, in working pixels: smaller flecks are not seen and make half of the strokes.
 const LEAST_SHOWN: f64 = 1.0;
+/// How far to the sides a stroke follows the pattern, in its blob's own reach. At 1.5 strokes run into one another and lose their
+/// form, at 2 more so, though they are nearer to the pattern then (looked at on the astronaut).
+const BRUSH_REACH: f64 = 1.0;
 /// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a fresh one begins. At 0.05
 /// skin falls into scales, at 0.2 eyes and lips are drawn out over the face (looked at on the astronaut and Grace Hopper).
 const COLOUR_CHANGE: f32 = 0.1;
 /// Width of the strokes that fill what the pattern leaves bare, in grains.
 const FILLING_WIDTH: f64 = 4.0;
+/// Their value, that of the pattern's lowest third: darker, they stand out as cracks and the painting comes out too dark.
+const FILLING_VALUE: f32 = -0.35;
 /// Their length, as a share of the others'.
 const FILLING_LENGTH: f64 = 0.5;
 /// Cosine of the angle by which they may turn from their middle.
@@ -29,12 +34,13 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     let noise = noise::noise(width, height, sigma, drawer.seed, "noise");
     drawer.show_patterns(ground, &noise);
     let length = drawer.pixels(drawer.parameters.length_mm);
-    let pattern = glass_pattern(&noise, &ground.flow, length as f32).unframed(ground.margin);
+    let framed = glass_pattern(&noise, &ground.flow, length as f32);
+    let pattern = framed.unframed(ground.margin);
     drawer.check()?;
     let mut layer = drawer.empty_layer("strokes");
     layer.mixing = Mixing::Paint;
     let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons);
-    let ribbons = glass_ribbons(&noise, &ground.flow, length, Cut::Whole, |height| levels.of(height));
+    let ribbons = glass_ribbons(&noise, &framed, &ground.flow, length, BRUSH_REACH, |height| levels.of(height));
     drawer.check()?;
     layer.marks = Painter { drawer, ground, levels: &levels }.paint(&ribbons);
     let mut layers = vec![layer];
@@ -69,7 +75,8 @@ impl Painter<'_> {
                 kept.push((i, part));
             }
         }
-        let mut marks = self.filling(&mut canvas, &mut colours);
+        let mut marks = underpainting::marks(self.drawer, self.ground);
+        marks.extend(self.filling(&mut canvas, &mut colours));
         marks.par_extend(kept.par_iter().rev().map(|(i, part)| {
             let shift = self.drawer.parameters.contrast * self.levels.value(&ribbons[*i]);
             self.mark(&bodies[*i], part, shift)
@@ -87,7 +94,7 @@ impl Painter<'_> {
         for y in 0..canvas.rows() {
             let bare: Vec<Point> = canvas.bare(y).collect();
             for p in bare {
-                if !canvas.is_bare(p) {
+                if !canvas.is_bare(p) || !self.ground.holds(p, 0.5 * width) {
                     continue;
                 }
                 let nodes = filling_line(flow, p, 0.5 * length);
@@ -98,7 +105,7 @@ impl Painter<'_> {
                 let shown = shown.iter().fold(Shown::default(), |sum, shown| sum.with(shown));
                 colours.push(shown.colour());
                 let part = Part { first: 0, last: body.stretches(), shown };
-                marks.push(self.mark(&body, &part, -0.5 * self.drawer.parameters.contrast));
+                marks.push(self.mark(&body, &part, FILLING_VALUE * self.drawer.parameters.contrast));
             }
         }
         marks.reverse();

@@ -90,7 +90,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "detail",
-        kind: Kind::Number { default: 0.12, least: 0.01, most: 2.0 },
+        kind: Kind::Number { default: 0.08, least: 0.01, most: 2.0 },
         meaning: "difference of colour from which a fine stroke is set on top of the broad ones; 2 for none",
         source: "",
     },

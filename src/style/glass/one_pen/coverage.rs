@@ -9,6 +9,12 @@ const FINE: f64 = 6.0;
 const TONES: usize = 20;
 /// Pixels of a tone from which it is corrected.
 const LEAST_PIXELS: f64 = 200.0;
+/// Weight of each earlier try against the one after it: the first ones are far from the tone.
+const FORGETTING: f64 = 0.6;
+/// Greatest change of a factor's logarithm at once.
+const MOST_STEP: f64 = 0.4;
+/// Least variance of the tried factors' logarithms that tells a slope.
+const LEAST_SPREAD: f64 = 1e-3;
 /// Blur of the ink before it is sorted by tone, in pixels: tones at the foot of an edge are not those of the lines there.
 const BLUR: f32 = 2.0;
 
@@ -41,13 +47,13 @@ pub(super) fn coverage(lines: &[Vec<Point>], width: f64, like: &Raster<f32>) -> 
 /// How much closer than their width over the ink lines must stand, by ink.
 pub(super) struct Calibration {
     factors: [f32; TONES + 1],
-    /// For each tone the logarithms of the last factor and of the ink that came of it.
-    tried: [Option<(f64, f64)>; TONES + 1],
+    /// For each tone the logarithms of the factors tried and of the ink that came of them.
+    tried: [Vec<(f64, f64)>; TONES + 1],
 }
 
 impl Default for Calibration {
     fn default() -> Self {
-        Self { factors: [0.9; TONES + 1], tried: [None; TONES + 1] }
+        Self { factors: [0.9; TONES + 1], tried: [const { Vec::new() }; TONES + 1] }
     }
 }
 
@@ -83,13 +89,25 @@ impl Calibration {
             }
             // Lines that come close cover like 1 - exp(-1 / spacing), so that the uncovered part is what is compared.
             let depth = |ink: f64| (-(1.0 - (ink / count).clamp(0.002, 0.99)).ln()).ln();
-            let now = (f64::from(*factor).ln(), depth(laid));
-            // By the secant through the last two; ink falls as the factor grows, about in proportion.
-            let slope = tried.map_or(-1.0, |before| (now.1 - before.1) / (now.0 - before.0));
-            let slope = if slope.is_finite() { slope.clamp(-3.0, -0.7) } else { -1.0 };
-            let step = ((depth(wanted) - now.1) / slope).clamp(-0.4, 0.4);
-            *tried = Some(now);
-            *factor = (now.0 + step).exp().clamp(0.3, 2.5) as f32;
+            tried.push((f64::from(*factor).ln(), depth(laid)));
+            let (middle, slope) = trend(tried);
+            let wanted = middle.0 + (depth(wanted) - middle.1) / slope;
+            *factor =
+                wanted.clamp(f64::from(factor.ln()) - MOST_STEP, f64::from(factor.ln()) + MOST_STEP).exp().clamp(0.3, 2.5) as f32;
         }
     }
+}
+
+/// The weighted middle of all tries and the slope through them; ink falls as the factor grows, about in proportion. One drawing's ink
+/// differs from the next one's by up to 0.03 at the same factor, so that the last try alone is a poor guide.
+fn trend(tried: &[(f64, f64)]) -> ((f64, f64), f64) {
+    let weight = |i: usize| FORGETTING.powi((tried.len() - 1 - i) as i32);
+    let mean = |value: &dyn Fn(&(f64, f64)) -> f64| {
+        let sums = tried.iter().enumerate().fold((0.0, 0.0), |sum, (i, t)| (sum.0 + weight(i) * value(t), sum.1 + weight(i)));
+        sums.0 / sums.1
+    };
+    let middle = (mean(&|t| t.0), mean(&|t| t.1));
+    let spread = mean(&|t| (t.0 - middle.0).powi(2));
+    let slope = mean(&|t| (t.0 - middle.0) * (t.1 - middle.1)) / spread;
+    (middle, if spread > LEAST_SPREAD { slope.clamp(-3.0, -0.7) } else { -1.0 })
 }
