@@ -9,7 +9,7 @@
 
 use crate::drawing::{Area, Mark};
 use crate::field::contours;
-use crate::geometry::{Affine, BezPath, Point, Region, Winding, polygon_area, untangled};
+use crate::geometry::{Affine, BezPath, Point, Region, Vec2, Winding, distance_to_segment, half_plane, polygon_area, untangled};
 use crate::raster::{Raster, dilate};
 use crate::source::{Placement, Portrait};
 use kurbo::Shape;
@@ -136,24 +136,67 @@ fn tile_outline(cells: &[&ReversedCell], mask: &Raster<u8>, subject: Option<&Reg
 
 /// The cell's polygon, all of them turning one way, and a strip over each side that it shares with another reversed cell.
 fn append_cell(path: &mut BezPath, cell: &ReversedCell, mask: &Raster<u8>, overlap: f64) {
-    let mut corners = cell.polygon.clone();
+    let corners = turning_one_way(&cell.polygon);
+    append(path, corners.iter().copied());
+    for (a, b, outward) in shared_sides(&corners, mask) {
+        append(path, [a, a + outward * overlap, b + outward * overlap, b].into_iter());
+    }
+}
+
+fn turning_one_way(polygon: &[Point]) -> Vec<Point> {
+    let mut corners = polygon.to_vec();
     if polygon_area(&corners) < 0.0 {
         corners.reverse();
     }
-    append(path, corners.iter().copied());
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let side = b - a;
-        if side.hypot() < 1e-9 {
-            continue;
-        }
-        let outward = -side.turn_90().normalize();
+    corners
+}
+
+/// The sides of a polygon beyond which a reversed cell lies, with their outward direction.
+fn shared_sides<'a>(corners: &'a [Point], mask: &'a Raster<u8>) -> impl Iterator<Item = (Point, Point, Vec2)> + 'a {
+    let sides = corners.iter().enumerate().map(|(i, &a)| (a, corners[(i + 1) % corners.len()]));
+    sides.filter(|(a, b)| a.distance(*b) > 1e-9).filter_map(|(a, b)| {
+        let outward = -(b - a).turn_90().normalize();
         let beyond = a.midpoint(b) + outward;
         let (x, y) = (beyond.x.floor() as isize, beyond.y.floor() as isize);
-        if mask.contains(x, y) && mask.get(x as usize, y as usize) == 1 {
-            append(path, [a, a + outward * overlap, b + outward * overlap, b].into_iter());
-        }
+        (mask.contains(x, y) && mask.get(x as usize, y as usize) == 1).then_some((a, b, outward))
+    })
+}
+
+/// Distance in pitches of a cell's ink from its middle above which the cell holds the edge of the dark: half black it is 0.25.
+const EDGE: f64 = 0.08;
+
+/// A cell beside reversed ones through which the edge of the dark runs: its ink lies all on the dark side, up to a straight cut, since a
+/// dot in the middle would leave a white sliver before the dark. `ink_middle` is where the cell's wanted ink has its centre of weight,
+/// `ink` its area.
+pub(super) fn edge_cell(polygon: &[Point], ink_middle: Point, ink: f64, mask: &Raster<u8>, pitch: f64) -> Option<ReversedCell> {
+    let corners = turning_one_way(polygon);
+    let middle = middle(&corners)?;
+    let towards = ink_middle - middle;
+    if towards.hypot() < EDGE * pitch || shared_sides(&corners, mask).next().is_none() {
+        return None;
     }
+    let towards = towards.normalize();
+    let reach = corners.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
+    let (mut low, mut high, mut cut) = (-reach, reach, Vec::new());
+    // 24 halvings of a cell of some pixels end far below what is written.
+    for _ in 0..24 {
+        let at = 0.5 * (low + high);
+        half_plane(&corners, middle + towards * at, -towards, &mut cut);
+        if polygon_area(&cut).abs() > ink { low = at } else { high = at }
+    }
+    (cut.len() > 2).then(|| ReversedCell { centre: middle, polygon: cut, hole: BezPath::new(), is_open: false })
+}
+
+/// A convex polygon's centre of weight.
+fn middle(corners: &[Point]) -> Option<Point> {
+    let first = *corners.first()?;
+    let (mut sum, mut twice) = (Vec2::ZERO, 0.0);
+    for pair in corners.windows(2) {
+        let (a, b) = (pair[0] - first, pair[1] - first);
+        sum += (a + b) * a.cross(b);
+        twice += a.cross(b);
+    }
+    (twice.abs() > 1e-9).then(|| first + sum / (3.0 * twice))
 }
 
 fn append(path: &mut BezPath, points: impl Iterator<Item = Point>) {
@@ -165,8 +208,7 @@ fn append(path: &mut BezPath, points: impl Iterator<Item = Point>) {
 
 /// Whether a round hole of this radius at the centre lies well inside a cell.
 pub(super) fn holds(polygon: &[Point], centre: Point, radius: f64) -> bool {
-    (0..polygon.len())
-        .all(|i| crate::geometry::distance_to_segment(centre, polygon[i], polygon[(i + 1) % polygon.len()]) > 1.05 * radius)
+    (0..polygon.len()).all(|i| distance_to_segment(centre, polygon[i], polygon[(i + 1) % polygon.len()]) > 1.05 * radius)
 }
 
 #[cfg(test)]
@@ -195,6 +237,18 @@ mod tests {
         let wanted = 900.0 - 25.0 * std::f64::consts::PI;
         // Strips over the tile's own border would lie outside the raster.
         assert!((outline.area().abs() - wanted).abs() < 0.5, "{} for {wanted}", outline.area());
+    }
+
+    #[test]
+    fn the_edge_of_the_dark_is_straight_and_has_the_cell_s_ink() {
+        let polygon = [Point::new(0.0, 0.0), Point::new(6.0, 0.0), Point::new(6.0, 6.0), Point::new(0.0, 6.0)];
+        // Reversed cells lie on the left.
+        let polygon = polygon.map(|p| p + Vec2::new(4.0, 0.0));
+        let mask = Raster::from_fn(12, 6, |x, _| u8::from(x < 4));
+        let cell = edge_cell(&polygon, Point::new(6.0, 3.0), 20.0, &mask, 6.0).unwrap();
+        assert!((polygon_area(&cell.polygon).abs() - 20.0).abs() < 1e-3);
+        assert!(cell.polygon.iter().all(|p| p.x < 4.0 + 20.0 / 6.0 + 1e-3), "{:?}", cell.polygon);
+        assert!(edge_cell(&polygon, Point::new(7.1, 3.0), 20.0, &mask, 6.0).is_none(), "an even cell has no edge");
     }
 
     #[test]

@@ -31,10 +31,10 @@ pub(super) struct Cell {
     pub darkness: f64,
     /// More than half of it belongs to the subject.
     pub is_subject: bool,
-    /// Part of it lies outside the subject.
-    pub is_open: bool,
-    /// What the tone leaves white of the subject's pixels in it.
-    pub white_pixels: f64,
+    /// In a cell that lies partly outside the subject, what the tone leaves white inside, in square pixels.
+    pub open_white: Option<f64>,
+    /// Wanted ink as a share of the subject's pixels in it.
+    pub subject_darkness: f64,
     /// Mean linear light of the photograph.
     pub light: [f32; 3],
 }
@@ -104,8 +104,8 @@ impl Sum {
             is_filler,
             darkness: self.ink / self.pixels.max(1.0),
             is_subject: self.subject > 0.5 * self.pixels,
-            is_open: self.is_open,
-            white_pixels: self.subject - self.ink,
+            open_white: self.is_open.then_some(self.subject - self.ink),
+            subject_darkness: self.ink / self.subject.max(1e-9),
             light: self.light.map(|v| (v / self.pixels.max(1.0)) as f32),
         }
     }

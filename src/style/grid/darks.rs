@@ -51,7 +51,7 @@ impl Darks {
         let is_dark: Vec<bool> = cells
             .iter()
             .map(|cell| {
-                let own = cell.darkness;
+                let own = cell.subject_darkness;
                 own >= from + DARK_BAND
                     || (own >= from - DARK_BAND && f64::from(around.sample(cell.centre.x, cell.centre.y)) >= from)
             })
@@ -82,7 +82,7 @@ fn meshes(drawer: &Drawer<'_>, grid: &StructureGrid) -> Vec<Point> {
 }
 
 fn reversed_cell(cell: Cell, mixing: &Mixing, pitch: f64) -> ReversedCell {
-    let white = if cell.is_open { cell.white_pixels } else { polygon_area(&cell.polygon).abs() * (1.0 - cell.darkness) };
+    let white = cell.open_white.unwrap_or(polygon_area(&cell.polygon).abs() * (1.0 - cell.darkness));
     let radius = (white.max(0.0) / PI).sqrt();
     let hole = if radius < reversed::LEAST_HOLE * pitch {
         BezPath::new()
@@ -92,7 +92,7 @@ fn reversed_cell(cell: Cell, mixing: &Mixing, pitch: f64) -> ReversedCell {
         kurbo::Circle::new(cell.centre, radius).to_path(1e-3)
     };
     // A square's corner lies 1.25 of that radius away.
-    let is_open = cell.is_open || !reversed::holds(&cell.polygon, cell.centre, 1.25 * radius);
+    let is_open = cell.open_white.is_some() || !reversed::holds(&cell.polygon, cell.centre, 1.25 * radius);
     ReversedCell { centre: cell.centre, polygon: cell.polygon, hole, is_open }
 }
 

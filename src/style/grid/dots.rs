@@ -125,8 +125,8 @@ mod tests {
                 is_filler: false,
                 darkness,
                 is_subject: true,
-                is_open: false,
-                white_pixels: 0.0,
+                open_white: None,
+                subject_darkness: darkness,
                 light: [0.0; 3],
             };
             let half = [0.4, 0.5];

@@ -35,7 +35,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "reversed_from",
-        kind: Kind::Number { default: 0.82, least: 0.5, most: 1.0 },
+        kind: Kind::Number { default: 0.76, least: 0.5, most: 1.0 },
         meaning: "with size=exact: ink from which dark regions are black with white holes, as on scraperboard; 1 leaves dots everywhere, which close up there",
         source: "",
     },

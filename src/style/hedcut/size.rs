@@ -3,7 +3,7 @@
 use super::{Drawer, SizedDot};
 use crate::drawing::Mark;
 use crate::field::{Sites, cell_polygon};
-use crate::geometry::{BezPath, Point, Rect, blob, polygon_area, radius_for_area};
+use crate::geometry::{BezPath, Point, Rect, Vec2, blob, polygon_area, radius_for_area};
 use crate::raster::{Raster, gaussian_blur};
 use crate::style::random;
 use crate::style::reversed::{self, Chosen, ReversedCell};
@@ -37,22 +37,23 @@ pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
     let wanted = cell_ink(drawer, &nearest, sites.len(), ink);
     let polygon = |i: usize| cell_polygon(&grid, i, field, CELL_REACH * drawer.pitch());
     let chosen = Chosen::new(&nearest, &dark(drawer, sites, &wanted, ink), drawer.pitch());
-    let is_dot = |i: &usize| !chosen.is_reversed[*i];
-    let dots = (0..sites.len())
+    let sized: Vec<Result<SizedDot, ReversedCell>> = (0..sites.len())
         .into_par_iter()
-        .filter(is_dot)
         .map(|i| {
-            let cell = polygon(i);
-            let area = wanted[i].area(polygon_area(&cell).abs());
-            SizedDot { centre: sites[i], radius: radius_for_area(&cell, sites[i], area) }
+            let (cell, wanted) = (polygon(i), wanted[i]);
+            if chosen.is_reversed[i] {
+                return Err(reversed_cell(drawer, i, sites[i], cell, wanted));
+            }
+            let area = wanted.area(polygon_area(&cell).abs());
+            match wanted.middle().filter(|_| !wanted.is_open) {
+                Some(middle) => reversed::edge_cell(&cell, middle, area, &chosen.mask, drawer.pitch()),
+                None => None,
+            }
+            .map_or_else(|| Ok(SizedDot { centre: sites[i], radius: radius_for_area(&cell, sites[i], area) }), Err)
         })
-        .filter(|dot| dot.radius > 0.0)
         .collect();
-    let cells: Vec<ReversedCell> = (0..sites.len())
-        .into_par_iter()
-        .filter(|i| !is_dot(i))
-        .map(|i| reversed_cell(drawer, i, sites[i], polygon(i), wanted[i]))
-        .collect();
+    let cells: Vec<ReversedCell> = sized.iter().filter_map(|sized| sized.as_ref().err().cloned()).collect();
+    let dots = sized.into_iter().flatten().filter(|dot| dot.radius > 0.0).collect();
     Sized { dots, reversed: reversed::areas(&cells, &chosen.mask, drawer.portrait, drawer.pitch()) }
 }
 
@@ -106,6 +107,8 @@ struct CellInk {
     ink: f64,
     /// Pixels of the subject, its soft border in part.
     subject: f64,
+    /// Sum of the pixels' places, each as often as it has ink.
+    place: Vec2,
     /// Part of the cell lies outside the subject, so that its polygon is larger than what is drawn.
     is_open: bool,
 }
@@ -114,6 +117,11 @@ impl CellInk {
     /// Ink area in a cell of this area: its mean tone's share, or, at the subject's border, what its pixels ask for.
     fn area(self, cell: f64) -> f64 {
         if self.is_open || self.pixels == 0.0 { self.ink } else { self.share() * cell }
+    }
+
+    /// The ink's centre of weight.
+    fn middle(self) -> Option<Point> {
+        (self.ink > 0.0).then(|| (self.place / self.ink).to_point())
     }
 
     /// Mean ink, 0 to 1.
@@ -125,12 +133,14 @@ impl CellInk {
 fn cell_ink(drawer: &Drawer<'_>, nearest: &Raster<u32>, count: usize, ink: &Raster<f32>) -> Vec<CellInk> {
     let subject = &drawer.portrait.subject;
     let mut cells = vec![CellInk::default(); count];
-    for ((&site, &ink), &subject) in nearest.pixels().iter().zip(ink.pixels()).zip(subject.pixels()) {
+    let columns = nearest.width();
+    for (pixel, ((&site, &ink), &subject)) in nearest.pixels().iter().zip(ink.pixels()).zip(subject.pixels()).enumerate() {
         if site != u32::MAX {
             let cell = &mut cells[site as usize];
             cell.pixels += 1.0;
             cell.ink += f64::from(ink);
             cell.subject += f64::from(subject);
+            cell.place += Vec2::new((pixel % columns) as f64 + 0.5, (pixel / columns) as f64 + 0.5) * f64::from(ink);
             cell.is_open |= subject < 0.999;
         }
     }
