@@ -36,7 +36,9 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curv
         points.push(points[0]);
     }
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
-    let widths: Vec<f64> = nodes.iter().map(|p| if darks.cover(*p) { 0.0 } else { width(grid, &mixing, *p, ink) }).collect();
+    // The blurred ink reaches beyond the subject, where a hair line would run around it.
+    let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
+    let widths: Vec<f64> = nodes.iter().map(|p| if is_bare(*p) { 0.0 } else { width(grid, &mixing, *p, ink) }).collect();
     let least = LEAST_WIDTH * drawer.pitch();
     let is_whole = line.closed && nodes.len() > 3 && widths.iter().all(|&w| w > least);
     if is_whole {
