@@ -6,10 +6,16 @@
 //!        . . . . .          3. strongly negative: a dark line; lines found darken the picture for the next round
 //! ```
 
+mod padded;
+mod stencil;
+mod streamline;
+
 use super::tangent_flow::EdgeTangentFlow;
 use crate::raster::{Raster, dilate};
+use padded::Padded;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use stencil::Stencils;
+use streamline::Streamlines;
 
 /// How coherent lines are found; lengths in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,81 +93,6 @@ fn half_gaussian(sigma: f32) -> Vec<f32> {
     half.iter().map(|weight| weight / sum).collect()
 }
 
-/// A raster with its border repeated outwards, so that what is read near it needs no test.
-struct Padded<T> {
-    data: Vec<T>,
-    stride: usize,
-    margin: usize,
-}
-
-impl<T: Copy + Default + Send + Sync> Padded<T> {
-    fn new(raster: &Raster<T>, margin: usize) -> Self {
-        let stride = raster.width() + 2 * margin;
-        let mut data = vec![T::default(); stride * (raster.height() + 2 * margin)];
-        data.par_chunks_mut(stride.max(1)).enumerate().for_each(|(y, row)| {
-            let source = raster.row(y.saturating_sub(margin).min(raster.height() - 1));
-            row[..margin].fill(source[0]);
-            row[margin..margin + source.len()].copy_from_slice(source);
-            row[margin + source.len()..].fill(source[source.len() - 1]);
-        });
-        Self { data, stride, margin }
-    }
-}
-
-/// Slopes that are told apart in each half of the directions; at the stencil's end neighbours lie a twentieth of a pixel apart.
-const SLOPES: usize = 64;
-
-/// The kernel across the flow for each direction, its bilinear samples gathered into weights of whole pixels.
-struct Stencils {
-    /// One for each direction, in the order of [`Stencils::class`].
-    taps: Vec<Vec<Tap>>,
-    centre: f32,
-    /// Pixels that it reaches to each side.
-    reach: usize,
-}
-
-/// A weight for the two pixels so far before and behind the middle one.
-#[derive(Clone, Copy)]
-struct Tap {
-    offset: isize,
-    weight: f32,
-}
-
-impl Stencils {
-    /// For a raster of this width, padded by the reach.
-    fn new(kernel: &[f32], width: usize) -> Self {
-        let reach = kernel.len() + 1;
-        let stride = (width + 2 * reach) as isize;
-        let slope = |k: usize| 2.0 * k as f32 / SLOPES as f32 - 1.0;
-        let flat = (0..=SLOPES).map(|k| [1.0, slope(k)]);
-        let steep = (0..=SLOPES).map(|k| [slope(k), 1.0]);
-        let taps = flat.chain(steep).map(|tangent| taps_across(tangent, kernel, stride)).collect();
-        Self { taps, centre: kernel[0], reach }
-    }
-
-    /// Which stencil lies across this tangent.
-    fn class([x, y]: [f32; 2]) -> usize {
-        let (first, slope) = if x.abs() >= y.abs() { (0, y / x) } else { (SLOPES + 1, x / y) };
-        first + ((slope + 1.0) * (0.5 * SLOPES as f32) + 0.5) as usize
-    }
-}
-
-fn taps_across([x, y]: [f32; 2], kernel: &[f32], stride: isize) -> Vec<Tap> {
-    let length = x.hypot(y);
-    let mut sums: BTreeMap<isize, f32> = BTreeMap::new();
-    for (i, weight) in kernel.iter().enumerate().skip(1) {
-        let (px, py) = (-y / length * i as f32, x / length * i as f32);
-        let (tx, ty) = (px - px.floor(), py - py.floor());
-        let first = py.floor() as isize * stride + px.floor() as isize;
-        for (offset, share) in
-            [(0, (1.0 - tx) * (1.0 - ty)), (1, tx * (1.0 - ty)), (stride, (1.0 - tx) * ty), (stride + 1, tx * ty)]
-        {
-            *sums.entry(first + offset).or_default() += weight * share;
-        }
-    }
-    sums.into_iter().filter(|(_, weight)| *weight != 0.0).map(|(offset, weight)| Tap { offset, weight }).collect()
-}
-
 /// Step 1 where `stale`; 0 where there is no direction.
 fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, stale: &Raster<u8>, out: &mut Raster<f32>) {
     let padded = Padded::new(grey, stencils.reach);
@@ -170,10 +101,7 @@ fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, 
         if tangent == [0.0, 0.0] {
             return 0.0;
         }
-        let here = (y + padded.margin) * padded.stride + x + padded.margin;
-        let at = |offset: isize| padded.data[here.wrapping_add_signed(offset)];
-        let taps = stencils.taps[Stencils::class(tangent)].iter();
-        taps.fold(stencils.centre * at(0), |sum, tap| sum + tap.weight * (at(tap.offset) + at(-tap.offset)))
+        stencils.sum(&padded, tangent, x, y)
     });
 }
 
@@ -218,73 +146,6 @@ fn lowest_by_tile(raster: &Raster<f32>, reach: usize) -> Vec<f32> {
             tiles.map(|tile| own[tile]).fold(f32::INFINITY, f32::min)
         })
         .collect()
-}
-
-/// Length of a step along a streamline in pixels: half the standard deviation of the shortest Gaussian in use.
-const STEP: f32 = 1.5;
-/// Bits behind the point of a place on a streamline: whole numbers are quicker than a float's rounding.
-const BITS: i32 = 14;
-const PIXEL: i32 = 1 << BITS;
-
-/// The flow, ready to be followed.
-struct Streamlines {
-    /// One step at each pixel.
-    steps: Padded<[i16; 2]>,
-    /// Of the middle and of each step to either side.
-    weights: Vec<f32>,
-}
-
-/// A place on a streamline, measured from where it began, and the step that leads on.
-struct Walker {
-    place: [i32; 2],
-    step: [i32; 2],
-}
-
-impl Streamlines {
-    fn new(flow: &EdgeTangentFlow, sigma: f32) -> Self {
-        let weights = half_gaussian(sigma / STEP);
-        let margin = (weights.len() as f32 * STEP) as usize + 2;
-        let steps = flow.tangent.map(|t| t.map(|t| (t * STEP * PIXEL as f32) as i16));
-        Self { steps: Padded::new(&steps, margin), weights }
-    }
-
-    /// How far they are followed, and a little more.
-    const fn margin(&self) -> usize {
-        self.steps.margin
-    }
-
-    /// The weighted mean of what lies along the streamline through a pixel.
-    fn mean(&self, responses: &Padded<f32>, x: usize, y: usize) -> f32 {
-        let here = (y + self.margin()) * responses.stride + x + self.margin();
-        let step = self.steps.data[here].map(i32::from);
-        let mut walkers = [Walker { place: [0, 0], step }, Walker { place: [0, 0], step: step.map(|s| -s) }];
-        let mut sum = self.weights[0] * responses.data[here];
-        for &weight in &self.weights[1..] {
-            let [ahead, behind] = &mut walkers;
-            sum += weight * (self.advance(ahead, responses, here) + self.advance(behind, responses, here));
-        }
-        sum
-    }
-
-    /// One step on; what lies there, bilinear.
-    fn advance(&self, walker: &mut Walker, responses: &Padded<f32>, here: usize) -> f32 {
-        let Walker { place: [x, y], step: [dx, dy] } = walker;
-        (*x, *y) = (*x + *dx, *y + *dy);
-        let at =
-            |x: i32, y: i32| here.wrapping_add_signed((y >> BITS) as isize * responses.stride as isize + (x >> BITS) as isize);
-        let [tx, ty] = self.steps.data[at(*x + PIXEL / 2, *y + PIXEL / 2)].map(i32::from);
-        let dot = tx * *dx + ty * *dy;
-        if dot != 0 {
-            let sign = dot.signum();
-            (*dx, *dy) = (sign * tx, sign * ty);
-        }
-        let part = |v: i32| (v & (PIXEL - 1)) as f32 * (1.0 / PIXEL as f32);
-        let (u, v, first) = (part(*x), part(*y), at(*x, *y));
-        let (top, bottom) = (&responses.data[first..first + 2], &responses.data[first + responses.stride..][..2]);
-        let upper = top[0] + (top[1] - top[0]) * u;
-        let lower = bottom[0] + (bottom[1] - bottom[0]) * u;
-        upper + (lower - upper) * v
-    }
 }
 
 #[cfg(test)]
