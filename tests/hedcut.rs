@@ -27,6 +27,18 @@ fn circles_have_the_tone_of_the_wedge() {
     assert!(errors.iter().all(|e| e.abs() <= 0.015), "{errors:?}");
 }
 
+/// Dots everywhere, which overlap in the darks.
+fn with_dots_only() -> Vec<(&'static str, &'static str)> {
+    EXACT.iter().copied().chain([("reversed_from", "1")]).collect()
+}
+
+#[test]
+fn overlapping_circles_have_the_tone_of_the_wedge() {
+    let errors = wedge_errors(&with_dots_only());
+    println!("wedge, circles everywhere: {errors:.4?}");
+    assert!(errors.iter().all(|e| e.abs() <= 0.015), "{errors:?}");
+}
+
 #[test]
 fn blobs_have_the_tone_of_the_wedge() {
     let set: Vec<(&str, &str)> = EXACT.iter().copied().chain([("blob", "0.6")]).collect();
@@ -38,7 +50,8 @@ fn blobs_have_the_tone_of_the_wedge() {
 #[test]
 fn dots_are_evenly_spaced_and_as_many_as_asked() {
     let photo = wedge();
-    let sheet = Sheet { tone: ToneTarget::Linear, set: EXACT, ..Sheet::new(&photo, (WEDGE_MM, WEDGE_MM)) };
+    let set = with_dots_only();
+    let sheet = Sheet { tone: ToneTarget::Linear, set: &set, ..Sheet::new(&photo, (WEDGE_MM, WEDGE_MM)) };
     let dots = dots(&sheet.draw());
     for (patch, tone) in wedge_patches() {
         let nearest: Vec<f64> = dots

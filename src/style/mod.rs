@@ -12,6 +12,7 @@ mod hedcut;
 mod observer;
 mod parameter;
 mod random;
+mod reversed;
 
 pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};

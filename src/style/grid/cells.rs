@@ -31,42 +31,43 @@ pub(super) struct Cell {
     pub darkness: f64,
     /// More than half of it belongs to the subject.
     pub is_subject: bool,
+    /// In a cell that lies partly outside the subject, what the tone leaves white inside, in square pixels.
+    pub open_white: Option<f64>,
+    /// Wanted ink as a share of the subject's pixels in it.
+    pub subject_darkness: f64,
     /// Mean linear light of the photograph.
     pub light: [f32; 3],
 }
 
+/// The cells of the grid's points.
 pub(super) fn cells(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>, features: &Features) -> Vec<Cell> {
     drawer.observer.begin("cells");
-    if grid.crossings.is_empty() {
+    let (width, height) = drawer.size();
+    let covered = drawer.parameters.has_lines.then(|| coverage(&features.lines, width, height));
+    cells_of(drawer, grid, &grid.crossings, grid.true_crossings, ink, covered.as_ref())
+}
+
+/// The cells of any points, of which the first `true_points` are crossings and the others fill holes.
+pub(super) fn cells_of(
+    drawer: &Drawer<'_>,
+    grid: &StructureGrid,
+    points: &[Point],
+    true_points: usize,
+    ink: &Raster<f32>,
+    covered: Option<&Raster<f32>>,
+) -> Vec<Cell> {
+    if points.is_empty() {
         return Vec::new();
     }
     let (width, height) = drawer.size();
     let field = Rect::new(0.0, 0.0, width as f64, height as f64);
-    let sites = Sites::new(&grid.crossings, field.x1, field.y1, drawer.pitch());
-    let covered = drawer.parameters.has_lines.then(|| coverage(&features.lines, width, height));
-    let wanted = sums(drawer, &sites, grid.crossings.len(), ink, covered.as_ref());
-    (0..grid.crossings.len())
+    let sites = Sites::new(points, field.x1, field.y1, drawer.pitch());
+    let wanted = sums(drawer, &sites, points.len(), ink, covered);
+    (0..points.len())
         .into_par_iter()
         .map(|i| {
-            let centre = grid.crossings[i];
             let polygon = cell_polygon(&sites, i, field, CELL_REACH * drawer.pitch());
-            let area = polygon_area(&polygon).abs();
-            let sum = &wanted[i];
-            let light = sum.light.map(|v| (v / sum.pixels.max(1.0)) as f32);
-            let (ink, darkness) = (sum.ink(area), sum.ink / sum.pixels.max(1.0));
-            let is_subject = sum.subject > 0.5 * sum.pixels;
-            Cell {
-                centre,
-                tangent: grid.tangent(centre),
-                polygon,
-                area,
-                ink,
-                is_cut: sum.covered > 0.0 || sum.is_open,
-                is_filler: i >= grid.true_crossings,
-                darkness,
-                is_subject,
-                light,
-            }
+            wanted[i].cell(points[i], grid.tangent(points[i]), polygon, i >= true_points)
         })
         .collect()
 }
@@ -89,6 +90,24 @@ impl Sum {
     fn ink(&self, cell: f64) -> f64 {
         let wanted = (self.ink - self.covered).max(0.0);
         if self.is_open || self.pixels == 0.0 { wanted } else { wanted / self.pixels * cell }
+    }
+
+    fn cell(&self, centre: Point, tangent: Vec2, polygon: Vec<Point>, is_filler: bool) -> Cell {
+        let area = polygon_area(&polygon).abs();
+        Cell {
+            centre,
+            tangent,
+            polygon,
+            area,
+            ink: self.ink(area),
+            is_cut: self.covered > 0.0 || self.is_open,
+            is_filler,
+            darkness: self.ink / self.pixels.max(1.0),
+            is_subject: self.subject > 0.5 * self.pixels,
+            open_white: self.is_open.then_some(self.subject - self.ink),
+            subject_darkness: self.ink / self.subject.max(1e-9),
+            light: self.light.map(|v| (v / self.pixels.max(1.0)) as f32),
+        }
     }
 }
 

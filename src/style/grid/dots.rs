@@ -2,6 +2,7 @@
 
 use super::Drawer;
 use super::cells::Cell;
+use super::darks::Darks;
 use super::mixing::{Mixing, paper_radius};
 use super::parameters::Overlap;
 use super::shape::grid_shape;
@@ -18,13 +19,14 @@ const LEAST_RADIUS: f64 = 0.002;
 /// faces), larger ones carry the row across it.
 const LEAST_CUT_RADIUS: f64 = 0.16;
 
-pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], ink: &Raster<f32>) -> Layer {
+pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], darks: &Darks, ink: &Raster<f32>) -> Layer {
     drawer.observer.begin("dots");
     let mixing = Mixing::new(drawer);
     let mut layer = Layer::new("dots", 1);
     layer.marks = cells
         .par_iter()
         .enumerate()
+        .filter(|(_, cell)| !darks.cover(cell.centre))
         .filter_map(|(i, cell)| {
             let radius = radius(drawer, grid, &mixing, cell, ink);
             let least = if cell.is_cut { LEAST_CUT_RADIUS } else { LEAST_RADIUS };
@@ -123,6 +125,8 @@ mod tests {
                 is_filler: false,
                 darkness,
                 is_subject: true,
+                open_white: None,
+                subject_darkness: darkness,
                 light: [0.0; 3],
             };
             let half = [0.4, 0.5];

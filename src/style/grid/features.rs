@@ -38,22 +38,33 @@ impl Drawer<'_> {
             Some(mask) => self.hand_made(mask),
             None => self.found_isophotes(&lightness),
         };
-        let least = self.pixels(self.parameters.steer_least_mm);
-        let steers = |line: &&CoherentLine| line.curve.length() >= least && line.contrast >= self.parameters.steer_contrast;
-        let curves: Vec<Curve> = lines.iter().filter(steers).map(|line| line.curve.clone()).collect();
+        let guides = self.steering(&lines);
         self.observer.picture("features", &|| {
             self.picture_of(vec![
-                self.thin_layer("lines", &curves, Colour { r: 20, g: 20, b: 20 }),
+                self.thin_layer("lines", &guides, Colour { r: 20, g: 20, b: 20 }),
                 self.thin_layer("isophotes", &isophotes, Colour { r: 30, g: 90, b: 200 }),
             ])
         });
+        let field = self.field(&guides, &isophotes);
+        Features { lines, guides, field }
+    }
+
+    /// The lines long and strong enough to steer.
+    fn steering(&self, lines: &[CoherentLine]) -> Vec<Curve> {
+        let least = self.pixels(self.parameters.steer_least_mm);
+        let steers = |line: &&CoherentLine| line.curve.length() >= least && line.contrast >= self.parameters.steer_contrast;
+        lines.iter().filter(steers).map(|line| line.curve.clone()).collect()
+    }
+
+    /// Section 4.2: the directions between the lines.
+    fn field(&self, lines: &[Curve], isophotes: &[Curve]) -> DirectionField {
         self.observer.begin("field");
         let (width, height) = self.size();
         let guides =
-            [Guides { curves: &curves, weight: 1.0 }, Guides { curves: &isophotes, weight: self.parameters.isophote_weight }];
+            [Guides { curves: lines, weight: 1.0 }, Guides { curves: isophotes, weight: self.parameters.isophote_weight }];
         let field = direction_field(&guides, width, height, self.field_parameters());
         self.observer.picture("field", &|| self.picture_of(self.field_layers(&field)));
-        Features { lines, guides: curves, field }
+        field
     }
 
     fn field_parameters(&self) -> FieldParameters {
@@ -71,17 +82,7 @@ impl Drawer<'_> {
         self.observer.picture("edge-tangent-flow", &|| {
             Picture::Grey(flow.tangent.map(|[x, y]| if x == 0.0 && y == 0.0 { 1.0 } else { 0.5 + 0.5 * (x * x - y * y) }))
         });
-        let found = flow_lines(
-            lightness,
-            &flow,
-            LineParameters {
-                width: self.pixels(parameters.line_width_mm) as f32,
-                length: self.pixels(parameters.line_length_mm) as f32,
-                contrast: parameters.line_contrast as f32,
-                threshold: parameters.line_threshold as f32,
-                rounds: parameters.line_rounds,
-            },
-        );
+        let found = flow_lines(lightness, &flow, self.line_parameters());
         self.observer.picture("flow-dog", &|| Picture::Grey(found.response.map(|h| 1.0 + h.min(0.0).tanh())));
         self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
         let steps =
@@ -91,6 +92,16 @@ impl Drawer<'_> {
         let widest = self.pixels(parameters.line_widest_mm);
         let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
         steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect()
+    }
+
+    fn line_parameters(&self) -> LineParameters {
+        LineParameters {
+            width: self.pixels(self.parameters.line_width_mm) as f32,
+            length: self.pixels(self.parameters.line_length_mm) as f32,
+            contrast: self.parameters.line_contrast as f32,
+            threshold: self.parameters.line_threshold as f32,
+            rounds: self.parameters.line_rounds,
+        }
     }
 
     /// The subject's own border is a line, exactly; lines found beside it would double it.
@@ -141,6 +152,21 @@ impl Drawer<'_> {
     /// The field as short strokes two pitches apart, and its singular points: open rings where it turns one way, dots the other.
     fn field_layers(&self, field: &DirectionField) -> Vec<Layer> {
         let step = 2.0 * self.pitch();
+        let ring = |centre: Point| {
+            let points = (0..12).map(|k| centre + Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 12.0) * step).collect();
+            Curve { points, closed: true }
+        };
+        let singular = |sign: f32| -> Vec<Curve> {
+            field.singularities.iter().filter(|s| s.index * sign > 0.0).map(|s| ring(s.position)).collect()
+        };
+        vec![
+            self.thin_layer("field", &self.field_strokes(field, step), Colour { r: 60, g: 60, b: 60 }),
+            self.thin_layer("loop-ends", &singular(1.0), Colour { r: 200, g: 30, b: 30 }),
+            self.thin_layer("triple-points", &singular(-1.0), Colour { r: 30, g: 90, b: 200 }),
+        ]
+    }
+
+    fn field_strokes(&self, field: &DirectionField, step: f64) -> Vec<Curve> {
         let mut strokes = Vec::new();
         let (width, height) = self.size();
         for j in 0..(height as f64 / step) as usize {
@@ -151,18 +177,7 @@ impl Drawer<'_> {
                 strokes.push(Curve { points: vec![p - half, p + half], closed: false });
             }
         }
-        let ring = |centre: Point| {
-            let points = (0..12).map(|k| centre + Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 12.0) * step).collect();
-            Curve { points, closed: true }
-        };
-        let singular = |sign: f32| -> Vec<Curve> {
-            field.singularities.iter().filter(|s| s.index * sign > 0.0).map(|s| ring(s.position)).collect()
-        };
-        vec![
-            self.thin_layer("field", &strokes, Colour { r: 60, g: 60, b: 60 }),
-            self.thin_layer("loop-ends", &singular(1.0), Colour { r: 200, g: 30, b: 30 }),
-            self.thin_layer("triple-points", &singular(-1.0), Colour { r: 30, g: 90, b: 200 }),
-        ]
+        strokes
     }
 
     /// Curves as thin lines of one colour.

@@ -1,6 +1,7 @@
 //! Hatching lines along the grid's lines, as wide as the tone asks (Son et al. 2011, section 6.2; errata).
 
 use super::Drawer;
+use super::darks::Darks;
 use super::mixing::Mixing;
 use super::structure::StructureGrid;
 use crate::drawing::{Layer, Mark, Stroke, Width};
@@ -16,26 +17,28 @@ const LEAST_WIDTH: f64 = 0.002;
 /// Width in pitches from which a line's end is no hair.
 const WHISKER: f64 = 0.25;
 
-pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>) -> Layer {
+pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, ink: &Raster<f32>) -> Layer {
     drawer.observer.begin("hatching");
     let mixing = Mixing::new(drawer);
     let mut layer = Layer::new("hatching", 1);
     for family in (0..2).filter(|&family| mixing.hatches(family)) {
-        let strokes: Vec<Vec<Mark>> =
-            grid.lines[family].par_iter().map(|line| strokes(drawer, grid, &mixing, line, ink)).collect();
+        let strokes: Vec<Vec<Mark>> = grid.lines[family].par_iter().map(|line| strokes(drawer, grid, darks, line, ink)).collect();
         layer.marks.extend(strokes.into_iter().flatten());
     }
     layer
 }
 
 /// The parts of one grid line where there is ink to draw.
-fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, line: &Curve, ink: &Raster<f32>) -> Vec<Mark> {
+fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curve, ink: &Raster<f32>) -> Vec<Mark> {
+    let mixing = Mixing::new(drawer);
     let mut points = line.points.clone();
     if line.closed {
         points.push(points[0]);
     }
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
-    let widths: Vec<f64> = nodes.iter().map(|p| width(grid, mixing, *p, ink)).collect();
+    // The blurred ink reaches beyond the subject, where a hair line would run around it.
+    let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
+    let widths: Vec<f64> = nodes.iter().map(|p| if is_bare(*p) { 0.0 } else { width(grid, &mixing, *p, ink) }).collect();
     let least = LEAST_WIDTH * drawer.pitch();
     let is_whole = line.closed && nodes.len() > 3 && widths.iter().all(|&w| w > least);
     if is_whole {

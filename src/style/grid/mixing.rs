@@ -38,6 +38,11 @@ impl Mixing {
         t * t * (3.0 - 2.0 * t)
     }
 
+    /// Whether marks of this tone leave nothing but meshes: dots or lines both ways.
+    pub(super) fn closes_up(&self, tone: f64) -> bool {
+        self.hatching == Hatching::Both || self.line_share(tone) == 0.0
+    }
+
     /// Whether the lines of a family (0 along, 1 across) are drawn.
     pub(super) fn hatches(&self, family: usize) -> bool {
         match self.hatching {

@@ -1,6 +1,7 @@
 //! The structure grid: dots lined up along and across the features, turning into hatching where it is dark (Son et al. 2011).
 
 mod cells;
+mod darks;
 mod dots;
 mod features;
 mod hatching;
@@ -13,9 +14,12 @@ mod tiles;
 
 use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Drawing, Layer, Page};
-use crate::raster::gaussian_blur;
+use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
+use cells::Cell;
+use darks::Darks;
 use parameters::{Gridding, PIXELS_PER_PITCH, Primitive};
+use structure::StructureGrid;
 
 /// The style.
 pub(super) struct Grid;
@@ -75,11 +79,8 @@ impl Drawer<'_> {
         let grid = self.structure(&features, &ink);
         self.pause()?;
         let cells = cells::cells(self, &grid, &ink, &features);
-        let blurred = gaussian_blur(&ink, TONE_BLUR * self.pitch() as f32);
         let mut layers = match self.parameters.primitive {
-            Primitive::Mixed => {
-                vec![hatching::layer(self, &grid, &blurred), dots::layer(self, &grid, &cells, &blurred)]
-            }
+            Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink),
             Primitive::Tile => vec![tiles::layer(self, &cells)],
             Primitive::TileLines => vec![tiles::line_layer(self, &cells)],
         };
@@ -98,6 +99,17 @@ impl Drawer<'_> {
         let drawing = Drawing { page, layers }.clipped(page.rect());
         self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
+    }
+
+    /// Section 6: lines, dots, and the darks among the lines or, where there are none, among the dots.
+    fn mixed_layers(&self, grid: &StructureGrid, cells: &[Cell], ink: &Raster<f32>) -> Vec<Layer> {
+        let darks = Darks::new(self, grid, ink);
+        let blurred = gaussian_blur(ink, TONE_BLUR * self.pitch() as f32);
+        let mut lines = hatching::layer(self, grid, &darks, &blurred);
+        let mut dots = dots::layer(self, grid, cells, &darks, &blurred);
+        let first = if lines.marks.is_empty() { &mut dots } else { &mut lines };
+        first.marks.extend(darks.areas);
+        vec![lines, dots]
     }
 
     fn pause(&self) -> Result<(), StyleError> {

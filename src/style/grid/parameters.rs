@@ -32,6 +32,12 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         source: "Son 6.2",
     },
     Parameter {
+        name: "reversed_from",
+        kind: Kind::Number { default: 0.88, least: 0.5, most: 1.0 },
+        meaning: "ink from which dark regions are black with a white hole in each mesh of the grid; 1 leaves lines and dots, which close up there",
+        source: "",
+    },
+    Parameter {
         name: "overlap",
         kind: Kind::Choice(&["exact", "paper"]),
         meaning: "dot size: exact puts the tone's ink into each dot's own cell; paper is the square cell's formula, too light where dots overlap",
@@ -228,6 +234,7 @@ pub(super) struct Gridding {
     pub size_max_mm: f64,
     pub blend: f64,
     pub hatching: Hatching,
+    pub reversed_from: f64,
     pub overlap: Overlap,
     pub blob: f64,
     pub dot_shape: f64,
@@ -269,6 +276,7 @@ impl Gridding {
                 "across" => Hatching::Across,
                 _ => Hatching::Both,
             },
+            reversed_from: settings.number("reversed_from"),
             overlap: if settings.word("overlap") == "exact" { Overlap::Exact } else { Overlap::Paper },
             blob: settings.number("blob"),
             dot_shape: settings.number("dot_shape"),

@@ -62,51 +62,76 @@ impl StructureGrid {
 impl Drawer<'_> {
     pub(super) fn structure(&self, features: &Features, ink: &Raster<f32>) -> StructureGrid {
         self.observer.begin("stripes");
-        let closeness = self.closeness(ink);
-        let pitch = self.pitch() as f32;
-        let waves = |turned: bool| {
-            features.field.tangent.zip_map(&closeness, |[x, y], closeness| {
-                let scale = closeness / pitch;
-                let wave: Wave = if turned { [-y * scale, x * scale] } else { [x * scale, y * scale] };
-                wave
-            })
-        };
-        let step = self.pitch() / NODES_PER_PITCH * f64::from(1.0 - self.parameters.adaptive);
-        let parameters = StripeParameters {
+        let stripes = self.families(features, &self.closeness(ink));
+        self.observer.begin("grid");
+        let (crossings, true_crossings) = self.points(&stripes[0], &stripes[1]);
+        let lines = [0, 1].map(|family| self.smooth_lines(&stripes[family]));
+        let density = [0, 1].map(|family| {
+            let stripes: &StripeLattice = &stripes[family];
+            gaussian_blur(&stripes.frequency(), (self.pitch() / stripes.step) as f32)
+        });
+        let grid = StructureGrid { stripes, lines, density, crossings, true_crossings, field: features.field.clone() };
+        self.show(&grid);
+        grid
+    }
+
+    /// Section 5.2: the stripes along the features, begun with the distance from them, and those across, from random phases.
+    fn families(&self, features: &Features, closeness: &Raster<f32>) -> [StripeLattice; 2] {
+        let parameters = self.stripe_parameters();
+        let by_chance = |stage: &'static str| move |node: u64| random::stream(self.seed, stage, node).random::<f32>();
+        let waves = self.waves(features, closeness);
+        let (width, height) = self.size();
+        let distance = distance_to_curves(&features.guides, width, height);
+        let hold = distance.as_ref().and_then(|distance| self.hold(distance, &waves[0], closeness, parameters.step));
+        let (along, across) = rayon::join(
+            || {
+                let random = by_chance("along");
+                let start = |node: u64, p: Point, wave: Wave| match &distance {
+                    Some(distance) => (signed_distance(distance, wave, p) / self.pitch()) as f32,
+                    None => random(node),
+                };
+                stripes(&waves[0], parameters, &start, hold.as_ref())
+            },
+            || {
+                let random = by_chance("across");
+                stripes(&waves[1], parameters, &|node, _, _| random(node), None)
+            },
+        );
+        [along, across]
+    }
+
+    fn stripe_parameters(&self) -> StripeParameters {
+        let step = self.pitch() / NODES_PER_PITCH * self.narrowest();
+        StripeParameters {
             step,
             window: self.pixels(self.parameters.window_mm) / step,
             rounds: self.parameters.rounds,
             levels: LEVELS,
-        };
-        let random = |stage: &'static str| move |node: u64| random::stream(self.seed, stage, node).random::<f32>();
-        let across = waves(true);
+        }
+    }
+
+    /// The waves of both families: the one along the features has its wave across them.
+    fn waves(&self, features: &Features, closeness: &Raster<f32>) -> [Raster<Wave>; 2] {
+        let pitch = self.pitch() as f32;
+        let across =
+            features.field.tangent.zip_map(closeness, |[x, y], closeness| [-y * closeness / pitch, x * closeness / pitch]);
+        let along = across.map(|[x, y]| [y, -x]);
+        [across, along]
+    }
+
+    /// The spacing where it is darkest, in pitches.
+    fn narrowest(&self) -> f64 {
+        f64::from(1.0 - self.parameters.adaptive)
+    }
+
+    /// Where two families cross, then the points that fill holes between these; and how many of them are crossings.
+    pub(super) fn points(&self, along: &StripeLattice, across: &StripeLattice) -> (Vec<Point>, usize) {
         let (width, height) = self.size();
-        let distance = distance_to_curves(&features.guides, width, height);
-        let hold = distance.as_ref().and_then(|distance| self.hold(distance, &across, &closeness, step));
-        let (by_chance, spacing) = (random("along"), self.pitch());
-        let (a, b) = rayon::join(
-            || {
-                let start = |node: u64, p: Point, wave: Wave| match &distance {
-                    Some(distance) => (signed_distance(distance, wave, p) / spacing) as f32,
-                    None => by_chance(node),
-                };
-                stripes(&across, parameters, &start, hold.as_ref())
-            },
-            || {
-                let by_chance = random("across");
-                stripes(&waves(false), parameters, &|node, _, _| by_chance(node), None)
-            },
-        );
-        self.observer.begin("grid");
-        let least = LEAST_DISTANCE * self.pitch() * f64::from(1.0 - self.parameters.adaptive);
-        let mut crossings: Vec<Point> = crossings(&a, &b, least).into_iter().filter(|p| self.contains(*p)).collect();
-        let true_crossings = crossings.len();
-        crossings.extend(holes(&crossings, Rect::new(0.0, 0.0, width as f64, height as f64), HOLE * self.pitch()));
-        let lines = [&a, &b].map(|family| self.smooth_lines(family));
-        let density = [&a, &b].map(|family| gaussian_blur(&family.frequency(), (self.pitch() / step) as f32));
-        let grid = StructureGrid { stripes: [a, b], lines, density, crossings, true_crossings, field: features.field.clone() };
-        self.show(&grid);
-        grid
+        let least = LEAST_DISTANCE * self.pitch() * self.narrowest();
+        let mut points: Vec<Point> = crossings(along, across, least).into_iter().filter(|p| self.contains(*p)).collect();
+        let true_points = points.len();
+        points.extend(holes(&points, Rect::new(0.0, 0.0, width as f64, height as f64), HOLE * self.pitch()));
+        (points, true_points)
     }
 
     fn contains(&self, p: Point) -> bool {

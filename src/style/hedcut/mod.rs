@@ -79,16 +79,18 @@ impl Drawer<'_> {
         let lanes = self.lanes(&features);
         let sites = seeds::place(self, &lanes)?;
         let ink = highlights::fade_ink(self, &ink, &features);
-        let dots = match self.parameters.size {
+        let size::Sized { dots, reversed } = match self.parameters.size {
             parameters::SizeRule::Exact => size::exact(self, &sites, &ink),
             parameters::SizeRule::Paper => size::paper(self, &sites, &ink),
         };
         let dots = highlights::thin_out(self, dots, &features);
-        let mut drawing = Drawing { page: self.page(), layers: vec![self.dot_layer(&dots)] };
-        if dots.is_empty() {
+        if dots.is_empty() && reversed.is_empty() {
             let why = "all of it is as light as the highlights, which stay bare; draw them with --set highlights=off";
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
+        let mut layer = self.dot_layer(&dots);
+        layer.marks.extend(reversed);
+        let mut drawing = Drawing { page: self.page(), layers: vec![layer] };
         if self.parameters.has_outline {
             self.observer.begin("outline");
             drawing.layers.push(outline::layer(self, &features));

@@ -34,6 +34,12 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         source: "Bruehl 3.4, gamma",
     },
     Parameter {
+        name: "reversed_from",
+        kind: Kind::Number { default: 0.76, least: 0.5, most: 1.0 },
+        meaning: "with size=exact: ink from which dark regions are black with white holes, as on scraperboard; 1 leaves dots everywhere, which close up there",
+        source: "",
+    },
+    Parameter {
         name: "lines",
         kind: Kind::Choice(&["coherent", "canny"]),
         meaning: "how edges are found: coherent lines along the edges' flow, drawn as wide as they are, or Canny's detector",
@@ -187,6 +193,7 @@ pub(super) struct Hedcutting {
     pub size: SizeRule,
     pub size_max_mm: f64,
     pub size_gamma: f64,
+    pub reversed_from: f64,
     pub has_coherent_lines: bool,
     pub line_width_mm: f64,
     pub line_contrast: f64,
@@ -221,6 +228,7 @@ impl Hedcutting {
             size: if settings.word("size") == "exact" { SizeRule::Exact } else { SizeRule::Paper },
             size_max_mm: settings.number("size_max"),
             size_gamma: settings.number("size_gamma"),
+            reversed_from: settings.number("reversed_from"),
             has_coherent_lines: settings.word("lines") == "coherent",
             line_width_mm: settings.number("line_width"),
             line_contrast: settings.number("line_contrast"),

@@ -1,45 +1,103 @@
-//! Step 6: the size of each dot.
+//! Step 6: the size of each dot, and of the holes in the black that stand in dots' place where these would close up.
 
 use super::{Drawer, SizedDot};
+use crate::drawing::Mark;
 use crate::field::{Sites, cell_polygon};
-use crate::geometry::{Point, Rect, polygon_area, radius_for_area};
-use crate::raster::Raster;
+use crate::geometry::{BezPath, Point, Rect, Vec2, blob, polygon_area, radius_for_area};
+use crate::raster::{Raster, gaussian_blur};
+use crate::style::random;
+use crate::style::reversed::{self, Chosen, ReversedCell};
+use kurbo::Shape;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Farthest that a dot's cell is counted from its site, in pitches; beyond the subject's border cells are open.
 const CELL_REACH: f64 = 2.5;
 
+/// Blur of the ink by which cells are called dark, in pitches, so that grain does not mix reversed cells with others.
+const DARK_BLUR: f64 = 0.8;
+/// How much darker than asked for a cell must be to be reversed whatever surrounds it, and how much lighter it may be in the dark.
+const DARK_BAND: f64 = 0.06;
+
+/// The dots of a drawing and the reversed areas between them.
+pub(super) struct Sized {
+    pub dots: Vec<SizedDot>,
+    pub reversed: Vec<Mark>,
+}
+
 /// The radius at which the disc, clipped to the dot's own Voronoi cell, covers the ink that the cell's tone asks for
-/// (Bruehl 2023, section 4.4; errata). Dots that would cover nothing are left out.
-pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> Vec<SizedDot> {
+/// (Bruehl 2023, section 4.4; errata). Dots that would cover nothing are left out; dark cells are black with a hole of the white that
+/// the tone asks for.
+pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> Sized {
     drawer.observer.begin("sizes");
     let (width, height) = drawer.size();
     let field = Rect::new(0.0, 0.0, width as f64, height as f64);
     let grid = Sites::new(sites, field.x1, field.y1, drawer.pitch());
-    let wanted = cell_ink(drawer, &grid, sites.len(), ink);
-    (0..sites.len())
+    let nearest = grid.nearest(&drawer.portrait.subject);
+    let wanted = cell_ink(drawer, &nearest, sites.len(), ink);
+    let polygon = |i: usize| cell_polygon(&grid, i, field, CELL_REACH * drawer.pitch());
+    let chosen = Chosen::new(&nearest, &dark(drawer, sites, &wanted, ink), drawer.pitch());
+    let sized: Vec<Result<SizedDot, ReversedCell>> = (0..sites.len())
         .into_par_iter()
         .map(|i| {
-            let cell = cell_polygon(&grid, i, field, CELL_REACH * drawer.pitch());
-            let area = wanted[i].area(polygon_area(&cell).abs());
-            SizedDot { centre: sites[i], radius: radius_for_area(&cell, sites[i], area) }
+            let (cell, wanted) = (polygon(i), wanted[i]);
+            if chosen.is_reversed[i] {
+                return Err(reversed_cell(drawer, i, sites[i], cell, wanted));
+            }
+            let area = wanted.area(polygon_area(&cell).abs());
+            match wanted.middle().filter(|_| !wanted.is_open) {
+                Some(middle) => reversed::edge_cell(&cell, middle, area, &chosen.mask, drawer.pitch()),
+                None => None,
+            }
+            .map_or_else(|| Ok(SizedDot { centre: sites[i], radius: radius_for_area(&cell, sites[i], area) }), Err)
         })
-        .filter(|dot| dot.radius > 0.0)
-        .collect()
+        .collect();
+    let cells: Vec<ReversedCell> = sized.iter().filter_map(|sized| sized.as_ref().err().cloned()).collect();
+    let dots = sized.into_iter().flatten().filter(|dot| dot.radius > 0.0).collect();
+    Sized { dots, reversed: reversed::areas(&cells, &chosen.mask, drawer.portrait, drawer.pitch()) }
+}
+
+/// Which cells are so dark that their dots would close up.
+fn dark(drawer: &Drawer<'_>, sites: &[Point], wanted: &[CellInk], ink: &Raster<f32>) -> Vec<bool> {
+    let from = drawer.parameters.reversed_from;
+    if from >= 1.0 {
+        return vec![false; sites.len()];
+    }
+    let around = gaussian_blur(ink, (DARK_BLUR * drawer.pitch()) as f32);
+    let is_dark = |(site, cell): (&Point, &CellInk)| {
+        let own = cell.ink / cell.subject.max(1e-9);
+        own >= from + DARK_BAND || (own >= from - DARK_BAND && f64::from(around.sample(site.x, site.y)) >= from)
+    };
+    sites.iter().zip(wanted).map(is_dark).collect()
+}
+
+fn reversed_cell(drawer: &Drawer<'_>, index: usize, centre: Point, polygon: Vec<Point>, wanted: CellInk) -> ReversedCell {
+    let white = if wanted.is_open { wanted.subject - wanted.ink } else { polygon_area(&polygon).abs() * (1.0 - wanted.share()) };
+    let radius = (white.max(0.0) / PI).sqrt();
+    let hole = match drawer.parameters.blob {
+        _ if radius < reversed::LEAST_HOLE * drawer.pitch() => BezPath::new(),
+        irregularity if irregularity > 0.0 => {
+            blob(centre, radius, irregularity, &mut random::stream(drawer.seed, "holes", index as u64))
+        }
+        _ => kurbo::Circle::new(centre, radius).to_path(1e-3),
+    };
+    let is_open = wanted.is_open || !reversed::holds(&polygon, centre, radius);
+    ReversedCell { centre, polygon, hole, is_open }
 }
 
 /// The thesis' rule of thumb, `s_max (1 - T)^gamma` at the dot's centre (Bruehl 2023, section 3.4).
-pub(super) fn paper(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> Vec<SizedDot> {
+pub(super) fn paper(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> Sized {
     drawer.observer.begin("sizes");
     let largest = drawer.pixels(drawer.parameters.size_max_mm);
-    sites
+    let dots = sites
         .iter()
         .map(|&centre| {
             let ink = f64::from(ink.sample(centre.x, centre.y)).clamp(0.0, 1.0);
             SizedDot { centre, radius: largest * ink.powf(drawer.parameters.size_gamma) }
         })
         .filter(|dot| dot.radius > 0.0)
-        .collect()
+        .collect();
+    Sized { dots, reversed: Vec::new() }
 }
 
 /// What the pixels of one cell ask for.
@@ -47,6 +105,10 @@ pub(super) fn paper(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
 struct CellInk {
     pixels: f64,
     ink: f64,
+    /// Pixels of the subject, its soft border in part.
+    subject: f64,
+    /// Sum of the pixels' places, each as often as it has ink.
+    place: Vec2,
     /// Part of the cell lies outside the subject, so that its polygon is larger than what is drawn.
     is_open: bool,
 }
@@ -54,19 +116,31 @@ struct CellInk {
 impl CellInk {
     /// Ink area in a cell of this area: its mean tone's share, or, at the subject's border, what its pixels ask for.
     fn area(self, cell: f64) -> f64 {
-        if self.is_open || self.pixels == 0.0 { self.ink } else { self.ink / self.pixels * cell }
+        if self.is_open || self.pixels == 0.0 { self.ink } else { self.share() * cell }
+    }
+
+    /// The ink's centre of weight.
+    fn middle(self) -> Option<Point> {
+        (self.ink > 0.0).then(|| (self.place / self.ink).to_point())
+    }
+
+    /// Mean ink, 0 to 1.
+    fn share(self) -> f64 {
+        self.ink / self.pixels.max(1.0)
     }
 }
 
-fn cell_ink(drawer: &Drawer<'_>, grid: &Sites<'_>, count: usize, ink: &Raster<f32>) -> Vec<CellInk> {
+fn cell_ink(drawer: &Drawer<'_>, nearest: &Raster<u32>, count: usize, ink: &Raster<f32>) -> Vec<CellInk> {
     let subject = &drawer.portrait.subject;
-    let nearest = grid.nearest(subject);
     let mut cells = vec![CellInk::default(); count];
-    for ((&site, &ink), &subject) in nearest.pixels().iter().zip(ink.pixels()).zip(subject.pixels()) {
+    let columns = nearest.width();
+    for (pixel, ((&site, &ink), &subject)) in nearest.pixels().iter().zip(ink.pixels()).zip(subject.pixels()).enumerate() {
         if site != u32::MAX {
             let cell = &mut cells[site as usize];
             cell.pixels += 1.0;
             cell.ink += f64::from(ink);
+            cell.subject += f64::from(subject);
+            cell.place += Vec2::new((pixel % columns) as f64 + 0.5, (pixel / columns) as f64 + 0.5) * f64::from(ink);
             cell.is_open |= subject < 0.999;
         }
     }

@@ -6,9 +6,16 @@
 //!        . . . . .          3. strongly negative: a dark line; lines found darken the picture for the next round
 //! ```
 
+mod padded;
+mod stencil;
+mod streamline;
+
 use super::tangent_flow::EdgeTangentFlow;
-use crate::raster::Raster;
+use crate::raster::{Raster, dilate};
+use padded::Padded;
 use rayon::prelude::*;
+use stencil::Stencils;
+use streamline::Streamlines;
 
 /// How coherent lines are found; lengths in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,19 +49,29 @@ pub struct FlowLines {
 }
 
 /// Finds the coherent lines of a grey raster, 0 to 1.
+///
+/// Only what a round has darkened, and what lies within reach of it, is worked out again in the next.
 pub fn flow_lines(grey: &Raster<f32>, flow: &EdgeTangentFlow, parameters: LineParameters) -> FlowLines {
+    let nothing = grey.map(|_| 0.0);
+    let mut found = FlowLines { response: nothing.clone(), line: grey.map(|_| 0_u8) };
+    if grey.is_empty() {
+        return found;
+    }
     // 1 + tanh(H) < threshold, solved for H.
     let least = (parameters.threshold.clamp(1e-6, 1.0) - 1.0).max(-0.999_999).atanh().min(0.0);
-    let across = difference_kernel(parameters.width, parameters.contrast);
-    let along = half_gaussian(parameters.length);
-    let mut darkened = grey.clone();
-    let mut found = FlowLines { response: grey.map(|_| 0.0), line: grey.map(|_| 0_u8) };
+    let across = Stencils::new(&difference_kernel(parameters.width, parameters.contrast), grey.width());
+    let along = Streamlines::new(flow, parameters.length);
+    let (mut differences, mut darkened) = (nothing, grey.clone());
+    let mut stale = grey.map(|_| 1_u8);
     for _ in 0..parameters.rounds {
-        let differences = across_flow(&darkened, flow, &across);
-        let response = along_flow(&differences, flow, &along, least);
-        found.line = found.line.zip_map(&response, |line, h| line | u8::from(h < least));
-        found.response = response;
+        across_flow(&darkened, flow, &across, &stale, &mut differences);
+        stale = dilate(&stale, along.margin());
+        along_flow(&differences, &along, least, &stale, &mut found.response);
+        let line = found.line.zip_map(&found.response, |line, h| line | u8::from(h < least));
+        let fresh = line.zip_map(&found.line, |now, before| now & (1 - before));
+        found.line = line;
         darkened = grey.zip_map(&found.line, |grey, line| if line == 0 { grey } else { 0.0 });
+        stale = dilate(&fresh, across.reach);
     }
     found
 }
@@ -76,94 +93,52 @@ fn half_gaussian(sigma: f32) -> Vec<f32> {
     half.iter().map(|weight| weight / sum).collect()
 }
 
-/// A raster with its border repeated outwards, so that samples near it need no test.
-struct Padded {
-    data: Vec<f32>,
-    stride: usize,
-    margin: f32,
-}
-
-impl Padded {
-    fn new(raster: &Raster<f32>, margin: usize) -> Self {
-        let stride = raster.width() + 2 * margin;
-        let mut data = vec![0.0_f32; stride * (raster.height() + 2 * margin)];
-        data.par_chunks_mut(stride.max(1)).enumerate().for_each(|(y, row)| {
-            let source = raster.row(y.saturating_sub(margin).min(raster.height() - 1));
-            row[..margin].fill(source[0]);
-            row[margin..margin + source.len()].copy_from_slice(source);
-            row[margin + source.len()..].fill(source[source.len() - 1]);
-        });
-        Self { data, stride, margin: margin as f32 }
-    }
-
-    /// Bilinear; pixel indices, not centres: (0, 0) is the first pixel.
-    fn sample(&self, x: f32, y: f32) -> f32 {
-        let (x, y) = (x + self.margin, y + self.margin);
-        let (column, row) = (x as usize, y as usize);
-        let (tx, ty) = (x - column as f32, y - row as f32);
-        let first = row * self.stride + column;
-        let (top, bottom) = (&self.data[first..first + 2], &self.data[first + self.stride..first + self.stride + 2]);
-        let upper = top[0] + (top[1] - top[0]) * tx;
-        let lower = bottom[0] + (bottom[1] - bottom[0]) * tx;
-        upper + (lower - upper) * ty
-    }
-}
-
-/// Step 1; 0 where there is no direction.
-fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, kernel: &[f32]) -> Raster<f32> {
-    if grey.is_empty() {
-        return grey.clone();
-    }
-    let padded = Padded::new(grey, kernel.len() + 1);
-    Raster::from_fn(grey.width(), grey.height(), |x, y| {
-        let [tx, ty] = flow.tangent.get(x, y);
-        if tx == 0.0 && ty == 0.0 {
+/// Step 1 where `stale`; 0 where there is no direction.
+fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, stale: &Raster<u8>, out: &mut Raster<f32>) {
+    let padded = Padded::new(grey, stencils.reach);
+    renew(out, stale, |x, y| {
+        let tangent = flow.tangent.get(x, y);
+        if tangent == [0.0, 0.0] {
             return 0.0;
         }
-        let (px, py) = (x as f32, y as f32);
-        let mut sum = kernel[0] * grey.get(x, y);
-        for (i, &weight) in kernel.iter().enumerate().skip(1) {
-            let (dx, dy) = (-ty * i as f32, tx * i as f32);
-            sum += weight * (padded.sample(px + dx, py + dy) + padded.sample(px - dx, py - dy));
-        }
-        sum
-    })
+        stencils.sum(&padded, tangent, x, y)
+    });
 }
 
-/// Side of the tiles that are left out when nothing near them could become a line.
-const TILE: usize = 16;
-
-/// Step 2. Where no response within reach is below `least`, no average can be: those tiles stay 0.
-fn along_flow(differences: &Raster<f32>, flow: &EdgeTangentFlow, weights: &[f32], least: f32) -> Raster<f32> {
-    if differences.is_empty() {
-        return differences.clone();
-    }
-    let (width, height) = (differences.width(), differences.height());
-    let lowest = lowest_by_tile(differences, weights.len().div_ceil(TILE));
-    let columns = width.div_ceil(TILE);
-    let padded = Padded::new(differences, 2);
-    let mut out = Raster::filled(width, height, 0.0_f32);
+/// Works out again the pixels that are `stale`.
+fn renew(out: &mut Raster<f32>, stale: &Raster<u8>, value: impl Fn(usize, usize) -> f32 + Sync) {
+    let width = out.width();
     out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, out) in row.iter_mut().enumerate() {
-            if lowest[y / TILE * columns + x / TILE] < least {
-                let ahead = walk(&padded, flow, (x, y), weights, 1.0);
-                let behind = walk(&padded, flow, (x, y), weights, -1.0);
-                *out = weights[0] * differences.get(x, y) + ahead + behind;
+        for (x, (out, stale)) in row.iter_mut().zip(stale.row(y)).enumerate() {
+            if *stale != 0 {
+                *out = value(x, y);
             }
         }
     });
-    out
+}
+
+/// Side of the tiles that are left out when nothing near them could become a line.
+const TILE: usize = 8;
+
+/// Step 2 where `stale`. Where no response within reach is below `least`, no average can be: those tiles stay 0.
+fn along_flow(differences: &Raster<f32>, along: &Streamlines, least: f32, stale: &Raster<u8>, out: &mut Raster<f32>) {
+    let lowest = lowest_by_tile(differences, along.margin().div_ceil(TILE));
+    let columns = differences.width().div_ceil(TILE);
+    let padded = Padded::new(differences, along.margin());
+    renew(out, stale, |x, y| if lowest[y / TILE * columns + x / TILE] < least { along.mean(&padded, x, y) } else { 0.0 });
 }
 
 /// The least value of each tile and its neighbours within `reach` tiles.
 fn lowest_by_tile(raster: &Raster<f32>, reach: usize) -> Vec<f32> {
     let (columns, rows) = (raster.width().div_ceil(TILE), raster.height().div_ceil(TILE));
     let mut own = vec![f32::INFINITY; columns * rows];
-    for y in 0..raster.height() {
-        for (tile, chunk) in own[y / TILE * columns..].iter_mut().zip(raster.row(y).chunks(TILE)) {
-            *tile = chunk.iter().copied().fold(*tile, f32::min);
+    own.par_chunks_mut(columns).enumerate().for_each(|(j, own)| {
+        for y in j * TILE..((j + 1) * TILE).min(raster.height()) {
+            for (tile, chunk) in own.iter_mut().zip(raster.row(y).chunks(TILE)) {
+                *tile = chunk.iter().copied().fold(*tile, f32::min);
+            }
         }
-    }
+    });
     let near = |i: usize, count: usize| i.saturating_sub(reach)..(i + reach + 1).min(count);
     (0..columns * rows)
         .map(|i| {
@@ -171,25 +146,6 @@ fn lowest_by_tile(raster: &Raster<f32>, reach: usize) -> Vec<f32> {
             tiles.map(|tile| own[tile]).fold(f32::INFINITY, f32::min)
         })
         .collect()
-}
-
-/// The weighted sum along the streamline in one direction, in steps of a pixel.
-fn walk(responses: &Padded, flow: &EdgeTangentFlow, from: (usize, usize), weights: &[f32], sign: f32) -> f32 {
-    let [tx, ty] = flow.tangent.get(from.0, from.1);
-    let (mut direction, mut x, mut y) = ([sign * tx, sign * ty], from.0 as f32, from.1 as f32);
-    let (right, bottom) = ((flow.tangent.width() - 1) as f32, (flow.tangent.height() - 1) as f32);
-    let mut sum = 0.0;
-    for &weight in &weights[1..] {
-        x = (x + direction[0]).clamp(0.0, right);
-        y = (y + direction[1]).clamp(0.0, bottom);
-        sum += weight * responses.sample(x, y);
-        let [tx, ty] = flow.tangent.get((x + 0.5) as usize, (y + 0.5) as usize);
-        let dot = tx * direction[0] + ty * direction[1];
-        if dot != 0.0 {
-            direction = [tx * dot.signum(), ty * dot.signum()];
-        }
-    }
-    sum
 }
 
 #[cfg(test)]
