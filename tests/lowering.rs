@@ -29,7 +29,21 @@ const SAMPLES: [Sample; 9] = [
     ("bust-dark.png", (45.0, 60.0), &[("pitch", "1.0"), ("blob", "0.4")]),
 ];
 
+/// The drawing for a nib. A net of holes whose threads are thinner than the nib is no wide mark: there the darks stay dots.
+fn drawing_for(nib: f64, (name, mm, set): Sample) -> Drawing {
+    let pitch: f64 = set[0].1.parse().unwrap();
+    if nib > 0.6 * pitch {
+        let dots = [set, &[("reversed_from", "1")]].concat();
+        return drawn(name, mm, &dots);
+    }
+    drawn(name, mm, set)
+}
+
 fn drawing_of((name, mm, set): Sample) -> Drawing {
+    drawn(name, mm, set)
+}
+
+fn drawn(name: &str, mm: (f64, f64), set: &[(&str, &str)]) -> Drawing {
     let photo = sample(name);
     let mask = sample("grace-hopper-subject.png");
     let masks: &[(MaskRole, &[u8])] = if name.starts_with("grace") { &[(MaskRole::Subject, &mask)] } else { &[] };
@@ -100,8 +114,8 @@ fn measure(drawing: &Drawing, nib: f64) -> Option<(f64, f64)> {
 #[test]
 fn the_nib_covers_what_it_can_reach_and_spills_little() {
     for sample in SAMPLES {
-        let drawing = drawing_of(sample);
         for nib in NIBS {
+            let drawing = drawing_for(nib, sample);
             let Some((covered, spilt)) = measure(&drawing, nib) else { continue };
             println!("{}, nib {nib}: covered {covered:.4}, spilt {spilt:.4}", sample.0);
             assert!(covered >= 0.985, "{}, nib {nib}: covered {covered}", sample.0);

@@ -21,8 +21,9 @@ use std::collections::BTreeMap;
 const NARROWEST: f64 = 1.5;
 /// How far a cell reaches under its dark neighbours, in pitches, so that no seam shows between two tiles; the holes begin at 0.25.
 const OVERLAP: f64 = 0.1;
-/// Side of a tile in pitches: with 6 a plotter fills it in a few rings; filling grows with the square of its cells.
-const TILE: f64 = 6.0;
+/// Side of a tile in pitches, tuned on Grace Hopper plotted with 0.3 mm: at 6 a nib of two thirds of the pitch leaves 1.9 % bare along
+/// the seams, at 16 there are too few tiles for two threads (5.9 s against 3.9 s at 9).
+const TILE: f64 = 9.0;
 /// Flattening where holes are cut out, in pixels.
 const TOLERANCE: f64 = 0.02;
 

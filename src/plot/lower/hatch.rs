@@ -25,13 +25,24 @@ pub(super) fn hatching(insets: &Insets, border: &[Vec<Point>], nib: f64, pitch: 
     let (low, high) = if is_wide { y } else { x };
     let count = ((high - low) / pitch).ceil().max(1.0);
     let step = (high - low) / count;
-    let rows = (0..count as usize).map(|k| spans(&rings, low + (k as f64 + 0.5) * step));
+    let heights: Vec<f64> = (0..count as usize).map(|k| low + (k as f64 + 0.5) * step).collect();
+    let rows = heights.iter().map(|y| spans(&rings, *y));
     let mut paths: Vec<Toolpath> = border.iter().map(|ring| Toolpath::new(ring.clone())).collect();
     paths.extend(back_and_forth(rows, 2.5 * pitch).into_iter().map(|line| {
         let points = line.into_iter().map(turned).collect();
         Toolpath::new(points)
     }));
+    // Islands between two rows, as in the meshes of a net.
+    let islands = inside.iter().zip(&rings).filter(|(_, ring)| lies_between(ring, &heights));
+    paths.extend(islands.map(|(ring, _)| Toolpath::new([&ring[..], &ring[..1]].concat())));
     Some(paths)
+}
+
+/// Whether no row crosses a ring; rows from the lowest.
+fn lies_between(ring: &[Point], rows: &[f64]) -> bool {
+    let (low, high) = ring.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
+    let next = rows.partition_point(|y| *y < low);
+    rows.get(next).is_none_or(|y| *y > high)
 }
 
 /// Where a row lies inside the rings, by the even-odd rule (the rings of one level do not cross).
@@ -91,5 +102,15 @@ mod tests {
         let length: f64 = paths.iter().map(Toolpath::length).sum();
         assert!((200.0..250.0).contains(&length), "{length}");
         assert!(hatching(&insets, &border, 12.0, 10.0).is_none());
+    }
+
+    #[test]
+    fn an_island_that_no_row_crosses_is_a_ring() {
+        // Rows at 4.574 and 5.426 pass above and below what is left of the small square, 4.845 to 5.155.
+        let insets = Insets::new(&BezPath::from_svg("M0,0 H40 V10 H0 Z M50,4.1 H51.8 V5.9 H50 Z").unwrap(), 0.01);
+        let border: Vec<Vec<Point>> = insets.rings(0.25).iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
+        let paths = hatching(&insets, &border, 0.5, 0.9).unwrap();
+        let inside = |path: &&Toolpath| path.points.iter().all(|p| p.x > 50.5);
+        assert_eq!(paths.iter().filter(inside).count(), 1);
     }
 }

@@ -1,0 +1,77 @@
+#!/bin/sh
+# Makes the pictures of docs/gallery.md anew. Needs drypoint on the path (or in DRYPOINT), rsvg-convert and ImageMagick.
+set -e
+cd "$(dirname "$0")/.."
+D=${DRYPOINT:-drypoint}
+S=samples
+OUT=docs/pictures/gallery
+WORK=$(mktemp -d)
+mkdir -p "$OUT"
+
+# NAME PHOTO OPTIONS...: a drawing as a grey PNG, 760 pixels wide.
+ink() {
+    name=$1 photo=$2
+    shift 2
+    "$D" draw "$photo" --quiet -o "$WORK/$name.svg" "$@"
+    rsvg-convert -w 1520 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
+    convert "$WORK/$name.png" -colorspace gray -scale 50% -depth 4 -define png:compression-level=9 "$OUT/$name.png"
+}
+
+# NAME PHOTO OPTIONS...: a painting as a small picture.
+painting() {
+    name=$1 photo=$2
+    shift 2
+    "$D" draw "$photo" --quiet -o "$WORK/$name.svg" --style glass "$@"
+    rsvg-convert -w 1000 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
+    convert "$WORK/$name.png" -resize 50% "$WORK/$name.jpg"
+}
+
+HOPPER="--mask subject=$S/grace-hopper-subject.png"
+BUST="--mask subject=$S/bust-mask-subject.png"
+SKETCH="$BUST --mask hair=$S/bust-mask-hair.png --mask face=$S/bust-mask-face.png"
+
+ink hedcut-hopper $S/grace-hopper.jpg $HOPPER
+ink hedcut-light $S/bust-light.png $BUST
+ink hedcut-brown $S/bust-brown.png $BUST
+ink hedcut-dark $S/bust-dark.png $BUST
+
+"$D" --version >/dev/null
+cargo run --quiet --release --example fields -- "$WORK"
+for field in circular saddle; do
+    ink grid-$field "$WORK/$field.png" --style grid --size 90x90mm --mask edges="$WORK/$field-edges.png" \
+        --set lines=off --set isophotes=0
+done
+ink grid-hopper $S/grace-hopper.jpg --style grid $HOPPER
+ink grid-hatching $S/grace-hopper.jpg --style grid $HOPPER --set size_max=0
+ink grid-tiles $S/grace-hopper.jpg --style grid $HOPPER --set primitive=tile
+ink grid-dark $S/bust-dark.png --style grid $BUST
+ink grid-astronaut $S/astronaut-cutout.png --style grid
+ink grid-coffee $S/coffee.png --style grid
+
+DEPTH="--depth $S/bust-depth.png $BUST"
+ink engrave-bust $S/bust-light.png $DEPTH --style engrave --pitch 0.45mm --set displacement=5mm --set cross_angle=60
+ink engrave-hopper $S/grace-hopper.jpg $HOPPER --crop 22%,2%,56%,58% --style engrave --pitch 0.4mm --set cross_angle=60
+ink engrave-coffee $S/coffee.png --style engrave --size 120x80mm --pitch 0.45mm --set regions=superpixels --set cross_angle=60
+ink engrave-stipple $S/bust-light.png $DEPTH --style engrave --size 60x80mm --set look=stipple
+
+for bust in light brown dark; do
+    ink charcoal-$bust $S/bust-$bust.png --style charcoal $SKETCH
+done
+ink charcoal-hopper $S/grace-hopper.jpg --style charcoal $HOPPER
+ink charcoal-astronaut $S/astronaut-cutout.png --style charcoal
+
+# Each angle is a row, each reach of the whirls a column, beside the photograph.
+for animal in raccoon.jpg chelsea.png; do
+    which=${animal%.*}
+    for angle in 0 45 90; do
+        for whirls in 0.8 1.7 4; do
+            painting $which-$angle-$whirls $S/$animal --size 60x60mm --set angle=$angle --set whirls=$whirls
+        done
+    done
+    montage "$WORK/$which"-*-*.jpg -tile 3x3 -geometry +6+6 -quality 88 "$OUT/glass-$which.jpg"
+    convert $S/$animal -resize 500x "$OUT/photograph-$which.jpg"
+done
+painting glass-astronaut $S/astronaut.jpg --set detail=0.06
+convert "$WORK/glass-astronaut.png" -quality 88 "$OUT/glass-astronaut.jpg"
+ink glass-one-pen $S/astronaut.jpg --style glass --set colors=mono
+rm -r "$WORK"
