@@ -99,9 +99,17 @@ fn trimmed(samples: Vec<Sample>, stroke: &Stroke, nib: f64) -> Vec<Sample> {
     samples.windows(2).for_each(|pair| along.push(along[along.len() - 1] + pair[0].at.distance(pair[1].at)));
     let length = along[along.len() - 1];
     let cut = (0.5 * nib).min(0.5 * length);
-    let kept = |i: &usize| along[*i] >= cut - 1e-9 && along[*i] <= length - cut + 1e-9;
-    let inside: Vec<Sample> = (0..samples.len()).filter(kept).map(|i| samples[i]).collect();
-    if inside.is_empty() { vec![samples[samples.len() / 2]] } else { inside }
+    if length - 2.0 * cut <= 1e-9 {
+        return vec![samples[samples.len() / 2]];
+    }
+    let at = |place: f64| {
+        let i = along.partition_point(|passed| *passed <= place).clamp(1, samples.len() - 1);
+        let t = (place - along[i - 1]) / (along[i] - along[i - 1]).max(1e-12);
+        let (a, b) = (samples[i - 1], samples[i]);
+        Sample { at: a.at.lerp(b.at, t), width: a.width + (b.width - a.width) * t }
+    };
+    let between = (0..samples.len()).filter(|&i| along[i] > cut + 1e-9 && along[i] < length - cut - 1e-9).map(|i| samples[i]);
+    std::iter::once(at(cut)).chain(between).chain([at(length - cut)]).collect()
 }
 
 /// Passes side by side that fill a spine.
@@ -232,6 +240,17 @@ mod tests {
     use super::*;
     use crate::drawing::Width;
     use crate::geometry::BezPath;
+
+    #[test]
+    fn square_ends_are_half_a_nib_off() {
+        let mut line = BezPath::new();
+        line.move_to((0.0, 0.0));
+        line.line_to((1.6, 0.0));
+        let stroke = Stroke { ends: Ends::Flat, ..Stroke::new(line, Width::Constant(2.3)) };
+        let paths = lower_stroke(&stroke, 0.92, 0.0);
+        let xs = || paths.iter().flat_map(|path| &path.points).map(|p| p.x);
+        assert!((xs().fold(f64::INFINITY, f64::min) - 0.46).abs() < 1e-6 && (xs().fold(0.0, f64::max) - 1.14).abs() < 1e-6);
+    }
 
     #[test]
     fn a_wide_line_is_one_path_inside_its_ink() {
