@@ -147,12 +147,12 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
         "draws_over_mm": [drawn.width(), drawn.height()],
         "pauses": motion.pauses,
         "ends_with_pen_up": motion.ends_up,
-        "plot": told(report(&plot, Point::ORIGIN, Some((profile, &mounting)), None)),
+        "plot": told(&report(&plot, Point::ORIGIN, Some((profile, &mounting)), None)),
     })
 }
 
 /// A report without what a machine's file does not tell: nibs, and what was asked for before lowering and ordering.
-fn told(report: PlotReport) -> Value {
+fn told(report: &PlotReport) -> Value {
     let mut value = json!(report);
     let strip = |amounts: &mut Value| {
         if let Some(map) = amounts.as_object_mut() {
