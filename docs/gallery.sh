@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the pictures of docs/gallery.md anew. Needs drypoint on the path (or in DRYPOINT), rsvg-convert and ImageMagick.
+# Makes the pictures of docs/gallery.md anew; those of the README are made from them, but for the cat (one nib) and the raccoon (whirls 4). Needs drypoint on the path (or in DRYPOINT), rsvg-convert and ImageMagick.
 set -e
 cd "$(dirname "$0")/.."
 D=${DRYPOINT:-drypoint}
