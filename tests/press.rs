@@ -48,12 +48,11 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// A hedcut of Grace Hopper, 90 mm wide, of dots and lines only: pdftoppm inks every pixel that an area touches, which closes the holes
-/// of reversed darks in part.
+/// A hedcut of Grace Hopper, 90 mm wide, as in the README: dots, lines, and darks with holes.
 fn hedcut() -> Drawing {
     let (photo, mask) = (sample("grace-hopper.jpg"), sample("grace-hopper-subject.png"));
     let masks: &[(MaskRole, &[u8])] = &[(MaskRole::Subject, &mask)];
-    Sheet { masks, set: &[("reversed_from", "1")], ..Sheet::new(&photo, (90.0, 105.47)) }.draw()
+    Sheet { masks, ..Sheet::new(&photo, (90.0, 105.47)) }.draw()
 }
 
 /// Every kind of mark: round and flat lines, swelling and closed ones, blobs, areas with holes, white on black.
