@@ -111,17 +111,26 @@ fn measure(drawing: &Drawing, nib: f64) -> Option<(f64, f64)> {
     Some((common_pixels(&reachable, &laid) / marked(&reachable), spilt / marked(&asked)))
 }
 
-#[test]
-fn the_nib_covers_what_it_can_reach_and_spills_little() {
+fn assert_covered(drawn: impl Fn(f64, Sample) -> Drawing) {
     for sample in SAMPLES {
         for nib in NIBS {
-            let drawing = drawing_for(nib, sample);
-            let Some((covered, spilt)) = measure(&drawing, nib) else { continue };
+            let Some((covered, spilt)) = measure(&drawn(nib, sample), nib) else { continue };
             println!("{}, nib {nib}: covered {covered:.4}, spilt {spilt:.4}", sample.0);
             assert!(covered >= 0.985, "{}, nib {nib}: covered {covered}", sample.0);
             assert!(spilt <= 0.03, "{}, nib {nib}: spilt {spilt}", sample.0);
         }
     }
+}
+
+#[test]
+fn the_nib_covers_what_it_can_reach_and_spills_little() {
+    assert_covered(drawing_for);
+}
+
+#[test]
+#[ignore = "open: nets finer than the nib, 0.8 mm at a pitch of 1.2 mm cover 0.984, 0.985 is promised"]
+fn the_nib_covers_nets_finer_than_itself_too() {
+    assert_covered(|_, sample| drawing_of(sample));
 }
 
 /// Marks narrower than the nib keep the mean tone in windows of three pitches (of the thinned marks, where the nib is large:
