@@ -1,6 +1,6 @@
 //! The regions as places on the page: how far inside its region a point lies, and what a raster says there.
 
-use super::lines::FIT_ROOM;
+use super::lines::{FIT_ROOM, Frame};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::Placement;
@@ -66,6 +66,8 @@ pub(super) struct Ground {
     pub regions: Vec<Region>,
     /// Direction of the lines for each label from 1, in degrees.
     pub angles: Vec<f64>,
+    /// How far lines are displaced, in millimetres.
+    pub displacement: Raster<f32>,
     /// How far lines run on into another region, in millimetres.
     pub overlap: f64,
     /// Least distance of lines, in millimetres.
@@ -74,8 +76,11 @@ pub(super) struct Ground {
     pub near: f64,
 }
 
-/// Least angle of two regions' lines, in degrees, for them to overlap: at less they would run side by side.
+/// Least angle of two regions' lines where they meet, in degrees, for them to overlap: at less they would run side by side.
+/// With that of the lines before they are displaced, a photograph's superpixels had pairs side by side for two and a half pitches.
 const LEAST_ANGLE: f64 = 30.0;
+/// Rounds in which the place is found that a displaced line comes from; it moves by less than the last of them at most slopes.
+const BACK_ROUNDS: usize = 3;
 
 /// Between two lines, in degrees, 0 to 90.
 pub(super) fn angle_between(a: f64, b: f64) -> f64 {
@@ -100,9 +105,9 @@ impl Ground {
         top * (1.0 - ty) + bottom * ty
     }
 
-    /// How far a region's lines may run on beyond the border that is nearest to a place: the overlap into a region whose lines
+    /// How far a region's lines, turned by `turn` degrees for those that cross, may run on beyond the border that is nearest to a place: the overlap into a region whose lines
     /// have another direction, a little less than to the border of one whose lines have nearly the same, which would meet them.
-    fn leave(&self, label: i32, p: Point, inside: f64) -> f64 {
+    fn leave(&self, label: i32, turn: f64, p: Point, inside: f64) -> f64 {
         if !self.has_neighbours() || inside > self.near || inside < -self.overlap - self.gap {
             return 0.0;
         }
@@ -115,7 +120,7 @@ impl Ground {
         // Outside, the nearest border may be one between two other regions.
         if other <= 0 || other == label || here != label {
             0.0
-        } else if self.overlap > 0.0 && angle_between(self.angle(label), self.angle(other)) >= LEAST_ANGLE {
+        } else if self.overlap > 0.0 && self.angle_of_lines([label, other], turn, p) >= LEAST_ANGLE {
             self.overlap
         } else {
             -0.5 * self.gap - BORDER_ERROR * pixel
@@ -124,20 +129,35 @@ impl Ground {
 
     /// How far inside what a region's lines may reach a place lies, and inside the picture; below 0 outside. And what of that is
     /// beyond the region's border, or lacks to it.
-    pub(super) fn reach(&self, label: i32, p: Point) -> (f64, f64) {
+    pub(super) fn reach(&self, label: i32, turn: f64, p: Point) -> (f64, f64) {
         let inside = self.inside_region(label, p);
-        let leave = self.leave(label, p, inside);
+        let leave = self.leave(label, turn, p, inside);
         ((inside + leave).min(self.grid.inside_picture(p)), leave)
     }
 
     /// How far inside what a region's ink may cover a place lies; the picture's rim is no border.
-    pub(super) fn cover(&self, label: i32, p: Point) -> f64 {
+    pub(super) fn cover(&self, label: i32, turn: f64, p: Point) -> f64 {
         let inside = self.inside_region(label, p);
-        inside + self.leave(label, p, inside).max(0.0)
+        inside + self.leave(label, turn, p, inside).max(0.0)
     }
 
-    fn angle(&self, label: i32) -> f64 {
-        self.angles[label as usize - 1]
+    /// Between two regions' lines at a place, in degrees: as they are laid, or as they are displaced, whichever is less.
+    fn angle_of_lines(&self, labels: [i32; 2], turn: f64, p: Point) -> f64 {
+        let laid = labels.map(|label| self.angles[label as usize - 1] + turn);
+        let [a, b] = laid.map(|angle| angle + self.bend(angle, p));
+        angle_between(a, b).min(angle_between(laid[0], laid[1]))
+    }
+
+    /// How far displacement turns lines of a direction at a place, in degrees anticlockwise.
+    fn bend(&self, degrees: f64, p: Point) -> f64 {
+        let frame = Frame::new(degrees);
+        let displacement = |p: Point| f64::from(self.grid.read(&self.displacement, p));
+        let (u, v) = frame.place(p);
+        // Lines are displaced by what is read at the place that they come from.
+        let origin = (0..BACK_ROUNDS).fold(v, |origin, _| v - displacement(frame.to_page(u, origin)));
+        let step = self.grid.pixel_mm();
+        let rise = displacement(frame.to_page(u + step, origin)) - displacement(frame.to_page(u - step, origin));
+        (0.5 * rise / step).atan().to_degrees()
     }
 
     /// Towards the inside of a region.

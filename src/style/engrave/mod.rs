@@ -145,11 +145,11 @@ impl Drawer<'_> {
             || self.family(region, region.angle, ground, relief),
             || self.family(region, region.angle + self.parameters.cross_angle, ground, relief),
         );
-        let wanted = |ink| Wanted { ground, region, ink, width_max: self.parameters.width_max };
+        let wanted = |ink, turn| Wanted { ground, region, turn, ink, width_max: self.parameters.width_max };
         let breaking = self.breaking(ground);
         let lines = || {
             let breaking = Breaking { between: &crossing, ..breaking(&crossing) };
-            marks(&Courses::new(&family, wanted(&layers.lines)), &breaking)
+            marks(&Courses::new(&family, wanted(&layers.lines, 0.0)), &breaking)
         };
         let cross = || {
             layers.cross.as_ref().map_or_else(Vec::new, |ink| {
@@ -160,7 +160,7 @@ impl Drawer<'_> {
                     period: 1.0,
                     ..breaking(&family)
                 };
-                marks(&Courses::new(&crossing, wanted(ink)), &breaking)
+                marks(&Courses::new(&crossing, wanted(ink, self.parameters.cross_angle)), &breaking)
             })
         };
         let (lines, cross) = rayon::join(lines, cross);

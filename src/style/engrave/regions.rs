@@ -41,7 +41,8 @@ impl Drawer<'_> {
             .collect();
         let (overlap, gap) = (self.parameters.overlap, self.parameters.min_gap + 2.0 * FIT_ROOM);
         let near = 0.5 * self.parameters.width_max + gap;
-        Ground { grid: Grid::new(placement), labels, border, regions, angles, overlap, gap, near }
+        let displacement = relief.nearness.map(|nearness| (self.parameters.displacement * f64::from(nearness)) as f32);
+        Ground { grid: Grid::new(placement), labels, border, regions, angles, displacement, overlap, gap, near }
     }
 
     /// Labels from 1, none for a single region, and the direction of each; superpixels of nearly the same direction are one.

@@ -42,7 +42,7 @@ impl Courses<'_> {
                 if line.presence[r * self.stride - line.first] == 0.0 && (r == first || r + 1 == end || self.is_gone(line, r)) {
                     return (-1.0, 0.0);
                 }
-                ground.reach(self.wanted.region.label, self.point(line, r))
+                ground.reach(self.wanted.region.label, self.wanted.turn, self.point(line, r))
             })
             .unzip();
         let mut is_in: Vec<bool> = inside.iter().map(|&s| s > 0.0).collect();

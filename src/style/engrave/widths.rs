@@ -27,6 +27,8 @@ const LEAST_ACROSS: f64 = 0.1;
 pub(super) struct Wanted<'a> {
     pub ground: &'a Ground,
     pub region: Region,
+    /// How far the family's lines are turned against the region's own, in degrees anticlockwise.
+    pub turn: f64,
     /// Ink, 0 to 1, as a fraction of the paper.
     pub ink: &'a Raster<f32>,
     pub width_max: f64,
@@ -148,7 +150,7 @@ impl<'a> Courses<'a> {
                 let inside = if inside > extent + soft {
                     1.0
                 } else {
-                    (0.5 + ground.cover(self.wanted.region.label, p) / soft).clamp(0.0, 1.0)
+                    (0.5 + ground.cover(self.wanted.region.label, self.wanted.turn, p) / soft).clamp(0.0, 1.0)
                 };
                 within += slice * inside;
                 if inside > 0.0 {
@@ -192,7 +194,7 @@ impl<'a> Courses<'a> {
     /// The width at which a line's side meets a border that runs slanting to it: its end is a point there, not a square one that
     /// stands out.
     fn border_room(&self, line: &Line, course: &Course, i: usize) -> f32 {
-        let Wanted { ground, region, width_max, .. } = self.wanted;
+        let Wanted { ground, region, turn, width_max, .. } = self.wanted;
         if f64::from(course.inside[i]) > ground.near.max(0.5 * width_max) {
             return f32::INFINITY;
         }
@@ -204,7 +206,7 @@ impl<'a> Courses<'a> {
         if across < LEAST_ACROSS {
             return f32::INFINITY;
         }
-        (2.0 * ground.cover(region.label, here).max(0.0) / across) as f32
+        (2.0 * ground.cover(region.label, turn, here).max(0.0) / across) as f32
     }
 
     /// Widths at which neighbours touch at most.
