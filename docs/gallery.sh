@@ -54,7 +54,8 @@ ink engrave-hopper $S/grace-hopper.jpg $HOPPER --crop 22%,2%,56%,58% --style eng
     --set cross_angle=60
 ink engrave-hopper-depth $S/grace-hopper.jpg --depth $S/grace-hopper-depth.png $HOPPER --crop 22%,2%,56%,58% --style engrave \
     --size 90x120mm --pitch 0.4mm --set cross_angle=60
-ink engrave-coffee $S/coffee.png --style engrave --size 120x80mm --pitch 0.45mm --set regions=superpixels --set cross_angle=60
+ink engrave-coffee $S/coffee.png --style engrave --size 120x80mm --pitch 0.45mm --set regions=superpixels --set overlap=0.2mm \
+    --set cross_angle=60
 ink engrave-stipple $S/bust-light.png $DEPTH --style engrave --size 60x80mm --set look=stipple
 
 for bust in light brown dark; do

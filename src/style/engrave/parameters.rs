@@ -76,7 +76,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "overlap",
         kind: Kind::Length { default: Default::Millimetres(0.0), least: 0.0, most: 100.0 },
-        meaning: "how far lines run on into the next region",
+        meaning: "how far lines run on into a region whose lines have another direction; 0.2 mm closes most seams, and lines cross there",
         source: "Galarza 3.7, dilation of the masks",
     },
     Parameter {
