@@ -38,8 +38,7 @@ impl Flow {
         let axes = tensor.map(principal_axis);
         let mut signed = axes.zip_map(luminance, |axis, slope| {
             let along = axis[0] * slope[0] + axis[1] * slope[1];
-            let is_clear =
-                along * along > LEAST_LUMINANCE_SHARE * LEAST_LUMINANCE_SHARE * (axis[0] * axis[0] + axis[1] * axis[1]);
+            let is_clear = along.abs() > LEAST_LUMINANCE_SHARE * (axis[0] * axis[0] + axis[1] * axis[1]);
             if is_clear { [axis[0] * along.signum(), axis[1] * along.signum()] } else { [0.0; 2] }
         });
         // Where signs are missing, those of a growing neighbourhood decide; where there are none at all, the axis stays as it is.
@@ -189,6 +188,21 @@ mod tests {
         let expected = Vec2::new(2.0, 1.0).normalize();
         assert!((flow.at(Point::new(25.2, 24.7)) - expected).hypot() < 1e-3);
         assert!((flow.turned(std::f64::consts::FRAC_PI_2).at(Point::new(25.2, 24.7)) - expected.turn_90()).hypot() < 1e-3);
+    }
+
+    #[test]
+    fn on_every_side_of_a_faint_spot_it_points_to_the_light() {
+        let spot = Raster::from_fn(80, 80, |x, y| {
+            let (dx, dy) = ((x as f32 - 40.0) / 12.0, (y as f32 - 40.0) / 12.0);
+            0.02 * (-0.5 * (dx * dx + dy * dy)).exp()
+        });
+        let flow = flow_of(&[spot]);
+        for k in 0..16 {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::PI / 8.0).sin_cos();
+            let outwards = Vec2::new(cos, sin);
+            let direction = flow.at(Point::new(40.5, 40.5) + outwards * 14.0);
+            assert!(direction.dot(outwards) < -0.97, "{outwards:?}: {direction:?}");
+        }
     }
 
     #[test]
