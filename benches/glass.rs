@@ -3,7 +3,7 @@
 //! The least of some runs on two threads; the machine's other work is in the figures.
 
 use drypoint::drawing::Page;
-use drypoint::field::{Flow, GlassLevels, glass_pattern, glass_ribbons};
+use drypoint::field::{Flow, GlassLevels, RibbonFit, glass_pattern, glass_ribbons};
 use drypoint::geometry::{Rect, Vec2};
 use drypoint::raster::{Raster, edge_preserving, fast_gaussian, gaussian_blur};
 use drypoint::source::{Crop, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
@@ -23,7 +23,7 @@ fn main() {
 
     let raster = glass_pattern(&noise, &flow, 18.0);
     let levels = GlassLevels::new(&raster, 3);
-    let ribbons = least(3, || glass_ribbons(&noise, &raster, &flow, 18.0, 1.0, |height| levels.of(height)));
+    let ribbons = least(3, || glass_ribbons(&noise, &raster, &flow, 18.0, RibbonFit::Brush, |height| levels.of(height)));
     println!("{:44} {ribbons:8.3}", "  its ribbons at three levels, s");
 
     let photo = photograph();

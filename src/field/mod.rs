@@ -59,7 +59,7 @@ pub use lanes::{LaneParameters, Lanes, offset_lanes};
 pub use orientation::OrientationField;
 pub use poisson::poisson;
 pub use relief::{bend_by_shading, inflate};
-pub use ribbon::{Ribbon, glass_ribbons};
+pub use ribbon::{Ribbon, RibbonFit, glass_ribbons};
 pub use scale_space::{Mode, histogram_modes};
 pub use stripes::{Start, StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
 pub use superpixels::superpixels;

@@ -1,27 +1,25 @@
 //! A ribbon's middle line and widths: cross-sections of the pattern's region above a level, all along a streamline.
 
+use super::RibbonFit;
 use super::blob::Blob;
 use crate::field::Flow;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 
-/// Where across the blob other middle lines begin, as a share of its reach. Near a saddle of the flow the ribbon goes on to one side
-/// only, which the maximum's own line may miss; still farther out changes nothing.
-const OTHER_START: f64 = 0.5;
-/// Cosine of the angle between the flow on the line (in its middle and at its end) and beside it, from which on other lines are not
-/// tried: they would go the same way. To try them always takes four times as long for 0.005 of correlation.
+/// Cosine of the angle between the flow on the line (in its middle and at its end) and beside it, from which on a brush tries no
+/// other lines: they would go the same way. To try them always takes four times as long and cannot be seen.
 const SAME_WAY: f64 = 0.98;
 /// Distance of cross-sections along the streamline, and of samples along a cross-section, in pixels.
 const STEP: f64 = 1.0;
 const SAMPLE_STEP: f64 = 0.5;
 /// A side may open by this much a pixel along the line. At 2 and at 0.4 the correlation with the
 /// pattern is about 0.015 lower: outlines get horns where other ribbons branch off, or ends are cut off.
-const MOST_SLOPE: f64 = 0.8;
+const MOST_SLOPE: f64 = 1.0;
 /// An end's half disc stands at this share of its radius from where the region ends: less than 1, for the region ends more squarely.
 /// At 1 the correlation with the pattern is 0.02 lower, at 0.25 no higher.
 const END_INSET: f64 = 0.35;
 /// Greatest width in radii of the line's turn; at 2 the inner side shrinks to a point.
-const WIDEST_TURN: f64 = 1.7;
+const WIDEST_TURN: f64 = 1.9;
 /// Nodes are left out that lie this near to the line between their neighbours, or nearer to one than this share of the greatest
 /// width (without which wide ribbons have rugged sides).
 const TOLERANCE: f64 = 0.15;
@@ -36,9 +34,10 @@ pub(super) struct Sweep<'a> {
     pub blob: &'a Blob,
     /// The arc's length.
     pub length: f64,
-    /// A cross-section ends at this many times the blob's reach to the side, even if the region goes on: it is another ribbon's there.
-    pub reach: f64,
+    pub fit: RibbonFit,
     pub level: f32,
+    /// The noise at the blob's maximum.
+    pub height: f32,
 }
 
 /// Nodes and widths.
@@ -57,18 +56,24 @@ impl Sweep<'_> {
     /// Nodes and widths of the ribbon that covers most of the region and least beyond it; none where the flow ends at once.
     pub(super) fn best(&self) -> Option<Outline> {
         let line = self.line(0.0);
-        let others = [-OTHER_START * self.blob.low, OTHER_START * self.blob.high];
         let own = self.ribbon(&line);
-        let goes_same_way = |p: Point| {
-            let way = self.flow.at(p);
-            others.iter().all(|n| self.flow.at(p + way.turn_90() * *n).dot(way) > SAME_WAY)
-        };
-        if goes_same_way(line[line.len() / 2]) && goes_same_way(line[line.len() - 1]) {
+        let starts = self.fit.other_starts();
+        let others: Vec<f64> = starts.iter().flat_map(|n| [-n * self.blob.low, n * self.blob.high]).collect();
+        if self.fit == RibbonFit::Brush && self.goes_one_way(&line, &others) {
             return own;
         }
         let with_gain = |ribbon: Outline| (self.gain(&ribbon), ribbon);
         let all = own.into_iter().chain(others.iter().filter_map(|n| self.ribbon(&self.line(*n))));
         all.map(with_gain).reduce(|best, other| if other.0 > best.0 { other } else { best }).map(|best| best.1)
+    }
+
+    /// Whether the flow beside a line, by these distances, goes as it does on the line.
+    fn goes_one_way(&self, line: &[Point], beside: &[f64]) -> bool {
+        let at = |p: Point| {
+            let way = self.flow.at(p);
+            beside.iter().all(|n| self.flow.at(p + way.turn_90() * *n).dot(way) > SAME_WAY)
+        };
+        at(line[line.len() / 2]) && at(line[line.len() - 1])
     }
 
     /// The streamline that passes `beside` the maximum, from the blob's front to where its back is swept to.
@@ -118,7 +123,7 @@ impl Sweep<'_> {
     }
 
     fn section(&self, at: Point, beside: Vec2) -> Option<Section> {
-        let (most_low, most_high) = (self.reach * self.blob.low, self.reach * self.blob.high);
+        let (most_low, most_high) = (self.fit.reach() * self.blob.low, self.fit.reach() * self.blob.high);
         let is_above = |n: &f64| self.value(at + beside * *n) >= self.level;
         let tries = (most_low.max(most_high) / SAMPLE_STEP) as usize;
         let inside = std::iter::once(0.0)
@@ -152,7 +157,8 @@ impl Sweep<'_> {
         self.pattern.sample(p.x, p.y)
     }
 
-    /// The area inside the region less that outside, by samples about a pixel apart along the ribbon and half of that across.
+    /// The area inside the region less that outside, by samples about a pixel apart along the ribbon and half of that across;
+    /// what is higher than the blob is another ribbon's, which lies over this one, and counts for nothing.
     fn gain(&self, (nodes, widths): &Outline) -> f64 {
         let mut gain = 0.0;
         for (p, w) in nodes.windows(2).zip(widths.windows(2)) {
@@ -163,12 +169,19 @@ impl Sweep<'_> {
                 let t = i as f64 / steps;
                 let (middle, width) = (p[0] + along * t, w[0] + (w[1] - w[0]) * t);
                 let count = (width / SAMPLE_STEP).ceil().max(1.0);
-                let is_inside = |j: usize| self.value(middle + side * (width * (j as f64 / count - 0.5))) >= self.level;
-                let inside = (0..=count as usize).filter(|&j| is_inside(j)).count() as f64;
-                gain += (2.0 * inside - count - 1.0) / (count + 1.0) * width * length / steps;
+                let worth = |j: usize| self.worth(middle + side * (width * (j as f64 / count - 0.5)));
+                gain += (0..=count as usize).map(worth).sum::<f64>() / (count + 1.0) * width * length / steps;
             }
         }
         gain
+    }
+
+    fn worth(&self, p: Point) -> f64 {
+        match self.value(p) {
+            value if value < self.level => -1.0,
+            value if value > self.height => 0.0,
+            _ => 1.0,
+        }
     }
 }
 

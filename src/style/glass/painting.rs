@@ -4,7 +4,7 @@ use super::body::Body;
 use super::visible::{Canvas, Shown};
 use super::{Drawer, Ground, colour, detail, hairs, noise, underpainting};
 use crate::drawing::{Layer, Mark, Mixing};
-use crate::field::{Flow, GlassLevels, Ribbon, glass_pattern, glass_ribbons};
+use crate::field::{Flow, GlassLevels, Ribbon, RibbonFit, glass_pattern, glass_ribbons};
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use crate::style::StyleError;
@@ -12,9 +12,6 @@ use rayon::prelude::*;
 
 /// Least area of a stroke that shows, in working pixels: smaller flecks are not seen and make half of the strokes.
 const LEAST_SHOWN: f64 = 1.0;
-/// How far to the sides a stroke follows the pattern, in its blob's own reach. At 1.5 strokes run into one another and lose their
-/// form, at 2 more so, though they are nearer to the pattern then (looked at on the astronaut).
-const BRUSH_REACH: f64 = 1.0;
 /// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a fresh one begins. At 0.05
 /// skin falls into scales, at 0.2 eyes and lips are drawn out over the face (looked at on the astronaut and Grace Hopper).
 const COLOUR_CHANGE: f32 = 0.1;
@@ -40,7 +37,7 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     let mut layer = drawer.empty_layer("strokes");
     layer.mixing = Mixing::Paint;
     let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons);
-    let ribbons = glass_ribbons(&noise, &framed, &ground.flow, length, BRUSH_REACH, |height| levels.of(height));
+    let ribbons = glass_ribbons(&noise, &framed, &ground.flow, length, RibbonFit::Brush, |height| levels.of(height));
     drawer.check()?;
     layer.marks = Painter { drawer, ground, levels: &levels }.paint(&ribbons);
     let mut layers = vec![layer];
