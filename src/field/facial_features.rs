@@ -71,6 +71,8 @@ pub struct FacialFeatures {
     pub labels: Raster<u8>,
     /// The face's lightness divided by its skin's: 1 is skin.
     pub normalised: Raster<f32>,
+    /// The skin's lightness in each column.
+    pub skin: Vec<f32>,
     /// How many clusters the thresholded face had before small ones were given to their neighbours and joined ones divided.
     pub clusters: usize,
     /// Those of the six that were found.
@@ -111,7 +113,7 @@ pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &Face
     let labels = named(&dark, &windows, &depth, frame);
     let has = |i: usize| labels.pixels().iter().any(|label| usize::from(*label) == i + 1);
     let found = FacialFeature::ALL.into_iter().enumerate().filter(|(i, _)| has(*i)).map(|(_, feature)| feature).collect();
-    FacialFeatures { labels, normalised, clusters, found }
+    FacialFeatures { labels, normalised, skin, clusters, found }
 }
 
 /// The skin's lightness in each column, interpolated between places across the face (section 5.1): those pointed out by hand, as in the

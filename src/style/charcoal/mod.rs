@@ -6,6 +6,7 @@
 //! ```
 
 mod edges;
+mod feature_tones;
 mod features;
 mod hair;
 mod parameters;

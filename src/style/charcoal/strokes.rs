@@ -46,6 +46,11 @@ impl Drawer<'_> {
     }
 }
 
+/// The pressure at which a stroke is this share of its full width, below 0 where it would be thinner than at none.
+pub(super) fn pressure_for(width: f64) -> f64 {
+    (width - LIGHTEST) / (1.0 - LIGHTEST)
+}
+
 /// Start, swell and lift: pressure along a stroke, 0 to 1; the start is firmer than the lift.
 fn swell(along: f64, taper: f64) -> f64 {
     let ramp = |distance: f64, least: f64| {

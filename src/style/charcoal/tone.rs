@@ -50,14 +50,20 @@ impl Drawer<'_> {
 
     /// Blurred inside the visible region, brightened, blurred again over its border (section 3.1.5).
     fn smudged(&self, regions: &Regions, features: &Features) -> Raster<f32> {
-        let visible = regions.unmasked().zip_map(&features.eyes, |v, eyes| v.min(1.0 - eyes));
+        let visible = regions.unmasked().zip_map(&features.tones.share, |v, theirs| v.min(1.0 - theirs));
         let blur = self.pixels(self.parameters.smudge_mm) as f32;
         let ink = self.darkness().zip_map(&visible, |ink, v| ink * v);
         let (ink, weight) = (gaussian_blur(&ink, blur), gaussian_blur(&visible, blur));
+        let washed =
+            ink.zip_map(&weight, |ink, w| if w > 0.01 { self.washed(ink / w) } else { 0.0 }).zip_map(&visible, |i, v| i * v);
+        // The eyes' whites stay clean.
+        gaussian_blur(&washed, 0.5 * blur).zip_map(&features.tones.share, |ink, theirs| 1.0 - ink * (1.0 - theirs))
+    }
+
+    /// Ink as the smudge has it, brightened.
+    pub(super) fn washed(&self, ink: f32) -> f32 {
         let wash = self.parameters.brighten;
-        let washed = |ink: f32| (ink - LIFTED * wash).max(0.0) * (1.0 - THINNED * wash);
-        let washed = ink.zip_map(&weight, |ink, w| if w > 0.01 { washed(ink / w) } else { 0.0 }).zip_map(&visible, |i, v| i * v);
-        gaussian_blur(&washed, 0.5 * blur).map(|ink| 1.0 - ink)
+        (ink - LIFTED * wash).max(0.0) * (1.0 - THINNED * wash)
     }
 }
 

@@ -1,0 +1,174 @@
+//! Eyes, nose and mouth: taken out of the smudge (section 3.1.5), their tones told apart by scale-space filtering (section 5.3), and
+//! each drawn finely, as dark against its skin as in the photograph.
+
+use super::Drawer;
+use super::shading::{Patch, Pressing};
+use crate::drawing::Mark;
+use crate::field::{FaceFrame, FacialFeature, FacialFeatures, histogram_modes};
+use crate::geometry::Point;
+use crate::raster::{Raster, gaussian_blur};
+use std::f64::consts::PI;
+
+/// Half an eye with its lids, a nose's underside and a mouth: middle down the face, half sizes across and down, in distances of the
+/// eyes; beyond is skin. Smaller loses the outer lashes of an eye that is found a little aside, larger takes in the brow.
+const EYE: Oval = Oval { down: 0.0, half: (0.36, 0.2), has_white: true };
+const NOSE: Oval = Oval { down: 0.6, half: (0.4, 0.26), has_white: false };
+const MOUTH: Oval = Oval { down: 1.06, half: (0.56, 0.3), has_white: true };
+/// How far inside its oval (1 in its middle) a feature is drawn, from the first on and wholly from the second, and where there may be
+/// white of the eye or teeth: farther out, what is lighter than skin is skin that shines.
+const DRAWN: (f32, f32) = (0.0, 0.25);
+const WHITES: (f32, f32) = (0.3, 0.45);
+/// Tone against skin's from which a place is the feature's: darker than the first, wholly from the second on; lighter than the third,
+/// wholly from the fourth on. Between them is skin, which keeps its grain.
+const DARK: (f32, f32) = (0.96, 0.75);
+const LIGHT: (f32, f32) = (1.05, 1.25);
+/// Blur of what is drawn, in distances of the eyes: a third of a lid's thickness.
+const BLUR: f64 = 0.006;
+/// Tone against skin's of the darkest place when a face has none darker: pale features stay pale.
+const DARKEST: f32 = 0.5;
+/// The share of the features' places that is at least as dark as their darkest tone.
+const DARKEST_SHARE: f64 = 0.01;
+/// Bins of the histogram of tones, and the tone against skin's that fills it.
+const BINS: usize = 256;
+const LIGHTEST_TONE: f32 = 1.25;
+/// A tone of a feature with fewer of its places than this share is no tone of its own (section 6.1.1).
+const LEAST_SHARE: f64 = 0.02;
+/// How far places are drawn in the tone that they belong to, not in their own: at 1 a lid's shade has steps.
+const GATHERED: f32 = 0.5;
+/// Direction of the strokes, and of those that cross them in the darkest places, in degrees.
+const ORIENT: f64 = -35.0;
+const CROSSING: f64 = -12.0;
+/// Ink that is not drawn: a stroke at its lightest has twice as much.
+const FAINTEST: f32 = 0.2;
+/// Ink from which strokes are crossed: those of one direction leave slits.
+const CROSSED: f32 = 0.8;
+/// Distance of strokes in widths, and their length in distances of the eyes.
+const SPACING: f64 = 0.9;
+const LENGTH: f64 = 0.7;
+/// Width of a stroke in distances of the eyes: a fifteenth of an eye's opening.
+const WIDTH: f64 = 0.01;
+
+/// Where a feature is drawn.
+struct Oval {
+    down: f64,
+    half: (f64, f64),
+    has_white: bool,
+}
+
+/// What is drawn of the eyes, the nose and the mouth.
+pub(super) struct FeatureTones {
+    /// How far each pixel is theirs and not the smudge's, 0 to 1.
+    pub share: Raster<f32>,
+    /// Their own ink, 0 to 1.
+    pub ink: Raster<f32>,
+}
+
+impl Drawer<'_> {
+    pub(super) fn feature_tones(&self, found: &FacialFeatures, frame: &FaceFrame) -> FeatureTones {
+        let sharp = gaussian_blur(&self.portrait.lightness, (BLUR * frame.eye_distance) as f32);
+        let tone = Raster::from_fn(sharp.width(), sharp.height(), |x, y| sharp.get(x, y) / found.skin[x].max(0.02));
+        let mut tones = FeatureTones { share: tone.map(|_| 0.0), ink: tone.map(|_| 0.0) };
+        let inside = |feature: FacialFeature| {
+            let (oval, across) = oval_of(feature)?;
+            found.found.contains(&feature).then(|| oval.within(frame, across, tone.width(), tone.height()))
+        };
+        let ovals: Vec<Option<Raster<f32>>> = FacialFeature::ALL.into_iter().map(inside).collect();
+        let darkest = darkest(&tone, &ovals);
+        for (feature, inside) in FacialFeature::ALL.into_iter().zip(&ovals) {
+            let (Some(inside), Some((oval, _))) = (inside, oval_of(feature)) else { continue };
+            let gathered = gathered(&tone, inside);
+            for i in (0..tone.len()).filter(|i| inside.pixels()[*i] > 0.0) {
+                let (n, inside) = (tone.pixels()[i], inside.pixels()[i]);
+                let dark = ramp(inside, DRAWN) * ramp(n, DARK);
+                let light = if oval.has_white { ramp(inside, WHITES) * ramp(n, LIGHT) } else { 0.0 };
+                let n = n + GATHERED * (gathered[bin(n)] - n);
+                let depth = ((1.0 - n) / (1.0 - darkest)).clamp(0.0, 1.0);
+                // What the skin has, and of what that leaves white the more the darker the place.
+                let skin = self.washed(1.0 - found.skin[i % tone.width()].min(1.0));
+                let (share, ink) = (&mut tones.share.pixels_mut()[i], &mut tones.ink.pixels_mut()[i]);
+                *share = share.max(dark).max(light);
+                *ink = ink.max(dark * (skin + (1.0 - skin) * depth));
+            }
+        }
+        tones
+    }
+
+    /// Strokes as wide as the ink asks, crossed where it is black.
+    pub(super) fn draw_tones(&self, tones: &FeatureTones, frame: &FaceFrame) -> Vec<Mark> {
+        let ink = &tones.ink;
+        let width = self.feature_width(frame);
+        let patch = |least: f32, degrees: f64| Patch {
+            // One half where the ink is `least`.
+            region: ink.map(|ink| (0.5 + 4.0 * (ink - least)).clamp(0.0, 1.0)),
+            width_mm: width,
+            spacing_mm: SPACING * width,
+            length_mm: LENGTH * frame.eye_distance * self.portrait.placement.mm_per_pixel(),
+            orientation: degrees * PI / 180.0 + frame.tilt,
+            pressure: 1.0,
+            inset_mm: 0.0,
+            pressing: Pressing::Filling,
+        };
+        let press = |p: Point| super::strokes::pressure_for(SPACING * f64::from(ink.sample(p.x, p.y)));
+        let mut marks = self.shade_patch(&patch(FAINTEST, ORIENT), "features", 0, press);
+        marks.extend(self.shade_patch(&patch(CROSSED, CROSSING), "features", 1, |_| 1.0));
+        marks
+    }
+
+    /// The stroke's width in a face: a hand takes the stick's edge, so that an eye's lids and pupil keep their shapes.
+    pub(super) fn feature_width(&self, frame: &FaceFrame) -> f64 {
+        let eye_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
+        self.parameters.stroke_width_mm.min(WIDTH * eye_mm).max(0.2 * self.parameters.stroke_width_mm)
+    }
+}
+
+impl Oval {
+    /// How far inside the oval each place lies: 1 in its middle, 0 on its border, less outside.
+    fn within(&self, frame: &FaceFrame, middle: f64, width: usize, height: usize) -> Raster<f32> {
+        Raster::from_fn(width, height, |x, y| {
+            let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            (1.0 - ((across - middle) / self.half.0).hypot((down - self.down) / self.half.1)) as f32
+        })
+    }
+}
+
+/// The oval of a feature that is drawn by its tones, and how far across the face it is.
+const fn oval_of(feature: FacialFeature) -> Option<(Oval, f64)> {
+    match feature {
+        FacialFeature::LeftEye => Some((EYE, -0.5)),
+        FacialFeature::RightEye => Some((EYE, 0.5)),
+        FacialFeature::Nose => Some((NOSE, 0.0)),
+        FacialFeature::Mouth => Some((MOUTH, 0.0)),
+        FacialFeature::LeftEyebrow | FacialFeature::RightEyebrow => None,
+    }
+}
+
+/// 0 at the first value, 1 at the second.
+fn ramp(value: f32, (none, all): (f32, f32)) -> f32 {
+    ((value - none) / (all - none)).clamp(0.0, 1.0)
+}
+
+fn bin(tone: f32) -> usize {
+    ((tone / LIGHTEST_TONE * BINS as f32) as usize).min(BINS - 1)
+}
+
+/// For each bin the tone of the histogram that it belongs to.
+fn gathered(tone: &Raster<f32>, inside: &Raster<f32>) -> Vec<f32> {
+    let mut histogram = vec![0_u32; BINS];
+    tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).for_each(|(n, _)| histogram[bin(*n)] += 1);
+    let total: u32 = histogram.iter().sum();
+    let modes = histogram_modes(&histogram, (LEAST_SHARE * f64::from(total)) as u32);
+    let own = |i: usize| (i as f32 + 0.5) / BINS as f32 * LIGHTEST_TONE;
+    let nearest =
+        |i: usize| modes.iter().map(|mode| mode.at).min_by(|a, b| (a - i as f64).abs().total_cmp(&(b - i as f64).abs()));
+    (0..BINS).map(|i| nearest(i).map_or(own(i), |at| own(at as usize))).collect()
+}
+
+/// The tone, against skin's, of the features' darkest places.
+fn darkest(tone: &Raster<f32>, ovals: &[Option<Raster<f32>>]) -> f32 {
+    let of = |inside: &Raster<f32>| -> Vec<f32> {
+        tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).map(|(n, _)| *n).collect()
+    };
+    let mut tones: Vec<f32> = ovals.iter().flatten().flat_map(of).collect();
+    tones.sort_by(f32::total_cmp);
+    tones.get((DARKEST_SHARE * tones.len() as f64) as usize).map_or(DARKEST, |tone| tone.min(DARKEST))
+}
