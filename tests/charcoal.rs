@@ -54,10 +54,11 @@ impl<'a> Sitting<'a> {
     }
 }
 
-/// Keeps the pictures of the features and all warnings.
+/// Keeps the pictures of the features and their tones, and all warnings.
 #[derive(Default)]
 struct Notes {
     features: Mutex<Option<Raster<i32>>>,
+    tones: Mutex<Option<Raster<f32>>>,
     warnings: Mutex<Vec<String>>,
 }
 
@@ -69,6 +70,11 @@ impl Observer for Notes {
             && let Picture::Labels(labels) = make()
         {
             *self.features.lock().unwrap() = Some(labels);
+        }
+        if name == "feature-tones"
+            && let Picture::Grey(tones) = make()
+        {
+            *self.tones.lock().unwrap() = Some(tones);
         }
     }
     fn warn(&self, message: &str) {
@@ -393,6 +399,40 @@ fn shading_stays_in_its_region() {
             assert!(outside + 0.5 * width <= 0.5 * 0.42, "{p:?}: {outside} outside, {width} wide");
         }
     }
+}
+
+/// The strokes of a bust's eyes, nose and mouth stay where there is ink to draw, those of its brows within them.
+#[test]
+fn features_strokes_stay_in_them() {
+    let masks = [
+        (MaskRole::Subject, sample("bust-mask-subject.png")),
+        (MaskRole::Hair, sample("bust-mask-hair.png")),
+        (MaskRole::Face, sample("bust-mask-face.png")),
+    ];
+    let notes = Notes::default();
+    let photo = sample("bust-brown.png");
+    let sitting = Sitting { masks: &masks, set: QUICK, ..Sitting::new(&photo, (90.0, 120.0)) };
+    let drawing = sitting.draw(&notes);
+    let (labels, tones) = (notes.features.into_inner().unwrap().unwrap(), notes.tones.into_inner().unwrap().unwrap());
+    let pixel = 90.0 / labels.width() as f64;
+    // Faint ink and the brows are blurred by a pixel before they are cut out.
+    let is_drawn = |x: isize, y: isize| tones.clamped(x, y) < 0.85 || matches!(labels.clamped(x, y), 1 | 2);
+    let (mut count, mut farthest) = (0, f64::NEG_INFINITY);
+    for mark in only(&drawing, "features").marks() {
+        let Mark::Stroke(stroke) = mark else { panic!("features are strokes") };
+        count += 1;
+        let (points, widths) = stroke.sampled(0.1);
+        for (p, width) in points.iter().zip(widths) {
+            let (x, y) = (p.x / pixel, p.y / pixel);
+            let off = |at: f64, cell: isize| (cell as f64 - at).max(at - cell as f64 - 1.0).max(0.0);
+            let (cx, cy) = (x.floor() as isize, y.floor() as isize);
+            let cells = (-4..=4).flat_map(|dy| (-4..=4).map(move |dx| (cx + dx, cy + dy))).filter(|c| is_drawn(c.0, c.1));
+            let outside = cells.map(|c| off(x, c.0).hypot(off(y, c.1))).fold(f64::INFINITY, f64::min) * pixel;
+            farthest = farthest.max(outside + 0.5 * width);
+        }
+    }
+    println!("{count} strokes of the features, ink at most {farthest:.3} mm outside");
+    assert!(count > 100 && farthest <= 0.5 * 0.42, "{count} {farthest}");
 }
 
 /// Two discs: the edge of one is kept, that of the other is not; a line that nothing in the picture shows is drawn as well.

@@ -11,17 +11,24 @@ use std::f64::consts::PI;
 
 /// Half an eye with its lids, a nose's underside and a mouth: middle down the face, half sizes across and down, in distances of the
 /// eyes; beyond is skin. Smaller loses the outer lashes of an eye that is found a little aside, larger takes in the brow.
-const EYE: Oval = Oval { down: 0.0, half: (0.36, 0.2), has_white: true };
-const NOSE: Oval = Oval { down: 0.6, half: (0.4, 0.26), has_white: false };
-const MOUTH: Oval = Oval { down: 1.06, half: (0.56, 0.3), has_white: true };
+const EYE: Oval = Oval { down: 0.0, half: (0.36, 0.2), has_white: true, sharp: SHARP };
+const NOSE: Oval = Oval { down: 0.6, half: (0.4, 0.26), has_white: false, sharp: SHARP };
+const MOUTH: Oval = Oval { down: 1.06, half: (0.56, 0.3), has_white: false, sharp: SOFT };
 /// How far inside its oval (1 in its middle) a feature is drawn, from the first on and wholly from the second, and where there may be
-/// white of the eye or teeth: farther out, what is lighter than skin is skin that shines.
+/// white of the eye: farther out, what is lighter than skin is skin that shines.
 const DRAWN: (f32, f32) = (0.0, 0.25);
 const WHITES: (f32, f32) = (0.3, 0.45);
-/// Tone against skin's from which a place is the feature's: darker than the first, wholly from the second on; lighter than the third,
-/// wholly from the fourth on. Between them is skin, which keeps its grain.
-const DARK: (f32, f32) = (0.96, 0.75);
+/// Tone against skin's from which a place may be white of the eye, from the first on and wholly from the second.
 const LIGHT: (f32, f32) = (1.05, 1.25);
+/// The tone at which a feature ends and its skin begins lies between these, by the tones that it has; and how gradually it ends.
+const LIMITS: (f32, f32) = (0.75, 0.92);
+const GRADUAL: f32 = 0.08;
+/// Tone against that around (blurred by so many distances of the eyes) from which a place is drawn, from the first on and wholly from the
+/// second: soft shadows stay in the smudge, for hatched they stand out as patches of their own.
+const AROUND: f64 = 0.1;
+const SHARP: (f32, f32) = (0.97, 0.82);
+/// The same for a mouth, whose lips are paler than an eye's lids.
+const SOFT: (f32, f32) = (1.0, 0.88);
 /// Blur of what is drawn, in distances of the eyes: a third of a lid's thickness.
 const BLUR: f64 = 0.006;
 /// Tone against skin's of the darkest place when a face has none darker: pale features stay pale.
@@ -33,8 +40,6 @@ const BINS: usize = 256;
 const LIGHTEST_TONE: f32 = 1.25;
 /// A tone of a feature with fewer of its places than this share is no tone of its own (section 6.1.1).
 const LEAST_SHARE: f64 = 0.02;
-/// How far places are drawn in the tone that they belong to, not in their own: at 1 a lid's shade has steps.
-const GATHERED: f32 = 0.5;
 /// Direction of the strokes, and of those that cross them in the darkest places, in degrees.
 const ORIENT: f64 = -35.0;
 const CROSSING: f64 = -12.0;
@@ -53,6 +58,7 @@ struct Oval {
     down: f64,
     half: (f64, f64),
     has_white: bool,
+    sharp: (f32, f32),
 }
 
 /// What is drawn of the eyes, the nose and the mouth.
@@ -67,6 +73,7 @@ impl Drawer<'_> {
     pub(super) fn feature_tones(&self, found: &FacialFeatures, frame: &FaceFrame) -> FeatureTones {
         let sharp = gaussian_blur(&self.portrait.lightness, (BLUR * frame.eye_distance) as f32);
         let tone = Raster::from_fn(sharp.width(), sharp.height(), |x, y| sharp.get(x, y) / found.skin[x].max(0.02));
+        let around = gaussian_blur(&tone, (AROUND * frame.eye_distance) as f32);
         let mut tones = FeatureTones { share: tone.map(|_| 0.0), ink: tone.map(|_| 0.0) };
         let inside = |feature: FacialFeature| {
             let (oval, across) = oval_of(feature)?;
@@ -76,12 +83,12 @@ impl Drawer<'_> {
         let darkest = darkest(&tone, &ovals);
         for (feature, inside) in FacialFeature::ALL.into_iter().zip(&ovals) {
             let (Some(inside), Some((oval, _))) = (inside, oval_of(feature)) else { continue };
-            let gathered = gathered(&tone, inside);
+            let limit = limit(&tone, inside);
             for i in (0..tone.len()).filter(|i| inside.pixels()[*i] > 0.0) {
                 let (n, inside) = (tone.pixels()[i], inside.pixels()[i]);
-                let dark = ramp(inside, DRAWN) * ramp(n, DARK);
+                let sharp = ramp(n / around.pixels()[i].max(0.02), oval.sharp);
+                let dark = ramp(inside, DRAWN) * sharp * ramp(n, (limit + GRADUAL, limit - GRADUAL));
                 let light = if oval.has_white { ramp(inside, WHITES) * ramp(n, LIGHT) } else { 0.0 };
-                let n = n + GATHERED * (gathered[bin(n)] - n);
                 let depth = ((1.0 - n) / (1.0 - darkest)).clamp(0.0, 1.0);
                 // What the skin has, and of what that leaves white the more the darker the place.
                 let skin = self.washed(1.0 - found.skin[i % tone.width()].min(1.0));
@@ -151,16 +158,15 @@ fn bin(tone: f32) -> usize {
     ((tone / LIGHTEST_TONE * BINS as f32) as usize).min(BINS - 1)
 }
 
-/// For each bin the tone of the histogram that it belongs to.
-fn gathered(tone: &Raster<f32>, inside: &Raster<f32>) -> Vec<f32> {
+/// The tone between skin and what is darker in a feature, as its histogram's tones part (section 5.3).
+fn limit(tone: &Raster<f32>, inside: &Raster<f32>) -> f32 {
     let mut histogram = vec![0_u32; BINS];
     tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).for_each(|(n, _)| histogram[bin(*n)] += 1);
     let total: u32 = histogram.iter().sum();
     let modes = histogram_modes(&histogram, (LEAST_SHARE * f64::from(total)) as u32);
-    let own = |i: usize| (i as f32 + 0.5) / BINS as f32 * LIGHTEST_TONE;
-    let nearest =
-        |i: usize| modes.iter().map(|mode| mode.at).min_by(|a, b| (a - i as f64).abs().total_cmp(&(b - i as f64).abs()));
-    (0..BINS).map(|i| nearest(i).map_or(own(i), |at| own(at as usize))).collect()
+    let tones = modes.iter().map(|mode| (mode.at as f32 + 0.5) / BINS as f32 * LIGHTEST_TONE);
+    let darker = tones.filter(|tone| *tone < 1.0 - 2.0 * GRADUAL).fold(0.0, f32::max);
+    f32::midpoint(1.0, darker).clamp(LIMITS.0, LIMITS.1)
 }
 
 /// The tone, against skin's, of the features' darkest places.

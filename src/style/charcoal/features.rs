@@ -43,10 +43,10 @@ impl Drawer<'_> {
             .picture("normalised", &|| Picture::Grey(found.normalised.zip_map(&regions.face, |n, f| 1.0 - f + f * n.min(1.0))));
         self.observer.picture("features", &|| Picture::Labels(found.labels.map(i32::from)));
         self.warn_of_missing(&found);
-        let of = |wanted: &[u8]| found.labels.map(|label| u8::from(wanted.contains(&label)));
         let tones = self.feature_tones(&found, &frame);
         self.observer.picture("feature-tones", &|| Picture::Grey(tones.ink.map(|ink| 1.0 - ink)));
-        let drawn = of(&[1, 2, 3, 4, 5, 6]).zip_map(&tones.share, |label, share| f32::from(u8::from(label != 0 || share > 0.0)));
+        let drawn =
+            found.labels.zip_map(&tones.share, |label, share| f32::from(u8::from(matches!(label, 1 | 2) || share >= 0.5)));
         Features { tones, drawn, found: Some((found, frame)) }
     }
 
