@@ -8,6 +8,10 @@ use crate::raster::{Raster, components, dilate, remove_components};
 
 /// Lightness against the skin's below which a place may be hair: blond hair has 0.6, a cheek turned from a 2:1 light 0.85.
 const HAIR_TONE: f32 = 0.8;
+/// Of hair whose crown is darker than this, only what is this much of the way from the crown's lightness to the skin's: dark hair leaves a
+/// shaded cheek and an ear to the face, while a blond fringe goes over into skin.
+const DARK_HAIR: f32 = 0.58;
+const HAIR_SPREAD: f32 = 0.2;
 /// Inside an oval from the brows to the chin nothing is taken for hair, since what is dark there is a shadow or a feature: half its
 /// breadth, its middle and half its height, in distances of the eyes.
 const CORE: [f64; 3] = [0.95, 0.5, 0.97];
@@ -31,10 +35,12 @@ pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &Fa
     let cheeks = Raster::from_fn(width, height, |x, y| f32::from(u8::from(within(CHEEKS, relative(x, y)))));
     let skin = skin_tone(lightness, &cheeks, frame, SkinTone::Found);
     let filled = dark_relief(lightness, frame.eye_distance).filled;
+    let crown = crown_tone(&filled, subject, &skin, frame);
+    let limit = if crown < DARK_HAIR { crown + HAIR_SPREAD * (1.0 - crown) } else { HAIR_TONE };
     let dark = Raster::from_fn(width, height, |x, y| {
         let place = relative(x, y);
         let is_free = within(ZONE, place) && !is_core(place) && subject.get(x, y) >= 0.5;
-        u8::from(is_free && filled.get(x, y) < HAIR_TONE * skin[x])
+        u8::from(is_free && filled.get(x, y) < skin[x] * limit)
     });
     let (labels, count) = components(&dark);
     let mut crowned = vec![false; count + 1];
@@ -47,6 +53,22 @@ pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &Fa
     let pixels = |share: f64| (share * frame.eye_distance).round() as usize;
     let grown = dilate(&hair, pixels(GAP + BORDER)).map(|hair| 1 - hair);
     dilate(&grown, pixels(GAP)).map(|free| 1 - free)
+}
+
+/// The median lightness, against the skin's, of the subject's crown where it is darker than skin; 1 where nothing is.
+fn crown_tone(filled: &Raster<f32>, subject: &Raster<f32>, skin: &[f32], frame: &FaceFrame) -> f32 {
+    let mut tones = Vec::new();
+    for y in 0..filled.height() {
+        for x in (0..filled.width()).filter(|x| subject.get(*x, y) >= 0.5) {
+            let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            let tone = filled.get(x, y) / skin[x].max(0.02);
+            if across.abs() < ZONE[0] && (ZONE[1]..CROWN).contains(&down) && tone < HAIR_TONE {
+                tones.push(tone);
+            }
+        }
+    }
+    tones.sort_by(f32::total_cmp);
+    tones.get(tones.len() / 2).copied().unwrap_or(1.0)
 }
 
 #[cfg(test)]

@@ -39,6 +39,8 @@ const HAIR_REACH: f32 = 0.16;
 /// half of the face would become hair; blond hair has half as much, and only its crown and what hangs from it are taken.
 const LEAST_CONTRAST: f32 = 0.12;
 const CLEAR_CONTRAST: f32 = 0.3;
+/// Shares of its encoded light that skin has from its lit to its shaded side: hair is unlike all of them.
+const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
 /// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
 const LOWEST_FRINGE: f64 = 0.75;
 const CROWN: f64 = -0.85;
@@ -100,8 +102,10 @@ impl Drawer<'_> {
     fn plain_background(&self) -> Option<Raster<u8>> {
         let colour = self.colours();
         let (width, height) = self.size();
+        // A person is cut by the picture's lower border.
+        let lowest = height * 2 / 3;
         let mut border: Vec<[f32; 3]> = (0..width).map(|x| colour.get(x, 0)).collect();
-        border.extend((0..height * 2 / 3).flat_map(|y| [colour.get(0, y), colour.get(width - 1, y)]));
+        border.extend((0..lowest).flat_map(|y| [colour.get(0, y), colour.get(width - 1, y)]));
         let middle = median(&border);
         let pixels = colour.pixels();
         let is_near = |i: usize| distance(pixels[i], middle) < BACKGROUND_SPREAD;
@@ -109,7 +113,8 @@ impl Drawer<'_> {
         if (plain as f64) < 0.75 * border.len() as f64 {
             return None;
         }
-        let flooded = flood_from_border(width, height, is_near, |from, to| {
+        let starts = |i: usize| i / width < lowest && is_near(i);
+        let flooded = flood_from_border(width, height, starts, |from, to| {
             is_near(to) && distance(pixels[from], pixels[to]) < BACKGROUND_STEP
         });
         let subject = without_holes(&majority(&flooded, 2).map(|b| 1 - b));
@@ -175,7 +180,7 @@ impl Drawer<'_> {
             let is_face = across.abs() < 0.95 && (-0.62..1.5).contains(&down);
             let c = colour.get(x, y);
             let hangs = fringe.get(x, y) != 0 && down < LOWEST_FRINGE;
-            let is_hair = distance(c, hair) < reach && distance(c, hair) < distance(c, skin);
+            let is_hair = distance(c, hair) < reach && SHADE.iter().all(|s| distance(c, hair) < distance(c, skin.map(|v| s * v)));
             // Above the brow nothing but hair or skin is in a head.
             let is_crown = down < CROWN && distance(c, hair) < distance(c, skin);
             u8::from(zone && (hangs || is_crown || (!is_face && is_hair && contrast >= CLEAR_CONTRAST)))
