@@ -67,6 +67,8 @@ pub(super) struct FeatureTones {
     pub share: Raster<f32>,
     /// Their own ink, 0 to 1.
     pub ink: Raster<f32>,
+    /// How far each pixel of the face is darker than what is around it, 0 to 1: hair and lids are, soft shadows are not.
+    pub sharp: Raster<f32>,
 }
 
 impl Drawer<'_> {
@@ -74,7 +76,8 @@ impl Drawer<'_> {
         let sharp = gaussian_blur(&self.portrait.lightness, (BLUR * frame.eye_distance) as f32);
         let tone = Raster::from_fn(sharp.width(), sharp.height(), |x, y| sharp.get(x, y) / found.skin[x].max(0.02));
         let around = gaussian_blur(&tone, (AROUND * frame.eye_distance) as f32);
-        let mut tones = FeatureTones { share: tone.map(|_| 0.0), ink: tone.map(|_| 0.0) };
+        let sharp = tone.zip_map(&around, |n, around| ramp(n / around.max(0.02), SHARP));
+        let mut tones = FeatureTones { share: tone.map(|_| 0.0), ink: tone.map(|_| 0.0), sharp };
         let inside = |feature: FacialFeature| {
             let (oval, across) = oval_of(feature)?;
             found.found.contains(&feature).then(|| oval.within(frame, across, tone.width(), tone.height()))

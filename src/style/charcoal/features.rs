@@ -32,7 +32,11 @@ impl Drawer<'_> {
     pub(super) fn features(&self, regions: &Regions) -> Features {
         self.observer.begin("features");
         let nothing = || regions.face.map(|_| 0.0);
-        let none = || Features { found: None, drawn: nothing(), tones: FeatureTones { share: nothing(), ink: nothing() } };
+        let none = || Features {
+            found: None,
+            drawn: nothing(),
+            tones: FeatureTones { share: nothing(), ink: nothing(), sharp: nothing() },
+        };
         let Some(frame) = regions.frame.filter(|_| self.parameters.has_features) else { return none() };
         let (width, height) = self.size();
         let skin: Vec<Point> =
@@ -67,7 +71,7 @@ impl Drawer<'_> {
         let brows = [(FacialFeature::LeftEyebrow, EYEBROW_ORIENT), (FacialFeature::RightEyebrow, -180.0 - EYEBROW_ORIENT)];
         let mut marks = Vec::new();
         for (label, (_, degrees)) in (1_u8..).zip(brows).filter(|(_, (feature, _))| found.found.contains(feature)) {
-            let inside = found.labels.map(|l| u8::from(l == label));
+            let inside = found.labels.zip_map(&features.tones.sharp, |l, sharp| u8::from(l == label && sharp > 0.0));
             marks.extend(self.shade_patch(&self.eyebrow(&inside, degrees, frame), "eyebrows", u64::from(label), press));
         }
         marks.extend(self.draw_tones(&features.tones, frame));
