@@ -4,6 +4,7 @@ use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::pens::PenSet;
+use super::progress::interrupt;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
@@ -29,7 +30,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
     let model = ink_model(options, &imported);
     if options.occlude {
-        leave_out_hidden(&mut imported, model);
+        leave_out_hidden(&mut imported, model)?;
     }
     choose_layers(&mut imported, &options.layers)?;
     if model == InkModel::Lines {
@@ -51,10 +52,10 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     };
     let mut plots = Vec::new();
     for (name, drawing) in split_by_layer(&drawing, &options.output) {
-        let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance);
+        let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
         let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths, &pens)?;
         if model == InkModel::Ink {
-            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs()));
+            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs(), interrupt())?);
         }
         if !options.dry_run {
             toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
@@ -94,12 +95,13 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
 }
 
 /// What the painting order hides is not drawn.
-fn leave_out_hidden(imported: &mut Imported, model: InkModel) {
+fn leave_out_hidden(imported: &mut Imported, model: InkModel) -> Result<(), Failure> {
     let hides = if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines };
-    let seen = occluded(&imported.drawing(), &imported.painting, hides);
+    let seen = occluded(&imported.drawing(), &imported.painting, hides, interrupt())?;
     for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
         layer.layer = seen;
     }
+    Ok(())
 }
 
 fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {

@@ -1,26 +1,32 @@
 //! Progress on stderr, the seconds of each step, and Ctrl-C.
 
+use crate::interrupt::Interrupt;
 use crate::style::{Observer, Picture};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::new);
 
 /// The first Ctrl-C lets the work end cleanly, the second ends the process.
 pub(super) fn catch_interrupts() {
     // Without a handler the process just ends, which is also right.
     let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.swap(true, Ordering::SeqCst) {
+        if is_interrupted() {
             std::process::exit(130);
         }
+        INTERRUPT.raise();
     });
 }
 
 pub(super) fn is_interrupted() -> bool {
-    INTERRUPTED.load(Ordering::SeqCst)
+    INTERRUPT.is_raised()
+}
+
+/// What the library's long loops look at.
+pub(super) fn interrupt() -> &'static Interrupt {
+    &INTERRUPT
 }
 
 /// Shown after this much work.
