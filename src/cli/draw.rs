@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::interruption::{interrupt, is_interrupted};
 use super::layout::{Layout, lay_out};
 use super::max_time;
+use super::messages::say;
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
@@ -381,13 +382,17 @@ fn report(
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
         let ink: f64 = drawing.layers.iter().map(Layer::ink_mm2).sum();
-        eprintln!(
+        say!(
             "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",
-            options.output, drawing.page.width, drawing.page.height, counts[0], counts[1]
+            options.output,
+            drawing.page.width,
+            drawing.page.height,
+            counts[0],
+            counts[1]
         );
         for prepared in prepared {
-            eprintln!("{}", toolpaths::summary(&prepared.report));
-            toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
+            say!("{}", toolpaths::summary(&prepared.report));
+            toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
         }
     }
     Ok(())

@@ -4,6 +4,7 @@ use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
 use super::failure::Failure;
 use super::interruption::{interrupt, is_interrupted};
+use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::toolpaths::{self, LONG_HOURS, Prepared, duration};
 use crate::plot::{InkModel, Profile, lower};
@@ -40,7 +41,7 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
     })?;
     if !options.reporting.quiet {
         let why = if chosen.pitch > start { "chosen" } else { "as asked for" };
-        eprintln!("pitch {} mm ({why}): about {} of {}", chosen.pitch, duration(chosen.seconds), duration(limit));
+        say!("pitch {} mm ({why}): about {} of {}", chosen.pitch, duration(chosen.seconds), duration(limit));
     }
     Ok(with_pitch(options, chosen.pitch))
 }
@@ -67,7 +68,7 @@ pub(super) fn advice(options: &DrawOptions, prepared: &[Prepared]) -> String {
 pub(super) fn warn_if_longer(prepared: &[Prepared], limit: Option<f64>) {
     let seconds: f64 = prepared.iter().filter_map(|one| one.report.total.seconds).sum();
     if let Some(limit) = limit.filter(|limit| seconds > *limit) {
-        eprintln!("drypoint: warning: the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit));
+        warning!("the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit));
     }
 }
 

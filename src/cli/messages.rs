@@ -3,11 +3,21 @@
 use std::io::{self, Write};
 
 /// One line for the user.
-pub(super) fn say(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+macro_rules! say {
+    ($($part:tt)*) => { $crate::cli::messages::line(&format!($($part)*)) };
 }
 
 /// One line that the user should see whatever was asked for.
-pub(super) fn warn(line: &str) {
-    say(&format!("drypoint: warning: {line}"));
+macro_rules! warning {
+    ($($part:tt)*) => { $crate::cli::messages::warning_line(&format!($($part)*)) };
+}
+
+pub(super) use {say, warning};
+
+pub(super) fn line(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+pub(super) fn warning_line(text: &str) {
+    line(&format!("drypoint: warning: {text}"));
 }

@@ -39,7 +39,7 @@ pub fn main() -> ExitCode {
     match run(arguments) {
         Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
         Err(failure) => {
-            messages::say(&format!("drypoint: {failure}"));
+            messages::say!("drypoint: {failure}");
             ExitCode::from(failure.exit_status())
         }
     }

@@ -11,6 +11,7 @@
 //! ```
 
 use super::failure::Failure;
+use super::messages::warning;
 use super::output;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark};
 use crate::geometry::parse_length;
@@ -225,9 +226,10 @@ fn refuse_colours(drawing: &Drawing, profile: &Profile, are_unmapped: bool) -> R
     for layer in &drawing.layers {
         let count = of(layer).len();
         if count > 1 {
-            eprintln!(
-                "drypoint: warning: layer '{}' has {count} colours and is drawn with pen {}; --pens maps colours to pens",
-                layer.name, layer.pen
+            warning!(
+                "layer '{}' has {count} colours and is drawn with pen {}; --pens maps colours to pens",
+                layer.name,
+                layer.pen
             );
         }
     }

@@ -4,6 +4,7 @@ use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::interruption::interrupt;
+use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
@@ -67,7 +68,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         plots.push((name, prepared));
     }
     if !imported.dropped.is_empty() {
-        eprintln!("drypoint: warning: left out or drawn otherwise: {}", imported.dropped.summary());
+        warning!("left out or drawn otherwise: {}", imported.dropped.summary());
     }
     if options.reporting.json {
         let mut value = plots.first().map_or_else(|| json!({}), |(_, prepared)| json!(prepared.report));
@@ -76,8 +77,8 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         return output::print_json(&value);
     }
     for (name, prepared) in plots.iter().filter(|_| !options.reporting.quiet) {
-        eprintln!("{name}: {}", toolpaths::summary(&prepared.report));
-        toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
+        say!("{name}: {}", toolpaths::summary(&prepared.report));
+        toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
     }
     Ok(())
 }

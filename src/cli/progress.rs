@@ -60,7 +60,7 @@ impl Observer for Watcher {
     fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
 
     fn warn(&self, message: &str) {
-        self.bar.suspend(|| messages::warn(message));
+        self.bar.suspend(|| messages::warning_line(message));
     }
 
     fn is_interrupted(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::arguments::ResumeOptions;
 use super::failure::Failure;
+use super::messages::say;
 use super::output;
 use crate::resume::{Stop, resume_gcode, resume_hpgl};
 
@@ -26,7 +27,7 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
     let rest = rest.map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
     output::write(&options.output, |out| out.write_all(rest.as_bytes()))?;
     if !options.quiet && options.output != "-" {
-        eprintln!("{}: {} of {} bytes are left to send", options.output, rest.len(), text.len());
+        say!("{}: {} of {} bytes are left to send", options.output, rest.len(), text.len());
     }
     Ok(())
 }

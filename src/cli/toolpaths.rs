@@ -4,6 +4,7 @@ use super::arguments::{DuplicatesOption, Format, Order, SeamOption, StartCorner,
 use super::claims;
 use super::failure::Failure;
 use super::interruption::interrupt;
+use super::messages::{say, warning};
 use super::output;
 use super::pens::PenSet;
 use crate::drawing::Drawing;
@@ -337,28 +338,26 @@ pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, l
 pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str) {
     let (length, touches) = prepared.cut;
     if length > 0.0 || touches > 0 {
-        eprintln!("drypoint: warning: --clip cut away {length:.1} mm of line and {touches} touches");
+        warning!("--clip cut away {length:.1} mm of line and {touches} touches");
     }
     if prepared.duplicates > 0 {
-        eprintln!("drypoint: {} repeated paths are drawn once; --duplicates keep draws them all", prepared.duplicates);
+        say!("drypoint: {} repeated paths are drawn once; --duplicates keep draws them all", prepared.duplicates);
     }
     if let Some(seconds) = prepared.report.total.seconds
         && seconds > LONG_HOURS * 3600.0
     {
-        eprintln!("drypoint: warning: this plot takes {}{shorter}", duration(seconds));
+        warning!("this plot takes {}{shorter}", duration(seconds));
     }
     let Some(profile) = profile else { return };
     let numbers: std::collections::BTreeSet<u32> = prepared.plot.pens.iter().map(|pen| pen.number).collect();
     if profile.pens.change == PenChange::Pause && numbers.len() as u32 > profile.pens.count {
         let (pens, count) = (numbers.len(), profile.pens.count);
-        eprintln!("drypoint: warning: {pens} pens on a machine with {count}: the file pauses for each change");
+        warning!("{pens} pens on a machine with {count}: the file pauses for each change");
     }
     for number in numbers {
         let drawn: f64 = prepared.report.pens.iter().filter(|pen| pen.pen == number).map(|pen| pen.pen_down_mm / 1000.0).sum();
         if let Some(life) = profile.life_of(number).filter(|life| drawn > *life) {
-            eprintln!(
-                "drypoint: warning: pen {number} draws {drawn:.1} m and lasts {life} m; --pause-every {life}m waits for a new one"
-            );
+            warning!("pen {number} draws {drawn:.1} m and lasts {life} m; --pause-every {life}m waits for a new one");
         }
     }
 }
