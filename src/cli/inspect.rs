@@ -2,7 +2,7 @@
 
 use super::arguments::InspectOptions;
 use super::failure::Failure;
-use super::progress::interrupt;
+use super::interruption::interrupt;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};

@@ -1,33 +1,12 @@
-//! Progress on stderr, the seconds of each step, and Ctrl-C.
+//! Progress on stderr, and the seconds of each step.
 
-use crate::interrupt::Interrupt;
+use super::interruption::is_interrupted;
+use super::messages;
 use crate::style::{Observer, Picture};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::{LazyLock, Mutex};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
-
-static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::new);
-
-/// The first Ctrl-C lets the work end cleanly, the second ends the process.
-pub(super) fn catch_interrupts() {
-    // Without a handler the process just ends, which is also right.
-    let _ = ctrlc::set_handler(|| {
-        if is_interrupted() {
-            std::process::exit(130);
-        }
-        INTERRUPT.raise();
-    });
-}
-
-pub(super) fn is_interrupted() -> bool {
-    INTERRUPT.is_raised()
-}
-
-/// What the library's long loops look at.
-pub(super) fn interrupt() -> &'static Interrupt {
-    &INTERRUPT
-}
 
 /// Shown after this much work.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -81,7 +60,7 @@ impl Observer for Watcher {
     fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
 
     fn warn(&self, message: &str) {
-        self.bar.suspend(|| eprintln!("drypoint: warning: {message}"));
+        self.bar.suspend(|| messages::warn(message));
     }
 
     fn is_interrupted(&self) -> bool {
