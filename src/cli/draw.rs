@@ -10,7 +10,7 @@ use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
 use super::toolpaths::{self, Prepared};
-use crate::drawing::{Drawing, Layer, Mixing, Page};
+use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
@@ -44,10 +44,14 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let watcher = Watcher::new(options.reporting.quiet);
     let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
-    let drawing = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
+    let (drawing, painting) = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
+    let visible = match profile {
+        Some(_) => uncovered(&drawing, &painting)?,
+        None => Cow::Borrowed(&drawing),
+    };
     watcher.begin("writing");
     let head = head(options, &task.recipe(options));
-    let files = split_by_layer(&drawing, &options.output);
+    let files = split_by_layer(&visible, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
     let mut prepared = Vec::new();
     for (name, drawing) in &files {
@@ -70,14 +74,14 @@ pub(super) fn reach_of(profile: Option<&Profile>) -> impl Fn(&Page) -> Option<Re
     move |page| Some(mount(profile?, page).ok()?.reach_on_page())
 }
 
-/// The layers asked for, each with its ink and its pen.
+/// The layers asked for, each with its ink and its pen, and the order in which their marks are painted.
 pub(super) fn drawing_of(
     task: &Task<'_>,
     options: &DrawOptions,
     profile: Option<&Profile>,
     pens: &mut PenSet,
     observer: &dyn Observer,
-) -> Result<Drawing, Failure> {
+) -> Result<(Drawing, Vec<Painted>), Failure> {
     let mut drawing = task.draw(observer)?;
     for layer in &mut drawing.layers {
         layer.ink = options.ink.clone();
@@ -87,8 +91,8 @@ pub(super) fn drawing_of(
         observer.begin("press");
         drawing = press.compensated_until(&drawing, interrupt())?;
     }
-    pens.assign(&mut drawing, profile)?;
-    Ok(drawing)
+    let painting = pens.assign(&mut drawing, profile)?;
+    Ok((drawing, painting))
 }
 
 /// One file; gives back the plot when it is one.
@@ -114,7 +118,6 @@ fn write_one(
         }
         return Ok(None);
     };
-    let drawing = &*uncovered(drawing)?;
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
@@ -126,9 +129,9 @@ fn write_one(
 }
 
 /// What a pen draws of a drawing: of opaque paint, not what other paint covers.
-pub(super) fn uncovered(drawing: &Drawing) -> Result<Cow<'_, Drawing>, Failure> {
+pub(super) fn uncovered<'a>(drawing: &'a Drawing, painting: &[Painted]) -> Result<Cow<'a, Drawing>, Failure> {
     if drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint) {
-        Ok(Cow::Owned(occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours, interrupt())?))
+        Ok(Cow::Owned(occluded(drawing, painting, Hides::PaintOnOtherColours, interrupt())?))
     } else {
         Ok(Cow::Borrowed(drawing))
     }

@@ -139,8 +139,8 @@ fn seconds_at(options: &DrawOptions, pitch: f64) -> Result<f64, Failure> {
     let mut profile: Profile = toolpaths::profile(&name, &options.toolpaths)?;
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
     let task = Task::new(&options.picture, reach_of(Some(&profile)))?;
-    let drawing = drawing_of(&task, &options, Some(&profile), &mut pens, &Unseen)?;
-    let plot = lower(&*uncovered(&drawing)?, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
+    let (drawing, painting) = drawing_of(&task, &options, Some(&profile), &mut pens, &Unseen)?;
+    let plot = lower(&*uncovered(&drawing, &painting)?, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let prepared = toolpaths::prepare(plot, Some(&profile), &options.toolpaths, &pens)?;
     Ok(prepared.report.total.seconds.unwrap_or(0.0))
 }

@@ -13,7 +13,7 @@
 use super::failure::Failure;
 use super::messages::warning;
 use super::output;
-use crate::drawing::{Colour, Drawing, Ink, Layer, Mark};
+use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
 use crate::geometry::parse_length;
 use crate::plot::{Nibs, PenChange, PenSlot, Profile};
 use serde::Deserialize;
@@ -110,9 +110,10 @@ impl PenSet {
         Ok(set)
     }
 
-    /// Gives every layer its pen: by name or number, else by the nearest colour; refuses more colours than there are pens.
-    pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<(), Failure> {
-        self.sort_by_colour(drawing);
+    /// Gives every layer its pen: by name or number, else by the nearest colour; refuses more colours than there are pens. Returns the
+    /// marks in the order in which they were painted before they were sorted by pens.
+    pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
+        let painting = self.sort_by_colour(drawing);
         for entry in &self.entries {
             let layers = drawing.layers.iter_mut().filter(|layer| entry.is_for(layer));
             for layer in layers.collect::<Vec<_>>() {
@@ -126,7 +127,10 @@ impl PenSet {
                 }
             }
         }
-        profile.map_or(Ok(()), |profile| refuse_colours(drawing, profile, self.entries.is_empty()))
+        if let Some(profile) = profile {
+            refuse_colours(drawing, profile, self.entries.is_empty())?;
+        }
+        Ok(painting)
     }
 
     /// Nibs by pen; a pen of which only the slot was told has the usual one.
@@ -139,15 +143,17 @@ impl PenSet {
         self.dwell.get(&pen).copied()
     }
 
-    /// Marks of layers that no entry names go to layers of the nearest colour's entry.
-    fn sort_by_colour(&self, drawing: &mut Drawing) {
+    /// Marks of layers that no entry names go to layers of the nearest colour's entry. Returns the order in which they were painted.
+    fn sort_by_colour(&self, drawing: &mut Drawing) -> Vec<Painted> {
         let palette: Vec<(&Entry, Colour)> = self.entries.iter().filter_map(|entry| Some((entry, entry.colour?))).collect();
         if palette.is_empty() {
-            return;
+            return drawing.painting_order();
         }
         let mut sorted: Vec<Layer> = Vec::new();
+        let mut painting = Vec::new();
         for layer in std::mem::take(&mut drawing.layers) {
             if self.entries.iter().any(|entry| entry.is_for(&layer)) {
+                painting.extend((0..layer.marks.len()).map(|mark| Painted::Mark { layer: sorted.len(), mark }));
                 sorted.push(layer);
                 continue;
             }
@@ -168,10 +174,12 @@ impl PenSet {
                     sorted.push(empty);
                     sorted.len() - 1
                 });
+                painting.push(Painted::Mark { layer: at, mark: sorted[at].marks.len() });
                 sorted[at].marks.push(in_layer_s_ink(mark));
             }
         }
         drawing.layers = sorted;
+        painting
     }
 }
 

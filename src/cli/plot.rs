@@ -9,7 +9,7 @@ use super::pens::PenSet;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, coverage, lower, mount, occluded};
+use crate::plot::{Hides, InkModel, TooMuch, check_work, coverage, lower, mount, occluded};
 use crate::read::{Imported, read_svg};
 use crate::write::SvgHead;
 use serde_json::json;
@@ -30,8 +30,11 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
-    if options.occlude {
-        leave_out_hidden(&mut imported, model)?;
+    let hides = options.occlude.then_some(if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines });
+    // Pens are given when all marks are known to be drawn; the usual one is near enough for what they will cost.
+    check_work(&imported.drawing(), model, pens.nibs(), hides, interrupt()).map_err(|error| too_much(shown, &error))?;
+    if let Some(hides) = hides {
+        leave_out_hidden(&mut imported, hides)?;
     }
     choose_layers(&mut imported, &options.layers)?;
     if model == InkModel::Lines {
@@ -97,9 +100,15 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
     }
 }
 
+fn too_much(shown: &str, error: &TooMuch) -> Failure {
+    match error {
+        TooMuch::Interrupted => Failure::Interrupted,
+        _ => Failure::Work(format!("{shown}: {error}")),
+    }
+}
+
 /// What the painting order hides is not drawn.
-fn leave_out_hidden(imported: &mut Imported, model: InkModel) -> Result<(), Failure> {
-    let hides = if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines };
+fn leave_out_hidden(imported: &mut Imported, hides: Hides) -> Result<(), Failure> {
     let seen = occluded(&imported.drawing(), &imported.painting, hides, interrupt())?;
     for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
         layer.layer = seen;

@@ -18,6 +18,7 @@ mod region;
 mod smooth;
 mod spline;
 mod swell;
+mod tangle;
 mod thinning;
 
 pub use apart::Gap;
@@ -31,9 +32,10 @@ pub use hand_shading::HandShading;
 pub use inset::Insets;
 pub use length::{LengthError, parse_length, parse_size};
 pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, resample, simplify};
-pub use region::{Region, Winding, untangled};
+pub use region::{Region, Winding, untangled, untangled_within};
 pub use smooth::{catmull_rom, smooth_polyline};
 pub use swell::{Ends, curve_length, sample_swelling, swelling_outline};
+pub use tangle::{Thread, tangles};
 pub use thinning::thinned;
 
 pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};

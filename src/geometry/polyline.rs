@@ -39,15 +39,20 @@ pub fn resample(points: &[Point], spacing: f64) -> Vec<Point> {
     out
 }
 
-/// Drops vertices that lie within `tolerance` of the line left without them (Douglas and Peucker 1973). Ends are kept.
+/// Points of a line that are simplified together: the time grows with their square where every point is a corner, as in a zigzag.
+const TOGETHER: usize = 4096;
+
+/// Drops vertices that lie within `tolerance` of the line left without them (Douglas and Peucker 1973). Ends are kept, and of a very
+/// long line some vertices on the way.
 pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
     }
     let mut keep = vec![false; points.len()];
-    keep[0] = true;
-    keep[points.len() - 1] = true;
-    let mut ranges = vec![(0, points.len() - 1)];
+    let mut ends: Vec<usize> = (0..points.len() - 1).step_by(TOGETHER).collect();
+    ends.push(points.len() - 1);
+    ends.iter().for_each(|&end| keep[end] = true);
+    let mut ranges: Vec<(usize, usize)> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
     while let Some((first, last)) = ranges.pop() {
         let farthest = (first + 1..last)
             .map(|i| (distance_to_segment(points[i], points[first], points[last]), i))

@@ -1,6 +1,7 @@
 //! Clipping by any outline: lines parametrically, so that they keep their order and direction; areas by boolean intersection.
 
 use super::polyline::flatten;
+use super::tangle::{Thread, tangles};
 use crate::interrupt::Interrupt;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -12,19 +13,72 @@ use kurbo::{BezPath, Point, Rect, Shape};
 pub struct Region {
     polygons: Vec<Vec<Point>>,
     bounds: Rect,
+    rows: Rows,
+}
+
+/// The edges of a region by the rows of the page that they lie in, so that only those near a place are looked at.
+#[derive(Clone, Debug)]
+struct Rows {
+    top: f64,
+    height: f64,
+    /// Where each row's edges begin in `edges`, and where the last one's end.
+    first: Vec<u32>,
+    edges: Vec<[Point; 2]>,
+}
+
+/// Edges in a row on average, and how often an edge may stand in rows on average: the rows are as low as that allows.
+const EDGES_A_ROW: usize = 4;
+const ROWS_AN_EDGE: f64 = 6.0;
+
+impl Rows {
+    fn new(edges: &[[Point; 2]], bounds: Rect) -> Self {
+        let finite: Vec<[Point; 2]> = edges.iter().filter(|edge| edge.iter().all(|p| p.is_finite())).copied().collect();
+        let heights: f64 = finite.iter().map(|[a, b]| (a.y - b.y).abs()).sum();
+        let extent = bounds.height().max(1e-9);
+        let few = ROWS_AN_EDGE * finite.len() as f64 * extent / heights.max(1e-9);
+        let count = (finite.len() / EDGES_A_ROW).min(few.min(65_536.0) as usize).max(1);
+        let mut rows = Self { top: bounds.y0, height: extent / count as f64, first: vec![0; count + 1], edges: Vec::new() };
+        for edge in &finite {
+            rows.of(edge[0].y, edge[1].y).for_each(|row| rows.first[row + 1] += 1);
+        }
+        (0..count).for_each(|row| rows.first[row + 1] += rows.first[row]);
+        let mut next = rows.first.clone();
+        let mut all = vec![[Point::ORIGIN; 2]; rows.first[count] as usize];
+        for edge in finite {
+            for row in rows.of(edge[0].y, edge[1].y) {
+                all[next[row] as usize] = edge;
+                next[row] += 1;
+            }
+        }
+        rows.edges = all;
+        rows
+    }
+
+    /// The rows between two heights; what lies beyond the first or the last belongs to it.
+    fn of(&self, a: f64, b: f64) -> std::ops::RangeInclusive<usize> {
+        let row = |y: f64| (((y - self.top) / self.height).max(0.0) as usize).min(self.first.len() - 2);
+        row(a.min(b))..=row(a.max(b))
+    }
+
+    fn edges(&self, row: usize) -> &[[Point; 2]] {
+        &self.edges[self.first[row] as usize..self.first[row + 1] as usize]
+    }
 }
 
 impl Region {
     /// The inside of closed subpaths, curves flattened to `tolerance`.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
-        let polygons = flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
-        Self { polygons, bounds: outline.bounding_box() }
+        let polygons: Vec<Vec<Point>> =
+            flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
+        let bounds = outline.bounding_box();
+        let edges: Vec<[Point; 2]> = polygons.iter().flat_map(|polygon| edges_of(polygon)).collect();
+        Self { rows: Rows::new(&edges, bounds), polygons, bounds }
     }
 
     /// Whether a point lies inside (winding number not 0).
     pub fn contains(&self, p: Point) -> bool {
         let mut winding = 0;
-        for [a, b] in self.edges() {
+        for &[a, b] in self.rows.edges(*self.rows.of(p.y, p.y).start()) {
             if (a.y <= p.y) != (b.y <= p.y) {
                 let side = (b - a).cross(p - a);
                 if b.y > a.y && side > 0.0 {
@@ -35,10 +89,6 @@ impl Region {
             }
         }
         winding != 0
-    }
-
-    fn edges(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
-        self.polygons.iter().flat_map(|polygon| (0..polygon.len()).map(move |i| [polygon[i], polygon[(i + 1) % polygon.len()]]))
     }
 
     /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside.
@@ -92,7 +142,7 @@ impl Region {
             return cuts;
         }
         let d = b - a;
-        for [p, q] in self.edges() {
+        for &[p, q] in self.rows.of(a.y, b.y).flat_map(|row| self.rows.edges(row)) {
             let e = q - p;
             let denominator = d.cross(e);
             if denominator != 0.0 {
@@ -123,6 +173,11 @@ impl Region {
     }
 }
 
+/// The sides of a closed polygon.
+fn edges_of(polygon: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
+    (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
+}
+
 /// How the inside of an outline is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Winding {
@@ -140,6 +195,16 @@ pub fn untangled(outline: &BezPath, winding: Winding, tolerance: f64) -> BezPath
     let rule = if winding == Winding::EvenOdd { FillRule::EvenOdd } else { FillRule::NonZero };
     let nothing: Vec<Vec<[f64; 2]>> = Vec::new();
     path_of(contours.overlay(&nothing, OverlayRule::Subject, rule))
+}
+
+/// The same for an outline of unknown origin: refused with their number where it crosses itself more often than `most` times, before
+/// anything is cut.
+pub fn untangled_within(outline: &BezPath, winding: Winding, tolerance: f64, most: f64) -> Result<BezPath, f64> {
+    let side = |[from, to]: [Point; 2]| Thread { from, to, half_width: 0.0 };
+    let polygons = flatten(outline, tolerance);
+    let threads: Vec<Thread> = polygons.iter().flat_map(|(polygon, _)| edges_of(polygon).map(side)).collect();
+    let crossings = tangles(&threads);
+    if crossings > most { Err(crossings) } else { Ok(untangled(outline, winding, tolerance)) }
 }
 
 fn path_of(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> BezPath {

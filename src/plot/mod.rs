@@ -3,6 +3,7 @@
 //! In: marks with their ink. Out: a [`Plot`], the polylines that one nib per pen draws, in the page's millimetres; a
 //! [`Mounting`] says where the page lies on a machine. Nothing here knows of styles or fields.
 
+mod budget;
 mod calibration;
 mod coverage;
 mod drying;
@@ -17,6 +18,7 @@ mod report;
 mod seam;
 mod time;
 
+pub use budget::{TooMuch, check_work};
 pub use calibration::{Calibration, CalibrationError, calibration_page, calibration_sheet};
 pub use coverage::{Coverage, coverage};
 pub use drying::let_dry;

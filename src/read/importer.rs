@@ -7,12 +7,14 @@ use super::layers::{Label, Outline};
 use super::paint::{Paint, Source};
 use super::svg::ImportedLayer;
 use crate::drawing::{Area, Colour, Ends, Handling, Ink, Layer, Mark, Mixing, Painted, Stroke, Width};
-use crate::geometry::{BezPath, Region, Winding, untangled};
+use crate::geometry::{BezPath, Region, Winding, untangled_within};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 /// Coordinates beyond which a path is not taken, in millimetres.
 const FARTHEST: f64 = 100_000.0;
+/// Crossings of one path up to which the even-odd rule is resolved: two million take about a gigabyte and some seconds.
+pub(super) const MOST_CROSSINGS: f64 = 2e6;
 /// Dashes in one path beyond which the pattern is not taken.
 const MOST_DASHES: f64 = 20_000.0;
 
@@ -48,6 +50,8 @@ pub(super) struct Importer<'a> {
     painting: Vec<Painted>,
     dropped: Dropped,
     pub is_toolpaths: bool,
+    /// How often a path crosses itself that is filled by the even-odd rule and cannot be resolved.
+    pub tangled: Option<f64>,
 }
 
 impl<'a> Importer<'a> {
@@ -55,7 +59,7 @@ impl<'a> Importer<'a> {
         let layers = outline.layers.iter().enumerate().map(|(i, label)| labelled(label, i as u32 + 1)).collect();
         let mut dropped = outline.dropped.clone();
         dropped.add("pen height (+H)", outline.layers.iter().filter(|label| label.height.is_some()).count());
-        Self { outline, layers, by_colour: HashMap::new(), painting: Vec::new(), dropped, is_toolpaths: false }
+        Self { outline, layers, by_colour: HashMap::new(), painting: Vec::new(), dropped, is_toolpaths: false, tangled: None }
     }
 
     pub fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Region]) {
@@ -147,7 +151,10 @@ impl<'a> Importer<'a> {
             return;
         }
         let outline = if rule == usvg::FillRule::EvenOdd && has_crossings(curve) {
-            clipped_outline(&untangled(curve, Winding::EvenOdd, CLIP_TOLERANCE), clips)
+            match untangled_within(curve, Winding::EvenOdd, CLIP_TOLERANCE, MOST_CROSSINGS) {
+                Ok(untangled) => clipped_outline(&untangled, clips),
+                Err(crossings) => return self.tangled = Some(crossings),
+            }
         } else {
             clipped_outline(curve, clips)
         };

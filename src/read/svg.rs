@@ -2,7 +2,7 @@
 
 use super::Dropped;
 use super::curves::MM_PER_PX;
-use super::importer::{Importer, Place};
+use super::importer::{Importer, MOST_CROSSINGS, Place};
 use super::layers::{outline, with_ids};
 use super::text::text_of;
 use crate::drawing::{Drawing, Layer, Page, Painted};
@@ -24,6 +24,17 @@ pub enum SvgError {
     /// Groups within groups without end.
     #[error("cannot be used as an SVG: its groups are nested more than 250 deep")]
     TooDeep,
+    /// A path whose even-odd inside is too much work.
+    #[error(
+        "cannot be used as an SVG: a path filled by the even-odd rule crosses itself about {crossings:.0} times, and at most {most:.0} \
+         times can be resolved: fill it by the nonzero rule, or draw it in parts"
+    )]
+    Tangled {
+        /// How often, within a tenth.
+        crossings: f64,
+        /// The limit.
+        most: f64,
+    },
     /// Broken XML.
     #[error("is not an SVG: {0}")]
     Xml(#[from] roxmltree::Error),
@@ -88,6 +99,9 @@ pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
     let page = Page::new(f64::from(tree.size().width()) * MM_PER_PX, f64::from(tree.size().height()) * MM_PER_PX);
     let mut importer = Importer::new(&outline);
     importer.group(tree.root(), Place::TOP, &[]);
+    if let Some(crossings) = importer.tangled {
+        return Err(SvgError::Tangled { crossings, most: MOST_CROSSINGS });
+    }
     let is_toolpaths = importer.is_toolpaths;
     let (layers, painting, dropped) = importer.finish();
     Ok(Imported { page, layers, painting, dropped, recipe: outline.recipe.clone(), is_toolpaths })
