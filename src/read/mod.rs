@@ -4,14 +4,18 @@
 //! not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
 
 mod budget;
+mod census;
 mod clip_paths;
+mod colour_names;
 mod curves;
 mod dropped;
+mod expansion;
 mod gcode;
 mod hpgl;
 mod importer;
 mod layers;
 mod paint;
+mod styles;
 mod svg;
 mod text;
 
@@ -19,7 +23,7 @@ pub use budget::{Budget, MOST_WORK, TooMuchWork};
 pub use dropped::Dropped;
 pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights, read_gcode_within};
 pub use hpgl::{HpglError, HpglMotion, read_hpgl, read_hpgl_within};
-pub use svg::{Imported, ImportedLayer, SvgError, read_svg};
+pub use svg::{Imported, ImportedLayer, SvgError, read_svg, read_svg_within};
 
 use crate::geometry::Point;
 
