@@ -3,7 +3,7 @@
 use super::arguments::{CropNumber, Fit, PictureOptions};
 use super::failure::Failure;
 use crate::drawing::Page;
-use crate::geometry::{Rect, parse_size};
+use crate::geometry::{Rect, parse_drawn_size};
 use crate::source::{Crop, Photograph, fill_box};
 
 /// Named sheets, portrait, in millimetres (ISO 216; ANSI/ASME Y14.1).
@@ -44,7 +44,7 @@ pub(super) fn sheet(text: &str) -> Result<(f64, f64), Failure> {
             names.join(", ")
         ))
     };
-    let (width, height) = parse_size(text).map_err(|_| refuse())?;
+    let (width, height) = parse_drawn_size(text).map_err(|_| refuse())?;
     let sound = |mm: f64| (1.0..=100_000.0).contains(&mm);
     if sound(width) && sound(height) { Ok((width, height)) } else { Err(refuse()) }
 }
@@ -123,6 +123,7 @@ mod tests {
         assert_eq!(sheet("a4").unwrap(), (210.0, 297.0));
         assert_eq!(sheet("A4-landscape").unwrap(), (297.0, 210.0));
         assert_eq!(sheet("8x10in").unwrap(), (203.2, 254.0));
+        assert_eq!(sheet("96x192px").unwrap(), (25.4, 50.8));
         for wrong in ["a9", "0x10", "-5x10", "10", "NaNx3"] {
             assert!(sheet(wrong).is_err(), "{wrong}");
         }

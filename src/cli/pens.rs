@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::messages::warning;
 use super::output;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
-use crate::geometry::parse_length;
+use crate::geometry::parse_drawn_length;
 use crate::plot::{Nibs, PenChange, PenSlot, Profile};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +54,7 @@ impl Entry {
         let refuse = |what: &str| Failure::Work(format!("{file}: [{key}] {what}"));
         let width = match &pen.width {
             None => None,
-            Some(toml::Value::String(text)) => Some(parse_length(text).map_err(|error| refuse(&error.to_string()))?),
+            Some(toml::Value::String(text)) => Some(parse_drawn_length(text).map_err(|error| refuse(&error.to_string()))?),
             Some(value) => {
                 Some(value.as_float().or(value.as_integer().map(|n| n as f64)).ok_or_else(|| refuse("width must be a length"))?)
             }

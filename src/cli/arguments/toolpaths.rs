@@ -2,7 +2,7 @@
 
 use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, Rotate, SeamOption, StartCorner};
 use super::files::Reporting;
-use super::values::{dry_time, key_value, length_above_zero, length_from_zero, metres, number_above_zero, seconds};
+use super::values::{drawn_length_above_zero, drawn_length_from_zero, dry_time, key_value, metres, number_above_zero, seconds};
 use clap::Args;
 
 /// How tool paths are made.
@@ -11,7 +11,7 @@ use clap::Args;
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ToolpathOptions {
     /// Of flattening curves.
-    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = drawn_length_above_zero, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// How hard to look for a short way; counted in work, so that the order is the same everywhere.
     #[arg(long, value_enum, default_value_t = Order::Full)]
@@ -35,7 +35,7 @@ pub(in crate::cli) struct ToolpathOptions {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub order_seed: u64,
     /// Join ends that lie this near, up to a turn of 90 degrees, or 150 where they coincide; 0 joins nothing.
-    #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = drawn_length_from_zero, allow_negative_numbers = true)]
     pub merge: f64,
     /// A wet line is not crossed or touched again for so many seconds: paths are put off, and where nothing else is left to draw
     /// the machine waits (0 to 86400; G-code, and profiles whose language can wait).
@@ -88,7 +88,7 @@ pub(in crate::cli) struct PlotOptions {
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
     /// Nib width.
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = drawn_length_above_zero, allow_negative_numbers = true)]
     pub pen: f64,
     /// Draw only these layers, by name or pen number, separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "LIST")]
@@ -97,7 +97,7 @@ pub(in crate::cli) struct PlotOptions {
     #[arg(long, value_name = "NAME|WxH")]
     pub page: Option<String>,
     /// Kept free on the sheet with --fit page.
-    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = drawn_length_from_zero, allow_negative_numbers = true)]
     pub margin: f64,
     /// lines: strokes' centre lines, fills are ignored and counted; ink: widths and fills are laid down with the nib. White is
     /// never ink [default: ink for files that drypoint wrote, else lines].

@@ -1,7 +1,7 @@
 //! Values as they are written: lengths, times, shares, crops.
 
 use crate::drawing::Ink;
-use crate::geometry::{parse_length, parse_size};
+use crate::geometry::{parse_drawn_length, parse_length, parse_size};
 
 /// A border of the crop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,18 @@ pub(super) fn length_above_zero(text: &str) -> Result<f64, String> {
 
 pub(super) fn length_from_zero(text: &str) -> Result<f64, String> {
     let mm = parse_length(text).map_err(|error| error.to_string())?;
+    if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
+}
+
+/// A length of a drawing that is read, in pixels too.
+pub(super) fn drawn_length_above_zero(text: &str) -> Result<f64, String> {
+    let mm = drawn_length_from_zero(text)?;
+    if mm > 0.0 { Ok(mm) } else { Err("must be above 0".to_owned()) }
+}
+
+/// The same from 0.
+pub(super) fn drawn_length_from_zero(text: &str) -> Result<f64, String> {
+    let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
     if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
 }
 
