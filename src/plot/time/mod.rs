@@ -28,13 +28,20 @@ pub struct Clock {
     pub drawing: f64,
     /// Pen up, moving.
     pub travelling: f64,
-    /// Lifting, lowering and changing the pen, and waits that a layer asks for.
+    /// A z axis, moving up or down.
     pub lifting: f64,
+    /// Nothing moves but a servo or a solenoid that lifts, lowers or fetches the pen, and waits that a layer or a touch asks for.
+    pub waiting: f64,
 }
 
 impl Clock {
     /// All of it.
     pub fn total(&self) -> f64 {
+        self.motion() + self.waiting
+    }
+
+    /// All in which an axis moves.
+    pub fn motion(&self) -> f64 {
         self.drawing + self.travelling + self.lifting
     }
 }
@@ -67,7 +74,11 @@ enum Share {
     Drawing,
     Travelling,
     Lifting,
+    Waiting,
 }
+
+/// How many shares there are.
+const SHARES: usize = 4;
 
 /// A machine that goes through its file.
 struct Run<'a> {
@@ -88,7 +99,7 @@ impl<'a> Run<'a> {
         Self {
             profile,
             mounting,
-            planner: LookAhead::new(&profile.motion, 3 * pens),
+            planner: LookAhead::new(&profile.motion, SHARES * pens),
             up: actions(PenMove::Up),
             down: actions(PenMove::Down),
             at: [0.0; 3],
@@ -97,7 +108,7 @@ impl<'a> Run<'a> {
     }
 
     fn slot(&self, share: Share) -> usize {
-        3 * self.pen + share as usize
+        SHARES * self.pen + share as usize
     }
 
     fn change_pen(&mut self, next: usize, is_other_pen: bool, pen: &PenPaths) {
@@ -143,14 +154,13 @@ impl<'a> Run<'a> {
     fn path(&mut self, pen: u32, path: &Toolpath, rate: f64) {
         let mut places: Vec<[f64; 2]> = path.points.iter().map(|p| self.on_machine(pen, *p)).collect();
         self.travel(places[0]);
-        let down = path.heights.as_ref().map(|heights| heights[0] / self.profile.units_per_mm);
-        self.lower(down);
+        self.lower(path.heights.as_ref().map(|heights| heights[0]));
         self.wait(self.profile.motion.pen_down_seconds * f64::from(u8::from(self.waits_for_pen())) + path.dwell_seconds);
         let slot = self.slot(Share::Drawing);
         match &path.heights {
             Some(heights) if self.lifts_by_height() => {
                 for (place, z) in places.iter().zip(heights).skip(1) {
-                    self.at = [place[0], place[1], z / self.profile.units_per_mm];
+                    self.at = [place[0], place[1], self.height(*z)];
                     self.planner.line(self.at, rate, slot);
                 }
             }
@@ -205,15 +215,20 @@ impl<'a> Run<'a> {
         !self.lifts_by_height()
     }
 
-    /// Lowers the pen, to a height of its own if the path has one.
+    /// Lowers the pen, straight to a height of its own if the path has one.
     fn lower(&mut self, height: Option<f64>) {
-        self.act(PenMove::Down, 0.0);
-        if let (Some(z), true) = (height, self.lifts_by_height())
-            && (self.at[2] - z).abs() > 1e-9
-        {
-            self.at[2] = z;
-            self.planner.travel(self.at, self.profile.motion.draw_speed, self.slot(Share::Lifting));
+        match (height, self.profile.gcode.as_ref().and_then(|gcode| gcode.height)) {
+            (Some(z), Some(usual)) if self.lifts_by_height() => {
+                self.at[2] = self.height(z);
+                self.planner.travel(self.at, usual.plunge_speed, self.slot(Share::Lifting));
+            }
+            _ => self.act(PenMove::Down, 0.0),
         }
+    }
+
+    /// A height of the page as the file gives it, in the machine's millimetres.
+    fn height(&self, z: f64) -> f64 {
+        whole(z * GCODE_GRID) as f64 / (GCODE_GRID * self.profile.units_per_mm)
     }
 
     fn travel(&mut self, [x, y]: [f64; 2]) {
@@ -258,7 +273,7 @@ impl<'a> Run<'a> {
         }
         let tick = self.profile.motion.planner.dwell_step_seconds;
         let lasting = if tick > 0.0 { (seconds / tick - 1e-6).ceil() * tick } else { seconds };
-        let slot = self.slot(Share::Lifting);
+        let slot = self.slot(Share::Waiting);
         self.planner.rest();
         self.planner.wait(lasting, slot);
     }
@@ -283,7 +298,8 @@ impl<'a> Run<'a> {
     fn finish(mut self) -> Vec<Clock> {
         self.planner.rest();
         let seconds = self.planner.seconds();
-        seconds.chunks(3).map(|s| Clock { drawing: s[0], travelling: s[1], lifting: s[2] }).collect()
+        let clock = |s: &[f64]| Clock { drawing: s[0], travelling: s[1], lifting: s[2], waiting: s[3] };
+        seconds.chunks(SHARES).map(clock).collect()
     }
 }
 
