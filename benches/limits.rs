@@ -5,6 +5,7 @@
 
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::Point;
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{PenPaths, Plot, Profile, Toolpath, clock, mount};
 use image::{ImageFormat, RgbImage};
 use std::path::{Path, PathBuf};
@@ -52,7 +53,7 @@ fn clock_seconds(count: usize) -> f64 {
     let mounting = mount(&servo, &plot.page).expect("the page fits");
     let once = || {
         let started = Instant::now();
-        assert!(clock(&plot, &servo, &mounting)[0].total() > 0.0);
+        assert!(clock(&plot, &servo, &mounting, &Interrupt::never()).expect("nobody stops it")[0].total() > 0.0);
         started.elapsed().as_secs_f64()
     };
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)

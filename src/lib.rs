@@ -20,6 +20,7 @@
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
 //! | [`resume`] | a plotter's file and where it stopped | the rest of it |
 //! | [`cli`] | arguments | the only place with files, stdout and exit codes |
+//! | [`mod@interrupt`] | | a request to stop, which long loops everywhere look at |
 //!
 //! The page is in millimetres, x right, y down, from the sheet's upper left corner; pixels exist only left of [`style`]. Tone is
 //! the fraction of paper left white. The same input, options and seed give the same bytes on any number of threads.
@@ -49,6 +50,7 @@ pub mod cli;
 pub mod drawing;
 pub mod field;
 pub mod geometry;
+pub mod interrupt;
 pub mod plot;
 pub mod press;
 pub mod raster;

@@ -6,6 +6,7 @@ use assert_cmd::Command;
 use common::rendered;
 use drypoint::drawing::Drawing;
 use drypoint::field::nearest_seed;
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Hides, InkModel, Nibs, Plot, lower, occluded};
 use drypoint::raster::Raster;
 use drypoint::read::{Imported, read_svg};
@@ -94,7 +95,7 @@ fn read(name: &str) -> Imported {
 }
 
 fn plot(drawing: &Drawing, model: InkModel) -> Plot {
-    lower(drawing, model, &Nibs::all(0.5), 0.01)
+    lower(drawing, model, &Nibs::all(0.5), 0.01, &Interrupt::never()).unwrap()
 }
 
 fn drawn(plot: &Plot) -> f64 {
@@ -223,15 +224,18 @@ fn a_width_that_stays_is_in_pixels() {
 #[test]
 fn what_is_covered_can_be_left_out() {
     let imported = read("covered.svg");
-    let seen = |hides, model| drawn(&plot(&occluded(&imported.drawing(), &imported.painting, hides), model));
+    let seen = |hides, model| {
+        drawn(&plot(&occluded(&imported.drawing(), &imported.painting, hides, &Interrupt::never()).unwrap(), model))
+    };
     // The disc takes 40 mm of one line; the rectangle 20 mm and the white stroke 10 mm of the other; what is translucent, nothing.
     let lines = seen(Hides::AllLines, InkModel::Lines);
     assert!((lines - 90.0).abs() < 0.1, "{lines}");
-    let strokes: f64 = occluded(&imported.drawing(), &imported.painting, Hides::OtherColours).layers[0]
-        .marks
-        .iter()
-        .map(|mark| if let drypoint::drawing::Mark::Stroke(stroke) = mark { stroke.length() } else { 0.0 })
-        .sum();
+    let strokes: f64 =
+        occluded(&imported.drawing(), &imported.painting, Hides::OtherColours, &Interrupt::never()).unwrap().layers[0]
+            .marks
+            .iter()
+            .map(|mark| if let drypoint::drawing::Mark::Stroke(stroke) = mark { stroke.length() } else { 0.0 })
+            .sum();
     assert!((strokes - 90.0).abs() < 0.1, "{strokes}");
 }
 

@@ -173,11 +173,12 @@ fn seeds_differ_and_repeat() {
 /// The wedge as a 0.3 mm nib draws it, rendered with round pens.
 #[test]
 fn the_lowered_wedge_has_its_tone() {
+    use drypoint::interrupt::Interrupt;
     use drypoint::plot::{InkModel, Nibs, lower};
     use drypoint::write::{SvgHead, write_svg_plot};
     let photo = wedge();
     let sheet = Sheet { tone: ToneTarget::Linear, set: EXACT, ..Sheet::new(&photo, (WEDGE_MM, WEDGE_MM)) };
-    let plot = lower(&sheet.draw(), InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let plot = lower(&sheet.draw(), InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     let mut svg = Vec::new();
     write_svg_plot(&plot, &SvgHead::default(), &mut svg).unwrap();
     let white = rendered(std::str::from_utf8(&svg).unwrap(), FINE);

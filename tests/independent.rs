@@ -4,6 +4,7 @@ mod common;
 
 use common::{Sheet, sample, skip};
 use drypoint::geometry::{BezPath, Point, flatten, flatten_arc};
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Direction, Effort, InkModel, Language, Lift, Nibs, Plot, Profile, built_in_names, lower, mount};
 use drypoint::write::{write_gcode, write_hpgl};
 use std::collections::HashMap;
@@ -27,7 +28,7 @@ fn run(program: &str, arguments: &[&str]) -> Option<(i32, String)> {
 
 fn plotted() -> Plot {
     let drawing = Sheet { set: &[("pitch", "1.2")], ..Sheet::new(&sample("chelsea.png"), (60.0, 39.911)) }.draw();
-    let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }

@@ -6,6 +6,7 @@ use common::{Sheet, mean_in, rendered, sample, svg_of, wedge, wedge_patches};
 use drypoint::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
 use drypoint::field::nearest_seed;
 use drypoint::geometry::{BezPath, Point, Rect};
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{InkModel, Nibs, Plot, coverage, lower};
 use drypoint::raster::Raster;
 use drypoint::source::{MaskRole, ToneTarget};
@@ -105,7 +106,7 @@ fn measure(drawing: &Drawing, nib: f64) -> Option<(f64, f64)> {
         return None;
     }
     let asked = ink(&svg_of(&wide));
-    let laid = ink(&plot_svg(&lower(&wide, InkModel::Ink, &Nibs::all(nib), 0.01)));
+    let laid = ink(&plot_svg(&lower(&wide, InkModel::Ink, &Nibs::all(nib), 0.01, &Interrupt::never()).unwrap()));
     let reachable = opened(&asked, 0.5 * nib * PIXELS_PER_MM);
     let spilt = common_pixels(&laid, &asked.map(|v| 1 - v));
     Some((common_pixels(&reachable, &laid) / marked(&reachable), spilt / marked(&asked)))
@@ -146,7 +147,8 @@ fn marks_narrower_than_the_nib_keep_the_tone() {
                 continue;
             }
             let asked = rendered(&svg_of(&thin), 12.0);
-            let laid = rendered(&plot_svg(&lower(&thin, InkModel::Ink, &Nibs::all(nib), 0.01)), 12.0);
+            let laid =
+                rendered(&plot_svg(&lower(&thin, InkModel::Ink, &Nibs::all(nib), 0.01, &Interrupt::never()).unwrap()), 12.0);
             let window = 3.0 * pitch;
             let (mut sum, mut count, mut signed) = (0.0, 0.0, 0.0);
             let (columns, rows) = ((thin.page.width / window) as usize, (thin.page.height / window) as usize);
@@ -168,7 +170,8 @@ fn marks_narrower_than_the_nib_keep_the_tone() {
 fn a_lowered_wedge_keeps_its_tones() {
     let photo = wedge();
     let drawing = Sheet { tone: ToneTarget::Linear, set: &[("highlights", "off")], ..Sheet::new(&photo, (60.0, 60.0)) }.draw();
-    let printed = rendered(&plot_svg(&lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01)), PIXELS_PER_MM);
+    let printed =
+        rendered(&plot_svg(&lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01, &Interrupt::never()).unwrap()), PIXELS_PER_MM);
     for (rect, tone) in wedge_patches() {
         let found = mean_in(&printed, rect, PIXELS_PER_MM);
         println!("tone {tone:.1}: {:+.4}", found - tone);
@@ -181,8 +184,8 @@ fn the_report_s_coverage_is_what_is_seen() {
     let drawing = drawing_of(SAMPLES[2]);
     for nib in [0.3, 0.8] {
         let nibs = Nibs::all(nib);
-        let plot = lower(&drawing, InkModel::Ink, &nibs, 0.01);
-        let reported = coverage(&drawing, &plot, &nibs)[0];
+        let plot = lower(&drawing, InkModel::Ink, &nibs, 0.01, &Interrupt::never()).unwrap();
+        let reported = coverage(&drawing, &plot, &nibs, &Interrupt::never()).unwrap()[0];
         let (asked, laid) = (ink(&svg_of(&drawing)), ink(&plot_svg(&plot)));
         let covered = common_pixels(&asked, &laid) / marked(&asked);
         let spilt = common_pixels(&laid, &asked.map(|v| 1 - v)) / marked(&asked);
@@ -244,7 +247,7 @@ proptest! {
             let layer = Layer { marks: vec![mark.clone()], ..Layer::new("x", 1) };
             let drawing = Drawing { page: Page::new(60.0, 60.0), layers: vec![layer] };
             let nibs = Nibs::all(nib);
-            let plot = lower(&drawing, InkModel::Ink, &nibs, 0.02);
+            let plot = lower(&drawing, InkModel::Ink, &nibs, 0.02, &Interrupt::never()).unwrap();
             let bounds = mark.bounding_box().inflate(0.05, 0.05);
             for point in plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points) {
                 prop_assert!(point.is_finite());
@@ -257,7 +260,7 @@ proptest! {
                 _ => false,
             };
             if fat {
-                let measured = coverage(&drawing, &plot, &nibs)[0];
+                let measured = coverage(&drawing, &plot, &nibs, &Interrupt::never()).unwrap()[0];
                 prop_assert!(measured.covered_fraction() > 0.9, "{measured:?} of {mark:?} with {nib}");
             }
         }
@@ -269,7 +272,7 @@ proptest! {
         let layer = Layer { marks, ..Layer::new("x", 1) };
         let drawing = Drawing { page: Page::new(60.0, 60.0), layers: vec![layer] };
         let drawing = drawing.transformed(drypoint::geometry::Affine::scale(scale));
-        let plot = lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.02 * scale.max(1.0));
+        let plot = lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.02 * scale.max(1.0), &Interrupt::never()).unwrap();
         prop_assert!(plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points).all(|p| p.is_finite()));
     }
 }

@@ -7,6 +7,7 @@ use assert_cmd::Command;
 use common::{Sheet, sample};
 use drypoint::drawing::{Colour, Drawing, Handling, Mark, Page};
 use drypoint::geometry::{BezPath, Point, Rect, Vec2, distance_to_segment, flatten};
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
     Direction, Effort, InkModel, Language, Lift, Mounting, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath, built_in_names,
     clip_to, lower, mount,
@@ -34,7 +35,7 @@ fn hedcut() -> Drawing {
 }
 
 fn plotted(drawing: &Drawing) -> Plot {
-    let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }

@@ -10,6 +10,7 @@ mod grbl;
 use common::{Sheet, sample};
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::Point;
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
     Clock, Direction, Effort, InkModel, Mounting, Nibs, PenPaths, Plot, Profile, Toolpath, built_in, clock, lower, mount,
 };
@@ -46,7 +47,7 @@ fn gcode(plot: &Plot, profile: &Profile, mounting: &Mounting) -> String {
 /// Told and simulated seconds of a plot: motion without waits, and the total.
 fn compare(name: &str, plot: &Plot, profile: &Profile, settings: &Settings) -> [f64; 2] {
     let mounting = mount(profile, &plot.page).unwrap();
-    let clocks = clock(plot, profile, &mounting);
+    let clocks = clock(plot, profile, &mounting, &Interrupt::never()).unwrap();
     let motion: f64 = clocks.iter().map(|c| c.drawing + c.travelling).sum();
     let total: f64 = clocks.iter().map(Clock::total).sum();
     let machine: Elapsed = run(&gcode(plot, profile, &mounting), settings);
@@ -209,7 +210,7 @@ fn sample_plot(name: &str, width: f64, profile: &Profile) -> Plot {
     let photo = sample(name);
     let size = image::load_from_memory(&photo).unwrap();
     let drawing = Sheet::new(&photo, (width, width * f64::from(size.height()) / f64::from(size.width()))).draw();
-    let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     let mounting = mount(profile, &plot.page).unwrap();
     plot.ordered(mounting.to_machine.inverse() * Point::ORIGIN, Effort::Fast, Direction::Either, 0.1);
     plot
@@ -276,7 +277,7 @@ fn a_stop_on_the_end_of_a_segment_is_late() {
     let plot = one_pen(vec![circle_from(0.0, 2.0, 0.2); 10]);
     let mounting = mount(&servo, &plot.page).unwrap();
     let machine = run(&gcode(&plot, &servo, &mounting), &SERVO);
-    let told = clock(&plot, &servo, &mounting)[0];
+    let told = clock(&plot, &servo, &mounting, &Interrupt::never()).unwrap()[0];
     let told = told.drawing + told.travelling;
     println!("motion {:.3} s, late {:.3} s, told {told:.3} s", machine.motion, machine.late);
     assert!((0.97..1.0).contains(&(told / machine.motion)));

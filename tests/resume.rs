@@ -5,6 +5,7 @@ mod common;
 use common::{Sheet, sample};
 use drypoint::drawing::{Drawing, Layer};
 use drypoint::geometry::{Point, polyline_length};
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Direction, Effort, InkModel, Nibs, Plot, Profile, lower, mount};
 use drypoint::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl};
 use drypoint::resume::{Stop, resume_gcode, resume_hpgl};
@@ -20,7 +21,7 @@ fn plot() -> Plot {
     let layers = [(1, &marks[..third]), (2, &marks[third..2 * third]), (3, &marks[2 * third..])];
     let layers = layers.into_iter().map(|(pen, marks)| Layer { marks: marks.to_vec(), ..Layer::new("part", pen) });
     let drawing = Drawing { layers: layers.collect(), ..drawing.clone() };
-    let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }

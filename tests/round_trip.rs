@@ -5,6 +5,7 @@ mod common;
 use common::{Sheet, sample, svg_of};
 use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point, Rect, distance_to_segment};
+use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Toolpath, lower, mount};
 use drypoint::read::{Strokes, read_gcode, read_hpgl, read_svg};
 use drypoint::write::{write_gcode, write_hpgl};
@@ -68,7 +69,7 @@ fn svg_keeps_to_its_bytes() {
 }
 
 fn plotted(drawing: &Drawing) -> Plot {
-    let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }
@@ -132,7 +133,7 @@ fn what_does_not_fit_is_refused_with_its_distance() {
     let page = Page::new(310.0, 100.0);
     let mut layer = Layer::new("line", 1);
     layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M5,5 L307.25,50").unwrap(), Width::Constant(0.3))));
-    let plot = lower(&Drawing { page, layers: vec![layer] }, InkModel::Ink, &Nibs::all(0.3), 0.02);
+    let plot = lower(&Drawing { page, layers: vec![layer] }, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     let grbl = profile("grbl-servo");
     let error = mount(&grbl, &page).unwrap().check(&grbl, &plot).unwrap_err();
     assert!(matches!(&error, MountingError::OutOfReach { excess, .. } if (excess - 7.25).abs() < 1e-6), "{error}");

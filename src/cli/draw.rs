@@ -2,7 +2,7 @@
 
 use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
 use super::failure::Failure;
-use super::interruption::is_interrupted;
+use super::interruption::{interrupt, is_interrupted};
 use super::layout::{Layout, lay_out};
 use super::max_time;
 use super::output;
@@ -84,7 +84,7 @@ pub(super) fn drawing_of(
     drawing.layers = chosen(drawing.layers, &options.layers)?;
     if let Some(press) = press(options)? {
         observer.begin("press");
-        drawing = press.compensated(&drawing);
+        drawing = press.compensated_until(&drawing, interrupt())?;
     }
     pens.assign(&mut drawing, profile)?;
     Ok(drawing)
@@ -113,10 +113,10 @@ fn write_one(
         }
         return Ok(None);
     };
-    let drawing = &*uncovered(drawing);
-    let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
+    let drawing = &*uncovered(drawing)?;
+    let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
-    prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs()));
+    prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
     if !options.dry_run {
         toolpaths::write(name, format, &prepared, Some(profile), head)?;
         toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(drawing))?;
@@ -125,11 +125,11 @@ fn write_one(
 }
 
 /// What a pen draws of a drawing: of opaque paint, not what other paint covers.
-pub(super) fn uncovered(drawing: &Drawing) -> Cow<'_, Drawing> {
+pub(super) fn uncovered(drawing: &Drawing) -> Result<Cow<'_, Drawing>, Failure> {
     if drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint) {
-        Cow::Owned(occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours))
+        Ok(Cow::Owned(occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours, interrupt())?))
     } else {
-        Cow::Borrowed(drawing)
+        Ok(Cow::Borrowed(drawing))
     }
 }
 

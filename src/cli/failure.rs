@@ -61,6 +61,12 @@ macro_rules! usage_errors {
 
 usage_errors!(crate::style::ParameterError, crate::plot::ProfileError);
 
+impl From<crate::interrupt::Interrupted> for Failure {
+    fn from(_: crate::interrupt::Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
 impl From<crate::plot::MountingError> for Failure {
     fn from(error: crate::plot::MountingError) -> Self {
         Self::Work(error.to_string())

@@ -2,6 +2,7 @@
 
 use super::arguments::InspectOptions;
 use super::failure::Failure;
+use super::interruption::interrupt;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
@@ -26,12 +27,12 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
             if profile.language != Language::Hpgl {
                 return Err(Failure::Usage(format!("{shown} is HP-GL, which {} does not read", profile.name)));
             }
-            inspect_motion("hpgl", &motion, &profile)
+            inspect_motion("hpgl", &motion, &profile)?
         }
         Kind::Gcode => {
             let profile = profile.map_or_else(|| gcode_profile(text), Ok)?;
             let motion = gcode_motion(shown, text, &profile)?;
-            inspect_motion("gcode", &motion, &profile)
+            inspect_motion("gcode", &motion, &profile)?
         }
         Kind::Unknown => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
     };
@@ -106,16 +107,16 @@ fn inspect_svg(name: &str, text: &str, profile: Option<&Profile>) -> Result<Valu
     }
     if let Some(profile) = profile {
         let model = if imported.recipe.is_some() && !imported.is_toolpaths { InkModel::Ink } else { InkModel::Lines };
-        let plot = lower(&imported.drawing(), model, &Nibs::all(0.3), 0.02);
+        let plot = lower(&imported.drawing(), model, &Nibs::all(0.3), 0.02, interrupt())?;
         let mounting = mount(profile, &plot.page).ok();
         let home = toolpaths::home_of(mounting.as_ref(), &plot);
-        value["plot"] = json!(report(&plot, home, mounting.as_ref().map(|mounting| (profile, mounting)), None));
+        value["plot"] = json!(report(&plot, home, mounting.as_ref().map(|mounting| (profile, mounting)), None, interrupt())?);
     }
     Ok(value)
 }
 
 /// Motion in machine units as a report in millimetres.
-fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
+fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Result<Value, Failure> {
     let bounds = motion.visited.iter().map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
     let mm = |p: Point| (p.to_vec2() / profile.units_per_mm).to_point();
     let mut plot = Plot { page: Page::new(1.0, 1.0), pens: Vec::new() };
@@ -139,7 +140,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
     let size: Vec2 = mm(Point::new(bounds.x1, bounds.y1)) - mm(Point::new(bounds.x0, bounds.y0));
     let drawn = motion.paths.iter().flat_map(|(_, path)| path).map(|p| Rect::from_points(mm(*p), mm(*p)));
     let drawn = drawn.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
-    json!({
+    Ok(json!({
         "format": format,
         "profile": profile.name,
         "bounds_units": [bounds.x0, bounds.y0, bounds.x1, bounds.y1],
@@ -147,8 +148,8 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Value {
         "draws_over_mm": [drawn.width(), drawn.height()],
         "pauses": motion.pauses,
         "ends_with_pen_up": motion.ends_up,
-        "plot": told(&report(&plot, Point::ORIGIN, Some((profile, &mounting)), None)),
-    })
+        "plot": told(&report(&plot, Point::ORIGIN, Some((profile, &mounting)), None, interrupt())?),
+    }))
 }
 
 /// A report without what a machine's file does not tell: nibs, and what was asked for before lowering and ordering.

@@ -1,18 +1,21 @@
 //! Ctrl-C, SIGTERM and SIGHUP: the work is asked to end, and where it does not end soon the process does, leaving nothing behind.
 
 use super::failure::Failure;
+use crate::interrupt::Interrupt;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::fs::{self, File, Permissions};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicI32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tempfile::NamedTempFile;
 
 /// The signal that stopped the work; 0 while it goes on.
 static STOPPED_BY: AtomicI32 = AtomicI32::new(0);
+/// What the library's long loops look at.
+static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::new);
 /// Files that must not stay when the process ends.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -31,6 +34,7 @@ pub(super) fn catch() {
             if STOPPED_BY.swap(signal, Ordering::SeqCst) != 0 {
                 end();
             }
+            INTERRUPT.raise();
             std::thread::spawn(|| {
                 std::thread::sleep(GRACE);
                 end();
@@ -47,9 +51,14 @@ fn is_ignored(signal: i32) -> bool {
     mask & (1 << (signal - 1)) != 0
 }
 
+/// What the library's long loops look at.
+pub(super) fn interrupt() -> &'static Interrupt {
+    &INTERRUPT
+}
+
 /// Whether the work should end.
 pub(super) fn is_interrupted() -> bool {
-    STOPPED_BY.load(Ordering::SeqCst) != 0
+    INTERRUPT.is_raised()
 }
 
 /// 130 after Ctrl-C, 143 after SIGTERM or SIGHUP.

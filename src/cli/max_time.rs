@@ -3,7 +3,7 @@
 use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
 use super::failure::Failure;
-use super::interruption::is_interrupted;
+use super::interruption::{interrupt, is_interrupted};
 use super::pens::PenSet;
 use super::toolpaths::{self, LONG_HOURS, Prepared, duration};
 use crate::plot::{InkModel, Profile, lower};
@@ -139,7 +139,7 @@ fn seconds_at(options: &DrawOptions, pitch: f64) -> Result<f64, Failure> {
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
     let task = Task::new(&options.picture, reach_of(Some(&profile)))?;
     let drawing = drawing_of(&task, &options, Some(&profile), &mut pens, &Unseen)?;
-    let plot = lower(&uncovered(&drawing), InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
+    let plot = lower(&*uncovered(&drawing)?, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let prepared = toolpaths::prepare(plot, Some(&profile), &options.toolpaths, &pens)?;
     Ok(prepared.report.total.seconds.unwrap_or(0.0))
 }

@@ -3,6 +3,7 @@
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
+use super::interruption::interrupt;
 use super::pens::PenSet;
 use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
@@ -29,7 +30,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
     if options.occlude {
-        leave_out_hidden(&mut imported, model);
+        leave_out_hidden(&mut imported, model)?;
     }
     choose_layers(&mut imported, &options.layers)?;
     if model == InkModel::Lines {
@@ -53,10 +54,10 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let files = split_by_layer(&drawing, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
     for (name, drawing) in files {
-        let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance);
+        let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
         let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths, &pens)?;
         if model == InkModel::Ink {
-            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs()));
+            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs(), interrupt())?);
         }
         if !options.dry_run {
             toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
@@ -96,12 +97,13 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
 }
 
 /// What the painting order hides is not drawn.
-fn leave_out_hidden(imported: &mut Imported, model: InkModel) {
+fn leave_out_hidden(imported: &mut Imported, model: InkModel) -> Result<(), Failure> {
     let hides = if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines };
-    let seen = occluded(&imported.drawing(), &imported.painting, hides);
+    let seen = occluded(&imported.drawing(), &imported.painting, hides, interrupt())?;
     for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
         layer.layer = seen;
     }
+    Ok(())
 }
 
 fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {

@@ -3,6 +3,7 @@
 use super::arguments::{DuplicatesOption, Format, Order, SeamOption, StartCorner, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;
+use super::interruption::interrupt;
 use super::output;
 use super::pens::PenSet;
 use crate::drawing::Drawing;
@@ -151,9 +152,9 @@ pub(super) fn prepare(
     }
     let home = home_of(mounting.as_ref(), &plot);
     let machine = profile.zip(mounting.as_ref());
-    let unordered = report(&plot, home, machine, None);
+    let unordered = report(&plot, home, machine, None, interrupt())?;
     let before: Vec<f64> = unordered.pens.iter().map(|pen| pen.pen_up_mm).collect();
-    let duplicates = plot.put_in_order(home, &sequence(options));
+    let duplicates = plot.put_in_order(home, &sequence(options), interrupt())?;
     if options.registration {
         add_registration(&mut plot, drawable);
     }
@@ -163,7 +164,7 @@ pub(super) fn prepare(
         let Some(profile) = profile else {
             return Err(Failure::Usage("--dry-time reckons with a machine's speeds: it needs --profile".to_owned()));
         };
-        let waited = let_dry(&mut plot, seconds, home, &profile.motion);
+        let waited = let_dry(&mut plot, seconds, home, &profile.motion, interrupt())?;
         if waited > 0.0 && profile.language != Language::Gcode {
             return Err(Failure::Work(format!(
                 "--dry-time {seconds}: the machine would have to wait {} in all, for which its language has no word; ask for less",
@@ -171,7 +172,7 @@ pub(super) fn prepare(
             )));
         }
     }
-    let report = report(&plot, home, machine, Some(&before));
+    let report = report(&plot, home, machine, Some(&before), interrupt())?;
     if let Some(length) = options.pause_every {
         pause_every(&mut plot, length);
     }

@@ -1,5 +1,6 @@
 //! An order of points in which every beginning is evenly spread, by sample elimination (Yuksel 2015).
 
+use crate::interrupt::Interrupt;
 use kurbo::Point;
 use std::collections::BinaryHeap;
 
@@ -8,11 +9,16 @@ use std::collections::BinaryHeap;
 /// In rounds, half of the points that are left are eliminated, the most crowded first; each round looks twice the area
 /// around. Time n log n. Equal crowding is decided by the index, so that the order is always the same.
 pub fn blue_noise_order(points: &[Point]) -> Vec<usize> {
+    blue_noise_order_until(points, &Interrupt::never())
+}
+
+/// The same; once the interrupt is raised, the order is any.
+pub(super) fn blue_noise_order_until(points: &[Point], interrupt: &Interrupt) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..points.len()).collect();
     let mut eliminated = Vec::with_capacity(points.len());
-    while kept.len() > 8 {
+    while kept.len() > 8 && !interrupt.is_raised() {
         let goal = kept.len() / 2;
-        kept = eliminate(points, &kept, goal, &mut eliminated);
+        kept = eliminate(points, &kept, goal, &mut eliminated, interrupt);
     }
     eliminated.extend(kept.iter().rev());
     eliminated.reverse();
@@ -20,7 +26,7 @@ pub fn blue_noise_order(points: &[Point]) -> Vec<usize> {
 }
 
 /// Removes the most crowded of `from` until `goal` are left; appends those removed, in order.
-fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<usize>) -> Vec<usize> {
+fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<usize>, interrupt: &Interrupt) -> Vec<usize> {
     let reach = crowding_radius(points, from, goal);
     let grid = Grid::new(points, from, reach);
     let crowding_of = |a: usize, b: usize| {
@@ -28,12 +34,15 @@ fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<us
         if closeness > 0.0 { closeness.powi(8) } else { 0.0 }
     };
     let slot_of: std::collections::HashMap<usize, usize> = from.iter().enumerate().map(|(slot, &i)| (i, slot)).collect();
-    let mut crowding: Vec<f64> =
-        from.iter().map(|&i| grid.around(points[i]).filter(|&j| j != i).map(|j| crowding_of(i, j)).sum()).collect();
+    let crowding_at = |&i: &usize| {
+        let others = grid.around(points[i]).filter(|&j| j != i && !interrupt.is_raised());
+        others.map(|j| crowding_of(i, j)).sum()
+    };
+    let mut crowding: Vec<f64> = from.iter().map(crowding_at).collect();
     let mut alive = vec![true; from.len()];
     let mut heap: BinaryHeap<Crowded> = crowding.iter().enumerate().map(|(slot, &crowding)| Crowded { crowding, slot }).collect();
     let mut left = from.len();
-    while left > goal {
+    while left > goal && !interrupt.is_raised() {
         let Some(Crowded { crowding: stale, slot }) = heap.pop() else { break };
         if !alive[slot] {
             continue;

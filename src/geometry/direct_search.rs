@@ -1,6 +1,7 @@
 //! Direct binary search (Analoui and Allebach 1992) over scattered places: which of them get a whole touch when each asks for a share
 //! of one.
 
+use crate::interrupt::Interrupt;
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -17,10 +18,10 @@ const NEAR: f64 = 1.8;
 const ROUNDS: usize = 8;
 
 /// Improves a choice: a place is taken in, left out or exchanged with a near one when that brings the blurred sum of the chosen nearer
-/// to that of the shares (each from 0 to 1). Places must be finite.
-pub(super) fn improved(places: &[Point], shares: &[f64], chosen: Vec<bool>) -> Vec<bool> {
+/// to that of the shares (each from 0 to 1). Places must be finite. It ends early once the interrupt is raised.
+pub(super) fn improved(places: &[Point], shares: &[f64], chosen: Vec<bool>, interrupt: &Interrupt) -> Vec<bool> {
     let Some(spacing) = usual_spacing(places) else { return chosen };
-    let mut search = Search::new(places, shares, chosen, spacing);
+    let mut search = Search::new(places, shares, chosen, spacing, interrupt);
     for _ in 0..ROUNDS {
         if search.round() * 2000 < places.len() {
             break;
@@ -109,25 +110,29 @@ struct Search<'a> {
     near: Buckets,
     spacing: f64,
     eye: Eye,
+    interrupt: &'a Interrupt,
 }
 
 impl<'a> Search<'a> {
-    fn new(places: &'a [Point], shares: &'a [f64], chosen: Vec<bool>, spacing: f64) -> Self {
+    fn new(places: &'a [Point], shares: &'a [f64], chosen: Vec<bool>, spacing: f64, interrupt: &'a Interrupt) -> Self {
         let eye = Eye::new(spacing);
         let felt = Buckets::new(places, spacing * BLURS[1] * REACH);
         let error = |j: usize| f64::from(u8::from(chosen[j])) - shares[j];
         let at = |i: usize| {
             let here = places[i];
-            felt.around(here).map(|j| error(j) * eye.at(here.distance_squared(places[j]))).sum()
+            felt.around(here)
+                .filter(|_| !interrupt.is_raised())
+                .map(|j| error(j) * eye.at(here.distance_squared(places[j])))
+                .sum()
         };
         let surplus = (0..places.len()).into_par_iter().map(at).collect();
         let near = Buckets::new(places, NEAR * spacing);
-        Self { places, shares, chosen, surplus, felt, near, spacing, eye }
+        Self { places, shares, chosen, surplus, felt, near, spacing, eye, interrupt }
     }
 
     /// Tries every place once; returns how many changed.
     fn round(&mut self) -> usize {
-        (0..self.places.len()).filter(|&i| self.is_open(i) && self.improve(i)).count()
+        (0..self.places.len()).filter(|&i| !self.interrupt.is_raised() && self.is_open(i) && self.improve(i)).count()
     }
 
     /// Whether there is a choice: what asks for nothing gets nothing.

@@ -1,6 +1,7 @@
 //! Clipping by any outline: lines parametrically, so that they keep their order and direction; areas by boolean intersection.
 
 use super::polyline::flatten;
+use crate::interrupt::Interrupt;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
@@ -42,23 +43,24 @@ impl Region {
 
     /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside.
     pub fn clip_line(&self, points: &[Point]) -> Vec<Vec<Point>> {
-        let pieces = self.pieces(points, Side::Inside);
+        let pieces = self.pieces(points, Side::Inside, &Interrupt::never());
         pieces.into_iter().map(|piece| piece.into_iter().map(|(p, _)| p).collect()).collect()
     }
 
-    /// The pieces of a polyline outside, each point with its place along the line (vertex index plus fraction).
-    pub fn outside_of_line(&self, points: &[Point]) -> Vec<Vec<(Point, f64)>> {
-        self.pieces(points, Side::Outside)
+    /// The pieces of a polyline outside, each point with its place along the line (vertex index plus fraction); some of them once the
+    /// interrupt is raised.
+    pub fn outside_of_line(&self, points: &[Point], interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
+        self.pieces(points, Side::Outside, interrupt)
     }
 
-    fn pieces(&self, points: &[Point], side: Side) -> Vec<Vec<(Point, f64)>> {
+    fn pieces(&self, points: &[Point], side: Side, interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
         let is_wanted = |p: Point| self.contains(p) == (side == Side::Inside);
         if let [p] = points {
             return if is_wanted(*p) { vec![vec![(*p, 0.0)]] } else { Vec::new() };
         }
         let mut pieces: Vec<Vec<(Point, f64)>> = Vec::new();
         let mut is_open = false;
-        for (i, pair) in points.windows(2).enumerate() {
+        for (i, pair) in points.windows(2).enumerate().take_while(|_| !interrupt.is_raised()) {
             let mut cuts = self.cuts(pair[0], pair[1]);
             cuts.sort_by(f64::total_cmp);
             for span in cuts.windows(2).filter(|span| span[1] > span[0]) {

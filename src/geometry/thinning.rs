@@ -1,7 +1,10 @@
 //! Which of many points stay when each stands for less than a whole one.
 
+use super::blue_noise::blue_noise_order_until;
+#[cfg(test)]
 use super::blue_noise_order;
 use super::direct_search::improved;
+use crate::interrupt::Interrupt;
 use kurbo::{Point, Rect};
 
 /// Points whose number is settled together; below it only their blue-noise rank counts. With 32 the count of a patch is off by a
@@ -13,15 +16,16 @@ const TOGETHER: usize = 32;
 /// The points are halved again and again by their place, each half getting a whole number that is within 1 of its shares' sum; in
 /// the smallest parts those stay that come first in blue-noise order, measured by their share (ranks alone would spare sparse
 /// places and borders, where points are less crowded, and leave dense ones too light). Then points are exchanged as long as that
-/// makes the tone more even. Points must be finite. Time n log n.
-pub fn thinned(points: &[Point], shares: &[f64]) -> Vec<bool> {
-    improved(points, shares, counted(points, shares))
+/// makes the tone more even. Points must be finite. Time n log n. Once the interrupt is raised, the choice is
+/// whatever it was by then.
+pub fn thinned(points: &[Point], shares: &[f64], interrupt: &Interrupt) -> Vec<bool> {
+    improved(points, shares, counted(points, shares, interrupt), interrupt)
 }
 
 /// The choice by counts and ranks.
-fn counted(points: &[Point], shares: &[f64]) -> Vec<bool> {
+fn counted(points: &[Point], shares: &[f64], interrupt: &Interrupt) -> Vec<bool> {
     let mut order = vec![0.0; points.len()];
-    for (rank, i) in blue_noise_order(points).into_iter().enumerate() {
+    for (rank, i) in blue_noise_order_until(points, interrupt).into_iter().enumerate() {
         order[i] = (rank as f64 + 0.5) / shares[i].clamp(1e-9, 1.0);
     }
     let mut stays = vec![false; points.len()];
@@ -29,7 +33,7 @@ fn counted(points: &[Point], shares: &[f64]) -> Vec<bool> {
     let all: Vec<usize> = (0..points.len()).collect();
     let wanted = sum(&all).round() as usize;
     let mut parts = vec![(all, wanted)];
-    while let Some((mut part, wanted)) = parts.pop() {
+    while let Some((mut part, wanted)) = parts.pop().filter(|_| !interrupt.is_raised()) {
         if part.len() <= TOGETHER || wanted == 0 || wanted >= part.len() {
             part.sort_by(|&a, &b| order[a].total_cmp(&order[b]).then(a.cmp(&b)));
             part.iter().take(wanted).for_each(|&i| stays[i] = true);
@@ -67,7 +71,7 @@ mod tests {
         };
         let points: Vec<Point> = grid(30, 0.0).chain(grid(90, 30.0)).collect();
         let shares: Vec<f64> = points.iter().map(|p| p.y / 30.0).collect();
-        let stays = thinned(&points, &shares);
+        let stays = thinned(&points, &shares, &Interrupt::never());
         for (row, column) in (0..5).flat_map(|row| (0..10).map(move |column| (row, column))) {
             let patch =
                 Rect::new(6.0 * f64::from(column), 6.0 * f64::from(row), 6.0 * f64::from(column + 1), 6.0 * f64::from(row + 1));
@@ -83,7 +87,7 @@ mod tests {
         let sparse = (0..400).map(|i| Point::new(f64::from(i % 20), f64::from(i / 20)));
         let dense = (0..3600).map(|i| Point::new(30.0 + f64::from(i % 60) / 3.0, f64::from(i / 60) / 3.0));
         let points: Vec<Point> = sparse.chain(dense).collect();
-        let stays = thinned(&points, &vec![0.4; 4000]);
+        let stays = thinned(&points, &vec![0.4; 4000], &Interrupt::never());
         let kept = stays[..400].iter().filter(|stays| **stays).count();
         assert!((155..=165).contains(&kept), "{kept} of 160");
         // By their ranks alone nearly all of the sparse ones would stay.
@@ -94,8 +98,8 @@ mod tests {
     #[test]
     fn none_all_and_nothing() {
         let points = [Point::ORIGIN; 100];
-        assert!(thinned(&points, &[0.0; 100]).iter().all(|stays| !stays));
-        assert!(thinned(&points, &[1.5; 100]).iter().all(|stays| *stays));
-        assert!(thinned(&[], &[]).is_empty());
+        assert!(thinned(&points, &[0.0; 100], &Interrupt::never()).iter().all(|stays| !stays));
+        assert!(thinned(&points, &[1.5; 100], &Interrupt::never()).iter().all(|stays| *stays));
+        assert!(thinned(&[], &[], &Interrupt::never()).is_empty());
     }
 }

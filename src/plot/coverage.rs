@@ -10,6 +10,7 @@ use super::lower::Nibs;
 use super::{PenPaths, Plot};
 use crate::drawing::{Drawing, Ends, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, flatten};
+use crate::interrupt::{Interrupt, Interrupted};
 use rayon::prelude::*;
 
 /// Lines a nib.
@@ -51,13 +52,19 @@ impl Coverage {
 }
 
 /// The coverage of each pen of a plot, in its order; pens of one number share theirs.
-pub fn coverage(drawing: &Drawing, plot: &Plot, nibs: &Nibs) -> Vec<Coverage> {
-    plot.pens.iter().map(|pen| coverage_of_pen(drawing, plot, nibs, pen)).collect()
+pub fn coverage(drawing: &Drawing, plot: &Plot, nibs: &Nibs, interrupt: &Interrupt) -> Result<Vec<Coverage>, Interrupted> {
+    let measured = |pen| {
+        let coverage = coverage_of_pen(drawing, plot, nibs, pen, interrupt);
+        interrupt.check().map(|()| coverage)
+    };
+    plot.pens.iter().map(measured).collect()
 }
 
-fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths) -> Coverage {
+/// Of use only if the interrupt was not raised by then.
+fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths, interrupt: &Interrupt) -> Coverage {
     let layers = drawing.layers.iter().filter(|layer| layer.pen == pen.number);
-    let asked: Vec<Shape> = layers.flat_map(|layer| &layer.marks).flat_map(shapes_of_mark).collect();
+    let goes_on = || !interrupt.is_raised();
+    let asked: Vec<Shape> = layers.flat_map(|layer| &layer.marks).take_while(|_| goes_on()).flat_map(shapes_of_mark).collect();
     let laid: Vec<Shape> = plot.pens.iter().filter(|p| p.number == pen.number).flat_map(|p| shapes_of_pen(p, nibs)).collect();
     let extent =
         |shapes: &[Shape]| shapes.iter().map(Shape::rows).fold((f64::MAX, f64::MIN), |a, b| (a.0.min(b.0), a.1.max(b.1)));
@@ -69,12 +76,12 @@ fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths) 
     let step = (pen.nib / LINES_A_NIB).max((bottom - top) / MOST_LINES);
     let bands = ((bottom - top) / (step * BAND as f64)) as usize + 1;
     let band_of = |y: f64| (((y - top) / (step * BAND as f64)).max(0.0) as usize).min(bands - 1);
-    let (asked, laid) = (by_band(&asked, bands, band_of), by_band(&laid, bands, band_of));
+    let (asked, laid) = (by_band(&asked, bands, band_of, interrupt), by_band(&laid, bands, band_of, interrupt));
     let sums: Vec<[f64; 3]> = (0..bands)
         .into_par_iter()
         .map(|band| {
             let (mut cuts, mut total) = (Cuts::default(), [0.0; 3]);
-            for line in 0..BAND {
+            for line in (0..BAND).take_while(|_| goes_on()) {
                 let y = top + ((band * BAND + line) as f64 + 0.5) * step;
                 let sums = cuts.across(y, &asked[band], &laid[band]);
                 (0..3).for_each(|i| total[i] += sums[i] * step);
@@ -150,9 +157,9 @@ fn cut_capsule(a: Point, b: Point, radius: f64, y: f64) -> Option<(f64, f64)> {
 }
 
 /// The shapes that each band of lines may meet; of polygons only the edges there.
-fn by_band(shapes: &[Shape], bands: usize, band_of: impl Fn(f64) -> usize) -> Vec<Vec<Shape>> {
+fn by_band(shapes: &[Shape], bands: usize, band_of: impl Fn(f64) -> usize, interrupt: &Interrupt) -> Vec<Vec<Shape>> {
     let mut all: Vec<Vec<Shape>> = (0..bands).map(|_| Vec::new()).collect();
-    for shape in shapes {
+    for shape in shapes.iter().take_while(|_| !interrupt.is_raised()) {
         let (low, high) = shape.rows();
         // An outline without edges has no rows.
         if low > high {
@@ -290,7 +297,8 @@ mod tests {
     fn measured(marks: Vec<Mark>, nib: f64) -> Coverage {
         let drawing = Drawing { page: Page::new(50.0, 50.0), layers: vec![Layer { marks, ..Layer::new("x", 1) }] };
         let nibs = Nibs::all(nib);
-        coverage(&drawing, &lower(&drawing, InkModel::Ink, &nibs, 0.01), &nibs)[0]
+        let plot = lower(&drawing, InkModel::Ink, &nibs, 0.01, &Interrupt::never()).unwrap();
+        coverage(&drawing, &plot, &nibs, &Interrupt::never()).unwrap()[0]
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::profile::Motion;
 use super::{PenPaths, Plot, Toolpath};
 use crate::geometry::Point;
+use crate::interrupt::{Interrupt, Interrupted};
 use std::collections::{HashMap, VecDeque};
 
 /// Cells a nib in which wet ink is looked for: lines whose middles lie less than about half a nib apart share or touch one.
@@ -14,11 +15,14 @@ const CELLS_A_NIB: f64 = 2.0;
 ///
 /// A path of a group is put off by itself. O(length of ink / nib) for each round, and there
 /// are about as many rounds as paths lie on top of one another.
-pub fn let_dry(plot: &mut Plot, seconds: f64, home: Point, motion: &Motion) -> f64 {
+pub fn let_dry(plot: &mut Plot, seconds: f64, home: Point, motion: &Motion, interrupt: &Interrupt) -> Result<f64, Interrupted> {
     let mut paper = Paper { wet: HashMap::new(), seconds, now: 0.0, at: home, waited: 0.0 };
-    let pens = std::mem::take(&mut plot.pens);
-    plot.pens = pens.iter().flat_map(|pen| paper.draw(pen, motion)).collect();
-    paper.waited
+    let mut drawn = Vec::new();
+    for pen in &plot.pens {
+        drawn.extend(paper.draw(pen, motion, interrupt)?);
+    }
+    plot.pens = drawn;
+    Ok(paper.waited)
 }
 
 /// A cell of the page.
@@ -36,11 +40,11 @@ struct Paper {
 
 impl Paper {
     /// One pen's paths in the order in which they can be drawn, parted where the machine waits.
-    fn draw(&mut self, pen: &PenPaths, motion: &Motion) -> Vec<PenPaths> {
+    fn draw(&mut self, pen: &PenPaths, motion: &Motion, interrupt: &Interrupt) -> Result<Vec<PenPaths>, Interrupted> {
         let cell = pen.nib.max(0.05) / CELLS_A_NIB;
         let speed = pen.handling.speed(motion.draw_speed);
-        let mut left: VecDeque<(Toolpath, Vec<Cell>)> =
-            pen.paths.iter().map(|path| (path.clone(), cells(&path.points, cell))).collect();
+        let with_cells = |path: &Toolpath| interrupt.check().map(|()| (path.clone(), cells(&path.points, cell)));
+        let mut left: VecDeque<(Toolpath, Vec<Cell>)> = pen.paths.iter().map(with_cells).collect::<Result<_, _>>()?;
         let empty = |delay_seconds: f64| {
             let handling = crate::drawing::Handling { delay_seconds, ..pen.handling };
             PenPaths { handling, paths: Vec::new(), ..pen.clone() }
@@ -51,6 +55,7 @@ impl Paper {
             let mut soonest = f64::INFINITY;
             let before = left.len();
             for (path, cells) in left {
+                interrupt.check()?;
                 let dry_at = self.dry_at(&cells);
                 if dry_at > self.now {
                     soonest = soonest.min(dry_at);
@@ -77,7 +82,7 @@ impl Paper {
             }
         }
         parts.retain(|part| !part.paths.is_empty());
-        parts
+        Ok(parts)
     }
 
     /// When the last of the ink in or beside these cells is dry.
@@ -122,7 +127,7 @@ mod tests {
     #[test]
     fn a_crossing_line_waits_its_turn() {
         let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0], [0.0, 90.0, 90.0, 90.0]]);
-        let waited = let_dry(&mut crossing, 2.0, Point::ORIGIN, &motion());
+        let waited = let_dry(&mut crossing, 2.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
         let first: Vec<f64> = crossing.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points[0].y).collect();
         assert_eq!((first, waited, crossing.pens.len()), (vec![5.0, 90.0, 0.0], 0.0, 1));
     }
@@ -130,7 +135,7 @@ mod tests {
     #[test]
     fn where_nothing_else_is_left_the_machine_waits() {
         let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0]]);
-        let waited = let_dry(&mut crossing, 60.0, Point::ORIGIN, &motion());
+        let waited = let_dry(&mut crossing, 60.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
         assert_eq!(crossing.pens.len(), 2);
         assert!((waited - 60.0).abs() < 1e-6 && (crossing.pens[1].handling.delay_seconds - 60.0).abs() < 1e-6, "{waited}");
     }
@@ -142,7 +147,7 @@ mod tests {
             (1..200).map(|i| [spread(i, 0.754_877), spread(i, 0.569_840), spread(i, 0.618_034), spread(i, 0.414_214)]).collect();
         let mut drawn = plot(&lines);
         let before = drawn.clone();
-        let_dry(&mut drawn, 30.0, Point::ORIGIN, &motion());
+        let_dry(&mut drawn, 30.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
         let paths = |plot: &Plot| -> Vec<String> {
             let mut all: Vec<String> = plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| format!("{path:?}")).collect();
             all.sort();

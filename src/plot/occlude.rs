@@ -2,6 +2,7 @@
 
 use crate::drawing::{Area, Colour, Dot, Drawing, Mark, Mixing, Painted, Stroke, Width};
 use crate::geometry::{BezPath, Rect, Region};
+use crate::interrupt::{Interrupt, Interrupted};
 use kurbo::Shape;
 
 /// Flattening of outlines that are cut, in millimetres.
@@ -23,10 +24,11 @@ pub enum Hides {
 }
 
 /// The drawing without what is hidden. `painting` names every mark once, the lowest first; marks that it does not name are hidden.
-pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides) -> Drawing {
+pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides, interrupt: &Interrupt) -> Result<Drawing, Interrupted> {
     let mut covers = Covers::new(drawing);
     let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
     for painted in painting.iter().rev() {
+        interrupt.check()?;
         match painted {
             Painted::White(outline) => covers.add(outline.clone(), None),
             &Painted::Mark { layer, mark } => {
@@ -34,7 +36,7 @@ pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides) -> Drawin
                     continue;
                 };
                 let colour = the_mark.colour().unwrap_or(layer_of.ink.colour());
-                left[layer].push((mark, covers.visible(the_mark, colour, hides)));
+                left[layer].push((mark, covers.visible(the_mark, colour, hides, interrupt)));
                 let is_cover = match hides {
                     Hides::OtherColours => true,
                     Hides::AllLines => !matches!(the_mark, Mark::Stroke(_)),
@@ -51,7 +53,7 @@ pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides) -> Drawin
         marks.sort_by_key(|(index, _)| *index);
         layer.marks = marks.into_iter().flat_map(|(_, marks)| marks).collect();
     }
-    result
+    Ok(result)
 }
 
 /// Opaque outlines met so far, from the top down.
@@ -102,7 +104,7 @@ impl Covers {
     }
 
     /// What is left of a mark.
-    fn visible(&self, mark: &Mark, colour: Colour, hides: Hides) -> Vec<Mark> {
+    fn visible(&self, mark: &Mark, colour: Colour, hides: Hides, interrupt: &Interrupt) -> Vec<Mark> {
         let bounds = mark.bounding_box();
         if !bounds.is_finite() {
             return vec![mark.clone()];
@@ -113,16 +115,18 @@ impl Covers {
         }
         let cover = Region::new(&over, TOLERANCE);
         match mark {
-            Mark::Stroke(stroke) if hides == Hides::AllLines || stroke.widest() <= WIDE => uncovered_stroke(stroke, &cover),
+            Mark::Stroke(stroke) if hides == Hides::AllLines || stroke.widest() <= WIDE => {
+                uncovered_stroke(stroke, &cover, interrupt)
+            }
             _ => uncovered_area(mark, &cover),
         }
     }
 }
 
 /// The pieces of a stroke whose centre line is not covered, with the width that they had there.
-fn uncovered_stroke(stroke: &Stroke, cover: &Region) -> Vec<Mark> {
+fn uncovered_stroke(stroke: &Stroke, cover: &Region, interrupt: &Interrupt) -> Vec<Mark> {
     let (points, widths) = stroke.sampled(sampling(stroke));
-    let pieces = cover.outside_of_line(&points);
+    let pieces = cover.outside_of_line(&points, interrupt);
     if let [whole] = &pieces[..]
         && whole.len() == points.len()
         && whole.iter().zip(&points).all(|((p, _), q)| p == q)
@@ -214,7 +218,7 @@ mod tests {
             (RED, Hides::PaintOnOtherColours, 20.0),
         ] {
             let drawing = drawing(&[(Colour::BLACK, vec![line("M0,10 H20")]), (colour, vec![disc(5.0)])]);
-            let seen = occluded(&drawing, &drawing.painting_order(), hides);
+            let seen = occluded(&drawing, &drawing.painting_order(), hides, &Interrupt::never()).unwrap();
             assert!((drawn(&seen) - length).abs() < 0.02, "{hides:?}: {}", drawn(&seen));
             assert_eq!(seen.layers[1].marks.len(), 1);
         }
@@ -225,7 +229,7 @@ mod tests {
         let drawing = drawing(&[(Colour::BLACK, vec![line("M0,10 H20"), disc(2.0)])]);
         let white = Painted::White(BezPath::from_svg("M10,0 H20 V20 H10 Z").unwrap());
         let mark = |mark| Painted::Mark { layer: 0, mark };
-        let seen = occluded(&drawing, &[mark(0), white, mark(1)], Hides::OtherColours);
+        let seen = occluded(&drawing, &[mark(0), white, mark(1)], Hides::OtherColours, &Interrupt::never()).unwrap();
         assert!((drawn(&seen) - 10.0).abs() < 0.02, "{}", drawn(&seen));
         assert_eq!(seen.layers[0].marks[1], disc(2.0));
     }
@@ -233,11 +237,11 @@ mod tests {
     #[test]
     fn areas_are_cut_exactly() {
         let drawing = drawing(&[(Colour::BLACK, vec![disc(5.0)]), (RED, vec![disc(3.0)])]);
-        let seen = occluded(&drawing, &drawing.painting_order(), Hides::OtherColours);
+        let seen = occluded(&drawing, &drawing.painting_order(), Hides::OtherColours, &Interrupt::never()).unwrap();
         let ring = std::f64::consts::PI * 16.0;
         assert!((seen.layers[0].ink_mm2() - ring).abs() < 0.1, "{}", seen.layers[0].ink_mm2());
-        let all =
-            occluded(&drawing, &[drawing.painting_order(), vec![Painted::White(disc_path(9.0))]].concat(), Hides::OtherColours);
+        let all = [drawing.painting_order(), vec![Painted::White(disc_path(9.0))]].concat();
+        let all = occluded(&drawing, &all, Hides::OtherColours, &Interrupt::never()).unwrap();
         assert_eq!(all.marks().count(), 0);
     }
 

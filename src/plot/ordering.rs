@@ -1,8 +1,9 @@
 //! A plot is put in order: repeated paths go, paths that meet are joined, and what is left is drawn along the shortest way.
 
-use super::order::{is_free, join_to_loops, order_stops, rotated, shuffled};
+use super::order::{is_free, join_to_loops, order_until, rotated, shuffled};
 use super::{Direction, Effort, PathEnds, Plot, Seam, Stop, Toolpath, Visit, chain, drop_duplicates};
 use crate::geometry::Point;
+use crate::interrupt::{Interrupt, Interrupted};
 
 /// Millimetres within which two paths are the same one. What repeats in a file differs by the rounding of its numbers, a thousandth or two;
 /// the lines of the densest hatch lie a tenth apart, so that there is room on both sides.
@@ -80,38 +81,44 @@ impl DrawingCorner {
 impl Plot {
     /// Joins, orders and turns each pen's paths for the least pen-up travel from `home`, and draws no path twice.
     pub fn ordered(&mut self, home: Point, effort: Effort, direction: Direction, merge: f64) {
-        self.put_in_order(home, &Sequence { effort, direction, merge, ..Sequence::default() });
+        let sequence = Sequence { effort, direction, merge, ..Sequence::default() };
+        let done = self.put_in_order(home, &sequence, &Interrupt::never());
+        debug_assert!(done.is_ok(), "nobody interrupts");
     }
 
     /// Puts each pen's paths in order, beginning at `home`, and returns the number of repeated paths that went.
     ///
     /// Paths of one group stay together, in their order and as they stand. Loops are entered where it suits the travel, unless the
-    /// seam's place is given.
-    pub fn put_in_order(&mut self, home: Point, sequence: &Sequence) -> usize {
+    /// seam's place is given. Interrupted, the plot is left without some of its paths.
+    pub fn put_in_order(&mut self, home: Point, sequence: &Sequence, interrupt: &Interrupt) -> Result<usize, Interrupted> {
         let mut at = home;
         let mut dropped = 0;
         for pen in &mut self.pens {
             let mut paths = std::mem::take(&mut pen.paths);
             if sequence.duplicates == Duplicates::Drop {
                 let before = paths.len();
-                paths = drop_duplicates(paths, SAME);
+                paths = drop_duplicates(paths, SAME, interrupt);
                 dropped += before - paths.len();
             }
             at = sequence.start.and_then(|corner| corner.of(&paths)).unwrap_or(at);
-            pen.paths = in_order(paths, at, sequence);
+            pen.paths = in_order(paths, at, sequence, interrupt);
+            interrupt.check()?;
             at = pen.paths.last().map_or(at, |last| last.ends().end);
         }
-        dropped
+        Ok(dropped)
     }
 }
 
-/// The paths of one pen in the order in which they are drawn.
-fn in_order(paths: Vec<Toolpath>, from: Point, sequence: &Sequence) -> Vec<Toolpath> {
-    let mut items = items(paths, sequence);
+/// The paths of one pen in the order in which they are drawn; once the interrupt is raised, any of them in any order.
+fn in_order(paths: Vec<Toolpath>, from: Point, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Toolpath> {
+    let mut items = items(paths, sequence, interrupt);
+    if interrupt.is_raised() {
+        return Vec::new();
+    }
     let mut visits = if let Course::Shuffled(seed) = sequence.course {
         shuffled(items.len(), seed).into_iter().map(|path| Visit { path, reversed: false }).collect()
     } else {
-        found(&mut items, from, sequence)
+        found(&mut items, from, sequence, interrupt)
     };
     if sequence.course == Course::Backwards {
         visits.reverse();
@@ -129,7 +136,7 @@ fn in_order(paths: Vec<Toolpath>, from: Point, sequence: &Sequence) -> Vec<Toolp
 }
 
 /// Single paths, joined where they meet, and groups, which stay as they are: what is drawn in one piece.
-fn items(paths: Vec<Toolpath>, sequence: &Sequence) -> Vec<Vec<Toolpath>> {
+fn items(paths: Vec<Toolpath>, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Vec<Toolpath>> {
     let joins = sequence.merge > 0.0 && sequence.effort != Effort::None;
     let mut slot_of = std::collections::HashMap::new();
     let mut items: Vec<Vec<Toolpath>> = Vec::new();
@@ -147,8 +154,8 @@ fn items(paths: Vec<Toolpath>, sequence: &Sequence) -> Vec<Vec<Toolpath>> {
             None => items.push(vec![sequence.seam.place(path)]),
         }
     }
-    let chains = chain(singles, sequence.merge, sequence.direction);
-    let joined = join_to_loops(chains, sequence.merge, sequence.direction);
+    let chains = chain(singles, sequence.merge, sequence.direction, interrupt);
+    let joined = join_to_loops(chains, sequence.merge, sequence.direction, interrupt);
     items.extend(joined.into_iter().map(|path| vec![sequence.seam.place(path)]));
     items
 }
@@ -158,7 +165,7 @@ fn is_single(item: &[Toolpath]) -> bool {
 }
 
 /// The order with the least travel; loops are turned to where they are entered.
-fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence) -> Vec<Visit> {
+fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Visit> {
     let stop = |item: &Vec<Toolpath>| {
         let ends = PathEnds { start: item[0].ends().start, end: item[item.len() - 1].ends().end };
         (ends, sequence.direction == Direction::Either && is_single(item))
@@ -173,7 +180,7 @@ fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence) -> Vec<V
             Stop { ring: is_ring.then(|| &item[0].points[..]), ..Stop::new(ends, may_turn) }
         })
         .collect();
-    let visits = order_stops(&mut stops, from, sequence.effort);
+    let visits = order_until(&mut stops, from, sequence.effort, interrupt);
     let seats: Vec<(usize, Point)> = stops.iter().map(|stop| (stop.edge, stop.ends.start)).collect();
     for ((item, is_ring), (edge, at)) in items.iter_mut().zip(is_ring).zip(seats) {
         if is_ring && at != item[0].points[0] {

@@ -6,6 +6,7 @@ use super::profile::Profile;
 use super::time::clock;
 use super::{Mounting, Plot, pen_up_length};
 use crate::geometry::Point;
+use crate::interrupt::{Interrupt, Interrupted};
 use serde::Serialize;
 
 /// One pen's share.
@@ -50,8 +51,14 @@ pub struct PlotReport {
 
 /// Measures a plot that starts at `home` on the page; with a machine and where the page lies on it, also the time. `before` is the
 /// pen-up travel of each pen before ordering, if it is known.
-pub fn report(plot: &Plot, home: Point, machine: Option<(&Profile, &Mounting)>, before: Option<&[f64]>) -> PlotReport {
-    let clocks = machine.map(|(profile, mounting)| clock(plot, profile, mounting));
+pub fn report(
+    plot: &Plot,
+    home: Point,
+    machine: Option<(&Profile, &Mounting)>,
+    before: Option<&[f64]>,
+    interrupt: &Interrupt,
+) -> Result<PlotReport, Interrupted> {
+    let clocks = machine.map(|(profile, mounting)| clock(plot, profile, mounting, interrupt)).transpose()?;
     let mut at = home;
     let mut pens = Vec::new();
     for (i, pen) in plot.pens.iter().enumerate() {
@@ -90,7 +97,7 @@ pub fn report(plot: &Plot, home: Point, machine: Option<(&Profile, &Mounting)>, 
         covered_fraction: None,
         spill_fraction: None,
     };
-    PlotReport { pens, total }
+    Ok(PlotReport { pens, total })
 }
 
 impl PlotReport {

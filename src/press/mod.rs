@@ -17,6 +17,7 @@ mod thin;
 
 use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::Affine;
+use crate::interrupt::{Interrupt, Interrupted};
 use kurbo::Shape;
 use rayon::prelude::*;
 use thin::{Plan, Speck};
@@ -52,11 +53,26 @@ impl Press {
         if self.least == 0.0 {
             return drawing.clone();
         }
-        let layer = |layer: &Layer| {
-            let plans: Vec<Plan> = layer.marks.par_iter().map(|mark| self.plan(mark, drawing)).collect();
-            Layer { marks: thin::settled(plans, self), ..layer.clone() }
+        let layers = drawing.layers.iter().map(|layer| self.layer(layer, drawing, &Interrupt::never())).collect();
+        Drawing { page: drawing.page, layers }
+    }
+
+    /// The same, which can be stopped.
+    pub fn compensated_until(&self, drawing: &Drawing, interrupt: &Interrupt) -> Result<Drawing, Interrupted> {
+        if self.least == 0.0 {
+            return Ok(drawing.clone());
+        }
+        let layer = |layer| {
+            let layer = self.layer(layer, drawing, interrupt);
+            interrupt.check().map(|()| layer)
         };
-        Drawing { page: drawing.page, layers: drawing.layers.iter().map(layer).collect() }
+        Ok(Drawing { page: drawing.page, layers: drawing.layers.iter().map(layer).collect::<Result<_, _>>()? })
+    }
+
+    fn layer(&self, layer: &Layer, drawing: &Drawing, interrupt: &Interrupt) -> Layer {
+        let marks = layer.marks.par_iter().filter(|_| !interrupt.is_raised());
+        let plans: Vec<Plan> = marks.map(|mark| self.plan(mark, drawing)).collect();
+        Layer { marks: thin::settled(plans, self, interrupt), ..layer.clone() }
     }
 
     fn plan(&self, mark: &Mark, drawing: &Drawing) -> Plan {

@@ -4,6 +4,7 @@ use super::Press;
 use super::line::Broken;
 use crate::drawing::Mark;
 use crate::geometry::{Point, thinned};
+use crate::interrupt::Interrupt;
 
 /// What becomes of one mark.
 pub(super) enum Plan {
@@ -23,10 +24,11 @@ pub(super) struct Speck {
     pub mark: Mark,
 }
 
-/// The marks of a layer in painting order, thinned out: specks stay in blue-noise order, everywhere as many as their shares add up to.
-pub(super) fn settled(plans: Vec<Plan>, press: &Press) -> Vec<Mark> {
+/// The marks of a layer in painting order, thinned out: specks stay in blue-noise order, everywhere as many as their shares add up to;
+/// once the interrupt is raised, any of them.
+pub(super) fn settled(plans: Vec<Plan>, press: &Press, interrupt: &Interrupt) -> Vec<Mark> {
     let (places, shares): (Vec<Point>, Vec<f64>) = plans.iter().flat_map(candidates).unzip();
-    let is_kept = thinned(&places, &shares);
+    let is_kept = thinned(&places, &shares, interrupt);
     let mut is_kept = is_kept.into_iter();
     let mut marks = Vec::with_capacity(plans.len());
     for plan in plans {

@@ -8,6 +8,7 @@ use super::hatch::hatching;
 use super::needle::needle;
 use crate::drawing::Area;
 use crate::geometry::{Insets, Point, distance_to_segment, polygon_area, resample};
+use crate::interrupt::Interrupt;
 use std::f64::consts::FRAC_PI_4;
 
 /// What lifting and lowering the pen once more is worth in millimetres of line, when two ways to fill are compared: 0.35 s of a servo
@@ -16,17 +17,21 @@ const LIFT: f64 = 10.0;
 /// A narrow part is worth drawing from this share of a touch's ink: corners of wide parts stay round.
 const LEAST_PART: f64 = 0.5;
 
-/// The paths that fill an area. `phase` says where in their rhythm the dashes of narrow parts begin.
-pub(super) fn fill_area(area: &Area, nib: f64, tolerance: f64, phase: f64) -> Vec<Toolpath> {
+/// The paths that fill an area; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes of narrow
+/// parts begin.
+pub(super) fn fill_area(area: &Area, nib: f64, tolerance: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let insets = Insets::new(&area.outline, 0.5 * tolerance);
-    let rings = rings(&insets, nib, pitch);
-    let ringed = joined(&rings, 1.5 * pitch);
-    let mut paths = match rings.first().and_then(|border| hatching(&insets, border, nib, pitch)) {
+    let rings = rings(&insets, nib, pitch, interrupt);
+    let ringed = joined(&rings, 1.5 * pitch, interrupt);
+    let mut paths = match rings.first().and_then(|border| hatching(&insets, border, nib, pitch, interrupt)) {
         Some(hatched) if cost(&hatched) < cost(&ringed) => hatched,
         _ => ringed,
     };
     let least = LEAST_PART * FRAC_PI_4 * nib * nib;
+    if interrupt.is_raised() {
+        return paths;
+    }
     for (i, part) in insets.narrow_parts(0.5 * nib).into_iter().filter(|part| polygon_area(part).abs() >= least).enumerate() {
         paths.extend(dashes(&needle(&part, nib), nib, phase + 0.618 * i as f64));
     }
@@ -39,14 +44,14 @@ fn cost(paths: &[Toolpath]) -> f64 {
 
 /// Rings half a nib inside the border and then a pitch further in each time, level by level; between two levels, pieces of a ring where
 /// the next one is missing and the middle would stay bare.
-fn rings(insets: &Insets, nib: f64, pitch: f64) -> Vec<Vec<Vec<Point>>> {
+fn rings(insets: &Insets, nib: f64, pitch: f64, interrupt: &Interrupt) -> Vec<Vec<Vec<Point>>> {
     let mut levels = Vec::new();
     let mut depth = 0.5 * nib;
     let mut rings = insets.rings(depth);
-    while !rings.is_empty() {
+    while !rings.is_empty() && !interrupt.is_raised() {
         let next = insets.rings(depth + pitch);
         let between = insets.rings(depth + 0.5 * pitch);
-        let pieces: Vec<Vec<Point>> = between.iter().flat_map(|ring| far_pieces(ring, &next, 0.75 * pitch)).collect();
+        let pieces: Vec<Vec<Point>> = between.iter().flat_map(|ring| far_pieces(ring, &next, 0.75 * pitch, interrupt)).collect();
         levels.push(rings.into_iter().filter(|ring| ring.len() > 2).map(closed).collect());
         if !pieces.is_empty() {
             levels.push(pieces);
@@ -63,7 +68,7 @@ fn closed(mut ring: Vec<Point>) -> Vec<Point> {
 }
 
 /// The parts of a ring farther than `reach` from every other ring, as open lines; the whole ring, closed, where that is all of it.
-fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64) -> Vec<Vec<Point>> {
+fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64, interrupt: &Interrupt) -> Vec<Vec<Point>> {
     let points = resample(&closed(ring.to_vec()), 0.6 * reach);
     let is_near = |p: Point| {
         let sides = others.iter().flat_map(|other| (0..other.len()).map(move |i| (other[i], other[(i + 1) % other.len()])));
@@ -72,7 +77,7 @@ fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64) -> Vec<Vec<Poin
             (low..=high).contains(&p.x) && distance_to_segment(p, a, b) <= reach
         })
     };
-    let far: Vec<bool> = points.iter().map(|p| !is_near(*p)).collect();
+    let far: Vec<bool> = points.iter().map(|p| interrupt.is_raised() || !is_near(*p)).collect();
     let Some(first_near) = far.iter().position(|far| !far) else { return vec![points] };
     // Once round from a point that is near, so that no piece is cut where the ring begins.
     let last = points.len() - 1;
@@ -91,9 +96,9 @@ fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64) -> Vec<Vec<Poin
 }
 
 /// Rings as few paths: each continues at the nearest ring of the next level when a step over is short.
-fn joined(levels: &[Vec<Vec<Point>>], reach: f64) -> Vec<Toolpath> {
+fn joined(levels: &[Vec<Vec<Point>>], reach: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
-    for line in levels.iter().flatten() {
+    for line in levels.iter().flatten().take_while(|_| !interrupt.is_raised()) {
         let is_ring = line.len() > 2 && line[0] == line[line.len() - 1];
         let starts = if is_ring { 0..line.len() - 1 } else { 0..1 };
         let nearest = |from: Point| {
@@ -122,7 +127,7 @@ mod tests {
     use crate::geometry::BezPath;
 
     fn filled(text: &str, nib: f64) -> Vec<Toolpath> {
-        fill_area(&Area { outline: BezPath::from_svg(text).unwrap(), colour: None }, nib, 0.02, 0.0)
+        fill_area(&Area { outline: BezPath::from_svg(text).unwrap(), colour: None }, nib, 0.02, 0.0, &Interrupt::never())
     }
 
     #[test]

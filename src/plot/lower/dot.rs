@@ -8,6 +8,7 @@
 use super::super::Toolpath;
 use crate::drawing::Dot;
 use crate::geometry::{BezPath, Point, Vec2, flatten};
+use crate::interrupt::Interrupt;
 use std::f64::consts::TAU;
 
 /// How far neighbouring turns overlap, as a share of the nib. With none, a pen that wears or skips leaves hairlines; with a third,
@@ -19,7 +20,7 @@ pub(super) const OVERLAP: f64 = 0.1;
 /// Up to half a nib: a touch at the centre. Larger: one ring half a nib inside the outline, and from a nib on a spiral from the
 /// centre outwards, whose turns lie at most `nib (1 - OVERLAP)` apart, before it. The path of a disc is at most 6 % longer than
 /// its area over that distance once it is 30 nibs wide.
-pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64) -> Toolpath {
+pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64, interrupt: &Interrupt) -> Toolpath {
     let inside = dot.radius - 0.5 * nib;
     // A ring smaller than this is lost in the nib's own roundness.
     if inside <= 0.02 * nib {
@@ -28,7 +29,7 @@ pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64) -> Toolpath {
     let rim = Rim::of(dot, nib);
     let mut points = Vec::new();
     if dot.radius > nib {
-        spiral(&rim, nib * (1.0 - OVERLAP), tolerance, &mut points);
+        spiral(&rim, nib * (1.0 - OVERLAP), tolerance, interrupt, &mut points);
     }
     ring(&rim, tolerance, &mut points);
     Toolpath::new(points)
@@ -95,7 +96,7 @@ fn distances(outline: &BezPath, centre: Point) -> Vec<f64> {
 }
 
 /// Turns from the centre outwards, ending on the rim at angle 0.
-fn spiral(rim: &Rim, pitch: f64, tolerance: f64, points: &mut Vec<Point>) {
+fn spiral(rim: &Rim, pitch: f64, tolerance: f64, interrupt: &Interrupt, points: &mut Vec<Point>) {
     let turns = (rim.largest() / pitch).ceil().max(1.0);
     points.push(rim.centre);
     let mut turned = 0.0;
@@ -103,7 +104,7 @@ fn spiral(rim: &Rim, pitch: f64, tolerance: f64, points: &mut Vec<Point>) {
         // A chord of a circle of radius r strays from it by r (1 - cos(step / 2)).
         let radius = rim.largest() * turned / turns;
         turned += step(radius.max(0.25 * pitch), tolerance) / TAU;
-        if turned >= turns {
+        if turned >= turns || interrupt.is_raised() {
             return;
         }
         points.push(rim.at(TAU * turned, turned / turns));
@@ -133,7 +134,7 @@ mod tests {
 
     /// Whether each place of the dot, but for a thousandth, lies under the nib, and no ink outside.
     fn check(dot: &Dot, nib: f64, inside: impl Fn(Point) -> bool) -> (f64, f64) {
-        let path = fill_dot(dot, nib, 0.01).points;
+        let path = fill_dot(dot, nib, 0.01, &Interrupt::never()).points;
         let steps = 160;
         let reach = 1.6 * dot.radius;
         let (mut asked, mut covered, mut spilt) = (0.0, 0.0, 0.0);
@@ -180,10 +181,10 @@ mod tests {
 
     #[test]
     fn a_ten_millimetre_disc_is_one_path_and_hardly_longer_than_it_must_be() {
-        let path = fill_dot(&Dot::circle(Point::ORIGIN, 5.0), 0.3, 0.02);
+        let path = fill_dot(&Dot::circle(Point::ORIGIN, 5.0), 0.3, 0.02, &Interrupt::never());
         let least = std::f64::consts::PI * 25.0 / (0.3 * (1.0 - OVERLAP));
         let length = polyline_length(&path.points);
         assert!(length <= 1.06 * least, "{length} for {least}");
-        assert_eq!(fill_dot(&Dot::circle(Point::ORIGIN, 0.15), 0.3, 0.02).points, [Point::ORIGIN]);
+        assert_eq!(fill_dot(&Dot::circle(Point::ORIGIN, 0.15), 0.3, 0.02, &Interrupt::never()).points, [Point::ORIGIN]);
     }
 }

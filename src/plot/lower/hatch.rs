@@ -2,13 +2,20 @@
 
 use super::super::Toolpath;
 use crate::geometry::{Insets, Point};
+use crate::interrupt::Interrupt;
 
 /// Distance of the lines' ends from the border ring's middle, in pitches: the nib's round end then reaches under the ring.
 const TUCK: f64 = 0.55;
 
-/// A filled outline as its border rings (closed lines) and lines along its longer extent, a pitch apart, joined back and forth where they lie side by
-/// side. None where the inside holds no line.
-pub(super) fn hatching(insets: &Insets, border: &[Vec<Point>], nib: f64, pitch: f64) -> Option<Vec<Toolpath>> {
+/// A filled outline as its border rings (closed lines) and lines along its longer extent, a pitch apart, joined back and forth where they
+/// lie side by side. None where the inside holds no line; some of the lines once the interrupt is raised.
+pub(super) fn hatching(
+    insets: &Insets,
+    border: &[Vec<Point>],
+    nib: f64,
+    pitch: f64,
+    interrupt: &Interrupt,
+) -> Option<Vec<Toolpath>> {
     let inside = insets.rings(0.5 * nib + TUCK * pitch);
     let points = || inside.iter().flatten();
     let extent = |of: fn(&Point) -> f64| {
@@ -26,7 +33,7 @@ pub(super) fn hatching(insets: &Insets, border: &[Vec<Point>], nib: f64, pitch: 
     let count = ((high - low) / pitch).ceil().max(1.0);
     let step = (high - low) / count;
     let heights: Vec<f64> = (0..count as usize).map(|k| low + (k as f64 + 0.5) * step).collect();
-    let rows = heights.iter().map(|y| spans(&rings, *y));
+    let rows = heights.iter().take_while(|_| !interrupt.is_raised()).map(|y| spans(&rings, *y));
     let mut paths: Vec<Toolpath> = border.iter().map(|ring| Toolpath::new(ring.clone())).collect();
     paths.extend(back_and_forth(rows, 2.5 * pitch).into_iter().map(|line| {
         let points = line.into_iter().map(turned).collect();
@@ -97,11 +104,11 @@ mod tests {
         let insets = Insets::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z").unwrap(), 0.01);
         let border = insets.rings(0.25);
         let closed: Vec<Vec<Point>> = border.iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
-        let paths = hatching(&insets, &closed, 0.5, 0.45).unwrap();
+        let paths = hatching(&insets, &closed, 0.5, 0.45, &Interrupt::never()).unwrap();
         assert_eq!(paths.len(), 2);
         let length: f64 = paths.iter().map(Toolpath::length).sum();
         assert!((200.0..250.0).contains(&length), "{length}");
-        assert!(hatching(&insets, &border, 12.0, 10.0).is_none());
+        assert!(hatching(&insets, &border, 12.0, 10.0, &Interrupt::never()).is_none());
     }
 
     #[test]
@@ -109,7 +116,7 @@ mod tests {
         // Rows at 4.574 and 5.426 pass above and below what is left of the small square, 4.845 to 5.155.
         let insets = Insets::new(&BezPath::from_svg("M0,0 H40 V10 H0 Z M50,4.1 H51.8 V5.9 H50 Z").unwrap(), 0.01);
         let border: Vec<Vec<Point>> = insets.rings(0.25).iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
-        let paths = hatching(&insets, &border, 0.5, 0.9).unwrap();
+        let paths = hatching(&insets, &border, 0.5, 0.9, &Interrupt::never()).unwrap();
         let inside = |path: &&Toolpath| path.points.iter().all(|p| p.x > 50.5);
         assert_eq!(paths.iter().filter(inside).count(), 1);
     }

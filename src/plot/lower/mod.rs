@@ -17,6 +17,7 @@ use super::profile::Swell;
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
 use crate::geometry::{BezPath, flatten, simplify};
+use crate::interrupt::{Interrupt, Interrupted};
 use area::fill_area;
 use dot::fill_dot;
 use rayon::prelude::*;
@@ -57,12 +58,19 @@ impl Nibs {
 }
 
 /// The tool paths of a drawing, layers of one pen together, curves flattened to `tolerance` millimetres.
-pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) -> Plot {
+pub fn lower(
+    drawing: &Drawing,
+    model: InkModel,
+    nibs: &Nibs,
+    tolerance: f64,
+    interrupt: &Interrupt,
+) -> Result<Plot, Interrupted> {
     let mut pens: Vec<PenPaths> = Vec::new();
     for layer in &drawing.layers {
         let nib = nibs.of(layer.pen);
-        let lowering = Lowering { model, nib, swell: nibs.swell.as_ref(), tolerance };
+        let lowering = Lowering { model, nib, swell: nibs.swell.as_ref(), tolerance, interrupt };
         let paths = lowering.layer(layer);
+        interrupt.check()?;
         // A layer that asks for something of its own is drawn by itself.
         let is_alike = |pen: &&mut PenPaths| pen.number == layer.pen && pen.handling == layer.handling && !layer.handling.pauses;
         match pens.iter_mut().find(is_alike) {
@@ -74,7 +82,7 @@ pub fn lower(drawing: &Drawing, model: InkModel, nibs: &Nibs, tolerance: f64) ->
         }
     }
     pens.sort_by_key(|pen| pen.number);
-    Plot { page: drawing.page, pens }
+    Ok(Plot { page: drawing.page, pens })
 }
 
 fn pen_of(layer: &Layer, nib: f64, paths: Vec<Toolpath>) -> PenPaths {
@@ -87,12 +95,14 @@ struct Lowering<'a> {
     nib: f64,
     swell: Option<&'a Swell>,
     tolerance: f64,
+    /// Raised, it leaves the result unfinished.
+    interrupt: &'a Interrupt,
 }
 
 impl Lowering<'_> {
     fn layer(&self, layer: &Layer) -> Vec<Toolpath> {
         let kept = match self.model {
-            InkModel::Ink => thin::keeps_tone(&layer.marks, self.nib),
+            InkModel::Ink => thin::keeps_tone(&layer.marks, self.nib, self.interrupt),
             InkModel::Lines => vec![true; layer.marks.len()],
         };
         let chosen: Vec<(usize, &Mark)> = layer.marks.iter().enumerate().filter(|(i, _)| kept[*i]).collect();
@@ -101,14 +111,17 @@ impl Lowering<'_> {
     }
 
     fn mark(&self, index: usize, mark: &Mark) -> Vec<Toolpath> {
+        if self.interrupt.is_raised() {
+            return Vec::new();
+        }
         // The golden ratio spreads the phases of neighbouring dashed lines.
         let phase = (index as f64 * 0.618_033_988_75).fract();
         match (mark, self.model) {
             (Mark::Stroke(stroke), InkModel::Lines) => grouped(polylines(&stroke.curve, self.tolerance), stroke),
             (_, InkModel::Lines) => Vec::new(),
-            (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, self.nib, self.tolerance)],
+            (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, self.nib, self.tolerance, self.interrupt)],
             (Mark::Stroke(stroke), InkModel::Ink) => grouped(self.stroke(stroke, phase), stroke),
-            (Mark::Area(area), InkModel::Ink) => self.simplified(fill_area(area, self.nib, self.tolerance, phase)),
+            (Mark::Area(area), InkModel::Ink) => self.area(area, phase),
         }
     }
 
@@ -118,9 +131,13 @@ impl Lowering<'_> {
         }
         if turns_sharply(stroke, self.nib) {
             let area = Area { outline: stroke.ink_outline(0.5 * self.tolerance), colour: None };
-            return self.simplified(fill_area(&area, self.nib, self.tolerance, phase));
+            return self.area(&area, phase);
         }
-        self.simplified(lower_stroke(stroke, self.nib, phase))
+        self.simplified(lower_stroke(stroke, self.nib, phase, self.interrupt))
+    }
+
+    fn area(&self, area: &Area, phase: f64) -> Vec<Toolpath> {
+        self.simplified(fill_area(area, self.nib, self.tolerance, phase, self.interrupt))
     }
 
     /// Paths without the vertices that straight stretches do not need.
@@ -167,12 +184,12 @@ mod tests {
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(5.0, 5.0), 0.15)));
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(8.0, 5.0), 1.0)));
         let drawing = Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] };
-        let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01);
+        let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01, &Interrupt::never()).unwrap();
         assert_eq!(plot.pens[0].paths[0], touch(5.0, 5.0));
         let spiral = &plot.pens[0].paths[1].points;
         assert_eq!(spiral[0], Point::new(8.0, 5.0));
         assert!(spiral.iter().all(|p| p.distance(Point::new(8.0, 5.0)) < 0.86));
-        assert!(lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.01).pens[0].paths.is_empty());
+        assert!(lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.01, &Interrupt::never()).unwrap().pens[0].paths.is_empty());
     }
 
     #[test]
@@ -182,7 +199,8 @@ mod tests {
             .into_iter()
             .map(|(name, pen)| Layer { marks: vec![stroke.clone()], ..Layer::new(name, pen) })
             .collect();
-        let plot = lower(&Drawing { page: Page::new(10.0, 10.0), layers }, InkModel::Ink, &Nibs::all(0.3), 0.01);
+        let drawing = Drawing { page: Page::new(10.0, 10.0), layers };
+        let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01, &Interrupt::never()).unwrap();
         let pens: Vec<(u32, &str, usize)> = plot.pens.iter().map(|p| (p.number, p.name.as_str(), p.paths.len())).collect();
         assert_eq!(pens, [(1, "b", 1), (2, "a, c", 2)]);
     }

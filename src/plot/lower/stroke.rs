@@ -11,6 +11,7 @@ use super::dash::{NEARLY_WHOLE, Sample, dashes};
 use super::dot::{OVERLAP, fill_dot};
 use crate::drawing::{Dot, Ends, Stroke};
 use crate::geometry::{Point, Vec2};
+use crate::interrupt::Interrupt;
 use kurbo::PathEl;
 
 /// Distance from the middle below which the two sides of a pass are one line, in nibs.
@@ -32,16 +33,16 @@ struct Spine {
 }
 
 /// The paths that lay down a stroke's ink: passes where it is wider than the nib, its centre line where it is as wide, dashes where it is
-/// thinner. `phase` says where in their rhythm the dashes begin.
-pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64) -> Vec<Toolpath> {
+/// thinner; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes begin.
+pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let samples = trimmed(samples(stroke, nib), stroke, nib);
     if samples.windows(2).all(|pair| pair[0].at == pair[1].at) {
-        return point(stroke, samples.first().copied(), nib);
+        return point(stroke, samples.first().copied(), nib, interrupt);
     }
     let is_thin = |i: usize| samples[i].width < NEARLY_WHOLE * nib;
     let mut paths = Vec::new();
     let mut from = 0;
-    while from < samples.len() {
+    while from < samples.len() && !interrupt.is_raised() {
         let to = (from..samples.len()).find(|&i| is_thin(i) != is_thin(from)).unwrap_or(samples.len());
         // Neighbouring runs share the sample where one goes over into the other.
         let run = &samples[from.saturating_sub(1)..to];
@@ -50,7 +51,7 @@ pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64) -> Vec<Toolpat
         } else {
             let is_whole = run.len() == samples.len();
             let spine = Spine { is_closed: is_whole && stroke.is_closed(), ends: stroke.ends, ..Spine::of(run, nib) };
-            paths.extend(fill(&spine, nib));
+            paths.extend(fill(&spine, nib, interrupt));
         }
         from = to;
     }
@@ -74,13 +75,14 @@ pub(super) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
 }
 
 /// A stroke without length is a dot as wide as the stroke.
-fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64) -> Vec<Toolpath> {
+fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let at = sample.map(|sample| sample.at).or_else(|| stroke.curve.elements().first().and_then(PathEl::end_point));
     let Some(at) = at.filter(|at| at.is_finite()) else { return Vec::new() };
     let width = sample.map_or(stroke.widest(), |sample| sample.width);
     // Thinned dots are chosen together; one alone is drawn when half of a touch was asked for.
     let asks_for_half = 2.0 * width * width >= nib * nib;
-    if asks_for_half { vec![fill_dot(&Dot::circle(at, 0.5 * width), nib, POINT_TOLERANCE)] } else { Vec::new() }
+    let dot = || fill_dot(&Dot::circle(at, 0.5 * width), nib, POINT_TOLERANCE, interrupt);
+    asks_for_half.then(dot).into_iter().collect()
 }
 
 /// The centre line with its widths, at steps of a quarter of a nib at most.
@@ -113,12 +115,12 @@ fn trimmed(samples: Vec<Sample>, stroke: &Stroke, nib: f64) -> Vec<Sample> {
 }
 
 /// Passes side by side that fill a spine.
-fn fill(spine: &Spine, nib: f64) -> Vec<Toolpath> {
+fn fill(spine: &Spine, nib: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let widest = spine.room.iter().copied().fold(0.0, f64::max);
     let passes = (widest / pitch + 0.5).ceil().max(1.0) as usize;
     let mut paths: Vec<Toolpath> = Vec::new();
-    for pass in 0..passes {
+    for pass in (0..passes).take_while(|_| !interrupt.is_raised()) {
         let inner = pass as f64 * pitch;
         // Pass 0 goes the whole way; the next ones wherever more than half a pitch is still open.
         let has_room = |i: usize| pass == 0 || spine.room[i] - inner > -0.5 * pitch;
@@ -247,7 +249,7 @@ mod tests {
         line.move_to((0.0, 0.0));
         line.line_to((1.6, 0.0));
         let stroke = Stroke { ends: Ends::Flat, ..Stroke::new(line, Width::Constant(2.3)) };
-        let paths = lower_stroke(&stroke, 0.92, 0.0);
+        let paths = lower_stroke(&stroke, 0.92, 0.0, &Interrupt::never());
         let xs = || paths.iter().flat_map(|path| &path.points).map(|p| p.x);
         assert!((xs().fold(f64::INFINITY, f64::min) - 0.46).abs() < 1e-6 && (xs().fold(0.0, f64::max) - 1.14).abs() < 1e-6);
     }
@@ -256,7 +258,7 @@ mod tests {
     fn a_wide_line_is_one_path_inside_its_ink() {
         for (width, rows) in [(0.5, 2.0), (1.0, 4.0), (2.0, 8.0)] {
             let stroke = Stroke::new(BezPath::from_svg("M0,0 L20,0").unwrap(), Width::Constant(width));
-            let paths = lower_stroke(&stroke, 0.3, 0.0);
+            let paths = lower_stroke(&stroke, 0.3, 0.0, &Interrupt::never());
             assert_eq!(paths.len(), 1, "width {width}");
             let reach = 0.5 * width - 0.15 + 1e-9;
             assert!(paths[0].points.iter().all(|p| p.y.abs() <= reach && p.x >= -reach && p.x <= 20.0 + reach));
@@ -267,7 +269,7 @@ mod tests {
     #[test]
     fn a_spindle_s_tips_are_dashes_with_its_own_ink() {
         let stroke = Stroke::new(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), Width::Along(vec![0.0, 0.6, 0.0]));
-        let paths = lower_stroke(&stroke, 0.3, 0.0);
+        let paths = lower_stroke(&stroke, 0.3, 0.0, &Interrupt::never());
         let thin: Vec<&Toolpath> = paths.iter().filter(|path| path.points.iter().all(|p| p.x < 4.8)).collect();
         assert!(thin.len() > 3, "{}", thin.len());
         let ink: f64 = thin.iter().map(|path| path.length() * 0.3 + 0.0707).sum();
@@ -286,7 +288,7 @@ mod tests {
         let line = BezPath::from_svg("M0,0 L10,0").unwrap();
         for width in [0.3, 0.9] {
             let stroke = Stroke { ends: Ends::Flat, ..Stroke::new(line.clone(), Width::Constant(width)) };
-            let paths = lower_stroke(&stroke, 0.3, 0.0);
+            let paths = lower_stroke(&stroke, 0.3, 0.0, &Interrupt::never());
             assert!(paths.iter().flat_map(|path| &path.points).all(|p| p.x > 0.149 && p.x < 9.851), "{width}: {paths:?}");
         }
     }

@@ -2,10 +2,11 @@
 
 use crate::drawing::Mark;
 use crate::geometry::{Point, thinned};
+use crate::interrupt::Interrupt;
 
 /// Which marks are drawn. A dot smaller than the nib would lay down a whole nib's disc: it stands for its neighbours with the share
 /// of that disc which was asked for.
-pub(super) fn keeps_tone(marks: &[Mark], nib: f64) -> Vec<bool> {
+pub(super) fn keeps_tone(marks: &[Mark], nib: f64, interrupt: &Interrupt) -> Vec<bool> {
     let smallest = 0.5 * nib;
     let is_small = |mark: &Mark| matches!(mark, Mark::Dot(dot) if dot.radius < smallest && dot.centre.is_finite());
     let small: Vec<usize> = (0..marks.len()).filter(|&i| is_small(&marks[i])).collect();
@@ -15,7 +16,7 @@ pub(super) fn keeps_tone(marks: &[Mark], nib: f64) -> Vec<bool> {
     };
     let (places, shares): (Vec<Point>, Vec<f64>) = small.iter().map(asked).unzip();
     let mut kept = vec![true; marks.len()];
-    for (mark, stays) in small.into_iter().zip(thinned(&places, &shares)) {
+    for (mark, stays) in small.into_iter().zip(thinned(&places, &shares, interrupt)) {
         kept[mark] = stays;
     }
     kept
@@ -32,9 +33,9 @@ mod tests {
 
     #[test]
     fn as_much_ink_is_left_as_was_asked_for() {
-        let kept = keeps_tone(&grid(|_| 0.09), 0.3).into_iter().filter(|k| *k).count();
+        let kept = keeps_tone(&grid(|_| 0.09), 0.3, &Interrupt::never()).into_iter().filter(|k| *k).count();
         assert!((880..=920).contains(&kept), "{kept}: (0.09 / 0.15)^2 of 2500 is 900");
-        assert!(keeps_tone(&grid(|_| 0.09), 0.18).into_iter().all(|k| k));
+        assert!(keeps_tone(&grid(|_| 0.09), 0.18, &Interrupt::never()).into_iter().all(|k| k));
     }
 
     #[test]
@@ -46,7 +47,7 @@ mod tests {
             let (x, y) = (f64::from(i % 75) * step, f64::from(i / 75) * step);
             Mark::Dot(Dot::circle(Point::new(x + 0.1, y + 0.1), 0.09))
         }));
-        let kept = keeps_tone(&marks, 0.3);
+        let kept = keeps_tone(&marks, 0.3, &Interrupt::never());
         let is_dense = |i: &usize| *i >= 2500 || (i % 50 < 26 && i / 50 < 26);
         for (of, name) in [(true, "dense"), (false, "sparse")] {
             let members: Vec<usize> = (0..marks.len()).filter(|i| is_dense(i) == of).collect();
@@ -59,7 +60,7 @@ mod tests {
     fn small_windows_keep_their_tone() {
         let share = |i: i32| f64::from(i % 50) / 60.0;
         let marks = grid(|i| 0.15 * share(i).sqrt());
-        let kept = keeps_tone(&marks, 0.3);
+        let kept = keeps_tone(&marks, 0.3, &Interrupt::never());
         let mut worst: f64 = 0.0;
         for row in 0..44 {
             for column in 0..44 {
@@ -75,7 +76,7 @@ mod tests {
     fn few_or_coincident_dots_do_no_harm() {
         for count in [0, 1, 2, 5, 300] {
             let marks = vec![Mark::Dot(Dot::circle(Point::new(1.0, 1.0), 0.1)); count];
-            assert_eq!(keeps_tone(&marks, 0.3).len(), count);
+            assert_eq!(keeps_tone(&marks, 0.3, &Interrupt::never()).len(), count);
         }
     }
 }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use kurbo::{Point, Rect};
 
+use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
 /// Vertices of a closed path that are tried as the counterpart of another one's start. More than a few coincide only in a path that
@@ -13,11 +14,11 @@ const MOST_STARTS: usize = 16;
 /// Drops each path that repeats an earlier one: as many vertices, each at most `tolerance` millimetres from its counterpart, and as high, in
 /// either direction; a closed path may begin at any of them. A path that belongs to a group is never dropped, nor anything for its sake.
 /// Of repeated touches the longest stays. O(number of vertices), as long as few paths with equally many vertices share the middle of
-/// their bounds without being the same.
-pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64) -> Vec<Toolpath> {
+/// their bounds without being the same. Once the interrupt is raised, the rest is left out.
+pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut kept: Vec<Toolpath> = Vec::with_capacity(paths.len());
     let mut by_middle: HashMap<(usize, i64, i64), Vec<usize>> = HashMap::new();
-    for path in paths {
+    for path in paths.into_iter().take_while(|_| !interrupt.is_raised()) {
         if path.group.is_some() {
             kept.push(path);
             continue;
@@ -27,7 +28,7 @@ pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64) -> Vec<Toolpath> {
         let (x, y) = cell(bounds(&path.points).center(), tolerance);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))));
         let mut candidates = around.filter_map(|(x, y)| by_middle.get(&(path.points.len(), x, y))).flatten();
-        if let Some(&earlier) = candidates.find(|&&other| is_same(&path, &kept[other], tolerance)) {
+        if let Some(&earlier) = candidates.find(|&&other| interrupt.is_raised() || is_same(&path, &kept[other], tolerance)) {
             kept[earlier].dwell_seconds = kept[earlier].dwell_seconds.max(path.dwell_seconds);
         } else {
             by_middle.entry((path.points.len(), x, y)).or_default().push(kept.len());

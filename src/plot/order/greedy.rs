@@ -4,9 +4,13 @@ use rayon::prelude::*;
 
 use super::neighbours::{Neighbours, nearest_ends};
 use super::sites::{End, Role, Sites};
+use crate::interrupt::Interrupt;
 
 /// Neighbours of each loose end that are looked at in later rounds. With fewer, more rounds are needed.
 const LATER_NEIGHBOURS: usize = 6;
+
+/// Runs into which candidates are cut by their length before they are sorted, so that a request to stop is seen between two of them.
+const RUNS: usize = 64;
 
 /// Rounds after which the remaining fragments are strung together as they come. If most ends have the same few nearest partners, as with
 /// thousands of copies of one path drawn forwards only, a round joins next to nothing, and without a limit they would take n^2.
@@ -16,14 +20,14 @@ const MOST_ROUNDS: usize = 30;
 type Candidate = (u32, End, End);
 
 /// Orders all paths greedily and returns the end at which each is entered, beginning with the home path. About 14 % above the
-/// optimum on uniform dots; O(n log n).
+/// optimum on uniform dots; O(n log n). Interrupted, it returns some of them.
 pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours) -> Vec<End> {
     let mut fragments = Fragments::new(sites);
     let all = (0..sites.end_count() as End).into_par_iter();
     let candidates = all.flat_map_iter(|end| neighbours.of(end).iter().map(move |&other| candidate(sites, end, other)));
-    fragments.join_shortest(candidates.collect());
+    fragments.join_shortest(candidates.collect(), sites.interrupt());
     for _ in 0..MOST_ROUNDS {
-        if fragments.count == 1 {
+        if fragments.count == 1 || sites.interrupt().is_raised() {
             break;
         }
         let loose = fragments.loose_ends(sites);
@@ -31,7 +35,7 @@ pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours) -> Vec<End> {
         let apart = |a: End, b: End| root[a as usize >> 1] != root[b as usize >> 1];
         let found = nearest_ends(sites, &loose, LATER_NEIGHBOURS, |end| fragments.role[end as usize], apart);
         let pairs = loose.iter().zip(&found).flat_map(|(&end, others)| others.iter().map(move |&other| (end, other)));
-        fragments.join_shortest(pairs.map(|(end, other)| candidate(sites, end, other)).collect());
+        fragments.join_shortest(pairs.map(|(end, other)| candidate(sites, end, other)).collect(), sites.interrupt());
     }
     fragments.string_together(sites);
     fragments.walk_from(sites.free_end())
@@ -39,6 +43,22 @@ pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours) -> Vec<End> {
 
 fn candidate(sites: &Sites, a: End, b: End) -> Candidate {
     ((sites.distance(a, b) as f32).to_bits(), a.min(b), a.max(b))
+}
+
+/// Candidates in runs of about the same number, each run's before the next one's; within a run they stand as they come.
+fn runs(candidates: Vec<Candidate>) -> Vec<Vec<Candidate>> {
+    let step = candidates.len() / (16 * RUNS);
+    if step == 0 {
+        return vec![candidates];
+    }
+    let mut sample: Vec<Candidate> = candidates.iter().step_by(step).copied().collect();
+    sample.sort_unstable();
+    let borders: Vec<Candidate> = sample.into_iter().skip(16).step_by(16).collect();
+    let mut runs: Vec<Vec<Candidate>> = vec![Vec::new(); borders.len() + 1];
+    for candidate in candidates {
+        runs[borders.partition_point(|border| *border <= candidate)].push(candidate);
+    }
+    runs
 }
 
 /// Pieces of tour that grow together, as a union-find forest over paths.
@@ -72,9 +92,15 @@ impl Fragments {
         path
     }
 
-    fn join_shortest(&mut self, mut candidates: Vec<Candidate>) {
-        candidates.par_sort_unstable();
-        for (_, a, b) in candidates {
+    fn join_shortest(&mut self, candidates: Vec<Candidate>, interrupt: &Interrupt) {
+        for mut run in runs(candidates).into_iter().take_while(|_| !interrupt.is_raised()) {
+            run.par_sort_unstable();
+            self.join_all(&run);
+        }
+    }
+
+    fn join_all(&mut self, candidates: &[Candidate]) {
+        for &(_, a, b) in candidates {
             let fits = self.role[a as usize].may_link(self.role[b as usize]);
             if !fits || self.link[a as usize].is_some() || self.link[b as usize].is_some() {
                 continue;

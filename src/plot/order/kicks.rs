@@ -15,7 +15,7 @@ const STEPS: usize = 10;
 /// Kicks the tour this many times and returns the millimetres gained. One kick takes about 25 microseconds, however long the tour,
 /// as long as the changes to its array stay short.
 pub(super) fn kick(search: &mut LinKernighan, times: usize, random: &mut SplitMix) -> f64 {
-    (0..times).filter_map(|_| kick_once(search, random)).sum()
+    (0..times).take_while(|_| !search.sites.interrupt().is_raised()).filter_map(|_| kick_once(search, random)).sum()
 }
 
 /// Makes one kick and keeps it if the repaired tour is no longer than before. `None` if there was no room for it.

@@ -13,6 +13,7 @@ use kurbo::{Point, Vec2};
 
 use super::Direction;
 use super::ring::{is_free, rotated};
+use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
 /// The sharpest turn from the path into the loop, as 1 - cos of it: 90 degrees, as where a stem meets a ring head-on.
@@ -34,15 +35,20 @@ struct Touch {
 
 /// Joins each loop to a path with an end at most `tolerance` millimetres from it, if there is one: of several the one from which the
 /// turn is least. The turn is never above 90 degrees; with [`Direction::AsDrawn`], nothing is turned round. Each end is used
-/// once. Paths with heights stay as they are. O(number of vertices).
-pub(in crate::plot) fn join_to_loops(mut paths: Vec<Toolpath>, tolerance: f64, direction: Direction) -> Vec<Toolpath> {
+/// once. Paths with heights stay as they are. O(number of vertices). Once the interrupt is raised, only some are joined.
+pub(in crate::plot) fn join_to_loops(
+    mut paths: Vec<Toolpath>,
+    tolerance: f64,
+    direction: Direction,
+    interrupt: &Interrupt,
+) -> Vec<Toolpath> {
     let rings: Vec<usize> = (0..paths.len()).filter(|&path| is_free(&paths[path]) && paths[path].heights.is_none()).collect();
     if rings.is_empty() {
         return paths;
     }
-    let edges = Edges::new(&paths, &rings, tolerance);
+    let edges = Edges::new(&paths, &rings, tolerance, interrupt);
     let is_line = |path: &Toolpath| !path.is_closed() && path.heights.is_none() && path.length() > tolerance;
-    let lines = (0..paths.len()).filter(|&path| is_line(&paths[path]));
+    let lines = (0..paths.len()).take_while(|_| !interrupt.is_raised()).filter(|&path| is_line(&paths[path]));
     let mut touches: Vec<Touch> = lines
         .flat_map(|path| [(path, false), (path, true)])
         .filter_map(|(path, at_end)| edges.touch(&paths, path, at_end, tolerance, direction))
@@ -81,12 +87,12 @@ struct Edges {
 
 impl Edges {
     /// Cells are about as large as the edges, so that an edge lies in a few of them on average.
-    fn new(paths: &[Toolpath], rings: &[usize], tolerance: f64) -> Self {
+    fn new(paths: &[Toolpath], rings: &[usize], tolerance: f64, interrupt: &Interrupt) -> Self {
         let (length, count) = rings
             .iter()
             .fold((0.0, 0), |(length, count), &ring| (length + paths[ring].length(), count + paths[ring].points.len()));
         let mut edges = Self { size: (2.0 * tolerance).max(length / count as f64).max(1e-9), cells: HashMap::new() };
-        for &ring in rings {
+        for &ring in rings.iter().take_while(|_| !interrupt.is_raised()) {
             for (edge, side) in paths[ring].points.windows(2).enumerate() {
                 let steps = (2.0 * side[0].distance(side[1]) / edges.size).ceil().clamp(1.0, 1e6);
                 for step in 0..=steps as usize {

@@ -62,10 +62,10 @@ impl<'a> LinKernighan<'a> {
         ends.iter().map(|&end| self.sites.distance(end, self.tour.link(end))).sum::<f64>() / 2.0
     }
 
-    /// Improves the tour until no end is waiting, and returns the millimetres gained. `after_each` sees the tour after every exchange.
+    /// Improves the tour until no end is waiting or the search is interrupted, and returns the millimetres gained. `after_each` sees the tour after every exchange.
     pub(super) fn improve(&mut self, mut after_each: impl FnMut(&mut Tour)) -> f64 {
         let mut gained = 0.0;
-        while let Some(end) = self.waiting.pop_front() {
+        while let Some(end) = self.waiting.pop_front().filter(|_| !self.sites.interrupt().is_raised()) {
             self.is_waiting[end as usize] = false;
             while let Some(gain) = self.improve_at(end) {
                 gained += gain;

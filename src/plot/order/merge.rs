@@ -4,6 +4,7 @@ use kurbo::{Point, Vec2};
 
 use super::Direction;
 use super::kd_tree::KdTree;
+use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
 /// Ends that are looked at around each end. At a crossroads of more, some pairs may stay apart; with all of them, a star of n rays would
@@ -31,13 +32,13 @@ const STEP: f64 = 0.01;
 /// whose own ends meet becomes a closed path, its last point equal to its first. A path not longer than the tolerance is a
 /// dot and left alone; a path with heights is joined only to others that have them, where they are the same. Chains come in the order of
 /// their first path, which keeps its direction; with [`Direction::AsDrawn`] the end of one is joined only to the start of
-/// the next. O(n log n).
+/// the next. O(n log n). Once the interrupt is raised, some of the chains.
 #[expect(clippy::needless_pass_by_value, reason = "the paths are replaced by their chains")]
-pub fn chain(paths: Vec<Toolpath>, tolerance: f64, direction: Direction) -> Vec<Toolpath> {
-    let links = matched(meetings(&paths, tolerance, direction), 2 * paths.len());
+pub fn chain(paths: Vec<Toolpath>, tolerance: f64, direction: Direction, interrupt: &Interrupt) -> Vec<Toolpath> {
+    let links = matched(meetings(&paths, tolerance, direction, interrupt), 2 * paths.len());
     let mut used = vec![false; paths.len()];
     let mut chains = Vec::new();
-    for path in 0..paths.len() {
+    for path in (0..paths.len()).take_while(|_| !interrupt.is_raised()) {
         if used[path] {
             continue;
         }
@@ -78,14 +79,14 @@ struct Meeting {
 }
 
 /// All pairs of ends that may be joined.
-fn meetings(paths: &[Toolpath], tolerance: f64, direction: Direction) -> Vec<Meeting> {
+fn meetings(paths: &[Toolpath], tolerance: f64, direction: Direction, interrupt: &Interrupt) -> Vec<Meeting> {
     let is_line: Vec<bool> = paths.iter().map(|path| is_longer_than(&path.points, tolerance)).collect();
     let ends: Vec<(Point, u32)> =
         (0..2 * paths.len()).filter(|end| is_line[end / 2]).map(|end| (place(paths, end), end as u32)).collect();
     let tree = KdTree::new(ends.clone());
     let mut found = Vec::new();
     let mut meetings = Vec::new();
-    for &(at, end) in &ends {
+    for &(at, end) in ends.iter().take_while(|_| !interrupt.is_raised()) {
         tree.nearest((at, end), MOST_MEETING, |other| other != end, &mut found);
         let pairs = found
             .iter()

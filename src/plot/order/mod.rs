@@ -43,6 +43,7 @@ pub use merge::chain;
 pub(super) use random::shuffled;
 pub(super) use ring::{is_free, rotated};
 
+use crate::interrupt::Interrupt;
 use kurbo::Point;
 
 use greedy::greedy_tour;
@@ -145,12 +146,17 @@ pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Directi
 
 /// Does what [`order`] does for stops of any kind, and moves the ends of loops to where the pen enters them.
 pub fn order_stops(stops: &mut [Stop], home: Point, effort: Effort) -> Vec<Visit> {
+    order_until(stops, home, effort, &Interrupt::never())
+}
+
+/// The same; once the interrupt is raised, the shortest order found by then.
+pub(super) fn order_until(stops: &mut [Stop], home: Point, effort: Effort, interrupt: &Interrupt) -> Vec<Visit> {
     let mut best = Best::as_given(stops, home);
     if effort != Effort::None && !stops.is_empty() {
         if stops.len() <= exact::MOST {
             order_few(stops, &mut best);
         } else {
-            order_many(stops, effort, &mut best);
+            order_many(stops, effort, interrupt, &mut best);
         }
     }
     for (stop, (ends, edge)) in stops.iter_mut().zip(best.seats) {
@@ -211,23 +217,27 @@ const SEATINGS: usize = 3;
 /// Parts into which kicks are divided between seatings where there are loops; not tuned yet.
 const PARTS: usize = 4;
 
-fn order_many(stops: &mut [Stop], effort: Effort, best: &mut Best) {
+fn order_many(stops: &mut [Stop], effort: Effort, interrupt: &Interrupt, best: &mut Best) {
     let has_rings = stops.iter().any(|stop| stop.ring.is_some());
     let numbering = sites::numbering(stops);
-    let sites = Sites::new(stops, &numbering, best.home);
+    let sites = Sites::new(stops, &numbering, best.home, interrupt);
     let neighbours = Neighbours::new(&sites, NEIGHBOURS);
-    let tour = Tour::new(greedy_tour(&sites, &neighbours));
+    let entries = greedy_tour(&sites, &neighbours);
+    if interrupt.is_raised() {
+        return;
+    }
+    let tour = Tour::new(entries);
     let mut work = Workpiece { sites, neighbours, tour };
     let parts = if has_rings { PARTS } else { 1 };
     work.settle();
     for _ in 0..SEATINGS {
-        if !has_rings || work.seat(stops, &numbering, best.home) == 0.0 {
+        if !has_rings || interrupt.is_raised() || work.seat(stops, &numbering, best.home) == 0.0 {
             break;
         }
         work.settle();
     }
     let mut finish = |work: &mut Workpiece, stops: &mut [Stop]| {
-        if has_rings && work.seat(stops, &numbering, best.home) > 0.0 {
+        if has_rings && !interrupt.is_raised() && work.seat(stops, &numbering, best.home) > 0.0 {
             work.settle();
             work.seat(stops, &numbering, best.home);
         }
@@ -237,7 +247,7 @@ fn order_many(stops: &mut [Stop], effort: Effort, best: &mut Best) {
     finish(&mut work, stops);
     if effort == Effort::Full {
         let kicks_per_path = (FULL_KICKS + LEAST_FULL_KICKS / stops.len() as f64) / (2 * parts) as f64;
-        for part in 0..parts as u64 {
+        for part in (0..parts as u64).take_while(|_| !interrupt.is_raised()) {
             work.along_the_tour(kicks_per_path, 1 + part);
             work.across_the_paper(kicks_per_path, part);
             finish(&mut work, stops);

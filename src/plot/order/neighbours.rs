@@ -68,6 +68,9 @@ pub(super) fn nearest_ends(
             || (Vec::new(), Vec::new()),
             |(nearest, all), &end| {
                 all.clear();
+                if sites.interrupt().is_raised() {
+                    return Vec::new();
+                }
                 for (_, tree) in trees.iter().filter(|(wanted, _)| wanted.may_link(role(end))) {
                     tree.nearest((sites.place(end), end), count, |other| may_link(end, other), nearest);
                     all.append(nearest);

@@ -16,6 +16,7 @@ use super::kd_tree::KdTree;
 use super::sites::{End, Sites};
 use super::tour::Tour;
 use super::{PathEnds, Stop};
+use crate::interrupt::Interrupt;
 
 /// Places along a large loop around which links are looked for, and ends near each: chosen to reach all sides of it, not tuned yet.
 const SAMPLES: usize = 8;
@@ -86,6 +87,7 @@ struct Seat {
 struct Seating<'a> {
     free: End,
     tolerance: f64,
+    interrupt: Interrupt,
     rings: Vec<Option<Ring<'a>>>,
     at: Vec<Point>,
     edge: Vec<usize>,
@@ -101,7 +103,7 @@ impl<'a> Seating<'a> {
         let rings = rings.map(|(path, &stop)| stops[stop].ring.map(|points| Ring::new(points, path as End, &tree))).collect();
         let edge = numbering.iter().map(|&stop| stops[stop].edge).collect();
         let link = ends.map(|end| tour.link(end)).collect();
-        Self { free: sites.free_end(), tolerance: sites.tolerance(), rings, at, edge, link }
+        Self { free: sites.free_end(), tolerance: sites.tolerance(), interrupt: sites.interrupt().clone(), rings, at, edge, link }
     }
 
     /// Seats loops until none moves any more.
@@ -112,7 +114,7 @@ impl<'a> Seating<'a> {
         let mut is_waiting: Vec<bool> = self.rings.iter().map(Option::is_some).collect();
         let mut gained = 0.0;
         let mut turns = MOST_TURNS * waiting.len();
-        while let Some(path) = waiting.pop_front().filter(|_| turns > 0) {
+        while let Some(path) = waiting.pop_front().filter(|_| turns > 0 && !self.interrupt.is_raised()) {
             turns -= 1;
             is_waiting[path] = false;
             let around = |link: &[End]| [2 * path, 2 * path + 1].map(|end| link[end] as usize >> 1);

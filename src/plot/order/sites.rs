@@ -5,6 +5,7 @@ use kurbo::Point;
 use super::Stop;
 use super::kd_tree::KdTree;
 use super::one_way::OneWay;
+use crate::interrupt::Interrupt;
 
 /// One end of one path. Path `p` owns the ends `2 p` (its start) and `2 p + 1` (its end), so that `end ^ 1` is the
 /// other end of the same path and `end >> 1` the path. The numbering is the internal one of [`Sites`].
@@ -30,6 +31,7 @@ pub(super) struct Sites {
     free: End,
     tolerance: f64,
     one_way: OneWay,
+    interrupt: Interrupt,
 }
 
 /// What a link may do with an end, as far as it matters.
@@ -58,8 +60,9 @@ pub(super) fn numbering(stops: &[Stop]) -> Vec<usize> {
 }
 
 impl Sites {
-    /// The ends of all paths in this numbering, and of the home path.
-    pub(super) fn new(stops: &[Stop], numbering: &[usize], home: Point) -> Self {
+    /// The ends of all paths in this numbering, and of the home path. Once the interrupt is raised, the search among them ends with what
+    /// it has.
+    pub(super) fn new(stops: &[Stop], numbering: &[usize], home: Point, interrupt: &Interrupt) -> Self {
         let ends = numbering.iter().flat_map(|&path| [stops[path].ends.start, stops[path].ends.end]);
         let at: Vec<Point> = ends.chain([home, home]).map(clamped).collect();
         let corner = |pick: fn(f64, f64) -> f64| {
@@ -70,14 +73,19 @@ impl Sites {
         let tolerance = 1e-12 * corner(f64::min).distance(corner(f64::max));
         let mut one_way: Vec<bool> = numbering.iter().map(|&path| stops[path].is_one_way()).collect();
         one_way.push(one_way.contains(&true));
-        Self { at, free: 2 * numbering.len() as End, tolerance, one_way: OneWay::new(one_way) }
+        Self { at, free: 2 * numbering.len() as End, tolerance, one_way: OneWay::new(one_way), interrupt: interrupt.clone() }
     }
 
     /// Some of these ends under new numbers, two and two those of a path.
     pub(super) fn part(&self, ends: &[End], one_way: OneWay) -> Self {
         let at = ends.iter().map(|&end| self.place(end)).collect();
         let free = ends.iter().position(|&end| end == self.free).map_or(End::MAX, |end| end as End);
-        Self { at, free, tolerance: self.tolerance, one_way }
+        Self { at, free, tolerance: self.tolerance, one_way, interrupt: self.interrupt.clone() }
+    }
+
+    /// The request to stop the search among these ends.
+    pub(super) fn interrupt(&self) -> &Interrupt {
+        &self.interrupt
     }
 
     /// Number of paths with the home path.

@@ -57,7 +57,7 @@ impl Workpiece {
         let (entries, gained) = seats::seated(stops, numbering, &self.sites, &self.tour);
         if gained > 0.0 {
             self.tour = Tour::new(entries);
-            self.sites = Sites::new(stops, numbering, home);
+            self.sites = Sites::new(stops, numbering, home, &self.sites.interrupt().clone());
             self.neighbours = Neighbours::new(&self.sites, NEIGHBOURS);
         }
         gained
@@ -90,7 +90,7 @@ impl Workpiece {
         let mut renumbered = vec![End::MAX; self.sites.end_count()];
         let middle = |path: u32| self.sites.place(2 * path).midpoint(self.sites.place(2 * path + 1));
         let mut paths: Vec<(Point, u32)> = (0..self.sites.path_count() as u32).map(|path| (middle(path), path)).collect();
-        for tile in tiles(&mut paths) {
+        for tile in tiles(&mut paths).into_iter().take_while(|_| !self.sites.interrupt().is_raised()) {
             let mut seats: Vec<usize> = tile.iter().map(|&(_, path)| self.tour.seat_of(2 * path)).collect();
             seats.sort_unstable();
             let patch = Patch::new(&self.sites, &self.neighbours, &self.tour, &seats, &mut renumbered);

@@ -13,6 +13,7 @@ use super::random::SplitMix;
 use super::sites::{Sites, numbering};
 use super::tour::Tour;
 use super::{Direction, Effort, NEIGHBOURS, PathEnds, Stop, Visit, order, pen_up_length};
+use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
 const HOME: Point = Point::ZERO;
@@ -22,11 +23,11 @@ fn toolpaths(lines: Vec<Vec<Point>>) -> Vec<Toolpath> {
 }
 
 fn chain(lines: Vec<Vec<Point>>, tolerance: f64, direction: Direction) -> Vec<Vec<Point>> {
-    super::chain(toolpaths(lines), tolerance, direction).into_iter().map(|path| path.points).collect()
+    super::chain(toolpaths(lines), tolerance, direction, &Interrupt::never()).into_iter().map(|path| path.points).collect()
 }
 
 fn drop_duplicates(lines: Vec<Vec<Point>>, tolerance: f64) -> Vec<Vec<Point>> {
-    super::drop_duplicates(toolpaths(lines), tolerance).into_iter().map(|path| path.points).collect()
+    super::drop_duplicates(toolpaths(lines), tolerance, &Interrupt::never()).into_iter().map(|path| path.points).collect()
 }
 
 fn point() -> impl Strategy<Value = Point> {
@@ -211,7 +212,7 @@ fn gains_add_up_to_the_difference_in_length() {
         let stops: Vec<Stop> =
             scattered(400, 5.0).into_iter().map(|ends| Stop::new(ends, direction == Direction::Either)).collect();
         let numbering = numbering(&stops);
-        let sites = Sites::new(&stops, &numbering, HOME);
+        let sites = Sites::new(&stops, &numbering, HOME, &Interrupt::never());
         let neighbours = Neighbours::new(&sites, NEIGHBOURS);
         let first = Tour::new(greedy_tour(&sites, &neighbours));
         let all: Vec<u32> = (0..sites.end_count() as u32).collect();

@@ -14,6 +14,7 @@ mod pen_action;
 use super::profile::{GcodeDialect, Language, Lift, Limits, Profile, Travel};
 use super::{Mounting, PenPaths, Plot, Toolpath};
 use crate::geometry::{Point, Step, fit_arcs};
+use crate::interrupt::{Interrupt, Interrupted};
 use look_ahead::{LookAhead, Place, whole};
 use pen_action::{PenAction, Rate, pen_actions};
 use std::f64::consts::PI;
@@ -48,10 +49,10 @@ impl Clock {
 
 /// The time of each pen of a plot, from machine zero with the pen up to where the machine parks; the user's own time at a pause
 /// is not known and not counted.
-pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting) -> Vec<Clock> {
+pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &Interrupt) -> Result<Vec<Clock>, Interrupted> {
     let mut run = Run::new(profile, mounting, plot.pens.len());
     if plot.pens.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     if profile.language == Language::Gcode {
         run.act(PenMove::Up, profile.motion.pen_up_seconds);
@@ -61,11 +62,12 @@ pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting) -> Vec<Clock> 
         run.change_pen(i, is_other_pen, pen);
         let rate = run.draw_rate(pen);
         for path in &pen.paths {
+            interrupt.check()?;
             run.path(pen.number, path, rate);
         }
     }
     run.park();
-    run.finish()
+    Ok(run.finish())
 }
 
 /// What a stretch of time is spent on, for each pen.

@@ -1,0 +1,127 @@
+//! Whoever is asked to stop stops within a second, whatever it is at.
+
+use drypoint::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use drypoint::geometry::{BezPath, Point};
+use drypoint::interrupt::{Interrupt, Interrupted};
+use drypoint::plot::{
+    Effort, Hides, InkModel, Nibs, PenPaths, Plot, Profile, Sequence, Toolpath, coverage, let_dry, lower, mount, occluded, report,
+};
+use std::time::{Duration, Instant};
+
+/// A second, and as much again for a machine that is busy with other tests.
+const AT_ONCE: Duration = Duration::from_secs(2);
+
+/// Starts some work, asks it to stop a moment later and holds it to the limit. Work that is over before that proves nothing.
+fn stops_at_once<T: std::fmt::Debug>(name: &str, moment: f64, work: impl FnOnce(&Interrupt) -> Result<T, Interrupted>) {
+    let interrupt = Interrupt::new();
+    let handle = interrupt.clone();
+    let moment = Duration::from_secs_f64(moment);
+    let asked = std::thread::spawn(move || {
+        std::thread::sleep(moment);
+        handle.raise();
+        Instant::now()
+    });
+    let result = work(&interrupt);
+    let over = Instant::now();
+    let asked = asked.join().unwrap();
+    assert!(result.is_err(), "{name} was done before it was asked to stop");
+    println!("{name}: {:.3} s", (over - asked).as_secs_f64());
+    assert!(over - asked < AT_ONCE, "{name}: {:?}", over - asked);
+}
+
+/// Places spread evenly over a page of 500 mm without any pattern.
+fn place(i: usize) -> Point {
+    let share = |step: f64| (i as f64 * step).fract();
+    Point::new(500.0 * share(0.754_877_666_246_69), 500.0 * share(0.569_840_290_998_05))
+}
+
+fn page_of(marks: Vec<Mark>) -> Drawing {
+    Drawing { page: Page::new(500.0, 500.0), layers: vec![Layer { marks, ..Layer::new("marks", 1) }] }
+}
+
+fn touches(count: usize) -> Plot {
+    plot_of((0..count).map(|i| Toolpath::new(vec![place(i)])).collect())
+}
+
+fn plot_of(paths: Vec<Toolpath>) -> Plot {
+    let (colour, handling) = (Colour::BLACK, Handling::default());
+    let pen = PenPaths { number: 1, name: "dots".to_owned(), colour, nib: 0.3, handling, paths };
+    Plot { page: Page::new(500.0, 500.0), pens: vec![pen] }
+}
+
+/// A comb whose back and forth of thin teeth makes filling it long.
+fn comb(teeth: usize) -> BezPath {
+    let mut path = BezPath::new();
+    path.move_to((0.0, 0.0));
+    for i in 0..teeth {
+        let x = 500.0 * i as f64 / teeth as f64;
+        path.line_to((x, 480.0 + 10.0 * place(i).x / 500.0));
+        path.line_to((x + 250.0 / teeth as f64, 10.0));
+    }
+    path.line_to((500.0, 0.0));
+    path.close_path();
+    path
+}
+
+#[test]
+fn an_order_of_a_million_dots_stops() {
+    let sequence = Sequence { effort: Effort::Full, merge: 0.05, ..Sequence::default() };
+    for moment in [0.2, 1.0, 2.5, 5.0, 9.0] {
+        let mut plot = touches(1_000_000);
+        stops_at_once(&format!("order, {moment} s"), moment, |interrupt| plot.put_in_order(Point::ORIGIN, &sequence, interrupt));
+    }
+}
+
+#[test]
+fn lowering_of_a_large_area_stops() {
+    let area = page_of(vec![Mark::Area(Area { outline: comb(3000), colour: None })]);
+    for moment in [0.1, 1.0, 3.0] {
+        stops_at_once(&format!("area, {moment} s"), moment, |interrupt| {
+            lower(&area, InkModel::Ink, &Nibs::all(0.1), 0.005, interrupt)
+        });
+    }
+}
+
+#[test]
+fn thinning_of_many_dots_stops() {
+    let dots = page_of((0..1_000_000).map(|i| Mark::Dot(Dot::circle(place(i), 0.1))).collect());
+    for moment in [0.2, 2.0, 6.0] {
+        stops_at_once(&format!("dots, {moment} s"), moment, |interrupt| {
+            lower(&dots, InkModel::Ink, &Nibs::all(0.5), 0.02, interrupt)
+        });
+    }
+}
+
+#[test]
+fn occlusion_of_many_marks_stops() {
+    let line = |i: usize| {
+        let mut curve = BezPath::new();
+        curve.move_to(place(i));
+        curve.line_to(place(7 * i + 3));
+        Mark::Stroke(Stroke {
+            colour: Some(Colour { r: (i % 251) as u8, g: 0, b: 0 }),
+            ..Stroke::new(curve, Width::Constant(0.3))
+        })
+    };
+    let mut drawing = page_of((0..40_000).map(line).collect());
+    drawing.layers[0].mixing = Mixing::Paint;
+    drawing.layers[0].ink = Ink::Colour(Colour::BLACK);
+    stops_at_once("occlusion", 1.0, |interrupt| occluded(&drawing, &drawing.painting_order(), Hides::OtherColours, interrupt));
+}
+
+#[test]
+fn measuring_a_million_dots_stops() {
+    let dots = page_of((0..1_000_000).map(|i| Mark::Dot(Dot::circle(place(i), 0.3))).collect());
+    let plot = touches(1_000_000);
+    stops_at_once("coverage", 0.5, |interrupt| coverage(&dots, &plot, &Nibs::all(0.05), interrupt));
+}
+
+#[test]
+fn the_clock_of_a_long_file_and_the_wait_for_ink_stop() {
+    let lines = (0..400_000).map(|i| Toolpath::new(vec![place(i), place(i + 1), place(2 * i)])).collect();
+    let mut plot = plot_of(lines);
+    let profile = Profile::built_in("grbl-servo").unwrap();
+    let mounting = mount(&profile, &Page::new(200.0, 200.0)).unwrap();
+    stops_at_once("clock", 0.3, |interrupt| report(&plot, Point::ORIGIN, Some((&profile, &mounting)), None, interrupt));
+    stops_at_once("drying", 0.5, |interrupt| let_dry(&mut plot, 600.0, Point::ORIGIN, &profile.motion, interrupt));
+}
