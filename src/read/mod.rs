@@ -17,6 +17,7 @@ mod text;
 pub use dropped::Dropped;
 pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights};
 pub use hpgl::{HpglError, HpglMotion, read_hpgl};
+pub use layers::LabelSpeeds;
 pub use svg::{Imported, ImportedLayer, SvgError, read_svg};
 
 use crate::geometry::Point;

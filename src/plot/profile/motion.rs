@@ -13,6 +13,8 @@ pub struct Motion {
     pub draw_speed_limit: Option<f64>,
     /// Pen up, mm/s; where limits hold for each axis, the rate of x and of y (GRBL's `$110` and `$111`).
     pub travel_speed: f64,
+    /// The fastest that the machine can be told to travel, mm/s.
+    pub travel_speed_limit: Option<f64>,
     /// mm/s^2, along the path or for each axis as `planner.limits` says.
     pub acceleration: f64,
     /// mm/s^2 with the pen up, where it differs.
@@ -50,6 +52,16 @@ impl Motion {
     pub fn axis_accelerations(&self, all: f64) -> [f64; 3] {
         let [x, y, z] = self.planner.axis_acceleration.unwrap_or([all; 3]);
         [x, y, self.planner.z_acceleration.unwrap_or(z)]
+    }
+
+    /// The fastest that the machine draws, mm/s: where no limit is known, as fast as it travels.
+    pub fn fastest_drawing(&self) -> f64 {
+        self.draw_speed_limit.unwrap_or(self.draw_speed.max(self.travel_speed))
+    }
+
+    /// The fastest that it travels, mm/s: where no limit is known, as fast as it draws or travels by itself.
+    pub fn fastest_travel(&self) -> f64 {
+        self.travel_speed_limit.unwrap_or(self.travel_speed.max(self.draw_speed_limit.unwrap_or(self.draw_speed)))
     }
 
     /// How far a corner may be rounded in thought, in millimetres.
@@ -103,6 +115,7 @@ impl Motion {
             ("motion.draw_speed", self.draw_speed),
             ("motion.draw_speed_limit", self.draw_speed_limit.unwrap_or(1.0)),
             ("motion.travel_speed", self.travel_speed),
+            ("motion.travel_speed_limit", self.travel_speed_limit.unwrap_or(1.0)),
             ("motion.acceleration", self.acceleration),
             ("motion.travel_acceleration", self.travel_acceleration.unwrap_or(1.0)),
             ("motion.junction_deviation", self.junction_deviation.unwrap_or(1.0)),

@@ -319,6 +319,7 @@ mod tests {
         draw_speed: 50.0,
         draw_speed_limit: None,
         travel_speed: 100.0,
+        travel_speed_limit: None,
         acceleration: 250.0,
         travel_acceleration: None,
         junction_deviation: Some(0.01),

@@ -55,7 +55,7 @@ pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &In
         return Ok(Vec::new());
     }
     if profile.language == Language::Gcode {
-        run.act(PenMove::Up, profile.motion.pen_up_seconds);
+        run.act(PenMove::Up, if run.waits_for_pen() { profile.motion.pen_up_seconds } else { 0.0 });
     }
     for (i, pen) in plot.pens.iter().enumerate() {
         let is_other_pen = i > 0 && plot.pens[i - 1].number != pen.number;
