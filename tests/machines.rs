@@ -338,7 +338,6 @@ fn what_cannot_be_is_refused_with_its_reason() {
         (&["a3.svg", "--profile", "idraw-a3", "-o", "x.gcode"][..], "has no word for one"),
         (&["a3.svg", "--profile", "hp7475a", "--frame", "-o", "x.hpgl"], "--frame needs a pause"),
         (&["a3.svg", "--profile", "axidraw-v3", "-o", "x.svg"], "beyond the upper x limit of axidraw-v3"),
-        (&["many.svg", "--profile", "hp7475a", "-o", "x.hpgl"], "3000 colours, and hp7475a holds 6 pens"),
         (&["a3.svg", "--profile", "./mine.toml", "-o", "x.hpgl"], "mine.toml, line 3: motion.draw_speed must be above 0"),
         (&["a3.svg", "--profile", "hp7475a", "--set-profile", "motion.fast=1", "-o", "x.hpgl"], "--set-profile: motion.fast"),
     ] {

@@ -1,16 +1,19 @@
-//! The rest of a file and what was drawn before it are the whole drawing's ink, and nothing else.
+//! The rest of a file and what was drawn before it are the whole drawing's ink, and nothing else, on every machine.
 
 mod common;
 
+use assert_cmd::Command;
 use common::{Sheet, sample};
-use drypoint::drawing::{Drawing, Layer};
-use drypoint::geometry::{Point, polyline_length};
+use drypoint::drawing::{Colour, Drawing, Handling, Layer, Page};
+use drypoint::geometry::{Point, Vec2, polyline_length};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Direction, Effort, InkModel, Nibs, Plot, Profile, lower, mount};
+use drypoint::plot::{
+    Direction, Effort, InkModel, Language, Lift, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath, built_in_names, lower, mount,
+};
 use drypoint::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl};
 use drypoint::resume::{Stop, resume_gcode, resume_hpgl};
-use drypoint::write::{write_gcode, write_hpgl};
-use std::collections::HashSet;
+use drypoint::write::{SvgHead, write_gcode, write_hpgl, write_svg_plotter};
+use std::collections::{BTreeSet, HashSet};
 
 /// A small portrait with three pens, ordered.
 fn plot() -> Plot {
@@ -144,4 +147,136 @@ fn nothing_is_drawn_before_the_place_to_go_on_from() {
             "line {line}"
         );
     }
+}
+
+/// Three pens with two lines and a touch each, so that a machine with one holder pauses twice; one pen where it cannot.
+fn three_layers(profile: &Profile) -> Plot {
+    let cannot_wait = profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_none());
+    let pen = |number: u32| {
+        let (y, turn) = (8.0 * f64::from(number), 0.2 * f64::from(number));
+        let arc = (0..30).map(|i| Point::new(40.0, y) + Vec2::from_angle(turn + 0.1 * f64::from(i)) * 5.0).collect();
+        let line = [(5.0, y), (15.0, y + 1.0), (25.0, y), (28.0, y + 3.0)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let mut paths: Vec<Toolpath> = [line, vec![Point::new(32.0, y)], arc].into_iter().map(Toolpath::new).collect();
+        if profile.swell.is_some() {
+            paths[0].heights = Some(vec![-0.1, -1.1, -0.5, -0.3]);
+        }
+        let handling = Handling { delay_seconds: if number == 3 { 0.4 } else { 0.0 }, ..Handling::default() };
+        let handling = if profile.language == Language::Gcode { handling } else { Handling::default() };
+        PenPaths { number, name: format!("layer {number}; is M0"), colour: Colour::BLACK, nib: 0.3, handling, paths }
+    };
+    let pens = if cannot_wait { vec![pen(1)] } else { (1..=3).map(pen).collect() };
+    Plot { page: Page::new(60.0, 40.0), pens }
+}
+
+fn written(profile: &Profile) -> String {
+    let plot = three_layers(profile);
+    let mounting = mount(profile, &plot.page).unwrap();
+    let mut bytes = Vec::new();
+    match profile.language {
+        Language::Gcode => write_gcode(&plot, profile, &mounting, &mut bytes).unwrap(),
+        Language::Hpgl => write_hpgl(&plot, profile, &mounting, &mut bytes).unwrap(),
+        Language::Svg => write_svg_plotter(&plot, profile, &SvgHead::default(), &mut bytes).unwrap(),
+    }
+    String::from_utf8(bytes).unwrap()
+}
+
+fn read_back(text: &str, profile: &Profile) -> Strokes {
+    let Some(gcode) = profile.gcode.as_ref().filter(|_| profile.language == Language::Gcode) else {
+        return read_hpgl(text).unwrap();
+    };
+    match (gcode.lift, gcode.height) {
+        (Lift::Height, Some(height)) => read_gcode_heights(text, height.up, height.down).unwrap(),
+        _ => read_gcode(text, gcode.pen_up.as_deref().unwrap(), gcode.pen_down.as_deref().unwrap()).unwrap(),
+    }
+}
+
+/// Pens, pauses, position and pen of what is left are those of the whole.
+fn assert_rest(what: &str, whole: &Strokes, before: &Strokes, rest: &Strokes, profile: &Profile) {
+    check(what, whole, before, rest, profile.units_per_mm);
+    assert!(rest.ends_up, "{what}");
+    assert_eq!(rest.visited.last(), whole.visited.last(), "{what}: it ends elsewhere");
+    // Who draws: each pen that is not the first is asked for once, and no pen that has nothing left to draw.
+    let pens: BTreeSet<u32> = rest.paths.iter().map(|(pen, _)| *pen).collect();
+    let waits = if profile.pens.change == PenChange::Pause { pens.iter().filter(|pen| **pen > 1).count() } else { 0 };
+    assert_eq!(rest.pauses, waits, "{what}: pens {pens:?}");
+}
+
+#[test]
+fn every_machine_goes_on_with_its_pens_pauses_and_place() {
+    for name in built_in_names() {
+        let profile = Profile::built_in(name).unwrap();
+        let text = written(&profile);
+        match profile.language {
+            Language::Svg => {}
+            Language::Gcode => {
+                let lines: Vec<&str> = text.lines().collect();
+                let whole = read_back(&text, &profile);
+                for line in 1..=lines.len() {
+                    let rest = resume_gcode(&text, Stop::Line(line), 3.0).unwrap();
+                    let before = read_back(&(lines[..line - 1].join("\n") + "\n"), &profile);
+                    assert_rest(&format!("{name}, line {line}"), &whole, &before, &read_back(&rest, &profile), &profile);
+                }
+            }
+            Language::Hpgl => {
+                let whole = read_back(&text, &profile);
+                for byte in 0..text.len() {
+                    let rest = resume_hpgl(&text, Stop::Byte(byte), 3.0 * profile.units_per_mm).unwrap();
+                    let before = read_back(&taken(&text[..byte]), &profile);
+                    assert_rest(&format!("{name}, byte {byte}"), &whole, &before, &read_back(&rest, &profile), &profile);
+                }
+            }
+        }
+    }
+}
+
+/// Runs the program on a file that it gets on its standard input, so that no name tells what it is; status, stdout and stderr.
+fn drypoint(arguments: &[&str], file: &str) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
+    let output = command.args(arguments).write_stdin(file.to_owned()).output().unwrap();
+    let said = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), said(output.stdout), said(output.stderr))
+}
+
+fn inspected(name: &str, profile: &Profile, file: &str) -> serde_json::Value {
+    // HP-GL does not say for which machine it is.
+    let more: &[&str] = if profile.language == Language::Gcode { &[] } else { &["--profile", name] };
+    let (status, json, said) = drypoint(&[&["inspect", "-", "--json"], more].concat(), file);
+    assert_eq!(status, 0, "{name}: {said}");
+    serde_json::from_str(&json).unwrap()
+}
+
+#[test]
+fn every_machine_s_file_is_inspected_and_resumed_by_its_text_alone() {
+    for name in built_in_names() {
+        let profile = Profile::built_in(name).unwrap();
+        let text = written(&profile);
+        let pens = three_layers(&profile).pens.len();
+        let told = inspected(name, &profile, &text);
+        if profile.language == Language::Svg {
+            assert_eq!(told["layers"].as_array().unwrap().len(), 3, "{name}");
+            continue;
+        }
+        let waits = if profile.pens.change == PenChange::Pause { pens - 1 } else { 0 };
+        assert_eq!((told["profile"].as_str(), told["pauses"].as_u64()), (Some(name), Some(waits as u64)), "{name}: {told}");
+        assert_eq!(told["plot"]["total"]["paths"], 3 * pens, "{name}");
+        assert_eq!(told["ends_with_pen_up"], true, "{name}");
+        // From the second path of the last pen on.
+        let last = (3 * pens - 1).to_string();
+        let (status, rest, said) = drypoint(&["resume", "-", "--path", &last, "-o", "-"], &text);
+        assert_eq!(status, 0, "{name}: {said}");
+        let told = inspected(name, &profile, &rest);
+        assert_eq!(told["pauses"], usize::from(waits > 0), "{name}: {rest}");
+        assert_eq!(told["plot"]["total"]["paths"], 2, "{name}: {rest}");
+        assert_eq!(told["plot"]["pens"][0]["pen"], pens, "{name}: {rest}");
+    }
+}
+
+#[test]
+fn an_svg_is_not_resumed_and_the_message_says_what_helps() {
+    let text = written(&Profile::built_in("axidraw-v3-a3").unwrap());
+    let (status, _, said) = drypoint(&["resume", "-", "--path", "2", "-o", "-"], &text);
+    assert_eq!(status, 1);
+    assert!(said.contains("driven by a program of its own") && said.contains("res_plot"), "{said}");
+    assert!(said.contains("--layers 2,3 --profile axidraw-v3-a3"), "{said}");
+    assert!(!said.contains("pen up is"), "{said}");
 }

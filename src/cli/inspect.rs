@@ -3,6 +3,7 @@
 use super::arguments::InspectOptions;
 use super::failure::Failure;
 use super::interruption::interrupt;
+use super::label_speeds::fit_to_machine;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
@@ -49,12 +50,15 @@ enum Kind {
 fn kind_of(name: &str, text: &str) -> Kind {
     let start = text.trim_start_matches(['\u{feff}', ' ', '\n', '\r', '\t']);
     let has = |extensions: &[&str]| extensions.iter().any(|e| name.to_ascii_lowercase().ends_with(e));
+    let is_hpgl = |text: &str| text.starts_with("IN") || text.starts_with('\u{1b}');
     if start.starts_with('<') {
         Kind::Svg
-    } else if has(&[".gcode", ".nc", ".ngc"]) || start.starts_with(['G', 'M', '(', '%']) {
+    } else if has(&[".gcode", ".nc", ".ngc"]) {
         Kind::Gcode
-    } else if has(&[".hpgl", ".plt"]) || start.starts_with("IN") || start.starts_with('\u{1b}') {
+    } else if has(&[".hpgl", ".plt"]) || is_hpgl(start.trim_start_matches(';')) {
         Kind::Hpgl
+    } else if start.starts_with(['G', 'M', '(', '%', ';']) {
+        Kind::Gcode
     } else {
         Kind::Unknown
     }
@@ -91,7 +95,10 @@ fn gcode_motion(shown: &str, text: &str, profile: &Profile) -> Result<Strokes, F
 }
 
 fn inspect_svg(name: &str, text: &str, profile: Option<&Profile>) -> Result<Value, Failure> {
-    let imported = read_svg(text.as_bytes()).map_err(|error| Failure::about(name)(&error))?;
+    let mut imported = read_svg(text.as_bytes()).map_err(|error| Failure::about(name)(&error))?;
+    if let Some(profile) = profile {
+        fit_to_machine(&mut imported, profile);
+    }
     let layers: Vec<Value> = imported
         .layers
         .iter()

@@ -1,8 +1,8 @@
 //! `drypoint styles` and `drypoint profiles`.
 
-use super::arguments::ListOptions;
+use super::arguments::{ListOptions, ProfilesOptions};
 use super::failure::Failure;
-use super::output;
+use super::{output, pen_file};
 use crate::plot::{Profile, built_in, built_in_names};
 use crate::style::{STYLES, Style, find};
 use serde_json::{Value, json};
@@ -49,7 +49,11 @@ fn style_json(style: &dyn Style) -> Value {
     json!({ "name": style.name(), "summary": style.summary(), "source": style.source(), "parameters": parameters })
 }
 
-pub(super) fn profiles(options: &ListOptions) -> Result<(), Failure> {
+pub(super) fn profiles(options: &ProfilesOptions) -> Result<(), Failure> {
+    if options.pens_example {
+        return output::to_stdout(pen_file::EXAMPLE.as_bytes());
+    }
+    let options = &options.list;
     if let Some(name) = &options.name {
         let text = built_in(name)?;
         if options.json {

@@ -11,78 +11,29 @@
 //! ```
 
 use super::failure::Failure;
-use super::messages::warning;
+use super::few_pens::{fit_to_pens, warn_of_colours};
 use super::output;
+use super::pen_file::{PenEntry, read_pens};
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
-use crate::geometry::parse_drawn_length;
-use crate::plot::{Nibs, PenChange, PenSlot, Profile};
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// Colours that a user can be asked to change pens for; more is a picture that was meant for a screen.
-const MOST_CHANGES: u32 = 12;
+use crate::plot::{Nibs, PenSlot, Profile};
+use std::collections::BTreeMap;
 
 /// What `--pens` says, and what holds for pens that it does not name.
 #[derive(Debug)]
 pub(super) struct PenSet {
-    entries: Vec<Entry>,
+    entries: Vec<PenEntry>,
     nibs: Nibs,
     dwell: BTreeMap<u32, f64>,
 }
 
-#[derive(Debug)]
-struct Entry {
-    key: String,
-    pen: Pen,
-    width: Option<f64>,
-    colour: Option<Colour>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Pen {
-    width: Option<toml::Value>,
-    slot: Option<u32>,
-    colour: Option<String>,
-    speed: Option<f64>,
-    dwell: Option<f64>,
-    offset: Option<[f64; 2]>,
-}
-
-impl Entry {
-    fn read(file: &str, key: String, pen: Pen) -> Result<Self, Failure> {
-        let refuse = |what: &str| Failure::Work(format!("{file}: [{key}] {what}"));
-        let width = match &pen.width {
-            None => None,
-            Some(toml::Value::String(text)) => Some(parse_drawn_length(text).map_err(|error| refuse(&error.to_string()))?),
-            Some(value) => {
-                Some(value.as_float().or(value.as_integer().map(|n| n as f64)).ok_or_else(|| refuse("width must be a length"))?)
-            }
-        };
-        if width.is_some_and(|mm| !(0.01..=100.0).contains(&mm)) {
-            return Err(refuse("width must be from 0.01 to 100 mm"));
-        }
-        let colour = pen.colour.as_deref().map(str::parse).transpose();
-        let colour = colour.map_err(|error: crate::drawing::ColourError| refuse(&format!("colour: {error}")))?;
-        if pen.slot == Some(0) || pen.speed.is_some_and(|v| !v.is_finite() || v <= 0.0) {
-            return Err(refuse("slot and speed must be above 0"));
-        }
-        if pen.dwell.is_some_and(|s| !(0.0..=60.0).contains(&s)) {
-            return Err(refuse("dwell must be from 0 to 60 seconds"));
-        }
-        if pen.offset.is_some() && pen.slot.is_none() && key.parse::<u32>().is_err() {
-            return Err(refuse("needs a slot for its offset"));
-        }
-        Ok(Self { key, pen, width, colour })
-    }
-
+impl PenEntry {
     fn is_for(&self, layer: &Layer) -> bool {
         self.key == layer.name || self.key == layer.pen.to_string()
     }
 
     /// Its slot, where that does not depend on the layer.
-    fn slot(&self) -> Option<u32> {
-        self.pen.slot.or_else(|| self.key.parse().ok())
+    fn fixed_slot(&self) -> Option<u32> {
+        self.slot.or_else(|| self.key.parse().ok())
     }
 }
 
@@ -93,14 +44,10 @@ impl PenSet {
         set.nibs.swell = profile.as_ref().and_then(|profile| profile.swell.clone());
         let Some(file) = file else { return Ok(set) };
         let text = String::from_utf8(output::read(file)?).map_err(|_| Failure::Work(format!("{file} is not UTF-8 text")))?;
-        let table: BTreeMap<String, Pen> = toml::from_str(&text).map_err(|error: toml::de::Error| {
-            let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-            Failure::Work(format!("{file}, line {line}: {}", error.message()))
-        })?;
-        set.entries = table.into_iter().map(|(key, pen)| Entry::read(file, key, pen)).collect::<Result<_, _>>()?;
+        set.entries = read_pens(file, &text)?;
         if let Some(profile) = profile {
             for entry in &set.entries {
-                if let (Some(offset), Some(slot)) = (entry.pen.offset, entry.slot()) {
+                if let (Some(offset), Some(slot)) = (entry.offset, entry.fixed_slot()) {
                     let pen_life = profile.life_of(slot);
                     profile.pen.retain(|pen| pen.slot != slot);
                     profile.pen.push(PenSlot { slot, offset, pen_life });
@@ -110,15 +57,15 @@ impl PenSet {
         Ok(set)
     }
 
-    /// Gives every layer its pen: by name or number, else by the nearest colour; refuses more colours than there are pens. Returns the
+    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, what the machine has. Returns the
     /// marks in the order in which they were painted before they were sorted by pens.
     pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
-        let painting = self.sort_by_colour(drawing);
+        let mut painting = self.sort_by_colour(drawing);
         for entry in &self.entries {
             let layers = drawing.layers.iter_mut().filter(|layer| entry.is_for(layer));
             for layer in layers.collect::<Vec<_>>() {
                 entry.give(layer, profile)?;
-                if let Some(seconds) = entry.pen.dwell {
+                if let Some(seconds) = entry.dwell {
                     self.dwell.insert(layer.pen, seconds);
                 }
                 let Some(width) = entry.width else { continue };
@@ -128,7 +75,10 @@ impl PenSet {
             }
         }
         if let Some(profile) = profile {
-            refuse_colours(drawing, profile, self.entries.is_empty())?;
+            if self.entries.is_empty() {
+                painting = fit_to_pens(drawing, profile).unwrap_or(painting);
+            }
+            warn_of_colours(drawing);
         }
         Ok(painting)
     }
@@ -145,7 +95,7 @@ impl PenSet {
 
     /// Marks of layers that no entry names go to layers of the nearest colour's entry. Returns the order in which they were painted.
     fn sort_by_colour(&self, drawing: &mut Drawing) -> Vec<Painted> {
-        let palette: Vec<(&Entry, Colour)> = self.entries.iter().filter_map(|entry| Some((entry, entry.colour?))).collect();
+        let palette: Vec<(&PenEntry, Colour)> = self.entries.iter().filter_map(|entry| Some((entry, entry.colour?))).collect();
         if palette.is_empty() {
             return drawing.painting_order();
         }
@@ -162,7 +112,7 @@ impl PenSet {
                 let nearest =
                     palette.iter().enumerate().min_by(|(_, a), (_, b)| colour.difference(a.1).total_cmp(&colour.difference(b.1)));
                 let Some((i, (entry, ink))) = nearest else { continue };
-                let number = entry.slot().unwrap_or(i as u32 + 1);
+                let number = entry.fixed_slot().unwrap_or(i as u32 + 1);
                 let at = sorted.iter().position(|known| known.name == entry.key).unwrap_or_else(|| {
                     let empty = Layer {
                         marks: Vec::new(),
@@ -183,14 +133,21 @@ impl PenSet {
     }
 }
 
-impl Entry {
+impl PenEntry {
     fn give(&self, layer: &mut Layer, profile: Option<&Profile>) -> Result<(), Failure> {
-        layer.pen = self.pen.slot.unwrap_or(layer.pen);
+        layer.pen = self.slot.unwrap_or(layer.pen);
         if let Some(colour) = self.colour {
             layer.ink = Ink::Colour(colour);
             layer.marks = layer.marks.iter().map(in_layer_s_ink).collect();
         }
-        if let (Some(speed), Some(profile)) = (self.pen.speed, profile) {
+        if let (Some(speed), Some(profile)) = (self.speed, profile) {
+            let fastest = profile.motion.fastest_drawing();
+            if speed > fastest {
+                let (key, name) = (&self.key, &profile.name);
+                return Err(Failure::Usage(format!(
+                    "--pens gives '{key}' {speed} mm/s, and {name} draws at {fastest} mm/s at most"
+                )));
+            }
             let percent = 100.0 * speed / profile.motion.draw_speed;
             if !(1.0..=200.0).contains(&percent) {
                 return Err(Failure::Usage(format!(
@@ -205,7 +162,7 @@ impl Entry {
 }
 
 /// A mark without a colour of its own.
-fn in_layer_s_ink(mark: &Mark) -> Mark {
+pub(super) fn in_layer_s_ink(mark: &Mark) -> Mark {
     let mut mark = mark.clone();
     match &mut mark {
         Mark::Dot(dot) => dot.colour = None,
@@ -213,33 +170,4 @@ fn in_layer_s_ink(mark: &Mark) -> Mark {
         Mark::Area(area) => area.colour = None,
     }
     mark
-}
-
-/// More colours than pens are never drawn with one pen in silence.
-fn refuse_colours(drawing: &Drawing, profile: &Profile, are_unmapped: bool) -> Result<(), Failure> {
-    let most = match profile.pens.change {
-        PenChange::Machine => profile.pens.count,
-        PenChange::Pause => profile.pens.count.max(MOST_CHANGES),
-    };
-    let of = |layer: &Layer| layer.marks.iter().map(|mark| mark.colour().unwrap_or(layer.ink.colour())).collect::<BTreeSet<_>>();
-    let colours: BTreeSet<Colour> = drawing.layers.iter().flat_map(of).collect();
-    if are_unmapped && colours.len() as u32 > most {
-        return Err(Failure::Work(format!(
-            "the drawing has {} colours, and {} holds {}: map them with --pens FILE, where each goes to the pen of the nearest colour",
-            colours.len(),
-            profile.name,
-            if profile.pens.count == 1 { "1 pen".to_owned() } else { format!("{} pens", profile.pens.count) }
-        )));
-    }
-    for layer in &drawing.layers {
-        let count = of(layer).len();
-        if count > 1 {
-            warning!(
-                "layer '{}' has {count} colours and is drawn with pen {}; --pens maps colours to pens",
-                layer.name,
-                layer.pen
-            );
-        }
-    }
-    Ok(())
 }

@@ -4,6 +4,7 @@ use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::interruption::interrupt;
+use super::label_speeds::fit_to_machine;
 use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::{layout, output, toolpaths};
@@ -37,6 +38,9 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         leave_out_hidden(&mut imported, hides)?;
     }
     choose_layers(&mut imported, &options.layers)?;
+    if let Some(profile) = &profile {
+        fit_to_machine(&mut imported, profile);
+    }
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }

@@ -4,6 +4,8 @@ use super::arguments::ResumeOptions;
 use super::failure::Failure;
 use super::messages::say;
 use super::output;
+use crate::drawing::Layer;
+use crate::read::read_svg;
 use crate::resume::{Stop, resume_gcode, resume_hpgl};
 
 /// Plotter units a millimetre, near enough for how much is drawn again.
@@ -19,6 +21,9 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
     let shown = if options.file == "-" { "stdin" } else { &options.file };
     let text = String::from_utf8(output::read(&options.file)?)
         .map_err(|_| Failure::Work(format!("{shown} is neither HP-GL nor G-code: it is not plain text")))?;
+    if is_svg(&text) {
+        return Err(Failure::Work(svg_advice(shown, &text)));
+    }
     let rest = if is_hpgl(&text) {
         resume_hpgl(&text, stop, options.again * HPGL_UNITS_PER_MM)
     } else {
@@ -30,6 +35,33 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
         say!("{}: {} of {} bytes are left to send", options.output, rest.len(), text.len());
     }
     Ok(())
+}
+
+fn is_svg(text: &str) -> bool {
+    text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
+}
+
+/// An SVG is no machine's file: whoever drives the machine with it knows where it stopped.
+fn svg_advice(shown: &str, text: &str) -> String {
+    let imported = read_svg(text.as_bytes()).ok();
+    let profile = imported.as_ref().and_then(|svg| Some(svg.speeds.as_ref()?.machine.clone()));
+    let layers: Vec<&Layer> = imported.iter().flat_map(|svg| &svg.layers).map(|layer| &layer.layer).collect();
+    let named: Vec<String> = layers.iter().map(|layer| format!("{} {}", layer.pen, layer.name)).collect();
+    let left: Vec<String> = layers.iter().skip(1).map(|layer| layer.pen.to_string()).collect();
+    let from_layer = if left.is_empty() {
+        String::new()
+    } else {
+        format!(
+            ". To plot it from a layer on, name those that are left, of {}: drypoint plot {shown} --layers {} --profile {} -o rest.svg",
+            named.join(", "),
+            left.join(","),
+            profile.as_deref().unwrap_or("axidraw-v3")
+        )
+    };
+    format!(
+        "{shown} is an SVG: the machine is driven by a program of its own, which alone knows where it stopped. Resume there: the AxiDraw's \
+         extension of Inkscape has a tab Resume, and axicli --mode res_plot goes on with the file that it wrote when it was paused{from_layer}"
+    )
 }
 
 /// HP-GL begins with `IN;`, after escape sequences for the interface at most.

@@ -53,10 +53,15 @@ pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Prof
 /// The profile with what the options say of its speeds.
 pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, Failure> {
     let mut profile = plain_profile(name, &options.set_profile)?;
+    let fastest = [profile.motion.fastest_drawing(), profile.motion.fastest_travel()];
     if let Some(speed) = options.speed {
+        let key = if profile.motion.draw_speed_limit.is_some() { "draw_speed_limit" } else { "travel_speed" };
+        check_speed(("--speed", speed), "draws", fastest[0], key, &profile)?;
         profile.motion.draw_speed = told_speed(&profile, speed);
     }
     if let Some(speed) = options.travel_speed {
+        let key = if profile.motion.travel_speed_limit.is_some() { "travel_speed_limit" } else { "travel_speed" };
+        check_speed(("--travel-speed", speed), "travels", fastest[1], key, &profile)?;
         profile.motion.travel_speed = speed;
         // G0 runs at the machine's own rate; a speed that was asked for needs a feed.
         if let Some(gcode) = profile.gcode.as_mut().filter(|gcode| gcode.travel == Travel::Rapid) {
@@ -72,13 +77,20 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
     Ok(profile)
 }
 
-/// The speed that the machine can be told: HP-GL's in whole centimetres a second within the machine's limit.
-fn told_speed(profile: &Profile, speed: f64) -> f64 {
-    if profile.language != Language::Hpgl {
-        return profile.motion.draw_speed_limit.map_or(speed, |limit| speed.min(limit));
+/// Refuses a speed above the machine's own greatest; `key` is where the profile says it.
+fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str, profile: &Profile) -> Result<(), Failure> {
+    if speed <= fastest {
+        return Ok(());
     }
-    let limit = profile.motion.draw_speed_limit.unwrap_or(f64::INFINITY);
-    (speed.min(limit) / 10.0).floor().max(1.0) * 10.0
+    Err(Failure::Usage(format!(
+        "{option} {speed}: {} {does} at {fastest} mm/s at most; for a faster machine --set-profile motion.{key}={speed}",
+        profile.name
+    )))
+}
+
+/// The speed that the machine can be told: HP-GL's in whole centimetres a second.
+fn told_speed(profile: &Profile, speed: f64) -> f64 {
+    if profile.language == Language::Hpgl { (speed / 10.0).floor().max(1.0) * 10.0 } else { speed }
 }
 
 /// Refuses a format that the profile's machine does not read.

@@ -30,6 +30,10 @@ pub struct PenReport {
     pub pen_lifts: usize,
     /// Time, when the machine is known.
     pub seconds: Option<f64>,
+    /// The part of it in which an axis moves.
+    pub motion_seconds: Option<f64>,
+    /// The part of it in which none does: a servo or a solenoid lifts or lowers the pen, the pen is fetched, or a wait was asked for.
+    pub waiting_seconds: Option<f64>,
     /// The share of the asked ink that is laid down, where ink was asked for.
     pub covered_fraction: Option<f64>,
     /// Ink laid down that was not asked for, as a share of what was.
@@ -72,6 +76,8 @@ pub fn report(
             pen_up_mm_before: before.and_then(|b| b.get(i).copied()).unwrap_or(pen_up_mm),
             pen_lifts: pen.paths.len(),
             seconds: clocks.as_ref().map(|c| c[i].total()),
+            motion_seconds: clocks.as_ref().map(|c| c[i].motion()),
+            waiting_seconds: clocks.as_ref().map(|c| c[i].waiting),
             covered_fraction: None,
             spill_fraction: None,
         });
@@ -86,6 +92,8 @@ pub fn report(
         pen_up_mm_before: pens.iter().map(|p| p.pen_up_mm_before).sum(),
         pen_lifts: pens.iter().map(|p| p.pen_lifts).sum(),
         seconds: machine.map(|_| pens.iter().filter_map(|p| p.seconds).sum()),
+        motion_seconds: machine.map(|_| pens.iter().filter_map(|p| p.motion_seconds).sum()),
+        waiting_seconds: machine.map(|_| pens.iter().filter_map(|p| p.waiting_seconds).sum()),
         covered_fraction: None,
         spill_fraction: None,
     };

@@ -22,8 +22,34 @@ pub(super) struct Outline {
     pub fixed_widths: HashSet<String>,
     /// The recipe of a file that drypoint wrote.
     pub recipe: Option<String>,
+    /// For which machine drypoint wrote the labels' speeds.
+    pub speeds: Option<LabelSpeeds>,
     /// Elements that usvg passes over in silence.
     pub dropped: Dropped,
+}
+
+/// What `+S` in the labels of a file means that drypoint wrote for a plotter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelSpeeds {
+    /// The plotter's profile.
+    pub machine: String,
+    /// Millimetres a second of one percent.
+    pub percent_mm_s: f64,
+    /// The percentage of a layer that asked for no speed of its own.
+    pub usual_percent: f64,
+}
+
+impl LabelSpeeds {
+    /// From the file's metadata; none where it is not as drypoint writes it.
+    fn parse(text: &str) -> Option<Self> {
+        let value: serde_json::Value = serde_json::from_str(text).ok()?;
+        let number = |key: &str| value[key].as_f64().filter(|number| number.is_finite() && *number > 0.0);
+        Some(Self {
+            machine: value["profile"].as_str()?.to_owned(),
+            percent_mm_s: number("mm_s_of_percent")?,
+            usual_percent: number("usual_percent")?,
+        })
+    }
 }
 
 /// A layer's label by the plotters' conventions: `%` skips it, `!` asks for a pause, a number names the pen, `+S`, `+H`, `+D` with
@@ -167,9 +193,12 @@ impl<'a, 'd> Collector<'a, 'd> {
         match node.tag_name().name() {
             _ if self.hidden.apply_to(node) || is_hidden(node) || depth > DEEPEST => {}
             "metadata" => {
-                let is_recipe = |node: &Node| node.tag_name().name() == "recipe" && node.tag_name().namespace() == Some(DRYPOINT);
-                let recipe = node.descendants().find(is_recipe).and_then(|node| node.text());
-                self.outline.recipe = recipe.map(str::to_owned).or(self.outline.recipe.take());
+                let own = |name: &str| {
+                    let is_own = |node: &Node| node.tag_name().name() == name && node.tag_name().namespace() == Some(DRYPOINT);
+                    node.descendants().find(is_own).and_then(|node| node.text())
+                };
+                self.outline.recipe = own("recipe").map(str::to_owned).or(self.outline.recipe.take());
+                self.outline.speeds = own("machine").and_then(LabelSpeeds::parse).or(self.outline.speeds.take());
             }
             "defs" | "clipPath" | "mask" | "pattern" | "marker" | "symbol" | "style" | "title" | "desc" => {}
             "foreignObject" if has_substitute(node) => {}

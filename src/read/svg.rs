@@ -7,7 +7,7 @@ use super::colour_names::with_known_colours;
 use super::curves::MM_PER_PX;
 use super::expansion::take_expansion;
 use super::importer::{Importer, Place};
-use super::layers::{DEEPEST, outline, with_ids};
+use super::layers::{DEEPEST, LabelSpeeds, outline, with_ids};
 use super::text::text_of;
 use crate::drawing::{Drawing, Layer, Page, Painted};
 use std::borrow::Cow;
@@ -60,6 +60,8 @@ pub struct Imported {
     pub dropped: Dropped,
     /// The recipe, when drypoint wrote it.
     pub recipe: Option<String>,
+    /// What its labels' speeds mean, when drypoint wrote them for a plotter.
+    pub speeds: Option<LabelSpeeds>,
     /// Whether it holds tool paths that drypoint wrote, which are never lowered again.
     pub is_toolpaths: bool,
 }
@@ -114,7 +116,7 @@ pub fn read_svg_within(bytes: &[u8], budget: &mut Budget) -> Result<Imported, Sv
     importer.group(tree.root(), Place::TOP, &[])?;
     let is_toolpaths = importer.is_toolpaths;
     let (layers, painting, dropped) = importer.finish();
-    Ok(Imported { page, layers, painting, dropped, recipe: outline.recipe.clone(), is_toolpaths })
+    Ok(Imported { page, layers, painting, dropped, recipe: outline.recipe.clone(), speeds: outline.speeds.clone(), is_toolpaths })
 }
 
 fn parsed(text: &str) -> Result<roxmltree::Document<'_>, SvgError> {

@@ -22,9 +22,8 @@ pub fn resume_gcode(text: &str, stop: Stop, again: f64) -> Result<String, Resume
     }
     lines[..=first_up].iter().for_each(|text| push(&mut rest, text));
     wait_after(&mut rest, &lines, first_up);
-    // A pen that was named since the pen went up is named again in what follows.
-    if state.is_down || state.pen.is_none_or(|i| i < state.last_up) {
-        state.restore_pen(&mut rest, &lines);
+    if state.is_down || state.draws_before_next_pen(&lines, &pen) {
+        state.restore_pen(&mut rest, &lines, &pen);
     }
     let from = if state.is_down { state.restore_path(&mut rest, &lines, again) } else { state.last_up + 1 };
     lines[from..].iter().for_each(|text| push(&mut rest, text));
@@ -81,12 +80,26 @@ impl<'a> Pen<'a> {
         line == self.up || self.down.is_none() && line.starts_with(self.up) && line[self.up.len()..].starts_with(" F")
     }
 
+    /// Whether a line that follows a pen's name waits for its user: it is `M0`, `PAUSE` or whatever else the machine calls it, but no
+    /// move, no dwell, no comment and nothing that moves the pen.
+    fn pauses(&self, line: &str) -> bool {
+        let is_code = line.starts_with('G') && line[1..].starts_with(|c: char| c.is_ascii_digit());
+        !line.is_empty() && !is_code && !line.starts_with(['(', ';', '%']) && !self.lifts(line) && !self.lowers(line)
+    }
+
     fn lowers(&self, line: &str) -> bool {
         match self.down {
             Some(down) => line == down,
             None => word(line, 'Z').is_some() && word(line, 'X').is_none() && word(line, 'Y').is_none() && !self.lifts(line),
         }
     }
+}
+
+/// Whether a line is the comment that says which pen is in the holder, such as `(pen 2: red 0.5)`.
+fn names_pen(line: &str) -> bool {
+    let comment = line.strip_prefix(['(', ';']).map(str::trim_start);
+    let number = comment.and_then(|text| text.strip_prefix("pen ")?.split_once(':')).map(|(number, _)| number);
+    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// A number after a letter, outside of comments.
@@ -122,7 +135,7 @@ struct State {
 
 impl State {
     fn take(&mut self, i: usize, line: &str, pen: &Pen) {
-        if line.trim_start_matches(['(', ';', ' ']).starts_with("pen ") && !line.contains(" is ") {
+        if names_pen(line) {
             self.pen = Some(i);
         }
         self.z = word(line, 'Z').or(self.z);
@@ -149,13 +162,17 @@ impl State {
         self.feed = if self.is_down { word(line, 'F').or(self.feed) } else { self.feed };
     }
 
+    /// Whether the pen in the holder has a path left; one that was named since the pen went up is named again in what follows.
+    fn draws_before_next_pen(&self, lines: &[&str], pen: &Pen) -> bool {
+        let left = lines[self.last_up + 1..].iter().take_while(|line| !names_pen(line));
+        left.into_iter().any(|line| pen.lowers(line))
+    }
+
     /// Says which pen must be in the holder, and waits if it is not the first.
-    fn restore_pen(&self, rest: &mut String, lines: &[&str]) {
+    fn restore_pen(&self, rest: &mut String, lines: &[&str], pen: &Pen) {
         let Some(i) = self.pen else { return };
         push(rest, lines[i]);
-        if let Some(pause) =
-            lines.get(i + 1).filter(|line| line.starts_with('M') && !line.starts_with("M3") && !line.starts_with("M280"))
-        {
+        if let Some(pause) = lines.get(i + 1).filter(|line| pen.pauses(line)) {
             push(rest, pause);
         }
     }

@@ -46,7 +46,7 @@ const RADIUS_SCALE: f64 = 10_000.0;
 
 /// Writes a drawing with its ink at exact size.
 pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
-    let mut document = document(&drawing.page, head);
+    let mut document = document(&drawing.page, head, None);
     for (i, layer) in drawing.layers.iter().enumerate() {
         let name = format!("layer{}", i + 1);
         let mut group = layer_group(&name, &format!("{} {}", layer.pen, layer.name), layer.ink.colour());
@@ -61,21 +61,26 @@ pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) ->
 
 /// Writes the tool paths of a plot as lines of the pen's width.
 pub fn write_svg_plot(plot: &Plot, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
-    write_toolpaths(plot, head, out, |_, pen| format!("{} {}", pen.number, pen.name))
+    write_toolpaths(plot, head, None, out, |_, pen| format!("{} {}", pen.number, pen.name))
 }
 
 /// The same for a plotter's own program, which takes orders from the layers' names: `!` waits, the number is the pen's, `+S` sets the
-/// speed in percent and `+D` waits for milliseconds.
+/// speed in percent and `+D` waits for milliseconds. The metadata say which machine's percent these are.
 ///
 /// # Panics
 /// If the profile's language is not SVG.
 pub fn write_svg_plotter(plot: &Plot, profile: &Profile, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
     let dialect = profile.svg.as_ref().expect("an SVG profile has a dialect");
-    write_toolpaths(plot, head, out, |i, pen| {
+    let percent = |speed: f64| ((speed / dialect.speed_of_percent).round() as i64).clamp(1, 110);
+    let machine = serde_json::json!({
+        "profile": profile.name,
+        "mm_s_of_percent": dialect.speed_of_percent,
+        "usual_percent": percent(profile.motion.draw_speed),
+    });
+    write_toolpaths(plot, head, Some(&machine.to_string()), out, |i, pen| {
         let waits = pen.handling.pauses || (i > 0 && plot.pens[i - 1].number != pen.number);
-        let speed = pen.handling.speed(profile.motion.draw_speed) / dialect.speed_of_percent;
         let mut label = format!("{}{} {}", if waits { "!" } else { "" }, pen.number, pen.name.replace(['+', '!', '%'], " "));
-        let _ = write!(label, " +S{}", (speed.round() as i64).clamp(1, 110));
+        let _ = write!(label, " +S{}", percent(pen.handling.speed(profile.motion.draw_speed)));
         if pen.handling.delay_seconds > 0.0 {
             let _ = write!(label, " +D{}", (pen.handling.delay_seconds * 1000.0).round());
         }
@@ -86,10 +91,11 @@ pub fn write_svg_plotter(plot: &Plot, profile: &Profile, head: &SvgHead, out: &m
 fn write_toolpaths(
     plot: &Plot,
     head: &SvgHead,
+    machine: Option<&str>,
     out: &mut impl io::Write,
     label: impl Fn(usize, &PenPaths) -> String,
 ) -> io::Result<()> {
-    let mut document = document(&plot.page, head);
+    let mut document = document(&plot.page, head, machine);
     for (i, pen) in plot.pens.iter().enumerate() {
         let name = format!("layer{}", i + 1);
         let mut group = layer_group(&name, &label(i, pen), pen.colour);
@@ -115,7 +121,7 @@ fn write_toolpaths(
     out.write_all(b"\n")
 }
 
-fn document(page: &Page, head: &SvgHead) -> SVG {
+fn document(page: &Page, head: &SvgHead, machine: Option<&str>) -> SVG {
     let (mut width, mut height) = (String::new(), String::new());
     decimal(&mut width, thousandths(page.width), 3);
     decimal(&mut height, thousandths(page.height), 3);
@@ -126,14 +132,18 @@ fn document(page: &Page, head: &SvgHead) -> SVG {
         .set("viewBox", format!("0 0 {width} {height}"))
         .add(Title::new(head.title.as_str()))
         .add(Description::new().add(svg::node::Text::new(head.description.as_str())));
-    if !head.recipe.is_empty() {
-        let mut recipe = Element::new("drypoint:recipe");
-        recipe.assign("xmlns:drypoint", "urn:drypoint");
-        recipe.append(svg::node::Text::new(head.recipe.as_str()));
+    let recipe = Some(head.recipe.as_str()).filter(|recipe| !recipe.is_empty());
+    if recipe.is_some() || machine.is_some() {
         // In RDF, the one vocabulary that checkers of SVG let into metadata.
         let mut description = Element::new("rdf:Description");
         description.assign("rdf:about", "");
-        description.append(recipe);
+        for (name, text) in [("drypoint:recipe", recipe), ("drypoint:machine", machine)] {
+            let Some(text) = text else { continue };
+            let mut element = Element::new(name);
+            element.assign("xmlns:drypoint", "urn:drypoint");
+            element.append(svg::node::Text::new(text));
+            description.append(element);
+        }
         let mut rdf = Element::new("rdf:RDF");
         rdf.assign("xmlns:rdf", "http://www.w3.org/1999/02/22-rdf-syntax-ns#");
         rdf.append(description);

@@ -102,26 +102,34 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// An arc in x and y as chords that leave it by no more than the tolerance.
+    /// An arc in x and y as chords that leave it by no more than the tolerance, or thereabouts.
     fn arc(&mut self, from: [f32; 3], offset: [f32; 2]) {
-        let [i, j] = offset.map(f64::from);
-        let centre = [f64::from(from[0]) + i, f64::from(from[1]) + j];
-        let to = [f64::from(self.at[0]) - centre[0], f64::from(self.at[1]) - centre[1]];
-        let radius = i.hypot(j);
+        let [i, j] = offset;
+        let centre = [from[0] + i, from[1] + j];
+        let to = [self.at[0] - centre[0], self.at[1] - centre[1]];
+        let radius = (i * i + j * j).sqrt();
         let mut turn = (-i * to[1] + j * to[0]).atan2(-i * to[0] - j * to[1]);
         if self.mode == MotionMode::Clockwise && turn >= -5e-7 {
-            turn -= std::f64::consts::TAU;
+            turn -= std::f32::consts::TAU;
         } else if self.mode == MotionMode::Anticlockwise && turn <= 5e-7 {
-            turn += std::f64::consts::TAU;
+            turn += std::f32::consts::TAU;
         }
-        let chord = (self.arc_tolerance * (2.0 * radius - self.arc_tolerance)).sqrt();
-        let chords = (0.5 * turn.abs() * radius / chord).floor() as u32;
-        let rise = f64::from(self.at[2] - from[2]);
+        let tolerance = self.arc_tolerance as f32;
+        let chord = (tolerance * (2.0 * radius - tolerance)).sqrt();
+        let chords = ((0.5 * turn * radius).abs() / chord).floor() as u32;
+        let rise = self.at[2] - from[2];
+        // Each chord is the last one turned, with a sine and a cosine of the third order; every thirteenth is worked out anew.
+        let angle = turn / chords as f32;
+        let (small_sine, small_cosine) = (angle * (1.0 - angle * angle / 6.0), 1.0 - 0.5 * angle * angle);
+        let start = [-offset[0], -offset[1]];
+        let mut arm = start;
         for n in 1..chords {
-            let part = f64::from(n) / f64::from(chords);
-            let (sin, cos) = (turn * part).sin_cos();
-            let place = [centre[0] - i * cos + j * sin, centre[1] - i * sin - j * cos, f64::from(from[2]) + rise * part];
-            self.pending.push_back(Command::Line { target: place.map(|v| v as f32), rate: Some(self.rate) });
+            let (sin, cos) = if n % 13 == 0 { (n as f32 * angle).sin_cos() } else { (small_sine, small_cosine) };
+            let [x, y] = if n % 13 == 0 { start } else { arm };
+            arm = [x * cos - y * sin, x * sin + y * cos];
+            let z = from[2] + rise * n as f32 / chords as f32;
+            let place = [centre[0] + arm[0], centre[1] + arm[1], z];
+            self.pending.push_back(Command::Line { target: place, rate: Some(self.rate) });
         }
         self.pending.push_back(Command::Line { target: self.at, rate: Some(self.rate) });
     }

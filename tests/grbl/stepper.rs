@@ -156,7 +156,7 @@ fn segment(loaded: &mut Loaded, profile: &mut Profile, length: Real, acceleratio
     let at_least = (length - LEAST_STEPS / loaded.steps_per_mm).max(0.0);
     let (mut allowed, mut spent, mut left) = (SEGMENT, 0.0, length);
     loop {
-        spent += advance(loaded, profile, &mut left, acceleration, allowed - spent);
+        spent += advance(loaded, profile, &mut left, acceleration, allowed - spent, length);
         if left <= 0.0 {
             return (spent, 0.0);
         }
@@ -169,8 +169,17 @@ fn segment(loaded: &mut Loaded, profile: &mut Profile, length: Real, acceleratio
     }
 }
 
-/// Goes on for a time or to the end of the ramp, whichever is first; returns the time.
-fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut Real, acceleration: Real, time: Real) -> Real {
+/// Goes on for a time or to the end of the ramp, whichever is first; returns the time. Where a ramp up ends, the firmware takes the
+/// way from the segment's beginning, and the speed from here: after a segment had to be made longer, which is so at a start from
+/// rest, it counts the way before twice.
+fn advance(
+    loaded: &mut Loaded,
+    profile: &mut Profile,
+    left: &mut Real,
+    acceleration: Real,
+    time: Real,
+    at_segment_start: Real,
+) -> Real {
     let change = acceleration * time;
     match profile.ramp {
         Ramp::Accelerate => {
@@ -179,7 +188,7 @@ fn advance(loaded: &mut Loaded, profile: &mut Profile, left: &mut Real, accelera
                 (*left, loaded.speed) = (then, loaded.speed + change);
                 return time;
             }
-            let taken = 2.0 * (*left - profile.accelerate_until) / (loaded.speed + profile.top_speed);
+            let taken = 2.0 * (at_segment_start - profile.accelerate_until) / (loaded.speed + profile.top_speed);
             (*left, loaded.speed) = (profile.accelerate_until, profile.top_speed);
             profile.ramp = if profile.accelerate_until > profile.decelerate_after { Ramp::Cruise } else { Ramp::Decelerate };
             taken

@@ -84,6 +84,15 @@ pub(in crate::cli) struct ResumeOptions {
 }
 
 #[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct ProfilesOptions {
+    #[command(flatten)]
+    pub list: ListOptions,
+    /// Print a file for --pens that works as it is, with each key explained.
+    #[arg(long, conflicts_with_all = ["name", "json"])]
+    pub pens_example: bool,
+}
+
+#[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ListOptions {
     /// One of them.
     pub name: Option<String>,

@@ -69,7 +69,7 @@ pub(super) enum Command {
     /// List the styles, or one style's parameters with default, unit, range, meaning and source.
     Styles(ListOptions),
     /// List the plotters, or print one profile as TOML.
-    Profiles(ListOptions),
+    Profiles(ProfilesOptions),
     /// Print shell completions.
     Completions {
         /// The shell.

@@ -44,10 +44,10 @@ pub(in crate::cli) struct ToolpathOptions {
     /// Cut at the sheet and the machine's limits instead of refusing.
     #[arg(long)]
     pub clip: bool,
-    /// Drawing speed in mm/s [default: the profile's].
+    /// Drawing speed in mm/s, up to the machine's greatest [default: the profile's].
     #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Pen-up speed in mm/s [default: the profile's].
+    /// Pen-up speed in mm/s, up to the machine's greatest [default: the profile's].
     #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
     pub travel_speed: Option<f64>,
     /// How long the pen rests on a touch, in seconds [default: the profile's].
@@ -56,8 +56,10 @@ pub(in crate::cli) struct ToolpathOptions {
     /// A key of the profile, such as motion.acceleration=500 or paper.a4.zero=[10,206]. May be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set_profile: Vec<(String, String)>,
-    /// The pens, a TOML file: for each layer's name or number its width, slot, colour, speed, dwell and offset. Layers that it does
-    /// not name go to the pen of the nearest colour.
+    /// The pens, a TOML file: a table for each layer's name or pen's number, such as [black], with width = "0.3mm", slot = 1, colour =
+    /// "black", speed = 30 (mm/s), dwell = 0.1 (s) and offset = [0, 0] (mm), each where it is wanted. Layers that it does not name go to
+    /// the pen of the nearest colour; `drypoint profiles --pens-example` prints such a file. Without it each layer has the pen of its
+    /// number, and colours beyond the machine's pens go to the nearest of those that draw the most.
     #[arg(long, value_name = "FILE")]
     pub pens: Option<String>,
     /// Trace the drawing's outline with the pen up, then wait, before anything is drawn.

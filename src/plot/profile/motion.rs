@@ -13,6 +13,8 @@ pub struct Motion {
     pub draw_speed_limit: Option<f64>,
     /// Pen up, mm/s; where limits hold for each axis, the rate of x and of y (GRBL's `$110` and `$111`).
     pub travel_speed: f64,
+    /// The fastest that the machine can be told to travel, mm/s.
+    pub travel_speed_limit: Option<f64>,
     /// mm/s^2, along the path or for each axis as `planner.limits` says.
     pub acceleration: f64,
     /// mm/s^2 with the pen up, where it differs.
@@ -36,7 +38,32 @@ pub struct Motion {
 /// Millimetres of junction deviation for a corner factor of 1: the `AxiDraw`'s driver divides the factor by 5000 and takes inches.
 const MM_PER_CORNER_FACTOR: f64 = 25.4 / 5000.0;
 
+/// GRBL's default for `$112`, 500 mm/min.
+const USUAL_Z_SPEED: f64 = 500.0 / 60.0;
+
 impl Motion {
+    /// Greatest rates of x, y and z in mm/s, where limits hold for each axis.
+    pub fn axis_speeds(&self) -> [f64; 3] {
+        let [x, y, z] = self.planner.axis_speed.unwrap_or([self.travel_speed, self.travel_speed, USUAL_Z_SPEED]);
+        [x.min(self.travel_speed), y.min(self.travel_speed), self.planner.z_speed.unwrap_or(z)]
+    }
+
+    /// Accelerations of x, y and z in mm/s^2, where `all` is that of axes without one of their own.
+    pub fn axis_accelerations(&self, all: f64) -> [f64; 3] {
+        let [x, y, z] = self.planner.axis_acceleration.unwrap_or([all; 3]);
+        [x, y, self.planner.z_acceleration.unwrap_or(z)]
+    }
+
+    /// The fastest that the machine draws, mm/s: where no limit is known, as fast as it travels.
+    pub fn fastest_drawing(&self) -> f64 {
+        self.draw_speed_limit.unwrap_or(self.draw_speed.max(self.travel_speed))
+    }
+
+    /// The fastest that it travels, mm/s: where no limit is known, as fast as it draws or travels by itself.
+    pub fn fastest_travel(&self) -> f64 {
+        self.travel_speed_limit.unwrap_or(self.travel_speed.max(self.draw_speed_limit.unwrap_or(self.draw_speed)))
+    }
+
     /// How far a corner may be rounded in thought, in millimetres.
     pub fn corner_deviation(&self) -> f64 {
         self.junction_deviation.or(self.corner_factor.map(|factor| factor * MM_PER_CORNER_FACTOR)).unwrap_or(0.0)
@@ -56,10 +83,17 @@ pub struct Planner {
     pub axis_speed: Option<[f64; 3]>,
     /// Accelerations of x, y and z, mm/s^2 (GRBL's `$120` to `$122`); without it, `acceleration`.
     pub axis_acceleration: Option<[f64; 3]>,
+    /// Greatest rate of z alone, mm/s (GRBL's `$112`); without it that of `axis_speed`, else GRBL's default.
+    pub z_speed: Option<f64>,
+    /// Acceleration of z alone, mm/s^2 (GRBL's `$122`); without it that of `axis_acceleration`, else `acceleration`.
+    pub z_acceleration: Option<f64>,
     /// Motor steps a millimetre of x, y and z (GRBL's `$100` to `$102`): places are rounded to them before they are planned.
     pub steps_per_mm: Option<[f64; 3]>,
     /// How far the chords of an arc may lie from it, mm (GRBL's `$12`); without it, arcs are timed as the chords that they replace.
     pub arc_tolerance: Option<f64>,
+    /// The time for which the controller keeps one speed before it takes the next on a ramp (GRBL: 0.01, a hundredth of a second); with
+    /// it and `steps_per_mm` a start from rest is as slow as GRBL's.
+    pub segment_seconds: Option<f64>,
     /// Waits last a whole number of these.
     pub dwell_step_seconds: f64,
 }
@@ -81,6 +115,7 @@ impl Motion {
             ("motion.draw_speed", self.draw_speed),
             ("motion.draw_speed_limit", self.draw_speed_limit.unwrap_or(1.0)),
             ("motion.travel_speed", self.travel_speed),
+            ("motion.travel_speed_limit", self.travel_speed_limit.unwrap_or(1.0)),
             ("motion.acceleration", self.acceleration),
             ("motion.travel_acceleration", self.travel_acceleration.unwrap_or(1.0)),
             ("motion.junction_deviation", self.junction_deviation.unwrap_or(1.0)),
@@ -118,6 +153,9 @@ impl Planner {
         if self.arc_tolerance.is_some_and(|mm| !(1e-6..=1.0).contains(&mm)) {
             return Err(Refusal::new("motion.planner.arc_tolerance", "must be from 0.000001 to 1 mm"));
         }
+        if self.segment_seconds.is_some_and(|seconds| !(1e-4..=1.0).contains(&seconds)) {
+            return Err(Refusal::new("motion.planner.segment_seconds", "must be from 0.0001 to 1 second"));
+        }
         if !(0.0..=1.0).contains(&self.dwell_step_seconds) {
             return Err(Refusal::new("motion.planner.dwell_step_seconds", "must be from 0 to 1 second"));
         }
@@ -130,7 +168,13 @@ impl Planner {
                 return Err(Refusal::new(key, "must be above 0 for x, y and z"));
             }
         }
-        if self.limits == Limits::Path && (self.axis_speed.is_some() || self.axis_acceleration.is_some()) {
+        for (key, value) in [("motion.planner.z_speed", self.z_speed), ("motion.planner.z_acceleration", self.z_acceleration)] {
+            if value.is_some_and(|value| !value.is_finite() || value <= 0.0) {
+                return Err(Refusal::new(key, "must be above 0"));
+            }
+        }
+        let has_axes = self.axis_speed.is_some() || self.axis_acceleration.is_some();
+        if self.limits == Limits::Path && (has_axes || self.z_speed.is_some() || self.z_acceleration.is_some()) {
             return Err(Refusal::new("motion.planner.limits", "must be \"axis\" where axes have limits of their own"));
         }
         Ok(())

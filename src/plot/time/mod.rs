@@ -13,7 +13,7 @@ mod pen_action;
 
 use super::profile::{GcodeDialect, Language, Lift, Limits, Profile, Travel};
 use super::{Mounting, PenPaths, Plot, Toolpath};
-use crate::geometry::{Point, Step, fit_arcs};
+use crate::geometry::{Point, Step, Vec2, fit_arcs};
 use crate::interrupt::{Interrupt, Interrupted};
 use look_ahead::{LookAhead, Place, whole};
 use pen_action::{PenAction, Rate, pen_actions};
@@ -29,13 +29,20 @@ pub struct Clock {
     pub drawing: f64,
     /// Pen up, moving.
     pub travelling: f64,
-    /// Lifting, lowering and changing the pen, and waits that a layer asks for.
+    /// A z axis, moving up or down.
     pub lifting: f64,
+    /// Nothing moves but a servo or a solenoid that lifts, lowers or fetches the pen, and waits that a layer or a touch asks for.
+    pub waiting: f64,
 }
 
 impl Clock {
     /// All of it.
     pub fn total(&self) -> f64 {
+        self.motion() + self.waiting
+    }
+
+    /// All in which an axis moves.
+    pub fn motion(&self) -> f64 {
         self.drawing + self.travelling + self.lifting
     }
 }
@@ -48,7 +55,7 @@ pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &In
         return Ok(Vec::new());
     }
     if profile.language == Language::Gcode {
-        run.act(PenMove::Up, profile.motion.pen_up_seconds);
+        run.act(PenMove::Up, if run.waits_for_pen() { profile.motion.pen_up_seconds } else { 0.0 });
     }
     for (i, pen) in plot.pens.iter().enumerate() {
         let is_other_pen = i > 0 && plot.pens[i - 1].number != pen.number;
@@ -69,6 +76,7 @@ enum Share {
     Drawing,
     Travelling,
     Lifting,
+    Waiting,
 }
 
 /// A straight move on the way along a path.
@@ -79,6 +87,9 @@ enum Leg {
     /// To a place on an arc, which the controller reckons.
     Chord([f64; 2]),
 }
+
+/// How many shares there are.
+const SHARES: usize = 4;
 
 /// A machine that goes through its file.
 struct Run<'a> {
@@ -99,7 +110,7 @@ impl<'a> Run<'a> {
         Self {
             profile,
             mounting,
-            planner: LookAhead::new(&profile.motion, 3 * pens),
+            planner: LookAhead::new(&profile.motion, SHARES * pens),
             up: actions(PenMove::Up),
             down: actions(PenMove::Down),
             at: [0.0; 3],
@@ -108,7 +119,7 @@ impl<'a> Run<'a> {
     }
 
     fn slot(&self, share: Share) -> usize {
-        3 * self.pen + share as usize
+        SHARES * self.pen + share as usize
     }
 
     fn change_pen(&mut self, next: usize, is_other_pen: bool, pen: &PenPaths) {
@@ -154,14 +165,13 @@ impl<'a> Run<'a> {
     fn path(&mut self, pen: u32, path: &Toolpath, rate: f64) {
         let mut places: Vec<[f64; 2]> = path.points.iter().map(|p| self.on_machine(pen, *p)).collect();
         self.travel(places[0]);
-        let down = path.heights.as_ref().map(|heights| heights[0] / self.profile.units_per_mm);
-        self.lower(down);
+        self.lower(path.heights.as_ref().map(|heights| heights[0]));
         self.wait(self.profile.motion.pen_down_seconds * f64::from(u8::from(self.waits_for_pen())) + path.dwell_seconds);
         let slot = self.slot(Share::Drawing);
         match &path.heights {
             Some(heights) if self.lifts_by_height() => {
                 for (place, z) in places.iter().zip(heights).skip(1) {
-                    self.at = [place[0], place[1], z / self.profile.units_per_mm];
+                    self.at = [place[0], place[1], self.height(*z)];
                     self.planner.line(self.at, rate, slot);
                 }
             }
@@ -199,10 +209,9 @@ impl<'a> Run<'a> {
                 let radius = from.distance(centre);
                 let rise = (tolerance * (2.0 * radius - tolerance)).max(1e-12).sqrt();
                 let count = (0.5 * sweep.abs() * radius / rise).floor();
-                legs.extend((1..count as usize).map(|i| {
-                    let (sin, cos) = (sweep * i as f64 / count).sin_cos();
-                    let v = from - centre;
-                    Leg::Chord([centre.x + v.x * cos - v.y * sin, centre.y + v.x * sin + v.y * cos])
+                legs.extend(turned(from - centre, sweep / count, count as usize).map(|arm| {
+                    let place = centre + arm;
+                    Leg::Chord([place.x, place.y])
                 }));
             }
             from = step.to();
@@ -220,15 +229,20 @@ impl<'a> Run<'a> {
         !self.lifts_by_height()
     }
 
-    /// Lowers the pen, to a height of its own if the path has one.
+    /// Lowers the pen, straight to a height of its own if the path has one.
     fn lower(&mut self, height: Option<f64>) {
-        self.act(PenMove::Down, 0.0);
-        if let (Some(z), true) = (height, self.lifts_by_height())
-            && (self.at[2] - z).abs() > 1e-9
-        {
-            self.at[2] = z;
-            self.planner.travel(self.at, self.profile.motion.draw_speed, self.slot(Share::Lifting));
+        match (height, self.profile.gcode.as_ref().and_then(|gcode| gcode.height)) {
+            (Some(z), Some(usual)) if self.lifts_by_height() => {
+                self.at[2] = self.height(z);
+                self.planner.travel(self.at, usual.plunge_speed, self.slot(Share::Lifting));
+            }
+            _ => self.act(PenMove::Down, 0.0),
         }
+    }
+
+    /// A height of the page as the file gives it, in the machine's millimetres.
+    fn height(&self, z: f64) -> f64 {
+        whole(z * GCODE_GRID) as f64 / (GCODE_GRID * self.profile.units_per_mm)
     }
 
     fn travel(&mut self, [x, y]: [f64; 2]) {
@@ -273,7 +287,7 @@ impl<'a> Run<'a> {
         }
         let tick = self.profile.motion.planner.dwell_step_seconds;
         let lasting = if tick > 0.0 { (seconds / tick - 1e-6).ceil() * tick } else { seconds };
-        let slot = self.slot(Share::Lifting);
+        let slot = self.slot(Share::Waiting);
         self.planner.rest();
         self.planner.wait(lasting, slot);
     }
@@ -298,8 +312,26 @@ impl<'a> Run<'a> {
     fn finish(mut self) -> Vec<Clock> {
         self.planner.rest();
         let seconds = self.planner.seconds();
-        seconds.chunks(3).map(|s| Clock { drawing: s[0], travelling: s[1], lifting: s[2] }).collect()
+        let clock = |s: &[f64]| Clock { drawing: s[0], travelling: s[1], lifting: s[2], waiting: s[3] };
+        seconds.chunks(SHARES).map(clock).collect()
     }
+}
+
+/// Chords after which GRBL works out the next from the arc's beginning.
+const CHORDS_BY_TURNING: usize = 12;
+
+/// The arms from an arc's centre to the ends of its chords but the last, as GRBL finds them (motion_control.c): each is the one before,
+/// turned with a sine and a cosine of the third order, and every thirteenth is exact. On a dot of 0.15 mm, whose chords turn by a third
+/// of a radian, they come to lie a motor step aside.
+fn turned(start: Vec2, angle: f64, count: usize) -> impl Iterator<Item = Vec2> {
+    let small = (angle * (1.0 - angle * angle / 6.0), 1.0 - 0.5 * angle * angle);
+    let mut arm = start;
+    (1..count).map(move |i| {
+        let is_exact = i % (CHORDS_BY_TURNING + 1) == 0;
+        let ((sin, cos), from) = if is_exact { ((angle * i as f64).sin_cos(), start) } else { (small, arm) };
+        arm = Vec2::new(from.x * cos - from.y * sin, from.x * sin + from.y * cos);
+        arm
+    })
 }
 
 /// What a dialect makes the machine do to lift or lower the pen.

@@ -1,0 +1,155 @@
+//! More colours than the machine has pens, and no `--pens` that says what becomes of them.
+//!
+//! As many colours as there are pens, those that draw the most, get a pen each; every other colour goes to the nearest of them. What
+//! became one is said.
+
+use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
+use crate::plot::{PenChange, Profile};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::sync::Mutex;
+
+/// Colours that a user can be asked to change pens for; more is a picture that was meant for a screen.
+const MOST_CHANGES: u32 = 12;
+/// Colours that a message names; more says nothing to anyone.
+const MOST_NAMED: usize = 40;
+
+/// Brings a drawing's colours to the pens there are, if they are too many, and says which became one. Returns the marks in the order
+/// in which they were painted, if they had to be sorted.
+pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<Vec<Painted>> {
+    let most = match profile.pens.change {
+        PenChange::Machine => profile.pens.count,
+        PenChange::Pause => profile.pens.count.max(MOST_CHANGES),
+    };
+    let amounts = amounts(drawing);
+    let pens: BTreeSet<u32> = drawing.layers.iter().map(|layer| layer.pen).collect();
+    let is_beyond = profile.pens.change == PenChange::Machine && pens.iter().any(|pen| *pen > most);
+    let is_one = drawing.layers.len() == 1 && profile.pens.count > 1;
+    if amounts.len() as u32 <= most || !(pens.len() as u32 > most || is_beyond || is_one) {
+        return None;
+    }
+    let palette = palette(drawing, &amounts, profile.pens.count as usize);
+    let sorted = sorted(drawing, &palette);
+    drawing.layers = sorted.layers;
+    warn_once(&told(amounts.len(), profile, &palette, &sorted.became));
+    Some(sorted.painting)
+}
+
+/// Says which layers have more than one colour, and yet one pen.
+pub(super) fn warn_of_colours(drawing: &Drawing) {
+    for layer in &drawing.layers {
+        let colours: Vec<Colour> = colours_of(layer).collect::<BTreeSet<_>>().into_iter().collect();
+        if colours.len() > 1 {
+            let (name, count, pen, all) = (&layer.name, colours.len(), layer.pen, named(&colours));
+            warn_once(&format!(
+                "layer '{name}' has {count} colours and is drawn with pen {pen}; --pens maps colours to pens ({all})"
+            ));
+        }
+    }
+}
+
+fn colours_of(layer: &Layer) -> impl Iterator<Item = Colour> + '_ {
+    layer.marks.iter().map(|mark| mark.colour().unwrap_or(layer.ink.colour()))
+}
+
+/// How much each colour draws: millimetres of line, and square millimetres of what is filled.
+fn amounts(drawing: &Drawing) -> BTreeMap<Colour, f64> {
+    let mut amounts = BTreeMap::new();
+    for layer in &drawing.layers {
+        for (mark, colour) in layer.marks.iter().zip(colours_of(layer)) {
+            let amount = if let Mark::Stroke(stroke) = mark { stroke.length() } else { mark.area() };
+            *amounts.entry(colour).or_insert(0.0) += amount;
+        }
+    }
+    amounts
+}
+
+/// The colours that draw the most, in the order in which the drawing first shows them.
+fn palette(drawing: &Drawing, amounts: &BTreeMap<Colour, f64>, count: usize) -> Vec<Colour> {
+    let mut most: Vec<(&Colour, &f64)> = amounts.iter().collect();
+    most.sort_by(|a, b| b.1.total_cmp(a.1));
+    most.truncate(count);
+    let mut palette = Vec::new();
+    for colour in drawing.layers.iter().flat_map(colours_of) {
+        if !palette.contains(&colour) && most.iter().any(|(known, _)| **known == colour) {
+            palette.push(colour);
+            if palette.len() == most.len() {
+                break;
+            }
+        }
+    }
+    palette
+}
+
+/// A drawing by pens.
+struct Sorted {
+    layers: Vec<Layer>,
+    /// The colours that each layer took besides its own.
+    became: Vec<BTreeSet<Colour>>,
+    painting: Vec<Painted>,
+}
+
+/// One layer for each colour of the palette, with the marks of the colours next to it.
+fn sorted(drawing: &Drawing, palette: &[Colour]) -> Sorted {
+    let mut painting = Vec::new();
+    let mut layers: Vec<Layer> = (1_u32..).zip(palette).map(|(pen, colour)| empty(drawing, pen, *colour)).collect();
+    let mut became = vec![BTreeSet::new(); palette.len()];
+    let mut nearest: BTreeMap<Colour, usize> = BTreeMap::new();
+    for layer in &drawing.layers {
+        for (mark, colour) in layer.marks.iter().zip(colours_of(layer)) {
+            let at = *nearest.entry(colour).or_insert_with(|| nearest_of(colour, palette));
+            if colour != palette[at] {
+                became[at].insert(colour);
+            }
+            painting.push(Painted::Mark { layer: at, mark: layers[at].marks.len() });
+            layers[at].marks.push(super::pens::in_layer_s_ink(mark));
+        }
+    }
+    Sorted { layers, became, painting }
+}
+
+fn nearest_of(colour: Colour, palette: &[Colour]) -> usize {
+    let distance = |i: &usize| colour.difference(palette[*i]);
+    (0..palette.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+}
+
+fn empty(drawing: &Drawing, pen: u32, colour: Colour) -> Layer {
+    let like = drawing.layers.first();
+    let layer = Layer { ink: Ink::Colour(colour), ..Layer::new(&colour.to_string(), pen) };
+    Layer { mixing: like.map_or(layer.mixing, |like| like.mixing), ..layer }
+}
+
+/// Such as `25 colours and one pen on grbl-servo: all are drawn with it: #1f77b4, #ff7f0e, ...; --pens FILE tells ...`.
+fn told(count: usize, profile: &Profile, palette: &[Colour], became: &[BTreeSet<Colour>]) -> String {
+    let advice = "--pens FILE says otherwise (drypoint profiles --pens-example)";
+    if let ([first], [others]) = (palette, became) {
+        let all: Vec<Colour> = std::iter::once(*first).chain(others.iter().copied()).collect();
+        return format!("{count} colours became one, the one pen of {}: {}; {advice}", profile.name, named(&all));
+    }
+    let mut text = format!(
+        "{count} colours on the {} pens of {}: those that draw the most have a pen each, and every other goes to the nearest of them: ",
+        palette.len(),
+        profile.name
+    );
+    for (pen, (colour, others)) in palette.iter().zip(became).enumerate() {
+        let others: Vec<Colour> = others.iter().copied().collect();
+        let with = if others.is_empty() { String::new() } else { format!(" with {}", named(&others)) };
+        let _ = write!(text, "pen {} {colour}{with}; ", pen + 1);
+    }
+    text + advice
+}
+
+fn named(colours: &[Colour]) -> String {
+    let names: Vec<String> = colours.iter().take(MOST_NAMED).map(Colour::to_string).collect();
+    let more = colours.len().saturating_sub(MOST_NAMED);
+    names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
+}
+
+/// A search for a pitch draws again and again; a warning is said once.
+fn warn_once(text: &str) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let is_new = SAID.lock().is_ok_and(|mut said| said.insert(text.to_owned()));
+    if is_new {
+        super::messages::warning_line(text);
+    }
+}
