@@ -33,7 +33,7 @@ pub use length::{LengthError, parse_length, parse_size};
 pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, resample, simplify};
 pub use region::{Region, Winding, untangled};
 pub use smooth::{catmull_rom, smooth_polyline};
-pub use swell::{Ends, curve_length, sample_swelling, swelling_outline};
+pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, stations, swelling_outline};
 pub use thinning::thinned;
 
 pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};
