@@ -16,6 +16,7 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
     // Touches rest as long as their label says, and no longer.
     profile.motion.touch_seconds = 0.0;
     let pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let page = match &options.page {
         None => calibration_page(&profile),
         Some(text) => layout::sheet(text).map(|(width, height)| Page::new(width, height))?,

@@ -2,11 +2,12 @@
 
 use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
 use super::failure::Failure;
+use super::interruption::is_interrupted;
 use super::layout::{Layout, lay_out};
 use super::max_time;
 use super::output;
 use super::pens::PenSet;
-use super::progress::{Watcher, is_interrupted};
+use super::progress::Watcher;
 use super::toolpaths::{self, Prepared};
 use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
@@ -35,17 +36,18 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
     press(options)?;
-    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     if profile.is_none() && options.toolpaths.preview.is_some() {
         return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let watcher = Watcher::new(options.reporting.quiet);
     let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let drawing = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
     watcher.begin("writing");
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&drawing, &options.output);
+    toolpaths::check_layer_files(&files, &options.toolpaths)?;
     let mut prepared = Vec::new();
     for (name, drawing) in &files {
         if is_interrupted() {
@@ -117,7 +119,7 @@ fn write_one(
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs()));
     if !options.dry_run {
         toolpaths::write(name, format, &prepared, Some(profile), head)?;
-        toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
+        toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(drawing))?;
     }
     Ok(Some(prepared))
 }

@@ -12,7 +12,7 @@ pub(super) enum Failure {
     #[error("{0}")]
     Work(String),
     /// The user stopped it.
-    #[error("interrupted; nothing was written")]
+    #[error("interrupted; what was not finished is not written")]
     Interrupted,
     /// Whoever read our output has gone.
     #[error("closed pipe")]
@@ -20,11 +20,11 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    pub(super) const fn exit_status(&self) -> u8 {
+    pub(super) fn exit_status(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
             Self::Work(_) => 1,
-            Self::Interrupted => 130,
+            Self::Interrupted => super::interruption::exit_status(),
             Self::ClosedPipe => 0,
         }
     }

@@ -3,8 +3,8 @@
 use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
 use super::failure::Failure;
+use super::interruption::is_interrupted;
 use super::pens::PenSet;
-use super::progress::is_interrupted;
 use super::toolpaths::{self, LONG_HOURS, Prepared, duration};
 use crate::plot::{InkModel, Profile, lower};
 use crate::style::{Kind, Observer, Picture};

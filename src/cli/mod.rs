@@ -2,12 +2,15 @@
 
 mod arguments;
 mod calibrate;
+mod claims;
 mod draw;
 mod failure;
 mod inspect;
+mod interruption;
 mod layout;
 mod lists;
 mod max_time;
+mod messages;
 mod output;
 mod pens;
 mod plot;
@@ -23,7 +26,7 @@ use std::process::ExitCode;
 
 /// Runs the command with the process's arguments.
 ///
-/// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted. A closed pipe ends quietly.
+/// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted, 143 terminated. A closed pipe ends quietly.
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -32,11 +35,11 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    progress::catch_interrupts();
+    interruption::catch();
     match run(arguments) {
         Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("drypoint: {failure}");
+            messages::say(&format!("drypoint: {failure}"));
             ExitCode::from(failure.exit_status())
         }
     }

@@ -1,7 +1,8 @@
 //! Files appear whole or not at all.
 
+use super::claims;
 use super::failure::Failure;
-use super::progress::is_interrupted;
+use super::interruption::{Temporary, is_interrupted};
 use std::fs;
 use std::io::{self, Read, Write};
 use std::os::unix::fs::PermissionsExt;
@@ -17,6 +18,7 @@ pub(super) fn read(name: &str) -> Result<Vec<u8>, Failure> {
 /// A reader of a file, or of stdin for `-`.
 pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
     if name == "-" {
+        claims::reads_stdin();
         return Ok(Box::new(io::stdin().lock()));
     }
     let refuse = |problem: &str| Failure::Work(format!("{name} {problem}"));
@@ -25,8 +27,11 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
         io::ErrorKind::PermissionDenied => refuse("cannot be read: permission denied"),
         _ => refuse(&format!("cannot be opened: {error}")),
     })?;
-    if file.metadata().is_ok_and(|m| m.is_dir()) {
-        return Err(refuse("is a folder; give a file"));
+    if let Ok(found) = file.metadata() {
+        if found.is_dir() {
+            return Err(refuse("is a folder; give a file"));
+        }
+        claims::reads(name, &found);
     }
     Ok(Box::new(file))
 }
@@ -34,6 +39,7 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
 /// Writes a file by way of a temporary one beside it; `-` is stdout, and what is no regular file (a device, a pipe) is written in
 /// place.
 pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    claims::is_no_input(name)?;
     if name == "-" {
         let mut stdout = io::BufWriter::new(io::stdout().lock());
         return fill(&mut stdout).and_then(|()| stdout.flush()).map_err(Failure::writing("stdout"));
@@ -54,25 +60,20 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
         Ok(found) => mode = found.permissions().mode() & 0o7777,
         Err(_) => {}
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut temporary = tempfile::Builder::new()
-        .prefix(".drypoint-")
-        .permissions(fs::Permissions::from_mode(mode))
-        .tempfile_in(folder)
+    let mut temporary = Temporary::beside(path, fs::Permissions::from_mode(mode))
         .map_err(|error| Failure::writing(name)(io::Error::from(error.kind())))?;
     {
-        let mut out = io::BufWriter::new(temporary.as_file_mut());
+        let mut out = io::BufWriter::new(temporary.file());
         fill(&mut out).and_then(|()| out.flush()).map_err(&fail)?;
     }
     if is_interrupted() {
         return Err(Failure::Interrupted);
     }
-    temporary.persist(path).map_err(|error| fail(error.error))?;
-    Ok(())
+    temporary.replace(path).map_err(fail)
 }
 
 /// What a chain of symbolic links leads to, whether it exists or not: the link stays, its target is replaced.
-fn follow_links(path: &Path) -> PathBuf {
+pub(super) fn follow_links(path: &Path) -> PathBuf {
     let mut path = path.to_path_buf();
     for _ in 0..40 {
         let Ok(target) = fs::read_link(&path) else { break };

@@ -22,11 +22,11 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     toolpaths::check_language(format, profile.as_ref())?;
-    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
+    toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
     if options.occlude {
         leave_out_hidden(&mut imported, model);
@@ -50,7 +50,9 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         recipe: json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "plot", "pen_mm": options.pen }).to_string(),
     };
     let mut plots = Vec::new();
-    for (name, drawing) in split_by_layer(&drawing, &options.output) {
+    let files = split_by_layer(&drawing, &options.output);
+    toolpaths::check_layer_files(&files, &options.toolpaths)?;
+    for (name, drawing) in files {
         let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance);
         let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths, &pens)?;
         if model == InkModel::Ink {
@@ -58,7 +60,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         }
         if !options.dry_run {
             toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
-            toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
+            toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(&drawing))?;
         }
         toolpaths::warn(&prepared, profile.as_ref(), "");
         plots.push((name, prepared));

@@ -1,27 +1,12 @@
-//! Progress on stderr, the seconds of each step, and Ctrl-C.
+//! Progress on stderr, and the seconds of each step.
 
+use super::interruption::is_interrupted;
+use super::messages;
 use crate::style::{Observer, Picture};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-
-/// The first Ctrl-C lets the work end cleanly, the second ends the process.
-pub(super) fn catch_interrupts() {
-    // Without a handler the process just ends, which is also right.
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.swap(true, Ordering::SeqCst) {
-            std::process::exit(130);
-        }
-    });
-}
-
-pub(super) fn is_interrupted() -> bool {
-    INTERRUPTED.load(Ordering::SeqCst)
-}
 
 /// Shown after this much work.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -75,7 +60,7 @@ impl Observer for Watcher {
     fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
 
     fn warn(&self, message: &str) {
-        self.bar.suspend(|| eprintln!("drypoint: warning: {message}"));
+        self.bar.suspend(|| messages::warn(message));
     }
 
     fn is_interrupted(&self) -> bool {

@@ -1,9 +1,11 @@
 //! From a plot to a machine's file: profile, order, mounting, checks, report.
 
 use super::arguments::{DuplicatesOption, Format, Order, SeamOption, StartCorner, ToolpathOptions};
+use super::claims;
 use super::failure::Failure;
 use super::output;
 use super::pens::PenSet;
+use crate::drawing::Drawing;
 use crate::geometry::{Point, Rect};
 use crate::plot::{
     Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, PenReport, Plot, PlotReport, Profile,
@@ -293,22 +295,39 @@ pub(super) fn write(
     })
 }
 
-/// One preview for each file, or for the one.
+/// One preview for each file, or for the one; no output is an input or another output.
 pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(), Failure> {
     match &options.preview {
         Some(preview) if output.contains("{layer}") && !preview.contains("{layer}") => Err(Failure::Usage(
             "-o writes one file for each layer, and --preview one picture: put {layer} into its name too".to_owned(),
         )),
-        Some(preview) if *preview == output => Err(Failure::Usage("--preview and -o name the same file".to_owned())),
-        _ => Ok(()),
+        // Which files those are is known with the layers.
+        _ if output.contains("{layer}") => Ok(()),
+        preview => claims::are_distinct([output].into_iter().chain(preview.as_deref())),
     }
+}
+
+/// Refuses files for each layer of which two are one, or one is an input.
+pub(super) fn check_layer_files(files: &[(String, Drawing)], options: &ToolpathOptions) -> Result<(), Failure> {
+    let preview = |(_, drawing): &(String, Drawing)| Some(preview_name(options.preview.as_ref()?, first_layer(drawing)));
+    let previews: Vec<String> = files.iter().filter_map(preview).collect();
+    claims::are_distinct(files.iter().map(|(name, _)| name.as_str()).chain(previews.iter().map(String::as_str)))
+}
+
+/// The layer that `{layer}` stands for in the name of a drawing's file.
+pub(super) fn first_layer(drawing: &Drawing) -> Option<&str> {
+    drawing.layers.first().map(|layer| layer.name.as_str())
+}
+
+fn preview_name(name: &str, layer: Option<&str>) -> String {
+    layer.map_or_else(|| name.to_owned(), |layer| name.replace("{layer}", layer))
 }
 
 /// Writes the picture of what the machine will do, where one is asked for; `{layer}` in its name stands for the same as in the
 /// output's.
 pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
     let Some(name) = &options.preview else { return Ok(()) };
-    let name = layer.map_or_else(|| name.clone(), |layer| name.replace("{layer}", layer));
+    let name = preview_name(name, layer);
     let start = prepared.mounting.as_ref().map_or(prepared.home, |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
     output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, &mut out))
 }

@@ -38,17 +38,66 @@ fn running_count(raster: &Raster<u32>, radius: usize) -> Raster<u32> {
 
 /// Labels the connected components of a mask (eight neighbours): 0 outside, then 1, 2, ... in row order of their first pixel.
 /// Returns the labels and the number of components.
+///
+/// Two passes: the first takes a label from the neighbours above and to the left and notes which labels meet there, the second
+/// gives all that meet one number.
 pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
-    let pixels: Vec<u8> = mask.pixels().to_vec();
-    let image = image::GrayImage::from_raw(mask.width() as u32, mask.height() as u32, pixels).unwrap_or_default();
-    let labelled = imageproc::region_labelling::connected_components(
-        &image,
-        imageproc::region_labelling::Connectivity::Eight,
-        image::Luma([0_u8]),
-    );
-    let labels = Raster::from_vec(mask.width(), mask.height(), labelled.into_raw());
-    let count = labels.pixels().iter().copied().max().unwrap_or(0) as usize;
-    (labels, count)
+    let mut labels = Raster::filled(mask.width(), mask.height(), 0_u32);
+    let mut meets = Meets(vec![0]);
+    for y in 0..mask.height() {
+        for x in (0..mask.width()).filter(|&x| mask.get(x, y) != 0) {
+            let columns = x.saturating_sub(1)..(x + 2).min(mask.width());
+            let above = columns.filter(|_| y > 0).map(|x| labels.get(x, y - 1));
+            let left = (x > 0).then(|| labels.get(x - 1, y));
+            let joined = above.chain(left).filter(|&label| label != 0).reduce(|a, b| meets.join(a, b));
+            let label = joined.unwrap_or_else(|| meets.fresh());
+            labels.set(x, y, label);
+        }
+    }
+    let (numbers, count) = meets.numbers();
+    (labels.map(|label| numbers[label as usize]), count)
+}
+
+/// For each label a smaller one that it meets, or itself.
+struct Meets(Vec<u32>);
+
+impl Meets {
+    fn fresh(&mut self) -> u32 {
+        let label = self.0.len() as u32;
+        self.0.push(label);
+        label
+    }
+
+    /// The smallest label of all that meet this one; the way there is halved for the next search.
+    fn least(&mut self, mut label: u32) -> u32 {
+        while self.0[label as usize] != label {
+            let next = self.0[self.0[label as usize] as usize];
+            self.0[label as usize] = next;
+            label = next;
+        }
+        label
+    }
+
+    fn join(&mut self, a: u32, b: u32) -> u32 {
+        let (a, b) = (self.least(a), self.least(b));
+        self.0[a.max(b) as usize] = a.min(b);
+        a.min(b)
+    }
+
+    /// A number for each label, without gaps, and how many there are.
+    fn numbers(self) -> (Vec<u32>, usize) {
+        let (mut numbers, mut count) = (self.0, 0);
+        for label in 1..numbers.len() {
+            // A label meets smaller ones only, and those are numbered by now.
+            if numbers[label] == label as u32 {
+                count += 1;
+                numbers[label] = count;
+            } else {
+                numbers[label] = numbers[numbers[label] as usize];
+            }
+        }
+        (numbers, count as usize)
+    }
 }
 
 /// Drops every component of `mask` for which `keep(label)` is false; labels as [`components`] gives them.
@@ -84,5 +133,13 @@ mod tests {
         assert_eq!(count, 3);
         assert_eq!(labels.get(0, 0), labels.get(1, 1));
         assert_ne!(labels.get(3, 0), labels.get(3, 2));
+    }
+
+    #[test]
+    fn components_are_numbered_in_row_order_even_where_they_meet_late() {
+        let (labels, count) = components(&drawn(&["#.#.#..#", "#.#.#...", "###.#.##", "....##.."]));
+        assert_eq!(count, 3);
+        let first: Vec<u32> = [(0, 0), (2, 0), (4, 0), (7, 0), (7, 2)].map(|(x, y)| labels.get(x, y)).to_vec();
+        assert_eq!(first, [1, 1, 2, 3, 2]);
     }
 }

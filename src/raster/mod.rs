@@ -113,14 +113,25 @@ impl<T: Copy + Send + Sync> Raster<T> {
 
     /// A raster whose pixel `(x, y)` is `pixel(x, y)`, made parallel by rows.
     pub fn from_fn(width: usize, height: usize, pixel: impl Fn(usize, usize) -> T + Sync) -> Self {
-        let mut data = Vec::with_capacity(width * height);
-        (0..width * height).into_par_iter().with_min_len(4096).map(|i| pixel(i % width, i / width)).collect_into_vec(&mut data);
+        if width * height == 0 {
+            return Self { width, height, data: Vec::new() };
+        }
+        let mut data = vec![pixel(0, 0); width * height];
+        let rows = SHARE.div_ceil(width);
+        fill_shares(&mut data, rows * width, &|start, share| {
+            for (j, row) in share.chunks_mut(width).enumerate() {
+                row.iter_mut().enumerate().for_each(|(x, out)| *out = pixel(x, start / width + j));
+            }
+        });
         Self { width, height, data }
     }
 
     /// A raster of the same size, pixel by pixel.
     pub fn map<U: Copy + Send + Sync>(&self, pixel: impl Fn(T) -> U + Sync) -> Raster<U> {
-        let data = self.data.par_iter().with_min_len(4096).map(|&v| pixel(v)).collect();
+        let mut data = self.data.first().map_or_else(Vec::new, |&first| vec![pixel(first); self.len()]);
+        fill_shares(&mut data, SHARE, &|start, share| {
+            share.iter_mut().zip(&self.data[start..]).for_each(|(out, &v)| *out = pixel(v));
+        });
         Raster { width: self.width, height: self.height, data }
     }
 
@@ -134,7 +145,12 @@ impl<T: Copy + Send + Sync> Raster<T> {
         pixel: impl Fn(T, U) -> V + Sync,
     ) -> Raster<V> {
         assert_eq!((self.width, self.height), (other.width, other.height), "rasters must have one size");
-        let data = self.data.par_iter().with_min_len(4096).zip(&other.data).map(|(&a, &b)| pixel(a, b)).collect();
+        let first = self.data.first().zip(other.data.first());
+        let mut data = first.map_or_else(Vec::new, |(&a, &b)| vec![pixel(a, b); self.len()]);
+        fill_shares(&mut data, SHARE, &|start, share| {
+            let both = self.data[start..].iter().zip(&other.data[start..]);
+            share.iter_mut().zip(both).for_each(|(out, (&a, &b))| *out = pixel(a, b));
+        });
         Raster { width: self.width, height: self.height, data }
     }
 
@@ -162,6 +178,15 @@ impl<T: Copy + Send + Sync> Raster<T> {
     pub fn transposed(&self) -> Self {
         Self::from_fn(self.height, self.width, |x, y| self.get(y, x))
     }
+}
+
+/// Pixels that one thread takes at once: enough to outweigh the call, few enough to share a small raster out.
+const SHARE: usize = 4096;
+
+/// Fills each share of `data` by `fill(its start, share)`, parallel. The parallel part is compiled once for each type of pixel, not
+/// once for each call: three functions made half of the crate's machine code otherwise.
+fn fill_shares<T: Send>(data: &mut [T], share: usize, fill: &(dyn Fn(usize, &mut [T]) + Sync)) {
+    data.par_chunks_mut(share).enumerate().for_each(|(i, out)| fill(i * share, out));
 }
 
 impl Raster<f32> {

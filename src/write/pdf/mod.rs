@@ -15,19 +15,20 @@ mod metadata;
 
 use crate::drawing::{Colour, Drawing, Ink, Layer};
 use crate::write::SvgHead;
-use miniz_oxide::deflate::compress_to_vec_zlib;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use pdf_writer::types::OverprintMode;
 use pdf_writer::{Chunk, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
-use std::io;
+use std::io::{self, Write};
 
 /// Points in a millimetre.
 const POINTS_A_MM: f64 = 72.0 / 25.4;
 /// The longest side of a page in units (Acrobat's limit, ISO 32000-1, annex C); on a larger sheet each unit is several points.
 const MOST_UNITS: f64 = 14_400.0;
 /// Of the compressor, 0 to 10: one more saves a percent and takes half as long again.
-const COMPRESSION: u8 = 6;
+const COMPRESSION: Compression = Compression::new(6);
 
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
@@ -46,7 +47,7 @@ pub fn write_pdf(drawing: &Drawing, head: &SvgHead, seconds: Option<u64>, out: &
     let scale = Scale::of(drawing);
     let spots = spot_names(&drawing.layers);
     let pieces = content::pieces(drawing, &spots, scale.units_a_mm);
-    let streams: Vec<Vec<u8>> = pieces.par_iter().map(|piece| compress_to_vec_zlib(piece.as_bytes(), COMPRESSION)).collect();
+    let streams: Vec<Vec<u8>> = pieces.par_iter().map(|piece| compressed(piece.as_bytes())).collect::<io::Result<_>>()?;
     let layers: Vec<Ref> = (0..drawing.layers.len()).map(|i| Ref::new(FIRST_LAYER + i as i32)).collect();
     let contents: Vec<Ref> = (0..streams.len()).map(|i| Ref::new(FIRST_LAYER + (layers.len() + i) as i32)).collect();
 
@@ -63,6 +64,12 @@ pub fn write_pdf(drawing: &Drawing, head: &SvgHead, seconds: Option<u64>, out: &
     let id = identifier(&streams, &packet);
     pdf.set_file_id((id.clone(), id));
     out.write_all(&pdf.finish())
+}
+
+fn compressed(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut out = ZlibEncoder::new(Vec::new(), COMPRESSION);
+    out.write_all(bytes)?;
+    out.finish()
 }
 
 /// How the page's millimetres become the file's units.

@@ -1,0 +1,82 @@
+//! No output is an input or another output: files are compared by device and inode, after links, and where there is none yet by
+//! their place.
+
+use super::failure::Failure;
+use super::output::follow_links;
+use std::fs::{self, Metadata};
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// What has been read so far.
+static READ: Mutex<Vec<(String, Identity)>> = Mutex::new(Vec::new());
+
+#[derive(Clone, Debug, PartialEq)]
+enum Identity {
+    /// Device and inode.
+    Inode(u64, u64),
+    /// Where it will be made.
+    Place(PathBuf),
+}
+
+impl Identity {
+    /// Of a file with bytes of its own: devices and pipes may be read and written as often as one likes.
+    fn of(found: &Metadata) -> Option<Self> {
+        found.is_file().then(|| Self::Inode(found.dev(), found.ino()))
+    }
+
+    fn of_output(name: &str) -> Option<Self> {
+        let path = if name == "-" { PathBuf::from("/dev/stdout") } else { follow_links(Path::new(name)) };
+        match fs::metadata(&path) {
+            Ok(found) => Self::of(&found),
+            Err(_) if name == "-" => None,
+            Err(_) => {
+                let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+                let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+                Some(Self::Place(folder.join(path.file_name()?)))
+            }
+        }
+    }
+}
+
+/// Notes a file that is read.
+pub(super) fn reads(name: &str, found: &Metadata) {
+    let Some(identity) = Identity::of(found) else { return };
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if !read.iter().any(|(_, known)| *known == identity) {
+        read.push((name.to_owned(), identity));
+    }
+}
+
+/// Notes the file that stdin is, if it is one.
+pub(super) fn reads_stdin() {
+    if let Ok(found) = fs::metadata("/dev/stdin") {
+        reads("stdin", &found);
+    }
+}
+
+/// Refuses an output that is an input.
+pub(super) fn is_no_input(output: &str) -> Result<(), Failure> {
+    let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some(identity) = Identity::of_output(output) else { return Ok(()) };
+    let shown = if output == "-" { "stdout" } else { output };
+    read.iter().find(|(_, known)| *known == identity).map_or(Ok(()), |(input, _)| {
+        Err(Failure::Usage(format!(
+            "{shown} would be written over {input}, which is read: they are one file; choose another name"
+        )))
+    })
+}
+
+/// Refuses outputs that are inputs, and outputs that are one file.
+pub(super) fn are_distinct<'a>(outputs: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
+    let mut claimed: Vec<(&str, Identity)> = Vec::new();
+    for output in outputs {
+        is_no_input(output)?;
+        let Some(identity) = Identity::of_output(output) else { continue };
+        if let Some((other, _)) = claimed.iter().find(|(_, known)| *known == identity) {
+            return Err(Failure::Usage(format!("{other} and {output} would be one file; give one of them another name")));
+        }
+        claimed.push((output, identity));
+    }
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! Ctrl-C, SIGTERM and SIGHUP: the work is asked to end, and where it does not end soon the process does, leaving nothing behind.
+
+use super::failure::Failure;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use std::fs::{self, File, Permissions};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicI32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use tempfile::NamedTempFile;
+
+/// The signal that stopped the work; 0 while it goes on.
+static STOPPED_BY: AtomicI32 = AtomicI32::new(0);
+/// Files that must not stay when the process ends.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The time that the work has to end by itself: with what follows, less than a second.
+const GRACE: Duration = Duration::from_millis(600);
+/// The time that a renaming under way is waited for.
+const RENAMING: Duration = Duration::from_millis(200);
+
+/// The first signal asks the work to end and ends the process if it goes on; the second ends the process at once.
+pub(super) fn catch() {
+    let caught = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+    // Without a handler the process just ends, which is also right.
+    let Ok(mut signals) = Signals::new(caught) else { return };
+    std::thread::spawn(move || {
+        for signal in signals.forever() {
+            if STOPPED_BY.swap(signal, Ordering::SeqCst) != 0 {
+                end();
+            }
+            std::thread::spawn(|| {
+                std::thread::sleep(GRACE);
+                end();
+            });
+        }
+    });
+}
+
+/// Whether whoever started us wants a signal ignored, as `nohup` does.
+fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask & (1 << (signal - 1)) != 0
+}
+
+/// Whether the work should end.
+pub(super) fn is_interrupted() -> bool {
+    STOPPED_BY.load(Ordering::SeqCst) != 0
+}
+
+/// 130 after Ctrl-C, 143 after SIGTERM or SIGHUP.
+pub(super) fn exit_status() -> u8 {
+    if matches!(STOPPED_BY.load(Ordering::SeqCst), SIGTERM | SIGHUP) { 143 } else { 130 }
+}
+
+/// Ends the process, whatever its threads do.
+fn end() -> ! {
+    let given_up = Instant::now() + RENAMING;
+    let held = loop {
+        match TEMPORARY.try_lock() {
+            Ok(held) => break Some(held),
+            Err(_) if Instant::now() >= given_up => break None,
+            Err(_) => std::thread::sleep(Duration::from_millis(5)),
+        }
+    };
+    for path in held.iter().flat_map(|paths| paths.iter()) {
+        let _ = fs::remove_file(path);
+    }
+    super::messages::say(&format!("drypoint: {}", Failure::Interrupted));
+    std::process::exit(i32::from(exit_status()))
+}
+
+/// A file beside its target that goes when the process ends, unless it took its target's name before.
+pub(super) struct Temporary(Option<NamedTempFile>);
+
+impl Temporary {
+    pub(super) fn beside(path: &Path, permissions: Permissions) -> io::Result<Self> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut known = known();
+        let file = tempfile::Builder::new().prefix(".drypoint-").permissions(permissions).tempfile_in(folder)?;
+        known.push(file.path().to_owned());
+        Ok(Self(Some(file)))
+    }
+
+    pub(super) fn file(&mut self) -> &mut File {
+        self.0.as_mut().expect("it is taken only at the end").as_file_mut()
+    }
+
+    /// Takes the target's place, its bytes on the disk before its name.
+    pub(super) fn replace(mut self, target: &Path) -> io::Result<()> {
+        self.file().sync_all()?;
+        let mut known = known();
+        let Some(file) = self.0.take() else { return Ok(()) };
+        let own = file.path().to_owned();
+        file.persist(target).map_err(|error| error.error)?;
+        known.retain(|path| *path != own);
+        Ok(())
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if let Some(file) = self.0.take() {
+            known().retain(|path| *path != file.path());
+        }
+    }
+}
+
+fn known() -> MutexGuard<'static, Vec<PathBuf>> {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
+}
