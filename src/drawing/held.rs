@@ -12,7 +12,7 @@
 //! A stroke stays a stroke, so that a pen still draws it in one pass.
 
 use super::mark::interpolate;
-use super::{Dot, Drawing, Mark, Stroke, Width};
+use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
 
 /// How much less than the box strokes keep to, in millimetres: the least step of what is written.
@@ -148,9 +148,6 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
         trim(&mut run);
         run.reverse();
     }
-    if run.len() == 1 && stroke.ends == Ends::Round {
-        return Some(Mark::Dot(Dot { colour: stroke.colour, ..Dot::circle(run[0].at, 0.5 * run[0].width) }));
-    }
     if run.len() < 2 {
         return None;
     }
@@ -177,7 +174,7 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
 
 /// Takes off the end what lies within the round end before it.
 fn trim(run: &mut Vec<Held>) {
-    while let [.., before, last] = run[..] {
+    while let [_, .., before, last] = run[..] {
         let fall = 0.5 * (before.width - last.width);
         if !last.is_moved || fall < STEEPEST * before.at.distance(last.at) {
             break;

@@ -37,6 +37,7 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
     let closed = matches!(curve.elements().last(), Some(PathEl::ClosePath));
     outline.move_to(pieces[0].side(0.0, 1.0).0);
     for piece in &pieces {
+        meet(&mut outline, piece.side(0.0, 1.0).0);
         piece.append_side(&mut outline, 0.0, 1.0, 1.0, tolerance, 0);
     }
     if closed {
@@ -46,6 +47,7 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
         append_cap(&mut outline, last.curve.p3, tangent(&last.curve, 1.0), last.to.0, ends);
     }
     for piece in pieces.iter().rev() {
+        meet(&mut outline, piece.side(1.0, -1.0).0);
         piece.append_side(&mut outline, 1.0, 0.0, -1.0, tolerance, 0);
     }
     if !closed {
@@ -53,6 +55,13 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
     }
     outline.close_path();
     outline
+}
+
+/// Straight on to where the next piece's side begins, which at a corner of the line is elsewhere.
+fn meet(outline: &mut BezPath, side: Point) {
+    if outline.elements().last().and_then(PathEl::end_point).is_some_and(|end| end.distance(side) > 1e-6) {
+        outline.line_to(side);
+    }
 }
 
 /// Points along a swelling stroke at most `spacing` apart, with the full width that its outline has there.
