@@ -384,7 +384,7 @@ fn report(
     if !options.reporting.quiet {
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
-        let ink: f64 = drawing.layers.iter().map(Layer::ink_mm2).sum();
+        let ink: f64 = drawing.ink_mm2().iter().sum();
         say!(
             "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",
             options.output,
@@ -402,9 +402,9 @@ fn report(
 }
 
 fn report_json(drawing: &Drawing, pens: &PenSet, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
-    let layers: Vec<Value> = drawing.layers.iter().map(|layer| {
+    let layers: Vec<Value> = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink)| {
         let [dots, strokes, areas] = layer.counts();
-        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2() })
+        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": ink })
     }).collect();
     let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
     let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });

@@ -28,9 +28,10 @@ fn style_text(style: &dyn Style) -> String {
     let mut text = format!("{}: {}\n{}\n", style.name(), style.summary(), style.source());
     for p in style.parameters() {
         let source = if p.source.is_empty() { String::new() } else { format!(" [{}]", p.source) };
+        let needs = if p.needs.is_empty() { String::new() } else { format!("    takes effect with {}\n", p.needs_text()) };
         let _ = write!(
             text,
-            "\n{} ({}; default {})\n    {}{source}\n",
+            "\n{} ({}; default {})\n    {}{source}\n{needs}",
             p.name,
             p.kind.range_text(),
             p.kind.default_text(),
@@ -44,7 +45,7 @@ fn style_json(style: &dyn Style) -> Value {
     let parameters: Vec<Value> = style
         .parameters()
         .iter()
-        .map(|p| json!({ "name": p.name, "range": p.kind.range_text(), "default": p.kind.default_text(), "meaning": p.meaning, "source": p.source }))
+        .map(|p| json!({ "name": p.name, "range": p.kind.range_text(), "default": p.kind.default_text(), "meaning": p.meaning, "source": p.source, "needs": p.needs_text() }))
         .collect();
     json!({ "name": style.name(), "summary": style.summary(), "source": style.source(), "parameters": parameters })
 }

@@ -40,7 +40,7 @@ pub use number::parse_finite;
 pub use polyline::{distance_to_segment, flatten, flattened_points, polygon_area, polyline_length, resample, simplify};
 pub use region::{Region, Winding, untangled, untangled_polygons};
 pub use smooth::{catmull_rom, smooth_polyline};
-pub use swell::{Ends, curve_length, sample_swelling, swelling_outline};
+pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, stations, swelling_outline};
 pub use tangle::{Thread, tangles};
 pub use thinning::thinned;
 

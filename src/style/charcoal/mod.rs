@@ -59,7 +59,13 @@ impl Style for Charcoal {
         SHORT_SIDE / picture.width().min(picture.height())
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Charcoaling::new(settings), seed, observer }.draw()
     }
 }
@@ -99,13 +105,11 @@ impl Drawer<'_> {
             ("features", face),
             ("background", background),
         ];
-        let drawing = Drawing { page: self.portrait.page, layers: Self::layers(layers) };
-        let mut drawing = drawing.clipped(drawing.page.rect());
+        let mut drawing = Drawing { page: self.portrait.page, layers: Self::layers(layers) };
         strokes::time(&mut drawing);
         if drawing.marks().next().is_none() {
             return Err(StyleError::NothingToDraw("nothing in the picture is dark enough for a mark".to_owned()));
         }
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
     }
 

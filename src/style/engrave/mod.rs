@@ -67,7 +67,13 @@ impl Style for Engrave {
         parameters::PIXELS_PER_PITCH / settings.number("pitch")
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Engraving::new(settings), seed, observer }.draw()
     }
 }
@@ -112,8 +118,6 @@ impl Drawer<'_> {
             drawing.page.paper = Colour { r: 0, g: 0, b: 0 };
             drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks).for_each(whiten);
         }
-        let drawing = drawing.clipped(self.portrait.page.rect());
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
     }
 

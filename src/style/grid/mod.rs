@@ -49,7 +49,13 @@ impl Style for Grid {
         PIXELS_PER_PITCH / settings.number("pitch")
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Gridding::new(settings), seed, observer }.draw()
     }
 }
@@ -95,10 +101,7 @@ impl Drawer<'_> {
         for (layer, pen) in layers.iter_mut().zip(1..) {
             layer.pen = pen;
         }
-        let page = self.portrait.page;
-        let drawing = Drawing { page, layers }.clipped(page.rect());
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
-        Ok(drawing)
+        Ok(Drawing { page: self.portrait.page, layers })
     }
 
     /// Section 6: lines, dots, and the darks among the lines or, where there are none, among the dots.

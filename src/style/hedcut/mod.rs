@@ -45,7 +45,13 @@ impl Style for Hedcut {
         Hedcutting::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Hedcutting::new(settings), seed, observer }.draw()
     }
 }
@@ -95,8 +101,6 @@ impl Drawer<'_> {
             self.observer.begin("outline");
             drawing.layers.push(outline::layer(self, &features));
         }
-        let drawing = drawing.clipped(drawing.page.rect());
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
     }
 
