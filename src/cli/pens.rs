@@ -10,6 +10,7 @@
 //! offset = [0.1, 0]   # how far its ink lies off, mm along the machine's axes
 //! ```
 
+use super::arguments::NIBS;
 use super::failure::Failure;
 use super::output;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark};
@@ -58,8 +59,8 @@ impl Entry {
                 Some(value.as_float().or(value.as_integer().map(|n| n as f64)).ok_or_else(|| refuse("width must be a length"))?)
             }
         };
-        if width.is_some_and(|mm| !(0.01..=100.0).contains(&mm)) {
-            return Err(refuse("width must be from 0.01 to 100 mm"));
+        if width.is_some_and(|mm| !NIBS.contains(&mm)) {
+            return Err(refuse(&format!("width must be from {} to {} mm", NIBS.start(), NIBS.end())));
         }
         let colour = pen.colour.as_deref().map(str::parse).transpose();
         let colour = colour.map_err(|error: crate::drawing::ColourError| refuse(&format!("colour: {error}")))?;
