@@ -1,9 +1,15 @@
 //! The command line: the only place with files, stdout, progress and exit codes.
 
+mod affordable;
+mod amounts;
 mod arguments;
 mod calibrate;
 mod draw;
+mod dry_run;
 mod failure;
+mod foretell;
+mod foretell_plot;
+mod forewarn;
 mod inspect;
 mod layout;
 mod lists;

@@ -112,6 +112,12 @@ impl PenSet {
 
     /// Gives every layer its pen: by name or number, else by the nearest colour; refuses more colours than there are pens.
     pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<(), Failure> {
+        self.hand_out(drawing, profile)?;
+        profile.map_or(Ok(()), |profile| refuse_colours(drawing, profile, self.entries.is_empty()))
+    }
+
+    /// The same without a word about colours, for drawings that nobody gets to see.
+    pub(super) fn hand_out(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<(), Failure> {
         self.sort_by_colour(drawing);
         for entry in &self.entries {
             let layers = drawing.layers.iter_mut().filter(|layer| entry.is_for(layer));
@@ -126,7 +132,7 @@ impl PenSet {
                 }
             }
         }
-        profile.map_or(Ok(()), |profile| refuse_colours(drawing, profile, self.entries.is_empty()))
+        Ok(())
     }
 
     /// Nibs by pen; a pen of which only the slot was told has the usual one.

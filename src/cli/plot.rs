@@ -1,13 +1,14 @@
 //! `drypoint plot`: any SVG to ordered tool paths.
 
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
+pub(super) use super::draw::reach_of;
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::pens::PenSet;
-use super::{layout, output, toolpaths};
+use super::{foretell_plot, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, coverage, lower, mount, occluded};
+use crate::plot::{Hides, InkModel, coverage, lower, occluded};
 use crate::read::{Imported, read_svg};
 use crate::write::SvgHead;
 use serde_json::json;
@@ -28,6 +29,9 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
     let model = ink_model(options, &imported);
+    if options.dry_run {
+        return foretell_plot::dry_run(&imported, options, model, profile.as_ref(), &mut pens, shown);
+    }
     if options.occlude {
         leave_out_hidden(&mut imported, model);
     }
@@ -35,8 +39,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }
-    let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
-    let mut drawing = place(&imported.drawing(), options, reach)?;
+    let mut drawing = place(&imported.drawing(), options, reach_of(profile.as_ref()))?;
     if is_blank(&drawing, model) {
         let dropped =
             if imported.dropped.is_empty() { String::new() } else { format!(" (left out: {})", imported.dropped.summary()) };
@@ -56,11 +59,9 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         if model == InkModel::Ink {
             prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs()));
         }
-        if !options.dry_run {
-            toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
-            toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
-        }
-        toolpaths::warn(&prepared, profile.as_ref(), "");
+        toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
+        toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
+        toolpaths::warn(&prepared, profile.as_ref(), Some(""));
         plots.push((name, prepared));
     }
     if !imported.dropped.is_empty() {
@@ -95,14 +96,21 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
 
 /// What the painting order hides is not drawn.
 fn leave_out_hidden(imported: &mut Imported, model: InkModel) {
-    let hides = if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines };
-    let seen = occluded(&imported.drawing(), &imported.painting, hides);
+    let seen = occluded(&imported.drawing(), &imported.painting, hides(model));
     for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
         layer.layer = seen;
     }
 }
 
-fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
+/// What hides what: as ink, other colours; as lines, every fill.
+pub(super) const fn hides(model: InkModel) -> Hides {
+    match model {
+        InkModel::Ink => Hides::OtherColours,
+        InkModel::Lines => Hides::AllLines,
+    }
+}
+
+pub(super) fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
     if wanted.is_empty() {
         return Ok(());
     }
@@ -117,13 +125,13 @@ fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failu
 }
 
 /// Under `lines`, fills are not drawn, but not lost in silence either.
-fn count_fills(imported: &mut Imported) {
+pub(super) fn count_fills(imported: &mut Imported) {
     let fills = imported.layers.iter().flat_map(|l| &l.layer.marks).filter(|m| !matches!(m, Mark::Stroke(_))).count();
     imported.dropped.add("fills", fills);
 }
 
 /// Turns, scales and moves the drawing on its sheet.
-fn place(drawing: &Drawing, options: &PlotOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Drawing, Failure> {
+pub(super) fn place(drawing: &Drawing, options: &PlotOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Drawing, Failure> {
     let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
     let turned = turn(drawing, turn_degrees(options.rotate, drawing, sheet));
     let page = sheet.map_or(turned.page, |(width, height)| Page { width, height, ..turned.page });

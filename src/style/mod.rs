@@ -4,6 +4,7 @@
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
 mod charcoal;
+mod cost;
 mod engrave;
 mod feature_line;
 mod glass;
@@ -14,6 +15,7 @@ mod parameter;
 mod random;
 mod reversed;
 
+pub use cost::Cost;
 pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};
 
@@ -44,6 +46,8 @@ pub trait Style: Sync {
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
+    /// What drawing a picture of this size takes at this resolution, foretold.
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
     /// Draws the portrait.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError>;
 }

@@ -114,7 +114,8 @@ pub(in crate::cli) struct DrawOptions {
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
-    /// Do all the work and write nothing.
+    /// Say what the drawing will come to, its marks, memory and time and with --profile the plot's, and write nothing: an estimate
+    /// from small pictures, in a second or two.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

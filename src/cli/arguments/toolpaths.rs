@@ -123,7 +123,7 @@ pub(in crate::cli) struct PlotOptions {
     /// Worker threads [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Do all the work and write nothing.
+    /// Say what the plot will come to and write nothing: an estimate, without the search for a short way.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

@@ -1,0 +1,128 @@
+//! What a user should know before a long drawing or a long plot begins, and what would make it shorter.
+
+use super::affordable::memory;
+use super::arguments::DrawOptions;
+use super::draw::Task;
+use super::failure::Failure;
+use super::foretell::{Care, Foretold, Plan, Teller};
+use super::pens::PenSet;
+use super::toolpaths::{LONG_HOURS, duration};
+use crate::geometry::Rect;
+use crate::plot::Profile;
+
+/// Time that a warning names the pitch of, in seconds.
+const USUAL_LIMIT: f64 = 2.0 * 3600.0;
+/// Seconds of work of a picture that is drawn as quickly as it is estimated.
+const AT_ONCE: f64 = 0.1;
+/// Seconds of drawing that are told beforehand.
+const LONG_WORK: f64 = 60.0;
+
+/// Says before it begins what takes long: the drawing, and with a machine its plot. Whether the plot's time was told.
+pub(super) fn of_a_long_wait(
+    task: &Task<'_>,
+    options: &DrawOptions,
+    profile: Option<&Profile>,
+    pens: &mut PenSet,
+) -> Result<bool, Failure> {
+    let cost = task.cost(&task.settings, task.layout.picture);
+    let tell = |wait: f64| {
+        if wait > LONG_WORK && !options.reporting.quiet {
+            eprintln!("drypoint: the drawing takes about {} and {} of memory", duration(wait), memory(cost.bytes));
+        }
+    };
+    let wait = cost.seconds / rayon::current_num_threads() as f64;
+    if profile.is_none() {
+        tell(wait);
+        return Ok(false);
+    }
+    let mut teller = Teller { task, options, profile, pens };
+    let plan = Plan::of(task);
+    if teller.side_within(&plan, AT_ONCE) >= 1.0 {
+        return Ok(false);
+    }
+    match foretold_if_long(&mut teller, &plan, &tell) {
+        Ok(Some(foretold)) => {
+            warn(&mut teller, &foretold);
+            Ok(true)
+        }
+        Err(Failure::Interrupted) => Err(Failure::Interrupted),
+        // What is wrong with it, the drawing itself will say.
+        Ok(None) | Err(_) => Ok(false),
+    }
+}
+
+/// The estimate of a plot that takes long.
+fn foretold_if_long(teller: &mut Teller<'_>, plan: &Plan, tell: &dyn Fn(f64)) -> Result<Option<Foretold>, Failure> {
+    let quick = teller.foretell(plan, Care::Quick)?;
+    tell(quick.work_seconds);
+    if quick.amounts.plot_seconds() < 0.7 * LONG_HOURS * 3600.0 {
+        return Ok(None);
+    }
+    let careful = teller.foretell(plan, Care::Careful)?;
+    Ok((careful.amounts.plot_seconds() > LONG_HOURS * 3600.0).then_some(careful))
+}
+
+/// The warning of a long plot, and what would make it shorter.
+pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
+    let seconds = foretold.amounts.plot_seconds();
+    if seconds > LONG_HOURS * 3600.0 {
+        let advice = advice(teller, seconds);
+        eprintln!("drypoint: warning: this plot will take about {}{advice}", duration(seconds));
+    }
+}
+
+/// The pitch that takes two hours, or the size where such a pitch would leave nothing of the picture.
+fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
+    let usual = format!("about {}", duration(USUAL_LIMIT));
+    if let Some(pitch) = shorter_pitch(teller, seconds) {
+        return format!("; --pitch {pitch:.2}mm would take {usual}, and --max-time 2h chooses it");
+    }
+    match smaller_size(teller, seconds, USUAL_LIMIT) {
+        Some(size) => format!("; {size} would take {usual}"),
+        None => "; a smaller --size on the same --page makes it shorter".to_owned(),
+    }
+}
+
+/// The pitch, of those that leave something of the picture, whose plot takes two hours.
+fn shorter_pitch(teller: &mut Teller<'_>, seconds: f64) -> Option<f64> {
+    let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.sane_pitch());
+    let guess = pitch * (seconds / USUAL_LIMIT).sqrt();
+    if guess > most {
+        return None;
+    }
+    let mut at = |pitch: f64| {
+        let plan = Plan { settings: teller.task.settings_at(pitch)?, picture: teller.task.layout.picture };
+        Some(teller.foretell(&plan, Care::Quick).ok()?.amounts.plot_seconds())
+    };
+    let (before, after) = (at(pitch)?, at(guess)?);
+    let power = (before / after).ln() / (guess / pitch).ln();
+    let wanted = ((pitch * (seconds / USUAL_LIMIT).powf(1.0 / power)) * 100.0).ceil() / 100.0;
+    (power > 0.2 && wanted.is_finite() && wanted <= most).then_some(wanted)
+}
+
+/// The size, on the same sheet, whose plot takes so long.
+pub(super) fn smaller_size(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<String> {
+    let (picture, settings) = (teller.task.layout.picture, teller.task.settings.clone());
+    let smaller = |side: f64| Rect::from_center_size(picture.center(), picture.size() * side);
+    let mut at = |side: f64| {
+        let plan = Plan { settings: settings.clone(), picture: smaller(side) };
+        Some(teller.foretell(&plan, Care::Quick).ok()?.amounts.plot_seconds())
+    };
+    let guess = (limit / seconds).sqrt();
+    // Small pictures take more for their area, and the warning's own estimate may have been a careful one.
+    let ratio = at(guess)? / at(1.0)?;
+    let side = guess * (guess * guess / ratio).sqrt().min(1.0);
+    let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
+    if width.min(height) < teller.task.least_side() {
+        return None;
+    }
+    let page = teller.options.picture.page.clone().unwrap_or_else(|| {
+        let page = teller.task.layout.page;
+        format!("{}x{}mm", round(page.width), round(page.height))
+    });
+    Some(format!("--size {width}x{height}mm --page {page}"))
+}
+
+fn round(mm: f64) -> f64 {
+    (mm * 100.0).round() / 100.0
+}
