@@ -23,7 +23,7 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
         format!("{} would fit", fits.join(", or "))
     };
     Err(Failure::Work(format!(
-        "this drawing would take about {} of memory ({:.0} million working pixels) and {} of work, and drypoint takes at most {}: {advice}",
+        "this drawing would take about {} of memory ({:.1} million working pixels) and {} of work, and drypoint takes at most {}: {advice}",
         memory(cost.bytes),
         cost.pixels / 1e6,
         duration(cost.seconds),

@@ -74,53 +74,67 @@ pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
 /// The pitch that takes two hours, or the size where such a pitch would leave nothing of the picture.
 fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
     let usual = format!("about {}", duration(USUAL_LIMIT));
-    if let Some(pitch) = shorter_pitch(teller, seconds) {
+    let shortened = Shortened::new(teller, seconds, USUAL_LIMIT);
+    if let Some(pitch) = shortened.as_ref().and_then(|shortened| shortened.pitch(teller)) {
         return format!("; --pitch {pitch:.2}mm would take {usual}, and --max-time 2h chooses it");
     }
-    match smaller_size(teller, seconds, USUAL_LIMIT) {
+    match shortened.and_then(|shortened| shortened.size(teller)) {
         Some(size) => format!("; {size} would take {usual}"),
         None => "; a smaller --size on the same --page makes it shorter".to_owned(),
     }
 }
 
-/// The pitch, of those that leave something of the picture, whose plot takes two hours.
-fn shorter_pitch(teller: &mut Teller<'_>, seconds: f64) -> Option<f64> {
-    let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.sane_pitch());
-    let guess = pitch * (seconds / USUAL_LIMIT).sqrt();
-    if guess > most {
-        return None;
-    }
-    let mut at = |pitch: f64| {
-        let plan = Plan { settings: teller.task.settings_at(pitch)?, picture: teller.task.layout.picture };
-        Some(teller.foretell(&plan, Care::Quick).ok()?.amounts.plot_seconds())
-    };
-    let (before, after) = (at(pitch)?, at(guess)?);
-    let power = (before / after).ln() / (guess / pitch).ln();
-    let wanted = ((pitch * (seconds / USUAL_LIMIT).powf(1.0 / power)) * 100.0).ceil() / 100.0;
-    (power > 0.2 && wanted.is_finite() && wanted <= most).then_some(wanted)
-}
-
 /// The size, on the same sheet, whose plot takes so long.
 pub(super) fn smaller_size(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<String> {
-    let (picture, settings) = (teller.task.layout.picture, teller.task.settings.clone());
-    let smaller = |side: f64| Rect::from_center_size(picture.center(), picture.size() * side);
-    let mut at = |side: f64| {
-        let plan = Plan { settings: settings.clone(), picture: smaller(side) };
-        Some(teller.foretell(&plan, Care::Quick).ok()?.amounts.plot_seconds())
-    };
-    let guess = (limit / seconds).sqrt();
-    // Small pictures take more for their area, and the warning's own estimate may have been a careful one.
-    let ratio = at(guess)? / at(1.0)?;
-    let side = guess * (guess * guess / ratio).sqrt().min(1.0);
-    let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
-    if width.min(height) < teller.task.least_side() {
-        return None;
+    Shortened::new(teller, seconds, limit)?.size(teller)
+}
+
+/// A plot that is to take less time; quick estimates are compared with each other alone.
+struct Shortened {
+    /// How many times too long it takes.
+    times: f64,
+    /// Its quick estimate in seconds.
+    quick: f64,
+}
+
+impl Shortened {
+    fn new(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<Self> {
+        let quick = quick(teller, &Plan::of(teller.task))?;
+        Some(Self { times: seconds / limit, quick })
     }
-    let page = teller.options.picture.page.clone().unwrap_or_else(|| {
-        let page = teller.task.layout.page;
-        format!("{}x{}mm", round(page.width), round(page.height))
-    });
-    Some(format!("--size {width}x{height}mm --page {page}"))
+
+    /// The pitch that does it, of those that leave something of the picture.
+    fn pitch(&self, teller: &mut Teller<'_>) -> Option<f64> {
+        let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.sane_pitch());
+        let guess = pitch * self.times.sqrt();
+        if guess > most {
+            return None;
+        }
+        let plan = Plan { settings: teller.task.settings_at(guess)?, picture: teller.task.layout.picture };
+        let power = (self.quick / quick(teller, &plan)?).ln() / (guess / pitch).ln();
+        let wanted = (pitch * self.times.powf(1.0 / power) * 100.0).ceil() / 100.0;
+        (power > 0.2 && wanted <= most).then_some(wanted)
+    }
+
+    /// The size that does it, on the same sheet.
+    fn size(&self, teller: &mut Teller<'_>) -> Option<String> {
+        let (picture, least) = (teller.task.layout.picture, teller.task.least_side());
+        let guess = 1.0 / self.times.sqrt();
+        let smaller = Rect::from_center_size(picture.center(), picture.size() * guess);
+        let after = quick(teller, &Plan { settings: teller.task.settings.clone(), picture: smaller })?;
+        // Small pictures take more for their area.
+        let side = guess * (self.quick / after / self.times).sqrt().min(1.0);
+        let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
+        let page = teller.options.picture.page.clone().unwrap_or_else(|| {
+            let page = teller.task.layout.page;
+            format!("{}x{}mm", round(page.width), round(page.height))
+        });
+        (width.min(height) >= least).then(|| format!("--size {width}x{height}mm --page {page}"))
+    }
+}
+
+fn quick(teller: &mut Teller<'_>, plan: &Plan) -> Option<f64> {
+    teller.foretell(plan, Care::Quick).ok().map(|foretold| foretold.amounts.plot_seconds()).filter(|seconds| *seconds > 0.0)
 }
 
 fn round(mm: f64) -> f64 {

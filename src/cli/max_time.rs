@@ -30,7 +30,10 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
     }
     let mut trials = Trials::new(options)?;
     let (start, most) = (trials.task.settings.number("pitch"), trials.task.sane_pitch());
-    let found = search(start, most.max(start), limit, |pitch| trials.seconds_at(pitch))?;
+    let mut found = search(start, most.max(start), limit, |pitch| trials.seconds_at(pitch))?;
+    if let (true, Ok(quick)) = (options.dry_run, found) {
+        found = trials.carefully(quick, most.max(start), limit)?;
+    }
     let chosen = found.map_err(|last| {
         let smaller = trials.smaller_size(last.pitch, last.seconds, limit);
         let smaller = smaller.unwrap_or_else(|| "a smaller --size on the same --page".to_owned());
@@ -125,7 +128,7 @@ impl<'a> Trials<'a> {
     /// How long the plot with this pitch takes: drawn and ordered fast, or in a dry run estimated.
     fn seconds_at(&mut self, pitch: f64) -> Result<f64, Failure> {
         if self.options.dry_run {
-            return self.estimate(pitch);
+            return self.estimate(pitch, Care::Quick);
         }
         let mut options = with_pitch(self.options, pitch);
         if options.toolpaths.order == Order::Full {
@@ -138,10 +141,21 @@ impl<'a> Trials<'a> {
         Ok(prepared.report.total.seconds.unwrap_or(0.0))
     }
 
-    fn estimate(&mut self, pitch: f64) -> Result<f64, Failure> {
+    fn estimate(&mut self, pitch: f64, care: Care) -> Result<f64, Failure> {
         let settings = self.task.settings_at(pitch).unwrap_or_else(|| self.task.settings.clone());
         let plan = Plan { settings, picture: self.task.layout.picture };
-        Ok(self.teller().foretell(&plan, Care::Quick)?.amounts.plot_seconds())
+        Ok(self.teller().foretell(&plan, care)?.amounts.plot_seconds())
+    }
+
+    /// What was found by quick estimates, put right by a careful one.
+    fn carefully(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
+        let careful = self.estimate(quick.pitch, Care::Careful)?;
+        let start = self.task.settings.number("pitch");
+        if careful <= limit && (careful >= 0.9 * limit || quick.pitch <= start) {
+            return Ok(Ok(Trial { seconds: careful, ..quick }));
+        }
+        let ratio = careful / quick.seconds.max(1e-9);
+        search(start, most, NEAR_ENOUGH * limit, |pitch| Ok(ratio * self.estimate(pitch, Care::Quick)?))
     }
 
     /// The size that keeps to the limit with a pitch, where there is one.

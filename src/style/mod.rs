@@ -46,7 +46,7 @@ pub trait Style: Sync {
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
-    /// What drawing a picture of this size takes at this resolution, foretold.
+    /// What drawing a picture of this size takes at this resolution, foretold from figures that were measured.
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
     /// Draws the portrait.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError>;
