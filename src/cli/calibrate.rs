@@ -38,7 +38,7 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
         toolpaths::write(&options.output, format, &prepared, Some(&profile), &head)?;
         toolpaths::write_preview_of(&prepared, &options.toolpaths, None)?;
     }
-    toolpaths::warn(&prepared, Some(&profile), "");
+    toolpaths::warn(&prepared, Some(&profile), Some(""));
     if !options.quiet {
         let (square, summary) = (sheet.square.width(), toolpaths::summary(&prepared.report));
         say!("{}: {:.1} x {:.1} mm, a square of {square:.0} mm, {summary}", options.output, page.width, page.height);

@@ -1,9 +1,12 @@
 //! `drypoint draw`: photograph to drawing to file.
 
+use super::affordable;
 use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
+use super::dry_run;
 use super::failure::Failure;
+use super::forewarn;
 use super::interruption::{interrupt, is_interrupted};
-use super::layout::{Layout, lay_out};
+use super::layout::{self, Layout, lay_out};
 use super::max_time;
 use super::messages::say;
 use super::output;
@@ -15,7 +18,7 @@ use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
 use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
-use crate::style::{self, Observer, Settings, Style, StyleError};
+use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -41,9 +44,16 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
-    let watcher = Watcher::new(options.reporting.quiet);
     let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
+    if let Some(notice) = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet) {
+        say!("drypoint: {notice}");
+    }
+    if options.dry_run {
+        return dry_run::run(&task, options, profile.as_ref(), &mut pens);
+    }
+    let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
+    let watcher = Watcher::new(options.reporting.quiet);
     let (drawing, painting) = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
     let visible = match profile {
         Some(_) => uncovered(&drawing, &painting)?,
@@ -61,9 +71,8 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         prepared.extend(write_one(name, drawing, format, profile.as_ref().map(|profile| (profile, &pens)), options, &head)?);
     }
     let seconds = watcher.finish();
-    let shorter = max_time::advice(options, &prepared);
     for prepared in &prepared {
-        toolpaths::warn(prepared, profile.as_ref(), &shorter);
+        toolpaths::warn(prepared, profile.as_ref(), if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
     }
     max_time::warn_if_longer(&prepared, options.max_time);
     report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
@@ -82,7 +91,13 @@ pub(super) fn drawing_of(
     pens: &mut PenSet,
     observer: &dyn Observer,
 ) -> Result<(Drawing, Vec<Painted>), Failure> {
-    let mut drawing = task.draw(observer)?;
+    let mut drawing = inked(task.draw(observer)?, options, observer)?;
+    let painting = pens.assign(&mut drawing, profile)?;
+    Ok((drawing, painting))
+}
+
+/// The layers asked for, each with its ink, as the press needs them.
+pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn Observer) -> Result<Drawing, Failure> {
     for layer in &mut drawing.layers {
         layer.ink = options.ink.clone();
     }
@@ -91,8 +106,7 @@ pub(super) fn drawing_of(
         observer.begin("press");
         drawing = press.compensated_until(&drawing, interrupt())?;
     }
-    let painting = pens.assign(&mut drawing, profile)?;
-    Ok((drawing, painting))
+    Ok(drawing)
 }
 
 /// One file; gives back the plot when it is one.
@@ -111,20 +125,14 @@ fn write_one(
             Format::Inkml => write_inkml(drawing, &head.title, &mut out),
             _ => write_svg(drawing, head, &mut out),
         };
-        if options.dry_run {
-            toolpaths::discard(fill)?;
-        } else {
-            output::write(name, fill)?;
-        }
+        output::write(name, fill)?;
         return Ok(None);
     };
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
-    if !options.dry_run {
-        toolpaths::write(name, format, &prepared, Some(profile), head)?;
-        toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(drawing))?;
-    }
+    toolpaths::write(name, format, &prepared, Some(profile), head)?;
+    toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(drawing))?;
     Ok(Some(prepared))
 }
 
@@ -148,6 +156,9 @@ fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
     Ok(Some(Press::new(options.dot_gain, options.dot_gain_screen, options.min_mark)))
 }
 
+/// Pitches across the short side of a picture below which no advice leads: of a face on fewer there is nothing left.
+const LEAST_PITCHES: f64 = 25.0;
+
 /// Everything that decides a drawing.
 pub(super) struct Task<'a> {
     options: &'a PictureOptions,
@@ -156,13 +167,16 @@ pub(super) struct Task<'a> {
     photograph: Photograph,
     masks: Vec<(MaskRole, String, Photograph)>,
     depth: Option<(String, Photograph)>,
-    layout: Layout,
+    pub layout: Layout,
+    /// The parameters that were given.
+    given: Vec<(String, String)>,
 }
 
 impl<'a> Task<'a> {
     pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
-        let settings = settings(style, options)?;
+        let given = given(options)?;
+        let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
@@ -187,25 +201,63 @@ impl<'a> Task<'a> {
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
         let layout = lay_out(options, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
-        Ok(Self { options, style, settings, photograph, masks, depth, layout })
+        let task = Self { options, style, settings, photograph, masks, depth, layout, given };
+        affordable::check(&task)?;
+        Ok(task)
+    }
+
+    /// The parameters with another pitch; none when the style has none like that.
+    pub(super) fn settings_at(&self, pitch: f64) -> Option<Settings> {
+        let mut given = self.given.clone();
+        given.push(("pitch".to_owned(), pitch.to_string()));
+        Settings::resolve(self.style.name(), self.style.parameters(), &given).ok()
+    }
+
+    /// The greatest pitch that the style takes and that leaves something of the picture.
+    pub(super) fn sane_pitch(&self) -> f64 {
+        let pitch = self.style.parameters().iter().find(|parameter| parameter.name == "pitch");
+        let most = pitch.and_then(|parameter| parameter.kind.ends()).map_or(f64::INFINITY, |ends| ends[1]);
+        most.min(self.layout.picture.width().min(self.layout.picture.height()) / LEAST_PITCHES)
+    }
+
+    /// The least short side of a picture, in millimetres, that leaves something of it at this pitch.
+    pub(super) fn least_side(&self) -> f64 {
+        LEAST_PITCHES * self.settings.number("pitch")
+    }
+
+    /// What drawing a picture takes; its photographs are in memory already.
+    pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
+        let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
+        let others = self.masks.iter().map(|(.., mask)| mask).chain(self.depth.iter().map(|(_, depth)| depth));
+        let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
+        Cost { bytes: cost.bytes + photographs as f64, ..cost }
+    }
+
+    /// Working pixels a millimetre.
+    pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
+        let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
+        self.style.resolution(settings, &roles, picture)
     }
 
     pub(super) fn draw(&self, observer: &dyn Observer) -> Result<Drawing, Failure> {
         for warning in &self.photograph.info.warnings {
             observer.warn(&format!("{}: {warning}", self.options.photo));
         }
+        let picture = self.layout.picture;
+        self.draw_in(&self.settings, Placement::new(picture, self.resolution(&self.settings, picture)), observer)
+    }
+
+    /// Draws the picture elsewhere on the sheet, smaller, or with other parameters.
+    pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
         observer.begin("photograph");
-        let portrait = self.portrait()?;
-        self.style.draw(&portrait, &self.settings, self.options.seed, observer).map_err(|error| match error {
+        let portrait = self.portrait(placement)?;
+        self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
             StyleError::Interrupted => Failure::Interrupted,
             nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
         })
     }
 
-    fn portrait(&self) -> Result<Portrait, Failure> {
-        let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
-        let picture = self.layout.picture;
-        let placement = Placement::new(picture, self.style.resolution(&self.settings, &roles, picture));
+    fn portrait(&self, placement: Placement) -> Result<Portrait, Failure> {
         let target = match self.options.tone {
             Tone::Lightness => ToneTarget::Lightness,
             Tone::Linear => ToneTarget::Linear,
@@ -294,7 +346,7 @@ fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
 }
 
 /// Parameters from the file, then from --pitch, then from --set.
-fn settings(style: &'static dyn Style, options: &PictureOptions) -> Result<Settings, Failure> {
+fn given(options: &PictureOptions) -> Result<Vec<(String, String)>, Failure> {
     let mut given = Vec::new();
     if let Some(path) = &options.params {
         given.extend(parameter_file(&path.to_string_lossy())?);
@@ -303,7 +355,7 @@ fn settings(style: &'static dyn Style, options: &PictureOptions) -> Result<Setti
         given.push(("pitch".to_owned(), pitch.to_string()));
     }
     given.extend(options.set.iter().cloned());
-    Ok(Settings::resolve(style.name(), style.parameters(), &given)?)
+    Ok(given)
 }
 
 fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {

@@ -14,9 +14,16 @@ const MOST_CHANGES: u32 = 12;
 /// Colours that a message names; more says nothing to anyone.
 const MOST_NAMED: usize = 40;
 
-/// Brings a drawing's colours to the pens there are, if they are too many, and says which became one. Returns the marks in the order
-/// in which they were painted, if they had to be sorted.
-pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<Vec<Painted>> {
+/// A drawing whose layers have their pens.
+pub(super) struct HandedOut {
+    /// The marks in the order in which they were painted before.
+    pub painting: Vec<Painted>,
+    /// Which colours became one, in words.
+    pub became_one: Option<String>,
+}
+
+/// Brings a drawing's colours to the pens there are, if they are too many.
+pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<HandedOut> {
     let most = match profile.pens.change {
         PenChange::Machine => profile.pens.count,
         PenChange::Pause => profile.pens.count.max(MOST_CHANGES),
@@ -30,9 +37,9 @@ pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<Ve
     }
     let palette = palette(drawing, &amounts, profile.pens.count as usize);
     let sorted = sorted(drawing, &palette);
+    let became_one = Some(told(amounts.len(), profile, &palette, &sorted.became));
     drawing.layers = sorted.layers;
-    warn_once(&told(amounts.len(), profile, &palette, &sorted.became));
-    Some(sorted.painting)
+    Some(HandedOut { painting: sorted.painting, became_one })
 }
 
 /// Says which layers have more than one colour, and yet one pen.
@@ -146,7 +153,7 @@ fn named(colours: &[Colour]) -> String {
 }
 
 /// A search for a pitch draws again and again; a warning is said once.
-fn warn_once(text: &str) {
+pub(super) fn warn_once(text: &str) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let is_new = SAID.lock().is_ok_and(|mut said| said.insert(text.to_owned()));
     if is_new {

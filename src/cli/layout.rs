@@ -104,6 +104,17 @@ pub(super) fn lay_out(
     Ok(Layout { page, picture: Rect::from_center_size(centre, (width, height)), crop })
 }
 
+/// What to say when a box that was asked for stays empty by more than a twentieth of a side.
+pub(super) fn unfilled(options: &PictureOptions, layout: &Layout) -> Option<String> {
+    let (width, height) = options.size.filter(|_| options.fit == Fit::Contain)?;
+    let picture = layout.picture;
+    let is_empty = picture.width() < 0.95 * width || picture.height() < 0.95 * height;
+    is_empty.then(|| {
+        let (w, h) = (picture.width(), picture.height());
+        format!("the picture is {w:.1} x {h:.1} mm in its box of {width} x {height} mm; --fit cover fills the box and cuts the photograph")
+    })
+}
+
 fn crop_of(options: &PictureOptions, photograph: &Photograph) -> Crop {
     let whole = Crop::all(photograph);
     let Some([x, y, w, h]) = options.crop else { return whole };

@@ -1,11 +1,17 @@
 //! The command line: the only place with files, stdout, progress and exit codes.
 
+mod affordable;
+mod amounts;
 mod arguments;
 mod calibrate;
 mod claims;
 mod draw;
+mod dry_run;
 mod failure;
 mod few_pens;
+mod foretell;
+mod foretell_plot;
+mod forewarn;
 mod inspect;
 mod interruption;
 mod label_speeds;

@@ -11,7 +11,7 @@
 //! ```
 
 use super::failure::Failure;
-use super::few_pens::{fit_to_pens, warn_of_colours};
+use super::few_pens::{HandedOut, fit_to_pens, warn_of_colours, warn_once};
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
@@ -57,10 +57,20 @@ impl PenSet {
         Ok(set)
     }
 
-    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, what the machine has. Returns the
-    /// marks in the order in which they were painted before they were sorted by pens.
+    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, what the machine has, and says which
+    /// colours became one. Returns the marks in the order in which they were painted before they were sorted by pens.
     pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
-        let mut painting = self.sort_by_colour(drawing);
+        let handed = self.hand_out(drawing, profile)?;
+        if profile.is_some() {
+            handed.became_one.iter().for_each(|notice| warn_once(notice));
+            warn_of_colours(drawing);
+        }
+        Ok(handed.painting)
+    }
+
+    /// The same without a word about colours, for drawings that nobody gets to see.
+    pub(super) fn hand_out(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<HandedOut, Failure> {
+        let painting = self.sort_by_colour(drawing);
         for entry in &self.entries {
             let layers = drawing.layers.iter_mut().filter(|layer| entry.is_for(layer));
             for layer in layers.collect::<Vec<_>>() {
@@ -74,13 +84,8 @@ impl PenSet {
                 }
             }
         }
-        if let Some(profile) = profile {
-            if self.entries.is_empty() {
-                painting = fit_to_pens(drawing, profile).unwrap_or(painting);
-            }
-            warn_of_colours(drawing);
-        }
-        Ok(painting)
+        let fitted = profile.filter(|_| self.entries.is_empty()).and_then(|profile| fit_to_pens(drawing, profile));
+        Ok(fitted.unwrap_or(HandedOut { painting, became_one: None }))
     }
 
     /// Nibs by pen; a pen of which only the slot was told has the usual one.

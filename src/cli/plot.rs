@@ -1,16 +1,17 @@
 //! `drypoint plot`: any SVG to ordered tool paths.
 
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
+pub(super) use super::draw::reach_of;
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;
 use super::messages::{say, warning};
 use super::pens::PenSet;
-use super::{layout, output, toolpaths};
+use super::{foretell_plot, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, TooMuch, check_work, coverage, lower, mount, occluded};
+use crate::plot::{Hides, InkModel, TooMuch, check_work, coverage, lower, occluded};
 use crate::read::{Imported, read_svg};
 use crate::write::SvgHead;
 use serde_json::json;
@@ -31,9 +32,12 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
-    let hides = options.occlude.then_some(if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines });
+    let hides = options.occlude.then(|| hides(model));
     // Pens are given when all marks are known to be drawn; the usual one is near enough for what they will cost.
     check_work(&imported.drawing(), model, pens.nibs(), hides, interrupt()).map_err(|error| too_much(shown, &error))?;
+    if options.dry_run {
+        return foretell_plot::dry_run(&imported, options, model, profile.as_ref(), &mut pens, shown);
+    }
     if let Some(hides) = hides {
         leave_out_hidden(&mut imported, hides)?;
     }
@@ -44,8 +48,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }
-    let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
-    let mut drawing = place(&imported.drawing(), options, reach)?;
+    let mut drawing = place(&imported.drawing(), options, reach_of(profile.as_ref()))?;
     if is_blank(&drawing, model) {
         let dropped =
             if imported.dropped.is_empty() { String::new() } else { format!(" (left out: {})", imported.dropped.summary()) };
@@ -67,11 +70,9 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         if model == InkModel::Ink {
             prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs(), interrupt())?);
         }
-        if !options.dry_run {
-            toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
-            toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(&drawing))?;
-        }
-        toolpaths::warn(&prepared, profile.as_ref(), "");
+        toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
+        toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(&drawing))?;
+        toolpaths::warn(&prepared, profile.as_ref(), Some(""));
         plots.push((name, prepared));
     }
     if !imported.dropped.is_empty() {
@@ -120,7 +121,15 @@ fn leave_out_hidden(imported: &mut Imported, hides: Hides) -> Result<(), Failure
     Ok(())
 }
 
-fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
+/// What hides what: as ink, other colours; as lines, every fill.
+pub(super) const fn hides(model: InkModel) -> Hides {
+    match model {
+        InkModel::Ink => Hides::OtherColours,
+        InkModel::Lines => Hides::AllLines,
+    }
+}
+
+pub(super) fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
     if wanted.is_empty() {
         return Ok(());
     }
@@ -135,13 +144,13 @@ fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failu
 }
 
 /// Under `lines`, fills are not drawn, but not lost in silence either.
-fn count_fills(imported: &mut Imported) {
+pub(super) fn count_fills(imported: &mut Imported) {
     let fills = imported.layers.iter().flat_map(|l| &l.layer.marks).filter(|m| !matches!(m, Mark::Stroke(_))).count();
     imported.dropped.add("fills", fills);
 }
 
 /// Turns, scales and moves the drawing on its sheet.
-fn place(drawing: &Drawing, options: &PlotOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Drawing, Failure> {
+pub(super) fn place(drawing: &Drawing, options: &PlotOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Drawing, Failure> {
     let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
     let turned = turn(drawing, turn_degrees(options.rotate, drawing, sheet));
     let page = sheet.map_or(turned.page, |(width, height)| Page { width, height, ..turned.page });

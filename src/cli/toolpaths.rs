@@ -15,7 +15,6 @@ use crate::plot::{
 };
 use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
 use std::collections::BTreeSet;
-use std::io::Write;
 
 /// Plotting time above which the user is warned.
 pub(super) const LONG_HOURS: f64 = 4.0;
@@ -346,8 +345,9 @@ pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, l
     output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, &mut out))
 }
 
-/// Warnings about the machine, shown whatever was asked for.
-pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str) {
+/// Warnings about the machine, shown whatever was asked for; `shorter` says what makes a long plot shorter, unless that was said
+/// before.
+pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: Option<&str>) {
     let (length, touches) = prepared.cut;
     if length > 0.0 || touches > 0 {
         warning!("--clip cut away {length:.1} mm of line and {touches} touches");
@@ -355,7 +355,7 @@ pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str
     if prepared.duplicates > 0 {
         say!("drypoint: {} repeated paths are drawn once; --duplicates keep draws them all", prepared.duplicates);
     }
-    if let Some(seconds) = prepared.report.total.seconds
+    if let (Some(seconds), Some(shorter)) = (prepared.report.total.seconds, shorter)
         && seconds > LONG_HOURS * 3600.0
     {
         warning!("this plot takes {}{shorter}", duration(seconds));
@@ -409,9 +409,4 @@ pub(super) fn duration(seconds: f64) -> String {
         (0, minutes) => format!("{minutes} min"),
         (hours, minutes) => format!("{hours} h {minutes:02} min"),
     }
-}
-
-/// Writes to nothing and counts, for `--dry-run`.
-pub(super) fn discard(fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Failure> {
-    fill(&mut std::io::sink()).map_err(Failure::writing("nothing"))
 }

@@ -246,9 +246,18 @@ impl Mounting {
         if fits {
             format!("{size}; turned by 90 degrees it would fit: --rotate 90")
         } else {
-            format!("{size}, and --rotate 90 would not help: make it smaller (draw --size, plot --scale or --fit page)")
+            let (width, height) = ((free.width() - 1.0).floor().max(1.0), (free.height() - 1.0).floor().max(1.0));
+            let page = format!("--page {}x{}mm", round(plot.page.width), round(plot.page.height));
+            format!(
+                "{size}, and --rotate 90 would not help: draw it with {page} --size {width}x{height}mm, plot it with --fit page"
+            )
         }
     }
+}
+
+/// Hundredths of a millimetre.
+fn round(mm: f64) -> f64 {
+    (mm * 100.0).round() / 100.0
 }
 
 fn bounds(points: impl Iterator<Item = Point>) -> Option<Rect> {

@@ -14,8 +14,8 @@ use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Working pixels beyond which a page is refused; each costs about 60 bytes.
-const WORK_LIMIT: u64 = 120_000_000;
+/// Working pixels beyond which a page is refused whatever draws it; a style takes 80 to 500 bytes for each, and says beforehand.
+const WORK_LIMIT: u64 = 60_000_000;
 /// Rows of the working raster resampled at a time.
 const BAND: usize = 64;
 

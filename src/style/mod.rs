@@ -4,6 +4,7 @@
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
 mod charcoal;
+mod cost;
 mod engrave;
 mod feature_line;
 mod glass;
@@ -15,6 +16,7 @@ mod parameter;
 mod random;
 mod reversed;
 
+pub use cost::Cost;
 pub use need::Need;
 pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};
@@ -46,6 +48,8 @@ pub trait Style: Sync {
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
+    /// What drawing a picture of this size takes at this resolution, foretold from figures that were measured.
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
     /// Makes the marks, which may reach over the picture's border.
     fn sketch(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer)
     -> Result<Drawing, StyleError>;

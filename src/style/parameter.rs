@@ -173,7 +173,11 @@ impl Settings {
             }
         });
         for parameter in parameters {
-            values.entry(parameter.name).or_insert_with(|| parameter.kind.default_value(pitch));
+            values.entry(parameter.name).or_insert_with(|| match parameter.kind {
+                Kind::Choice(words) => Value::Word(words[0]),
+                Kind::Places { .. } => Value::Places(Places { percent: [(0.0, 0.0); Places::MOST], count: 0 }),
+                kind => Value::Number(kind.within(kind.default_number(pitch).unwrap_or(0.0))),
+            });
         }
         Ok(Self { values })
     }
@@ -266,6 +270,24 @@ impl Kind {
         }
     }
 
+    /// The nearest number in its range: a default that follows the pitch does not leave it either.
+    fn within(&self, number: f64) -> f64 {
+        match *self {
+            Self::Length { least, most, .. } | Self::Number { least, most, .. } => number.clamp(least, most),
+            Self::Count { least, most, .. } => number.clamp(f64::from(least), f64::from(most)),
+            Self::Choice(_) | Self::Places { .. } => number,
+        }
+    }
+
+    /// Its two ends as `--set` would take them; none for choices and places.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Length { least, most, .. } | Self::Number { least, most, .. } => Some([least, most]),
+            Self::Count { least, most, .. } => Some([f64::from(least), f64::from(most)]),
+            Self::Choice(_) | Self::Places { .. } => None,
+        }
+    }
+
     /// The default in words.
     pub fn default_text(&self) -> String {
         match *self {
@@ -340,7 +362,7 @@ mod tests {
         },
         Parameter {
             name: "reach",
-            kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 100.0 },
+            kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 20.0 },
             meaning: "",
             source: "",
             needs: &[],
@@ -367,6 +389,12 @@ mod tests {
         assert_eq!(settings.number("pitch"), 1.0);
         assert_eq!(settings.number("reach"), 2.0);
         assert_eq!(settings.word("size"), "paper");
+    }
+
+    #[test]
+    fn a_default_that_follows_the_pitch_stays_in_its_range() {
+        let reach = |pitch| given(&[("pitch", pitch)]).unwrap().number("reach");
+        assert_eq!((reach("20"), reach("0.1")), (20.0, 0.2));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::choices::{Fit, Format, Tone};
 use super::files::Reporting;
 use super::toolpaths::ToolpathOptions;
 use super::values::{
-    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, screen,
+    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, nib, screen,
     size_above_zero,
 };
 use crate::drawing::Ink;
@@ -83,8 +83,8 @@ pub(in crate::cli) struct DrawOptions {
     /// The format, whatever the extension.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// Nib width: for plotter output, and for lines that have no width of their own.
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    /// Nib width (0.01 to 20 mm): for plotter output, and for lines that have no width of their own.
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
     /// Smallest dot and thinnest line that print may use; smaller marks are thinned out so that the tone stays. For newsprint 0.065mm
     /// (Torstar Printing Group: tints below 5 % do not print; the dot of that tint at 40 lines per cm), for books 0.03mm (Printing
@@ -114,7 +114,8 @@ pub(in crate::cli) struct DrawOptions {
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
-    /// Do all the work and write nothing.
+    /// Say what the drawing will come to, its marks, memory and time and with --profile the plot's, and write nothing: an estimate
+    /// from small pictures, in a second or two.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

@@ -10,7 +10,7 @@ pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
 pub(super) use toolpaths::*;
-pub(super) use values::CropNumber;
+pub(super) use values::{CropNumber, NIBS};
 
 use clap::{Parser, Subcommand};
 

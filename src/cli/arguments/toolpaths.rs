@@ -2,7 +2,7 @@
 
 use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, Rotate, SeamOption, StartCorner};
 use super::files::Reporting;
-use super::values::{drawn_length_above_zero, drawn_length_from_zero, dry_time, key_value, metres, number_above_zero, seconds};
+use super::values::{drawn_length_from_zero, dry_time, key_value, metres, nib, number_above_zero, scale, seconds, tolerance};
 use clap::Args;
 
 /// How tool paths are made.
@@ -10,8 +10,8 @@ use clap::Args;
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ToolpathOptions {
-    /// Of flattening curves.
-    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = drawn_length_above_zero, allow_negative_numbers = true)]
+    /// Of flattening curves and of arcs (0.001 to 1 mm).
+    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// How hard to look for a short way; counted in work, so that the order is the same everywhere.
     #[arg(long, value_enum, default_value_t = Order::Full)]
@@ -89,8 +89,8 @@ pub(in crate::cli) struct PlotOptions {
     /// The plotter: a name (`drypoint profiles` lists them) or a TOML file; needed for HP-GL and G-code.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
-    /// Nib width.
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = drawn_length_above_zero, allow_negative_numbers = true)]
+    /// Nib width (0.01 to 20 mm).
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
     /// Draw only these layers, by name or pen number, separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "LIST")]
@@ -111,8 +111,8 @@ pub(in crate::cli) struct PlotOptions {
     /// Scale the drawing to the page less its margin.
     #[arg(long, value_enum, default_value_t = PlotFit::None)]
     pub fit: PlotFit,
-    /// Scale by this factor.
-    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = number_above_zero, allow_negative_numbers = true)]
+    /// Scale by this factor (0.001 to 1000).
+    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = scale, allow_negative_numbers = true)]
     pub scale: f64,
     /// Move the drawing to the middle of the page.
     #[arg(long)]
@@ -125,7 +125,7 @@ pub(in crate::cli) struct PlotOptions {
     /// Worker threads [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Do all the work and write nothing.
+    /// Say what the plot will come to and write nothing: an estimate, without the search for a short way.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

@@ -2,6 +2,14 @@
 
 use crate::drawing::Ink;
 use crate::geometry::{parse_drawn_length, parse_length, parse_size};
+use std::ops::RangeInclusive;
+
+/// Widths of nibs in millimetres: finer than any pen, and a broad brush.
+pub(in crate::cli) const NIBS: RangeInclusive<f64> = 0.01..=20.0;
+/// Tolerances of curves in millimetres: below a step of any plotter files only grow, above it a letter loses its shape.
+const TOLERANCES: RangeInclusive<f64> = 0.001..=1.0;
+/// Factors of a drawing's size, from a sheet that becomes a dot to a stamp that becomes a wall.
+const SCALES: RangeInclusive<f64> = 0.001..=1000.0;
 
 /// A border of the crop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +36,27 @@ pub(super) fn length_from_zero(text: &str) -> Result<f64, String> {
 }
 
 /// A length of a drawing that is read, in pixels too.
-pub(super) fn drawn_length_above_zero(text: &str) -> Result<f64, String> {
-    let mm = drawn_length_from_zero(text)?;
-    if mm > 0.0 { Ok(mm) } else { Err("must be above 0".to_owned()) }
-}
-
-/// The same from 0.
 pub(super) fn drawn_length_from_zero(text: &str) -> Result<f64, String> {
     let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
     if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
+}
+
+pub(super) fn nib(text: &str) -> Result<f64, String> {
+    length_within(text, &NIBS)
+}
+
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    length_within(text, &TOLERANCES)
+}
+
+fn length_within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
+    let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
+    if range.contains(&mm) { Ok(mm) } else { Err(format!("must be from {} to {} mm", range.start(), range.end())) }
+}
+
+pub(super) fn scale(text: &str) -> Result<f64, String> {
+    let factor = text.parse::<f64>().ok().filter(|factor| SCALES.contains(factor));
+    factor.ok_or_else(|| format!("must be a number from {} to {}", SCALES.start(), SCALES.end()))
 }
 
 pub(super) fn size_above_zero(text: &str) -> Result<(f64, f64), String> {
@@ -144,6 +164,23 @@ mod tests {
         assert_eq!(metres("2.5"), Ok(2500.0));
         assert_eq!((metres("500mm"), metres("30cm")), (Ok(500.0), Ok(300.0)));
         assert!(metres("0m").is_err() && metres("far").is_err());
+    }
+
+    #[test]
+    fn nibs_tolerances_and_scales_have_ends() {
+        assert_eq!((nib("0.3"), nib("0.01mm"), nib("2cm")), (Ok(0.3), Ok(0.01), Ok(20.0)));
+        assert_eq!((tolerance("0.02"), scale("2.5")), (Ok(0.02), Ok(2.5)));
+        for wrong in ["0", "-0.3", "1e-300", "1e-9", "NaN", "inf", "20.1", "1e300"] {
+            assert!(
+                nib(wrong).unwrap_err().contains(if wrong == "NaN" || wrong == "inf" { "" } else { "0.01 to 20 mm" }),
+                "{wrong}"
+            );
+            assert!(tolerance(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(tolerance("1e-300").unwrap_err(), "must be from 0.001 to 1 mm");
+        for wrong in ["0", "-1", "1e-9", "1001", "1e300", "inf", "NaN", ""] {
+            assert_eq!(scale(wrong).unwrap_err(), "must be a number from 0.001 to 1000", "{wrong}");
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 mod alike;
 mod angles;
 mod breaks;
+mod cost;
 mod depths;
 mod ground;
 mod lines;
@@ -17,9 +18,9 @@ mod strokes;
 mod tones;
 mod widths;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Colour, Drawing, Layer, Mark};
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use breaks::Breaking;
@@ -65,6 +66,10 @@ impl Style for Engrave {
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
         parameters::PIXELS_PER_PITCH / settings.number("pitch")
+    }
+
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Engraving::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(

@@ -2,6 +2,7 @@
 
 mod body;
 mod colour;
+mod cost;
 mod detail;
 mod discrete;
 mod hairs;
@@ -13,10 +14,10 @@ mod transform;
 mod underpainting;
 mod visible;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Drawing, Layer};
 use crate::field::{Flow, glass_pattern, line_integral_convolution};
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, Portrait, luminance};
 use parameters::{Manner, Painting};
@@ -56,6 +57,10 @@ impl Style for Glass {
         Painting::new(settings).pixels_per_mm()
     }
 
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Self::painting(settings, picture), picture, pixels_per_mm)
+    }
+
     fn sketch(
         &self,
         portrait: &Portrait,
@@ -63,7 +68,18 @@ impl Style for Glass {
         seed: u64,
         observer: &dyn Observer,
     ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: Painting::new(settings), seed, observer }.draw()
+        let parameters = Self::painting(settings, portrait.placement.picture);
+        Drawer { portrait, parameters, seed, observer }.draw()
+    }
+}
+
+impl Glass {
+    /// The values for a picture: no stroke is longer than its diagonal, for the frame that strokes come in from is as wide as they
+    /// are long.
+    fn painting(settings: &Settings, picture: Rect) -> Painting {
+        let mut painting = Painting::new(settings);
+        painting.length_mm = painting.length_mm.min(picture.width().hypot(picture.height()));
+        painting
     }
 }
 

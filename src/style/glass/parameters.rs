@@ -43,7 +43,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "length",
         kind: Kind::Length { default: Default::Pitches(25.0 / 3.0), least: 0.1, most: 200.0 },
-        meaning: "length of the strokes",
+        meaning: "length of the strokes, at most the picture's diagonal",
         source: "Papari 7.10, a = 18 px",
         needs: &[Need::AnyOf(&[&[CONTINUOUS], &[Need::Word("transform", &["photo"])]])],
     },

@@ -1,6 +1,7 @@
 //! The structure grid: dots lined up along and across the features, turning into hatching where it is dark (Son et al. 2011).
 
 mod cells;
+mod cost;
 mod darks;
 mod dots;
 mod features;
@@ -12,8 +13,9 @@ mod shape;
 mod structure;
 mod tiles;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Drawing, Layer, Page};
+use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use cells::Cell;
@@ -47,6 +49,10 @@ impl Style for Grid {
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
         PIXELS_PER_PITCH / settings.number("pitch")
+    }
+
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Gridding::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(

@@ -12,6 +12,9 @@ const MIXED: Need = Need::Word("primitive", &["mixed"]);
 const HAS_LINES: Need = Need::BelowPitches("size_max", std::f64::consts::FRAC_1_SQRT_2);
 /// Lines that are found, not drawn by hand.
 const FOUND: Need = Need::Without(MaskRole::Edges);
+/// Greatest reach of the window in pitches. The work grows with its square: 17 take 7 s on 100 x 100 mm, ten times as many would take
+/// minutes.
+const WIDEST_WINDOW: f64 = 20.0;
 
 /// All that a user can set.
 pub(super) const PARAMETERS: &[Parameter] = &[
@@ -214,7 +217,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "window",
         kind: Kind::Length { default: Default::Pitches(2.0), least: 0.1, most: 100.0 },
-        meaning: "reach of the window in which stripes are made regular",
+        meaning: "reach of the window in which stripes are made regular; at most 20 pitches",
         source: "Son 5.2, r",
         needs: &[],
     },
@@ -349,7 +352,7 @@ impl Gridding {
             isophotes: count("isophotes"),
             isophote_weight: settings.number("isophote_weight") as f32,
             field_detail_mm: settings.number("field_detail"),
-            window_mm: settings.number("window"),
+            window_mm: settings.number("window").min(WIDEST_WINDOW * settings.number("pitch")),
             rounds: count("rounds"),
             adaptive: settings.number("adaptive") as f32,
             feature_rows: match settings.word("feature_rows") {

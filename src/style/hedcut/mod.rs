@@ -1,6 +1,7 @@
 //! The hedcut: dots in rows along the features, sized so that their ink is exactly the tone (Bruehl 2023, after Kim et al.
 //! 2008 and 2010).
 
+mod cost;
 mod features;
 mod highlights;
 mod outline;
@@ -8,10 +9,10 @@ mod parameters;
 mod seeds;
 mod size;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Dot, Drawing, Layer, Mark, Page};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
-use crate::geometry::{Point, blob};
+use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use features::Features;
@@ -43,6 +44,10 @@ impl Style for Hedcut {
 
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
         Hedcutting::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
+    }
+
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Hedcutting::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(

@@ -59,7 +59,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "line_width",
-        kind: Kind::Length { default: Default::Pitches(0.2), least: 0.01, most: 50.0 },
+        // Wider lines take minutes, since they are sought three times as far along as across.
+        kind: Kind::Length { default: Default::Pitches(0.2), least: 0.01, most: 10.0 },
         meaning: "with lines=coherent: how fine the lines are that are looked for, standard deviation across them",
         source: "Kang et al. 2007, sigma_c",
         needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges), LINES_COUNT],
