@@ -1,13 +1,18 @@
 //! `drypoint draw`: photograph to drawing to file.
 
-use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
+use super::advice;
+use super::arguments::{DrawOptions, Format, PictureOptions, PlacingOptions, Tone};
 use super::failure::Failure;
+use super::layer_files::{self, LayerFile, split_by_layer};
 use super::layout::{Layout, lay_out};
+use super::lists::{role_names, roles_of};
 use super::max_time;
 use super::output;
 use super::pens::PenSet;
 use super::progress::{Watcher, is_interrupted};
 use super::toolpaths::{self, Prepared};
+use super::warnings;
+use super::words::counted;
 use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
@@ -41,17 +46,18 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let watcher = Watcher::new(options.reporting.quiet);
-    let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
+    let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     let drawing = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
-    watcher.begin("writing");
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&drawing, &options.output);
     let mut prepared = Vec::new();
-    for (name, drawing) in &files {
+    for file in &files {
         if is_interrupted() {
             return Err(Failure::Interrupted);
         }
-        prepared.extend(write_one(name, drawing, format, profile.as_ref().map(|profile| (profile, &pens)), options, &head)?);
+        let machine = profile.as_ref().map(|profile| (profile, &pens));
+        let written = write_one(file, format, machine, options, &head, &watcher);
+        prepared.extend(written.map_err(|failure| advice::for_draw(failure, options, &task.layout))?);
     }
     let seconds = watcher.finish();
     let shorter = max_time::advice(options, &prepared);
@@ -59,7 +65,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         toolpaths::warn(prepared, profile.as_ref(), &shorter);
     }
     max_time::warn_if_longer(&prepared, options.max_time);
-    report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
+    report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
 }
 
 /// What a machine reaches of a page.
@@ -90,14 +96,16 @@ pub(super) fn drawing_of(
 
 /// One file; gives back the plot when it is one.
 fn write_one(
-    name: &str,
-    drawing: &Drawing,
+    file: &LayerFile,
     format: Format,
     machine: Option<(&Profile, &PenSet)>,
     options: &DrawOptions,
     head: &SvgHead,
+    observer: &dyn Observer,
 ) -> Result<Option<Prepared>, Failure> {
+    let LayerFile { name, drawing, .. } = file;
     let Some((profile, pens)) = machine else {
+        observer.begin("writing");
         let date = output::source_date()?;
         let fill = |mut out: &mut dyn std::io::Write| match format {
             Format::Pdf => write_pdf(drawing, head, date, &mut out),
@@ -111,13 +119,17 @@ fn write_one(
         }
         return Ok(None);
     };
+    observer.begin("lowering");
     let drawing = &*uncovered(drawing);
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
+    observer.begin("ordering");
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
+    observer.begin("coverage");
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs()));
+    observer.begin("writing");
     if !options.dry_run {
         toolpaths::write(name, format, &prepared, Some(profile), head)?;
-        toolpaths::write_preview_of(&prepared, &options.toolpaths, drawing.layers.first().map(|layer| layer.name.as_str()))?;
+        toolpaths::write_preview_of(&prepared, &options.toolpaths, Some(&file.layer))?;
     }
     Ok(Some(prepared))
 }
@@ -150,11 +162,20 @@ pub(super) struct Task<'a> {
     photograph: Photograph,
     masks: Vec<(MaskRole, String, Photograph)>,
     depth: Option<(String, Photograph)>,
-    layout: Layout,
+    pub layout: Layout,
 }
 
 impl<'a> Task<'a> {
+    /// Where the picture lies of itself, which is all that a trial needs to know.
     pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
+        Self::placed(options, &PlacingOptions::default(), reach)
+    }
+
+    pub(super) fn placed(
+        options: &'a PictureOptions,
+        placing: &PlacingOptions,
+        reach: impl Fn(&Page) -> Option<Rect>,
+    ) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
         let settings = settings(style, options)?;
         if options.black >= options.white {
@@ -180,7 +201,7 @@ impl<'a> Task<'a> {
         let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
-        let layout = lay_out(options, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
+        let layout = lay_out(options, placing, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
         Ok(Self { options, style, settings, photograph, masks, depth, layout })
     }
 
@@ -190,10 +211,11 @@ impl<'a> Task<'a> {
         }
         observer.begin("photograph");
         let portrait = self.portrait()?;
-        self.style.draw(&portrait, &self.settings, self.options.seed, observer).map_err(|error| match error {
+        let drawing = self.style.draw(&portrait, &self.settings, self.options.seed, observer).map_err(|error| match error {
             StyleError::Interrupted => Failure::Interrupted,
             nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
-        })
+        })?;
+        Ok(self.layout.turning.turned(drawing))
     }
 
     fn portrait(&self) -> Result<Portrait, Failure> {
@@ -234,6 +256,7 @@ impl<'a> Task<'a> {
             .map(|((role, _), (_, name, mask))| (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 })))
             .collect();
         let picture = self.options;
+        let (sheet, placed) = (self.layout.sheet(), self.layout.placed());
         let depth = self.depth.as_ref().map(
             |(name, depth)| json!({ "file": file_name(name), "sha256": depth.info.sha256, "far_white": picture.depth_far_white }),
         );
@@ -246,8 +269,10 @@ impl<'a> Task<'a> {
             "style": self.style.name(),
             "set": set,
             "seed": picture.seed,
-            "page_mm": [round(self.layout.page.width), round(self.layout.page.height)],
-            "picture_mm": [round(self.layout.picture.x0), round(self.layout.picture.y0), round(self.layout.picture.width()), round(self.layout.picture.height())],
+            "page_mm": [round(sheet.0), round(sheet.1)],
+            "picture_mm": [round(placed.x0), round(placed.y0), round(placed.width()), round(placed.height())],
+            "rotate": self.layout.turning.degrees,
+            "mirror": self.layout.turning.is_mirrored,
             "crop_px": [round(self.layout.crop.x), round(self.layout.crop.y), round(self.layout.crop.width), round(self.layout.crop.height)],
             "tone": if picture.tone == Tone::Lightness { "lightness" } else { "linear" },
             "gamma": picture.gamma,
@@ -279,12 +304,8 @@ fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
 }
 
 fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
-    let names: Vec<&str> = MaskRole::ALL.iter().filter(|(_, role)| style.masks().contains(role)).map(|(name, _)| *name).collect();
-    MaskRole::ALL
-        .iter()
-        .find(|(known, role)| *known == name && style.masks().contains(role))
-        .map(|(_, role)| *role)
-        .ok_or_else(|| Failure::Usage(format!("--mask {name}: {} takes {}", style.name(), names.join(", "))))
+    let refuse = || Failure::Usage(format!("--mask {name}: {} takes {}", style.name(), role_names(style)));
+    roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
 }
 
 /// Parameters from the file, then from --pitch, then from --set.
@@ -342,16 +363,6 @@ fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> 
     Ok(layers.into_iter().filter(|layer| wanted.iter().any(|name| matches(layer, name))).collect())
 }
 
-/// The whole drawing, or with `{layer}` in the name one drawing for each layer.
-pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
-    if !output.contains("{layer}") {
-        return vec![(output.to_owned(), drawing.clone())];
-    }
-    let one =
-        |layer: &Layer| (output.replace("{layer}", &layer.name), Drawing { page: drawing.page, layers: vec![layer.clone()] });
-    drawing.layers.iter().map(one).collect()
-}
-
 fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {
     let style = &options.picture.style;
     SvgHead {
@@ -368,40 +379,64 @@ fn report(
     options: &DrawOptions,
     drawing: &Drawing,
     pens: &PenSet,
-    prepared: &[Prepared],
+    (files, prepared): (&[LayerFile], &[Prepared]),
     seconds: &[(String, f64)],
     elapsed: f64,
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        return output::print_json(&report_json(drawing, pens, prepared, seconds));
+        return output::print_json(&report_json(drawing, pens, (files, prepared), seconds));
     }
     if !options.reporting.quiet {
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
         let ink: f64 = drawing.layers.iter().map(Layer::ink_mm2).sum();
         eprintln!(
-            "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",
-            options.output, drawing.page.width, drawing.page.height, counts[0], counts[1]
+            "{}: {:.1} x {:.1} mm, {}, {}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
+            layer_files::names(files),
+            drawing.page.width,
+            drawing.page.height,
+            counted(counts[0], "dot"),
+            counted(counts[1], "stroke")
         );
-        for prepared in prepared {
-            eprintln!("{}", toolpaths::summary(&prepared.report));
+        for (file, prepared) in files.iter().zip(prepared) {
+            let name = if files.len() > 1 { format!("{}: ", file.name) } else { String::new() };
+            eprintln!("{name}{}", toolpaths::summary(&prepared.report));
             toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
         }
     }
     Ok(())
 }
 
-fn report_json(drawing: &Drawing, pens: &PenSet, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
+fn report_json(
+    drawing: &Drawing,
+    pens: &PenSet,
+    (files, prepared): (&[LayerFile], &[Prepared]),
+    seconds: &[(String, f64)],
+) -> Value {
     let layers: Vec<Value> = drawing.layers.iter().map(|layer| {
         let [dots, strokes, areas] = layer.counts();
         json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2() })
     }).collect();
-    let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
-    let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });
-    if let Some(prepared) = prepared.first() {
-        value["pens"] = json!(prepared.report.pens);
-        value["total"] = json!(prepared.report.total);
-        value["duplicates"] = json!(prepared.duplicates);
+    let mut value = json!({
+        "files": files.iter().map(|file| &file.name).collect::<Vec<_>>(),
+        "page_mm": [drawing.page.width, drawing.page.height],
+        "layers": layers,
+        "seconds": seconds_of_steps(seconds),
+    });
+    if let Some(report) = toolpaths::of_all(prepared) {
+        value["pens"] = json!(report.pens);
+        value["total"] = json!(report.total);
+        value["duplicates"] = json!(prepared.iter().map(|one| one.duplicates).sum::<usize>());
     }
+    value["warnings"] = json!(warnings::told());
     value
+}
+
+/// A step that comes again, for the next file, takes the sum.
+fn seconds_of_steps(seconds: &[(String, f64)]) -> serde_json::Map<String, Value> {
+    seconds.iter().fold(serde_json::Map::new(), |mut sums, (step, taken)| {
+        let before = sums.get(step).and_then(Value::as_f64).unwrap_or(0.0);
+        sums.insert(step.clone(), json!(before + taken));
+        sums
+    })
 }

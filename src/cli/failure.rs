@@ -11,6 +11,9 @@ pub(super) enum Failure {
     /// It could not be done.
     #[error("{0}")]
     Work(String),
+    /// A drawing does not go onto its machine; what would help depends on the command.
+    #[error("{0}")]
+    Misfit(crate::plot::MountingError),
     /// The user stopped it.
     #[error("interrupted; nothing was written")]
     Interrupted,
@@ -23,7 +26,7 @@ impl Failure {
     pub(super) const fn exit_status(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
-            Self::Work(_) => 1,
+            Self::Work(_) | Self::Misfit(_) => 1,
             Self::Interrupted => 130,
             Self::ClosedPipe => 0,
         }
@@ -63,6 +66,6 @@ usage_errors!(crate::style::ParameterError, crate::plot::ProfileError);
 
 impl From<crate::plot::MountingError> for Failure {
     fn from(error: crate::plot::MountingError) -> Self {
-        Self::Work(error.to_string())
+        Self::Misfit(error)
     }
 }

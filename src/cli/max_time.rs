@@ -1,11 +1,13 @@
 //! `--max-time`: the smallest pitch whose plot takes no longer, found by drawing and timing.
 
+use super::advice;
 use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
 use super::failure::Failure;
 use super::pens::PenSet;
 use super::progress::is_interrupted;
 use super::toolpaths::{self, LONG_HOURS, Prepared, duration};
+use super::warnings;
 use crate::plot::{InkModel, Profile, lower};
 use crate::style::{Kind, Observer, Picture};
 
@@ -67,7 +69,7 @@ pub(super) fn advice(options: &DrawOptions, prepared: &[Prepared]) -> String {
 pub(super) fn warn_if_longer(prepared: &[Prepared], limit: Option<f64>) {
     let seconds: f64 = prepared.iter().filter_map(|one| one.report.total.seconds).sum();
     if let Some(limit) = limit.filter(|limit| seconds > *limit) {
-        eprintln!("drypoint: warning: the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit));
+        warnings::warn(&format!("the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit)));
     }
 }
 
@@ -137,10 +139,11 @@ fn seconds_at(options: &DrawOptions, pitch: f64) -> Result<f64, Failure> {
     let name = options.profile.clone().unwrap_or_default();
     let mut profile: Profile = toolpaths::profile(&name, &options.toolpaths)?;
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
-    let task = Task::new(&options.picture, reach_of(Some(&profile)))?;
+    let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&profile)))?;
     let drawing = drawing_of(&task, &options, Some(&profile), &mut pens, &Unseen)?;
     let plot = lower(&uncovered(&drawing), InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
-    let prepared = toolpaths::prepare(plot, Some(&profile), &options.toolpaths, &pens)?;
+    let prepared = toolpaths::prepare(plot, Some(&profile), &options.toolpaths, &pens)
+        .map_err(|failure| advice::for_draw(failure, &options, &task.layout))?;
     Ok(prepared.report.total.seconds.unwrap_or(0.0))
 }
 

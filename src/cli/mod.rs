@@ -1,20 +1,26 @@
 //! The command line: the only place with files, stdout, progress and exit codes.
 
+mod advice;
 mod arguments;
 mod calibrate;
 mod draw;
 mod failure;
 mod inspect;
+mod layer_files;
 mod layout;
 mod lists;
 mod max_time;
 mod output;
 mod pens;
+mod placing;
 mod plot;
 mod progress;
 mod resume;
+mod scale_to_time;
 mod stages;
 mod toolpaths;
+mod warnings;
+mod words;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};

@@ -12,6 +12,7 @@
 
 use super::failure::Failure;
 use super::output;
+use super::warnings;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark};
 use crate::geometry::parse_length;
 use crate::plot::{Nibs, PenChange, PenSlot, Profile};
@@ -225,10 +226,10 @@ fn refuse_colours(drawing: &Drawing, profile: &Profile, are_unmapped: bool) -> R
     for layer in &drawing.layers {
         let count = of(layer).len();
         if count > 1 {
-            eprintln!(
-                "drypoint: warning: layer '{}' has {count} colours and is drawn with pen {}; --pens maps colours to pens",
+            warnings::warn(&format!(
+                "layer '{}' has {count} colours and is drawn with pen {}; --pens maps colours to pens",
                 layer.name, layer.pen
-            );
+            ));
         }
     }
     Ok(())

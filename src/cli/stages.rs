@@ -5,6 +5,7 @@ use super::draw::{Task, limit_threads};
 use super::failure::Failure;
 use super::output;
 use super::progress::Watcher;
+use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
 use crate::style::{Observer, Picture};
@@ -31,7 +32,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
         return Err(failure);
     }
     if !options.quiet {
-        eprintln!("{folder}: {} stages of {}", taken.count, task.style.name());
+        eprintln!("{folder}: {} of {}", counted(taken.count, "stage"), task.style.name());
     }
     Ok(())
 }

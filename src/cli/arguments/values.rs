@@ -33,6 +33,17 @@ pub(super) fn size_above_zero(text: &str) -> Result<(f64, f64), String> {
     if sound(width) && sound(height) { Ok((width, height)) } else { Err("both sides must be from 1 mm to 100 m".to_owned()) }
 }
 
+/// A place on the sheet, across and down; a unit at the end holds for both, as in `2,3.5cm`.
+pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
+    let refuse = || "write it as X,Y, such as 20,35mm".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(refuse)?;
+    let has_unit = x.trim().ends_with(|c: char| c.is_ascii_alphabetic());
+    let unit = y.trim().trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+    let x = if has_unit { x.to_owned() } else { format!("{}{unit}", x.trim()) };
+    let within = |text: &str| parse_length(text).ok().filter(|mm| mm.abs() <= 100_000.0).ok_or_else(refuse);
+    Ok((within(&x)?, within(y)?))
+}
+
 pub(super) fn number_above_zero(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
@@ -140,6 +151,15 @@ mod tests {
         assert_eq!((duration("1.5h"), duration("1h 5 min"), duration("45s")), (Ok(5400.0), Ok(3900.0), Ok(45.0)));
         for wrong in ["", "2", "h", "30m1h", "1h2h", "0h", "-2h", "2 days", "1..5h"] {
             assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn places() {
+        assert_eq!((place("20,35"), place("2, 3.5cm")), (Ok((20.0, 35.0)), Ok((20.0, 35.0))));
+        assert_eq!((place("-5mm,1cm"), place("1in,0")), (Ok((-5.0, 10.0)), Ok((25.4, 0.0))));
+        for wrong in ["20", "20x35", "a,b", "NaN,1", "1,2,3", "1e9,0", ","] {
+            assert!(place(wrong).is_err(), "{wrong}");
         }
     }
 
