@@ -22,21 +22,24 @@ pub(super) fn for_plot(failure: Failure, options: &PlotOptions, degrees: u32) ->
 }
 
 fn plot_remedy(room: &Room, options: &PlotOptions, degrees: u32) -> String {
-    let center = if options.placing.at.is_some() { "--center in the place of --at" } else { "--center" };
+    let without = if options.placing.at.is_some() { "without --at: " } else { "" };
     if options.fit == PlotFit::Page {
         return "leave a larger --margin".to_owned();
     }
     if room.is_enough() {
-        return center.to_owned();
+        return format!("{without}--center");
     }
     // With --page the sheet stays as it lies; without, it is turned with the drawing.
     let fits_turned = if options.page.is_some() { room.is_enough_across() } else { room.is_enough_turned() };
     if fits_turned {
-        return format!("turned by 90 degrees it would fit, with {} {center}", other_turn(degrees));
+        return format!("turned by 90 degrees it would fit, {without}{} --center", other_turn(degrees));
     }
     let share = (room.free.0 / room.drawn.0).min(room.free.1 / room.drawn.1);
     let scale = (options.scale.unwrap_or(1.0) * share * 1000.0).floor() / 1000.0;
-    if scale < LEAST_SCALE { "choose a larger --page".to_owned() } else { format!("--fit page, or --scale {scale} {center}") }
+    if scale < LEAST_SCALE {
+        return "choose a larger --page".to_owned();
+    }
+    format!("{without}--fit page, or --scale {scale} --center")
 }
 
 /// The turn that lies across.
@@ -50,7 +53,7 @@ pub(super) fn for_draw(failure: Failure, options: &DrawOptions, layout: &Layout)
         Failure::Misfit(error @ MountingError::PageTooLarge { .. }) => Failure::Work(if options.picture.page.is_some() {
             format!("{error}; choose one of them with --page")
         } else {
-            format!("{error}; choose one of them with --page, or a smaller --size")
+            format!("{error}; choose a --size that one of them holds")
         }),
         Failure::Misfit(
             error @ (MountingError::OutOfReach { room, excess, .. } | MountingError::OffSheet { room, excess, .. }),
@@ -64,17 +67,17 @@ fn draw_remedy(room: &Room, excess: f64, options: &DrawOptions, layout: &Layout)
     if options.placing.at.is_some() && room.is_enough() {
         return "put it elsewhere with --at, or leave --at away".to_owned();
     }
-    // A sheet of the picture's own size grows with its margin.
-    let margin = (options.picture.margin.unwrap_or(0.0) + excess).ceil();
-    if !has_sheet && is_within((room.drawn.0 + margin, room.drawn.1 + margin), room.reach) {
-        return format!("--margin {margin}mm makes the sheet larger than the drawing");
-    }
     let placed = layout.placed();
     let limit = if has_sheet { room.free } else { room.reach };
     let is_too_large = !is_within((placed.width(), placed.height()), limit);
     let fits_turned = if has_sheet { room.is_enough_across() } else { room.is_enough_turned() };
     if is_too_large && fits_turned {
         return format!("turned by 90 degrees it would fit, with {}", other_turn(layout.turning.degrees));
+    }
+    // A sheet of the picture's own size grows with its margin.
+    let margin = (options.picture.margin.unwrap_or(0.0) + excess).ceil();
+    if !has_sheet && !is_too_large && is_within((room.drawn.0 + margin, room.drawn.1 + margin), room.reach) {
+        return format!("--margin {margin}mm makes the sheet larger than the drawing");
     }
     let share = share_that_fits((placed.width(), placed.height()), room.drawn, limit, excess);
     let (width, height) = ((layout.picture.width() * share).floor(), (layout.picture.height() * share).floor());

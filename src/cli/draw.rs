@@ -5,7 +5,7 @@ use super::arguments::{DrawOptions, Format, PictureOptions, PlacingOptions, Tone
 use super::failure::Failure;
 use super::layer_files::{self, LayerFile, split_by_layer};
 use super::layout::{Layout, lay_out};
-use super::lists::{role_names, roles_of};
+use super::lists::{role_names, roles_of, styles_with_role};
 use super::max_time;
 use super::output;
 use super::pens::PenSet;
@@ -304,7 +304,11 @@ fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
 }
 
 fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
-    let refuse = || Failure::Usage(format!("--mask {name}: {} takes {}", style.name(), role_names(style)));
+    let refuse = || {
+        let others: Vec<&str> = styles_with_role(name).map(Style::name).collect();
+        let others = if others.is_empty() { String::new() } else { format!("; {name} is for {}", others.join(", ")) };
+        Failure::Usage(format!("--mask {name}: {} takes {}{others}", style.name(), role_names(style)))
+    };
     roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
 }
 
@@ -339,7 +343,11 @@ fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
 
 fn photograph(name: &str) -> Result<Photograph, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
-    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| Failure::about(shown)(&error))
+    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
+        let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let other = if is_svg { "; an SVG is plotted with `drypoint plot`" } else { "" };
+        Failure::about(shown)(&format_args!("{error}{other}"))
+    })
 }
 
 pub(super) fn limit_threads(threads: Option<u16>) -> Result<(), Failure> {
@@ -433,7 +441,7 @@ fn report_json(
 }
 
 /// A step that comes again, for the next file, takes the sum.
-fn seconds_of_steps(seconds: &[(String, f64)]) -> serde_json::Map<String, Value> {
+pub(super) fn seconds_of_steps(seconds: &[(String, f64)]) -> serde_json::Map<String, Value> {
     seconds.iter().fold(serde_json::Map::new(), |mut sums, (step, taken)| {
         let before = sums.get(step).and_then(Value::as_f64).unwrap_or(0.0);
         sums.insert(step.clone(), json!(before + taken));

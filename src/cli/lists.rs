@@ -18,6 +18,11 @@ pub(super) fn role_names(style: &dyn Style) -> String {
     roles_of(style).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
 }
 
+/// The styles that take a role of this name.
+pub(super) fn styles_with_role(name: &str) -> impl Iterator<Item = &'static dyn Style> {
+    STYLES.iter().copied().filter(move |style| roles_of(*style).any(|(known, _)| known == name))
+}
+
 /// The help of `--mask`: what each style takes.
 pub(super) fn mask_roles() -> String {
     let styles: Vec<String> = STYLES.iter().map(|style| format!("{} takes {}", style.name(), role_names(*style))).collect();

@@ -66,10 +66,13 @@ pub(super) fn asked_move(options: &PlacingOptions, drawn: Rect, page: &Page, rea
     centring + move_inside(drawn + centring, reach.map_or(page.rect(), |reach| reach.intersect(page.rect())))
 }
 
-/// The shortest way that brings a box inside another; none across or down where it is too large.
+/// The shortest way that brings a box inside another; what is too large for it comes to its middle, where least stands out.
 pub(super) fn move_inside(inner: Rect, outer: Rect) -> Vec2 {
     let along = |low: f64, high: f64, least: f64, most: f64| {
-        if high - low > most - least { 0.0 } else { (least - low).max(0.0) + (most - high).min(0.0) }
+        if high - low > most - least {
+            return 0.5 * (least + most - low - high);
+        }
+        (least - low).max(0.0) + (most - high).min(0.0)
     };
     Vec2::new(along(inner.x0, inner.x1, outer.x0, outer.x1), along(inner.y0, inner.y1, outer.y0, outer.y1))
 }
@@ -102,6 +105,7 @@ mod tests {
         };
         assert_eq!(to(100.0, 100.0), Point::new(50.0, 100.0));
         assert_eq!(to(170.0, 260.0), Point::new(10.0, 30.0));
+        assert_eq!(to(190.0, 290.0), Point::new(-5.0, 20.0));
         let at = PlacingOptions { at: Some((5.0, -3.0)), ..PlacingOptions::default() };
         let drawn = Rect::new(7.0, 9.0, 17.0, 19.0);
         assert_eq!((drawn + asked_move(&at, drawn, &page, reach)).origin(), Point::new(5.0, -3.0));

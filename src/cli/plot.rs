@@ -1,7 +1,7 @@
 //! `drypoint plot`: any SVG to ordered tool paths.
 
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions};
-use super::draw::limit_threads;
+use super::draw::{limit_threads, seconds_of_steps};
 use super::failure::Failure;
 use super::layer_files::split_by_layer;
 use super::pens::PenSet;
@@ -34,7 +34,11 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let watcher = Watcher::new(options.reporting.quiet);
     watcher.begin("reading");
-    let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
+    let bytes = output::read(&options.drawing)?;
+    let mut imported = read_svg(&bytes).map_err(|error| {
+        let other = if image::guess_format(&bytes).is_ok() { "; a photograph is drawn with `drypoint draw`" } else { "" };
+        Failure::about(shown)(&format_args!("{error}{other}"))
+    })?;
     let model = ink_model(options, &imported);
     if options.occlude {
         leave_out_hidden(&mut imported, model);
@@ -118,7 +122,7 @@ fn report(
         if let Some(scale) = scale {
             value["scale"] = json!(scale);
         }
-        value["seconds_taken"] = json!(seconds.iter().map(|(_, taken)| taken).sum::<f64>());
+        value["seconds"] = json!(seconds_of_steps(seconds));
         value["warnings"] = json!(warnings::told());
         return output::print_json(&value);
     }

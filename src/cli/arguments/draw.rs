@@ -5,8 +5,8 @@ use super::files::Reporting;
 use super::placing::PlacingOptions;
 use super::toolpaths::ToolpathOptions;
 use super::values::{
-    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, screen,
-    size_above_zero,
+    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, role_file,
+    screen, size_above_zero,
 };
 use crate::cli::lists::mask_roles;
 use crate::drawing::Ink;
@@ -45,7 +45,7 @@ pub(in crate::cli) struct PictureOptions {
     /// Distance of neighbouring dots or lines [default: the style's].
     #[arg(long, value_name = "LENGTH", value_parser = length_above_zero, allow_negative_numbers = true)]
     pub pitch: Option<f64>,
-    #[arg(long, value_name = "ROLE=FILE", value_parser = key_value, help = mask_roles())]
+    #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
     /// Depth map of 8 or 16 bits on the photograph's pixel grid: white is near, 0 is unknown or background.
     #[arg(long, value_name = "FILE")]

@@ -17,6 +17,10 @@ pub(super) fn key_value(text: &str) -> Result<(String, String), String> {
     }
 }
 
+pub(super) fn role_file(text: &str) -> Result<(String, String), String> {
+    key_value(text).map_err(|_| "write it as ROLE=FILE, such as subject=mask.png".to_owned())
+}
+
 pub(super) fn length_above_zero(text: &str) -> Result<f64, String> {
     let mm = parse_length(text).map_err(|error| error.to_string())?;
     if mm > 0.0 { length_from_zero(text) } else { Err("must be above 0".to_owned()) }
