@@ -1,18 +1,22 @@
 //! `drypoint draw`: photograph to drawing to file.
 
+use super::advice;
 use super::affordable;
-use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
+use super::arguments::{DrawOptions, Format, PictureOptions, PlacingOptions, Tone};
 use super::dry_run;
 use super::failure::Failure;
 use super::forewarn;
 use super::interruption::{interrupt, is_interrupted};
+use super::layer_files::{self, LayerFile, split_by_layer};
 use super::layout::{self, Layout, lay_out};
+use super::lists::{role_names, roles_of, styles_with_role};
 use super::max_time;
-use super::messages::say;
+use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
 use super::toolpaths::{self, Prepared};
+use super::words::counted;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
@@ -44,7 +48,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
-    let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
+    let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     if let Some(notice) = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet) {
         say!("drypoint: {notice}");
@@ -59,23 +63,24 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         Some(_) => uncovered(&drawing, &painting)?,
         None => Cow::Borrowed(&drawing),
     };
-    watcher.begin("writing");
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&visible, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
     let mut prepared = Vec::new();
-    for (name, drawing) in &files {
+    for file in &files {
         if is_interrupted() {
             return Err(Failure::Interrupted);
         }
-        prepared.extend(write_one(name, drawing, format, profile.as_ref().map(|profile| (profile, &pens)), options, &head)?);
+        let machine = profile.as_ref().map(|profile| (profile, &pens));
+        let written = write_one(file, format, machine, options, &head, &watcher);
+        prepared.extend(written.map_err(|failure| advice::for_draw(failure, options, &task.layout))?);
     }
     let seconds = watcher.finish();
     for prepared in &prepared {
         toolpaths::warn(prepared, profile.as_ref(), if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
     }
     max_time::warn_if_longer(&prepared, options.max_time);
-    report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
+    report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
 }
 
 /// What a machine reaches of a page.
@@ -111,14 +116,16 @@ pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn 
 
 /// One file; gives back the plot when it is one.
 fn write_one(
-    name: &str,
-    drawing: &Drawing,
+    file: &LayerFile,
     format: Format,
     machine: Option<(&Profile, &PenSet)>,
     options: &DrawOptions,
     head: &SvgHead,
+    observer: &dyn Observer,
 ) -> Result<Option<Prepared>, Failure> {
+    let LayerFile { name, drawing, .. } = file;
     let Some((profile, pens)) = machine else {
+        observer.begin("writing");
         let date = output::source_date()?;
         let fill = |mut out: &mut dyn std::io::Write| match format {
             Format::Pdf => write_pdf(drawing, head, date, &mut out),
@@ -128,11 +135,15 @@ fn write_one(
         output::write(name, fill)?;
         return Ok(None);
     };
+    observer.begin("lowering");
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
+    observer.begin("ordering");
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
+    observer.begin("coverage");
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
+    observer.begin("writing");
     toolpaths::write(name, format, &prepared, Some(profile), head)?;
-    toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(drawing))?;
+    toolpaths::write_preview_of(&prepared, &options.toolpaths, Some(&file.layer))?;
     Ok(Some(prepared))
 }
 
@@ -173,7 +184,16 @@ pub(super) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
+    /// Where the picture lies of itself, which is all that a trial needs to know.
     pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
+        Self::placed(options, &PlacingOptions::default(), reach)
+    }
+
+    pub(super) fn placed(
+        options: &'a PictureOptions,
+        placing: &PlacingOptions,
+        reach: impl Fn(&Page) -> Option<Rect>,
+    ) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
         let given = given(options)?;
         let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
@@ -200,7 +220,7 @@ impl<'a> Task<'a> {
         let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
-        let layout = lay_out(options, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
+        let layout = lay_out(options, placing, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
         let task = Self { options, style, settings, photograph, masks, depth, layout, given };
         affordable::check(&task)?;
         Ok(task)
@@ -251,10 +271,11 @@ impl<'a> Task<'a> {
     pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
         observer.begin("photograph");
         let portrait = self.portrait(placement)?;
-        self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
+        let drawing = self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
             StyleError::Interrupted => Failure::Interrupted,
             nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
-        })
+        })?;
+        Ok(self.layout.turning.turned(drawing))
     }
 
     fn portrait(&self, placement: Placement) -> Result<Portrait, Failure> {
@@ -292,6 +313,7 @@ impl<'a> Task<'a> {
             .map(|((role, _), (_, name, mask))| (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 })))
             .collect();
         let picture = self.options;
+        let (sheet, placed) = (self.layout.sheet(), self.layout.placed());
         let depth = self.depth.as_ref().map(
             |(name, depth)| json!({ "file": file_name(name), "sha256": depth.info.sha256, "far_white": picture.depth_far_white }),
         );
@@ -304,8 +326,10 @@ impl<'a> Task<'a> {
             "style": self.style.name(),
             "set": set,
             "seed": picture.seed,
-            "page_mm": [round(self.layout.page.width), round(self.layout.page.height)],
-            "picture_mm": [round(self.layout.picture.x0), round(self.layout.picture.y0), round(self.layout.picture.width()), round(self.layout.picture.height())],
+            "page_mm": [round(sheet.0), round(sheet.1)],
+            "picture_mm": [round(placed.x0), round(placed.y0), round(placed.width()), round(placed.height())],
+            "rotate": self.layout.turning.degrees,
+            "mirror": self.layout.turning.is_mirrored,
             "crop_px": [round(self.layout.crop.x), round(self.layout.crop.y), round(self.layout.crop.width), round(self.layout.crop.height)],
             "tone": if picture.tone == Tone::Lightness { "lightness" } else { "linear" },
             "gamma": picture.gamma,
@@ -337,12 +361,12 @@ fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
 }
 
 fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
-    let names: Vec<&str> = MaskRole::ALL.iter().filter(|(_, role)| style.masks().contains(role)).map(|(name, _)| *name).collect();
-    MaskRole::ALL
-        .iter()
-        .find(|(known, role)| *known == name && style.masks().contains(role))
-        .map(|(_, role)| *role)
-        .ok_or_else(|| Failure::Usage(format!("--mask {name}: {} takes {}", style.name(), names.join(", "))))
+    let refuse = || {
+        let others: Vec<&str> = styles_with_role(name).map(Style::name).collect();
+        let others = if others.is_empty() { String::new() } else { format!("; {name} is for {}", others.join(", ")) };
+        Failure::Usage(format!("--mask {name}: {} takes {}{others}", style.name(), role_names(style)))
+    };
+    roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
 }
 
 /// Parameters from the file, then from --pitch, then from --set.
@@ -376,7 +400,11 @@ fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
 
 fn photograph(name: &str) -> Result<Photograph, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
-    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| Failure::about(shown)(&error))
+    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
+        let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let other = if is_svg { "; an SVG is plotted with `drypoint plot`" } else { "" };
+        Failure::about(shown)(&format_args!("{error}{other}"))
+    })
 }
 
 pub(super) fn limit_threads(threads: Option<u16>) -> Result<(), Failure> {
@@ -400,16 +428,6 @@ fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> 
     Ok(layers.into_iter().filter(|layer| wanted.iter().any(|name| matches(layer, name))).collect())
 }
 
-/// The whole drawing, or with `{layer}` in the name one drawing for each layer.
-pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
-    if !output.contains("{layer}") {
-        return vec![(output.to_owned(), drawing.clone())];
-    }
-    let one =
-        |layer: &Layer| (output.replace("{layer}", &layer.name), Drawing { page: drawing.page, layers: vec![layer.clone()] });
-    drawing.layers.iter().map(one).collect()
-}
-
 fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {
     let style = &options.picture.style;
     SvgHead {
@@ -426,44 +444,64 @@ fn report(
     options: &DrawOptions,
     drawing: &Drawing,
     pens: &PenSet,
-    prepared: &[Prepared],
+    (files, prepared): (&[LayerFile], &[Prepared]),
     seconds: &[(String, f64)],
     elapsed: f64,
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        return output::print_json(&report_json(drawing, pens, prepared, seconds));
+        return output::print_json(&report_json(drawing, pens, (files, prepared), seconds));
     }
     if !options.reporting.quiet {
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
         let ink: f64 = drawing.ink_mm2().iter().sum();
         say!(
-            "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",
-            options.output,
+            "{}: {:.1} x {:.1} mm, {}, {}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
+            layer_files::names(files),
             drawing.page.width,
             drawing.page.height,
-            counts[0],
-            counts[1]
+            counted(counts[0], "dot"),
+            counted(counts[1], "stroke")
         );
-        for prepared in prepared {
-            say!("{}", toolpaths::summary(&prepared.report));
+        for (file, prepared) in files.iter().zip(prepared) {
+            let name = if files.len() > 1 { format!("{}: ", file.name) } else { String::new() };
+            say!("{name}{}", toolpaths::summary(&prepared.report));
             toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
         }
     }
     Ok(())
 }
 
-fn report_json(drawing: &Drawing, pens: &PenSet, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
+fn report_json(
+    drawing: &Drawing,
+    pens: &PenSet,
+    (files, prepared): (&[LayerFile], &[Prepared]),
+    seconds: &[(String, f64)],
+) -> Value {
     let layers: Vec<Value> = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink)| {
         let [dots, strokes, areas] = layer.counts();
         json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": ink })
     }).collect();
-    let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
-    let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });
-    if let Some(prepared) = prepared.first() {
-        value["pens"] = json!(prepared.report.pens);
-        value["total"] = json!(prepared.report.total);
-        value["duplicates"] = json!(prepared.duplicates);
+    let mut value = json!({
+        "files": files.iter().map(|file| &file.name).collect::<Vec<_>>(),
+        "page_mm": [drawing.page.width, drawing.page.height],
+        "layers": layers,
+        "seconds": seconds_of_steps(seconds),
+    });
+    if let Some(report) = toolpaths::of_all(prepared) {
+        value["pens"] = json!(report.pens);
+        value["total"] = json!(report.total);
+        value["duplicates"] = json!(prepared.iter().map(|one| one.duplicates).sum::<usize>());
     }
+    value["warnings"] = json!(messages::warnings());
     value
+}
+
+/// A step that comes again, for the next file, takes the sum.
+pub(super) fn seconds_of_steps(seconds: &[(String, f64)]) -> serde_json::Map<String, Value> {
+    seconds.iter().fold(serde_json::Map::new(), |mut sums, (step, taken)| {
+        let before = sums.get(step).and_then(Value::as_f64).unwrap_or(0.0);
+        sums.insert(step.clone(), json!(before + taken));
+        sums
+    })
 }

@@ -3,11 +3,11 @@
 //! As many colours as there are pens, those that draw the most, get a pen each; every other colour goes to the nearest of them. What
 //! became one is said.
 
+use super::messages::warning;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
 use crate::plot::{PenChange, Profile};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::sync::Mutex;
 
 /// Colours that a user can be asked to change pens for; more is a picture that was meant for a screen.
 const MOST_CHANGES: u32 = 12;
@@ -48,9 +48,7 @@ pub(super) fn warn_of_colours(drawing: &Drawing) {
         let colours: Vec<Colour> = colours_of(layer).collect::<BTreeSet<_>>().into_iter().collect();
         if colours.len() > 1 {
             let (name, count, pen, all) = (&layer.name, colours.len(), layer.pen, named(&colours));
-            warn_once(&format!(
-                "layer '{name}' has {count} colours and is drawn with pen {pen}; --pens maps colours to pens ({all})"
-            ));
+            warning!("layer '{name}' has {count} colours and is drawn with pen {pen}; --pens maps colours to pens ({all})");
         }
     }
 }
@@ -150,13 +148,4 @@ fn named(colours: &[Colour]) -> String {
     let names: Vec<String> = colours.iter().take(MOST_NAMED).map(Colour::to_string).collect();
     let more = colours.len().saturating_sub(MOST_NAMED);
     names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
-}
-
-/// A search for a pitch draws again and again; a warning is said once.
-pub(super) fn warn_once(text: &str) {
-    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let is_new = SAID.lock().is_ok_and(|mut said| said.insert(text.to_owned()));
-    if is_new {
-        super::messages::warning_line(text);
-    }
 }

@@ -197,7 +197,7 @@ fn plotted(
 ) -> Result<PlotAmounts, Failure> {
     let mut part = stratum.of(imported, options, model)?;
     choose_layers(&mut part, &options.layers)?;
-    let mut drawing = place(&part.drawing(), options, reach_of(profile))?;
+    let (mut drawing, _) = place(&part.drawing(), options, reach_of(profile))?;
     pens.hand_out(&mut drawing, profile)?;
     let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let clips = options.toolpaths.clip;

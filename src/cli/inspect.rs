@@ -4,6 +4,7 @@ use super::arguments::InspectOptions;
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;
+use super::messages::{self, warning};
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
@@ -37,7 +38,12 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
         }
         Kind::Unknown => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
     };
-    if options.json { output::print_json(&value) } else { output::to_stdout(in_words(&value).as_bytes()) }
+    if !options.json {
+        return output::to_stdout(in_words(&value).as_bytes());
+    }
+    let mut value = value;
+    value["warnings"] = json!(messages::warnings());
+    output::print_json(&value)
 }
 
 enum Kind {
@@ -109,13 +115,20 @@ fn inspect_svg(name: &str, text: &str, profile: Option<&Profile>) -> Result<Valu
         })
         .collect();
     let mut value = json!({ "format": "svg", "page_mm": [imported.page.width, imported.page.height], "layers": layers, "dropped": imported.dropped });
+    if !imported.dropped.is_empty() {
+        warning!("left out or read otherwise: {}", imported.dropped.summary());
+    }
     if let Some(recipe) = &imported.recipe {
         value["recipe"] = serde_json::from_str(recipe).unwrap_or(Value::Null);
     }
     if let Some(profile) = profile {
         let model = if imported.recipe.is_some() && !imported.is_toolpaths { InkModel::Ink } else { InkModel::Lines };
         let plot = lower(&imported.drawing(), model, &Nibs::all(0.3), 0.02, interrupt())?;
-        let mounting = mount(profile, &plot.page).ok();
+        let mounting = mount(profile, &plot.page);
+        if let Err(error) = &mounting {
+            warning!("no time: {error}");
+        }
+        let mounting = mounting.ok();
         let home = toolpaths::home_of(mounting.as_ref(), &plot);
         value["plot"] = json!(report(&plot, home, mounting.as_ref().map(|mounting| (profile, mounting)), None, interrupt())?);
     }

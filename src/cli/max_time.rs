@@ -1,5 +1,6 @@
 //! `--max-time`: the smallest pitch whose plot takes no longer, found by drawing and timing.
 
+use super::advice;
 use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
 use super::failure::Failure;
@@ -122,7 +123,7 @@ impl<'a> Trials<'a> {
         let name = options.profile.clone().unwrap_or_default();
         let mut profile: Profile = toolpaths::profile(&name, &options.toolpaths)?;
         let pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
-        let task = Task::new(&options.picture, reach_of(Some(&profile)))?;
+        let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&profile)))?;
         Ok(Self { options, task, profile, pens })
     }
 
@@ -135,11 +136,12 @@ impl<'a> Trials<'a> {
         if options.toolpaths.order == Order::Full {
             options.toolpaths.order = Order::Fast;
         }
-        let task = Task::new(&options.picture, reach_of(Some(&self.profile)))?;
+        let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&self.profile)))?;
         let (drawing, painting) = drawing_of(&task, &options, Some(&self.profile), &mut self.pens, &Unseen)?;
         let visible = uncovered(&drawing, &painting)?;
         let plot = lower(&visible, InkModel::Ink, self.pens.nibs(), options.toolpaths.tolerance, interrupt())?;
-        let prepared = toolpaths::prepare(plot, Some(&self.profile), &options.toolpaths, &self.pens)?;
+        let prepared = toolpaths::prepare(plot, Some(&self.profile), &options.toolpaths, &self.pens)
+            .map_err(|failure| advice::for_draw(failure, &options, &task.layout))?;
         Ok(prepared.report.total.seconds.unwrap_or(0.0))
     }
 

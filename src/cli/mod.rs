@@ -1,5 +1,6 @@
 //! The command line: the only place with files, stdout, progress and exit codes.
 
+mod advice;
 mod affordable;
 mod amounts;
 mod arguments;
@@ -15,6 +16,7 @@ mod forewarn;
 mod inspect;
 mod interruption;
 mod label_speeds;
+mod layer_files;
 mod layout;
 mod lists;
 mod max_time;
@@ -22,11 +24,14 @@ mod messages;
 mod output;
 mod pen_file;
 mod pens;
+mod placing;
 mod plot;
 mod progress;
 mod resume;
+mod scale_to_time;
 mod stages;
 mod toolpaths;
+mod words;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};

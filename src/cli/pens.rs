@@ -11,7 +11,8 @@
 //! ```
 
 use super::failure::Failure;
-use super::few_pens::{HandedOut, fit_to_pens, warn_of_colours, warn_once};
+use super::few_pens::{HandedOut, fit_to_pens, warn_of_colours};
+use super::messages::warning_line;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
@@ -62,7 +63,7 @@ impl PenSet {
     pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
         let handed = self.hand_out(drawing, profile)?;
         if profile.is_some() {
-            handed.became_one.iter().for_each(|notice| warn_once(notice));
+            handed.became_one.iter().for_each(|notice| warning_line(notice));
             warn_of_colours(drawing);
         }
         Ok(handed.painting)

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::messages::say;
 use super::output;
 use super::progress::Watcher;
+use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
 use crate::style::{Observer, Picture};
@@ -33,7 +34,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     }
     drawn?;
     if !options.quiet {
-        say!("{folder}: {} stages of {}", taken.count, task.style.name());
+        say!("{folder}: {} of {}", counted(taken.count, "stage"), task.style.name());
     }
     Ok(())
 }

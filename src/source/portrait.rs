@@ -52,6 +52,22 @@ impl MaskRole {
         ("isophotes", Self::Isophotes),
         ("scribbles", Self::Scribbles),
     ];
+
+    /// What its picture shows, for a user.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Subject => "what is drawn, white; the rest is background (without this mask: the photograph's alpha)",
+            Self::Detail => "where dots stand closer, white, such as the eyes",
+            Self::Hair => "hair, white, which is drawn in strokes that flow",
+            Self::Face => "the face, white, whose eyes, nose and mouth are looked for and drawn",
+            Self::Clothing => "clothing, white, which is shaded by hand where it is dark",
+            Self::Edges => {
+                "edges as white lines, in the place of those that would be found (charcoal: which of those to keep, and more)"
+            }
+            Self::Isophotes => "borders of light as white lines, in the place of those that would be found",
+            Self::Scribbles => "a flat colour scribbled into each region, on black or transparent",
+        }
+    }
 }
 
 /// What the ink must match.

@@ -3,12 +3,14 @@
 mod choices;
 mod draw;
 mod files;
+mod placing;
 mod toolpaths;
 mod values;
 
 pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
+pub(super) use placing::*;
 pub(super) use toolpaths::*;
 pub(super) use values::{CropNumber, NIBS};
 

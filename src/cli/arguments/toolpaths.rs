@@ -1,8 +1,11 @@
 //! Options of `plot`, and of every tool path.
 
-use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, Rotate, SeamOption, StartCorner};
+use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, PreviewTravel, SeamOption, StartCorner};
 use super::files::Reporting;
-use super::values::{drawn_length_from_zero, dry_time, key_value, metres, nib, number_above_zero, scale, seconds, tolerance};
+use super::placing::PlacingOptions;
+use super::values::{
+    drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, scale, seconds, tolerance,
+};
 use clap::Args;
 
 /// How tool paths are made.
@@ -71,9 +74,12 @@ pub(in crate::cli) struct ToolpathOptions {
     /// Wait each time that a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
     #[arg(long, value_name = "METRES", value_parser = metres, allow_negative_numbers = true)]
     pub pause_every: Option<f64>,
-    /// A picture of what the machine will do: sheet, reach, ink at nib width, travel, start and park.
+    /// A picture of what the machine will do: sheet, reach, ink at nib width in a colour for each pen, travel, start and park.
     #[arg(long, value_name = "FILE.svg")]
     pub preview: Option<String>,
+    /// How the preview shows the ways of the raised pen.
+    #[arg(long, value_enum, default_value_t = PreviewTravel::Faint, requires = "preview")]
+    pub preview_travel: PreviewTravel,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -111,15 +117,15 @@ pub(in crate::cli) struct PlotOptions {
     /// Scale the drawing to the page less its margin.
     #[arg(long, value_enum, default_value_t = PlotFit::None)]
     pub fit: PlotFit,
-    /// Scale by this factor (0.001 to 1000).
-    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = scale, allow_negative_numbers = true)]
-    pub scale: f64,
-    /// Move the drawing to the middle of the page.
-    #[arg(long)]
-    pub center: bool,
-    /// Turn clockwise by degrees.
-    #[arg(long, value_enum, allow_negative_numbers = true, default_value_t = Rotate::None)]
-    pub rotate: Rotate,
+    /// Scale by this factor (0.001 to 1000), from the upper left corner [default: 1].
+    #[arg(long, value_name = "F", value_parser = scale, allow_negative_numbers = true)]
+    pub scale: Option<f64>,
+    #[command(flatten)]
+    pub placing: PlacingOptions,
+    /// Make the drawing smaller about its middle, if need be, so that the plot takes at most this long, such as 2h, 90min or 1h30m.
+    /// With --fit or --scale a longer plot is refused, with the scale that would do.
+    #[arg(long, value_name = "TIME", value_parser = duration, requires = "profile", allow_negative_numbers = true)]
+    pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
     /// Worker threads [default: all cores].

@@ -25,6 +25,10 @@ pub(super) fn key_value(text: &str) -> Result<(String, String), String> {
     }
 }
 
+pub(super) fn role_file(text: &str) -> Result<(String, String), String> {
+    key_value(text).map_err(|_| "write it as ROLE=FILE, such as subject=mask.png".to_owned())
+}
+
 pub(super) fn length_above_zero(text: &str) -> Result<f64, String> {
     let mm = parse_length(text).map_err(|error| error.to_string())?;
     if mm > 0.0 { length_from_zero(text) } else { Err("must be above 0".to_owned()) }
@@ -63,6 +67,17 @@ pub(super) fn size_above_zero(text: &str) -> Result<(f64, f64), String> {
     let (width, height) = parse_size(text).map_err(|error| error.to_string())?;
     let sound = |mm: f64| (1.0..=100_000.0).contains(&mm);
     if sound(width) && sound(height) { Ok((width, height)) } else { Err("both sides must be from 1 mm to 100 m".to_owned()) }
+}
+
+/// A place on the sheet, across and down; a unit at the end holds for both, as in `2,3.5cm`.
+pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
+    let refuse = || "write it as X,Y, such as 20,35mm".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(refuse)?;
+    let has_unit = x.trim().ends_with(|c: char| c.is_ascii_alphabetic());
+    let unit = y.trim().trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+    let x = if has_unit { x.to_owned() } else { format!("{}{unit}", x.trim()) };
+    let within = |text: &str| parse_length(text).ok().filter(|mm| mm.abs() <= 100_000.0).ok_or_else(refuse);
+    Ok((within(&x)?, within(y)?))
 }
 
 pub(super) fn number_above_zero(text: &str) -> Result<f64, String> {
@@ -189,6 +204,15 @@ mod tests {
         assert_eq!((duration("1.5h"), duration("1h 5 min"), duration("45s")), (Ok(5400.0), Ok(3900.0), Ok(45.0)));
         for wrong in ["", "2", "h", "30m1h", "1h2h", "0h", "-2h", "2 days", "1..5h"] {
             assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn places() {
+        assert_eq!((place("20,35"), place("2, 3.5cm")), (Ok((20.0, 35.0)), Ok((20.0, 35.0))));
+        assert_eq!((place("-5mm,1cm"), place("1in,0")), (Ok((-5.0, 10.0)), Ok((25.4, 0.0))));
+        for wrong in ["20", "20x35", "a,b", "NaN,1", "1,2,3", "1e9,0", ","] {
+            assert!(place(wrong).is_err(), "{wrong}");
         }
     }
 
