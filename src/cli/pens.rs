@@ -91,7 +91,7 @@ impl PenSet {
         let mut set = Self { entries: Vec::new(), nibs: Nibs::all(usual), dwell: BTreeMap::new() };
         set.nibs.swell = profile.as_ref().and_then(|profile| profile.swell.clone());
         let Some(file) = file else { return Ok(set) };
-        let text = String::from_utf8(output::read(file)?).map_err(|_| Failure::Work(format!("{file} is not UTF-8 text")))?;
+        let text = output::read_settings(file)?;
         let table: BTreeMap<String, Pen> = toml::from_str(&text).map_err(|error: toml::de::Error| {
             let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
             Failure::Work(format!("{file}, line {line}: {}", error.message()))

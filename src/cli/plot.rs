@@ -8,9 +8,12 @@ use super::{layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
 use crate::plot::{Hides, InkModel, coverage, lower, mount, occluded};
-use crate::read::{Imported, read_svg};
+use crate::read::{Budget, Imported, read_svg_within};
 use crate::write::SvgHead;
 use serde_json::json;
+
+/// How more of a file is read.
+pub(super) const MORE_WORK: &str = "; --most-work lifts it";
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
@@ -25,7 +28,10 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
-    let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
+    let mut budget = Budget::of_millions(options.most_work);
+    let bytes = output::read(&options.drawing, budget.most_bytes(), MORE_WORK)?;
+    let mut imported = read_svg_within(&bytes, &mut budget).map_err(|error| Failure::about(shown)(&error))?;
+    drop(bytes);
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
     if options.occlude {

@@ -2,7 +2,9 @@
 
 use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, Rotate, SeamOption, StartCorner};
 use super::files::Reporting;
-use super::values::{drawn_length_above_zero, drawn_length_from_zero, dry_time, key_value, metres, number_above_zero, seconds};
+use super::values::{
+    drawn_length_above_zero, drawn_length_from_zero, dry_time, key_value, metres, number_above_zero, seconds, work,
+};
 use clap::Args;
 
 /// How tool paths are made.
@@ -120,6 +122,10 @@ pub(in crate::cli) struct PlotOptions {
     pub rotate: Rotate,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
+    /// How much work the drawing may ask for when it is read, in millions of steps (up to 1000): elements with all that is used,
+    /// segments, dashes. 12 stay below 2 GB.
+    #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
+    pub most_work: f64,
     /// Worker threads [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
