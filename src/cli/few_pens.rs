@@ -1,7 +1,7 @@
 //! More colours than the machine has pens, and no `--pens` that says what becomes of them.
 //!
-//! As many colours as there are pens, those that draw the most, get a pen each; every other colour goes to the nearest of them. What
-//! became one is said.
+//! As many colours as there are pens, those that stand best for all, get a pen each; every other colour goes to the nearest of them
+//! (CIE L*a*b*). What became one is said.
 
 use super::messages::warning;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
@@ -11,6 +11,8 @@ use std::fmt::Write as _;
 
 /// Colours that a user can be asked to change pens for; more is a picture that was meant for a screen.
 const MOST_CHANGES: u32 = 12;
+/// Colours that are tried for a pen, those that draw the most; each is held against all that the drawing has.
+const MOST_CANDIDATES: usize = 128;
 /// Colours that a message names; more says nothing to anyone.
 const MOST_NAMED: usize = 40;
 
@@ -69,21 +71,26 @@ fn amounts(drawing: &Drawing) -> BTreeMap<Colour, f64> {
     amounts
 }
 
-/// The colours that draw the most, in the order in which the drawing first shows them.
+/// As many of the colours as there are pens, so that all others lie near one of them: each in turn is the one that brings what is
+/// drawn nearest to its pens, in the order in which the drawing first shows them.
 fn palette(drawing: &Drawing, amounts: &BTreeMap<Colour, f64>, count: usize) -> Vec<Colour> {
-    let mut most: Vec<(&Colour, &f64)> = amounts.iter().collect();
-    most.sort_by(|a, b| b.1.total_cmp(a.1));
-    most.truncate(count);
-    let mut palette = Vec::new();
-    for colour in drawing.layers.iter().flat_map(colours_of) {
-        if !palette.contains(&colour) && most.iter().any(|(known, _)| **known == colour) {
-            palette.push(colour);
-            if palette.len() == most.len() {
-                break;
-            }
-        }
+    let mut candidates: Vec<(Colour, f64)> = amounts.iter().map(|(colour, amount)| (*colour, *amount)).collect();
+    candidates.sort_by(|a, b| b.1.total_cmp(&a.1));
+    candidates.truncate(MOST_CANDIDATES);
+    // How far each colour lies from each candidate, weighed by how much it draws.
+    let cost = |pen: Colour| amounts.iter().map(|(colour, amount)| amount * colour.difference(pen)).collect::<Vec<f64>>();
+    let costs: Vec<Vec<f64>> = candidates.iter().map(|(colour, _)| cost(*colour)).collect();
+    let mut least = vec![f64::INFINITY; amounts.len()];
+    let mut chosen = Vec::new();
+    for _ in 0..count.min(candidates.len()) {
+        let total = |of: &[f64]| -> f64 { least.iter().zip(of).map(|(a, b)| a.min(*b)).sum() };
+        let left = (0..candidates.len()).filter(|i| !chosen.contains(i)).map(|i| (i, total(&costs[i])));
+        let Some((best, _)) = left.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        chosen.push(best);
+        least.iter_mut().zip(&costs[best]).for_each(|(least, cost)| *least = least.min(*cost));
     }
-    palette
+    let mut wanted: BTreeSet<Colour> = chosen.into_iter().map(|i| candidates[i].0).collect();
+    drawing.layers.iter().flat_map(colours_of).filter(|colour| wanted.remove(colour)).collect()
 }
 
 /// A drawing by pens.
@@ -132,9 +139,9 @@ fn told(count: usize, profile: &Profile, palette: &[Colour], became: &[BTreeSet<
         return format!("{count} colours became one, the one pen of {}: {}; {advice}", profile.name, named(&all));
     }
     let mut text = format!(
-        "{count} colours on the {} pens of {}: those that draw the most have a pen each, and every other goes to the nearest of them: ",
-        palette.len(),
-        profile.name
+        "{count} colours on the {pens} pens of {}: {pens} of them have a pen each, and every other goes to the nearest of these: ",
+        profile.name,
+        pens = palette.len()
     );
     for (pen, (colour, others)) in palette.iter().zip(became).enumerate() {
         let others: Vec<Colour> = others.iter().copied().collect();

@@ -4,7 +4,7 @@ use super::messages::warning;
 use crate::plot::Profile;
 use crate::read::{Imported, LabelSpeeds};
 
-/// Percent of a machine's drawing speed that a layer may ask for.
+/// Percent of a machine's drawing speed that a label may ask for where it is a percentage of that.
 const MOST_PERCENT: f64 = 200.0;
 
 /// Brings the speeds that a drawing's layers ask for to a machine.
@@ -23,9 +23,9 @@ pub(super) fn fit_to_machine(imported: &mut Imported, profile: &Profile) {
             }
             (Some(speeds), _) => percent * speeds.percent_mm_s,
             (None, Some(svg)) => percent * svg.speed_of_percent,
-            (None, None) => continue,
+            (None, None) => profile.motion.draw_speed * percent.clamp(1.0, MOST_PERCENT) / 100.0,
         };
-        let fastest = profile.motion.fastest_drawing().min(profile.motion.draw_speed * MOST_PERCENT / 100.0);
+        let fastest = profile.motion.fastest_drawing();
         if asked > fastest {
             let (layer, name) = (&layer.layer.name, &profile.name);
             warning!("layer '{layer}' asks for {asked:.0} mm/s with its +S, and {name} draws it at {fastest:.0}, its most");

@@ -77,9 +77,9 @@ pub struct Handling {
 }
 
 impl Handling {
-    /// The speed to draw with, given the machine's; 1 to 200 %.
+    /// The speed to draw with, given the machine's usual one; 1 to 500 %, since an `AxiDraw`'s greatest is 4.4 times its usual.
     pub fn speed(&self, machine: f64) -> f64 {
-        machine * self.speed_percent.unwrap_or(100.0).clamp(1.0, 200.0) / 100.0
+        machine * self.speed_percent.unwrap_or(100.0).clamp(1.0, 500.0) / 100.0
     }
 }
 

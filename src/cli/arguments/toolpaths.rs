@@ -62,7 +62,7 @@ pub(in crate::cli) struct ToolpathOptions {
     /// The pens, a TOML file: a table for each layer's name or pen's number, such as [black], with width = "0.3mm", slot = 1, colour =
     /// "black", speed = 30 (mm/s), dwell = 0.1 (s) and offset = [0, 0] (mm), each where it is wanted. Layers that it does not name go to
     /// the pen of the nearest colour; `drypoint profiles --pens-example` prints such a file. Without it each layer has the pen of its
-    /// number, and colours beyond the machine's pens go to the nearest of those that draw the most.
+    /// number, and colours beyond the machine's pens go to the nearest of those that have one.
     #[arg(long, value_name = "FILE")]
     pub pens: Option<String>,
     /// Trace the drawing's outline with the pen up, then wait, before anything is drawn.
