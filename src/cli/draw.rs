@@ -54,7 +54,8 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         say!("drypoint: {notice}");
     }
     if options.dry_run {
-        return dry_run::run(&task, options, profile.as_ref(), &mut pens);
+        let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
+        return told.map_err(|failure| advice::for_draw(failure, options, &task.layout));
     }
     let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
     let watcher = Watcher::new(options.reporting.quiet);
