@@ -20,7 +20,7 @@ pub(super) fn run(task: &Task<'_>, options: &DrawOptions, profile: Option<&Profi
     forewarn::warn(&mut teller, &foretold);
     let bytes = task.cost(&task.settings, task.layout.picture).bytes;
     if options.reporting.json {
-        return output::print_json(&as_json(task, &foretold, teller.pens, bytes));
+        return output::print_json(&as_json(&foretold, teller.pens, bytes));
     }
     if options.reporting.quiet {
         return Ok(());
@@ -65,7 +65,7 @@ fn rounded(count: f64) -> f64 {
     (count / unit).round() * unit
 }
 
-fn as_json(task: &Task<'_>, foretold: &Foretold, pens: &PenSet, bytes: f64) -> Value {
+fn as_json(foretold: &Foretold, pens: &PenSet, bytes: f64) -> Value {
     let whole = |count: f64| count.round() as u64;
     let layers: Vec<Value> = foretold
         .amounts
