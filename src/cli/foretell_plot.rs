@@ -77,6 +77,9 @@ pub(super) fn dry_run(
             duration(limit)
         );
     }
+    if !dropped.is_empty() {
+        warning!("left out or drawn otherwise: {}", dropped.summary());
+    }
     if options.reporting.json {
         let mut value = json!(told.ordered);
         value["dropped"] = json!(dropped);
