@@ -456,8 +456,9 @@ fn report(
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
         let ink: f64 = drawing.ink_mm2().iter().sum();
+        let areas = if counts[2] > 0 { format!(", {}", counted(counts[2], "area")) } else { String::new() };
         say!(
-            "{}: {:.1} x {:.1} mm, {}, {}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
+            "{}: {:.1} x {:.1} mm, {}, {}{areas}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
             layer_files::names(files),
             drawing.page.width,
             drawing.page.height,
