@@ -262,3 +262,22 @@ fn a_plot_is_made_smaller_to_keep_to_its_time() {
     let (status, message) = run_words(folder.path(), &format!("plot l.svg -o o.gcode --profile grbl-servo --fit page {limit}"));
     assert!(status == 1 && message.contains("leave --fit away"), "{message}");
 }
+
+#[test]
+fn a_dry_run_is_turned_and_refused_as_the_drawing_is() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("wide.png"), photograph(90, 45)).unwrap();
+    fs::write(folder.path().join("f.svg"), frame((297.0, 210.0), 2.0, 2.0, 250.0, 105.0)).unwrap();
+    for (line, status, words) in [
+        ("draw wide.png --profile hp7475a --page a4 --rotate 90 -o o.hpgl --pitch 4", 0, "210.0 x 297.0 mm"),
+        ("draw wide.png --profile hp7475a --page a4 --rotate auto --mirror -o o.hpgl --pitch 4", 0, "210.0 x 297.0 mm"),
+        ("draw wide.png --profile hp7475a --size 200x100mm --rotate 90 -o o.hpgl --pitch 4", 0, "100.0 x 200.0 mm"),
+        ("draw wide.png --profile hp7475a --page a4 --at 150,10 -o o.hpgl --pitch 4", 1, "leave --at away"),
+        ("plot f.svg --profile hp7475a --page a4 -o o.hpgl", 1, "--rotate 90 --center"),
+    ] {
+        for line in [line.to_owned(), format!("{line} --dry-run")] {
+            let (ended, said) = run_words(folder.path(), &line);
+            assert!(ended == status && said.contains(words), "{line}: {said}");
+        }
+    }
+}

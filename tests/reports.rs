@@ -101,6 +101,8 @@ fn warnings_stand_in_the_json_as_on_stderr() {
     fs::write(folder.path().join("text.svg"), svg).unwrap();
     for (arguments, words) in [
         (&["draw", "grey.png", "--style", "charcoal", "-o", "o.svg"][..], "no face was found"),
+        (&["draw", "photo.png", "-o", "o.svg", "--dry-run"], ""),
+        (&["plot", "text.svg", "-o", "o.svg", "--dry-run"], "left out or drawn otherwise: 1 text"),
         (&["plot", "text.svg", "-o", "o.svg"], "left out or drawn otherwise: 1 text"),
         (&["inspect", "text.svg"], "left out or read otherwise: 1 text"),
         (&["inspect", "text.svg", "--profile", "hp7475a"], "larger than every sheet"),

@@ -21,6 +21,14 @@ pub(super) fn for_plot(failure: Failure, options: &PlotOptions, degrees: u32) ->
     }
 }
 
+/// A refusal of `calibrate`, whose sheet is drawn to fit.
+pub(super) fn for_test_sheet(failure: Failure) -> Failure {
+    match failure {
+        Failure::Misfit(error) => Failure::Work(format!("{error}; choose another --page")),
+        other => other,
+    }
+}
+
 fn plot_remedy(room: &Room, options: &PlotOptions, degrees: u32) -> String {
     let without = if options.placing.at.is_some() { "without --at: " } else { "" };
     if options.fit == PlotFit::Page {

@@ -1,5 +1,6 @@
 //! `drypoint calibrate`: a test sheet for a machine and its pens.
 
+use super::advice;
 use super::arguments::{CalibrateOptions, Order, READING};
 use super::failure::Failure;
 use super::messages::say;
@@ -22,13 +23,14 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
         None => calibration_page(&profile),
         Some(text) => layout::sheet(text).map(|(width, height)| Page::new(width, height))?,
     };
-    let drawable = mount(&profile, &page)?.drawable(&page);
+    let mounting = mount(&profile, &page).map_err(|error| advice::for_test_sheet(error.into()))?;
+    let drawable = mounting.drawable(&page);
     let count = options.pen_count.unwrap_or(profile.pens.count);
     let sheet = calibration_sheet(&profile, page, drawable, options.pen, count)
         .map_err(|error| Failure::Work(format!("{}: {error}", profile.name)))?;
     // In the order of the sheet: what a trial shows must not depend on what was drawn before it.
     let toolpath_options = super::arguments::ToolpathOptions { order: Order::None, ..options.toolpaths.clone() };
-    let prepared = toolpaths::prepare(sheet.plot, Some(&profile), &toolpath_options, &pens)?;
+    let prepared = toolpaths::prepare(sheet.plot, Some(&profile), &toolpath_options, &pens).map_err(advice::for_test_sheet)?;
     let head = SvgHead {
         title: format!("Test sheet for {}", profile.name),
         description: "Tool paths in drawing order; docs/calibration.md says what to read off.".to_owned(),

@@ -54,7 +54,8 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         say!("drypoint: {notice}");
     }
     if options.dry_run {
-        return dry_run::run(&task, options, profile.as_ref(), &mut pens);
+        let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
+        return told.map_err(|failure| advice::for_draw(failure, options, &task.layout));
     }
     let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
     let watcher = Watcher::new(options.reporting.quiet);
@@ -455,8 +456,9 @@ fn report(
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
         let ink: f64 = drawing.ink_mm2().iter().sum();
+        let areas = if counts[2] > 0 { format!(", {}", counted(counts[2], "area")) } else { String::new() };
         say!(
-            "{}: {:.1} x {:.1} mm, {}, {}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
+            "{}: {:.1} x {:.1} mm, {}, {}{areas}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
             layer_files::names(files),
             drawing.page.width,
             drawing.page.height,

@@ -5,7 +5,7 @@ use super::arguments::DrawOptions;
 use super::draw::Task;
 use super::failure::Failure;
 use super::foretell::{Care, Foretold, Plan, Teller};
-use super::messages::say;
+use super::messages::{self, say};
 use super::pens::PenSet;
 use super::toolpaths::{self, duration};
 use super::{forewarn, output};
@@ -20,12 +20,12 @@ pub(super) fn run(task: &Task<'_>, options: &DrawOptions, profile: Option<&Profi
     forewarn::warn(&mut teller, &foretold);
     let bytes = task.cost(&task.settings, task.layout.picture).bytes;
     if options.reporting.json {
-        return output::print_json(&as_json(task, &foretold, teller.pens, bytes));
+        return output::print_json(&as_json(&foretold, teller.pens, bytes));
     }
     if options.reporting.quiet {
         return Ok(());
     }
-    let page = task.layout.page;
+    let page = foretold.drawing.page;
     let [dots, strokes, areas] = foretold.amounts.counts();
     let areas = if areas >= 1.0 { format!(", {} areas", rounded(areas)) } else { String::new() };
     let ink: f64 = foretold.amounts.layers.iter().map(|layer| layer.ink_mm2).sum();
@@ -65,7 +65,7 @@ fn rounded(count: f64) -> f64 {
     (count / unit).round() * unit
 }
 
-fn as_json(task: &Task<'_>, foretold: &Foretold, pens: &PenSet, bytes: f64) -> Value {
+fn as_json(foretold: &Foretold, pens: &PenSet, bytes: f64) -> Value {
     let whole = |count: f64| count.round() as u64;
     let layers: Vec<Value> = foretold
         .amounts
@@ -76,7 +76,7 @@ fn as_json(task: &Task<'_>, foretold: &Foretold, pens: &PenSet, bytes: f64) -> V
             json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink, "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2 })
         })
         .collect();
-    let page = task.layout.page;
+    let page = foretold.drawing.page;
     let mut value = json!({
         "page_mm": [page.width, page.height],
         "layers": layers,
@@ -86,6 +86,7 @@ fn as_json(task: &Task<'_>, foretold: &Foretold, pens: &PenSet, bytes: f64) -> V
         value["pens"] = json!(plot.ordered.pens);
         value["total"] = json!(plot.ordered.total);
     }
+    value["warnings"] = json!(messages::warnings());
     value
 }
 

@@ -70,7 +70,7 @@ pub(super) struct Foretold {
     /// Part of the picture's area that was drawn for it; with 1 the amounts are exact.
     pub share: f64,
     /// What was drawn for it.
-    drawing: Drawing,
+    pub drawing: Drawing,
 }
 
 /// A smaller picture of the photograph.
@@ -204,7 +204,7 @@ impl Foretold {
         if teller.options.toolpaths.clip {
             return Ok(());
         }
-        let (page, picture) = (teller.task.layout.page, teller.task.layout.picture);
+        let (page, picture) = (self.drawing.page, teller.task.layout.placed());
         let place = |p: Point| picture.center() + (p - picture.center()) / self.share.sqrt();
         let nib = teller.pens.nibs().usual;
         let whole =

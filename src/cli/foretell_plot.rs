@@ -9,12 +9,13 @@
 //!   +---+---+---+---+
 //! ```
 
+use super::advice;
 use super::amounts::PlotAmounts;
 use super::arguments::PlotOptions;
 use super::failure::Failure;
 use super::foretell::quickly;
 use super::interruption::interrupt;
-use super::messages::{say, warning};
+use super::messages::{self, say, warning};
 use super::output;
 use super::pens::PenSet;
 use super::plot::{choose_layers, count_fills, hides, place, reach_of};
@@ -67,10 +68,23 @@ pub(super) fn dry_run(
     if let Some(seconds) = told.ordered.total.seconds.filter(|seconds| *seconds > LONG_HOURS * 3600.0) {
         warning!("this plot will take about {}", duration(seconds));
     }
+    if let Some(limit) = options.max_time
+        && let Some(seconds) = told.ordered.total.seconds.filter(|seconds| *seconds > limit)
+    {
+        warning!(
+            "about {}, longer than --max-time {}: without --dry-run a smaller size is sought",
+            duration(seconds),
+            duration(limit)
+        );
+    }
+    if !dropped.is_empty() {
+        warning!("left out or drawn otherwise: {}", dropped.summary());
+    }
     if options.reporting.json {
         let mut value = json!(told.ordered);
         value["dropped"] = json!(dropped);
         value["estimate"] = json!({ "share_plotted": share });
+        value["warnings"] = json!(messages::warnings());
         return output::print_json(&value);
     }
     if !options.reporting.quiet {
@@ -197,11 +211,12 @@ fn plotted(
 ) -> Result<PlotAmounts, Failure> {
     let mut part = stratum.of(imported, options, model)?;
     choose_layers(&mut part, &options.layers)?;
-    let (mut drawing, _) = place(&part.drawing(), options, reach_of(profile))?;
+    let (mut drawing, turning) = place(&part.drawing(), options, reach_of(profile))?;
     pens.hand_out(&mut drawing, profile)?;
     let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let clips = options.toolpaths.clip;
     let quick = super::arguments::ToolpathOptions { clip: clips, ..quickly(&options.toolpaths) };
-    let prepared = toolpaths::prepare(plot, profile, &quick, pens)?;
+    let prepared =
+        toolpaths::prepare(plot, profile, &quick, pens).map_err(|failure| advice::for_plot(failure, options, turning.degrees))?;
     Ok(PlotAmounts { ordered: prepared.report, before: prepared.unordered })
 }

@@ -127,8 +127,8 @@ impl Shortened {
         let side = guess * (self.quick / after / self.times).sqrt().min(1.0);
         let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
         let page = teller.options.picture.page.clone().unwrap_or_else(|| {
-            let page = teller.task.layout.page;
-            format!("{}x{}mm", round(page.width), round(page.height))
+            let (width, height) = teller.task.layout.sheet();
+            format!("{}x{}mm", round(width), round(height))
         });
         (width.min(height) >= least).then(|| format!("--size {width}x{height}mm --page {page}"))
     }

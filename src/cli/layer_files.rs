@@ -8,7 +8,7 @@ const PLACEHOLDER: &str = "{layer}";
 /// A file and what it holds.
 pub(super) struct LayerFile {
     pub name: String,
-    /// What stands for `{layer}`.
+    /// What stands for `{layer}` in the preview's name too.
     pub layer: String,
     pub drawing: Drawing,
 }
@@ -16,7 +16,9 @@ pub(super) struct LayerFile {
 /// The whole drawing, or with `{layer}` in the name one drawing for each layer.
 pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<LayerFile> {
     if !output.contains(PLACEHOLDER) {
-        return vec![LayerFile { name: output.to_owned(), layer: String::new(), drawing: drawing.clone() }];
+        // A preview may still be named after the first layer.
+        let layer = drawing.layers.first().map_or_else(String::new, |layer| file_part(&layer.name));
+        return vec![LayerFile { name: output.to_owned(), layer, drawing: drawing.clone() }];
     }
     let mut files: Vec<LayerFile> = Vec::new();
     for layer in &drawing.layers {
