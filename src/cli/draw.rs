@@ -122,6 +122,7 @@ fn write_one(
         return Ok(None);
     };
     let drawing = &*uncovered(drawing);
+    affordable::check_line(drawing, pens.nibs(), InkModel::Ink, 1.0)?;
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance);
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs()));

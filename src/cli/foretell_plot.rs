@@ -9,6 +9,7 @@
 //!   +---+---+---+---+
 //! ```
 
+use super::affordable;
 use super::amounts::PlotAmounts;
 use super::arguments::PlotOptions;
 use super::failure::Failure;
@@ -197,6 +198,7 @@ fn plotted(
     choose_layers(&mut part, &options.layers)?;
     let mut drawing = place(&part.drawing(), options, reach_of(profile))?;
     pens.hand_out(&mut drawing, profile)?;
+    affordable::check_line(&drawing, pens.nibs(), model, stratum.weight)?;
     let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance);
     let clips = options.toolpaths.clip;
     let quick = super::arguments::ToolpathOptions { clip: clips, ..quickly(&options.toolpaths) };

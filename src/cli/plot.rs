@@ -5,7 +5,7 @@ pub(super) use super::draw::reach_of;
 use super::draw::{limit_threads, split_by_layer};
 use super::failure::Failure;
 use super::pens::PenSet;
-use super::{foretell_plot, layout, output, toolpaths};
+use super::{affordable, foretell_plot, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
 use crate::plot::{Hides, InkModel, coverage, lower, occluded};
@@ -47,6 +47,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}")));
     }
     pens.assign(&mut drawing, profile.as_ref())?;
+    affordable::check_line(&drawing, pens.nibs(), model, 1.0)?;
     let head = SvgHead {
         title: format!("Tool paths of {}", std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown)),
         description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
