@@ -61,6 +61,20 @@ fn nibs_tolerances_and_scales_out_of_range_are_refused_with_the_range() {
 }
 
 #[test]
+fn ink_that_no_plotter_draws_is_refused_before_it_is_laid_out() {
+    let folder = folder();
+    let dots: String = (0..4000).map(|i| format!("<circle cx=\"{}\" cy=\"{}\" r=\"0.3\"/>", i % 63, i / 63)).collect();
+    let svg =
+        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"64mm\" height=\"64mm\" viewBox=\"0 0 64 64\">{dots}</svg>");
+    fs::write(folder.path().join("dots.svg"), svg).unwrap();
+    for more in [&[][..], &["--dry-run"]] {
+        let asked = ["plot", "dots.svg", "--ink-model", "ink", "--scale", "1000", "-o", "out.svg"];
+        let (status, message) = run(&folder, &[&asked[..], more].concat());
+        assert!(status == Some(1) && message.contains("km of line") && message.contains("--pen"), "{message}");
+    }
+}
+
+#[test]
 fn widths_of_pens_have_the_same_range() {
     let folder = folder();
     for (width, is_refused) in

@@ -3,10 +3,14 @@
 use super::draw::Task;
 use super::failure::Failure;
 use super::toolpaths::duration;
+use crate::drawing::{Drawing, Layer, Mixing};
 use crate::geometry::Rect;
+use crate::plot::{InkModel, Nibs};
 
 /// Bytes that a drawing may take: what a machine with 8 GB has to spare.
 const MOST_BYTES: f64 = 4e9;
+/// Millimetres of line in a plot at most: a week of drawing at 30 mm/s, and at the finest tolerance 3 GB of places.
+const MOST_LINE: f64 = 20e6;
 /// Halvings of what is not known of the pitch or the size that fits.
 const HALVINGS: usize = 30;
 
@@ -28,6 +32,32 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
         cost.pixels / 1e6,
         duration(cost.seconds),
         memory(MOST_BYTES)
+    )))
+}
+
+/// Refuses ink that would take more line than a plotter ever draws, before it is laid out: a drawing scaled by a thousand, or a poster
+/// filled with the finest nib. `times` is how many such drawings there are.
+pub(super) fn check_line(drawing: &Drawing, nibs: &Nibs, model: InkModel, times: f64) -> Result<(), Failure> {
+    if model == InkModel::Lines {
+        return Ok(());
+    }
+    let page = drawing.page.rect().area();
+    let of = |layer: &Layer| {
+        // What is covered is not drawn.
+        let ink = if layer.mixing == Mixing::Paint { layer.ink_mm2().min(page) } else { layer.ink_mm2() };
+        (ink / nibs.of(layer.pen), nibs.of(layer.pen))
+    };
+    let lines: Vec<(f64, f64)> = drawing.layers.iter().map(of).collect();
+    let line = times * lines.iter().map(|(line, _)| line).sum::<f64>();
+    if line <= MOST_LINE {
+        return Ok(());
+    }
+    let nib = lines.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, nib)| *nib);
+    Err(Failure::Work(format!(
+        "this plot would take {:.0} km of line with a nib of {nib} mm, and drypoint lays down at most {:.0} km: use a wider --pen, or make the drawing smaller by {:.3}",
+        line / 1e6,
+        MOST_LINE / 1e6,
+        (MOST_LINE / line).sqrt()
     )))
 }
 

@@ -136,6 +136,7 @@ fn write_one(
         output::write(name, fill)?;
         return Ok(None);
     };
+    affordable::check_line(drawing, pens.nibs(), InkModel::Ink, 1.0)?;
     observer.begin("lowering");
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     observer.begin("ordering");

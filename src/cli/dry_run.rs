@@ -52,7 +52,7 @@ fn how(share: f64) -> String {
     if share >= 1.0 {
         "drawn, not searched for the shortest way".to_owned()
     } else {
-        format!("estimated from pictures of {:.1} % of its area, to about 10 %", 100.0 * share)
+        format!("estimated from pictures of {:.1} % of its area, mostly to a tenth, charcoal and paint to a third", 100.0 * share)
     }
 }
 

@@ -26,11 +26,10 @@ use std::time::{Duration, Instant};
 /// Seconds of work in the smaller picture and in the larger one; with both, and their plots, an estimate stays under a second.
 const QUICK_SECONDS: f64 = 0.06;
 const CAREFUL_SECONDS: f64 = 0.3;
-/// Marks that are plotted in an estimate: paint is cut by what lies over it, which takes nearly a millisecond a stroke.
-const MOST_MARKS: f64 = 6000.0;
-const MOST_PAINT: f64 = 700.0;
-/// The same where two plans are only compared.
-const MOST_QUICK_PAINT: f64 = 200.0;
+/// Marks that are plotted in the smaller and in the larger picture: paint is cut by what lies over it, which takes nearly a millisecond
+/// a stroke.
+const MARKS: [f64; 2] = [2000.0, 8000.0];
+const PAINT: [f64; 2] = [200.0, 900.0];
 /// Least short side of a picture drawn for an estimate, in pitches: on less there is no face left.
 const LEAST_PITCHES: f64 = 12.0;
 /// The larger picture is given up after this, which only a machine much slower than the tables of cost, or a busy one, needs.
@@ -95,18 +94,16 @@ impl Teller<'_> {
         let begun = Instant::now();
         let mut sample = self.sample(plan, self.side_within(plan, QUICK_SECONDS), None)?;
         let is_paint = self.profile.is_some() && sample.drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
-        let most = match care {
-            _ if !is_paint => MOST_MARKS,
-            Care::Careful => MOST_PAINT,
-            Care::Quick => MOST_QUICK_PAINT,
-        };
-        let room = (most / sample.drawing.marks().count().max(1) as f64).sqrt();
-        let larger = (sample.side * room).min(self.side_within(plan, CAREFUL_SECONDS));
-        if self.profile.is_some() && (is_paint || room < 1.0) && (larger / sample.side - 1.0).abs() > 0.05 {
-            sample = self.sample(plan, larger, None)?;
+        let [few, many] = if is_paint { PAINT } else { MARKS };
+        // The side on which so many marks have room.
+        let (side, marks) = (sample.side, sample.drawing.marks().count().max(1) as f64);
+        let room = |most: f64| if self.profile.is_some() { side * (most / marks).sqrt() } else { 1.0 };
+        let larger = room(many).min(self.side_within(plan, CAREFUL_SECONDS));
+        if room(few) < 0.95 * side {
+            sample = self.sample(plan, room(few), None)?;
         }
         let first = self.told(plan, &sample)?;
-        if is_paint || care == Care::Quick || larger < 1.2 * sample.side {
+        if care == Care::Quick || larger < 1.2 * sample.side {
             return Ok(first);
         }
         let sample = match self.sample(plan, larger, Some(begun + PATIENCE)) {

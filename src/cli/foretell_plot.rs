@@ -10,6 +10,7 @@
 //! ```
 
 use super::advice;
+use super::affordable;
 use super::amounts::PlotAmounts;
 use super::arguments::PlotOptions;
 use super::failure::Failure;
@@ -213,6 +214,7 @@ fn plotted(
     choose_layers(&mut part, &options.layers)?;
     let (mut drawing, turning) = place(&part.drawing(), options, reach_of(profile))?;
     pens.hand_out(&mut drawing, profile)?;
+    affordable::check_line(&drawing, pens.nibs(), model, stratum.weight)?;
     let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let clips = options.toolpaths.clip;
     let quick = super::arguments::ToolpathOptions { clip: clips, ..quickly(&options.toolpaths) };

@@ -13,7 +13,7 @@ use super::placing::{Turning, asked_move};
 use super::progress::Watcher;
 use super::scale_to_time::{Trials, scaled_to};
 use super::toolpaths::Prepared;
-use super::{advice, foretell_plot, layout, output, toolpaths};
+use super::{advice, affordable, foretell_plot, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
 use crate::plot::{Hides, InkModel, Profile, TooMuch, check_work, coverage, lower, occluded};
@@ -73,6 +73,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}")));
     }
     pens.assign(&mut drawing, profile.as_ref())?;
+    affordable::check_line(&drawing, pens.nibs(), model, 1.0)?;
     let head = SvgHead {
         title: format!("Tool paths of {}", std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown)),
         description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
