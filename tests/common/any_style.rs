@@ -1,4 +1,5 @@
 //! Any style on any sheet, for tests that go through all of them.
+#![allow(dead_code)]
 
 use drypoint::drawing::{Drawing, Mark, Page};
 use drypoint::geometry::{BezPath, Rect};
