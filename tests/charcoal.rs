@@ -607,3 +607,65 @@ fn a_sketch_s_inkml_has_a_trace_for_each_stroke() {
         }
     }
 }
+
+/// The light bust with its hair shaved off: skin in its place, lit from one side (`shade` from the lit side to the other, in encoded
+/// light), with a gleam on the forehead.
+fn shaved_bust(shade: (f64, f64), gleam: f64) -> Vec<u8> {
+    use image::{ImageFormat, Rgb};
+    let open = |name: &str| image::load_from_memory(&sample(name)).unwrap();
+    let (mut bust, hair, face) =
+        (open("bust-light.png").to_rgb8(), open("bust-mask-hair.png").to_luma8(), open("bust-mask-face.png").to_luma8());
+    let in_face = || face.enumerate_pixels().filter(|(.., v)| v.0[0] > 200);
+    let skin: [f64; 3] = [0, 1, 2].map(|channel| {
+        let mut values: Vec<u8> = in_face().map(|(x, y, _)| bust.get_pixel(x, y).0[channel]).collect();
+        values.sort_unstable();
+        f64::from(values[values.len() / 2])
+    });
+    let (left, right) =
+        hair.enumerate_pixels().filter(|(.., v)| v.0[0] > 127).fold((u32::MAX, 0), |(l, r), (x, ..)| (l.min(x), r.max(x)));
+    let top = in_face().map(|(_, y, _)| y).min().unwrap();
+    let (width, middle) = (f64::from(right - left), 0.5 * f64::from(left + right));
+    for (x, y, _) in hair.enumerate_pixels().filter(|(.., v)| v.0[0] > 60) {
+        let across = (f64::from(x) - f64::from(left)) / width;
+        let away = (f64::from(x) - middle).hypot(f64::from(y) - f64::from(top)) / (0.22 * width);
+        let share = shade.0 + (shade.1 - shade.0) * across + gleam * (-away * away).exp();
+        // Skin in the shade is a little redder.
+        let redder = [1.0, 1.0 - 0.1 * (1.0 - share).max(0.0), 1.0 - 0.2 * (1.0 - share).max(0.0)];
+        let pixel = [0, 1, 2].map(|i| (skin[i] * share * redder[i]).clamp(0.0, 255.0) as u8);
+        bust.put_pixel(x, y, Rgb(pixel));
+    }
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    bust.write_to(&mut bytes, ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+const NO_EVIDENCE: &str = "too like the skin";
+
+#[test]
+fn a_shaved_head_gets_no_wig_and_the_user_hears_of_it() {
+    for (shade, gleam) in [((1.0, 0.68), 0.0), ((1.05, 0.72), 0.12), ((0.95, 0.85), 0.3)] {
+        let photo = shaved_bust(shade, gleam);
+        if let Some(folder) = std::env::var_os("DRYPOINT_SHOW") {
+            std::fs::write(std::path::Path::new(&folder).join(format!("shaved-{gleam}.png")), &photo).unwrap();
+        }
+        let masks = [(MaskRole::Subject, sample("bust-mask-subject.png"))];
+        let notes = Notes::default();
+        let drawing = Sitting { masks: &masks, set: QUICK, ..Sitting::new(&photo, (45.0, 60.0)) }.draw(&notes);
+        let warnings = notes.warnings.lock().unwrap().join("\n");
+        assert!(drawing.layers.iter().all(|layer| layer.name != "hair"), "{shade:?} {gleam}: a wig");
+        assert!(warnings.contains("--mask hair=FILE"), "{shade:?} {gleam}: {warnings}");
+    }
+}
+
+#[test]
+fn the_busts_hair_is_found_without_a_mask() {
+    for name in ["bust-light.png", "bust-brown.png", "bust-dark.png"] {
+        let photo = sample(name);
+        let masks = [(MaskRole::Subject, sample("bust-mask-subject.png"))];
+        let notes = Notes::default();
+        let drawing = Sitting { masks: &masks, set: QUICK, ..Sitting::new(&photo, (45.0, 60.0)) }.draw(&notes);
+        let warnings = notes.warnings.lock().unwrap().join("\n");
+        assert!(drawing.layers.iter().any(|layer| layer.name == "hair"), "{name}: {warnings}");
+        assert!(!warnings.contains(NO_EVIDENCE), "{name}: {warnings}");
+    }
+}

@@ -120,7 +120,9 @@ fn citations(text: &str, usual: Option<&'static str>) -> Vec<(&'static str, Of, 
                     // Not a year, nor a length or a share: what follows would be its unit.
                     let is_quantity =
                         words.get(i + 1).is_some_and(|next| ["px", "mm", "%", "degrees", "iterations"].contains(next));
-                    if number.len() < 7 && !is_quantity && number.parse::<u32>().ok().is_none_or(|n| n < 100) {
+                    // "Son 4.1, 0 to 4 levels": beyond a comma only what has a point is sure to be another section.
+                    let is_beside = i > 0 && words[i - 1].ends_with(',') && !number.contains('.');
+                    if number.len() < 7 && !is_beside && !is_quantity && number.parse::<u32>().ok().is_none_or(|n| n < 100) {
                         found.push((author, of, number.to_owned()));
                     }
                 }

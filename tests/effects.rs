@@ -91,24 +91,6 @@ impl Trial {
         }
     }
 
-    /// Values to try, other than the default.
-    fn candidates(&self, parameter: &Parameter) -> Vec<String> {
-        match parameter.kind {
-            Kind::Choice(words) => words[1..].iter().map(|word| (*word).to_owned()).collect(),
-            Kind::Places { .. } => vec!["40,45;60,45".to_owned()],
-            Kind::Count { default, least, most } => [default + 1, default / 2, default * 3]
-                .into_iter()
-                .filter(|n| *n != default)
-                .map(|n| n.clamp(least, most).to_string())
-                .collect(),
-            Kind::Length { least, most, .. } | Kind::Number { least, most, .. } => {
-                let default = parameter.kind.default_number(0.6).unwrap();
-                let some = [default * 0.4, default * 2.3, default + 0.3 * (most - default).min(2.0), least];
-                some.into_iter().map(|v| v.clamp(least, most)).filter(|v| *v != default).map(|v| v.to_string()).collect()
-            }
-        }
-    }
-
     /// What each parameter does that should do something and does not.
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
@@ -124,7 +106,7 @@ impl Trial {
                 }
                 drawing != plain && !is_idle
             };
-            let candidates = self.candidates(parameter);
+            let candidates = candidates(parameter);
             if !candidates.iter().any(has_effect) {
                 faults.push(format!("{} {} changes nothing with {:?}", self.style, parameter.name, on.set));
             }
@@ -142,6 +124,24 @@ impl Trial {
             }
         }
         faults
+    }
+}
+
+/// Values to try, other than the default.
+fn candidates(parameter: &Parameter) -> Vec<String> {
+    match parameter.kind {
+        Kind::Choice(words) => words[1..].iter().map(|word| (*word).to_owned()).collect(),
+        Kind::Places { .. } => vec!["40,45;60,45".to_owned()],
+        Kind::Count { default, least, most } => [default + 1, default / 2, default * 3]
+            .into_iter()
+            .filter(|n| *n != default)
+            .map(|n| n.clamp(least, most).to_string())
+            .collect(),
+        Kind::Length { least, most, .. } | Kind::Number { least, most, .. } => {
+            let default = parameter.kind.default_number(0.6).unwrap();
+            let some = [default * 0.4, default * 2.3, default + 0.3 * (most - default).min(2.0), least];
+            some.into_iter().map(|v| v.clamp(least, most)).filter(|v| *v != default).map(|v| v.to_string()).collect()
+        }
     }
 }
 

@@ -566,3 +566,57 @@ fn paintings_repeat_and_differ_by_seed() {
         assert_ne!(draw(1), draw(2));
     }
 }
+
+/// The help's number of strokes is that of what is drawn.
+#[test]
+fn the_help_says_how_many_strokes_there_are() {
+    let meaning = find("glass").unwrap().parameters().iter().find(|p| p.name == "grain").unwrap().meaning;
+    let numbers: Vec<usize> =
+        meaning.split(' ').filter(|w| w.contains(',')).filter_map(|w| w.replace(',', "").parse().ok()).collect();
+    let [least, most] = numbers[..] else { panic!("two numbers in: {meaning}") };
+    for name in ["astronaut.jpg", "chelsea.png", "coffee.png", "bust-light.png"] {
+        let settings = settings(&[]);
+        let portrait = portrait(&sample(name), (100.0, 100.0), ToneTarget::Lightness, &settings);
+        let drawing = find("glass").unwrap().draw(&portrait, &settings, 0, &Silent).unwrap();
+        let strokes: usize = drawing.layers.iter().map(|layer| layer.counts()[1]).sum();
+        println!("{name}: {strokes} strokes");
+        assert!((least..=most).contains(&strokes), "{name}: {strokes}, not {least} to {most}");
+        let ink: f64 = drawing.ink_mm2().iter().sum();
+        assert!((0.99..1.0001).contains(&(ink / 1e4)), "{name}: paint counts once: {ink} mm2 of 10,000");
+    }
+}
+
+/// A transform lays its flow under strokes as it moves points (figure 7.4).
+#[test]
+fn strokes_follow_a_transform() {
+    let photo = sample("coffee.png");
+    for (transform, along) in [
+        ("rotation", (|v: Vec2| v.turn_90()) as fn(Vec2) -> Vec2),
+        ("scaling", |v| v),
+        ("hyperbolic", |v| Vec2::new(v.x, -v.y)),
+        ("spiral", |v| Vec2::new(v.x - v.y, v.x + v.y)),
+        ("translation", |_| Vec2::new(1.0, 0.0)),
+    ] {
+        for colors in ["photo", "mono"] {
+            let settings = settings(&[("transform", transform), ("colors", colors), ("detail", "2")]);
+            let portrait = portrait(&photo, (60.0, 60.0), ToneTarget::Lightness, &settings);
+            let drawing = find("glass").unwrap().draw(&portrait, &settings, 0, &Silent).unwrap();
+            let (mut sum, mut length) = (0.0, 0.0);
+            for mark in drawing.marks() {
+                let Mark::Stroke(stroke) = mark else { continue };
+                if matches!(stroke.ends, drypoint::drawing::Ends::Flat) {
+                    continue; // The underpainting has no direction.
+                }
+                for pair in stroke.sampled(0.5).0.windows(2) {
+                    let (way, from) = (pair[1] - pair[0], pair[0].midpoint(pair[1]) - Point::new(30.0, 30.0));
+                    if from.hypot() > 4.0 && way.hypot() > 0.0 {
+                        sum += way.dot(along(from).normalize()).abs();
+                        length += way.hypot();
+                    }
+                }
+            }
+            println!("{transform}, {colors}: {:.3} of the length lies along the flow", sum / length);
+            assert!(sum > 0.93 * length && length > 500.0, "{transform}, {colors}: {sum} of {length}");
+        }
+    }
+}

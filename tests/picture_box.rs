@@ -83,3 +83,19 @@ fn the_tone_at_the_border_is_kept() {
         assert!((mean - middle).abs() <= most, "{style} {set:?}: {middle} and {tones:?}");
     }
 }
+
+/// A machine whose reach is the sheet draws every style at the default margins.
+#[test]
+fn no_style_is_refused_at_default_margins() {
+    let folder = tempfile::tempdir().unwrap();
+    for style in ["hedcut", "grid", "engrave", "glass"] {
+        for pitch in ["0.6mm", "1.3mm"] {
+            let photo = format!("{}/samples/grace-hopper.jpg", env!("CARGO_MANIFEST_DIR"));
+            let output = folder.path().join("out.gcode");
+            let mut command = assert_cmd::Command::cargo_bin("drypoint").unwrap();
+            command.args(["draw", &photo, "--style", style, "--pitch", pitch, "--size", "40x47mm", "--profile", "grbl-servo"]);
+            let result = command.args(["--order", "fast", "-o"]).arg(&output).output().unwrap();
+            assert!(result.status.success(), "{style} {pitch}: {}", String::from_utf8_lossy(&result.stderr));
+        }
+    }
+}

@@ -111,8 +111,8 @@ fn a_changed_drawing_has_other_pixels() {
     let drawing = Order::new("grid", &photo, (32.0, 37.5), &[]).draw();
     let own = rasterised(&drawing, FINE);
     let mut changed = drawing.clone();
-    let kept = drawing.layers[0].marks.len() - 5;
-    changed.layers[0].marks.truncate(kept);
+    let fewer = changed.layers[0].marks.len() - 5;
+    changed.layers[0].marks.truncate(fewer);
     let moved = drawing.transformed(kurbo::Affine::translate((0.1, 0.0)));
     for (what, other) in [("five marks fewer", changed), ("moved", moved)] {
         let (mean, far) = difference(&own, &resvg_pixels(&svg_of(&other), FINE));

@@ -14,6 +14,7 @@
 use super::mark::interpolate;
 use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
+use kurbo::Shape;
 
 /// How much less than the box strokes keep to, in millimetres: the least step of what is written.
 const RIM: f64 = 0.001;
@@ -23,8 +24,11 @@ const SLACK: f64 = 5e-7;
 /// change smoothly, not straight, by less than [`RIM`] over the shorter ones.
 const SPACING: f64 = 0.05;
 const FINEST: f64 = 0.005;
+const NEAR: usize = 4;
 /// Steepest fall of the half width along a stroke that ends at the border: what is steeper lies within the round end before it.
 const STEEPEST: f64 = 0.7;
+/// Rounds in which a piece is made thinner whose outline, between its places, still reaches over: where two borders take turns.
+const ROUNDS: usize = 4;
 /// Widths below this are no ink, in millimetres.
 const NO_INK: f64 = 1e-4;
 
@@ -76,7 +80,7 @@ fn held_stroke(stroke: Stroke, rect: Rect) -> Vec<Mark> {
         return vec![Mark::Stroke(stroke)];
     }
     let fine = stations(&stroke.curve, &widths, FINEST, is_clear);
-    let places = thinned(fine.iter().map(hold).collect());
+    let places = thinned(&fine.iter().map(hold).collect::<Vec<_>>());
     let mut runs: Vec<Vec<Held>> =
         places.split(Option::is_none).filter(|run| run.len() > 1).map(|run| run.iter().copied().flatten().collect()).collect();
     let is_ring = stroke.is_closed() && runs.len() == 1 && runs[0].len() == places.len();
@@ -122,17 +126,23 @@ fn room(p: Point, rect: Rect) -> f64 {
     (p.x - rect.x0).min(rect.x1 - p.x).min(p.y - rect.y0).min(rect.y1 - p.y)
 }
 
-/// Without the places that straight stretches of unchanging width do not need: of those in a row that were not moved, and of those
-/// that were, one each [`SPACING`]; where the one becomes the other, all.
-fn thinned(places: Vec<Option<Held>>) -> Vec<Option<Held>> {
-    let moved = |i: usize| places[i].map(|held| held.is_moved);
+/// Without the places that straight stretches of evenly changing width do not need: of those in a row that were moved, or were not,
+/// one each [`SPACING`]; where the one becomes the other, [`NEAR`] of them.
+fn thinned(places: &[Option<Held>]) -> Vec<Option<Held>> {
+    let moved: Vec<Option<bool>> = places.iter().map(|place| place.map(|held| held.is_moved)).collect();
+    let is_even = |i: usize| {
+        let around = &moved[i.saturating_sub(NEAR)..(i + NEAR + 1).min(moved.len())];
+        i > 0 && i + 1 < moved.len() && around.iter().all(|other| *other == moved[i])
+    };
     let mut kept: Vec<Option<Held>> = Vec::new();
     for (i, place) in places.iter().enumerate() {
-        let is_even = i > 0 && i + 1 < places.len() && moved(i - 1) == moved(i) && moved(i) == moved(i + 1);
-        let goes_on = matches!((place, places.get(i + 1)), (Some(held), Some(Some(next)))
-            if matches!(held.stretch, Stretch::Straight) && matches!(next.stretch, Stretch::Straight));
+        let is_straight = |i: usize| matches!(places.get(i), Some(Some(Held { stretch: Stretch::Straight, .. })));
         let is_near = |last: &Held| place.is_some_and(|held| held.at.distance(last.at) < SPACING);
-        if is_even && goes_on && kept.last().is_some_and(|last| last.as_ref().is_some_and(is_near)) {
+        if is_even(i)
+            && is_straight(i)
+            && is_straight(i + 1)
+            && kept.last().is_some_and(|last| last.as_ref().is_some_and(is_near))
+        {
             continue;
         }
         kept.push(*place);
@@ -151,7 +161,11 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
     if run.len() < 2 {
         return None;
     }
-    let widths = fitted(&run, rect);
+    if is_ring {
+        // At a corner the seam has two normals.
+        let (first, last) = (run[0], run.len() - 1);
+        run[last] = Held { at: first.at, width: first.width, ..run[last] };
+    }
     let mut curve = BezPath::new();
     curve.move_to(run[0].at);
     for held in &run[1..] {
@@ -164,12 +178,27 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
         curve.close_path();
     }
     let there = |values: &Vec<f64>| run.iter().map(|held| interpolate(values, held.node)).collect();
-    let width = match stroke.width {
-        Width::Constant(width) if widths.iter().all(|w| (w - width).abs() < 1e-9) => Width::Constant(width),
-        _ => Width::Along(widths),
-    };
     let (pressure, times) = (stroke.pressure.as_ref().map(there), stroke.times.as_ref().map(there));
-    Some(Mark::Stroke(Stroke { curve, width, pressure, times, ..stroke.clone() }))
+    let mut piece = Stroke { curve, pressure, times, ..stroke.clone() };
+    let mut widths = fitted(&run, rect);
+    for _ in 0..ROUNDS {
+        piece.width = match stroke.width {
+            Width::Constant(width) if widths.iter().all(|w| (w - width).abs() < 1e-9) => Width::Constant(width),
+            _ => Width::Along(widths.clone()),
+        };
+        let excess = beyond(piece.ink_outline(RIM).bounding_box(), rect.inflate(RIM, RIM));
+        if excess <= 0.0 {
+            break;
+        }
+        let moved = widths.iter_mut().zip(&run).filter(|(_, held)| held.is_moved);
+        moved.for_each(|(width, _)| *width = (*width - 2.0 * (excess + RIM)).max(0.0));
+    }
+    Some(Mark::Stroke(piece))
+}
+
+/// How far a box reaches beyond another.
+fn beyond(inner: Rect, outer: Rect) -> f64 {
+    (outer.x0 - inner.x0).max(inner.x1 - outer.x1).max(outer.y0 - inner.y0).max(inner.y1 - outer.y1)
 }
 
 /// Takes off the end what lies within the round end before it.
@@ -204,7 +233,6 @@ fn fitted(run: &[Held], rect: Rect) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kurbo::Shape;
 
     const BOX: Rect = Rect::new(0.0, 0.0, 20.0, 20.0);
 

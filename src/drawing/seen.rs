@@ -10,7 +10,7 @@ const LINE: f64 = 0.05;
 /// Most lines on a page: a large one is measured more coarsely.
 const MOST_LINES: f64 = 20_000.0;
 /// Flattening of outlines, in millimetres.
-const TOLERANCE: f64 = 0.01;
+const TOLERANCE: f64 = 0.002;
 /// Rows that are measured together.
 const BAND: usize = 64;
 
@@ -28,9 +28,9 @@ impl Drawing {
         // From the top down: each layer adds what no paint above it covers.
         let mut above: Vec<Spans> = vec![Spans::new(); lines.count];
         for (ink, layer) in seen.iter_mut().zip(&self.layers).rev().filter(|(_, layer)| is_paint(layer)) {
-            let before: f64 = above.iter().map(length).sum();
+            let before: f64 = above.iter().map(|spans| length(spans)).sum();
             lines.add(&mut above, layer);
-            *ink = (above.iter().map(length).sum::<f64>() - before) * lines.step;
+            *ink = (above.iter().map(|spans| length(spans)).sum::<f64>() - before) * lines.step;
         }
         seen
     }
@@ -39,7 +39,7 @@ impl Drawing {
 /// Stretches of one line from left to right, none of them touching another.
 type Spans = Vec<(f64, f64)>;
 
-fn length(spans: &Spans) -> f64 {
+fn length(spans: &[(f64, f64)]) -> f64 {
     spans.iter().map(|(from, to)| to - from).sum()
 }
 

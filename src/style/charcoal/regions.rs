@@ -46,9 +46,13 @@ const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
 /// black and brown hair has 0.3 to 0.57, white and grey hair 0.13 to 0.22.
 const DARKEST_SKIN: f32 = 0.62;
 const LEAST_STRANGE: f32 = 0.1;
-/// Breadth of a strand in distances of the eyes, and the texture from which a region of skin's colours is hair, in cheeks'.
+/// Breadth of a strand in distances of the eyes, and the texture from which a region of skin's colours is hair, in cheeks': two bald
+/// heads have 1.2 and 1.6, curls as light as skin 4.4.
 const STRAND: f64 = 0.03;
-const ROUGH: f64 = 2.0;
+const ROUGH: f64 = 2.5;
+/// Why no hair is drawn.
+const NO_HAIR: &str = "no hair was found: it is drawn like the rest; give --mask hair=FILE to draw it in strokes";
+const LIKE_SKIN: &str = "what lies above the brow is too like the skin, in light or shade, to be called hair: it is drawn like the rest; give --mask hair=FILE to draw it in strokes";
 /// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
 const LOWEST_FRINGE: f64 = 0.75;
 const CROWN: f64 = -0.85;
@@ -64,13 +68,16 @@ impl Drawer<'_> {
         let head = if has_background { head(&subject) } else { None };
         let frame = self.frame(&subject, head, given_face.as_ref());
         let fringe = frame.map(|frame| hair_over_face(&self.portrait.lightness, &subject, &frame));
-        let hair =
-            mask(MaskRole::Hair).or_else(|| self.found_hair(&subject, given_face.as_ref(), frame.as_ref()?, fringe.as_ref()?));
+        let hair = match (mask(MaskRole::Hair), &frame, &fringe) {
+            (Some(given), ..) => Ok(given),
+            (None, Some(frame), Some(fringe)) => self.found_hair(&subject, given_face.as_ref(), frame, fringe),
+            _ => Err(NO_HAIR),
+        };
         let nothing = || subject.map(|_| 0.0);
-        if hair.is_none() {
-            self.observer.warn("no hair was found: it is drawn like the rest; give --mask hair=FILE to draw it in strokes");
+        if let Err(why) = hair {
+            self.observer.warn(why);
         }
-        let hair = hair.unwrap_or_else(nothing).zip_map(&subject, f32::min);
+        let hair = hair.unwrap_or_else(|_| nothing()).zip_map(&subject, f32::min);
         let face = given_face
             .or_else(|| frame.zip(fringe).map(|(frame, fringe)| self.found_face(&frame, &fringe)))
             .unwrap_or_else(nothing);
@@ -166,19 +173,20 @@ impl Drawer<'_> {
         })
     }
 
-    /// What lies round the upper head, nearer in colour to the crown than to the skin, with what hangs from it over the face.
+    /// What lies round the upper head, nearer in colour to the crown than to the skin, with what hangs from it over the face; or why
+    /// there is none.
     fn found_hair(
         &self,
         subject: &Raster<f32>,
         face: Option<&Raster<f32>>,
         frame: &FaceFrame,
         fringe: &Raster<u8>,
-    ) -> Option<Raster<f32>> {
+    ) -> Result<Raster<f32>, &'static str> {
         let colour = self.colours();
-        let (hair, skin) = Self::hair_and_skin(&colour, subject, frame)?;
+        let (hair, skin) = Self::hair_and_skin(&colour, subject, frame).ok_or(NO_HAIR)?;
         let contrast = distance(hair, skin);
         if contrast < LEAST_CONTRAST {
-            return None;
+            return Err(LIKE_SKIN);
         }
         let reach = HAIR_REACH.max(0.5 * contrast);
         let (width, height) = self.size();
@@ -203,15 +211,11 @@ impl Drawer<'_> {
         let whole = without_holes(&largest(&majority(&closed, 2), 0.2));
         let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
         if area <= 0.3 * frame.eye_distance.powi(2) {
-            return None;
+            return Err(NO_HAIR);
         }
-        if !(is_unlike_skin(hair, skin) || self.is_rough(&whole, frame)) {
-            self.observer.warn(
-                "what lies above the brow is too like the skin in light or shade to be called hair: it is drawn like the rest; give --mask hair=FILE to draw it in strokes",
-            );
-            return None;
-        }
-        Some(gaussian_blur(&whole.map(f32::from), 1.0))
+        // A shaved head's shade and a bald one's gleam make regions too.
+        let is_hair = is_unlike_skin(hair, skin) || self.is_rough(&whole, frame);
+        if is_hair { Ok(gaussian_blur(&whole.map(f32::from), 1.0)) } else { Err(LIKE_SKIN) }
     }
 
     /// Whether a region has strands: its texture, in shares of its light, against that of the cheeks, away from its border.
@@ -232,7 +236,6 @@ impl Drawer<'_> {
             (0.3..0.6).contains(&across.abs()) && (0.3..0.7).contains(&down)
         };
         let (hair, skin) = (mean(&|i| inside.pixels()[i] != 0), mean(&is_cheek));
-        self.observer.warn(&format!("TEMP hair {hair:.4} skin {skin:.4} ratio {:.2}", hair / skin));
         hair >= ROUGH * skin
     }
 

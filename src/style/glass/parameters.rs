@@ -50,7 +50,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "grain",
         kind: Kind::Length { default: Default::Pitches(DEFAULT_GRAIN), least: 0.03, most: 20.0 },
-        meaning: "blur of the noise that the strokes grow from; a stroke is about three times as wide, and a page has about one for each 4 mm of its area over it (at 0.2 mm some 12,000 on 100 by 100 mm)",
+        meaning: "blur of the noise that the strokes grow from; a stroke is about three times as wide. By default, pieces and fine ones on top counted, a sheet of 100 by 100 mm has 10,000 to 25,000 strokes, by how much there is to see; half the grain about doubles them",
         source: "Papari 7.8, sigma_z = 0.7 px",
         needs: &[CONTINUOUS, COLOURED],
     },
