@@ -15,7 +15,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("plot", &["drawing", "geometry"]),
     ("write", &["drawing", "geometry", "plot"]),
     ("read", &["drawing", "geometry"]),
-    ("resume", &[]),
+    ("resume", &["geometry"]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

@@ -129,7 +129,6 @@ fn the_nib_covers_what_it_can_reach_and_spills_little() {
 }
 
 #[test]
-#[ignore = "open: nets finer than the nib, 0.8 mm at a pitch of 1.2 mm cover 0.984, 0.985 is promised"]
 fn the_nib_covers_nets_finer_than_itself_too() {
     assert_covered(|_, sample| drawing_of(sample));
 }

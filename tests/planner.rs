@@ -163,7 +163,6 @@ fn synthetic_files_take_what_is_told() {
 }
 
 #[test]
-#[ignore = "open: rings of radius 2 cut from arcs are up to 1.15 % off, 1 % is promised"]
 fn small_rings_take_what_is_told() {
     hold_synthetic(|name| name.starts_with("circles of 2"));
 }

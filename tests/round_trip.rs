@@ -1,7 +1,12 @@
 //! What is written is read back: SVG by usvg and `inspect`, HP-GL and G-code by drypoint's own readers.
 
+#[path = "common/any_style.rs"]
+mod any_style;
 mod common;
+#[path = "common/rasterised.rs"]
+mod rasterised;
 
+use any_style::Order;
 use common::{Sheet, sample, svg_of};
 use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point, Rect, distance_to_segment};
@@ -9,6 +14,7 @@ use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Toolpath, lower, mount};
 use drypoint::read::{Strokes, read_gcode, read_hpgl, read_svg};
 use drypoint::write::{write_gcode, write_hpgl};
+use rasterised::{Pixels, rasterised};
 
 /// Every photograph in `samples/`, its sheet, and parameters that make each kind of mark.
 fn drawings() -> Vec<(&'static str, Drawing)> {
@@ -66,6 +72,76 @@ fn svg_keeps_to_its_bytes() {
             assert!(line.len() < 250, "{name}: {} bytes: {line}", line.len());
         }
     }
+}
+
+/// Styles and looks that make each kind of mark, in one colour and in many.
+const LOOKS: &[(&str, &[(&str, &str)])] = &[
+    ("hedcut", &[]),
+    ("hedcut", &[("blob", "0.6"), ("lines", "canny")]),
+    ("grid", &[]),
+    ("grid", &[("primitive", "tile")]),
+    ("engrave", &[]),
+    ("engrave", &[("ground", "black"), ("look", "engraving"), ("angle", "20")]),
+    ("charcoal", &[]),
+    ("glass", &[]),
+    ("glass", &[("hairs", "0.6"), ("whirls", "3")]),
+    ("glass", &[("colors", "mono")]),
+];
+
+/// Pixels a millimetre at which pictures are compared: a dot of 0.3 mm is six across.
+const FINE: f64 = 20.0;
+
+#[test]
+fn svg_has_the_pixels_of_the_drawing_in_every_style() {
+    let photo = sample("grace-hopper.jpg");
+    for (style, set) in LOOKS {
+        let drawing = Order::new(style, &photo, (32.0, 37.5), set).draw();
+        let own = rasterised(&drawing, FINE);
+        let (mean, far) = difference(&own, &resvg_pixels(&svg_of(&drawing), FINE));
+        println!("{style} {set:?}: mean difference {mean:.5}, {far:.6} of the pixels off by more than a quarter");
+        // resvg covers pixels in steps of a sixteenth and writes hold 0.001 mm.
+        assert!(mean <= 0.01 && far <= 0.001, "{style} {set:?}: {mean} {far}");
+    }
+}
+
+/// A mark that is missing, moved by a tenth of a millimetre or of another colour is seen by the comparison.
+#[test]
+fn a_changed_drawing_has_other_pixels() {
+    let photo = sample("grace-hopper.jpg");
+    let drawing = Order::new("grid", &photo, (32.0, 37.5), &[]).draw();
+    let own = rasterised(&drawing, FINE);
+    let mut changed = drawing.clone();
+    let kept = drawing.layers[0].marks.len() - 5;
+    changed.layers[0].marks.truncate(kept);
+    let moved = drawing.transformed(kurbo::Affine::translate((0.1, 0.0)));
+    for (what, other) in [("five marks fewer", changed), ("moved", moved)] {
+        let (mean, far) = difference(&own, &resvg_pixels(&svg_of(&other), FINE));
+        println!("{what}: {mean:.5} {far:.6}");
+        assert!(mean > 0.01 || far > 0.001, "{what}: {mean} {far}");
+    }
+}
+
+fn resvg_pixels(svg: &str, pixels_per_mm: f64) -> Pixels {
+    let tree = resvg::usvg::Tree::from_str(svg, &resvg::usvg::Options::default()).unwrap();
+    let scale = (pixels_per_mm * 25.4 / 96.0) as f32;
+    let (width, height) = ((tree.size().width() * scale).round() as u32, (tree.size().height() * scale).round() as u32);
+    let mut pixmap = resvg::tiny_skia::Pixmap::new(width, height).unwrap();
+    pixmap.fill(resvg::tiny_skia::Color::WHITE);
+    resvg::render(&tree, resvg::tiny_skia::Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    let rgb = pixmap.pixels().iter().map(|p| [p.red(), p.green(), p.blue()].map(|v| f32::from(v) / 255.0)).collect();
+    Pixels { width: width as usize, height: height as usize, rgb }
+}
+
+/// Mean difference of two pictures over all channels, and the share of the pixels in which a channel differs by more than a quarter.
+fn difference(a: &Pixels, b: &Pixels) -> (f64, f64) {
+    assert_eq!((a.width, a.height), (b.width, b.height));
+    let (mut sum, mut far) = (0.0, 0.0);
+    for (a, b) in a.rgb.iter().zip(&b.rgb) {
+        let off: Vec<f64> = a.iter().zip(b).map(|(a, b)| f64::from((a - b).abs())).collect();
+        sum += off.iter().sum::<f64>() / 3.0;
+        far += f64::from(u8::from(off.iter().any(|off| *off > 0.25)));
+    }
+    (sum / a.rgb.len() as f64, far / a.rgb.len() as f64)
 }
 
 fn plotted(drawing: &Drawing) -> Plot {

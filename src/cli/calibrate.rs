@@ -2,6 +2,7 @@
 
 use super::arguments::{CalibrateOptions, Order, READING};
 use super::failure::Failure;
+use super::messages::say;
 use super::pens::PenSet;
 use super::{layout, toolpaths};
 use crate::drawing::Page;
@@ -37,12 +38,12 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
         toolpaths::write(&options.output, format, &prepared, Some(&profile), &head)?;
         toolpaths::write_preview_of(&prepared, &options.toolpaths, None)?;
     }
-    toolpaths::warn(&prepared, Some(&profile), "");
+    toolpaths::warn(&prepared, Some(&profile), Some(""));
     if !options.quiet {
         let (square, summary) = (sheet.square.width(), toolpaths::summary(&prepared.report));
-        eprintln!("{}: {:.1} x {:.1} mm, a square of {square:.0} mm, {summary}", options.output, page.width, page.height);
-        sheet.left_out.iter().for_each(|why| eprintln!("{why}"));
-        eprintln!("{READING}");
+        say!("{}: {:.1} x {:.1} mm, a square of {square:.0} mm, {summary}", options.output, page.width, page.height);
+        sheet.left_out.iter().for_each(|why| say!("{why}"));
+        say!("{READING}");
     }
     Ok(())
 }

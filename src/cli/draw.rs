@@ -1,20 +1,28 @@
 //! `drypoint draw`: photograph to drawing to file.
 
-use super::arguments::{DrawOptions, Format, PictureOptions, Tone};
+use super::advice;
+use super::affordable;
+use super::arguments::{DrawOptions, Format, PictureOptions, PlacingOptions, Tone};
+use super::dry_run;
 use super::failure::Failure;
+use super::forewarn;
 use super::interruption::{interrupt, is_interrupted};
-use super::layout::{Layout, lay_out};
+use super::layer_files::{self, LayerFile, split_by_layer};
+use super::layout::{self, Layout, lay_out};
+use super::lists::{role_names, roles_of, styles_with_role};
 use super::max_time;
+use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
 use super::toolpaths::{self, Prepared};
-use crate::drawing::{Drawing, Layer, Mixing, Page};
+use super::words::counted;
+use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
 use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
-use crate::style::{self, Observer, Settings, Style, StyleError};
+use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
 use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -40,28 +48,39 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
-    let watcher = Watcher::new(options.reporting.quiet);
-    let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
+    let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
-    let drawing = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
-    watcher.begin("writing");
+    if let Some(notice) = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet) {
+        say!("drypoint: {notice}");
+    }
+    if options.dry_run {
+        return dry_run::run(&task, options, profile.as_ref(), &mut pens);
+    }
+    let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
+    let watcher = Watcher::new(options.reporting.quiet);
+    let (drawing, painting) = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
+    let visible = match profile {
+        Some(_) => uncovered(&drawing, &painting)?,
+        None => Cow::Borrowed(&drawing),
+    };
     let head = head(options, &task.recipe(options));
-    let files = split_by_layer(&drawing, &options.output);
+    let files = split_by_layer(&visible, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
     let mut prepared = Vec::new();
-    for (name, drawing) in &files {
+    for file in &files {
         if is_interrupted() {
             return Err(Failure::Interrupted);
         }
-        prepared.extend(write_one(name, drawing, format, profile.as_ref().map(|profile| (profile, &pens)), options, &head)?);
+        let machine = profile.as_ref().map(|profile| (profile, &pens));
+        let written = write_one(file, format, machine, options, &head, &watcher);
+        prepared.extend(written.map_err(|failure| advice::for_draw(failure, options, &task.layout))?);
     }
     let seconds = watcher.finish();
-    let shorter = max_time::advice(options, &prepared);
     for prepared in &prepared {
-        toolpaths::warn(prepared, profile.as_ref(), &shorter);
+        toolpaths::warn(prepared, profile.as_ref(), if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
     }
     max_time::warn_if_longer(&prepared, options.max_time);
-    report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
+    report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
 }
 
 /// What a machine reaches of a page.
@@ -69,15 +88,21 @@ pub(super) fn reach_of(profile: Option<&Profile>) -> impl Fn(&Page) -> Option<Re
     move |page| Some(mount(profile?, page).ok()?.reach_on_page())
 }
 
-/// The layers asked for, each with its ink and its pen.
+/// The layers asked for, each with its ink and its pen, and the order in which their marks are painted.
 pub(super) fn drawing_of(
     task: &Task<'_>,
     options: &DrawOptions,
     profile: Option<&Profile>,
     pens: &mut PenSet,
     observer: &dyn Observer,
-) -> Result<Drawing, Failure> {
-    let mut drawing = task.draw(observer)?;
+) -> Result<(Drawing, Vec<Painted>), Failure> {
+    let mut drawing = inked(task.draw(observer)?, options, observer)?;
+    let painting = pens.assign(&mut drawing, profile)?;
+    Ok((drawing, painting))
+}
+
+/// The layers asked for, each with its ink, as the press needs them.
+pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn Observer) -> Result<Drawing, Failure> {
     for layer in &mut drawing.layers {
         layer.ink = options.ink.clone();
     }
@@ -86,48 +111,46 @@ pub(super) fn drawing_of(
         observer.begin("press");
         drawing = press.compensated_until(&drawing, interrupt())?;
     }
-    pens.assign(&mut drawing, profile)?;
     Ok(drawing)
 }
 
 /// One file; gives back the plot when it is one.
 fn write_one(
-    name: &str,
-    drawing: &Drawing,
+    file: &LayerFile,
     format: Format,
     machine: Option<(&Profile, &PenSet)>,
     options: &DrawOptions,
     head: &SvgHead,
+    observer: &dyn Observer,
 ) -> Result<Option<Prepared>, Failure> {
+    let LayerFile { name, drawing, .. } = file;
     let Some((profile, pens)) = machine else {
+        observer.begin("writing");
         let date = output::source_date()?;
         let fill = |mut out: &mut dyn std::io::Write| match format {
             Format::Pdf => write_pdf(drawing, head, date, &mut out),
             Format::Inkml => write_inkml(drawing, &head.title, &mut out),
             _ => write_svg(drawing, head, &mut out),
         };
-        if options.dry_run {
-            toolpaths::discard(fill)?;
-        } else {
-            output::write(name, fill)?;
-        }
+        output::write(name, fill)?;
         return Ok(None);
     };
-    let drawing = &*uncovered(drawing)?;
+    observer.begin("lowering");
     let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
+    observer.begin("ordering");
     let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
+    observer.begin("coverage");
     prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
-    if !options.dry_run {
-        toolpaths::write(name, format, &prepared, Some(profile), head)?;
-        toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(drawing))?;
-    }
+    observer.begin("writing");
+    toolpaths::write(name, format, &prepared, Some(profile), head)?;
+    toolpaths::write_preview_of(&prepared, &options.toolpaths, Some(&file.layer))?;
     Ok(Some(prepared))
 }
 
 /// What a pen draws of a drawing: of opaque paint, not what other paint covers.
-pub(super) fn uncovered(drawing: &Drawing) -> Result<Cow<'_, Drawing>, Failure> {
+pub(super) fn uncovered<'a>(drawing: &'a Drawing, painting: &[Painted]) -> Result<Cow<'a, Drawing>, Failure> {
     if drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint) {
-        Ok(Cow::Owned(occluded(drawing, &drawing.painting_order(), Hides::PaintOnOtherColours, interrupt())?))
+        Ok(Cow::Owned(occluded(drawing, painting, Hides::PaintOnOtherColours, interrupt())?))
     } else {
         Ok(Cow::Borrowed(drawing))
     }
@@ -144,6 +167,9 @@ fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
     Ok(Some(Press::new(options.dot_gain, options.dot_gain_screen, options.min_mark)))
 }
 
+/// Pitches across the short side of a picture below which no advice leads: of a face on fewer there is nothing left.
+const LEAST_PITCHES: f64 = 25.0;
+
 /// Everything that decides a drawing.
 pub(super) struct Task<'a> {
     options: &'a PictureOptions,
@@ -152,13 +178,25 @@ pub(super) struct Task<'a> {
     photograph: Photograph,
     masks: Vec<(MaskRole, String, Photograph)>,
     depth: Option<(String, Photograph)>,
-    layout: Layout,
+    pub layout: Layout,
+    /// The parameters that were given.
+    given: Vec<(String, String)>,
 }
 
 impl<'a> Task<'a> {
+    /// Where the picture lies of itself, which is all that a trial needs to know.
     pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
+        Self::placed(options, &PlacingOptions::default(), reach)
+    }
+
+    pub(super) fn placed(
+        options: &'a PictureOptions,
+        placing: &PlacingOptions,
+        reach: impl Fn(&Page) -> Option<Rect>,
+    ) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
-        let settings = settings(style, options)?;
+        let given = given(options)?;
+        let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
@@ -182,26 +220,65 @@ impl<'a> Task<'a> {
         let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
-        let layout = lay_out(options, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
-        Ok(Self { options, style, settings, photograph, masks, depth, layout })
+        let layout = lay_out(options, placing, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
+        let task = Self { options, style, settings, photograph, masks, depth, layout, given };
+        affordable::check(&task)?;
+        Ok(task)
+    }
+
+    /// The parameters with another pitch; none when the style has none like that.
+    pub(super) fn settings_at(&self, pitch: f64) -> Option<Settings> {
+        let mut given = self.given.clone();
+        given.push(("pitch".to_owned(), pitch.to_string()));
+        Settings::resolve(self.style.name(), self.style.parameters(), &given).ok()
+    }
+
+    /// The greatest pitch that the style takes and that leaves something of the picture.
+    pub(super) fn sane_pitch(&self) -> f64 {
+        let pitch = self.style.parameters().iter().find(|parameter| parameter.name == "pitch");
+        let most = pitch.and_then(|parameter| parameter.kind.ends()).map_or(f64::INFINITY, |ends| ends[1]);
+        most.min(self.layout.picture.width().min(self.layout.picture.height()) / LEAST_PITCHES)
+    }
+
+    /// The least short side of a picture, in millimetres, that leaves something of it at this pitch.
+    pub(super) fn least_side(&self) -> f64 {
+        LEAST_PITCHES * self.settings.number("pitch")
+    }
+
+    /// What drawing a picture takes; its photographs are in memory already.
+    pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
+        let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
+        let others = self.masks.iter().map(|(.., mask)| mask).chain(self.depth.iter().map(|(_, depth)| depth));
+        let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
+        Cost { bytes: cost.bytes + photographs as f64, ..cost }
+    }
+
+    /// Working pixels a millimetre.
+    pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
+        let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
+        self.style.resolution(settings, &roles, picture)
     }
 
     pub(super) fn draw(&self, observer: &dyn Observer) -> Result<Drawing, Failure> {
         for warning in &self.photograph.info.warnings {
             observer.warn(&format!("{}: {warning}", self.options.photo));
         }
-        observer.begin("photograph");
-        let portrait = self.portrait()?;
-        self.style.draw(&portrait, &self.settings, self.options.seed, observer).map_err(|error| match error {
-            StyleError::Interrupted => Failure::Interrupted,
-            nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
-        })
+        let picture = self.layout.picture;
+        self.draw_in(&self.settings, Placement::new(picture, self.resolution(&self.settings, picture)), observer)
     }
 
-    fn portrait(&self) -> Result<Portrait, Failure> {
-        let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
-        let picture = self.layout.picture;
-        let placement = Placement::new(picture, self.style.resolution(&self.settings, &roles, picture));
+    /// Draws the picture elsewhere on the sheet, smaller, or with other parameters.
+    pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
+        observer.begin("photograph");
+        let portrait = self.portrait(placement)?;
+        let drawing = self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
+            StyleError::Interrupted => Failure::Interrupted,
+            nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
+        })?;
+        Ok(self.layout.turning.turned(drawing))
+    }
+
+    fn portrait(&self, placement: Placement) -> Result<Portrait, Failure> {
         let target = match self.options.tone {
             Tone::Lightness => ToneTarget::Lightness,
             Tone::Linear => ToneTarget::Linear,
@@ -236,6 +313,7 @@ impl<'a> Task<'a> {
             .map(|((role, _), (_, name, mask))| (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 })))
             .collect();
         let picture = self.options;
+        let (sheet, placed) = (self.layout.sheet(), self.layout.placed());
         let depth = self.depth.as_ref().map(
             |(name, depth)| json!({ "file": file_name(name), "sha256": depth.info.sha256, "far_white": picture.depth_far_white }),
         );
@@ -248,8 +326,10 @@ impl<'a> Task<'a> {
             "style": self.style.name(),
             "set": set,
             "seed": picture.seed,
-            "page_mm": [round(self.layout.page.width), round(self.layout.page.height)],
-            "picture_mm": [round(self.layout.picture.x0), round(self.layout.picture.y0), round(self.layout.picture.width()), round(self.layout.picture.height())],
+            "page_mm": [round(sheet.0), round(sheet.1)],
+            "picture_mm": [round(placed.x0), round(placed.y0), round(placed.width()), round(placed.height())],
+            "rotate": self.layout.turning.degrees,
+            "mirror": self.layout.turning.is_mirrored,
             "crop_px": [round(self.layout.crop.x), round(self.layout.crop.y), round(self.layout.crop.width), round(self.layout.crop.height)],
             "tone": if picture.tone == Tone::Lightness { "lightness" } else { "linear" },
             "gamma": picture.gamma,
@@ -281,16 +361,16 @@ fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
 }
 
 fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
-    let names: Vec<&str> = MaskRole::ALL.iter().filter(|(_, role)| style.masks().contains(role)).map(|(name, _)| *name).collect();
-    MaskRole::ALL
-        .iter()
-        .find(|(known, role)| *known == name && style.masks().contains(role))
-        .map(|(_, role)| *role)
-        .ok_or_else(|| Failure::Usage(format!("--mask {name}: {} takes {}", style.name(), names.join(", "))))
+    let refuse = || {
+        let others: Vec<&str> = styles_with_role(name).map(Style::name).collect();
+        let others = if others.is_empty() { String::new() } else { format!("; {name} is for {}", others.join(", ")) };
+        Failure::Usage(format!("--mask {name}: {} takes {}{others}", style.name(), role_names(style)))
+    };
+    roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
 }
 
 /// Parameters from the file, then from --pitch, then from --set.
-fn settings(style: &'static dyn Style, options: &PictureOptions) -> Result<Settings, Failure> {
+fn given(options: &PictureOptions) -> Result<Vec<(String, String)>, Failure> {
     let mut given = Vec::new();
     if let Some(path) = &options.params {
         given.extend(parameter_file(&path.to_string_lossy())?);
@@ -299,11 +379,11 @@ fn settings(style: &'static dyn Style, options: &PictureOptions) -> Result<Setti
         given.push(("pitch".to_owned(), pitch.to_string()));
     }
     given.extend(options.set.iter().cloned());
-    Ok(Settings::resolve(style.name(), style.parameters(), &given)?)
+    Ok(given)
 }
 
 fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
-    let text = String::from_utf8(output::read(name)?).map_err(|_| Failure::Work(format!("{name} is not UTF-8 text")))?;
+    let text = output::read_settings(name)?;
     let table: toml::Table =
         text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
     table
@@ -320,7 +400,11 @@ fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
 
 fn photograph(name: &str) -> Result<Photograph, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
-    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| Failure::about(shown)(&error))
+    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
+        let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let other = if is_svg { "; an SVG is plotted with `drypoint plot`" } else { "" };
+        Failure::about(shown)(&format_args!("{error}{other}"))
+    })
 }
 
 pub(super) fn limit_threads(threads: Option<u16>) -> Result<(), Failure> {
@@ -344,16 +428,6 @@ fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> 
     Ok(layers.into_iter().filter(|layer| wanted.iter().any(|name| matches(layer, name))).collect())
 }
 
-/// The whole drawing, or with `{layer}` in the name one drawing for each layer.
-pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<(String, Drawing)> {
-    if !output.contains("{layer}") {
-        return vec![(output.to_owned(), drawing.clone())];
-    }
-    let one =
-        |layer: &Layer| (output.replace("{layer}", &layer.name), Drawing { page: drawing.page, layers: vec![layer.clone()] });
-    drawing.layers.iter().map(one).collect()
-}
-
 fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {
     let style = &options.picture.style;
     SvgHead {
@@ -370,40 +444,64 @@ fn report(
     options: &DrawOptions,
     drawing: &Drawing,
     pens: &PenSet,
-    prepared: &[Prepared],
+    (files, prepared): (&[LayerFile], &[Prepared]),
     seconds: &[(String, f64)],
     elapsed: f64,
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        return output::print_json(&report_json(drawing, pens, prepared, seconds));
+        return output::print_json(&report_json(drawing, pens, (files, prepared), seconds));
     }
     if !options.reporting.quiet {
         let counts =
             drawing.layers.iter().map(Layer::counts).fold([0; 3], |sum, c| [sum[0] + c[0], sum[1] + c[1], sum[2] + c[2]]);
-        let ink: f64 = drawing.layers.iter().map(Layer::ink_mm2).sum();
-        eprintln!(
-            "{}: {:.1} x {:.1} mm, {} dots, {} strokes, {ink:.0} mm2 of ink, in {elapsed:.1} s",
-            options.output, drawing.page.width, drawing.page.height, counts[0], counts[1]
+        let ink: f64 = drawing.ink_mm2().iter().sum();
+        say!(
+            "{}: {:.1} x {:.1} mm, {}, {}, {ink:.0} mm2 of ink, in {elapsed:.1} s",
+            layer_files::names(files),
+            drawing.page.width,
+            drawing.page.height,
+            counted(counts[0], "dot"),
+            counted(counts[1], "stroke")
         );
-        for prepared in prepared {
-            eprintln!("{}", toolpaths::summary(&prepared.report));
-            toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
+        for (file, prepared) in files.iter().zip(prepared) {
+            let name = if files.len() > 1 { format!("{}: ", file.name) } else { String::new() };
+            say!("{name}{}", toolpaths::summary(&prepared.report));
+            toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
         }
     }
     Ok(())
 }
 
-fn report_json(drawing: &Drawing, pens: &PenSet, prepared: &[Prepared], seconds: &[(String, f64)]) -> Value {
-    let layers: Vec<Value> = drawing.layers.iter().map(|layer| {
+fn report_json(
+    drawing: &Drawing,
+    pens: &PenSet,
+    (files, prepared): (&[LayerFile], &[Prepared]),
+    seconds: &[(String, f64)],
+) -> Value {
+    let layers: Vec<Value> = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink)| {
         let [dots, strokes, areas] = layer.counts();
-        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2() })
+        json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": ink })
     }).collect();
-    let seconds: serde_json::Map<String, Value> = seconds.iter().map(|(step, s)| (step.clone(), json!(s))).collect();
-    let mut value = json!({ "page_mm": [drawing.page.width, drawing.page.height], "layers": layers, "seconds": seconds });
-    if let Some(prepared) = prepared.first() {
-        value["pens"] = json!(prepared.report.pens);
-        value["total"] = json!(prepared.report.total);
-        value["duplicates"] = json!(prepared.duplicates);
+    let mut value = json!({
+        "files": files.iter().map(|file| &file.name).collect::<Vec<_>>(),
+        "page_mm": [drawing.page.width, drawing.page.height],
+        "layers": layers,
+        "seconds": seconds_of_steps(seconds),
+    });
+    if let Some(report) = toolpaths::of_all(prepared) {
+        value["pens"] = json!(report.pens);
+        value["total"] = json!(report.total);
+        value["duplicates"] = json!(prepared.iter().map(|one| one.duplicates).sum::<usize>());
     }
+    value["warnings"] = json!(messages::warnings());
     value
+}
+
+/// A step that comes again, for the next file, takes the sum.
+pub(super) fn seconds_of_steps(seconds: &[(String, f64)]) -> serde_json::Map<String, Value> {
+    seconds.iter().fold(serde_json::Map::new(), |mut sums, (step, taken)| {
+        let before = sums.get(step).and_then(Value::as_f64).unwrap_or(0.0);
+        sums.insert(step.clone(), json!(before + taken));
+        sums
+    })
 }

@@ -11,6 +11,9 @@ pub(super) enum Failure {
     /// It could not be done.
     #[error("{0}")]
     Work(String),
+    /// A drawing does not go onto its machine; what would help depends on the command.
+    #[error("{0}")]
+    Misfit(crate::plot::MountingError),
     /// The user stopped it.
     #[error("interrupted; what was not finished is not written")]
     Interrupted,
@@ -23,7 +26,7 @@ impl Failure {
     pub(super) fn exit_status(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
-            Self::Work(_) => 1,
+            Self::Work(_) | Self::Misfit(_) => 1,
             Self::Interrupted => super::interruption::exit_status(),
             Self::ClosedPipe => 0,
         }
@@ -69,6 +72,6 @@ impl From<crate::interrupt::Interrupted> for Failure {
 
 impl From<crate::plot::MountingError> for Failure {
     fn from(error: crate::plot::MountingError) -> Self {
-        Self::Work(error.to_string())
+        Self::Misfit(error)
     }
 }

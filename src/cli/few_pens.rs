@@ -3,11 +3,11 @@
 //! As many colours as there are pens, those that stand best for all, get a pen each; every other colour goes to the nearest of them
 //! (CIE L*a*b*). What became one is said.
 
-use crate::drawing::{Colour, Drawing, Ink, Layer, Mark};
+use super::messages::warning;
+use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
 use crate::plot::{PenChange, Profile};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::sync::Mutex;
 
 /// Colours that a user can be asked to change pens for; more is a picture that was meant for a screen.
 const MOST_CHANGES: u32 = 12;
@@ -16,8 +16,16 @@ const MOST_CANDIDATES: usize = 128;
 /// Colours that a message names; more says nothing to anyone.
 const MOST_NAMED: usize = 40;
 
-/// Brings a drawing's colours to the pens there are, if they are too many, and says which became one.
-pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) {
+/// A drawing whose layers have their pens.
+pub(super) struct HandedOut {
+    /// The marks in the order in which they were painted before.
+    pub painting: Vec<Painted>,
+    /// Which colours became one, in words.
+    pub became_one: Option<String>,
+}
+
+/// Brings a drawing's colours to the pens there are, if they are too many.
+pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<HandedOut> {
     let most = match profile.pens.change {
         PenChange::Machine => profile.pens.count,
         PenChange::Pause => profile.pens.count.max(MOST_CHANGES),
@@ -26,12 +34,14 @@ pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) {
     let pens: BTreeSet<u32> = drawing.layers.iter().map(|layer| layer.pen).collect();
     let is_beyond = profile.pens.change == PenChange::Machine && pens.iter().any(|pen| *pen > most);
     let is_one = drawing.layers.len() == 1 && profile.pens.count > 1;
-    if amounts.len() as u32 > most && (pens.len() as u32 > most || is_beyond || is_one) {
-        let palette = palette(drawing, &amounts, profile.pens.count as usize);
-        let (layers, became) = sorted(drawing, &palette);
-        drawing.layers = layers;
-        warn_once(&told(amounts.len(), profile, &palette, &became));
+    if amounts.len() as u32 <= most || !(pens.len() as u32 > most || is_beyond || is_one) {
+        return None;
     }
+    let palette = palette(drawing, &amounts, profile.pens.count as usize);
+    let sorted = sorted(drawing, &palette);
+    let became_one = Some(told(amounts.len(), profile, &palette, &sorted.became));
+    drawing.layers = sorted.layers;
+    Some(HandedOut { painting: sorted.painting, became_one })
 }
 
 /// Says which layers have more than one colour, and yet one pen.
@@ -40,9 +50,7 @@ pub(super) fn warn_of_colours(drawing: &Drawing) {
         let colours: Vec<Colour> = colours_of(layer).collect::<BTreeSet<_>>().into_iter().collect();
         if colours.len() > 1 {
             let (name, count, pen, all) = (&layer.name, colours.len(), layer.pen, named(&colours));
-            warn_once(&format!(
-                "layer '{name}' has {count} colours and is drawn with pen {pen}; --pens maps colours to pens ({all})"
-            ));
+            warning!("layer '{name}' has {count} colours and is drawn with pen {pen}; --pens maps colours to pens ({all})");
         }
     }
 }
@@ -85,8 +93,17 @@ fn palette(drawing: &Drawing, amounts: &BTreeMap<Colour, f64>, count: usize) -> 
     drawing.layers.iter().flat_map(colours_of).filter(|colour| wanted.remove(colour)).collect()
 }
 
-/// One layer for each colour of the palette, with the marks of the colours next to it, and which these are.
-fn sorted(drawing: &Drawing, palette: &[Colour]) -> (Vec<Layer>, Vec<BTreeSet<Colour>>) {
+/// A drawing by pens.
+struct Sorted {
+    layers: Vec<Layer>,
+    /// The colours that each layer took besides its own.
+    became: Vec<BTreeSet<Colour>>,
+    painting: Vec<Painted>,
+}
+
+/// One layer for each colour of the palette, with the marks of the colours next to it.
+fn sorted(drawing: &Drawing, palette: &[Colour]) -> Sorted {
+    let mut painting = Vec::new();
     let mut layers: Vec<Layer> = (1_u32..).zip(palette).map(|(pen, colour)| empty(drawing, pen, *colour)).collect();
     let mut became = vec![BTreeSet::new(); palette.len()];
     let mut nearest: BTreeMap<Colour, usize> = BTreeMap::new();
@@ -96,10 +113,11 @@ fn sorted(drawing: &Drawing, palette: &[Colour]) -> (Vec<Layer>, Vec<BTreeSet<Co
             if colour != palette[at] {
                 became[at].insert(colour);
             }
+            painting.push(Painted::Mark { layer: at, mark: layers[at].marks.len() });
             layers[at].marks.push(super::pens::in_layer_s_ink(mark));
         }
     }
-    (layers, became)
+    Sorted { layers, became, painting }
 }
 
 fn nearest_of(colour: Colour, palette: &[Colour]) -> usize {
@@ -137,13 +155,4 @@ fn named(colours: &[Colour]) -> String {
     let names: Vec<String> = colours.iter().take(MOST_NAMED).map(Colour::to_string).collect();
     let more = colours.len().saturating_sub(MOST_NAMED);
     names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
-}
-
-/// A search for a pitch draws again and again; a warning is said once.
-fn warn_once(text: &str) {
-    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let is_new = SAID.lock().is_ok_and(|mut said| said.insert(text.to_owned()));
-    if is_new {
-        super::messages::warn(text);
-    }
 }

@@ -1,6 +1,7 @@
 //! Ctrl-C, SIGTERM and SIGHUP: the work is asked to end, and where it does not end soon the process does, leaving nothing behind.
 
 use super::failure::Failure;
+use super::messages::say;
 use crate::interrupt::Interrupt;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
@@ -79,7 +80,7 @@ fn end() -> ! {
     for path in held.iter().flat_map(|paths| paths.iter()) {
         let _ = fs::remove_file(path);
     }
-    super::messages::say(&format!("drypoint: {}", Failure::Interrupted));
+    say!("drypoint: {}", Failure::Interrupted);
     std::process::exit(i32::from(exit_status()))
 }
 

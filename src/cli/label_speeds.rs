@@ -1,6 +1,6 @@
 //! `+S` in a layer's label is a percentage of one machine's greatest speed; on another it is brought to the same speed.
 
-use super::messages::warn;
+use super::messages::warning;
 use crate::plot::Profile;
 use crate::read::{Imported, LabelSpeeds};
 
@@ -28,7 +28,7 @@ pub(super) fn fit_to_machine(imported: &mut Imported, profile: &Profile) {
         let fastest = profile.motion.fastest_drawing();
         if asked > fastest {
             let (layer, name) = (&layer.layer.name, &profile.name);
-            warn(&format!("layer '{layer}' asks for {asked:.0} mm/s with its +S, and {name} draws it at {fastest:.0}, its most"));
+            warning!("layer '{layer}' asks for {asked:.0} mm/s with its +S, and {name} draws it at {fastest:.0}, its most");
         }
         layer.layer.handling.speed_percent = Some(100.0 * asked.min(fastest) / profile.motion.draw_speed);
     }

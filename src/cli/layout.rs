@@ -1,9 +1,10 @@
 //! Sheets and boxes: where the picture lies on the page.
 
-use super::arguments::{CropNumber, Fit, PictureOptions};
+use super::arguments::{CropNumber, Fit, PictureOptions, PlacingOptions};
 use super::failure::Failure;
+use super::placing::{Turning, asked_move, move_inside};
 use crate::drawing::Page;
-use crate::geometry::{Rect, parse_size};
+use crate::geometry::{Rect, parse_drawn_size};
 use crate::source::{Crop, Photograph, fill_box};
 
 /// Named sheets, portrait, in millimetres (ISO 216; ANSI/ASME Y14.1).
@@ -44,7 +45,7 @@ pub(super) fn sheet(text: &str) -> Result<(f64, f64), Failure> {
             names.join(", ")
         ))
     };
-    let (width, height) = parse_size(text).map_err(|_| refuse())?;
+    let (width, height) = parse_drawn_size(text).map_err(|_| refuse())?;
     let sound = |mm: f64| (1.0..=100_000.0).contains(&mm);
     if sound(width) && sound(height) { Ok((width, height)) } else { Err(refuse()) }
 }
@@ -52,56 +53,168 @@ pub(super) fn sheet(text: &str) -> Result<(f64, f64), Failure> {
 /// The page, the picture's box on it and the part of the photograph that fills it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
+    /// The sheet as it lies before the style, upright.
     pub page: Page,
+    /// The picture on the upright sheet.
     pub picture: Rect,
     pub crop: Crop,
+    /// What is done with sheet and picture when it is drawn.
+    pub turning: Turning,
+}
+
+impl Layout {
+    /// Width and height of the sheet, turned.
+    pub(super) const fn sheet(&self) -> (f64, f64) {
+        self.turning.size((self.page.width, self.page.height))
+    }
+
+    /// The picture's box on the turned sheet.
+    pub(super) fn placed(&self) -> Rect {
+        self.turning.matrix(&self.page).transform_rect_bbox(self.picture)
+    }
 }
 
 /// Lays the picture out; `reach` is what a machine can draw of a page, which bounds the box that nobody chose.
 pub(super) fn lay_out(
     options: &PictureOptions,
+    placing: &PlacingOptions,
     photograph: &Photograph,
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<Layout, Failure> {
-    let sheet = options.page.as_deref().map(sheet).transpose()?;
-    let margin = options.margin.unwrap_or(if sheet.is_some() { USUAL_MARGIN } else { 0.0 });
-    // On a machine's own sheet, with no margin asked for, what the machine cannot reach is margin too.
-    let free = sheet.filter(|_| options.margin.is_none()).and_then(|(width, height)| {
-        let page = Page::new(width, height);
-        reach(&page).map(|reach| page.rect().inset(-margin).intersect(reach))
-    });
-    let frame = match (options.size, sheet) {
-        (Some(size), _) => size,
-        (None, Some(_)) if free.is_some() => free.map_or((0.0, 0.0), |free| (free.width(), free.height())),
-        (None, Some((width, height))) => (width - 2.0 * margin, height - 2.0 * margin),
-        (None, None) => USUAL_BOX,
+    let crop = used_part(options, photograph)?;
+    let with = |turning: Turning| Sheet::new(options, placing, turning, &reach)?.lay_out(options, placing, crop);
+    let upright = Turning { degrees: 0, is_mirrored: placing.mirror };
+    let quarter_helps = || match (with(upright), with(Turning { degrees: 90, ..upright })) {
+        (Ok(upright), Ok(turned)) => turned.picture.area() > 1.001 * upright.picture.area(),
+        (Err(_), turned) => turned.is_ok(),
+        _ => false,
     };
-    if frame.0 <= 0.0 || frame.1 <= 0.0 {
-        return Err(Failure::Usage(format!("a margin of {margin} mm leaves nothing of the sheet; make it smaller")));
+    with(Turning::asked(placing, quarter_helps))
+}
+
+/// The sheet that the turned picture lies on.
+struct Sheet {
+    turning: Turning,
+    /// The turned sheet, where one was asked for.
+    page: Option<Page>,
+    margin: f64,
+    /// What the machine draws of it.
+    reached: Rect,
+    /// What the margin leaves of that.
+    free: Rect,
+}
+
+impl Sheet {
+    fn new(
+        options: &PictureOptions,
+        placing: &PlacingOptions,
+        turning: Turning,
+        reach: impl Fn(&Page) -> Option<Rect>,
+    ) -> Result<Self, Failure> {
+        let page = options.page.as_deref().map(sheet).transpose()?.map(|(width, height)| Page::new(width, height));
+        if page.is_none() && placing.at.is_some() {
+            return Err(Failure::Usage("--at is a place on a sheet: give one with --page".to_owned()));
+        }
+        let margin = options.margin.unwrap_or(if page.is_some() { USUAL_MARGIN } else { 0.0 });
+        let rect = page.map_or(Rect::ZERO, |page| page.rect());
+        let reached = page.and_then(|page| reach(&page)).map_or(rect, |reach| rect.intersect(reach));
+        // What the machine cannot reach is margin too.
+        let free = Rect { x0: margin, y0: margin, x1: rect.x1 - margin, y1: rect.y1 - margin };
+        let free = Rect {
+            x0: free.x0.max(reached.x0),
+            y0: free.y0.max(reached.y0),
+            x1: free.x1.min(reached.x1),
+            y1: free.y1.min(reached.y1),
+        };
+        Ok(Self { turning, page, margin, reached, free })
     }
-    if let Some((width, height)) = sheet
-        && (frame.0 > width || frame.1 > height)
-    {
-        return Err(Failure::Usage(format!(
-            "--size {}x{} mm is larger than the sheet of {width} x {height} mm",
-            frame.0, frame.1
+
+    /// The box that the upright picture is fitted into.
+    fn frame(&self, options: &PictureOptions) -> Result<(f64, f64), Failure> {
+        let frame = match (options.size, self.page) {
+            (Some(size), _) => size,
+            (None, Some(_)) => self.turning.size((self.free.width(), self.free.height())),
+            (None, None) => USUAL_BOX,
+        };
+        if frame.0 <= 0.0 || frame.1 <= 0.0 {
+            return Err(Failure::Usage(format!("a margin of {} mm leaves nothing of the sheet; make it smaller", self.margin)));
+        }
+        let turned = self.turning.size(frame);
+        if let Some(Page { width, height, .. }) = self.page
+            && (turned.0 > width || turned.1 > height)
+        {
+            let fits_turned = turned.1 <= width && turned.0 <= height;
+            return Err(Failure::Usage(format!(
+                "--size {}x{} mm is larger than the sheet of {width} x {height} mm{}",
+                frame.0,
+                frame.1,
+                if fits_turned { "; it fits turned, with --rotate auto" } else { "" }
+            )));
+        }
+        Ok(frame)
+    }
+
+    fn lay_out(&self, options: &PictureOptions, placing: &PlacingOptions, crop: Crop) -> Result<Layout, Failure> {
+        let frame = self.frame(options)?;
+        let crop = if options.fit == Fit::Cover { fill_box(crop, frame.0, frame.1) } else { crop };
+        let scale = (frame.0 / crop.width).min(frame.1 / crop.height);
+        let (width, height) = (crop.width * scale, crop.height * scale);
+        if width < LEAST_SIDE || height < LEAST_SIDE {
+            return Err(Failure::Usage(format!(
+                "the picture would be {width:.2} x {height:.2} mm; use another --crop, or a larger --size"
+            )));
+        }
+        let turned = self.turning.size((width, height));
+        let page = self.page.unwrap_or(Page::new(turned.0 + 2.0 * self.margin, turned.1 + 2.0 * self.margin));
+        let placed = self.place(placing, turned, &page);
+        let upright = self.turning.size((page.width, page.height));
+        let upright = Page { width: upright.0, height: upright.1, ..page };
+        let picture = self.turning.matrix(&upright).inverse().transform_rect_bbox(placed);
+        Ok(Layout { page: upright, picture, crop, turning: self.turning })
+    }
+
+    /// The turned picture's box on the sheet: where it was asked for, else in the middle of what is free, and where the machine
+    /// reaches it, if it can.
+    fn place(&self, placing: &PlacingOptions, size: (f64, f64), page: &Page) -> Rect {
+        if self.page.is_none() {
+            return Rect::from_center_size(page.rect().center(), size);
+        }
+        let usual = Rect::from_center_size(self.free.center(), size);
+        let asked = usual + asked_move(placing, usual, page, Some(self.reached));
+        if placing.at.is_some() { asked } else { asked + move_inside(asked, self.reached) }
+    }
+}
+
+/// The part of the photograph that is drawn; a pixel is forgiven a hundredth, for percents that do not quite add up.
+fn used_part(options: &PictureOptions, photograph: &Photograph) -> Result<Crop, Failure> {
+    let crop = crop_of(options, photograph);
+    let within = crop.within(photograph).map_err(|error| Failure::about(&options.photo)(&error))?;
+    let ends = |crop: Crop| [crop.x, crop.y, crop.x + crop.width, crop.y + crop.height];
+    if ends(crop).into_iter().zip(ends(within)).any(|(asked, there)| (asked - there).abs() > 0.01) {
+        let shown = |crop: Crop| {
+            [crop.x, crop.y, crop.width, crop.height].map(|px| format!("{}", (px * 100.0).round() / 100.0)).join(",")
+        };
+        return Err(Failure::Work(format!(
+            "--crop {} reaches beyond {}, which is {} x {} px; what lies in it is --crop {}",
+            shown(crop),
+            if options.photo == "-" { "the photograph" } else { &options.photo },
+            photograph.width(),
+            photograph.height(),
+            shown(within)
         )));
     }
-    let mut crop = crop_of(options, photograph).within(photograph).map_err(|error| Failure::about(&options.photo)(&error))?;
-    if options.fit == Fit::Cover {
-        crop = fill_box(crop, frame.0, frame.1);
-    }
-    let scale = (frame.0 / crop.width).min(frame.1 / crop.height);
-    let (width, height) = (crop.width * scale, crop.height * scale);
-    if width < LEAST_SIDE || height < LEAST_SIDE {
-        return Err(Failure::Usage(format!(
-            "the picture would be {width:.2} x {height:.2} mm; use another --crop, or a larger --size"
-        )));
-    }
-    let (page_width, page_height) = sheet.unwrap_or((width + 2.0 * margin, height + 2.0 * margin));
-    let page = Page::new(page_width, page_height);
-    let centre = free.map_or(page.rect().center(), |free| free.center());
-    Ok(Layout { page, picture: Rect::from_center_size(centre, (width, height)), crop })
+    Ok(within)
+}
+
+/// What to say when a box that was asked for stays empty by more than a twentieth of a side.
+pub(super) fn unfilled(options: &PictureOptions, layout: &Layout) -> Option<String> {
+    let (width, height) = options.size.filter(|_| options.fit == Fit::Contain)?;
+    let picture = layout.picture;
+    let is_empty = picture.width() < 0.95 * width || picture.height() < 0.95 * height;
+    is_empty.then(|| {
+        let (w, h) = (picture.width(), picture.height());
+        format!("the picture is {w:.1} x {h:.1} mm in its box of {width} x {height} mm; --fit cover fills the box and cuts the photograph")
+    })
 }
 
 fn crop_of(options: &PictureOptions, photograph: &Photograph) -> Crop {
@@ -123,6 +236,7 @@ mod tests {
         assert_eq!(sheet("a4").unwrap(), (210.0, 297.0));
         assert_eq!(sheet("A4-landscape").unwrap(), (297.0, 210.0));
         assert_eq!(sheet("8x10in").unwrap(), (203.2, 254.0));
+        assert_eq!(sheet("96x192px").unwrap(), (25.4, 50.8));
         for wrong in ["a9", "0x10", "-5x10", "10", "NaNx3"] {
             assert!(sheet(wrong).is_err(), "{wrong}");
         }

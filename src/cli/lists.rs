@@ -4,15 +4,42 @@ use super::arguments::{ListOptions, ProfilesOptions};
 use super::failure::Failure;
 use super::{output, pen_file};
 use crate::plot::{Profile, built_in, built_in_names};
+use crate::source::MaskRole;
 use crate::style::{STYLES, Style, find};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
+/// The roles of masks that a style takes, with their names.
+pub(super) fn roles_of(style: &dyn Style) -> impl Iterator<Item = (&'static str, MaskRole)> {
+    MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role))
+}
+
+pub(super) fn role_names(style: &dyn Style) -> String {
+    roles_of(style).map(|(name, _)| name).collect::<Vec<_>>().join(", ")
+}
+
+/// The styles that take a role of this name.
+pub(super) fn styles_with_role(name: &str) -> impl Iterator<Item = &'static dyn Style> {
+    STYLES.iter().copied().filter(move |style| roles_of(*style).any(|(known, _)| known == name))
+}
+
+/// The help of `--mask`: what each style takes.
+pub(super) fn mask_roles() -> String {
+    let styles: Vec<String> = STYLES.iter().map(|style| format!("{} takes {}", style.name(), role_names(*style))).collect();
+    format!(
+        "A region, white inside, on the photograph's pixel grid, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
+         --mask hair=hair.png; once for each role. Of the styles, {}; `drypoint styles NAME` says what each role is",
+        styles.join("; ")
+    )
+}
+
 pub(super) fn styles(options: &ListOptions) -> Result<(), Failure> {
     let Some(name) = &options.name else {
         if options.json {
-            let list: Vec<Value> =
-                STYLES.iter().map(|s| json!({ "name": s.name(), "summary": s.summary(), "source": s.source() })).collect();
+            let list: Vec<Value> = STYLES
+                .iter()
+                .map(|s| json!({ "name": s.name(), "summary": s.summary(), "source": s.source(), "masks": masks_json(*s) }))
+                .collect();
             return output::print_json(&json!({ "styles": list }));
         }
         let lines: String = STYLES.iter().fold(String::new(), |text, s| text + &format!("{:10} {}\n", s.name(), s.summary()));
@@ -26,11 +53,19 @@ pub(super) fn styles(options: &ListOptions) -> Result<(), Failure> {
 
 fn style_text(style: &dyn Style) -> String {
     let mut text = format!("{}: {}\n{}\n", style.name(), style.summary(), style.source());
+    text += "\nmasks (--mask ROLE=FILE)\n";
+    for (name, role) in roles_of(style) {
+        let _ = writeln!(text, "    {name}: {}", role.meaning());
+    }
+    if style.uses_depth() {
+        text += "    and a depth map, white near (--depth FILE)\n";
+    }
     for p in style.parameters() {
         let source = if p.source.is_empty() { String::new() } else { format!(" [{}]", p.source) };
+        let needs = if p.needs.is_empty() { String::new() } else { format!("    takes effect with {}\n", p.needs_text()) };
         let _ = write!(
             text,
-            "\n{} ({}; default {})\n    {}{source}\n",
+            "\n{} ({}; default {})\n    {}{source}\n{needs}",
             p.name,
             p.kind.range_text(),
             p.kind.default_text(),
@@ -44,9 +79,20 @@ fn style_json(style: &dyn Style) -> Value {
     let parameters: Vec<Value> = style
         .parameters()
         .iter()
-        .map(|p| json!({ "name": p.name, "range": p.kind.range_text(), "default": p.kind.default_text(), "meaning": p.meaning, "source": p.source }))
+        .map(|p| json!({ "name": p.name, "range": p.kind.range_text(), "default": p.kind.default_text(), "meaning": p.meaning, "source": p.source, "needs": p.needs_text() }))
         .collect();
-    json!({ "name": style.name(), "summary": style.summary(), "source": style.source(), "parameters": parameters })
+    json!({
+        "name": style.name(),
+        "summary": style.summary(),
+        "source": style.source(),
+        "masks": masks_json(style),
+        "depth": style.uses_depth(),
+        "parameters": parameters,
+    })
+}
+
+fn masks_json(style: &dyn Style) -> Value {
+    roles_of(style).map(|(name, role)| json!({ "role": name, "meaning": role.meaning() })).collect()
 }
 
 pub(super) fn profiles(options: &ProfilesOptions) -> Result<(), Failure> {

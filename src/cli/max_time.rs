@@ -1,16 +1,18 @@
 //! `--max-time`: the smallest pitch whose plot takes no longer, found by drawing and timing.
 
+use super::advice;
 use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
 use super::failure::Failure;
+use super::foretell::{Care, Plan, Teller};
+use super::forewarn::smaller_size;
 use super::interruption::{interrupt, is_interrupted};
+use super::messages::{say, warning};
 use super::pens::PenSet;
-use super::toolpaths::{self, LONG_HOURS, Prepared, duration};
+use super::toolpaths::{self, Prepared, duration};
 use crate::plot::{InkModel, Profile, lower};
-use crate::style::{Kind, Observer, Picture};
+use crate::style::{Observer, Picture};
 
-/// Time that a warning names the pitch of, in seconds.
-const USUAL_LIMIT: f64 = 2.0 * 3600.0;
 /// Share of the time allowed that is near enough: the last trials would gain a pitch that no eye tells apart.
 const NEAR_ENOUGH: f64 = 0.97;
 /// Drawings made at most; each about halves what is not known of the pitch.
@@ -28,11 +30,17 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
     if options.picture.photo == "-" {
         return Err(Failure::Usage("--max-time draws several times: give the photograph as a file, not as -".to_owned()));
     }
-    let (start, most) = pitches(options)?;
-    let found = search(start, most, limit, |pitch| seconds_at(options, pitch))?;
+    let mut trials = Trials::new(options)?;
+    let (start, most) = (trials.task.settings.number("pitch"), trials.task.sane_pitch());
+    let mut found = search(start, most.max(start), limit, |pitch| trials.seconds_at(pitch))?;
+    if let (true, Ok(quick)) = (options.dry_run, found) {
+        found = trials.carefully(quick, most.max(start), limit)?;
+    }
     let chosen = found.map_err(|last| {
+        let smaller = trials.smaller_size(last.pitch, last.seconds, limit);
+        let smaller = smaller.unwrap_or_else(|| "a smaller --size on the same --page".to_owned());
         Failure::Work(format!(
-            "--max-time {}: even with --pitch {}mm the plot takes {}; make it smaller with --size",
+            "--max-time {}: even with --pitch {}mm, beyond which nothing is left of the picture, the plot takes {}; {smaller} would take less",
             duration(limit),
             last.pitch,
             duration(last.seconds)
@@ -40,43 +48,17 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
     })?;
     if !options.reporting.quiet {
         let why = if chosen.pitch > start { "chosen" } else { "as asked for" };
-        eprintln!("pitch {} mm ({why}): about {} of {}", chosen.pitch, duration(chosen.seconds), duration(limit));
+        say!("pitch {} mm ({why}): about {} of {}", chosen.pitch, duration(chosen.seconds), duration(limit));
     }
     Ok(with_pitch(options, chosen.pitch))
-}
-
-/// What a warning of a long plot adds: the pitch that takes two hours, from one trial more.
-pub(super) fn advice(options: &DrawOptions, prepared: &[Prepared]) -> String {
-    let seconds: f64 = prepared.iter().filter_map(|one| one.report.total.seconds).sum();
-    let usual = "; a larger --pitch makes it shorter".to_owned();
-    if seconds <= LONG_HOURS * 3600.0 || options.picture.photo == "-" {
-        return usual;
-    }
-    let Ok((pitch, most)) = pitches(options) else { return usual };
-    let guess = rounded((pitch * (seconds / USUAL_LIMIT).sqrt()).min(most));
-    let Some(second) = seconds_at(options, guess).ok().filter(|other| guess > pitch && *other < seconds) else { return usual };
-    let power = (seconds / second).ln() / (guess / pitch).ln();
-    let wanted = rounded(pitch * (seconds / USUAL_LIMIT).powf(1.0 / power));
-    if wanted > most {
-        return format!("; with the largest --pitch, {most}mm, it would still take more than {}", duration(USUAL_LIMIT));
-    }
-    format!("; --pitch {wanted:.2}mm would take about {}, and --max-time 2h chooses it", duration(USUAL_LIMIT))
 }
 
 /// Says so when a finished plot takes longer than its trial, which is ordered by another way, promised.
 pub(super) fn warn_if_longer(prepared: &[Prepared], limit: Option<f64>) {
     let seconds: f64 = prepared.iter().filter_map(|one| one.report.total.seconds).sum();
     if let Some(limit) = limit.filter(|limit| seconds > *limit) {
-        eprintln!("drypoint: warning: the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit));
+        warning!("the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit));
     }
-}
-
-/// The pitch that is asked for, and the style's greatest.
-fn pitches(options: &DrawOptions) -> Result<(f64, f64), Failure> {
-    let task = Task::new(&options.picture, |_| None)?;
-    let pitch = task.settings.number("pitch");
-    let kind = task.style.parameters().iter().find(|parameter| parameter.name == "pitch").map(|parameter| parameter.kind);
-    Ok((pitch, if let Some(Kind::Length { most, .. }) = kind { most } else { pitch }))
 }
 
 /// Thousandths of a millimetre, upwards, so that the pitch that is named is the pitch that was drawn.
@@ -128,20 +110,67 @@ fn with_pitch(options: &DrawOptions, pitch: f64) -> DrawOptions {
     options
 }
 
-/// How long the plot with this pitch takes, ordered fast.
-fn seconds_at(options: &DrawOptions, pitch: f64) -> Result<f64, Failure> {
-    let mut options = with_pitch(options, pitch);
-    if options.toolpaths.order == Order::Full {
-        options.toolpaths.order = Order::Fast;
+/// Drawings of several pitches, timed.
+struct Trials<'a> {
+    options: &'a DrawOptions,
+    task: Task<'a>,
+    profile: Profile,
+    pens: PenSet,
+}
+
+impl<'a> Trials<'a> {
+    fn new(options: &'a DrawOptions) -> Result<Self, Failure> {
+        let name = options.profile.clone().unwrap_or_default();
+        let mut profile: Profile = toolpaths::profile(&name, &options.toolpaths)?;
+        let pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
+        let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&profile)))?;
+        Ok(Self { options, task, profile, pens })
     }
-    let name = options.profile.clone().unwrap_or_default();
-    let mut profile: Profile = toolpaths::profile(&name, &options.toolpaths)?;
-    let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
-    let task = Task::new(&options.picture, reach_of(Some(&profile)))?;
-    let drawing = drawing_of(&task, &options, Some(&profile), &mut pens, &Unseen)?;
-    let plot = lower(&*uncovered(&drawing)?, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
-    let prepared = toolpaths::prepare(plot, Some(&profile), &options.toolpaths, &pens)?;
-    Ok(prepared.report.total.seconds.unwrap_or(0.0))
+
+    /// How long the plot with this pitch takes: drawn and ordered fast, or in a dry run estimated.
+    fn seconds_at(&mut self, pitch: f64) -> Result<f64, Failure> {
+        if self.options.dry_run {
+            return self.estimate(pitch, Care::Quick);
+        }
+        let mut options = with_pitch(self.options, pitch);
+        if options.toolpaths.order == Order::Full {
+            options.toolpaths.order = Order::Fast;
+        }
+        let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&self.profile)))?;
+        let (drawing, painting) = drawing_of(&task, &options, Some(&self.profile), &mut self.pens, &Unseen)?;
+        let visible = uncovered(&drawing, &painting)?;
+        let plot = lower(&visible, InkModel::Ink, self.pens.nibs(), options.toolpaths.tolerance, interrupt())?;
+        let prepared = toolpaths::prepare(plot, Some(&self.profile), &options.toolpaths, &self.pens)
+            .map_err(|failure| advice::for_draw(failure, &options, &task.layout))?;
+        Ok(prepared.report.total.seconds.unwrap_or(0.0))
+    }
+
+    fn estimate(&mut self, pitch: f64, care: Care) -> Result<f64, Failure> {
+        let settings = self.task.settings_at(pitch).unwrap_or_else(|| self.task.settings.clone());
+        let plan = Plan { settings, picture: self.task.layout.picture };
+        Ok(self.teller().foretell(&plan, care)?.amounts.plot_seconds())
+    }
+
+    /// What was found by quick estimates, put right by a careful one.
+    fn carefully(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
+        let careful = self.estimate(quick.pitch, Care::Careful)?;
+        let start = self.task.settings.number("pitch");
+        if careful <= limit && (careful >= 0.9 * limit || quick.pitch <= start) {
+            return Ok(Ok(Trial { seconds: careful, ..quick }));
+        }
+        let ratio = careful / quick.seconds.max(1e-9);
+        search(start, most, NEAR_ENOUGH * limit, |pitch| Ok(ratio * self.estimate(pitch, Care::Quick)?))
+    }
+
+    /// The size that keeps to the limit with a pitch, where there is one.
+    fn smaller_size(&mut self, pitch: f64, seconds: f64, limit: f64) -> Option<String> {
+        self.task.settings = self.task.settings_at(pitch)?;
+        smaller_size(&mut self.teller(), seconds, limit)
+    }
+
+    fn teller(&mut self) -> Teller<'_> {
+        Teller { task: &self.task, options: self.options, profile: Some(&self.profile), pens: &mut self.pens }
+    }
 }
 
 /// Trials are not shown, but can be interrupted.

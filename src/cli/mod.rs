@@ -1,14 +1,22 @@
 //! The command line: the only place with files, stdout, progress and exit codes.
 
+mod advice;
+mod affordable;
+mod amounts;
 mod arguments;
 mod calibrate;
 mod claims;
 mod draw;
+mod dry_run;
 mod failure;
 mod few_pens;
+mod foretell;
+mod foretell_plot;
+mod forewarn;
 mod inspect;
 mod interruption;
 mod label_speeds;
+mod layer_files;
 mod layout;
 mod lists;
 mod max_time;
@@ -16,11 +24,14 @@ mod messages;
 mod output;
 mod pen_file;
 mod pens;
+mod placing;
 mod plot;
 mod progress;
 mod resume;
+mod scale_to_time;
 mod stages;
 mod toolpaths;
+mod words;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
@@ -42,7 +53,7 @@ pub fn main() -> ExitCode {
     match run(arguments) {
         Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
         Err(failure) => {
-            messages::say(&format!("drypoint: {failure}"));
+            messages::say!("drypoint: {failure}");
             ExitCode::from(failure.exit_status())
         }
     }

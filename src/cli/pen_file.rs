@@ -1,5 +1,6 @@
 //! The file of `--pens`: one table for each pen.
 
+use super::arguments::NIBS;
 use super::failure::Failure;
 use crate::drawing::Colour;
 use crate::geometry::parse_length;
@@ -27,7 +28,7 @@ speed = 30          # mm/s with the pen down; without it the machine's, or --spe
 
 /// The keys of a pen and what each takes.
 const KEYS: [(&str, &str); 6] = [
-    ("width", "a length from 0.01 to 100 mm, such as \"0.3mm\" or 0.3"),
+    ("width", "a length from 0.01 to 20 mm, such as \"0.3mm\" or 0.3"),
     ("slot", "a whole number from 1, such as 2"),
     ("colour", "a CSS colour, such as \"navy\" or \"#1f77b4\""),
     ("speed", "mm/s above 0, such as 30"),
@@ -102,7 +103,7 @@ impl Reader<'_> {
             return Err(self.unknown(&pen.key, key, value));
         };
         let given = match key {
-            "width" => set(&mut pen.width, length(value).filter(|mm| (0.01..=100.0).contains(mm))),
+            "width" => set(&mut pen.width, length(value).filter(|mm| NIBS.contains(mm))),
             "slot" => set(&mut pen.slot, value.as_integer().and_then(|n| u32::try_from(n).ok()).filter(|slot| *slot > 0)),
             "colour" => set(&mut pen.colour, value.as_str().and_then(|text| text.parse().ok())),
             "speed" => set(&mut pen.speed, number(value).filter(|speed| *speed > 0.0)),
@@ -194,7 +195,7 @@ mod tests {
         for (text, said) in [
             ("[a]\nslot = \"two\"\n", "pens.toml, line 2: [a] slot takes a whole number from 1, such as 2, not \"two\""),
             ("[a]\n\nslot = { x = 1 }\n", "line 3: [a] slot takes a whole number from 1, such as 2, not a table"),
-            ("[a]\nwidth = \"wide\"\n", "line 2: [a] width takes a length from 0.01 to 100 mm"),
+            ("[a]\nwidth = \"wide\"\n", "line 2: [a] width takes a length from 0.01 to 20 mm"),
             ("[a]\nwidht = 0.3\n", "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, offset"),
             ("[pen.1]\nwidth = 0.3\n", "line 1: [pen.1] is a table within a table"),
             ("[[pen]]\nwidth = 0.3\n", "line 1: 'pen' is a list"),

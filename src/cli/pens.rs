@@ -11,10 +11,11 @@
 //! ```
 
 use super::failure::Failure;
-use super::few_pens::{fit_to_pens, warn_of_colours};
+use super::few_pens::{HandedOut, fit_to_pens, warn_of_colours};
+use super::messages::warning_line;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
-use crate::drawing::{Colour, Drawing, Ink, Layer, Mark};
+use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
 use crate::plot::{Nibs, PenSlot, Profile};
 use std::collections::BTreeMap;
 
@@ -43,8 +44,7 @@ impl PenSet {
         let mut set = Self { entries: Vec::new(), nibs: Nibs::all(usual), dwell: BTreeMap::new() };
         set.nibs.swell = profile.as_ref().and_then(|profile| profile.swell.clone());
         let Some(file) = file else { return Ok(set) };
-        let text = String::from_utf8(output::read(file)?).map_err(|_| Failure::Work(format!("{file} is not UTF-8 text")))?;
-        set.entries = read_pens(file, &text)?;
+        set.entries = read_pens(file, &output::read_settings(file)?)?;
         if let Some(profile) = profile {
             for entry in &set.entries {
                 if let (Some(offset), Some(slot)) = (entry.offset, entry.fixed_slot()) {
@@ -57,9 +57,20 @@ impl PenSet {
         Ok(set)
     }
 
-    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, what the machine has.
-    pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<(), Failure> {
-        self.sort_by_colour(drawing);
+    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, what the machine has, and says which
+    /// colours became one. Returns the marks in the order in which they were painted before they were sorted by pens.
+    pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
+        let handed = self.hand_out(drawing, profile)?;
+        if profile.is_some() {
+            handed.became_one.iter().for_each(|notice| warning_line(notice));
+            warn_of_colours(drawing);
+        }
+        Ok(handed.painting)
+    }
+
+    /// The same without a word about colours, for drawings that nobody gets to see.
+    pub(super) fn hand_out(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<HandedOut, Failure> {
+        let painting = self.sort_by_colour(drawing);
         for entry in &self.entries {
             let layers = drawing.layers.iter_mut().filter(|layer| entry.is_for(layer));
             for layer in layers.collect::<Vec<_>>() {
@@ -73,13 +84,8 @@ impl PenSet {
                 }
             }
         }
-        if let Some(profile) = profile {
-            if self.entries.is_empty() {
-                fit_to_pens(drawing, profile);
-            }
-            warn_of_colours(drawing);
-        }
-        Ok(())
+        let fitted = profile.filter(|_| self.entries.is_empty()).and_then(|profile| fit_to_pens(drawing, profile));
+        Ok(fitted.unwrap_or(HandedOut { painting, became_one: None }))
     }
 
     /// Nibs by pen; a pen of which only the slot was told has the usual one.
@@ -92,15 +98,17 @@ impl PenSet {
         self.dwell.get(&pen).copied()
     }
 
-    /// Marks of layers that no entry names go to layers of the nearest colour's entry.
-    fn sort_by_colour(&self, drawing: &mut Drawing) {
+    /// Marks of layers that no entry names go to layers of the nearest colour's entry. Returns the order in which they were painted.
+    fn sort_by_colour(&self, drawing: &mut Drawing) -> Vec<Painted> {
         let palette: Vec<(&PenEntry, Colour)> = self.entries.iter().filter_map(|entry| Some((entry, entry.colour?))).collect();
         if palette.is_empty() {
-            return;
+            return drawing.painting_order();
         }
         let mut sorted: Vec<Layer> = Vec::new();
+        let mut painting = Vec::new();
         for layer in std::mem::take(&mut drawing.layers) {
             if self.entries.iter().any(|entry| entry.is_for(&layer)) {
+                painting.extend((0..layer.marks.len()).map(|mark| Painted::Mark { layer: sorted.len(), mark }));
                 sorted.push(layer);
                 continue;
             }
@@ -121,10 +129,12 @@ impl PenSet {
                     sorted.push(empty);
                     sorted.len() - 1
                 });
+                painting.push(Painted::Mark { layer: at, mark: sorted[at].marks.len() });
                 sorted[at].marks.push(in_layer_s_ink(mark));
             }
         }
         drawing.layers = sorted;
+        painting
     }
 }
 

@@ -1,18 +1,29 @@
 //! `drypoint plot`: any SVG to ordered tool paths.
 
-use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions, Rotate};
-use super::draw::{limit_threads, split_by_layer};
+use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions};
+pub(super) use super::draw::reach_of;
+use super::draw::{limit_threads, seconds_of_steps};
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;
+use super::layer_files::split_by_layer;
+use super::messages::{self, say, warning};
 use super::pens::PenSet;
-use super::{layout, output, toolpaths};
+use super::placing::{Turning, asked_move};
+use super::progress::Watcher;
+use super::scale_to_time::{Trials, scaled_to};
+use super::toolpaths::Prepared;
+use super::{advice, foretell_plot, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, coverage, lower, mount, occluded};
-use crate::read::{Imported, read_svg};
+use crate::plot::{Hides, InkModel, Profile, TooMuch, check_work, coverage, lower, occluded};
+use crate::read::{Budget, Imported, read_svg_within};
+use crate::style::Observer;
 use crate::write::SvgHead;
 use serde_json::json;
+
+/// How more of a file is read.
+pub(super) const MORE_WORK: &str = "; --most-work lifts it";
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
@@ -27,11 +38,25 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
-    let mut imported = read_svg(&output::read(&options.drawing)?).map_err(|error| Failure::about(shown)(&error))?;
+    let watcher = Watcher::new(options.reporting.quiet);
+    watcher.begin("reading");
+    let mut budget = Budget::of_millions(options.most_work);
+    let bytes = output::read(&options.drawing, budget.most_bytes(), MORE_WORK)?;
+    let mut imported = read_svg_within(&bytes, &mut budget).map_err(|error| {
+        let other = if image::guess_format(&bytes).is_ok() { "; a photograph is drawn with `drypoint draw`" } else { "" };
+        Failure::about(shown)(&format_args!("{error}{other}"))
+    })?;
+    drop(bytes);
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
-    if options.occlude {
-        leave_out_hidden(&mut imported, model)?;
+    let hides = options.occlude.then(|| hides(model));
+    // Pens are given when all marks are known to be drawn; the usual one is near enough for what they will cost.
+    check_work(&imported.drawing(), model, pens.nibs(), hides, interrupt()).map_err(|error| too_much(shown, &error))?;
+    if options.dry_run {
+        return foretell_plot::dry_run(&imported, options, model, profile.as_ref(), &mut pens, shown);
+    }
+    if let Some(hides) = hides {
+        leave_out_hidden(&mut imported, hides)?;
     }
     choose_layers(&mut imported, &options.layers)?;
     if let Some(profile) = &profile {
@@ -40,8 +65,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }
-    let reach = |page: &Page| profile.as_ref().and_then(|profile| Some(mount(profile, page).ok()?.reach_on_page()));
-    let mut drawing = place(&imported.drawing(), options, reach)?;
+    let (mut drawing, turning) = place(&imported.drawing(), options, reach_of(profile.as_ref()))?;
     if is_blank(&drawing, model) {
         let dropped =
             if imported.dropped.is_empty() { String::new() } else { format!(" (left out: {})", imported.dropped.summary()) };
@@ -54,34 +78,74 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
         recipe: json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "plot", "pen_mm": options.pen }).to_string(),
     };
+    let advised = |failure: Failure| advice::for_plot(failure, options, turning.degrees);
+    let mut scale = None;
+    if let (Some(limit), Some(profile)) = (options.max_time, &profile) {
+        watcher.begin("trials");
+        let trials = Trials { limit, model, profile, pens: &pens, options };
+        let scaled = scaled_to(&drawing, &trials).map_err(advised)?;
+        (drawing, scale) = (scaled.drawing, Some(scaled.scale));
+    }
     let mut plots = Vec::new();
     let files = split_by_layer(&drawing, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
-    for (name, drawing) in files {
-        let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
-        let mut prepared = toolpaths::prepare(plot, profile.as_ref(), &options.toolpaths, &pens)?;
-        if model == InkModel::Ink {
-            prepared.report.add_coverage(&coverage(&drawing, &prepared.plot, pens.nibs(), interrupt())?);
-        }
-        if !options.dry_run {
-            toolpaths::write(&name, format, &prepared, profile.as_ref(), &head)?;
-            toolpaths::write_preview_of(&prepared, &options.toolpaths, toolpaths::first_layer(&drawing))?;
-        }
-        toolpaths::warn(&prepared, profile.as_ref(), "");
-        plots.push((name, prepared));
+    for file in files {
+        let prepared = prepared(&file.drawing, model, profile.as_ref(), &pens, options, &watcher).map_err(advised)?;
+        watcher.begin("writing");
+        toolpaths::write(&file.name, format, &prepared, profile.as_ref(), &head)?;
+        toolpaths::write_preview_of(&prepared, &options.toolpaths, Some(&file.layer))?;
+        plots.push((file.name, prepared));
     }
+    let seconds = watcher.finish();
+    plots.iter().for_each(|(_, prepared)| toolpaths::warn(prepared, profile.as_ref(), Some("")));
     if !imported.dropped.is_empty() {
-        eprintln!("drypoint: warning: left out or drawn otherwise: {}", imported.dropped.summary());
+        warning!("left out or drawn otherwise: {}", imported.dropped.summary());
     }
+    report(options, &imported, &plots, scale, &seconds)
+}
+
+/// The tool paths of one file, in order.
+fn prepared(
+    drawing: &Drawing,
+    model: InkModel,
+    profile: Option<&Profile>,
+    pens: &PenSet,
+    options: &PlotOptions,
+    observer: &dyn Observer,
+) -> Result<Prepared, Failure> {
+    observer.begin("lowering");
+    let plot = lower(drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
+    observer.begin("ordering");
+    let mut prepared = toolpaths::prepare(plot, profile, &options.toolpaths, pens)?;
+    if model == InkModel::Ink {
+        observer.begin("coverage");
+        prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
+    }
+    Ok(prepared)
+}
+
+fn report(
+    options: &PlotOptions,
+    imported: &Imported,
+    plots: &[(String, Prepared)],
+    scale: Option<f64>,
+    seconds: &[(String, f64)],
+) -> Result<(), Failure> {
     if options.reporting.json {
-        let mut value = plots.first().map_or_else(|| json!({}), |(_, prepared)| json!(prepared.report));
+        let mut value = json!(toolpaths::of_all(plots.iter().map(|(_, prepared)| prepared)));
+        value["files"] = json!(plots.iter().map(|(name, _)| name).collect::<Vec<_>>());
         value["dropped"] = json!(imported.dropped);
         value["duplicates"] = json!(plots.iter().map(|(_, prepared)| prepared.duplicates).sum::<usize>());
+        if let Some(scale) = scale {
+            value["scale"] = json!(scale);
+        }
+        value["seconds"] = json!(seconds_of_steps(seconds));
+        value["warnings"] = json!(messages::warnings());
         return output::print_json(&value);
     }
     for (name, prepared) in plots.iter().filter(|_| !options.reporting.quiet) {
-        eprintln!("{name}: {}", toolpaths::summary(&prepared.report));
-        toolpaths::pen_lines(prepared).iter().for_each(|line| eprintln!("{line}"));
+        say!("{name}: {}", toolpaths::summary(&prepared.report));
+        toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
     }
     Ok(())
 }
@@ -100,9 +164,15 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
     }
 }
 
+fn too_much(shown: &str, error: &TooMuch) -> Failure {
+    match error {
+        TooMuch::Interrupted => Failure::Interrupted,
+        _ => Failure::Work(format!("{shown}: {error}")),
+    }
+}
+
 /// What the painting order hides is not drawn.
-fn leave_out_hidden(imported: &mut Imported, model: InkModel) -> Result<(), Failure> {
-    let hides = if model == InkModel::Ink { Hides::OtherColours } else { Hides::AllLines };
+fn leave_out_hidden(imported: &mut Imported, hides: Hides) -> Result<(), Failure> {
     let seen = occluded(&imported.drawing(), &imported.painting, hides, interrupt())?;
     for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
         layer.layer = seen;
@@ -110,7 +180,15 @@ fn leave_out_hidden(imported: &mut Imported, model: InkModel) -> Result<(), Fail
     Ok(())
 }
 
-fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
+/// What hides what: as ink, other colours; as lines, every fill.
+pub(super) const fn hides(model: InkModel) -> Hides {
+    match model {
+        InkModel::Ink => Hides::OtherColours,
+        InkModel::Lines => Hides::AllLines,
+    }
+}
+
+pub(super) fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failure> {
     if wanted.is_empty() {
         return Ok(());
     }
@@ -125,62 +203,55 @@ fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Result<(), Failu
 }
 
 /// Under `lines`, fills are not drawn, but not lost in silence either.
-fn count_fills(imported: &mut Imported) {
+pub(super) fn count_fills(imported: &mut Imported) {
     let fills = imported.layers.iter().flat_map(|l| &l.layer.marks).filter(|m| !matches!(m, Mark::Stroke(_))).count();
     imported.dropped.add("fills", fills);
 }
 
-/// Turns, scales and moves the drawing on its sheet.
-fn place(drawing: &Drawing, options: &PlotOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Drawing, Failure> {
-    let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
-    let turned = turn(drawing, turn_degrees(options.rotate, drawing, sheet));
-    let page = sheet.map_or(turned.page, |(width, height)| Page { width, height, ..turned.page });
-    let scaled = turned.transformed(Affine::scale(options.scale));
-    let Some(bounds) = scaled.bounding_box() else { return Ok(Drawing { page, ..scaled }) };
-    let moved = match (options.fit, options.center) {
-        (PlotFit::Page, _) => {
-            let free = page.rect().inset(-options.margin);
-            let frame = reach(&page).map_or(free, |reach| free.intersect(reach));
-            if frame.width() <= 0.0 || frame.height() <= 0.0 {
-                return Err(Failure::Usage(format!("a margin of {} mm leaves nothing of the page", options.margin)));
-            }
-            let factor = (frame.width() / bounds.width().max(1e-6)).min(frame.height() / bounds.height().max(1e-6));
-            scaled.transformed(centring(bounds, frame, factor))
-        }
-        (PlotFit::None, true) => scaled.transformed(centring(bounds, page.rect(), 1.0)),
-        (PlotFit::None, false) => scaled,
-    };
-    Ok(Drawing { page, ..moved })
-}
-
-fn centring(bounds: Rect, page: Rect, factor: f64) -> Affine {
-    Affine::translate(page.center().to_vec2()) * Affine::scale(factor) * Affine::translate(-bounds.center().to_vec2())
-}
-
-fn turn_degrees(rotate: Rotate, drawing: &Drawing, sheet: Option<(f64, f64)>) -> u32 {
-    match rotate {
-        Rotate::None => 0,
-        Rotate::Quarter => 90,
-        Rotate::Half => 180,
-        Rotate::ThreeQuarters => 270,
-        Rotate::Auto => {
-            let Page { width, height, .. } = drawing.page;
-            let fits = |w: f64, h: f64| sheet.is_none_or(|(sw, sh)| w <= sw + 0.5 && h <= sh + 0.5);
-            if !fits(width, height) && fits(height, width) { 90 } else { 0 }
-        }
+/// Turns, scales and moves the drawing on its sheet; with how it was turned.
+pub(super) fn place(
+    drawing: &Drawing,
+    options: &PlotOptions,
+    reach: impl Fn(&Page) -> Option<Rect>,
+) -> Result<(Drawing, Turning), Failure> {
+    if options.fit == PlotFit::Page && options.placing.at.is_some() {
+        return Err(Failure::Usage("--fit page fills the page, and --at has no room there; leave one of them away".to_owned()));
     }
+    let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
+    let turning = Turning::asked(&options.placing, || fits_only_turned(drawing, sheet));
+    let turned = turning.turned(drawing.clone());
+    let page = sheet.map_or(turned.page, |(width, height)| Page { width, height, ..turned.page });
+    let scaled = options.scale.map_or_else(|| turned.clone(), |scale| turned.transformed(Affine::scale(scale)));
+    let Some(bounds) = scaled.bounding_box() else { return Ok((Drawing { page, ..scaled }, turning)) };
+    let reach = reach(&page);
+    let matrix = if options.fit == PlotFit::Page {
+        filling(bounds, free_of(&page, options.margin, reach)?)
+    } else {
+        Affine::translate(asked_move(&options.placing, bounds, &page, reach))
+    };
+    let moved = if matrix == Affine::IDENTITY { scaled } else { scaled.transformed(matrix) };
+    Ok((Drawing { page, ..moved }, turning))
 }
 
-/// Clockwise by a multiple of 90 degrees; the page turns along.
-fn turn(drawing: &Drawing, degrees: u32) -> Drawing {
+/// What the margin and the machine leave of a page.
+fn free_of(page: &Page, margin: f64, reach: Option<Rect>) -> Result<Rect, Failure> {
+    let free = page.rect().inset(-margin);
+    let free = reach.map_or(free, |reach| free.intersect(reach));
+    if free.width() > 0.0 && free.height() > 0.0 {
+        return Ok(free);
+    }
+    Err(Failure::Usage(format!("a margin of {margin} mm leaves nothing of the page")))
+}
+
+/// Scales a box evenly into the middle of another.
+fn filling(bounds: Rect, frame: Rect) -> Affine {
+    let factor = (frame.width() / bounds.width().max(1e-6)).min(frame.height() / bounds.height().max(1e-6));
+    Affine::translate(frame.center().to_vec2()) * Affine::scale(factor) * Affine::translate(-bounds.center().to_vec2())
+}
+
+/// Whether the drawing's page goes onto the sheet only when it is turned by a quarter.
+fn fits_only_turned(drawing: &Drawing, sheet: Option<(f64, f64)>) -> bool {
     let Page { width, height, .. } = drawing.page;
-    let (matrix, width, height) = match degrees {
-        90 => (Affine::new([0.0, 1.0, -1.0, 0.0, height, 0.0]), height, width),
-        180 => (Affine::new([-1.0, 0.0, 0.0, -1.0, width, height]), width, height),
-        270 => (Affine::new([0.0, -1.0, 1.0, 0.0, 0.0, width]), height, width),
-        _ => (Affine::IDENTITY, width, height),
-    };
-    let mut turned = drawing.transformed(matrix);
-    turned.page = Page { width, height, ..drawing.page };
-    turned
+    let fits = |w: f64, h: f64| sheet.is_none_or(|(sw, sh)| w <= sw + 0.5 && h <= sh + 0.5);
+    !fits(width, height) && fits(height, width)
 }

@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 /// Shown after this much work.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// How often its clock is drawn anew.
+const TICK: Duration = Duration::from_millis(250);
 
 /// Watches a style for the command line.
 pub(super) struct Watcher {
@@ -20,11 +22,12 @@ pub(super) struct Watcher {
 
 impl Watcher {
     pub(super) fn new(is_quiet: bool) -> Self {
-        let is_shown = !is_quiet && std::io::stderr().is_terminal();
-        let target = if is_shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(100), target);
+        let bar = ProgressBar::with_draw_target(Some(100), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template("{msg:14} [{bar:30}] {elapsed}") {
             bar.set_style(style.progress_chars("=> "));
+        }
+        if !is_quiet && std::io::stderr().is_terminal() {
+            show_later(bar.clone());
         }
         Self { bar, started: Instant::now(), steps: Mutex::new(Vec::new()) }
     }
@@ -42,28 +45,52 @@ impl Watcher {
     }
 }
 
+/// Shows the bar once the work has taken a while, with the step that is then running, whether or not it tells of its progress.
+fn show_later(bar: ProgressBar) {
+    std::thread::spawn(move || {
+        std::thread::sleep(PATIENCE);
+        if !bar.is_finished() {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(TICK);
+        }
+    });
+}
+
 impl Observer for Watcher {
     fn begin(&self, step: &str) {
         self.steps.lock().expect("no step panics while it holds the lock").push((step.to_owned(), Instant::now()));
-        if self.started.elapsed() > PATIENCE {
-            self.bar.set_message(step.to_owned());
-            self.bar.set_position(0);
-        }
+        self.bar.set_message(step.to_owned());
+        self.bar.set_position(0);
     }
 
     fn progress(&self, fraction: f64) {
-        if self.started.elapsed() > PATIENCE {
-            self.bar.set_position((fraction * 100.0) as u64);
-        }
+        self.bar.set_position((fraction * 100.0) as u64);
     }
 
     fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
 
     fn warn(&self, message: &str) {
-        self.bar.suspend(|| messages::warn(message));
+        self.bar.suspend(|| messages::warning_line(message));
     }
 
     fn is_interrupted(&self) -> bool {
         is_interrupted()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_bears_the_name_of_the_step_that_runs() {
+        let watcher = Watcher::new(true);
+        for step in ["photograph", "seeds"] {
+            watcher.begin(step);
+            assert_eq!((watcher.bar.message().as_str(), watcher.bar.position()), (step, 0));
+            watcher.progress(0.4);
+            assert_eq!(watcher.bar.position(), 40);
+        }
+        assert_eq!(watcher.finish().iter().map(|(step, _)| step.as_str()).collect::<Vec<_>>(), ["photograph", "seeds"]);
     }
 }

@@ -3,8 +3,10 @@
 use super::arguments::StagesOptions;
 use super::draw::{Task, limit_threads};
 use super::failure::Failure;
+use super::messages::say;
 use super::output;
 use super::progress::Watcher;
+use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
 use crate::style::{Observer, Picture};
@@ -24,14 +26,15 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be made: {error}")))?;
     let recorder =
         Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };
-    task.draw(&recorder)?;
+    let drawn = task.draw(&recorder);
     recorder.watcher.finish();
     let taken = recorder.taken.into_inner().expect("no stage panics while it is written");
     if let Some(failure) = taken.failure {
         return Err(failure);
     }
+    drawn?;
     if !options.quiet {
-        eprintln!("{folder}: {} stages of {}", taken.count, task.style.name());
+        say!("{folder}: {} of {}", counted(taken.count, "stage"), task.style.name());
     }
     Ok(())
 }

@@ -1,20 +1,21 @@
 //! From a plot to a machine's file: profile, order, mounting, checks, report.
 
-use super::arguments::{DuplicatesOption, Format, Order, SeamOption, StartCorner, ToolpathOptions};
+use super::arguments::{DuplicatesOption, Format, Order, PreviewTravel, SeamOption, StartCorner, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;
 use super::interruption::interrupt;
+use super::layer_files::LayerFile;
+use super::messages::{say, warning};
 use super::output;
 use super::pens::PenSet;
-use crate::drawing::Drawing;
+use super::words::counted;
 use crate::geometry::{Point, Rect};
 use crate::plot::{
     Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, PenReport, Plot, PlotReport, Profile,
     Seam, Sequence, Travel, add_registration, built_in, clip_to, let_dry, mount, pause_every, report, rest_touches,
 };
-use crate::write::{SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
+use crate::write::{ShownTravel, SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
 use std::collections::BTreeSet;
-use std::io::Write;
 
 /// Plotting time above which the user is warned.
 pub(super) const LONG_HOURS: f64 = 4.0;
@@ -44,9 +45,7 @@ pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Prof
     if !is_file {
         return Ok(Profile::parse_with(name, built_in(name)?, set)?);
     }
-    let text = String::from_utf8(output::read(name)?)
-        .map_err(|_| Failure::Work(format!("{name} is not a profile: it is not UTF-8 text")))?;
-    Profile::parse_with(name, &text, set).map_err(|error| Failure::Work(error.to_string()))
+    Profile::parse_with(name, &output::read_settings(name)?, set).map_err(|error| Failure::Work(error.to_string()))
 }
 
 /// The profile with what the options say of its speeds.
@@ -321,15 +320,10 @@ pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(
 }
 
 /// Refuses files for each layer of which two are one, or one is an input.
-pub(super) fn check_layer_files(files: &[(String, Drawing)], options: &ToolpathOptions) -> Result<(), Failure> {
-    let preview = |(_, drawing): &(String, Drawing)| Some(preview_name(options.preview.as_ref()?, first_layer(drawing)));
+pub(super) fn check_layer_files(files: &[LayerFile], options: &ToolpathOptions) -> Result<(), Failure> {
+    let preview = |file: &LayerFile| Some(preview_name(options.preview.as_ref()?, Some(&file.layer)));
     let previews: Vec<String> = files.iter().filter_map(preview).collect();
-    claims::are_distinct(files.iter().map(|(name, _)| name.as_str()).chain(previews.iter().map(String::as_str)))
-}
-
-/// The layer that `{layer}` stands for in the name of a drawing's file.
-pub(super) fn first_layer(drawing: &Drawing) -> Option<&str> {
-    drawing.layers.first().map(|layer| layer.name.as_str())
+    claims::are_distinct(files.iter().map(|file| file.name.as_str()).chain(previews.iter().map(String::as_str)))
 }
 
 fn preview_name(name: &str, layer: Option<&str>) -> String {
@@ -342,35 +336,40 @@ pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, l
     let Some(name) = &options.preview else { return Ok(()) };
     let name = preview_name(name, layer);
     let start = prepared.mounting.as_ref().map_or(prepared.home, |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
-    output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, &mut out))
+    let travel = match options.preview_travel {
+        PreviewTravel::Off => ShownTravel::Off,
+        PreviewTravel::Faint => ShownTravel::Faint,
+        PreviewTravel::Full => ShownTravel::Full,
+    };
+    output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, travel, &mut out))
 }
 
-/// Warnings about the machine, shown whatever was asked for.
-pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: &str) {
+/// Warnings about the machine, shown whatever was asked for; `shorter` says what makes a long plot shorter, unless that was said
+/// before.
+pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: Option<&str>) {
     let (length, touches) = prepared.cut;
     if length > 0.0 || touches > 0 {
-        eprintln!("drypoint: warning: --clip cut away {length:.1} mm of line and {touches} touches");
+        warning!("--clip cut away {length:.1} mm of line and {}", counted(touches, "touch"));
     }
     if prepared.duplicates > 0 {
-        eprintln!("drypoint: {} repeated paths are drawn once; --duplicates keep draws them all", prepared.duplicates);
+        let paths = counted(prepared.duplicates, "path");
+        say!("drypoint: {paths} repeating an earlier one left out; --duplicates keep draws them all");
     }
-    if let Some(seconds) = prepared.report.total.seconds
+    if let (Some(seconds), Some(shorter)) = (prepared.report.total.seconds, shorter)
         && seconds > LONG_HOURS * 3600.0
     {
-        eprintln!("drypoint: warning: this plot takes {}{shorter}", duration(seconds));
+        warning!("this plot takes {}{shorter}", duration(seconds));
     }
     let Some(profile) = profile else { return };
     let numbers: std::collections::BTreeSet<u32> = prepared.plot.pens.iter().map(|pen| pen.number).collect();
     if profile.pens.change == PenChange::Pause && numbers.len() as u32 > profile.pens.count {
-        let (pens, count) = (numbers.len(), profile.pens.count);
-        eprintln!("drypoint: warning: {pens} pens on a machine with {count}: the file pauses for each change");
+        let (pens, count) = (counted(numbers.len(), "pen"), profile.pens.count);
+        warning!("{pens} on a machine with {count}: the file pauses for each change");
     }
     for number in numbers {
         let drawn: f64 = prepared.report.pens.iter().filter(|pen| pen.pen == number).map(|pen| pen.pen_down_mm / 1000.0).sum();
         if let Some(life) = profile.life_of(number).filter(|life| drawn > *life) {
-            eprintln!(
-                "drypoint: warning: pen {number} draws {drawn:.1} m and lasts {life} m; --pause-every {life}m waits for a new one"
-            );
+            warning!("pen {number} draws {drawn:.1} m and lasts {life} m; --pause-every {life}m waits for a new one");
         }
     }
 }
@@ -380,21 +379,38 @@ pub(super) fn summary(report: &PlotReport) -> String {
     let time = report.total.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();
     // A pen may come back for another part.
     let numbers: BTreeSet<u32> = report.pens.iter().map(|pen| pen.pen).collect();
-    let pens = if numbers.len() == 1 { "1 pen".to_owned() } else { format!("{} pens", numbers.len()) };
     format!(
-        "{time}{pens}, {} paths, {:.1} m of ink, {:.1} m of travel ({:.1} m before ordering)",
-        report.total.paths,
+        "{time}{}, {}, {:.1} m of ink, {:.1} m of travel ({:.1} m before ordering)",
+        counted(numbers.len(), "pen"),
+        counted(report.total.paths, "path"),
         report.total.pen_down_mm / 1000.0,
         report.total.pen_up_mm / 1000.0,
         report.total.pen_up_mm_before / 1000.0
     )
 }
 
+/// The report of several files as one: each file's pens, and all together. What is covered is told for one file only.
+pub(super) fn of_all<'a>(prepared: impl IntoIterator<Item = &'a Prepared>) -> Option<PlotReport> {
+    let add = |mut sum: PlotReport, next: PlotReport| {
+        let (total, more) = (&mut sum.total, next.total);
+        total.paths += more.paths;
+        total.pen_down_mm += more.pen_down_mm;
+        total.pen_up_mm += more.pen_up_mm;
+        total.pen_up_mm_before += more.pen_up_mm_before;
+        total.pen_lifts += more.pen_lifts;
+        total.seconds = total.seconds.zip(more.seconds).map(|(one, other)| one + other);
+        (total.covered_fraction, total.spill_fraction) = (None, None);
+        sum.pens.extend(next.pens);
+        sum
+    };
+    prepared.into_iter().map(|one| one.report.clone()).reduce(add)
+}
+
 /// A line for each pen: time, ink and lifts, and in brackets what they were before ordering.
 pub(super) fn pen_lines(prepared: &Prepared) -> Vec<String> {
     let amounts = |pen: &PenReport| {
         let time = pen.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();
-        format!("{time}{:.2} m of ink, {} lifts", pen.pen_down_mm / 1000.0, pen.pen_lifts)
+        format!("{time}{:.2} m of ink, {}", pen.pen_down_mm / 1000.0, counted(pen.pen_lifts, "lift"))
     };
     let pens = prepared.report.pens.iter().zip(&prepared.unordered.pens);
     pens.map(|(after, before)| {
@@ -410,9 +426,4 @@ pub(super) fn duration(seconds: f64) -> String {
         (0, minutes) => format!("{minutes} min"),
         (hours, minutes) => format!("{hours} h {minutes:02} min"),
     }
-}
-
-/// Writes to nothing and counts, for `--dry-run`.
-pub(super) fn discard(fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Failure> {
-    fill(&mut std::io::sink()).map_err(Failure::writing("nothing"))
 }

@@ -20,6 +20,8 @@ impl Colour {
     pub const BLACK: Self = Self { r: 0, g: 0, b: 0 };
     /// Paper.
     pub const WHITE: Self = Self { r: 255, g: 255, b: 255 };
+    /// The name that CSS Color 4 added.
+    pub const REBECCAPURPLE: Self = Self { r: 0x66, g: 0x33, b: 0x99 };
 }
 
 impl Colour {
@@ -58,7 +60,14 @@ pub struct ColourError(String);
 impl FromStr for Colour {
     type Err = ColourError;
 
+    /// Any CSS colour; its transparency is left out. `currentColor` is CSS's first, black.
     fn from_str(text: &str) -> Result<Self, ColourError> {
+        match text.trim() {
+            // CSS Color 4; the parser knows the names of CSS Color 3.
+            name if name.eq_ignore_ascii_case("rebeccapurple") => return Ok(Self::REBECCAPURPLE),
+            name if name.eq_ignore_ascii_case("currentcolor") => return Ok(Self::BLACK),
+            _ => {}
+        }
         let colour = svgtypes::Color::from_str(text).map_err(|_| ColourError(text.to_owned()))?;
         Ok(Self { r: colour.red, g: colour.green, b: colour.blue })
     }
@@ -125,6 +134,8 @@ mod tests {
         assert_eq!("k".parse(), Ok(Ink::Black));
         assert_eq!("spot:PANTONE 286 C".parse(), Ok(Ink::Spot("PANTONE 286 C".into())));
         assert_eq!("navy".parse(), Ok(Ink::Colour(Colour { r: 0, g: 0, b: 128 })));
+        assert_eq!("RebeccaPurple".parse(), Ok(Ink::Colour(Colour::REBECCAPURPLE)));
+        assert_eq!(("currentColor".parse(), "currentcolor".parse()), (Ok(Colour::BLACK), Ok(Colour::BLACK)));
         assert!("purplish".parse::<Ink>().is_err());
         assert!("spot:".parse::<Ink>().is_err() && "spot:All".parse::<Ink>().is_err());
         assert_eq!(Ink::Colour(Colour { r: 1, g: 2, b: 255 }).to_string(), "#0102ff");

@@ -342,7 +342,8 @@ fn clip_outline(outline: &BezPath, rect: Rect, tolerance: f64) -> BezPath {
     cut
 }
 
-fn interpolate(values: &[f64], at: f64) -> f64 {
+/// Between the nodes' values; `at` is a node's number and the share of the way to the next.
+pub(super) fn interpolate(values: &[f64], at: f64) -> f64 {
     let last = values.len() - 1;
     let i = (at.floor().max(0.0) as usize).min(last);
     let t = at - i as f64;

@@ -4,7 +4,9 @@
 //! It knows nothing of pixels, machines or file formats.
 
 mod colour;
+mod held;
 mod mark;
+mod seen;
 
 pub use crate::geometry::Ends;
 pub use colour::{Colour, ColourError, Ink};

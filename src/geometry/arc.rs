@@ -103,11 +103,18 @@ fn swept(points: &[Point], centre: Point) -> Option<f64> {
     (sum.abs() <= PI).then_some(sum)
 }
 
-/// Points along an arc after its start, its end included, no farther than `tolerance` from it.
+/// How many points [`flatten_arc`] gives for an arc; not finite where the radius or the sweep is not.
+pub fn arc_points(radius: f64, sweep: f64, tolerance: f64) -> f64 {
+    // The sine of a quarter of a step keeps its digits where the cosine of a half is 1.
+    let step = if radius > tolerance { 4.0 * (0.5 * tolerance / radius).sqrt().asin() } else { PI };
+    (sweep.abs() / step).ceil().max(1.0)
+}
+
+/// Points along an arc after its start, its end included, no farther than `tolerance` from it. [`arc_points`] tells their number
+/// beforehand; beyond ten million they lie farther apart.
 pub fn flatten_arc(from: Point, to: Point, centre: Point, sweep: f64, tolerance: f64) -> Vec<Point> {
     let radius = from.distance(centre);
-    let step = if radius > tolerance { 2.0 * (1.0 - tolerance / radius).acos() } else { PI };
-    let count = (sweep.abs() / step).ceil().clamp(1.0, 10_000.0);
+    let count = arc_points(radius, sweep, tolerance).min(1e7);
     let start = from - centre;
     // The end's radius may differ by what was rounded away.
     let end_radius = to.distance(centre);

@@ -1,6 +1,7 @@
 //! Offsetting outlines, inwards and outwards.
 
-use super::polyline::flatten;
+use super::polyline::{flatten, simplify};
+use super::tangle::Thread;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
@@ -15,15 +16,41 @@ pub struct Insets {
 }
 
 impl Insets {
-    /// From closed subpaths by the nonzero rule, curves flattened to `tolerance`.
+    /// From closed subpaths by the nonzero rule, curves flattened to `tolerance`; vertices that lie within a quarter of it of the line
+    /// without them are left out.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
-        let contours: Vec<Vec<[f64; 2]>> = flatten(outline, tolerance)
-            .into_iter()
-            .map(|(points, _)| points.iter().filter(|p| p.is_finite()).map(|p| [p.x, p.y]).collect::<Vec<_>>())
-            .filter(|points| points.len() > 2)
-            .collect();
+        Self::of(flatten(outline, tolerance).into_iter().map(|(points, _)| ring_of(points, 0.25 * tolerance)).collect())
+    }
+
+    /// The connected shapes of what several outlines cover together.
+    pub fn united(outlines: &[Self]) -> Vec<Self> {
+        let all = outlines.iter().flat_map(|outline| outline.shapes.iter().flatten()).cloned().collect();
+        Self::of(all).shapes.into_iter().map(|shape| Self { shapes: vec![shape] }).collect()
+    }
+
+    fn of(contours: Vec<Vec<[f64; 2]>>) -> Self {
+        let contours: Vec<Vec<[f64; 2]>> = contours.into_iter().filter(|points| points.len() > 2).collect();
         let nothing: Vec<Vec<[f64; 2]>> = Vec::new();
         Self { shapes: contours.overlay(&nothing, OverlayRule::Subject, FillRule::NonZero) }
+    }
+
+    /// Number of vertices.
+    pub fn len(&self) -> usize {
+        self.shapes.iter().flatten().map(Vec::len).sum()
+    }
+
+    /// Its borders' sides.
+    pub fn threads(&self) -> impl Iterator<Item = Thread> + '_ {
+        let side = |ring: &[[f64; 2]], i: usize| {
+            let at = |i: usize| Point::new(ring[i % ring.len()][0], ring[i % ring.len()][1]);
+            Thread { from: at(i), to: at(i + 1), half_width: 0.0 }
+        };
+        self.shapes.iter().flatten().flat_map(move |ring| (0..ring.len()).map(move |i| side(ring, i)))
+    }
+
+    /// Whether nothing is inside.
+    pub fn is_empty(&self) -> bool {
+        self.shapes.is_empty()
     }
 
     /// The rings that lie `distance` inside the border, holes' rings too; empty where nothing is that far inside.
@@ -64,6 +91,17 @@ impl Insets {
         }
         path
     }
+}
+
+/// A closed ring's finite places.
+fn ring_of(mut points: Vec<Point>, tolerance: f64) -> Vec<[f64; 2]> {
+    points.retain(|p| p.is_finite());
+    if points.len() > 3 {
+        points.push(points[0]);
+        points = simplify(&points, tolerance);
+        points.pop();
+    }
+    points.into_iter().map(|p| [p.x, p.y]).collect()
 }
 
 fn points(ring: &[[f64; 2]]) -> Vec<Point> {

@@ -1,4 +1,5 @@
-//! Lengths as a user writes them: `12`, `12mm`, `1.2cm`, `0.5in`, `36pt`; sizes as `90x120mm`.
+//! Lengths as a user writes them: `12`, `12mm`, `1.2cm`, `0.5in`, `36pt`; sizes as `90x120mm`. Where a drawing is read, its own
+//! pixels are a unit too: `48px`, 96 to the inch as in CSS.
 
 use thiserror::Error;
 
@@ -8,6 +9,9 @@ pub enum LengthError {
     /// No number stands at the start.
     #[error("'{0}' is not a length; write a number with mm, cm, in or pt, such as 0.6mm (mm when there is no unit)")]
     NotALength(String),
+    /// Pixels, where there is no drawing that has any.
+    #[error("'{0}' is in pixels, which have no size here; write mm, cm, in or pt (px is a unit where an SVG is read)")]
+    Pixels(String),
     /// The number is NaN or infinite.
     #[error("'{0}' is not a finite length")]
     NotFinite(String),
@@ -17,23 +21,41 @@ pub enum LengthError {
 }
 
 /// Units and their length in millimetres.
-const UNITS: [(&str, f64); 4] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
+const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0), ("px", 25.4 / 96.0)];
 
-/// A length in millimetres; without a unit it is millimetres. May be negative.
+/// A length in millimetres; without a unit it is millimetres. May be negative. Pixels are refused.
 pub fn parse_length(text: &str) -> Result<f64, LengthError> {
+    let value = parse_drawn_length(text)?;
+    if text.trim().ends_with("px") { Err(LengthError::Pixels(text.to_owned())) } else { Ok(value) }
+}
+
+/// The same of a drawing that is read, where a pixel is 1/96 inch.
+pub fn parse_drawn_length(text: &str) -> Result<f64, LengthError> {
     let trimmed = text.trim();
     let (number, scale) = split_unit(trimmed);
     let value: f64 = number.trim().parse().map_err(|_| LengthError::NotALength(text.to_owned()))?;
     if value.is_finite() { Ok(value * scale) } else { Err(LengthError::NotFinite(text.to_owned())) }
 }
 
-/// Width and height in millimetres; a unit at the end holds for both: `90x120`, `9x12cm`, `100mm x 4in`.
+/// Width and height in millimetres; a unit at the end holds for both: `90x120`, `9x12cm`, `100mm x 4in`. Pixels are refused.
 pub fn parse_size(text: &str) -> Result<(f64, f64), LengthError> {
-    let (width, height) = text.trim().split_once(['x', 'X', '\u{d7}']).ok_or_else(|| LengthError::NotASize(text.to_owned()))?;
+    let size = parse_drawn_size(text)?;
+    if text.contains("px") { Err(LengthError::Pixels(text.to_owned())) } else { Ok(size) }
+}
+
+/// The same of a sheet or of a drawing that is read, where a pixel is 1/96 inch: `794x1123px`.
+pub fn parse_drawn_size(text: &str) -> Result<(f64, f64), LengthError> {
+    let (width, height) = halves(text.trim()).ok_or_else(|| LengthError::NotASize(text.to_owned()))?;
     let (_, scale) = split_unit(height.trim());
     let width_has_unit = UNITS.iter().any(|(unit, _)| width.trim().ends_with(unit));
-    let width = parse_length(width)? * if width_has_unit { 1.0 } else { scale };
-    Ok((width, parse_length(height)?))
+    let width = parse_drawn_length(width)? * if width_has_unit { 1.0 } else { scale };
+    Ok((width, parse_drawn_length(height)?))
+}
+
+/// The texts around the `x` of a size, which is not that of `px`.
+fn halves(text: &str) -> Option<(&str, &str)> {
+    let (at, sign) = text.char_indices().find(|&(at, c)| matches!(c, 'x' | 'X' | '\u{d7}') && !text[..at].ends_with('p'))?;
+    Some((&text[..at], &text[at + sign.len_utf8()..]))
 }
 
 fn split_unit(text: &str) -> (&str, f64) {
@@ -52,6 +74,18 @@ mod tests {
         assert!((parse_length("72pt").unwrap() - 25.4).abs() < 1e-12);
         assert!(matches!(parse_length("NaN"), Err(LengthError::NotFinite(_))));
         assert!(matches!(parse_length("wide"), Err(LengthError::NotALength(_))));
+    }
+
+    #[test]
+    fn pixels_are_a_unit_where_a_drawing_is_read() {
+        assert!((parse_drawn_length("96px").unwrap() - 25.4).abs() < 1e-12);
+        assert!(matches!(parse_length("96px"), Err(LengthError::Pixels(_))));
+        for text in ["96x192px", "96px x 192px", "96px x 2in", "96X192 px"] {
+            let (width, height) = parse_drawn_size(text).unwrap();
+            assert!((width - 25.4).abs() < 1e-12 && (height - 50.8).abs() < 1e-12, "{text}: {width} x {height}");
+            assert!(matches!(parse_size(text), Err(LengthError::Pixels(_))), "{text}");
+        }
+        assert!(parse_drawn_size("96px").is_err() && parse_drawn_length("px").is_err());
     }
 
     #[test]

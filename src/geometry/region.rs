@@ -1,6 +1,7 @@
 //! Clipping by any outline: lines parametrically, so that they keep their order and direction; areas by boolean intersection.
 
-use super::polyline::flatten;
+use super::crossings::{Crossings, crossings};
+use super::polyline::{distance_to_segment, flatten};
 use crate::interrupt::Interrupt;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -12,19 +13,97 @@ use kurbo::{BezPath, Point, Rect, Shape};
 pub struct Region {
     polygons: Vec<Vec<Point>>,
     bounds: Rect,
+    rows: Rows,
+}
+
+/// The edges of a region by the rows of the page that they lie in, so that only those near a place are looked at.
+#[derive(Clone, Debug)]
+struct Rows {
+    top: f64,
+    height: f64,
+    /// Where each row's edges begin in `edges`, and where the last one's end.
+    first: Vec<u32>,
+    edges: Vec<[Point; 2]>,
+}
+
+/// Edges in a row on average, and how often an edge may stand in rows on average: the rows are as low as that allows.
+const EDGES_A_ROW: usize = 4;
+const ROWS_AN_EDGE: f64 = 6.0;
+
+impl Rows {
+    fn new(edges: &[[Point; 2]], bounds: Rect) -> Self {
+        let finite: Vec<[Point; 2]> = edges.iter().filter(|edge| edge.iter().all(|p| p.is_finite())).copied().collect();
+        let heights: f64 = finite.iter().map(|[a, b]| (a.y - b.y).abs()).sum();
+        let extent = bounds.height().max(1e-9);
+        let few = ROWS_AN_EDGE * finite.len() as f64 * extent / heights.max(1e-9);
+        let count = (finite.len() / EDGES_A_ROW).min(few.min(65_536.0) as usize).max(1);
+        let mut rows = Self { top: bounds.y0, height: extent / count as f64, first: vec![0; count + 1], edges: Vec::new() };
+        for edge in &finite {
+            rows.of(edge[0].y, edge[1].y).for_each(|row| rows.first[row + 1] += 1);
+        }
+        (0..count).for_each(|row| rows.first[row + 1] += rows.first[row]);
+        let mut next = rows.first.clone();
+        let mut all = vec![[Point::ORIGIN; 2]; rows.first[count] as usize];
+        for edge in finite {
+            for row in rows.of(edge[0].y, edge[1].y) {
+                all[next[row] as usize] = edge;
+                next[row] += 1;
+            }
+        }
+        rows.edges = all;
+        rows
+    }
+
+    /// The rows between two heights; what lies beyond the first or the last belongs to it.
+    fn of(&self, a: f64, b: f64) -> std::ops::RangeInclusive<usize> {
+        let row = |y: f64| (((y - self.top) / self.height).max(0.0) as usize).min(self.first.len() - 2);
+        row(a.min(b))..=row(a.max(b))
+    }
+
+    fn edges(&self, row: usize) -> &[[Point; 2]] {
+        &self.edges[self.first[row] as usize..self.first[row + 1] as usize]
+    }
 }
 
 impl Region {
     /// The inside of closed subpaths, curves flattened to `tolerance`.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
-        let polygons = flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
-        Self { polygons, bounds: outline.bounding_box() }
+        let polygons: Vec<Vec<Point>> =
+            flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
+        Self::within(polygons, outline.bounding_box())
+    }
+
+    fn within(polygons: Vec<Vec<Point>>, bounds: Rect) -> Self {
+        let edges: Vec<[Point; 2]> = polygons.iter().flat_map(|polygon| edges_of(polygon)).collect();
+        Self { rows: Rows::new(&edges, bounds), polygons, bounds }
+    }
+
+    /// The inside of closed polygons.
+    pub fn of_polygons(polygons: Vec<Vec<Point>>) -> Self {
+        let corners = polygons.iter().flatten().map(|p| Rect::from_points(*p, *p));
+        let bounds = corners.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
+        Self::within(polygons, bounds)
+    }
+
+    /// The box that it lies in.
+    pub const fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
+    /// How many edges its border has.
+    pub fn edge_count(&self) -> usize {
+        self.polygons.iter().map(Vec::len).sum()
+    }
+
+    /// How often its border and that of another cross themselves and each other, counted up to `most`: the work of an overlay.
+    pub fn crossings_with(&self, other: &Self, most: usize) -> Crossings {
+        crossings(self.polygons.iter().chain(&other.polygons), most)
     }
 
     /// Whether a point lies inside (winding number not 0).
     pub fn contains(&self, p: Point) -> bool {
         let mut winding = 0;
-        for [a, b] in self.edges() {
+        for &[a, b] in self.rows.edges(*self.rows.of(p.y, p.y).start()) {
             if (a.y <= p.y) != (b.y <= p.y) {
                 let side = (b - a).cross(p - a);
                 if b.y > a.y && side > 0.0 {
@@ -37,24 +116,26 @@ impl Region {
         winding != 0
     }
 
-    fn edges(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
-        self.polygons.iter().flat_map(|polygon| (0..polygon.len()).map(move |i| [polygon[i], polygon[(i + 1) % polygon.len()]]))
+    /// Whether a point lies no farther than `slack` from the border.
+    fn is_near_border(&self, p: Point, slack: f64) -> bool {
+        let rows = || self.rows.of(p.y - slack, p.y + slack).flat_map(|row| self.rows.edges(row));
+        self.bounds.inflate(slack, slack).contains(p) && rows().any(|&[a, b]| distance_to_segment(p, a, b) <= slack)
     }
 
-    /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside.
-    pub fn clip_line(&self, points: &[Point]) -> Vec<Vec<Point>> {
-        let pieces = self.pieces(points, Side::Inside, &Interrupt::never());
+    /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside. What lies within `slack` of
+    /// the border counts as inside: a line on the border would else be kept or lost by rounding.
+    pub fn clip_line(&self, points: &[Point], slack: f64) -> Vec<Vec<Point>> {
+        let pieces = self.pieces(points, |p| self.contains(p) || self.is_near_border(p, slack), &Interrupt::never());
         pieces.into_iter().map(|piece| piece.into_iter().map(|(p, _)| p).collect()).collect()
     }
 
     /// The pieces of a polyline outside, each point with its place along the line (vertex index plus fraction); some of them once the
     /// interrupt is raised.
     pub fn outside_of_line(&self, points: &[Point], interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
-        self.pieces(points, Side::Outside, interrupt)
+        self.pieces(points, |p| !self.contains(p), interrupt)
     }
 
-    fn pieces(&self, points: &[Point], side: Side, interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
-        let is_wanted = |p: Point| self.contains(p) == (side == Side::Inside);
+    fn pieces(&self, points: &[Point], is_wanted: impl Fn(Point) -> bool, interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
         if let [p] = points {
             return if is_wanted(*p) { vec![vec![(*p, 0.0)]] } else { Vec::new() };
         }
@@ -92,7 +173,7 @@ impl Region {
             return cuts;
         }
         let d = b - a;
-        for [p, q] in self.edges() {
+        for &[p, q] in self.rows.of(a.y, b.y).flat_map(|row| self.rows.edges(row)) {
             let e = q - p;
             let denominator = d.cross(e);
             if denominator != 0.0 {
@@ -123,6 +204,11 @@ impl Region {
     }
 }
 
+/// The sides of a closed polygon.
+fn edges_of(polygon: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
+    (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
+}
+
 /// How the inside of an outline is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Winding {
@@ -135,8 +221,12 @@ pub enum Winding {
 /// An outline with the same inside, whose borders run one way and its holes the other: the nonzero rule fills it, also together with
 /// others of its kind. Curves are flattened to `tolerance`.
 pub fn untangled(outline: &BezPath, winding: Winding, tolerance: f64) -> BezPath {
-    let contours: Vec<Vec<[f64; 2]>> =
-        flatten(outline, tolerance).into_iter().map(|(points, _)| points.into_iter().map(|p| [p.x, p.y]).collect()).collect();
+    untangled_polygons(&flatten(outline, tolerance).into_iter().map(|(points, _)| points).collect::<Vec<_>>(), winding)
+}
+
+/// The same of polygons.
+pub fn untangled_polygons(polygons: &[Vec<Point>], winding: Winding) -> BezPath {
+    let contours: Vec<Vec<[f64; 2]>> = polygons.iter().map(|points| points.iter().map(|p| [p.x, p.y]).collect()).collect();
     let rule = if winding == Winding::EvenOdd { FillRule::EvenOdd } else { FillRule::NonZero };
     let nothing: Vec<Vec<[f64; 2]>> = Vec::new();
     path_of(contours.overlay(&nothing, OverlayRule::Subject, rule))
@@ -153,13 +243,6 @@ fn path_of(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> BezPath {
     path
 }
 
-/// Which side of an outline.
-#[derive(Clone, Copy, PartialEq)]
-enum Side {
-    Inside,
-    Outside,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,10 +254,21 @@ mod tests {
 
     #[test]
     fn a_line_across_a_ring_gives_two_pieces_in_order() {
-        let pieces = ring().clip_line(&[Point::new(12.0, 5.0), Point::new(-2.0, 5.0)]);
+        let pieces = ring().clip_line(&[Point::new(12.0, 5.0), Point::new(-2.0, 5.0)], 0.0);
         assert_eq!(pieces.len(), 2);
         assert!(pieces[0][0].distance(Point::new(10.0, 5.0)) < 1e-9 && pieces[0][1].distance(Point::new(7.0, 5.0)) < 1e-9);
         assert!(pieces[1][0].distance(Point::new(3.0, 5.0)) < 1e-9 && pieces[1][1].distance(Point::new(0.0, 5.0)) < 1e-9);
+    }
+
+    #[test]
+    fn a_line_on_the_border_is_whole() {
+        let square = Region::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z").unwrap(), 0.01);
+        for off in [-0.009, -1e-7, 0.0, 1e-7, 0.009] {
+            let frame = [(off, off), (10.0 - off, off), (10.0 - off, 10.0 - off), (off, 10.0 - off), (off, off)].map(Point::from);
+            let pieces = square.clip_line(&frame, 0.01);
+            assert_eq!((pieces.len(), pieces[0].len()), (1, 5), "{off}: {pieces:?}");
+        }
+        assert!(square.clip_line(&[Point::new(0.0, -0.02), Point::new(10.0, -0.02)], 0.01).is_empty());
     }
 
     #[test]

@@ -46,7 +46,11 @@ fn reflected(points: &[Point], i: isize) -> Point {
     }
 }
 
-/// The Catmull-Rom spline through the points as cubic Beziers.
+/// Longest handle as a share of its chord. Evenly spaced points have a third and never come near it; where a short leg follows a long
+/// one, the spline's own handle is many times the chord, and the curve a loop.
+const LONGEST_HANDLE: f64 = 0.5;
+
+/// The Catmull-Rom spline through the points as cubic Beziers, its handles no longer than half their chords.
 pub fn catmull_rom(points: &[Point], closed: bool) -> BezPath {
     let mut path = BezPath::new();
     let n = points.len() as isize;
@@ -55,7 +59,12 @@ pub fn catmull_rom(points: &[Point], closed: bool) -> BezPath {
     let at = |i: isize| points[if closed { i.rem_euclid(n) } else { i.clamp(0, n - 1) } as usize];
     for i in 0..if closed { n } else { n - 1 } {
         let (before, from, to, after) = (at(i - 1), at(i), at(i + 1), at(i + 2));
-        path.curve_to(from + (to - before) / 6.0, to - (after - from) / 6.0, to);
+        let longest = LONGEST_HANDLE * from.distance(to);
+        let handle = |tangent: Vec2| {
+            let handle = tangent / 6.0;
+            handle * (longest / handle.hypot().max(1e-12)).min(1.0)
+        };
+        path.curve_to(from + handle(to - before), to - handle(after - from), to);
     }
     if closed {
         path.close_path();

@@ -1,6 +1,6 @@
 //! The outline of a stroke whose width varies along it.
 
-use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
+use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, PathSeg, Point, Rect, Shape, Vec2};
 
 /// The shape of a stroke's two ends, where its width there is not 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,6 +12,9 @@ pub enum Ends {
     Flat,
 }
 
+/// How often a segment is halved to follow its side; what is left then is a cusp, of a 64th of the segment.
+const MOST_HALVINGS: usize = 6;
+
 /// Length of a curve to 1e-6 mm.
 pub fn curve_length(path: &BezPath) -> f64 {
     path.segments().map(|s| s.arclen(1e-6)).sum()
@@ -21,7 +24,9 @@ pub fn curve_length(path: &BezPath) -> f64 {
 /// is `widths[i]`; between nodes it changes smoothly, without overshoot.
 ///
 /// Each side is a chain of cubics whose ends and end tangents are those of the true offset curve; a segment is halved until its
-/// middle is within `tolerance` of the true one. Ends are half discs or, with [`Ends::Flat`], square. Only the first subpath is used.
+/// quarters are within `tolerance` of the true one. No handle is longer than its chord (a half circle's is two thirds of it): where the
+/// line turns on less than its half width, the offset curve's own run far beyond. Ends are half discs or, with [`Ends::Flat`], square.
+/// Only the first subpath is used.
 ///
 /// # Panics
 /// If `widths` does not have one entry a node.
@@ -32,6 +37,7 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
     let closed = matches!(curve.elements().last(), Some(PathEl::ClosePath));
     outline.move_to(pieces[0].side(0.0, 1.0).0);
     for piece in &pieces {
+        meet(&mut outline, piece.side(0.0, 1.0).0);
         piece.append_side(&mut outline, 0.0, 1.0, 1.0, tolerance, 0);
     }
     if closed {
@@ -41,6 +47,7 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
         append_cap(&mut outline, last.curve.p3, tangent(&last.curve, 1.0), last.to.0, ends);
     }
     for piece in pieces.iter().rev() {
+        meet(&mut outline, piece.side(1.0, -1.0).0);
         piece.append_side(&mut outline, 1.0, 0.0, -1.0, tolerance, 0);
     }
     if !closed {
@@ -48,6 +55,13 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
     }
     outline.close_path();
     outline
+}
+
+/// Straight on to where the next piece's side begins, which at a corner of the line is elsewhere.
+fn meet(outline: &mut BezPath, side: Point) {
+    if outline.elements().last().and_then(PathEl::end_point).is_some_and(|end| end.distance(side) > 1e-6) {
+        outline.line_to(side);
+    }
 }
 
 /// Points along a swelling stroke at most `spacing` apart, with the full width that its outline has there.
@@ -64,6 +78,45 @@ pub fn sample_swelling(curve: &BezPath, widths: &[f64], spacing: f64) -> Vec<(Po
         }
     }
     samples
+}
+
+/// A place on a swelling stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// On the centre line.
+    pub at: Point,
+    /// Unit vector along it.
+    pub along: Vec2,
+    /// Full width.
+    pub width: f64,
+    /// Place by nodes: the segment's number and the share of its parameter.
+    pub node: f64,
+}
+
+/// Part of a swelling stroke, as it goes on from the one before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stretch {
+    /// Along this curve, which is as it was.
+    Curve(CubicBez),
+    /// So short that it is straight.
+    Straight,
+}
+
+/// A swelling stroke as stations, each with how it is reached from the one before; where `is_clear` says so of a box around the ink
+/// of a stretch, that stretch is kept as a curve, else it is cut into pieces of at most `spacing`.
+///
+/// # Panics
+/// If `widths` does not have one entry a node.
+pub fn stations(curve: &BezPath, widths: &[f64], spacing: f64, is_clear: impl Fn(Rect) -> bool) -> Vec<(Station, Stretch)> {
+    let kept = curve.segments().enumerate().filter(|(_, s)| s.arclen(1e-3) > 1e-9).map(|(i, _)| i as f64);
+    let mut stations = Vec::new();
+    for (piece, first) in pieces(curve, widths).iter().zip(kept) {
+        if stations.is_empty() {
+            stations.push((piece.station(0.0, first), Stretch::Straight));
+        }
+        piece.append_stations(&mut stations, 0.0, 1.0, first, spacing, &is_clear);
+    }
+    stations
 }
 
 /// The stroke segment by segment, with the width and its slope at both ends of each.
@@ -155,6 +208,33 @@ struct Swelling {
 }
 
 impl Swelling {
+    fn station(&self, t: f64, first: f64) -> Station {
+        Station { at: self.curve.eval(t), along: tangent(&self.curve, t), width: self.width(t).0, node: first + t }
+    }
+
+    fn append_stations(
+        &self,
+        stations: &mut Vec<(Station, Stretch)>,
+        t0: f64,
+        t1: f64,
+        first: f64,
+        spacing: f64,
+        is_clear: &impl Fn(Rect) -> bool,
+    ) {
+        let part = self.curve.subsegment(t0..t1);
+        // The width never swings beyond its ends.
+        let half = 0.5 * self.width(t0).0.max(self.width(t1).0);
+        if is_clear(part.bounding_box().inflate(half, half)) {
+            stations.push((self.station(t1, first), Stretch::Curve(part)));
+        } else if part.arclen(1e-3) <= spacing {
+            stations.push((self.station(t1, first), Stretch::Straight));
+        } else {
+            let middle = 0.5 * (t0 + t1);
+            self.append_stations(stations, t0, middle, first, spacing, is_clear);
+            self.append_stations(stations, middle, t1, first, spacing, is_clear);
+        }
+    }
+
     /// Width and its derivative by the curve's parameter (cubic Hermite).
     fn width(&self, t: f64) -> (f64, f64) {
         let (w0, w1, m0, m1) = (self.from.0, self.to.0, self.from.1 * self.length, self.to.1 * self.length);
@@ -185,22 +265,31 @@ impl Swelling {
     fn append_side(&self, outline: &mut BezPath, t0: f64, t1: f64, side: f64, tolerance: f64, depth: usize) {
         let ((a, da), (b, db)) = (self.side(t0, side), self.side(t1, side));
         let step = (t1 - t0) / 3.0;
-        let cubic = CubicBez::new(a, a + da * step, b - db * step, b);
-        let middle = self.side(0.5 * (t0 + t1), side).0;
-        if depth < 6 && cubic.eval(0.5).distance(middle) > tolerance {
+        let chord = a.distance(b);
+        let cubic = CubicBez::new(a, a + capped(da * step, chord), b - capped(db * step, chord), b);
+        let is_near = |part: f64| cubic.eval(part).distance(self.side(t0 + (t1 - t0) * part, side).0) <= tolerance;
+        if [0.5, 0.25, 0.75].into_iter().all(is_near) {
+            outline.curve_to(cubic.p1, cubic.p2, cubic.p3);
+        } else if depth < MOST_HALVINGS {
             let half = 0.5 * (t0 + t1);
             self.append_side(outline, t0, half, side, tolerance, depth + 1);
             self.append_side(outline, half, t1, side, tolerance, depth + 1);
         } else {
-            outline.curve_to(cubic.p1, cubic.p2, cubic.p3);
+            // A cusp: its tangents say nothing, and no way between two places of the side is shorter.
+            outline.line_to(b);
         }
     }
+}
+
+/// A handle no longer than its chord.
+fn capped(handle: Vec2, chord: f64) -> Vec2 {
+    let length = handle.hypot();
+    if length > chord { handle * (chord / length) } else { handle }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kurbo::Shape;
 
     fn area(outline: &BezPath) -> f64 {
         outline.area().abs()
@@ -232,5 +321,21 @@ mod tests {
         let outline = swelling_outline(&circle, &vec![1.0; nodes], Ends::Round, 0.001);
         let expected = std::f64::consts::PI * (5.5 * 5.5 - 4.5 * 4.5);
         assert!((area(&outline) - expected).abs() < 0.02, "{} {expected}", area(&outline));
+    }
+
+    /// A turn on much less than half the width: the inner side's own tangents would run 90 times its chord away.
+    #[test]
+    fn a_tight_turn_throws_no_spike() {
+        let line = BezPath::from_svg("M0,0 C0.02,0 0.02,0 0.02,0.01 C0.02,0.02 0.02,0.02 0,0.02 L-3,0.02").unwrap();
+        let outline = swelling_outline(&line, &[4.0, 4.0, 4.0, 4.0], Ends::Round, 0.002);
+        let bounds = line.bounding_box().inflate(2.0, 2.0).inflate(0.01, 0.01);
+        let found = outline.bounding_box();
+        assert_eq!(bounds.union(found), bounds, "{found:?}");
+        for segment in outline.segments() {
+            if let PathSeg::Cubic(c) = segment {
+                let (chord, handle) = (c.p0.distance(c.p3), c.p0.distance(c.p1).max(c.p2.distance(c.p3)));
+                assert!(handle <= chord + 1e-9, "{handle} on {chord}");
+            }
+        }
     }
 }

@@ -3,6 +3,7 @@
 //! In: marks with their ink. Out: a [`Plot`], the polylines that one nib per pen draws, in the page's millimetres; a
 //! [`Mounting`] says where the page lies on a machine. Nothing here knows of styles or fields.
 
+mod budget;
 mod calibration;
 mod coverage;
 mod drying;
@@ -17,12 +18,13 @@ mod report;
 mod seam;
 mod time;
 
+pub use budget::{TooMuch, check_work};
 pub use calibration::{Calibration, CalibrationError, calibration_page, calibration_sheet};
 pub use coverage::{Coverage, coverage};
 pub use drying::let_dry;
 pub use errands::{add_registration, pause_every, rest_touches};
 pub use lower::{InkModel, Nibs, lower};
-pub use mounting::{Mounting, MountingError, Turn, clip_to, mount};
+pub use mounting::{Mounting, MountingError, Room, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded};
 pub use order::{Direction, Effort, PathEnds, Stop, Visit, chain, drop_duplicates, order, order_stops, pen_up_length};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};

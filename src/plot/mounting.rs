@@ -4,6 +4,7 @@ use super::profile::{Paper, Profile};
 use super::{Plot, Toolpath};
 use crate::drawing::Page;
 use crate::geometry::{Affine, Point, Rect, Vec2, clip_polyline};
+use std::fmt;
 use thiserror::Error;
 
 /// Sizes that differ by less are the same sheet, in millimetres.
@@ -50,9 +51,7 @@ pub enum Turn {
 #[derive(Debug, Error, PartialEq)]
 pub enum MountingError {
     /// The page is larger than every sheet.
-    #[error(
-        "a page of {width:.1} x {height:.1} mm is larger than every sheet of {machine} ({sheets}); choose --page or --size to fit"
-    )]
+    #[error("a page of {width:.1} x {height:.1} mm is larger than every sheet of {machine} ({sheets})")]
     PageTooLarge {
         /// Width of the page.
         width: f64,
@@ -64,9 +63,7 @@ pub enum MountingError {
         sheets: String,
     },
     /// The drawing leaves the machine's reach.
-    #[error(
-        "the drawing reaches {excess:.2} mm beyond the {side} limit of {machine} on this sheet; {advice}, or cut it with --clip"
-    )]
+    #[error("the drawing reaches {excess:.2} mm beyond the {side} limit of {machine} on this sheet; {room}")]
     OutOfReach {
         /// How far.
         excess: f64,
@@ -74,19 +71,64 @@ pub enum MountingError {
         side: &'static str,
         /// The profile's name.
         machine: String,
-        /// What would work.
-        advice: String,
+        /// What there is room for.
+        room: Room,
     },
     /// The drawing leaves the sheet.
-    #[error("the drawing reaches {excess:.2} mm beyond the sheet's {side} edge; {advice}, or cut it with --clip")]
+    #[error("the drawing reaches {excess:.2} mm beyond the sheet's {side} edge; {room}")]
     OffSheet {
         /// How far.
         excess: f64,
         /// Which edge.
         side: &'static str,
-        /// What would work.
-        advice: String,
+        /// What there is room for.
+        room: Room,
     },
+}
+
+/// A drawing's size and the room that there is for it, each a width and a height in millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    /// The drawing, as far as the pen goes.
+    pub drawn: (f64, f64),
+    /// What can be drawn on of this page.
+    pub free: (f64, f64),
+    /// What the machine reaches, were the page larger.
+    pub reach: (f64, f64),
+    /// What could be drawn on of the page turned by a quarter, where a machine takes it.
+    pub free_turned: Option<(f64, f64)>,
+}
+
+impl Room {
+    /// Whether the drawing would fit somewhere on this page.
+    pub fn is_enough(&self) -> bool {
+        fits(self.drawn, self.free)
+    }
+
+    /// Whether the drawing would fit, turned by a quarter, on the page as it lies.
+    pub fn is_enough_across(&self) -> bool {
+        fits((self.drawn.1, self.drawn.0), self.free)
+    }
+
+    /// Whether the drawing would fit if the page were turned by a quarter with it.
+    pub fn is_enough_turned(&self) -> bool {
+        self.free_turned.is_some_and(|free| fits((self.drawn.1, self.drawn.0), free))
+    }
+}
+
+/// Whether a width and height fit into others.
+fn fits(inner: (f64, f64), outer: (f64, f64)) -> bool {
+    inner.0 <= outer.0 + FORGIVEN && inner.1 <= outer.1 + FORGIVEN
+}
+
+impl fmt::Display for Room {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_enough() {
+            return write!(f, "it would fit elsewhere on the page");
+        }
+        let ((width, height), (free_width, free_height)) = (self.drawn, self.free);
+        write!(f, "it is {width:.1} x {height:.1} mm and {free_width:.1} x {free_height:.1} mm can be drawn on")
+    }
 }
 
 /// Lays a page on a machine: on the sheet of its size, either way round, else in the machine's own area with its zero where the
@@ -211,42 +253,25 @@ impl Mounting {
         }
         let Some(whole) = whole else { return Ok(()) };
         if worst.0 > FORGIVEN {
-            let advice = self.advice(profile, plot, whole);
-            return Err(MountingError::OutOfReach { excess: worst.0, side: worst.1, machine: profile.name.clone(), advice });
+            let (machine, room) = (profile.name.clone(), self.room(profile, &plot.page, whole));
+            return Err(MountingError::OutOfReach { excess: worst.0, side: worst.1, machine, room });
         }
         if worst_off.0 > FORGIVEN {
-            return Err(MountingError::OffSheet {
-                excess: worst_off.0,
-                side: worst_off.1,
-                advice: self.advice(profile, plot, whole),
-            });
+            let room = self.room(profile, &plot.page, whole);
+            return Err(MountingError::OffSheet { excess: worst_off.0, side: worst_off.1, room });
         }
         Ok(())
     }
 
-    /// What would make a drawing fit.
-    fn advice(&self, profile: &Profile, plot: &Plot, drawn: Rect) -> String {
-        let free = self.drawable(&plot.page);
-        if drawn.width() <= free.width() && drawn.height() <= free.height() {
-            return "it would fit elsewhere on the page: leave a larger --margin, or plot with --center or --fit page".to_owned();
-        }
-        let page = Page { width: plot.page.height, height: plot.page.width, ..plot.page };
-        let turned = turned(&plot.page, Turn::Quarter).transform_rect_bbox(drawn);
-        let fits = mount(profile, &page).is_ok_and(|mounting| {
-            let free = mounting.drawable(&page).inflate(FORGIVEN, FORGIVEN);
-            free.union(turned) == free
-        });
-        let size = format!(
-            "it is {:.1} x {:.1} mm and {:.1} x {:.1} mm can be drawn on",
-            drawn.width(),
-            drawn.height(),
-            free.width().max(0.0),
-            free.height().max(0.0)
-        );
-        if fits {
-            format!("{size}; turned by 90 degrees it would fit: --rotate 90")
-        } else {
-            format!("{size}, and --rotate 90 would not help: make it smaller (draw --size, plot --scale or --fit page)")
+    /// What there is room for, for a drawing of these bounds.
+    fn room(&self, profile: &Profile, page: &Page, drawn: Rect) -> Room {
+        let size = |rect: Rect| (rect.width().max(0.0), rect.height().max(0.0));
+        let turned = Page { width: page.height, height: page.width, ..*page };
+        Room {
+            drawn: size(drawn),
+            free: size(self.drawable(page)),
+            reach: size(self.reach_on_page()),
+            free_turned: mount(profile, &turned).ok().map(|mounting| size(mounting.drawable(&turned))),
         }
     }
 }

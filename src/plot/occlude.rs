@@ -4,6 +4,7 @@ use crate::drawing::{Area, Colour, Dot, Drawing, Mark, Mixing, Painted, Stroke, 
 use crate::geometry::{BezPath, Rect, Region};
 use crate::interrupt::{Interrupt, Interrupted};
 use kurbo::Shape;
+use std::cell::OnceCell;
 
 /// Flattening of outlines that are cut, in millimetres.
 const TOLERANCE: f64 = 0.005;
@@ -23,27 +24,33 @@ pub enum Hides {
     PaintOnOtherColours,
 }
 
-/// The drawing without what is hidden. `painting` names every mark once, the lowest first; marks that it does not name are hidden.
+/// The drawing without what is hidden. What is left of paint lies under no other colour, so that it needs no order and belongs to no
+/// group any more ([`Hides::PaintOnOtherColours`]). `painting` names every mark once, the lowest first; marks that it does not name are hidden.
 pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides, interrupt: &Interrupt) -> Result<Drawing, Interrupted> {
     let mut covers = Covers::new(drawing);
+    let is_paint = hides == Hides::PaintOnOtherColours;
     let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
     for painted in painting.iter().rev() {
         interrupt.check()?;
         match painted {
-            Painted::White(outline) => covers.add(outline.clone(), None),
+            Painted::White(outline) => covers.add(Outline::White(outline), None),
             &Painted::Mark { layer, mark } => {
                 let Some((layer_of, the_mark)) = drawing.layers.get(layer).and_then(|l| Some((l, l.marks.get(mark)?))) else {
                     continue;
                 };
                 let colour = the_mark.colour().unwrap_or(layer_of.ink.colour());
-                left[layer].push((mark, covers.visible(the_mark, colour, hides, interrupt)));
+                let mut visible = covers.visible(the_mark, colour, hides, interrupt);
+                if is_paint && layer_of.mixing == Mixing::Paint {
+                    visible.iter_mut().for_each(ungroup);
+                }
+                left[layer].push((mark, visible));
                 let is_cover = match hides {
                     Hides::OtherColours => true,
                     Hides::AllLines => !matches!(the_mark, Mark::Stroke(_)),
                     Hides::PaintOnOtherColours => layer_of.mixing == Mixing::Paint,
                 };
                 if is_cover {
-                    covers.add(outline_of(the_mark), Some(colour));
+                    covers.add(Outline::Mark(the_mark), Some(colour));
                 }
             }
         }
@@ -57,33 +64,60 @@ pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides, interrupt
 }
 
 /// Opaque outlines met so far, from the top down.
-struct Covers {
+struct Covers<'a> {
     bounds: Rect,
     cells: Vec<Vec<u32>>,
-    all: Vec<Cover>,
+    all: Vec<Cover<'a>>,
 }
 
-struct Cover {
-    outline: BezPath,
+/// Whose outline covers.
+enum Outline<'a> {
+    White(&'a BezPath),
+    Mark(&'a Mark),
+}
+
+struct Cover<'a> {
+    of: Outline<'a>,
+    /// Made when something lies below.
+    outline: OnceCell<BezPath>,
     bounds: Rect,
     /// None for white.
     colour: Option<Colour>,
 }
 
-impl Covers {
+impl Cover<'_> {
+    fn outline(&self) -> &BezPath {
+        match self.of {
+            Outline::White(outline) => outline,
+            Outline::Mark(mark) => self.outline.get_or_init(|| outline_of(mark)),
+        }
+    }
+}
+
+/// A mark that may be drawn at any time.
+fn ungroup(mark: &mut Mark) {
+    if let Mark::Stroke(stroke) = mark {
+        stroke.group = None;
+    }
+}
+
+impl<'a> Covers<'a> {
     fn new(drawing: &Drawing) -> Self {
         let bounds = drawing.bounding_box().unwrap_or(drawing.page.rect());
         Self { bounds, cells: vec![Vec::new(); CELLS * CELLS], all: Vec::new() }
     }
 
-    fn add(&mut self, outline: BezPath, colour: Option<Colour>) {
-        let bounds = outline.bounding_box();
+    fn add(&mut self, of: Outline<'a>, colour: Option<Colour>) {
+        let bounds = match of {
+            Outline::White(outline) => outline.bounding_box(),
+            Outline::Mark(mark) => mark.bounding_box(),
+        };
         if !bounds.is_finite() || bounds.area() <= 0.0 {
             return;
         }
         let index = self.all.len() as u32;
         self.cells_of(bounds).for_each(|cell| self.cells[cell].push(index));
-        self.all.push(Cover { outline, bounds, colour });
+        self.all.push(Cover { of, outline: OnceCell::new(), bounds, colour });
     }
 
     fn cells_of(&self, rect: Rect) -> impl Iterator<Item = usize> + use<> {
@@ -95,12 +129,12 @@ impl Covers {
 
     /// The outlines over a box that hide this colour, as one path.
     fn over(&self, bounds: Rect, colour: Colour, hides: Hides) -> BezPath {
-        let hidden_by = |cover: &Cover| hides == Hides::AllLines || cover.colour != Some(colour);
+        let hidden_by = |cover: &Cover<'_>| hides == Hides::AllLines || cover.colour != Some(colour);
         let mut found: Vec<u32> = self.cells_of(bounds).flat_map(|cell| &self.cells[cell]).copied().collect();
         found.sort_unstable();
         found.dedup();
         let covers = found.into_iter().map(|i| &self.all[i as usize]).filter(|c| c.bounds.overlaps(bounds) && hidden_by(c));
-        covers.flat_map(|cover| cover.outline.iter()).collect()
+        covers.flat_map(|cover| cover.outline().iter()).collect()
     }
 
     /// What is left of a mark.

@@ -39,6 +39,8 @@ impl Dropped {
 
     /// Such as `3 text, 1 image`.
     pub fn summary(&self) -> String {
-        self.counts.iter().map(|(kind, n)| format!("{n} {kind}")).collect::<Vec<_>>().join(", ")
+        // Kinds are named as one of them is, but for fills.
+        let named = |kind: &str, n: usize| format!("{n} {}", if (kind, n) == ("fills", 1) { "fill" } else { kind });
+        self.counts.iter().map(|(kind, n)| named(kind, *n)).collect::<Vec<_>>().join(", ")
     }
 }

@@ -1,18 +1,27 @@
 //! G-code as motion: modal absolute moves, and the pen by the profile's own commands.
 
-use super::Strokes;
-use crate::geometry::{Point, Vec2, flatten_arc};
+use super::budget::{Budget, PATH, POINT, TooMuchWork};
+use super::{PenLift, Strokes};
+use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
 use thiserror::Error;
 
 /// Motion in machine units (millimetres).
 pub type GcodeMotion = Strokes;
 
 /// Why a file could not be read.
-#[derive(Debug, Error, PartialEq, Eq)]
+#[derive(Debug, Error, PartialEq)]
 pub enum GcodeError {
     /// A word that is not a letter and a number.
     #[error("line {line}: '{word}' is not a G-code word")]
     Word {
+        /// Line, from 1.
+        line: usize,
+        /// The word.
+        word: String,
+    },
+    /// A number that is none, infinite, or too large for any machine.
+    #[error("line {line}: '{word}' is not a finite number; write a number up to 1e30")]
+    NotFinite {
         /// Line, from 1.
         line: usize,
         /// The word.
@@ -26,29 +35,33 @@ pub enum GcodeError {
         /// The word.
         word: String,
     },
+    /// More moves than can be held.
+    #[error("line {line}: the file {work}")]
+    Work {
+        /// Line, from 1.
+        line: usize,
+        /// How much.
+        work: TooMuchWork,
+    },
 }
 
 /// Reads absolute moves and arcs in millimetres; a line equal to `pen_up` or `pen_down` moves the pen, `M0` and `PAUSE` pause, a
 /// comment `pen N:` tells which pen is in the holder.
 pub fn read_gcode(text: &str, pen_up: &str, pen_down: &str) -> Result<GcodeMotion, GcodeError> {
-    read(text, &Lift::Commands { up: pen_up, down: pen_down })
+    read_gcode_within(text, &PenLift::Commands { up: pen_up, down: pen_down }, &mut Budget::default())
 }
 
 /// The same for a machine whose pen is lifted by its z axis: it is down beyond the middle between `up` and `down`.
 pub fn read_gcode_heights(text: &str, up: f64, down: f64) -> Result<GcodeMotion, GcodeError> {
-    read(text, &Lift::Heights { up, down })
-}
-
-enum Lift<'a> {
-    Commands { up: &'a str, down: &'a str },
-    Heights { up: f64, down: f64 },
+    read_gcode_within(text, &PenLift::Heights { up, down }, &mut Budget::default())
 }
 
 /// Distance from an arc at which it is followed, in millimetres.
 const ARC_TOLERANCE: f64 = 0.002;
 
-struct Reader {
+struct Reader<'a> {
     motion: Strokes,
+    budget: &'a mut Budget,
     at: Point,
     pen: u32,
     is_down: bool,
@@ -56,9 +69,11 @@ struct Reader {
     mode: u32,
 }
 
-fn read(text: &str, lift: &Lift<'_>) -> Result<GcodeMotion, GcodeError> {
+/// The same with a limit of its own on the work.
+pub fn read_gcode_within(text: &str, lift: &PenLift<'_>, budget: &mut Budget) -> Result<GcodeMotion, GcodeError> {
+    budget.text(text.len() as f64).map_err(|work| GcodeError::Work { line: 1, work })?;
     let motion = Strokes { ends_up: true, ..Strokes::default() };
-    let mut reader = Reader { motion, at: Point::ORIGIN, pen: 1, is_down: false, mode: 0 };
+    let mut reader = Reader { motion, budget, at: Point::ORIGIN, pen: 1, is_down: false, mode: 0 };
     for (i, raw) in text.lines().enumerate() {
         let comment = raw.find(['(', ';']).map_or("", |start| raw[start + 1..].trim_start().trim_end_matches(')'));
         if let Some(number) = comment.strip_prefix("pen ").and_then(|rest| rest.split(':').next()).and_then(|n| n.parse().ok()) {
@@ -66,8 +81,10 @@ fn read(text: &str, lift: &Lift<'_>) -> Result<GcodeMotion, GcodeError> {
         }
         let line = raw.split(['(', ';', '%']).next().unwrap_or("").trim();
         match lift {
-            Lift::Commands { up, .. } if line == *up => reader.is_down = false,
-            Lift::Commands { down, .. } if line == *down => reader.lower(),
+            PenLift::Commands { up, .. } if line == *up => reader.is_down = false,
+            PenLift::Commands { down, .. } if line == *down => {
+                reader.lower().map_err(|work| GcodeError::Work { line: i + 1, work })?
+            }
             _ if line == "M0" || line == "PAUSE" => reader.motion.pauses += 1,
             _ if line.split_whitespace().next().is_some_and(is_named) => {}
             _ => reader.line(line, i + 1, lift)?,
@@ -93,12 +110,16 @@ struct Words {
     has_centre: bool,
 }
 
-impl Reader {
-    fn line(&mut self, line: &str, number: usize, lift: &Lift<'_>) -> Result<(), GcodeError> {
+impl Reader<'_> {
+    fn line(&mut self, line: &str, number: usize, lift: &PenLift<'_>) -> Result<(), GcodeError> {
         let mut words = Words::default();
         for word in line.split_whitespace() {
             let (letter, value) = word.split_at(word.chars().next().map_or(0, char::len_utf8));
-            let value: f64 = value.parse().map_err(|_| GcodeError::Word { line: number, word: word.to_owned() })?;
+            let refused = || match value.parse::<f64>() {
+                Ok(_) => GcodeError::NotFinite { line: number, word: word.to_owned() },
+                Err(_) => GcodeError::Word { line: number, word: word.to_owned() },
+            };
+            let value = parse_finite(value).ok_or_else(refused)?;
             match letter {
                 "X" => words.x = Some(value),
                 "Y" => words.y = Some(value),
@@ -114,24 +135,26 @@ impl Reader {
                 _ => {}
             }
         }
-        if let (Lift::Heights { up, down }, Some(z)) = (lift, words.z) {
+        let too_much = |work| GcodeError::Work { line: number, work };
+        if let (PenLift::Heights { up, down }, Some(z)) = (lift, words.z) {
             if (z - down).abs() < (z - up).abs() || (z - down) * (up - down) < 0.0 {
-                self.lower();
+                self.lower().map_err(too_much)?;
             } else {
                 self.is_down = false;
             }
         }
-        self.go(&words);
-        Ok(())
+        self.go(&words).map_err(too_much)
     }
 
-    fn go(&mut self, words: &Words) {
+    fn go(&mut self, words: &Words) -> Result<(), TooMuchWork> {
         if words.x.is_none() && words.y.is_none() {
-            return;
+            return Ok(());
         }
         let to = Point::new(words.x.unwrap_or(self.at.x), words.y.unwrap_or(self.at.y));
         if self.mode < 2 || !words.has_centre {
-            return self.visit(to);
+            self.budget.spend(POINT, "moves")?;
+            self.visit(to);
+            return Ok(());
         }
         let centre = self.at + Vec2::new(words.i, words.j);
         let (from, end) = (self.at - centre, to - centre);
@@ -142,9 +165,11 @@ impl Reader {
             (2, turn) if turn >= 0.0 => turn - whole,
             (_, turn) => turn,
         };
+        self.budget.spend(POINT * arc_points(from.hypot(), sweep, ARC_TOLERANCE), "arcs")?;
         for p in flatten_arc(self.at, to, centre, sweep, ARC_TOLERANCE) {
             self.visit(p);
         }
+        Ok(())
     }
 
     fn visit(&mut self, to: Point) {
@@ -157,11 +182,13 @@ impl Reader {
         }
     }
 
-    fn lower(&mut self) {
+    fn lower(&mut self) -> Result<(), TooMuchWork> {
         if !self.is_down {
+            self.budget.spend(PATH, "paths")?;
             self.motion.paths.push((self.pen, vec![self.at]));
         }
         self.is_down = true;
+        Ok(())
     }
 }
 
@@ -183,6 +210,23 @@ mod tests {
     fn faults_are_named() {
         assert_eq!(read_gcode("G21\nG0 Xa\n", "", ""), Err(GcodeError::Word { line: 2, word: "Xa".into() }));
         assert!(matches!(read_gcode("G20\n", "M3 S1", "M3 S2"), Err(GcodeError::Mode { line: 1, .. })));
+    }
+
+    #[test]
+    fn numbers_without_end_are_faults() {
+        for word in ["Xnan", "X1e999", "Yinf", "I-inf", "Snan", "Z1e31"] {
+            let text = format!("G21\nG0 X1\nG1 {word}\n");
+            let expected = Err(GcodeError::NotFinite { line: 3, word: word.into() });
+            assert_eq!(read_gcode(&text, "M3 S1", "M3 S2"), expected);
+            assert!(read_gcode_heights(&text, 2.0, -0.2).is_err(), "{word}");
+        }
+    }
+
+    #[test]
+    fn arcs_are_counted_before_they_are_followed() {
+        let text = "G2 X0 Y0 I1e9 J0\n".repeat(40_000);
+        let Err(GcodeError::Work { line, work }) = read_gcode(&text, "M3 S1", "M3 S2") else { panic!("it was read") };
+        assert!(line < 40_000 && work.what == "arcs" && work.steps > work.most);
     }
 
     #[test]

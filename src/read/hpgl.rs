@@ -1,7 +1,8 @@
 //! HP-GL as motion: the subset that plotter programs write.
 
 use super::Strokes;
-use crate::geometry::{Point, Vec2, flatten_arc};
+use super::budget::{Budget, PATH, POINT, TooMuchWork};
+use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
 use thiserror::Error;
 
 /// Motion in plotter units.
@@ -18,6 +19,22 @@ pub enum HpglError {
         /// What stands there.
         text: String,
     },
+    /// A number that is none, infinite, or too large for any machine.
+    #[error("byte {at}: '{number}' is not a finite number; write a number up to 1e30")]
+    NotFinite {
+        /// Where the instruction begins.
+        at: usize,
+        /// What stands there.
+        number: String,
+    },
+    /// More moves than can be held.
+    #[error("byte {at}: the file {work}")]
+    Work {
+        /// Where the instruction begins.
+        at: usize,
+        /// How much.
+        work: TooMuchWork,
+    },
     /// An odd number of coordinates.
     #[error("byte {at}: a coordinate has no partner in '{text}'")]
     OddCoordinates {
@@ -28,9 +45,19 @@ pub enum HpglError {
     },
 }
 
+/// Distance from an arc at which it is followed, in plotter units.
+const ARC_TOLERANCE: f64 = 0.1;
+
 /// Reads `IN SP VS FS PU PD PA PR PE AA AR PS` and skips other instructions' effects; escape sequences are passed over.
 pub fn read_hpgl(text: &str) -> Result<HpglMotion, HpglError> {
+    read_hpgl_within(text, &mut Budget::default())
+}
+
+/// The same with a limit of its own on the work.
+pub fn read_hpgl_within(text: &str, budget: &mut Budget) -> Result<HpglMotion, HpglError> {
+    budget.text(text.len() as f64).map_err(|work| HpglError::Work { at: 0, work })?;
     let mut reader = Reader {
+        budget,
         motion: Strokes { ends_up: true, ..Strokes::default() },
         at: Point::ORIGIN,
         pen: 0,
@@ -67,7 +94,8 @@ fn escape_length(text: &str) -> usize {
     length
 }
 
-struct Reader {
+struct Reader<'a> {
+    budget: &'a mut Budget,
     motion: Strokes,
     at: Point,
     pen: u32,
@@ -75,8 +103,9 @@ struct Reader {
     is_relative: bool,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn execute(&mut self, instruction: &str, start: usize) -> Result<(), HpglError> {
+        let too_much = |work| HpglError::Work { at: start, work };
         let refuse = || HpglError::Instruction { at: start, text: instruction.chars().take(20).collect() };
         if instruction.len() < 2 || !instruction.as_bytes()[..2].iter().all(u8::is_ascii_alphabetic) {
             return Err(refuse());
@@ -84,21 +113,30 @@ impl Reader {
         let (name, parameters) = instruction.split_at(2);
         let name = name.to_ascii_uppercase();
         if name == "PE" {
+            // A pair takes two characters at least.
+            self.budget.spend(0.5 * (POINT + PATH) * parameters.len() as f64, "moves").map_err(too_much)?;
             return self.packed(parameters).ok_or_else(refuse);
         }
         let numbers: Vec<f64> = parameters
             .split([',', ' '])
             .filter(|number| !number.is_empty())
-            .map(|number| number.parse().map_err(|_| refuse()))
+            .map(|number| match number.parse::<f64>() {
+                Ok(_) => parse_finite(number)
+                    .ok_or_else(|| HpglError::NotFinite { at: start, number: number.chars().take(20).collect() }),
+                Err(_) => Err(refuse()),
+            })
             .collect::<Result<_, _>>()?;
         match name.as_str() {
             "IN" | "DF" => (self.is_down, self.is_relative) = (false, false),
             "SP" => self.pen = numbers.first().map_or(0, |n| *n as u32),
             "PU" => self.is_down = false,
-            "PD" => self.lower(),
+            "PD" => {
+                self.budget.spend(PATH, "paths").map_err(too_much)?;
+                self.lower();
+            }
             "PA" => self.is_relative = false,
             "PR" => self.is_relative = true,
-            "AA" | "AR" => return self.arc(&numbers, name == "AR").ok_or_else(refuse),
+            "AA" | "AR" => return self.arc(&numbers, name == "AR").ok_or_else(refuse)?.map_err(too_much),
             _ => return Ok(()),
         }
         if !matches!(name.as_str(), "PU" | "PD" | "PA" | "PR") {
@@ -107,21 +145,25 @@ impl Reader {
         if !numbers.len().is_multiple_of(2) {
             return Err(HpglError::OddCoordinates { at: start, text: instruction.chars().take(40).collect() });
         }
+        self.budget.spend(0.5 * POINT * numbers.len() as f64, "moves").map_err(too_much)?;
         numbers.chunks_exact(2).for_each(|pair| self.move_by_or_to(pair[0], pair[1]));
         Ok(())
     }
 
     /// Centre, and the angle in degrees.
-    fn arc(&mut self, numbers: &[f64], is_relative: bool) -> Option<()> {
+    fn arc(&mut self, numbers: &[f64], is_relative: bool) -> Option<Result<(), TooMuchWork>> {
         let &[x, y, degrees, ..] = numbers else { return None };
         let centre = if is_relative { self.at + Vec2::new(x, y) } else { Point::new(x, y) };
         let (sin, cos) = degrees.to_radians().sin_cos();
         let spoke = self.at - centre;
         let to = centre + Vec2::new(spoke.x * cos - spoke.y * sin, spoke.x * sin + spoke.y * cos);
-        for p in flatten_arc(self.at, to, centre, degrees.to_radians(), 0.1) {
+        if let Err(work) = self.budget.spend(POINT * arc_points(spoke.hypot(), degrees.to_radians(), ARC_TOLERANCE), "arcs") {
+            return Some(Err(work));
+        }
+        for p in flatten_arc(self.at, to, centre, degrees.to_radians(), ARC_TOLERANCE) {
             self.visit(p);
         }
-        Some(())
+        Some(Ok(()))
     }
 
     /// Pairs of differences in base 64 or, after a 7, in base 32; `<` lifts the pen for one move and `=` makes one absolute.
@@ -203,6 +245,23 @@ mod tests {
     fn faults_are_named() {
         assert!(matches!(read_hpgl("IN;PU1;"), Err(HpglError::OddCoordinates { at: 3, .. })));
         assert!(matches!(read_hpgl("IN;<svg>"), Err(HpglError::Instruction { at: 3, .. })));
+    }
+
+    #[test]
+    fn numbers_without_end_are_faults() {
+        for number in ["nan", "inf", "-inf", "1e999"] {
+            for instruction in ["PD", "PU0,", "PA5,5,1,", "AA5,5,", "VS"] {
+                let refused = read_hpgl(&format!("IN;SP1;{instruction}{number};"));
+                assert_eq!(refused, Err(HpglError::NotFinite { at: 7, number: number.into() }), "{instruction}{number}");
+            }
+        }
+    }
+
+    #[test]
+    fn arcs_are_counted_before_they_are_followed() {
+        let text = format!("IN;SP1;PU0,0;PD;{}", "AA5,5,1e18;".repeat(20_000));
+        let Err(HpglError::Work { at, work }) = read_hpgl(&text) else { panic!("it was read") };
+        assert!(at == 16 && work.what == "arcs" && work.steps > work.most);
     }
 
     #[test]

@@ -1,18 +1,19 @@
 //! The groups and paths of an SVG as layers of marks, in painting order.
 
 use super::Dropped;
-use super::clip_paths::{CLIP_TOLERANCE, clip_curve, clip_region, clipped_outline};
+use super::budget::{Budget, PATH, POINT_TO_COME, SEGMENT, TooMuchWork};
+use super::clip_paths::{CLIP_TOLERANCE, Clip, FARTHEST, NoClip, clip_curve, clip_region, clipped_outline, untangled_fill};
 use super::curves::{MM_PER_PX, bez_path, dot, has_crossings, is_flat, subpaths, to_mm};
 use super::layers::{Label, Outline};
 use super::paint::{Paint, Source};
 use super::svg::ImportedLayer;
 use crate::drawing::{Area, Colour, Ends, Handling, Ink, Layer, Mark, Mixing, Painted, Stroke, Width};
-use crate::geometry::{BezPath, Region, Winding, untangled};
+use crate::geometry::{BezPath, flattened_points};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-/// Coordinates beyond which a path is not taken, in millimetres.
-const FARTHEST: f64 = 100_000.0;
+/// The usual tolerance of lowering, in millimetres: what curves will cost there.
+const TO_COME: f64 = 0.02;
 /// Dashes in one path beyond which the pattern is not taken.
 const MOST_DASHES: f64 = 20_000.0;
 
@@ -42,6 +43,7 @@ impl Place {
 /// The walk over usvg's tree: each path becomes marks of a layer, and what cannot is counted.
 pub(super) struct Importer<'a> {
     outline: &'a Outline,
+    budget: &'a mut Budget,
     /// One for each label, then one for each colour met outside all labels.
     layers: Vec<ImportedLayer>,
     by_colour: HashMap<[u8; 3], usize>,
@@ -51,37 +53,46 @@ pub(super) struct Importer<'a> {
 }
 
 impl<'a> Importer<'a> {
-    pub fn new(outline: &'a Outline) -> Self {
+    pub fn new(outline: &'a Outline, budget: &'a mut Budget) -> Self {
         let layers = outline.layers.iter().enumerate().map(|(i, label)| labelled(label, i as u32 + 1)).collect();
         let mut dropped = outline.dropped.clone();
         dropped.add("pen height (+H)", outline.layers.iter().filter(|label| label.height.is_some()).count());
-        Self { outline, layers, by_colour: HashMap::new(), painting: Vec::new(), dropped, is_toolpaths: false }
+        Self { outline, budget, layers, by_colour: HashMap::new(), painting: Vec::new(), dropped, is_toolpaths: false }
     }
 
-    pub fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Region]) {
+    pub fn group(&mut self, group: &usvg::Group, place: Place, clips: &[Clip]) -> Result<(), TooMuchWork> {
         let place = Place { opacity: place.opacity * group.opacity().get(), ..self.place_of(group.id(), place) };
         if place.layer.is_some_and(|layer| self.outline.layers.get(layer).is_some_and(|label| label.is_skipped)) {
-            return;
+            return Ok(());
         }
         if group.opacity().get() <= 0.0 {
-            return self.dropped.count("invisible group");
+            self.dropped.count("invisible group");
+            return Ok(());
         }
         let mut clips = Cow::Borrowed(clips);
         let mut clip = group.clip_path();
         while let Some(path) = clip {
-            clips.to_mut().push(clip_region(path, to_mm(group.abs_transform())));
+            match clip_region(path, to_mm(group.abs_transform()), self.budget) {
+                Ok(region) => clips.to_mut().push(region),
+                Err(NoClip::Work(work)) => return Err(work),
+                Err(NoClip::Endless) => {
+                    self.dropped.count("clip path of no finite size (its group is left out)");
+                    return Ok(());
+                }
+            }
             clip = path.clip_path();
         }
         self.dropped.add("mask (its group is drawn whole)", usize::from(group.mask().is_some()));
         self.dropped.add("filter (its group is drawn plain)", group.filters().len());
         for node in group.children() {
             match node {
-                usvg::Node::Group(group) => self.group(group, place, &clips),
-                usvg::Node::Path(path) => self.path(path, place, &clips),
+                usvg::Node::Group(group) => self.group(group, place, &clips)?,
+                usvg::Node::Path(path) => self.path(path, place, &clips)?,
                 // Counted in the XML.
                 usvg::Node::Image(_) | usvg::Node::Text(_) => {}
             }
         }
+        Ok(())
     }
 
     fn place_of(&mut self, id: &str, place: Place) -> Place {
@@ -99,26 +110,29 @@ impl<'a> Importer<'a> {
         Place { layer, kind, ..place }
     }
 
-    fn path(&mut self, path: &usvg::Path, place: Place, clips: &[Region]) {
+    fn path(&mut self, path: &usvg::Path, place: Place, clips: &[Clip]) -> Result<(), TooMuchWork> {
         if !path.is_visible() || (path.id() == "paper" && self.outline.recipe.is_some()) || place.kind == Kind::Paper {
-            return;
+            return Ok(());
         }
         let transform = to_mm(path.abs_transform());
         let curve = transform * bez_path(path.data());
         let bounds = curve.control_box();
         if !bounds.is_finite() || [bounds.x0, bounds.y0, bounds.x1, bounds.y1].iter().any(|v| v.abs() > FARTHEST) {
-            return self.dropped.count("path beyond 100 m");
+            self.dropped.count("path beyond 100 m");
+            return Ok(());
         }
+        self.budget.spend(POINT_TO_COME * flattened_points(&curve, TO_COME), "curves")?;
         let fill = path.fill().map(|fill| (fill, Paint::of(fill.paint(), fill.opacity().get() * place.opacity)));
         let stroke = path.stroke().map(|stroke| (stroke, Paint::of(stroke.paint(), stroke.opacity().get() * place.opacity)));
         let is_stroke_above = path.paint_order() == usvg::PaintOrder::FillAndStroke;
         for is_stroke in [!is_stroke_above, is_stroke_above] {
             match (is_stroke, &fill, &stroke) {
-                (false, Some((fill, paint)), _) => self.filled(&curve, fill.rule(), *paint, place, clips),
-                (true, _, Some((stroke, paint))) => self.stroked(path, stroke, *paint, place, clips),
+                (false, Some((fill, paint)), _) => self.filled(&curve, fill.rule(), *paint, place, clips)?,
+                (true, _, Some((stroke, paint))) => self.stroked(path, stroke, *paint, place, clips)?,
                 _ => {}
             }
         }
+        Ok(())
     }
 
     /// A paint's colour, if it is ink.
@@ -137,24 +151,34 @@ impl<'a> Importer<'a> {
         None
     }
 
-    fn filled(&mut self, curve: &BezPath, rule: usvg::FillRule, paint: Paint, place: Place, clips: &[Region]) {
+    fn filled(
+        &mut self,
+        curve: &BezPath,
+        rule: usvg::FillRule,
+        paint: Paint,
+        place: Place,
+        clips: &[Clip],
+    ) -> Result<(), TooMuchWork> {
         // A straight line is filled by default in SVG, with nothing.
         if is_flat(curve) {
-            return;
+            return Ok(());
         }
         let colour = self.ink(paint, "fill");
         if colour.is_none() && !paint.hides() {
-            return;
+            return Ok(());
         }
         let outline = if rule == usvg::FillRule::EvenOdd && has_crossings(curve) {
-            clipped_outline(&untangled(curve, Winding::EvenOdd, CLIP_TOLERANCE), clips)
+            clipped_outline(&untangled_fill(curve, self.budget)?, clips, self.budget)?
         } else {
-            clipped_outline(curve, clips)
+            clipped_outline(curve, clips, self.budget)?
         };
         if outline.is_empty() {
-            return;
+            return Ok(());
         }
-        let Some(colour) = colour else { return self.painting.push(Painted::White(outline)) };
+        let Some(colour) = colour else {
+            self.painting.push(Painted::White(outline));
+            return Ok(());
+        };
         let index = self.layer_for(place, colour);
         let layer = &mut self.layers[index];
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
@@ -165,12 +189,20 @@ impl<'a> Importer<'a> {
         } else {
             self.paint(index, [Mark::Area(Area { outline, colour: own_colour })]);
         }
+        Ok(())
     }
 
-    fn stroked(&mut self, path: &usvg::Path, stroke: &usvg::Stroke, paint: Paint, place: Place, clips: &[Region]) {
+    fn stroked(
+        &mut self,
+        path: &usvg::Path,
+        stroke: &usvg::Stroke,
+        paint: Paint,
+        place: Place,
+        clips: &[Clip],
+    ) -> Result<(), TooMuchWork> {
         let colour = self.ink(paint, "stroke");
         if colour.is_none() && !paint.hides() {
-            return;
+            return Ok(());
         }
         let transform = to_mm(path.abs_transform());
         let scale = transform.determinant().abs().sqrt();
@@ -178,37 +210,50 @@ impl<'a> Importer<'a> {
         // A width that stays is in pixels of the whole drawing, and so are its dashes.
         let is_fixed = self.outline.fixed_widths.contains(path.id());
         let width = f64::from(stroke.width().get()) * if is_fixed { MM_PER_PX } else { scale };
+        if width > FARTHEST {
+            self.dropped.count("stroke wider than 100 m");
+            return Ok(());
+        }
         let unit = if is_fixed { MM_PER_PX / scale.max(1e-12) } else { 1.0 };
-        let mut curve = transform * self.dashed(bez_path(path.data()), stroke, unit, ends);
+        let mut curve = transform * self.dashed(bez_path(path.data()), stroke, unit, ends)?;
         for clip in clips {
-            curve = clip_curve(&curve, clip);
+            curve = clip_curve(&curve, clip, self.budget)?;
         }
         let strokes = subpaths(&curve).into_iter().map(|curve| Stroke { ends, ..Stroke::new(curve, Width::Constant(width)) });
         let Some(colour) = colour else {
-            return self.painting.extend(strokes.map(|stroke| Painted::White(stroke.ink_outline(CLIP_TOLERANCE))));
+            self.painting.extend(strokes.map(|stroke| Painted::White(stroke.ink_outline(CLIP_TOLERANCE))));
+            return Ok(());
         };
         let index = self.layer_for(place, colour);
         let own_colour = (self.layers[index].layer.ink.colour() != colour).then_some(colour);
         self.paint(index, strokes.map(|stroke| Mark::Stroke(Stroke { colour: own_colour, ..stroke })));
+        Ok(())
     }
 
     /// A curve's dashes, in its own units; `unit` is the length there of the pattern's.
-    fn dashed(&mut self, curve: BezPath, stroke: &usvg::Stroke, unit: f64, ends: Ends) -> BezPath {
-        let Some(pattern) = stroke.dasharray() else { return curve };
+    fn dashed(&mut self, curve: BezPath, stroke: &usvg::Stroke, unit: f64, ends: Ends) -> Result<BezPath, TooMuchWork> {
+        let Some(pattern) = stroke.dasharray() else { return Ok(curve) };
         let period = unit * pattern.iter().map(|dash| f64::from(*dash)).sum::<f64>();
-        if crate::geometry::curve_length(&curve) > MOST_DASHES * period {
+        let periods = crate::geometry::curve_length(&curve) / period;
+        // What is no number is too fine too.
+        if !(0.0..=MOST_DASHES).contains(&periods) || !period.is_finite() {
             self.dropped.count("dash pattern too fine (its line is drawn whole)");
-            return curve;
+            return Ok(curve);
         }
+        let dashes = 0.5 * periods * pattern.len() as f64;
+        self.budget.spend((PATH + SEGMENT) * dashes + SEGMENT * pattern.len() as f64, "dashes")?;
         // Dashes without length are dots where ends are round, and nothing where they are flat.
         let least = 1e-5 * period;
         let dashes: Vec<f64> = pattern.iter().map(|dash| (unit * f64::from(*dash)).max(least)).collect();
-        let mut dashed: BezPath = kurbo::dash(curve.iter(), f64::from(stroke.dashoffset()) * unit, &dashes).collect();
+        // An offset of many periods is that of its rest.
+        let offset = (f64::from(stroke.dashoffset()) * unit).rem_euclid(dashes.iter().sum());
+        let offset = if offset.is_finite() { offset } else { 0.0 };
+        let mut dashed: BezPath = kurbo::dash(curve.iter(), offset, &dashes).collect();
         if ends == Ends::Flat && pattern.contains(&0.0) {
             let long = subpaths(&dashed).into_iter().filter(|dash| crate::geometry::curve_length(dash) > 2.0 * least);
             dashed = long.flat_map(std::iter::IntoIterator::into_iter).collect();
         }
-        dashed
+        Ok(dashed)
     }
 
     /// Adds marks to a layer and to the painting order.

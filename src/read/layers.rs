@@ -97,7 +97,7 @@ impl Label {
 }
 
 /// Groups within groups beyond which a file is not read: every level takes room on the stack.
-const DEEPEST: usize = 256;
+pub(super) const DEEPEST: usize = 256;
 
 /// What the XML says; none when it is nested too deep.
 pub(super) fn outline(document: &Document<'_>) -> Option<Outline> {

@@ -3,24 +3,49 @@
 //! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) and a count of what could
 //! not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
 
+mod budget;
+mod census;
 mod clip_paths;
+mod colour_names;
 mod curves;
 mod dropped;
+mod expansion;
 mod gcode;
 mod hpgl;
 mod importer;
 mod layers;
 mod paint;
+mod styles;
 mod svg;
 mod text;
 
+pub use budget::{Budget, MOST_WORK, TooMuchWork};
 pub use dropped::Dropped;
-pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights};
-pub use hpgl::{HpglError, HpglMotion, read_hpgl};
+pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights, read_gcode_within};
+pub use hpgl::{HpglError, HpglMotion, read_hpgl, read_hpgl_within};
 pub use layers::LabelSpeeds;
-pub use svg::{Imported, ImportedLayer, SvgError, read_svg};
+pub use svg::{Imported, ImportedLayer, SvgError, read_svg, read_svg_within};
 
 use crate::geometry::Point;
+
+/// How a G-code file moves its pen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PenLift<'a> {
+    /// By lines of their own.
+    Commands {
+        /// Lifts it.
+        up: &'a str,
+        /// Lowers it.
+        down: &'a str,
+    },
+    /// By the z axis: it is down beyond the middle between two heights.
+    Heights {
+        /// Above the paper.
+        up: f64,
+        /// On it.
+        down: f64,
+    },
+}
 
 /// What a plotter file makes the pen do, in machine units.
 #[derive(Clone, Debug, Default, PartialEq)]

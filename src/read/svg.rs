@@ -1,9 +1,13 @@
 //! SVG as a drawing: usvg resolves the geometry, one pass over the XML the layers and kinds of marks.
 
 use super::Dropped;
+use super::budget::{Budget, TooMuchWork};
+use super::census::take_text;
+use super::colour_names::with_known_colours;
 use super::curves::MM_PER_PX;
+use super::expansion::take_expansion;
 use super::importer::{Importer, Place};
-use super::layers::{LabelSpeeds, outline, with_ids};
+use super::layers::{DEEPEST, LabelSpeeds, outline, with_ids};
 use super::text::text_of;
 use crate::drawing::{Drawing, Layer, Page, Painted};
 use std::borrow::Cow;
@@ -18,18 +22,29 @@ pub enum SvgError {
     /// Broken gzip.
     #[error("is not an SVG: it begins as gzip (.svgz) and cannot be unpacked")]
     Packed,
-    /// More text than can be held.
-    #[error("cannot be used as an SVG: it unpacks to more than 1 GB")]
-    TooLong,
-    /// Groups within groups without end.
-    #[error("cannot be used as an SVG: its groups are nested more than 250 deep")]
-    TooDeep,
+    /// Groups within groups without end; the number is how deep they may be.
+    #[error("cannot be used as an SVG: its groups are nested more than {0} deep, with what they use and refer to")]
+    TooDeep(usize),
+    /// Entities within entities without end.
+    #[error("cannot be used as an SVG: its entities are nested more than 10 deep")]
+    Entities,
+    /// An element that is drawn within itself.
+    #[error("cannot be used as an SVG: '{0}' refers back to itself, by its own parts or by what they refer to")]
+    Circle(String),
+    /// More elements than usvg takes.
+    #[error(
+        "cannot be used as an SVG: it has {0} elements with all uses written out, and at most 1000000 can be read; join paths into one"
+    )]
+    Elements(f64),
     /// Broken XML.
     #[error("is not an SVG: {0}")]
     Xml(#[from] roxmltree::Error),
     /// Not SVG, or beyond usvg's limits.
     #[error("cannot be used as an SVG: {0}")]
     Svg(#[from] usvg::Error),
+    /// More than may be read at once.
+    #[error("cannot be used as an SVG: it {0}")]
+    Work(#[from] TooMuchWork),
 }
 
 /// An SVG as a drawing, and what was not taken.
@@ -77,19 +92,28 @@ impl Imported {
 
 /// Reads an SVG. Layers are Inkscape's, by their labels' conventions; without any, each colour is a layer.
 pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
-    let given = text_of(bytes)?;
+    read_svg_within(bytes, &mut Budget::default())
+}
+
+/// The same with a limit of its own on the work.
+pub fn read_svg_within(bytes: &[u8], budget: &mut Budget) -> Result<Imported, SvgError> {
+    let given = text_of(bytes, budget)?;
+    take_text(&given, budget)?;
+    let given = with_known_colours(&given);
     let document = parsed(&given)?;
-    let outline = outline(&document).ok_or(SvgError::TooDeep)?;
+    let outline = outline(&document).ok_or(SvgError::TooDeep(DEEPEST))?;
+    let elements = take_expansion(&document, budget)?;
     let (outline, tree) = match with_ids(&given, &document) {
-        Cow::Borrowed(_) => (outline, tree_of(&document)?),
+        Cow::Borrowed(_) => (outline, tree_of(&document, elements)?),
         Cow::Owned(text) => {
+            drop(outline);
             let document = parsed(&text)?;
-            (super::layers::outline(&document).ok_or(SvgError::TooDeep)?, tree_of(&document)?)
+            (super::layers::outline(&document).ok_or(SvgError::TooDeep(DEEPEST))?, tree_of(&document, elements)?)
         }
     };
     let page = Page::new(f64::from(tree.size().width()) * MM_PER_PX, f64::from(tree.size().height()) * MM_PER_PX);
-    let mut importer = Importer::new(&outline);
-    importer.group(tree.root(), Place::TOP, &[]);
+    let mut importer = Importer::new(&outline, budget);
+    importer.group(tree.root(), Place::TOP, &[])?;
     let is_toolpaths = importer.is_toolpaths;
     let (layers, painting, dropped) = importer.finish();
     Ok(Imported { page, layers, painting, dropped, recipe: outline.recipe.clone(), speeds: outline.speeds.clone(), is_toolpaths })
@@ -101,9 +125,14 @@ fn parsed(text: &str) -> Result<roxmltree::Document<'_>, SvgError> {
 }
 
 /// usvg's tree. Images are counted from the XML: none is decoded, and no file beside this one is opened.
-fn tree_of(document: &roxmltree::Document<'_>) -> Result<usvg::Tree, SvgError> {
+fn tree_of(document: &roxmltree::Document<'_>, elements: f64) -> Result<usvg::Tree, SvgError> {
     let none = usvg::ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
-    Ok(usvg::Tree::from_xmltree(document, &usvg::Options { image_href_resolver: none, ..usvg::Options::default() })?)
+    usvg::Tree::from_xmltree(document, &usvg::Options { image_href_resolver: none, ..usvg::Options::default() }).map_err(
+        |error| match error {
+            usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => SvgError::Elements(elements),
+            other => SvgError::Svg(other),
+        },
+    )
 }
 
 #[cfg(test)]
@@ -199,6 +228,66 @@ mod tests {
         assert_eq!(imported.dropped.of("gradient fill"), 1);
         assert_eq!(imported.dropped.of("image"), 1);
         assert_eq!(imported.layers.len(), 1);
+    }
+
+    #[test]
+    fn colours_of_css_4_are_read() {
+        let imported = read(
+            "<path d='M0 0H10' stroke='rebeccapurple'/><g color='rebeccapurple'><path d='M0 9H10' style='stroke:currentcolor'/></g>",
+        );
+        assert_eq!(imported.layers.len(), 1);
+        assert_eq!(imported.layers[0].layer.name, "#663399");
+    }
+
+    #[test]
+    fn a_clip_path_of_any_size_clips_to_what_it_covers() {
+        for shape in [
+            "<circle r='1e15'/>",
+            "<rect x='-1e20' y='-1e20' width='2e20' height='2e20'/>",
+            "<rect x='-1e33' y='-1e33' width='2e33' height='2e33'/>",
+            "<ellipse rx='1e9' ry='1e20'/>",
+        ] {
+            let imported =
+                read(&format!("<clipPath id='c'>{shape}</clipPath><path clip-path='url(#c)' d='M0 50H100' stroke='black'/>"));
+            assert!((length(&imported) - 100.0).abs() < 1e-3, "{shape}: {}", length(&imported));
+        }
+        let half = read(
+            "<clipPath id='c'><rect x='50' y='-1e20' width='1e20' height='2e20'/></clipPath><path clip-path='url(#c)' d='M0 50H100' stroke='black'/>",
+        );
+        assert!((length(&half) - 50.0).abs() < 1e-3, "{}", length(&half));
+    }
+
+    #[test]
+    fn a_clip_path_beyond_all_numbers_is_counted() {
+        let far = "<clipPath id='c'><circle r='10'/></clipPath><g transform='scale(1e30)'><path clip-path='url(#c)' d='M0 0H50' stroke='black'/></g>";
+        let endless = format!(
+            "{}<path d='M0 0H1' stroke='black'/>{}",
+            "<svg width='100' height='100' viewBox='0 0 1 1'>".repeat(100),
+            "</svg>".repeat(100)
+        );
+        for body in [far, &endless] {
+            let imported = read(&format!("{body}<path d='M0 0H10' stroke='black'/>"));
+            assert!((length(&imported) - 10.0).abs() < 1e-3);
+            assert!(!imported.dropped.is_empty(), "{body}");
+        }
+    }
+
+    #[test]
+    fn a_path_on_the_border_of_its_clip_is_whole() {
+        for size in [1.0, 9.7, 33.3, 80.0] {
+            for (unit, scale) in [("", 1.0), ("mm", 96.0 / 25.4), ("in", 96.0), ("px", 1.0)] {
+                let frame = format!(
+                    "<svg x='10' y='10' width='{size}{unit}' height='{size}{unit}'><rect width='{size}{unit}' height='{size}{unit}' fill='none' stroke='black'/></svg>"
+                );
+                let (imported, side) = (read(&frame), size * scale);
+                assert!((length(&imported) / (4.0 * side) - 1.0).abs() < 1e-3, "{size}{unit}: {}", length(&imported));
+            }
+            let circle = format!("<circle cx='50' cy='50' r='{size}'");
+            let imported =
+                read(&format!("<clipPath id='c'>{circle}/></clipPath>{circle} fill='none' stroke='black' clip-path='url(#c)'/>"));
+            let round = 2.0 * std::f64::consts::PI * size;
+            assert!((length(&imported) / round - 1.0).abs() < 2e-3, "circle of {size}: {} of {round}", length(&imported));
+        }
     }
 
     #[test]

@@ -1,28 +1,29 @@
 //! The text of an XML file: UTF-8, UTF-16 or Latin-1, compressed or not.
 
 use super::SvgError;
+use super::budget::Budget;
 use flate2::read::GzDecoder;
 use std::borrow::Cow;
 use std::io::Read;
 
-/// Beyond this an SVG's text is not unpacked, in bytes.
-const MOST_TEXT: u64 = 1 << 30;
-
-/// The text of a file's bytes.
-pub(super) fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>, SvgError> {
+/// The text of a file's bytes, unpacked as far as the budget goes.
+pub(super) fn text_of<'a>(bytes: &'a [u8], budget: &mut Budget) -> Result<Cow<'a, str>, SvgError> {
     match bytes {
         [0x1f, 0x8b, ..] => {
-            let unpacked = unpacked(bytes)?;
+            let unpacked = unpacked(bytes, budget)?;
             decoded(&unpacked).map(|text| Cow::Owned(text.into_owned()))
         }
         _ => decoded(bytes),
     }
 }
 
-fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, SvgError> {
+fn unpacked(bytes: &[u8], budget: &mut Budget) -> Result<Vec<u8>, SvgError> {
     let mut text = Vec::new();
-    GzDecoder::new(bytes).take(MOST_TEXT + 1).read_to_end(&mut text).map_err(|_| SvgError::Packed)?;
-    if text.len() as u64 > MOST_TEXT { Err(SvgError::TooLong) } else { Ok(text) }
+    GzDecoder::new(bytes).take(budget.most_bytes() + 1).read_to_end(&mut text).map_err(|_| SvgError::Packed)?;
+    if text.len() as u64 > budget.most_bytes() {
+        budget.text(text.len() as f64)?;
+    }
+    Ok(text)
 }
 
 fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, SvgError> {

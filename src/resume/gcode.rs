@@ -1,10 +1,12 @@
 //! G-code: one command a line; the header says which commands lift and lower the pen.
 
+use super::numbers::check_gcode;
 use super::{ResumeError, Stop};
 use std::fmt::Write as _;
 
 /// The rest of a G-code file from the line that was not finished; `again` is how many machine units are drawn again.
 pub fn resume_gcode(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+    check_gcode(text)?;
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     let pen = Pen::of(&lines).ok_or(ResumeError::NoPen)?;
     let line = line_of(text, &lines, &pen, stop)?;
@@ -245,6 +247,10 @@ mod tests {
 
     #[test]
     fn faults_are_named() {
+        let infinite = FILE.replace("X5 Y1", "X5 Ynan");
+        assert!(
+            matches!(resume_gcode(&infinite, Stop::Line(13), 3.0), Err(ResumeError::NotFinite { place, .. }) if place == "line 11")
+        );
         assert!(matches!(resume_gcode(FILE, Stop::Line(900), 3.0), Err(ResumeError::Beyond { .. })));
         assert!(matches!(resume_gcode(FILE, Stop::Path(3), 3.0), Err(ResumeError::Beyond { .. })));
         assert_eq!(resume_gcode("G21\nG0 X1\n", Stop::Line(1), 3.0), Err(ResumeError::NoPen));

@@ -1,6 +1,7 @@
 //! HP-GL: instructions that end with a semicolon, absolute after each pen-up move.
 
 use super::{ResumeError, Stop};
+use crate::geometry::parse_finite;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -8,6 +9,7 @@ use std::fmt::Write as _;
 /// `PE` is drawn again from its start.
 pub fn resume_hpgl(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
     let instructions = instructions(text);
+    check(&instructions)?;
     let byte = byte_of(text, &instructions, stop)?;
     let Some(first_pen) = instructions.iter().find(|i| i.name == "SP").filter(|first| byte > first.start) else {
         return Ok(text.to_owned());
@@ -92,6 +94,20 @@ fn instructions(text: &str) -> Vec<Instruction<'_>> {
         start = end;
     }
     found
+}
+
+/// Refuses numbers that are none or infinite, wherever an instruction takes numbers.
+fn check(instructions: &[Instruction]) -> Result<(), ResumeError> {
+    let takes_numbers = |i: &&Instruction| matches!(i.name, "PU" | "PD" | "PA" | "PR" | "AA" | "AR" | "SP" | "VS" | "FS" | "AS");
+    for instruction in instructions.iter().filter(takes_numbers) {
+        let is_sound = |number: &str| number.parse::<f64>().is_err() || parse_finite(number).is_some();
+        let mut parts = instruction.text[2..].split([',', ';', ' ']).map(str::trim);
+        if let Some(number) = parts.find(|number| !is_sound(number)) {
+            let place = format!("byte {}", instruction.start);
+            return Err(ResumeError::NotFinite { place, number: number.chars().take(20).collect() });
+        }
+    }
+    Ok(())
 }
 
 fn numbers(body: &str, offset: usize) -> Vec<(f64, usize)> {
@@ -218,6 +234,14 @@ mod tests {
         assert!(rest.starts_with("IN;PU;PS4;PU;SP2;FS2;VS10;PU600,600;PD700,700;"), "{rest}");
         assert_eq!(resume_hpgl(FILE, Stop::Byte(3), 120.0).unwrap(), FILE);
         assert!(resume_hpgl(FILE, Stop::Path(2), 120.0).unwrap().contains("VS30;PU500,500;PD;PU;SP2;"));
+    }
+
+    #[test]
+    fn numbers_without_end_are_faults() {
+        let infinite = FILE.replace("PD200,100", "PDnan,inf");
+        let refused = resume_hpgl(&infinite, Stop::Path(2), 120.0);
+        let place = format!("byte {}", at("PD200,100"));
+        assert_eq!(refused, Err(ResumeError::NotFinite { place, number: "nan".into() }));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 mod gcode;
 mod hpgl;
+mod numbers;
 
 pub use gcode::resume_gcode;
 pub use hpgl::resume_hpgl;
@@ -32,6 +33,14 @@ pub enum ResumeError {
         stop: String,
         /// How many lines, bytes or paths there are, in words.
         count: String,
+    },
+    /// A number that is none or infinite, which no machine may get.
+    #[error("{place}: '{number}' is not a finite number; write a number up to 1e30")]
+    NotFinite {
+        /// The line or byte, in words.
+        place: String,
+        /// What stands there.
+        number: String,
     },
     /// The commands for pen up and pen down are not known.
     #[error(

@@ -98,6 +98,11 @@ impl Photograph {
         self.pixels.height()
     }
 
+    /// Bytes of memory that its pixels take.
+    pub fn bytes(&self) -> usize {
+        self.pixels.as_bytes().len()
+    }
+
     /// Whether the picture has an alpha channel.
     pub fn has_alpha(&self) -> bool {
         self.pixels.color().has_alpha()

@@ -14,8 +14,8 @@ use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Working pixels beyond which a page is refused; each costs about 60 bytes.
-const WORK_LIMIT: u64 = 120_000_000;
+/// Working pixels beyond which a page is refused whatever draws it; a style takes 80 to 500 bytes for each, and says beforehand.
+const WORK_LIMIT: u64 = 60_000_000;
 /// Rows of the working raster resampled at a time.
 const BAND: usize = 64;
 
@@ -52,6 +52,22 @@ impl MaskRole {
         ("isophotes", Self::Isophotes),
         ("scribbles", Self::Scribbles),
     ];
+
+    /// What its picture shows, for a user.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Subject => "what is drawn, white; the rest is background (without this mask: the photograph's alpha)",
+            Self::Detail => "where dots stand closer, white, such as the eyes",
+            Self::Hair => "hair, white, which is drawn in strokes that flow",
+            Self::Face => "the face, white, whose eyes, nose and mouth are looked for and drawn",
+            Self::Clothing => "clothing, white, which is shaded by hand where it is dark",
+            Self::Edges => {
+                "edges as white lines, in the place of those that would be found (charcoal: which of those to keep, and more)"
+            }
+            Self::Isophotes => "borders of light as white lines, in the place of those that would be found",
+            Self::Scribbles => "a flat colour scribbled into each region, on black or transparent",
+        }
+    }
 }
 
 /// What the ink must match.

@@ -4,16 +4,20 @@
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
 
 mod charcoal;
+mod cost;
 mod engrave;
 mod feature_line;
 mod glass;
 mod grid;
 mod hedcut;
+mod need;
 mod observer;
 mod parameter;
 mod random;
 mod reversed;
 
+pub use cost::Cost;
+pub use need::Need;
 pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};
 
@@ -44,8 +48,21 @@ pub trait Style: Sync {
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
-    /// Draws the portrait.
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError>;
+    /// What drawing a picture of this size takes at this resolution, foretold from figures that were measured.
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
+    /// Makes the marks, which may reach over the picture's border.
+    fn sketch(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer)
+    -> Result<Drawing, StyleError>;
+    /// Draws the portrait, all of its ink inside the picture's box on the page; says which settings change nothing.
+    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+        settings.idle(self.parameters(), portrait).iter().for_each(|sentence| observer.warn(sentence));
+        let drawing = self.sketch(portrait, settings, seed, observer)?.held_in(portrait.placement.picture);
+        if drawing.marks().next().is_none() {
+            return Err(StyleError::NothingToDraw("no mark lies inside the picture".to_owned()));
+        }
+        observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
+        Ok(drawing)
+    }
 }
 
 /// Every style, the default first.

@@ -1,6 +1,9 @@
 //! Parameters as data: name, unit, range, default, meaning, source; and their values for one drawing.
 
+use super::Need;
+use super::need::all_text;
 use crate::geometry::parse_length;
+use crate::source::Portrait;
 use std::collections::BTreeMap;
 use thiserror::Error;
 
@@ -15,6 +18,15 @@ pub struct Parameter {
     pub meaning: &'static str,
     /// Where it comes from.
     pub source: &'static str,
+    /// What it needs to have an effect: all of these.
+    pub needs: &'static [Need],
+}
+
+impl Parameter {
+    /// What it needs to have an effect, in words; empty when it always has one.
+    pub fn needs_text(&self) -> String {
+        all_text(self.needs)
+    }
 }
 
 /// What values a parameter takes.
@@ -164,10 +176,32 @@ impl Settings {
             values.entry(parameter.name).or_insert_with(|| match parameter.kind {
                 Kind::Choice(words) => Value::Word(words[0]),
                 Kind::Places { .. } => Value::Places(Places { percent: [(0.0, 0.0); Places::MOST], count: 0 }),
-                kind => Value::Number(kind.default_number(pitch).unwrap_or(0.0)),
+                kind => Value::Number(kind.within(kind.default_number(pitch).unwrap_or(0.0))),
             });
         }
         Ok(Self { values })
+    }
+
+    /// A sentence for each parameter that is set to other than its default and does nothing in a drawing of this portrait: what it
+    /// needs, and what would switch it on. A default is nobody's wish, even if a recipe spells it out.
+    pub fn idle(&self, parameters: &[Parameter], portrait: &Portrait) -> Vec<String> {
+        let pitch = match self.values.get("pitch") {
+            Some(Value::Number(pitch)) => *pitch,
+            _ => 1.0,
+        };
+        let is_set = |parameter: &&Parameter| {
+            self.values.get(parameter.name).is_some_and(|value| *value != parameter.kind.default_value(pitch))
+        };
+        parameters
+            .iter()
+            .filter(is_set)
+            .filter_map(|parameter| {
+                let missing: Vec<Need> = parameter.needs.iter().filter(|need| !need.is_met(self, portrait)).copied().collect();
+                let value = self.entries().find(|(name, _)| *name == parameter.name)?.1;
+                (!missing.is_empty())
+                    .then(|| format!("{}={value} changes nothing here: it needs {}", parameter.name, all_text(&missing)))
+            })
+            .collect()
     }
 
     /// A length in millimetres, a number or a count.
@@ -217,6 +251,14 @@ impl Settings {
 }
 
 impl Kind {
+    fn default_value(&self, pitch: f64) -> Value {
+        match self {
+            Self::Choice(words) => Value::Word(words[0]),
+            Self::Places { .. } => Value::Places(Places { percent: [(0.0, 0.0); Places::MOST], count: 0 }),
+            kind => Value::Number(kind.default_number(pitch).unwrap_or(0.0)),
+        }
+    }
+
     /// The default as a number, lengths in millimetres at this pitch; none for choices.
     pub fn default_number(&self, pitch: f64) -> Option<f64> {
         match *self {
@@ -224,6 +266,24 @@ impl Kind {
             Self::Length { default: Default::Pitches(pitches), .. } => Some(pitches * pitch),
             Self::Number { default, .. } => Some(default),
             Self::Count { default, .. } => Some(f64::from(default)),
+            Self::Choice(_) | Self::Places { .. } => None,
+        }
+    }
+
+    /// The nearest number in its range: a default that follows the pitch does not leave it either.
+    fn within(&self, number: f64) -> f64 {
+        match *self {
+            Self::Length { least, most, .. } | Self::Number { least, most, .. } => number.clamp(least, most),
+            Self::Count { least, most, .. } => number.clamp(f64::from(least), f64::from(most)),
+            Self::Choice(_) | Self::Places { .. } => number,
+        }
+    }
+
+    /// Its two ends as `--set` would take them; none for choices and places.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Length { least, most, .. } | Self::Number { least, most, .. } => Some([least, most]),
+            Self::Count { least, most, .. } => Some([f64::from(least), f64::from(most)]),
             Self::Choice(_) | Self::Places { .. } => None,
         }
     }
@@ -298,16 +358,24 @@ mod tests {
             kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 20.0 },
             meaning: "",
             source: "",
+            needs: &[],
         },
         Parameter {
             name: "reach",
-            kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 100.0 },
+            kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 20.0 },
             meaning: "",
             source: "",
+            needs: &[],
         },
-        Parameter { name: "gamma", kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 }, meaning: "", source: "" },
-        Parameter { name: "size", kind: Kind::Choice(&["exact", "paper"]), meaning: "", source: "" },
-        Parameter { name: "skin", kind: Kind::Places { most: 2 }, meaning: "", source: "" },
+        Parameter {
+            name: "gamma",
+            kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 },
+            meaning: "",
+            source: "",
+            needs: &[],
+        },
+        Parameter { name: "size", kind: Kind::Choice(&["exact", "paper"]), meaning: "", source: "", needs: &[] },
+        Parameter { name: "skin", kind: Kind::Places { most: 2 }, meaning: "", source: "", needs: &[] },
     ];
 
     fn given(pairs: &[(&str, &str)]) -> Result<Settings, ParameterError> {
@@ -321,6 +389,12 @@ mod tests {
         assert_eq!(settings.number("pitch"), 1.0);
         assert_eq!(settings.number("reach"), 2.0);
         assert_eq!(settings.word("size"), "paper");
+    }
+
+    #[test]
+    fn a_default_that_follows_the_pitch_stays_in_its_range() {
+        let reach = |pitch| given(&[("pitch", pitch)]).unwrap().number("reach");
+        assert_eq!((reach("20"), reach("0.1")), (20.0, 0.2));
     }
 
     #[test]

@@ -5,14 +5,21 @@
 //! ink
 //!   definitions
 //!     context      inkSource/traceFormat: X and Y in mm, F (force) from 0 to 1000, T in ms from the timestamp
-//!     brush        one for each layer: width, height, color, tip
+//!     brush        one for each layer, and one for each other colour or width: width, height, color, tip
 //!   traceGroup     one for each layer, with its context and brush
-//!     trace        one for each stroke: X Y F T at each vertex
+//!     trace        one for each stroke and round dot, some for each area: X Y F T at each vertex; its brush where that is another
 //! ```
+//!
+//! Digital ink knows lines only: what is filled becomes the lines that fill it.
 
 use super::number::thousandths;
-use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
-use crate::geometry::{Point, flatten};
+use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
+use crate::geometry::{BezPath, Point, flatten};
+use crate::interrupt::Interrupt;
+use crate::plot::{InkModel, Nibs, lower};
+use kurbo::Shape;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
 
@@ -24,24 +31,31 @@ const USUAL_SPEED: f64 = 80.0;
 const FULL_FORCE: f64 = 1000.0;
 /// Seconds between two strokes where a style says nothing.
 const USUAL_PAUSE: f64 = 0.2;
+/// The brush that fills an area, as a share of the root of the area, and its least and greatest width in millimetres: wider ones leave
+/// the corners and holes of grains, narrower ones make many lines of them.
+const FILLING: f64 = 0.4;
+const FILLING_WIDTHS: (f64, f64) = (0.02, 0.1);
 
 /// Writes a drawing as `InkML`. Strokes become one trace each with their pressure as force (their width's share of the layer's
-/// widest where they have none); the outlines of dots and areas become traces at full force. `title` is
-/// kept as an annotation.
+/// widest where they have none); a round dot is one vertex of a brush as wide as itself; other dots and areas are filled with traces.
+/// Each has its mark's colour. `title` is kept as an annotation.
 pub fn write_inkml(drawing: &Drawing, title: &str, out: &mut impl io::Write) -> io::Result<()> {
+    let layers: Vec<Vec<Drawn>> = drawing.layers.iter().map(drawn).collect();
+    let brushes = Brushes::new(drawing, &layers);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ink xmlns=\"http://www.w3.org/2003/InkML\">\n");
     let _ = writeln!(text, "<annotation type=\"description\">{}</annotation>", escaped(title));
-    definitions(&mut text, drawing);
+    definitions(&mut text, drawing, &brushes);
     out.write_all(text.as_bytes())?;
     let mut now = 0.0;
-    for (i, layer) in drawing.layers.iter().enumerate() {
+    for (i, (layer, drawn)) in drawing.layers.iter().zip(&layers).enumerate() {
         let mut text = format!("<traceGroup xml:id=\"layer{0}\" contextRef=\"#page\" brushRef=\"#brush{0}\">\n", i + 1);
         let _ = writeln!(text, "<annotation type=\"layer\">{} {}</annotation>", layer.pen, escaped(&layer.name));
-        let widest = widest(layer);
-        for mark in &layer.marks {
-            for trace in traces(mark, widest, now) {
+        let own = Brush::of(layer);
+        for mark in drawn {
+            for trace in mark.traces(own.width(), now) {
                 now = trace.last().map_or(now, |vertex| vertex.time) + USUAL_PAUSE;
-                write_trace(&mut text, &trace);
+                let other = (mark.brush != own).then(|| brushes.numbers[&mark.brush]);
+                write_trace(&mut text, &trace, other);
             }
         }
         text.push_str("</traceGroup>\n");
@@ -50,7 +64,7 @@ pub fn write_inkml(drawing: &Drawing, title: &str, out: &mut impl io::Write) -> 
     out.write_all(b"</ink>\n")
 }
 
-fn definitions(text: &mut String, drawing: &Drawing) {
+fn definitions(text: &mut String, drawing: &Drawing, brushes: &Brushes) {
     text.push_str("<definitions>\n<inkSource xml:id=\"hand\">\n<traceFormat xml:id=\"force-and-time\">\n");
     for (name, max) in [("X", drawing.page.width), ("Y", drawing.page.height)] {
         let _ = write!(text, "<channel name=\"{name}\" type=\"decimal\" units=\"mm\" min=\"0\" max=\"");
@@ -60,24 +74,134 @@ fn definitions(text: &mut String, drawing: &Drawing) {
     let _ = writeln!(text, "<channel name=\"F\" type=\"integer\" units=\"dev\" min=\"0\" max=\"{FULL_FORCE}\"/>");
     text.push_str("<channel name=\"T\" type=\"integer\" units=\"ms\" min=\"0\" respectTo=\"#start\"/>\n");
     text.push_str("</traceFormat>\n</inkSource>\n<timestamp xml:id=\"start\" time=\"0\"/>\n");
-    for (i, layer) in drawing.layers.iter().enumerate() {
+    for (i, brush) in brushes.all.iter().enumerate() {
         let mut width = String::new();
-        plain_decimal(&mut width, thousandths(widest(layer)));
+        plain_decimal(&mut width, brush.thousandths);
         let _ = writeln!(text, "<brush xml:id=\"brush{}\">", i + 1);
         for name in ["width", "height"] {
             let _ = writeln!(text, "<brushProperty name=\"{name}\" value=\"{width}\" units=\"mm\"/>");
         }
-        let _ = writeln!(text, "<brushProperty name=\"color\" value=\"{}\"/>", layer.ink.colour());
+        let [r, g, b] = brush.colour;
+        let _ = writeln!(text, "<brushProperty name=\"color\" value=\"{}\"/>", Colour { r, g, b });
         text.push_str("<brushProperty name=\"tip\" value=\"ellipse\"/>\n</brush>\n");
     }
     text.push_str("<context xml:id=\"page\" inkSourceRef=\"#hand\" traceFormatRef=\"#force-and-time\" timestampRef=\"#start\"/>\n</definitions>\n");
 }
 
-/// Width of a layer's brush: that of its widest stroke.
-fn widest(layer: &Layer) -> f64 {
-    let widths = layer.marks.iter().filter_map(|mark| if let Mark::Stroke(stroke) = mark { Some(stroke.widest()) } else { None });
-    let widest = widths.fold(0.0, f64::max);
-    if widest > 0.0 { widest } else { 0.1 }
+/// What a trace is drawn with at full force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Brush {
+    colour: [u8; 3],
+    /// Width in thousandths of a millimetre.
+    thousandths: i64,
+}
+
+impl Brush {
+    fn new(colour: Colour, width: f64) -> Self {
+        Self { colour: [colour.r, colour.g, colour.b], thousandths: thousandths(width).max(1) }
+    }
+
+    /// A layer's: its colour, as wide as its widest stroke.
+    fn of(layer: &Layer) -> Self {
+        let width = |mark: &Mark| if let Mark::Stroke(stroke) = mark { stroke.widest() } else { 0.0 };
+        let widest = layer.marks.iter().map(width).fold(0.0, f64::max);
+        Self::new(layer.ink.colour(), if widest > 0.0 { widest } else { FILLING_WIDTHS.1 })
+    }
+
+    fn width(self) -> f64 {
+        self.thousandths as f64 / 1000.0
+    }
+}
+
+/// All brushes of a file, those of the layers first.
+struct Brushes {
+    all: Vec<Brush>,
+    /// The number of each, from 1.
+    numbers: BTreeMap<Brush, usize>,
+}
+
+impl Brushes {
+    fn new(drawing: &Drawing, layers: &[Vec<Drawn>]) -> Self {
+        let all: Vec<Brush> = drawing.layers.iter().map(Brush::of).collect();
+        let mut numbers = BTreeMap::new();
+        all.iter().enumerate().for_each(|(i, brush)| {
+            numbers.entry(*brush).or_insert(i + 1);
+        });
+        let mut brushes = Self { all, numbers };
+        for drawn in layers.iter().flatten() {
+            let next = brushes.all.len() + 1;
+            if *brushes.numbers.entry(drawn.brush).or_insert(next) == next {
+                brushes.all.push(drawn.brush);
+            }
+        }
+        brushes
+    }
+}
+
+/// A mark as what a brush does.
+struct Drawn<'a> {
+    brush: Brush,
+    way: Way<'a>,
+}
+
+enum Way<'a> {
+    /// Along a stroke, its width as force.
+    Stroke(&'a Stroke),
+    /// Along lines at full force; one of one point is a touch.
+    Lines(Vec<Vec<Point>>),
+}
+
+fn drawn(layer: &Layer) -> Vec<Drawn<'_>> {
+    let own = Brush::of(layer);
+    let of_mark = |mark| {
+        let colour = Mark::colour(mark).unwrap_or(layer.ink.colour());
+        match mark {
+            Mark::Stroke(stroke) => Drawn { brush: Brush::new(colour, own.width()), way: Way::Stroke(stroke) },
+            Mark::Dot(Dot { centre, radius, outline: None, .. }) => touch(*centre, *radius, colour),
+            Mark::Dot(Dot { outline: Some(outline), .. }) => filled(outline, colour),
+            Mark::Area(Area { outline, .. }) => filled(outline, colour),
+        }
+    };
+    layer.marks.par_iter().map(of_mark).collect()
+}
+
+fn touch(centre: Point, radius: f64, colour: Colour) -> Drawn<'static> {
+    Drawn { brush: Brush::new(colour, 2.0 * radius), way: Way::Lines(vec![vec![centre]]) }
+}
+
+/// The lines that fill an outline, as a fine pen would; of what is too small for one, a touch.
+fn filled(outline: &BezPath, colour: Colour) -> Drawn<'static> {
+    let area = outline.area().abs();
+    let brush = Brush::new(colour, (FILLING * area.sqrt()).clamp(FILLING_WIDTHS.0, FILLING_WIDTHS.1));
+    let mut layer = Layer::new("", 1);
+    layer.marks.push(Mark::Area(Area { outline: outline.clone(), colour: None }));
+    let page = crate::drawing::Page::new(1.0, 1.0);
+    let drawing = Drawing { page, layers: vec![layer] };
+    let plot = lower(&drawing, InkModel::Ink, &Nibs::all(brush.width()), TOLERANCE, &Interrupt::never());
+    let pens = plot.map(|plot| plot.pens).unwrap_or_default();
+    let lines: Vec<Vec<Point>> = pens.into_iter().flat_map(|pen| pen.paths).map(|path| path.points).collect();
+    if lines.is_empty() {
+        return touch(outline.bounding_box().center(), (area / std::f64::consts::PI).sqrt(), colour);
+    }
+    Drawn { brush, way: Way::Lines(lines) }
+}
+
+impl Drawn<'_> {
+    /// The traces, begun at a time.
+    fn traces(&self, widest: f64, now: f64) -> Vec<Vec<Vertex>> {
+        match &self.way {
+            Way::Stroke(stroke) => vec![stroke_trace(stroke, widest, now)],
+            Way::Lines(lines) => {
+                let mut now = now;
+                let timed = |points: &Vec<Point>| {
+                    let trace = timed(points, now);
+                    now = trace.last().map_or(now, |vertex| vertex.time) + USUAL_PAUSE;
+                    trace
+                };
+                lines.iter().map(timed).collect()
+            }
+        }
+    }
 }
 
 /// A place of a trace: millimetres, force 0 to 1, seconds.
@@ -86,27 +210,6 @@ struct Vertex {
     at: Point,
     force: f64,
     time: f64,
-}
-
-fn traces(mark: &Mark, widest: f64, now: f64) -> Vec<Vec<Vertex>> {
-    let outline = |path: &kurbo::BezPath| -> Vec<Vec<Vertex>> {
-        let mut now = now;
-        flatten(path, TOLERANCE)
-            .into_iter()
-            .map(|(mut points, _)| {
-                points.extend(points.first().copied());
-                let trace = timed(&points, now);
-                now = trace.last().map_or(now, |v| v.time) + USUAL_PAUSE;
-                trace
-            })
-            .collect()
-    };
-    match mark {
-        Mark::Stroke(stroke) => vec![stroke_trace(stroke, widest, now)],
-        Mark::Area(Area { outline: path, .. }) => outline(path),
-        Mark::Dot(Dot { centre, outline: None, .. }) => vec![timed(&[*centre], now)],
-        Mark::Dot(Dot { outline: Some(path), .. }) => outline(path),
-    }
 }
 
 /// Vertices at full force and the usual speed.
@@ -153,12 +256,17 @@ fn stroke_trace(stroke: &Stroke, widest: f64, now: f64) -> Vec<Vertex> {
     trace
 }
 
-/// `X Y F T, X Y F T, ...`: millimetres to 0.001, force in steps, whole milliseconds.
-fn write_trace(text: &mut String, trace: &[Vertex]) {
+/// `X Y F T, X Y F T, ...`: millimetres to 0.001, force in steps, whole milliseconds; with the number of a brush that is not the layer's.
+fn write_trace(text: &mut String, trace: &[Vertex], brush: Option<usize>) {
     if trace.is_empty() {
         return;
     }
-    text.push_str("<trace>");
+    match brush {
+        Some(number) => {
+            let _ = write!(text, "<trace brushRef=\"#brush{number}\">");
+        }
+        None => text.push_str("<trace>"),
+    }
     for (i, vertex) in trace.iter().enumerate() {
         if i > 0 {
             text.push_str(", ");

@@ -16,5 +16,5 @@ pub use hpgl::write_hpgl;
 pub use inkml::write_inkml;
 pub use number::{decimal, thousandths};
 pub use pdf::write_pdf;
-pub use preview::write_preview;
+pub use preview::{ShownTravel, write_preview};
 pub use svg::{SvgHead, write_svg, write_svg_plot, write_svg_plotter};

@@ -1,14 +1,46 @@
 //! What a machine will do, as a picture: sheet, reach, ink at nib width, pen-up travel, start and park.
 
 use super::number::{decimal, thousandths};
+use crate::drawing::Colour;
 use crate::geometry::{Point, Rect};
-use crate::plot::{Mounting, Plot};
+use crate::plot::{Mounting, PenPaths, Plot};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
 
-/// Writes the preview of a plot that starts at `home` on the page. Everything but the ink stands in layers whose names begin with
-/// `%`, which plotters' programs and `inspect` pass over.
-pub fn write_preview(plot: &Plot, mounting: Option<&Mounting>, home: Point, out: &mut impl io::Write) -> io::Result<()> {
+/// How the ways of the raised pen are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShownTravel {
+    /// Not at all.
+    Off,
+    /// As a pale web under the ink, which does not hide a drawing of tens of thousands of paths.
+    #[default]
+    Faint,
+    /// As clear lines under the ink.
+    Full,
+}
+
+impl ShownTravel {
+    /// How its lines are stroked. The faint ones are a single path of the whole plot, so that they stay as pale where many cross.
+    const fn style(self) -> &'static str {
+        match self {
+            Self::Off => "",
+            Self::Faint => "stroke=\"#0088cc\" stroke-opacity=\".4\" stroke-width=\".1\"",
+            Self::Full => "stroke=\"#0088cc\" stroke-width=\".12\"",
+        }
+    }
+}
+
+/// Writes the preview of a plot that starts at `home` on the page. Travel lies under the ink, and each pen has a colour that can be
+/// told from the others'. Everything but the ink stands in layers whose names begin with `%`, which plotters' programs and `inspect`
+/// pass over.
+pub fn write_preview(
+    plot: &Plot,
+    mounting: Option<&Mounting>,
+    home: Point,
+    travel: ShownTravel,
+    out: &mut impl io::Write,
+) -> io::Result<()> {
     let sheet = plot.page.rect();
     let reach = mounting.map_or(sheet, Mounting::reach_on_page);
     let park = mounting.map_or(home, |m| m.to_machine.inverse() * m.park);
@@ -23,30 +55,77 @@ pub fn write_preview(plot: &Plot, mounting: Option<&Mounting>, home: Point, out:
         number(view.x0),
         number(view.y0)
     );
-    layer(&mut text, "% sheet", &rectangle(sheet, &format!("fill=\"{}\" stroke=\"#888\" stroke-width=\".2\"", plot.page.paper)));
+    let table = rectangle(view, "fill=\"#e8e8e8\"");
+    let paper = rectangle(sheet, &format!("fill=\"{}\" stroke=\"#888\" stroke-width=\".2\"", plot.page.paper));
+    layer(&mut text, "% sheet", &(table + &paper));
     let dashes = "fill=\"none\" stroke=\"#d40\" stroke-width=\".3\" stroke-dasharray=\"3 2\"";
     layer(&mut text, "% machine", &rectangle(reach, dashes));
+    if travel != ShownTravel::Off {
+        let ways = format!("<path fill=\"none\" {} d=\"{}\"/>\n", travel.style(), ways(plot, home, park));
+        layer(&mut text, "% travel", &ways);
+    }
+    let shown = shown_colours(plot);
     for pen in &plot.pens {
-        let lines: String = pen.paths.iter().map(|path| polyline(&path.points)).collect();
-        let style = format!("stroke=\"{}\" stroke-width=\"{}\"", pen.colour, number(pen.nib));
-        let name = escaped(&format!("{} {}", pen.number, pen.name));
-        let group = format!("<g fill=\"none\" {style} stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{lines}</g>\n");
-        layer(&mut text, &name, &group);
+        layer(&mut text, &escaped(&format!("{} {}", pen.number, pen.name)), &ink(pen, shown[&pen.number]));
         out.write_all(text.as_bytes())?;
         text.clear();
     }
-    let travel = format!("<g fill=\"none\" stroke=\"#08c\" stroke-width=\".1\">\n{}</g>\n", travel(plot, home, park));
-    layer(&mut text, "% travel", &travel);
-    let mark = |p: Point, colour: &str, id: &str| {
-        format!(
-            "<circle id=\"{id}\" cx=\"{}\" cy=\"{}\" r=\"2\" fill=\"none\" stroke=\"{colour}\" stroke-width=\".5\"/>\n",
-            number(p.x),
-            number(p.y)
-        )
-    };
-    layer(&mut text, "% start and park", &(mark(home, "#0a0", "start") + &mark(park, "#a00", "park")));
+    layer(&mut text, "% start and park", &(mark(home, 1.5, "#0a0", "start") + &mark(park, 2.5, "#a00", "park")));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())
+}
+
+/// Colours that look further apart than this are told apart at a glance in lines of a nib's width (CIE L*a*b*): black and navy are 81
+/// apart, black and a grey of 20 % 21.
+const TOLD_APART: f64 = 25.0;
+/// Hues for pens whose own colours cannot be told apart: Okabe and Ito, Color Universal Design (2008), which colour-blind readers
+/// tell apart too; without its yellow and black, which are paper and ink.
+const HUES: [Colour; 6] = [
+    Colour { r: 0, g: 114, b: 178 },
+    Colour { r: 213, g: 94, b: 0 },
+    Colour { r: 0, g: 158, b: 115 },
+    Colour { r: 204, g: 121, b: 167 },
+    Colour { r: 230, g: 159, b: 0 },
+    Colour { r: 86, g: 180, b: 233 },
+];
+
+/// Each pen's colour by its number: its own, or another hue where its own is the paper's or an earlier pen's.
+fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
+    let nearest =
+        |colour: Colour, others: &[Colour]| others.iter().map(|other| colour.difference(*other)).fold(f64::INFINITY, f64::min);
+    let dark = HUES.map(|Colour { r, g, b }| Colour { r: r / 2, g: g / 2, b: b / 2 });
+    let own: Vec<Colour> = plot.pens.iter().map(|pen| pen.colour).collect();
+    let mut shown = BTreeMap::new();
+    let mut taken = vec![plot.page.paper];
+    for pen in &plot.pens {
+        if shown.contains_key(&pen.number) {
+            continue;
+        }
+        let mut colour = pen.colour;
+        if nearest(colour, &taken) < TOLD_APART {
+            // Far from what is shown already and from what other pens will show.
+            let all = [&taken[..], &own].concat();
+            let free = HUES.into_iter().chain(dark).max_by(|a, b| nearest(*a, &all).total_cmp(&nearest(*b, &all)));
+            colour = free.unwrap_or(colour);
+        }
+        shown.insert(pen.number, colour);
+        taken.push(colour);
+    }
+    shown
+}
+
+/// What one pen draws, as wide as its nib.
+fn ink(pen: &PenPaths, colour: Colour) -> String {
+    let told = if colour == pen.colour { String::new() } else { format!("<desc>its own colour is {}</desc>\n", pen.colour) };
+    let lines: String = pen.paths.iter().map(|path| format!("<path d=\"{}\"/>\n", polyline(&path.points))).collect();
+    let style = format!("stroke=\"{colour}\" stroke-width=\"{}\"", number(pen.nib));
+    format!("<g fill=\"none\" {style} stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{told}{lines}</g>\n")
+}
+
+/// A ring; those of start and park differ in size, since they often lie in one place.
+fn mark(p: Point, radius: f64, colour: &str, id: &str) -> String {
+    let [x, y, r] = [p.x, p.y, radius].map(number);
+    format!("<circle id=\"{id}\" cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\".5\"/>\n")
 }
 
 fn layer(text: &mut String, label: &str, content: &str) {
@@ -58,18 +137,19 @@ fn rectangle(rect: Rect, style: &str) -> String {
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {style}/>\n")
 }
 
+/// Path data of one line.
 fn polyline(points: &[Point]) -> String {
-    let mut text = format!("<path d=\"M{} {}", number(points[0].x), number(points[0].y));
+    let mut text = format!("M{} {}", number(points[0].x), number(points[0].y));
     // A touch is a line of no length, which round ends show.
     let again = if points.len() == 1 { points } else { &points[1..] };
     for p in again {
         let _ = write!(text, "L{} {}", number(p.x), number(p.y));
     }
-    text + "\"/>\n"
+    text
 }
 
-/// Every way that the pen goes in the air.
-fn travel(plot: &Plot, home: Point, park: Point) -> String {
+/// Every way that the pen goes in the air, as path data.
+fn ways(plot: &Plot, home: Point, park: Point) -> String {
     let mut at = home;
     let mut text = String::new();
     for (i, pen) in plot.pens.iter().enumerate() {
@@ -97,4 +177,56 @@ fn number(mm: f64) -> String {
 
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Handling, Page};
+    use crate::plot::Toolpath;
+
+    const GREY: Colour = Colour { r: 40, g: 40, b: 40 };
+
+    /// One line of each pen.
+    fn plot_of(colours: &[(u32, Colour)]) -> Plot {
+        let pen = |&(number, colour): &(u32, Colour)| PenPaths {
+            number,
+            name: format!("pen {number}"),
+            colour,
+            nib: 0.3,
+            handling: Handling::default(),
+            paths: vec![Toolpath::new(vec![Point::new(10.0, 10.0), Point::new(20.0, f64::from(number))])],
+        };
+        Plot { page: Page::new(100.0, 100.0), pens: colours.iter().map(pen).collect() }
+    }
+
+    fn preview(plot: &Plot, travel: ShownTravel) -> String {
+        let mut bytes = Vec::new();
+        write_preview(plot, None, Point::ORIGIN, travel, &mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn travel_lies_under_the_ink_is_thin_or_left_out() {
+        let plot = plot_of(&[(1, Colour::BLACK)]);
+        for travel in [ShownTravel::Faint, ShownTravel::Full] {
+            let text = preview(&plot, travel);
+            assert!(text.find("% travel").unwrap() < text.find("1 pen 1").unwrap(), "{text}");
+        }
+        assert!(preview(&plot, ShownTravel::Faint).contains("stroke-opacity"));
+        assert!(!preview(&plot, ShownTravel::Off).contains("travel"));
+    }
+
+    #[test]
+    fn pens_can_be_told_apart_and_keep_their_own_colours_where_those_do() {
+        let red = Colour { r: 200, g: 0, b: 0 };
+        let all = [(1, Colour::BLACK), (2, Colour::BLACK), (3, red), (4, GREY), (5, Colour::WHITE), (2, Colour::BLACK)];
+        let shown = shown_colours(&plot_of(&all));
+        assert_eq!((shown[&1], shown[&3], shown.len()), (Colour::BLACK, red, 5));
+        let seen: Vec<Colour> = shown.into_values().chain([Colour::WHITE]).collect();
+        for (i, colour) in seen.iter().enumerate() {
+            assert!(seen[..i].iter().all(|other| colour.difference(*other) > TOLD_APART), "{seen:?}");
+        }
+        assert!(preview(&plot_of(&all), ShownTravel::Faint).contains("<desc>its own colour is #000000</desc>"));
+    }
 }

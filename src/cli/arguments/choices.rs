@@ -99,8 +99,19 @@ pub(in crate::cli) enum InkModelOption {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum PreviewTravel {
+    /// Not shown.
+    Off,
+    /// A pale web under the ink.
+    Faint,
+    /// Clear lines under the ink.
+    Full,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Rotate {
     /// Not at all.
+    #[default]
     #[value(name = "0")]
     None,
     /// A quarter, clockwise.
@@ -112,6 +123,6 @@ pub(in crate::cli) enum Rotate {
     /// A quarter, anticlockwise.
     #[value(name = "270")]
     ThreeQuarters,
-    /// A quarter when it fits only so.
+    /// A quarter where the drawing fits only so; `draw` also where the picture gets larger so.
     Auto,
 }

@@ -2,11 +2,13 @@
 
 use super::choices::{Fit, Format, Tone};
 use super::files::Reporting;
+use super::placing::PlacingOptions;
 use super::toolpaths::ToolpathOptions;
 use super::values::{
-    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, screen,
-    size_above_zero,
+    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, nib, role_file,
+    screen, size_above_zero,
 };
+use crate::cli::lists::mask_roles;
 use crate::drawing::Ink;
 use clap::Args;
 use std::path::PathBuf;
@@ -30,21 +32,20 @@ pub(in crate::cli) struct PictureOptions {
     /// Kept free on the sheet [default: 0, with --page 10mm].
     #[arg(long, value_name = "LENGTH", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub margin: Option<f64>,
-    /// The box that the picture is fitted into [default: the sheet less its margin; without a sheet 90x120mm].
+    /// The box that the picture is fitted into, keeping its proportions: it fills the box only with --fit cover [default: what the
+    /// machine reaches of the sheet less its margin; without a sheet 90x120mm].
     #[arg(long, value_name = "WxH", value_parser = size_above_zero, allow_hyphen_values = true)]
     pub size: Option<(f64, f64)>,
     /// How the photograph fills the box.
     #[arg(long, value_enum, default_value_t = Fit::Contain)]
     pub fit: Fit,
-    /// The part of the photograph used, in pixels or %.
+    /// The part of the photograph used, in pixels or %; it must lie inside it.
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     pub crop: Option<[CropNumber; 4]>,
     /// Distance of neighbouring dots or lines [default: the style's].
     #[arg(long, value_name = "LENGTH", value_parser = length_above_zero, allow_negative_numbers = true)]
     pub pitch: Option<f64>,
-    /// A region, white inside, on the photograph's pixel grid; ROLE is subject, detail, edges or isophotes, or
-    /// scribbles with one colour for each region.
-    #[arg(long, value_name = "ROLE=FILE", value_parser = key_value)]
+    #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
     /// Depth map of 8 or 16 bits on the photograph's pixel grid: white is near, 0 is unknown or background.
     #[arg(long, value_name = "FILE")]
@@ -76,6 +77,8 @@ pub(in crate::cli) struct PictureOptions {
 pub(in crate::cli) struct DrawOptions {
     #[command(flatten)]
     pub picture: PictureOptions,
+    #[command(flatten)]
+    pub placing: PlacingOptions,
     /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout. `{layer}` in
     /// it writes one file for each layer.
     #[arg(long, short, value_name = "FILE")]
@@ -83,8 +86,8 @@ pub(in crate::cli) struct DrawOptions {
     /// The format, whatever the extension.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// Nib width: for plotter output, and for lines that have no width of their own.
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    /// Nib width (0.01 to 20 mm): for plotter output, and for lines that have no width of their own.
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
     /// Smallest dot and thinnest line that print may use; smaller marks are thinned out so that the tone stays. For newsprint 0.065mm
     /// (Torstar Printing Group: tints below 5 % do not print; the dot of that tint at 40 lines per cm), for books 0.03mm (Printing
@@ -114,7 +117,8 @@ pub(in crate::cli) struct DrawOptions {
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
-    /// Do all the work and write nothing.
+    /// Say what the drawing will come to, its marks, memory and time and with --profile the plot's, and write nothing: an estimate
+    /// from small pictures, in a second or two.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

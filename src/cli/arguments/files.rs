@@ -2,7 +2,7 @@
 
 use super::choices::Format;
 use super::toolpaths::ToolpathOptions;
-use super::values::{length_above_zero, length_from_zero};
+use super::values::{length_from_zero, nib, work};
 use clap::Args;
 
 /// How to report.
@@ -28,8 +28,8 @@ pub(in crate::cli) struct CalibrateOptions {
     /// The format, whatever the extension.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// Nib width that is written on the pen.
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    /// Nib width that is written on the pen (0.01 to 20 mm).
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
     /// How many pens draw a cross [default: as many as the machine holds].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
@@ -54,6 +54,9 @@ pub(in crate::cli) struct InspectOptions {
     /// Adds the time on this plotter.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
+    /// How much work the file may ask for, in millions of steps (up to 1000); 12 stay below 2 GB.
+    #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
+    pub most_work: f64,
     /// Print one JSON object on stdout.
     #[arg(long)]
     pub json: bool,

@@ -3,20 +3,22 @@
 mod choices;
 mod draw;
 mod files;
+mod placing;
 mod toolpaths;
 mod values;
 
 pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
+pub(super) use placing::*;
 pub(super) use toolpaths::*;
-pub(super) use values::CropNumber;
+pub(super) use values::{CropNumber, NIBS};
 
 use clap::{Parser, Subcommand};
 
 /// Turns a photograph into vector stroke art and takes it to ink.
 ///
-/// Lengths take mm (the default), cm, in or pt. `-` is stdin or stdout. Data goes to stdout, everything else to stderr.
+/// Lengths take mm (the default), cm, in or pt, and px where an SVG is read. `-` is stdin or stdout. Data goes to stdout, everything else to stderr.
 /// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted.
 #[derive(Debug, Parser)]
 #[command(name = "drypoint", version, max_term_width = 100)]

@@ -1,8 +1,11 @@
 //! Options of `plot`, and of every tool path.
 
-use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, Rotate, SeamOption, StartCorner};
+use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, PreviewTravel, SeamOption, StartCorner};
 use super::files::Reporting;
-use super::values::{dry_time, key_value, length_above_zero, length_from_zero, metres, number_above_zero, seconds};
+use super::placing::PlacingOptions;
+use super::values::{
+    drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, scale, seconds, tolerance, work,
+};
 use clap::Args;
 
 /// How tool paths are made.
@@ -10,8 +13,8 @@ use clap::Args;
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ToolpathOptions {
-    /// Of flattening curves.
-    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    /// Of flattening curves and of arcs (0.001 to 1 mm).
+    #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// How hard to look for a short way; counted in work, so that the order is the same everywhere.
     #[arg(long, value_enum, default_value_t = Order::Full)]
@@ -35,7 +38,7 @@ pub(in crate::cli) struct ToolpathOptions {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub order_seed: u64,
     /// Join ends that lie this near, up to a turn of 90 degrees, or 150 where they coincide; 0 joins nothing.
-    #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = drawn_length_from_zero, allow_negative_numbers = true)]
     pub merge: f64,
     /// A wet line is not crossed or touched again for so many seconds: paths are put off, and where nothing else is left to draw
     /// the machine waits (0 to 86400; G-code, and profiles whose language can wait).
@@ -71,9 +74,12 @@ pub(in crate::cli) struct ToolpathOptions {
     /// Wait each time that a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
     #[arg(long, value_name = "METRES", value_parser = metres, allow_negative_numbers = true)]
     pub pause_every: Option<f64>,
-    /// A picture of what the machine will do: sheet, reach, ink at nib width, travel, start and park.
+    /// A picture of what the machine will do: sheet, reach, ink at nib width in a colour for each pen, travel, start and park.
     #[arg(long, value_name = "FILE.svg")]
     pub preview: Option<String>,
+    /// How the preview shows the ways of the raised pen.
+    #[arg(long, value_enum, default_value_t = PreviewTravel::Faint, requires = "preview")]
+    pub preview_travel: PreviewTravel,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -89,8 +95,8 @@ pub(in crate::cli) struct PlotOptions {
     /// The plotter: a name (`drypoint profiles` lists them) or a TOML file; needed for HP-GL and G-code.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
-    /// Nib width.
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = length_above_zero, allow_negative_numbers = true)]
+    /// Nib width (0.01 to 20 mm).
+    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
     /// Draw only these layers, by name or pen number, separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "LIST")]
@@ -99,7 +105,7 @@ pub(in crate::cli) struct PlotOptions {
     #[arg(long, value_name = "NAME|WxH")]
     pub page: Option<String>,
     /// Kept free on the sheet with --fit page.
-    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = length_from_zero, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = drawn_length_from_zero, allow_negative_numbers = true)]
     pub margin: f64,
     /// lines: strokes' centre lines, fills are ignored and counted; ink: widths and fills are laid down with the nib. White is
     /// never ink [default: ink for files that drypoint wrote, else lines].
@@ -111,21 +117,25 @@ pub(in crate::cli) struct PlotOptions {
     /// Scale the drawing to the page less its margin.
     #[arg(long, value_enum, default_value_t = PlotFit::None)]
     pub fit: PlotFit,
-    /// Scale by this factor.
-    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = number_above_zero, allow_negative_numbers = true)]
-    pub scale: f64,
-    /// Move the drawing to the middle of the page.
-    #[arg(long)]
-    pub center: bool,
-    /// Turn clockwise by degrees.
-    #[arg(long, value_enum, allow_negative_numbers = true, default_value_t = Rotate::None)]
-    pub rotate: Rotate,
+    /// Scale by this factor (0.001 to 1000), from the upper left corner [default: 1].
+    #[arg(long, value_name = "F", value_parser = scale, allow_negative_numbers = true)]
+    pub scale: Option<f64>,
+    #[command(flatten)]
+    pub placing: PlacingOptions,
+    /// Make the drawing smaller about its middle, if need be, so that the plot takes at most this long, such as 2h, 90min or 1h30m.
+    /// With --fit or --scale a longer plot is refused, with the scale that would do.
+    #[arg(long, value_name = "TIME", value_parser = duration, requires = "profile", allow_negative_numbers = true)]
+    pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
+    /// How much work the drawing may ask for when it is read, in millions of steps (up to 1000): elements with all that is used,
+    /// segments, dashes. 12 stay below 2 GB.
+    #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
+    pub most_work: f64,
     /// Worker threads [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Do all the work and write nothing.
+    /// Say what the plot will come to and write nothing: an estimate, without the search for a short way.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

@@ -1,7 +1,15 @@
 //! Values as they are written: lengths, times, shares, crops.
 
 use crate::drawing::Ink;
-use crate::geometry::{parse_length, parse_size};
+use crate::geometry::{parse_drawn_length, parse_length, parse_size};
+use std::ops::RangeInclusive;
+
+/// Widths of nibs in millimetres: finer than any pen, and a broad brush.
+pub(in crate::cli) const NIBS: RangeInclusive<f64> = 0.01..=20.0;
+/// Tolerances of curves in millimetres: below a step of any plotter files only grow, above it a letter loses its shape.
+const TOLERANCES: RangeInclusive<f64> = 0.001..=1.0;
+/// Factors of a drawing's size, from a sheet that becomes a dot to a stamp that becomes a wall.
+const SCALES: RangeInclusive<f64> = 0.001..=1000.0;
 
 /// A border of the crop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +25,10 @@ pub(super) fn key_value(text: &str) -> Result<(String, String), String> {
     }
 }
 
+pub(super) fn role_file(text: &str) -> Result<(String, String), String> {
+    key_value(text).map_err(|_| "write it as ROLE=FILE, such as subject=mask.png".to_owned())
+}
+
 pub(super) fn length_above_zero(text: &str) -> Result<f64, String> {
     let mm = parse_length(text).map_err(|error| error.to_string())?;
     if mm > 0.0 { length_from_zero(text) } else { Err("must be above 0".to_owned()) }
@@ -27,10 +39,51 @@ pub(super) fn length_from_zero(text: &str) -> Result<f64, String> {
     if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
 }
 
+/// Work for reading a file, in millions of steps.
+pub(super) fn work(text: &str) -> Result<f64, String> {
+    let millions = number_above_zero(text).ok().filter(|millions| *millions <= crate::read::MOST_WORK);
+    millions.ok_or_else(|| format!("must be a number of millions above 0, up to {}", crate::read::MOST_WORK))
+}
+
+/// A length of a drawing that is read, in pixels too.
+pub(super) fn drawn_length_from_zero(text: &str) -> Result<f64, String> {
+    let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
+    if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
+}
+
+pub(super) fn nib(text: &str) -> Result<f64, String> {
+    length_within(text, &NIBS)
+}
+
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    length_within(text, &TOLERANCES)
+}
+
+fn length_within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
+    let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
+    if range.contains(&mm) { Ok(mm) } else { Err(format!("must be from {} to {} mm", range.start(), range.end())) }
+}
+
+pub(super) fn scale(text: &str) -> Result<f64, String> {
+    let factor = text.parse::<f64>().ok().filter(|factor| SCALES.contains(factor));
+    factor.ok_or_else(|| format!("must be a number from {} to {}", SCALES.start(), SCALES.end()))
+}
+
 pub(super) fn size_above_zero(text: &str) -> Result<(f64, f64), String> {
     let (width, height) = parse_size(text).map_err(|error| error.to_string())?;
     let sound = |mm: f64| (1.0..=100_000.0).contains(&mm);
     if sound(width) && sound(height) { Ok((width, height)) } else { Err("both sides must be from 1 mm to 100 m".to_owned()) }
+}
+
+/// A place on the sheet, across and down; a unit at the end holds for both, as in `2,3.5cm`.
+pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
+    let refuse = || "write it as X,Y, such as 20,35mm".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(refuse)?;
+    let has_unit = x.trim().ends_with(|c: char| c.is_ascii_alphabetic());
+    let unit = y.trim().trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+    let x = if has_unit { x.to_owned() } else { format!("{}{unit}", x.trim()) };
+    let within = |text: &str| parse_length(text).ok().filter(|mm| mm.abs() <= 100_000.0).ok_or_else(refuse);
+    Ok((within(&x)?, within(y)?))
 }
 
 pub(super) fn number_above_zero(text: &str) -> Result<f64, String> {
@@ -135,11 +188,37 @@ mod tests {
     }
 
     #[test]
+    fn nibs_tolerances_and_scales_have_ends() {
+        assert_eq!((nib("0.3"), nib("0.01mm"), nib("2cm")), (Ok(0.3), Ok(0.01), Ok(20.0)));
+        assert_eq!((tolerance("0.02"), scale("2.5")), (Ok(0.02), Ok(2.5)));
+        for wrong in ["0", "-0.3", "1e-300", "1e-9", "NaN", "inf", "20.1", "1e300"] {
+            assert!(
+                nib(wrong).unwrap_err().contains(if wrong == "NaN" || wrong == "inf" { "" } else { "0.01 to 20 mm" }),
+                "{wrong}"
+            );
+            assert!(tolerance(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(tolerance("1e-300").unwrap_err(), "must be from 0.001 to 1 mm");
+        for wrong in ["0", "-1", "1e-9", "1001", "1e300", "inf", "NaN", ""] {
+            assert_eq!(scale(wrong).unwrap_err(), "must be a number from 0.001 to 1000", "{wrong}");
+        }
+    }
+
+    #[test]
     fn durations() {
         assert_eq!((duration("2h"), duration("90min"), duration("1h30m")), (Ok(7200.0), Ok(5400.0), Ok(5400.0)));
         assert_eq!((duration("1.5h"), duration("1h 5 min"), duration("45s")), (Ok(5400.0), Ok(3900.0), Ok(45.0)));
         for wrong in ["", "2", "h", "30m1h", "1h2h", "0h", "-2h", "2 days", "1..5h"] {
             assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn places() {
+        assert_eq!((place("20,35"), place("2, 3.5cm")), (Ok((20.0, 35.0)), Ok((20.0, 35.0))));
+        assert_eq!((place("-5mm,1cm"), place("1in,0")), (Ok((-5.0, 10.0)), Ok((25.4, 0.0))));
+        for wrong in ["20", "20x35", "a,b", "NaN,1", "1,2,3", "1e9,0", ","] {
+            assert!(place(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -6,9 +6,9 @@ use super::dash::dashes;
 use super::dot::OVERLAP;
 use super::hatch::hatching;
 use super::needle::needle;
-use crate::drawing::Area;
 use crate::geometry::{Insets, Point, distance_to_segment, polygon_area, resample};
 use crate::interrupt::Interrupt;
+use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
 /// What lifting and lowering the pen once more is worth in millimetres of line, when two ways to fill are compared: 0.35 s of a servo
@@ -16,17 +16,23 @@ use std::f64::consts::FRAC_PI_4;
 const LIFT: f64 = 10.0;
 /// A narrow part is worth drawing from this share of a touch's ink: corners of wide parts stay round.
 const LEAST_PART: f64 = 0.5;
+/// Vertices of all rings after which an area is hatched without finding the rest: about three seconds. An outline of 2000 vertices
+/// has that many in a disc of 400 rings.
+const MOST_RING_VERTICES: usize = 2_000_000;
 
-/// The paths that fill an area; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes of narrow
+/// The paths that fill a shape; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes of narrow
 /// parts begin.
-pub(super) fn fill_area(area: &Area, nib: f64, tolerance: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
+pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
-    let insets = Insets::new(&area.outline, 0.5 * tolerance);
-    let rings = rings(&insets, nib, pitch, interrupt);
-    let ringed = joined(&rings, 1.5 * pitch, interrupt);
-    let mut paths = match rings.first().and_then(|border| hatching(&insets, border, nib, pitch, interrupt)) {
-        Some(hatched) if cost(&hatched) < cost(&ringed) => hatched,
-        _ => ringed,
+    let outermost = insets.rings(0.5 * nib);
+    let border = closed_rings(&outermost);
+    let hatched = hatching(insets, &border, nib, pitch, interrupt);
+    let ringed = rings(insets, outermost, nib, pitch, interrupt).map(|rings| joined(&rings, 1.5 * pitch, interrupt));
+    let mut paths = match (hatched, ringed) {
+        (Some(hatched), Some(ringed)) if cost(&hatched) < cost(&ringed) => hatched,
+        (Some(hatched), None) => hatched,
+        (_, Some(ringed)) => ringed,
+        (None, None) => joined(&[border], 1.5 * pitch, interrupt),
     };
     let least = LEAST_PART * FRAC_PI_4 * nib * nib;
     if interrupt.is_raised() {
@@ -43,23 +49,39 @@ fn cost(paths: &[Toolpath]) -> f64 {
 }
 
 /// Rings half a nib inside the border and then a pitch further in each time, level by level; between two levels, pieces of a ring where
-/// the next one is missing and the middle would stay bare.
-fn rings(insets: &Insets, nib: f64, pitch: f64, interrupt: &Interrupt) -> Vec<Vec<Vec<Point>>> {
+/// the next one is missing and the middle would stay bare. None where that would be too many.
+fn rings(
+    insets: &Insets,
+    outermost: Vec<Vec<Point>>,
+    nib: f64,
+    pitch: f64,
+    interrupt: &Interrupt,
+) -> Option<Vec<Vec<Vec<Point>>>> {
     let mut levels = Vec::new();
     let mut depth = 0.5 * nib;
-    let mut rings = insets.rings(depth);
+    let mut rings = outermost;
+    let mut work = 0;
     while !rings.is_empty() && !interrupt.is_raised() {
+        work += rings.iter().map(Vec::len).sum::<usize>() + insets.len();
+        if work > MOST_RING_VERTICES {
+            return None;
+        }
         let next = insets.rings(depth + pitch);
         let between = insets.rings(depth + 0.5 * pitch);
-        let pieces: Vec<Vec<Point>> = between.iter().flat_map(|ring| far_pieces(ring, &next, 0.75 * pitch, interrupt)).collect();
-        levels.push(rings.into_iter().filter(|ring| ring.len() > 2).map(closed).collect());
+        let sides = Sides::new(&next, 0.75 * pitch);
+        let pieces: Vec<Vec<Point>> = between.iter().flat_map(|ring| far_pieces(ring, &sides, interrupt)).collect();
+        levels.push(closed_rings(&rings));
         if !pieces.is_empty() {
             levels.push(pieces);
         }
         rings = next;
         depth += pitch;
     }
-    levels
+    Some(levels)
+}
+
+fn closed_rings(rings: &[Vec<Point>]) -> Vec<Vec<Point>> {
+    rings.iter().filter(|ring| ring.len() > 2).cloned().map(closed).collect()
 }
 
 fn closed(mut ring: Vec<Point>) -> Vec<Point> {
@@ -67,17 +89,50 @@ fn closed(mut ring: Vec<Point>) -> Vec<Point> {
     ring
 }
 
-/// The parts of a ring farther than `reach` from every other ring, as open lines; the whole ring, closed, where that is all of it.
-fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64, interrupt: &Interrupt) -> Vec<Vec<Point>> {
-    let points = resample(&closed(ring.to_vec()), 0.6 * reach);
-    let is_near = |p: Point| {
-        let sides = others.iter().flat_map(|other| (0..other.len()).map(move |i| (other[i], other[(i + 1) % other.len()])));
-        sides.into_iter().any(|(a, b)| {
-            let (low, high) = (a.x.min(b.x) - reach, a.x.max(b.x) + reach);
-            (low..=high).contains(&p.x) && distance_to_segment(p, a, b) <= reach
-        })
-    };
-    let far: Vec<bool> = points.iter().map(|p| interrupt.is_raised() || !is_near(*p)).collect();
+/// A cell of a grid.
+type Cell = (i64, i64);
+
+fn cell(p: Point, size: f64) -> Cell {
+    ((p.x / size).floor() as i64, (p.y / size).floor() as i64)
+}
+
+fn around((x, y): Cell) -> impl Iterator<Item = Cell> {
+    (-1..=1).flat_map(move |dy| (-1..=1).map(move |dx| (x + dx, y + dy)))
+}
+
+/// The sides of rings by the cells of a grid as wide as they are felt.
+struct Sides {
+    reach: f64,
+    cells: HashMap<Cell, Vec<[Point; 2]>>,
+}
+
+impl Sides {
+    fn new(rings: &[Vec<Point>], reach: f64) -> Self {
+        let mut cells: HashMap<Cell, Vec<[Point; 2]>> = HashMap::new();
+        for (a, b) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))) {
+            // In pieces no longer than a cell, each in the cell of its middle.
+            let pieces = (a.distance(b) / reach).ceil().max(1.0);
+            let at = |k: f64| a.lerp(b, k / pieces);
+            for k in 0..pieces as usize {
+                let piece = [at(k as f64), at(k as f64 + 1.0)];
+                cells.entry(cell(piece[0].midpoint(piece[1]), reach)).or_default().push(piece);
+            }
+        }
+        Self { reach, cells }
+    }
+
+    /// Whether a side lies within reach of a place. The middle of its piece there lies at most one and a half cells away.
+    fn is_near(&self, p: Point) -> bool {
+        let (x, y) = cell(p, self.reach);
+        let near = (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (x + dx, y + dy)));
+        near.filter_map(|cell| self.cells.get(&cell)).flatten().any(|[a, b]| distance_to_segment(p, *a, *b) <= self.reach)
+    }
+}
+
+/// The parts of a ring that are far from the sides of others, as open lines; the whole ring, closed, where that is all of it.
+fn far_pieces(ring: &[Point], others: &Sides, interrupt: &Interrupt) -> Vec<Vec<Point>> {
+    let points = resample(&closed(ring.to_vec()), 0.6 * others.reach);
+    let far: Vec<bool> = points.iter().map(|p| interrupt.is_raised() || !others.is_near(*p)).collect();
     let Some(first_near) = far.iter().position(|far| !far) else { return vec![points] };
     // Once round from a point that is near, so that no piece is cut where the ring begins.
     let last = points.len() - 1;
@@ -95,28 +150,41 @@ fn far_pieces(ring: &[Point], others: &[Vec<Point>], reach: f64, interrupt: &Int
     pieces
 }
 
-/// Rings as few paths: each continues at the nearest ring of the next level when a step over is short.
+/// Rings as few paths: each continues at the nearest ring of the next level when a step over is short; where several paths could go on
+/// there, the one begun last does.
 fn joined(levels: &[Vec<Vec<Point>>], reach: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
+    let mut ends: HashMap<Cell, Vec<usize>> = HashMap::new();
     for line in levels.iter().flatten().take_while(|_| !interrupt.is_raised()) {
         let is_ring = line.len() > 2 && line[0] == line[line.len() - 1];
         let starts = if is_ring { 0..line.len() - 1 } else { 0..1 };
-        let nearest = |from: Point| {
-            let index = starts.clone().min_by(|&a, &b| line[a].distance_squared(from).total_cmp(&line[b].distance_squared(from)));
-            index.map(|i| (line[i].distance(from), i))
-        };
-        let open = paths.iter_mut().rev().find_map(|path| {
-            let (distance, start) = path.points.last().and_then(|end| nearest(*end))?;
-            (distance <= reach).then_some((path, start))
+        let end_of = |path: usize| paths[path].points[paths[path].points.len() - 1];
+        let known = &ends;
+        let near = |start: usize| around(cell(line[start], reach)).filter_map(|cell| known.get(&cell)).flatten();
+        let pairs = starts.flat_map(|start| near(start).map(move |path| (*path, start)));
+        let pairs = pairs.map(|(path, start)| (path, line[start].distance(end_of(path)), start));
+        let best = pairs.filter(|(_, distance, _)| *distance <= reach).reduce(|best, next| {
+            let is_better = next.0 > best.0 || (next.0 == best.0 && next.1 < best.1);
+            if is_better { next } else { best }
         });
-        let around = |start: usize| {
+        let from = |start: usize| {
             let turned = line[start..].iter().chain(if is_ring { &line[1..=start] } else { &[] });
             turned.copied().collect::<Vec<Point>>()
         };
-        match open {
-            Some((path, start)) => path.points.extend(around(start)),
-            None => paths.push(Toolpath::new(around(0))),
-        }
+        let path = match best {
+            Some((path, _, start)) => {
+                let end = end_of(path);
+                ends.entry(cell(end, reach)).or_default().retain(|other| *other != path);
+                paths[path].points.extend(from(start));
+                path
+            }
+            None => {
+                paths.push(Toolpath::new(from(0)));
+                paths.len() - 1
+            }
+        };
+        let end = paths[path].points[paths[path].points.len() - 1];
+        ends.entry(cell(end, reach)).or_default().push(path);
     }
     paths
 }
@@ -127,7 +195,7 @@ mod tests {
     use crate::geometry::BezPath;
 
     fn filled(text: &str, nib: f64) -> Vec<Toolpath> {
-        fill_area(&Area { outline: BezPath::from_svg(text).unwrap(), colour: None }, nib, 0.02, 0.0, &Interrupt::never())
+        fill(&Insets::new(&BezPath::from_svg(text).unwrap(), 0.01), nib, 0.0, &Interrupt::never())
     }
 
     #[test]

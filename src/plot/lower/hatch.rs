@@ -33,7 +33,7 @@ pub(super) fn hatching(
     let count = ((high - low) / pitch).ceil().max(1.0);
     let step = (high - low) / count;
     let heights: Vec<f64> = (0..count as usize).map(|k| low + (k as f64 + 0.5) * step).collect();
-    let rows = heights.iter().take_while(|_| !interrupt.is_raised()).map(|y| spans(&rings, *y));
+    let rows = spans(&rings, &heights).into_iter().take_while(|_| !interrupt.is_raised());
     let mut paths: Vec<Toolpath> = border.iter().map(|ring| Toolpath::new(ring.clone())).collect();
     paths.extend(back_and_forth(rows, 2.5 * pitch).into_iter().map(|line| {
         let points = line.into_iter().map(turned).collect();
@@ -52,34 +52,42 @@ fn lies_between(ring: &[Point], rows: &[f64]) -> bool {
     rows.get(next).is_none_or(|y| *y > high)
 }
 
-/// Where a row lies inside the rings, by the even-odd rule (the rings of one level do not cross).
-fn spans(rings: &[Vec<Point>], y: f64) -> Vec<[Point; 2]> {
-    let mut crossings: Vec<f64> = Vec::new();
-    for ring in rings {
-        for i in 0..ring.len() {
-            let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
-            if (a.y <= y) != (b.y <= y) {
-                crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
-            }
+/// Where each row, from the lowest, lies inside the rings, by the even-odd rule (the rings of one level do not cross).
+fn spans(rings: &[Vec<Point>], rows: &[f64]) -> Vec<Vec<[Point; 2]>> {
+    let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); rows.len()];
+    for (a, b) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))) {
+        let (low, high) = (a.y.min(b.y), a.y.max(b.y));
+        let first = rows.partition_point(|y| *y < low);
+        for (y, crossings) in rows[first..].iter().zip(&mut crossings[first..]).take_while(|(y, _)| **y < high) {
+            crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
         }
     }
-    crossings.sort_by(f64::total_cmp);
-    crossings.chunks_exact(2).map(|pair| [Point::new(pair[0], y), Point::new(pair[1], y)]).collect()
+    let spans = |(crossings, &y): (Vec<f64>, &f64)| {
+        let mut crossings = crossings;
+        crossings.sort_by(f64::total_cmp);
+        crossings.chunks_exact(2).map(|pair| [Point::new(pair[0], y), Point::new(pair[1], y)]).collect()
+    };
+    crossings.into_iter().zip(rows).map(spans).collect()
 }
 
-/// Spans of successive rows as few lines: each row's span continues a line whose end is within reach of one of its own.
+/// Spans of successive rows, each from left to right, as few lines: each row's span continues a line whose end is within reach of one of
+/// its own.
 fn back_and_forth(rows: impl Iterator<Item = Vec<[Point; 2]>>, reach: f64) -> Vec<Vec<Point>> {
     let mut done: Vec<Vec<Point>> = Vec::new();
     let mut open: Vec<Vec<Point>> = Vec::new();
     for row in rows {
         let mut next: Vec<Vec<Point>> = Vec::new();
+        let end_of = |line: &Vec<Point>| line[line.len() - 1];
+        open.sort_by(|a, b| end_of(a).x.total_cmp(&end_of(b).x));
+        let places: Vec<Point> = open.iter().map(end_of).collect();
         for [left, right] in row {
-            let end_of = |line: &Vec<Point>| line[line.len() - 1];
-            let near = |line: &Vec<Point>| end_of(line).distance(left).min(end_of(line).distance(right));
-            let best = (0..open.len()).min_by(|&a, &b| near(&open[a]).total_cmp(&near(&open[b])));
-            match best.filter(|&i| near(&open[i]) <= reach) {
+            let near = |i: usize| places[i].distance(left).min(places[i].distance(right));
+            let beside = |x: f64| places.partition_point(|p| p.x < x - reach)..places.partition_point(|p| p.x <= x + reach);
+            let ends = beside(left.x).chain(beside(right.x)).filter(|&i| !open[i].is_empty());
+            let best = ends.min_by(|&a, &b| near(a).total_cmp(&near(b)));
+            match best.filter(|&i| near(i) <= reach) {
                 Some(i) => {
-                    let mut line = open.swap_remove(i);
+                    let mut line = std::mem::take(&mut open[i]);
                     let is_left = end_of(&line).distance(left) <= end_of(&line).distance(right);
                     line.extend(if is_left { [left, right] } else { [right, left] });
                     next.push(line);
@@ -91,6 +99,7 @@ fn back_and_forth(rows: impl Iterator<Item = Vec<[Point; 2]>>, reach: f64) -> Ve
         open = next;
     }
     done.append(&mut open);
+    done.retain(|line| !line.is_empty());
     done
 }
 

@@ -12,13 +12,14 @@ mod needle;
 mod stroke;
 mod swell;
 mod thin;
+mod unite;
 
 use super::profile::Swell;
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
-use crate::geometry::{BezPath, flatten, simplify};
+use crate::geometry::{BezPath, Insets, flatten, simplify};
 use crate::interrupt::{Interrupt, Interrupted};
-use area::fill_area;
+use area::fill;
 use dot::fill_dot;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -105,8 +106,14 @@ impl Lowering<'_> {
             InkModel::Ink => thin::keeps_tone(&layer.marks, self.nib, self.interrupt),
             InkModel::Lines => vec![true; layer.marks.len()],
         };
-        let chosen: Vec<(usize, &Mark)> = layer.marks.iter().enumerate().filter(|(i, _)| kept[*i]).collect();
-        let lowered: Vec<Vec<Toolpath>> = chosen.into_par_iter().map(|(i, mark)| self.mark(i, mark)).collect();
+        let united = match self.model {
+            InkModel::Ink => unite::united(&layer.marks, 0.5 * self.tolerance, self.interrupt),
+            InkModel::Lines => unite::United { is_part: vec![false; layer.marks.len()], shapes: Vec::new() },
+        };
+        let stays = |i: usize| kept[i] && !united.is_part[i];
+        let chosen: Vec<(usize, &Mark)> = layer.marks.iter().enumerate().filter(|(i, _)| stays(*i)).collect();
+        let shapes = united.shapes.par_iter().enumerate().map(|(i, shape)| self.shape(shape, phase(i)));
+        let lowered: Vec<Vec<Toolpath>> = shapes.chain(chosen.into_par_iter().map(|(i, mark)| self.mark(i, mark))).collect();
         lowered.concat()
     }
 
@@ -114,8 +121,7 @@ impl Lowering<'_> {
         if self.interrupt.is_raised() {
             return Vec::new();
         }
-        // The golden ratio spreads the phases of neighbouring dashed lines.
-        let phase = (index as f64 * 0.618_033_988_75).fract();
+        let phase = phase(index);
         match (mark, self.model) {
             (Mark::Stroke(stroke), InkModel::Lines) => grouped(polylines(&stroke.curve, self.tolerance), stroke),
             (_, InkModel::Lines) => Vec::new(),
@@ -137,7 +143,14 @@ impl Lowering<'_> {
     }
 
     fn area(&self, area: &Area, phase: f64) -> Vec<Toolpath> {
-        self.simplified(fill_area(area, self.nib, self.tolerance, phase, self.interrupt))
+        self.shape(&Insets::new(&area.outline, 0.5 * self.tolerance), phase)
+    }
+
+    fn shape(&self, shape: &Insets, phase: f64) -> Vec<Toolpath> {
+        if self.interrupt.is_raised() {
+            return Vec::new();
+        }
+        self.simplified(fill(shape, self.nib, phase, self.interrupt))
     }
 
     /// Paths without the vertices that straight stretches do not need.
@@ -145,6 +158,11 @@ impl Lowering<'_> {
         let thinned = |path: Toolpath| Toolpath { points: simplify(&path.points, 0.5 * self.tolerance), ..path };
         paths.into_iter().map(thinned).collect()
     }
+}
+
+/// Where in its rhythm the line of a mark begins: the golden ratio spreads the phases of neighbouring dashed lines.
+fn phase(index: usize) -> f64 {
+    (index as f64 * 0.618_033_988_75).fract()
 }
 
 fn grouped(mut paths: Vec<Toolpath>, stroke: &Stroke) -> Vec<Toolpath> {

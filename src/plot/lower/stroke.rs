@@ -9,8 +9,8 @@
 use super::super::Toolpath;
 use super::dash::{NEARLY_WHOLE, Sample, dashes};
 use super::dot::{OVERLAP, fill_dot};
-use crate::drawing::{Dot, Ends, Stroke};
-use crate::geometry::{Point, Vec2};
+use crate::drawing::{Dot, Ends, Stroke, Width};
+use crate::geometry::{BezPath, Point, Vec2};
 use crate::interrupt::Interrupt;
 use kurbo::PathEl;
 
@@ -61,6 +61,9 @@ pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64, interrupt: &In
 /// Whether a stroke wider than the nib turns so sharply that passes along it would leave the outside of the turn bare: in less than
 /// 0.6 of its width.
 pub(super) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
+    if stroke.widest() <= ONE_PASS * nib {
+        return false;
+    }
     let mut samples = samples(stroke, nib);
     samples.dedup_by(|a, b| a.at == b.at);
     if stroke.is_closed() && samples.len() > 2 {
@@ -85,11 +88,32 @@ fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64, interrupt: &Interrup
     asks_for_half.then(dot).into_iter().collect()
 }
 
-/// The centre line with its widths, at steps of a quarter of a nib at most.
+/// The centre line with its widths: at steps of a quarter of a nib at most, but for straight lines of one width that a pass or dashes
+/// draw.
 fn samples(stroke: &Stroke, nib: f64) -> Vec<Sample> {
+    if let (Width::Constant(width), Some(points)) = (&stroke.width, corners(&stroke.curve))
+        && *width <= ONE_PASS * nib
+    {
+        return points.into_iter().filter(|p| p.is_finite()).map(|at| Sample { at, width: *width }).collect();
+    }
     let (points, widths) = stroke.sampled(0.25 * nib);
     let finite = points.into_iter().zip(widths).filter(|(at, width)| at.is_finite() && width.is_finite());
     finite.map(|(at, width)| Sample { at, width }).collect()
+}
+
+/// The vertices of a curve that is all straight lines, back at its start where it is closed.
+fn corners(curve: &BezPath) -> Option<Vec<Point>> {
+    let mut points: Vec<Point> = Vec::with_capacity(curve.elements().len());
+    for element in curve.elements() {
+        match element {
+            PathEl::MoveTo(p) if points.is_empty() => points.push(*p),
+            PathEl::LineTo(p) => points.push(*p),
+            PathEl::ClosePath if points.last() == points.first() => {}
+            PathEl::ClosePath => points.push(points[0]),
+            _ => return None,
+        }
+    }
+    (points.len() > 1).then_some(points)
 }
 
 /// Half a nib less at both ends of a stroke that ends square, as the nib's own end is round; the middle of one no longer than a nib.
@@ -101,15 +125,15 @@ fn trimmed(samples: Vec<Sample>, stroke: &Stroke, nib: f64) -> Vec<Sample> {
     samples.windows(2).for_each(|pair| along.push(along[along.len() - 1] + pair[0].at.distance(pair[1].at)));
     let length = along[along.len() - 1];
     let cut = (0.5 * nib).min(0.5 * length);
-    if length - 2.0 * cut <= 1e-9 {
-        return vec![samples[samples.len() / 2]];
-    }
     let at = |place: f64| {
         let i = along.partition_point(|passed| *passed <= place).clamp(1, samples.len() - 1);
         let t = (place - along[i - 1]) / (along[i] - along[i - 1]).max(1e-12);
         let (a, b) = (samples[i - 1], samples[i]);
         Sample { at: a.at.lerp(b.at, t), width: a.width + (b.width - a.width) * t }
     };
+    if length - 2.0 * cut <= 1e-9 {
+        return vec![at(0.5 * length)];
+    }
     let between = (0..samples.len()).filter(|&i| along[i] > cut + 1e-9 && along[i] < length - cut - 1e-9).map(|i| samples[i]);
     std::iter::once(at(cut)).chain(between).chain([at(length - cut)]).collect()
 }
@@ -240,8 +264,6 @@ fn runs_in(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Width;
-    use crate::geometry::BezPath;
 
     #[test]
     fn square_ends_are_half_a_nib_off() {

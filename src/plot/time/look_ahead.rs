@@ -98,18 +98,23 @@ impl LookAhead {
         Self { rules, blocks: Vec::new(), speed: 0.0, squared: 0.0, at: [0.0; 3], direction: [0.0; 3], seconds: vec![0.0; slots] }
     }
 
-    /// Draws a straight line at a rate in mm/s; the time goes to a slot.
+    /// Draws a straight line to a place that the file gives, at a rate in mm/s; the time goes to a slot.
     pub fn line(&mut self, to: Place, rate: f64, slot: usize) {
-        self.add(to, rate, self.rules.acceleration, slot);
+        self.add(self.rules.in_steps(to, as_read), rate, self.rules.acceleration, slot);
+    }
+
+    /// Draws a chord of an arc, to a place that the controller reckons itself: it lies on no grid of decimals.
+    pub fn chord(&mut self, to: Place, rate: f64, slot: usize) {
+        self.add(self.rules.in_steps(to, |place| place as f32), rate, self.rules.acceleration, slot);
     }
 
     /// Moves with the pen up.
     pub fn travel(&mut self, to: Place, rate: f64, slot: usize) {
-        self.add(to, rate, self.rules.travel_acceleration, slot);
+        self.add(self.rules.in_steps(to, as_read), rate, self.rules.travel_acceleration, slot);
     }
 
+    /// A move to a place in whole steps.
     fn add(&mut self, to: Place, rate: f64, acceleration: Limit, slot: usize) {
-        let to = self.rules.in_steps(to);
         let leg = [to[0] - self.at[0], to[1] - self.at[1], to[2] - self.at[2]];
         let length = norm(leg);
         if length < 1e-9 {
@@ -225,10 +230,10 @@ impl Rules {
         if way >= block.least { 0.0 } else { 2.0 * way / (from + a * before + fastest) }
     }
 
-    /// Rounded to motor steps, as the controller does it.
-    fn in_steps(&self, place: Place) -> Place {
+    /// Rounded to motor steps, as the controller does it from the single precision in which it holds a place.
+    fn in_steps(&self, place: Place, held: fn(f64) -> f32) -> Place {
         let Some(steps) = self.steps_per_mm else { return place };
-        let rounded = |axis: usize| whole(f64::from(as_read(place[axis]) * steps[axis] as f32)) as f64 / steps[axis];
+        let rounded = |axis: usize| whole(f64::from(held(place[axis]) * steps[axis] as f32)) as f64 / steps[axis];
         [rounded(0), rounded(1), rounded(2)]
     }
 

@@ -79,6 +79,15 @@ enum Share {
     Waiting,
 }
 
+/// A straight move on the way along a path.
+#[derive(Clone, Copy)]
+enum Leg {
+    /// To a place that stands in the file.
+    Line([f64; 2]),
+    /// To a place on an arc, which the controller reckons.
+    Chord([f64; 2]),
+}
+
 /// How many shares there are.
 const SHARES: usize = 4;
 
@@ -168,23 +177,27 @@ impl<'a> Run<'a> {
             }
             _ => {
                 places.dedup();
-                for [x, y] in self.chords(&places) {
+                for leg in self.legs(&places) {
+                    let (Leg::Line([x, y]) | Leg::Chord([x, y])) = leg;
                     self.at = [x, y, self.at[2]];
-                    self.planner.line(self.at, rate, slot);
+                    match leg {
+                        Leg::Line(_) => self.planner.line(self.at, rate, slot),
+                        Leg::Chord(_) => self.planner.chord(self.at, rate, slot),
+                    }
                 }
             }
         }
         self.act(PenMove::Up, if self.waits_for_pen() { self.profile.motion.pen_up_seconds } else { 0.0 });
     }
 
-    /// The places that the controller goes to after the first: where arcs are written, the chords that it cuts them into.
-    fn chords(&self, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    /// Where the controller goes after the first place: where arcs are written, the chords that it cuts them into.
+    fn legs(&self, places: &[[f64; 2]]) -> Vec<Leg> {
         let gcode = self.profile.gcode.as_ref().filter(|gcode| gcode.arcs);
         let (Some(_), Some(tolerance)) = (gcode, self.profile.motion.planner.arc_tolerance) else {
-            return places[1..].to_vec();
+            return places[1..].iter().map(|place| Leg::Line(*place)).collect();
         };
         let points: Vec<Point> = places.iter().map(|&[x, y]| Point::new(x, y)).collect();
-        let mut chords = Vec::with_capacity(places.len());
+        let mut legs = Vec::with_capacity(places.len());
         let mut from = points[0];
         for step in fit_arcs(&points, self.mounting.tolerance) {
             if let Step::Arc { centre, sweep, to } = step {
@@ -196,15 +209,15 @@ impl<'a> Run<'a> {
                 let radius = from.distance(centre);
                 let rise = (tolerance * (2.0 * radius - tolerance)).max(1e-12).sqrt();
                 let count = (0.5 * sweep.abs() * radius / rise).floor();
-                chords.extend(turned(from - centre, sweep / count, count as usize).map(|arm| {
+                legs.extend(turned(from - centre, sweep / count, count as usize).map(|arm| {
                     let place = centre + arm;
-                    [place.x, place.y]
+                    Leg::Chord([place.x, place.y])
                 }));
             }
             from = step.to();
-            chords.push([from.x, from.y]);
+            legs.push(Leg::Line([from.x, from.y]));
         }
-        chords
+        legs
     }
 
     fn lifts_by_height(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Eyes, nose and mouth: taken out of the smudge (section 3.1.5), their tones told apart by scale-space filtering (section 5.3), and
+//! Eyes, nose and mouth: taken out of the smudge (section 3.1.5), their tones told apart by scale-space filtering (section 6.1.1), and
 //! each drawn finely, as dark against its skin as in the photograph.
 
 use super::Drawer;
@@ -161,7 +161,7 @@ fn bin(tone: f32) -> usize {
     ((tone / LIGHTEST_TONE * BINS as f32) as usize).min(BINS - 1)
 }
 
-/// The tone between skin and what is darker in a feature, as its histogram's tones part (section 5.3).
+/// The tone between skin and what is darker in a feature, as its histogram's tones part (section 6.1.1).
 fn limit(tone: &Raster<f32>, inside: &Raster<f32>) -> f32 {
     let mut histogram = vec![0_u32; BINS];
     tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).for_each(|(n, _)| histogram[bin(*n)] += 1);

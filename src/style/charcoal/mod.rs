@@ -5,6 +5,7 @@
 //!   tone, shading, edges, hair, features, background   the order of drawing: a layer each
 //! ```
 
+mod cost;
 mod edges;
 mod feature_tones;
 mod features;
@@ -16,18 +17,20 @@ mod skin;
 mod strokes;
 mod tone;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use parameters::Charcoaling;
 
-/// The style.
-pub(super) struct Charcoal;
-
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
 const SHORT_SIDE: f64 = 600.0;
+/// Working pixels at most, those of a picture twice as long as wide: a strip whose short side is blown up to 600 would take minutes.
+const MOST_PIXELS: f64 = 2.0 * SHORT_SIDE * SHORT_SIDE;
+
+/// The style.
+pub(super) struct Charcoal;
 
 impl Style for Charcoal {
     fn name(&self) -> &'static str {
@@ -56,10 +59,20 @@ impl Style for Charcoal {
     }
 
     fn resolution(&self, _: &Settings, _: &[MaskRole], picture: Rect) -> f64 {
-        SHORT_SIDE / picture.width().min(picture.height())
+        (SHORT_SIDE / picture.width().min(picture.height())).min((MOST_PIXELS / picture.area()).sqrt())
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Charcoaling::new(settings), picture, pixels_per_mm)
+    }
+
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Charcoaling::new(settings), seed, observer }.draw()
     }
 }
@@ -99,13 +112,11 @@ impl Drawer<'_> {
             ("features", face),
             ("background", background),
         ];
-        let drawing = Drawing { page: self.portrait.page, layers: Self::layers(layers) };
-        let mut drawing = drawing.clipped(drawing.page.rect());
+        let mut drawing = Drawing { page: self.portrait.page, layers: Self::layers(layers) };
         strokes::time(&mut drawing);
         if drawing.marks().next().is_none() {
             return Err(StyleError::NothingToDraw("nothing in the picture is dark enough for a mark".to_owned()));
         }
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
     }
 

@@ -41,6 +41,14 @@ const LEAST_CONTRAST: f32 = 0.12;
 const CLEAR_CONTRAST: f32 = 0.3;
 /// Shares of its encoded light that skin has from its lit to its shaded side: hair is unlike all of them.
 const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
+/// Shares of its encoded light below which nothing is shaded skin, and the colour distance to skin of any light from which a colour is
+/// none. Tuned on the busts and the portraits: a shaved head's shaded side has 0.72 and 0.08, a bald forehead's gleam 1.12 and 0.05;
+/// black and brown hair has 0.3 to 0.57, white and grey hair 0.13 to 0.22.
+const DARKEST_SKIN: f32 = 0.62;
+const LEAST_STRANGE: f32 = 0.1;
+/// Breadth of a strand in distances of the eyes, and the texture from which a region of skin's colours is hair, in cheeks'.
+const STRAND: f64 = 0.03;
+const ROUGH: f64 = 2.0;
 /// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
 const LOWEST_FRINGE: f64 = 0.75;
 const CROWN: f64 = -0.85;
@@ -194,7 +202,38 @@ impl Drawer<'_> {
         });
         let whole = without_holes(&largest(&majority(&closed, 2), 0.2));
         let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
-        (area > 0.3 * frame.eye_distance.powi(2)).then(|| gaussian_blur(&whole.map(f32::from), 1.0))
+        if area <= 0.3 * frame.eye_distance.powi(2) {
+            return None;
+        }
+        if !(is_unlike_skin(hair, skin) || self.is_rough(&whole, frame)) {
+            self.observer.warn(
+                "what lies above the brow is too like the skin in light or shade to be called hair: it is drawn like the rest; give --mask hair=FILE to draw it in strokes",
+            );
+            return None;
+        }
+        Some(gaussian_blur(&whole.map(f32::from), 1.0))
+    }
+
+    /// Whether a region has strands: its texture, in shares of its light, against that of the cheeks, away from its border.
+    fn is_rough(&self, region: &Raster<u8>, frame: &FaceFrame) -> bool {
+        let lightness = &self.portrait.lightness;
+        let size = frame.eye_distance;
+        let broad = gaussian_blur(lightness, (STRAND * size) as f32);
+        let texture = lightness.zip_map(&broad, |fine, broad| (fine - broad).abs() / broad.max(0.02));
+        let inside = dilate(&region.map(|v| 1 - v), (2.0 * STRAND * size).ceil() as usize).map(|v| 1 - v);
+        let mean = |weight: &dyn Fn(usize) -> bool| {
+            let values: Vec<f32> = texture.pixels().iter().enumerate().filter(|(i, _)| weight(*i)).map(|(_, v)| *v).collect();
+            f64::from(values.iter().sum::<f32>()) / values.len().max(1) as f64
+        };
+        let width = lightness.width();
+        let is_cheek = |i: usize| {
+            let p = Point::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+            let (across, down) = frame.relative(p);
+            (0.3..0.6).contains(&across.abs()) && (0.3..0.7).contains(&down)
+        };
+        let (hair, skin) = (mean(&|i| inside.pixels()[i] != 0), mean(&is_cheek));
+        self.observer.warn(&format!("TEMP hair {hair:.4} skin {skin:.4} ratio {:.2}", hair / skin));
+        hair >= ROUGH * skin
     }
 
     /// The colours of the crown and of the skin; none where the subject has nothing above its brow but skin.
@@ -213,6 +252,13 @@ impl Drawer<'_> {
             .collect();
         (crown.len() >= 20).then(|| (median(&crown), skin))
     }
+}
+
+/// Whether a colour is that of no skin of this colour in more or less light.
+fn is_unlike_skin(hair: [f32; 3], skin: [f32; 3]) -> bool {
+    let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
+    let share = dot(hair, skin) / dot(skin, skin).max(1e-6);
+    share < DARKEST_SKIN || distance(hair, skin.map(|v| share * v)) > LEAST_STRANGE
 }
 
 impl Regions {

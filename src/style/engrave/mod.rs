@@ -4,6 +4,7 @@
 mod alike;
 mod angles;
 mod breaks;
+mod cost;
 mod depths;
 mod ground;
 mod lines;
@@ -17,9 +18,9 @@ mod strokes;
 mod tones;
 mod widths;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Colour, Drawing, Layer, Mark};
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use breaks::Breaking;
@@ -67,7 +68,17 @@ impl Style for Engrave {
         parameters::PIXELS_PER_PITCH / settings.number("pitch")
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Engraving::new(settings), picture, pixels_per_mm)
+    }
+
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Engraving::new(settings), seed, observer }.draw()
     }
 }
@@ -112,8 +123,6 @@ impl Drawer<'_> {
             drawing.page.paper = Colour { r: 0, g: 0, b: 0 };
             drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks).for_each(whiten);
         }
-        let drawing = drawing.clipped(self.portrait.page.rect());
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
     }
 

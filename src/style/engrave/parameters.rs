@@ -1,9 +1,15 @@
 //! The engraving's parameters and their values.
 
-use crate::style::{Default, Kind, Parameter, Settings};
+use crate::source::MaskRole;
+use crate::style::{Default, Kind, Need, Parameter, Settings};
 
 /// Working pixels a pitch.
 pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
+
+/// Depth bends the lines, or is the picture.
+const DEPTH_COUNTS: Need = Need::AnyOf(&[&[Need::Nonzero("displacement")], &[Need::Word("tone_from", &["depth"])]]);
+/// Lines that can break.
+const NOT_STIPPLED: Need = Need::Word("look", &["crosshatch", "engraving", "hatch", "net", "contour"]);
 
 /// All that a user can set.
 pub(super) const PARAMETERS: &[Parameter] = &[
@@ -12,156 +18,195 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
         meaning: "distance of neighbouring lines where the depth is flat",
         source: "Galarza 3.5.1, delta_y",
+        needs: &[],
     },
     Parameter {
         name: "look",
         kind: Kind::Choice(&["crosshatch", "engraving", "hatch", "net", "stipple", "contour"]),
         meaning: "crosshatch: swelling lines, crossed in the dark, dots in the light; engraving: the same, and white lines cut through them in the half light; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in the shade only",
         source: "Galarza 4.1 and 4.4",
+        needs: &[],
     },
     Parameter {
         name: "displacement",
         kind: Kind::Length { default: Default::Pitches(14.0), least: -1000.0, most: 1000.0 },
         meaning: "how far the nearest depth moves a line to its left (up, at angle 0)",
         source: "Galarza 3.5.1, phi, equation 3.5",
+        needs: &[],
     },
     Parameter {
         name: "sampling",
         kind: Kind::Length { default: Default::Pitches(0.5), least: 0.01, most: 100.0 },
         meaning: "distance of the depths that a line is bent by; larger draws rounder, simpler lines",
         source: "Galarza 3.5.1, delta_x",
+        needs: &[],
     },
     Parameter {
         name: "width_max",
         kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 100.0 },
         meaning: "greatest width of a line; too little loses the darkest tones",
         source: "Galarza 3.7, f_w",
+        needs: &[],
     },
     Parameter {
         name: "threshold",
         kind: Kind::Number { default: 0.5, least: 0.0, most: 1.0 },
         meaning: "tone below which lines are crossed by a second layer (0 black, 1 white)",
         source: "Galarza 3.2, tau",
+        needs: &[Need::Word("look", &["crosshatch", "engraving", "contour"])],
     },
     Parameter {
         name: "angle",
         kind: Kind::Number { default: 0.0, least: -360.0, most: 360.0 },
         meaning: "direction of the lines in degrees, anticlockwise from the right",
         source: "Galarza 3.6, Theta",
+        needs: &[Need::AnyOf(&[
+            &[Need::Word("angles", &["given", "hue"])],
+            &[Need::Word("angles", &["auto"]), Need::Word("regions", &["one"])],
+            &[Need::Word("angles", &["auto"]), Need::Word("regions", &["auto"]), Need::Without(MaskRole::Scribbles)],
+        ])],
     },
     Parameter {
         name: "cross_angle",
         kind: Kind::Number { default: 90.0, least: 10.0, most: 170.0 },
         meaning: "from the lines to those that cross them, in degrees",
         source: "Galarza 3.6, alpha",
+        needs: &[Need::AnyOf(&[
+            &[Need::Word("look", &["crosshatch", "engraving", "net"])],
+            &[Need::Word("look", &["hatch", "contour"]), Need::Above("thinnest", 0.0)],
+        ])],
     },
     Parameter {
         name: "regions",
         kind: Kind::Choice(&["auto", "one", "superpixels"]),
         meaning: "what has lines of its own direction: auto is the scribbles where --mask scribbles= is given, else one; superpixels are small regions of like colour",
         source: "Galarza 3.3",
+        needs: &[],
     },
     Parameter {
         name: "region_size",
         kind: Kind::Length { default: Default::Pitches(16.0), least: 0.5, most: 1000.0 },
         meaning: "side of a superpixel",
         source: "Galarza 2.3, SLIC",
+        needs: &[Need::Word("regions", &["superpixels"])],
     },
     Parameter {
         name: "angles",
         kind: Kind::Choice(&["auto", "given", "flow", "random", "hue"]),
         meaning: "direction in each region: the angle given; along the edges' flow; random; hue: half the hue of its scribble (red 0, yellow 30, green 60, cyan 90, blue 120, magenta 150 degrees); auto is flow for superpixels, hue for scribbles, else given",
         source: "Galarza 3.3.1 and 3.4",
+        needs: &[],
     },
     Parameter {
         name: "overlap",
         kind: Kind::Length { default: Default::Millimetres(0.0), least: 0.0, most: 100.0 },
         meaning: "how far lines run on into a region whose lines have another direction; 0.2 mm closes most seams, and lines cross there",
         source: "Galarza 3.7, dilation of the masks",
+        needs: &[Need::AnyOf(&[
+            &[Need::Word("regions", &["superpixels"])],
+            &[Need::Word("regions", &["auto"]), Need::With(MaskRole::Scribbles)],
+        ])],
     },
     Parameter {
         name: "min_gap",
         kind: Kind::Length { default: Default::Pitches(0.25), least: 0.001, most: 50.0 },
         meaning: "least distance of neighbouring lines of a layer, centre to centre; at least a tenth of the pitch, at most three quarters",
         source: "the thesis lists crossing lines as its limit (4.2.2)",
+        needs: &[],
     },
     Parameter {
         name: "smoothing",
         kind: Kind::Length { default: Default::Pitches(0.6), least: 0.0, most: 100.0 },
         meaning: "smoothing of the depth within its edges",
         source: "Galarza 5.1 asks for depth without noise",
+        needs: &[DEPTH_COUNTS],
     },
     Parameter {
         name: "depth_from",
         kind: Kind::Choice(&["shape", "inflate", "luminance"]),
         meaning: "without --depth: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
         source: "Galarza 4.4 and 5.2",
+        needs: &[Need::WithoutDepth, DEPTH_COUNTS],
     },
     Parameter {
         name: "tone_from",
         kind: Kind::Choice(&["photo", "depth"]),
         meaning: "depth: the tone is the depth map lit by a lamp, for when there is no photograph",
         source: "Galarza 3.2",
+        needs: &[],
     },
     Parameter {
         name: "light_azimuth",
         kind: Kind::Number { default: 135.0, least: -360.0, most: 360.0 },
         meaning: "where the lamp stands: degrees anticlockwise from the right (135: upper left); also the light that depth_from=shape assumes",
         source: "Galarza 3.2",
+        needs: &[Need::AnyOf(&[
+            &[Need::Word("tone_from", &["depth"])],
+            &[Need::Word("depth_from", &["shape"]), Need::WithoutDepth, Need::Nonzero("displacement")],
+        ])],
     },
     Parameter {
         name: "light_height",
         kind: Kind::Number { default: 45.0, least: 5.0, most: 90.0 },
         meaning: "how high the lamp stands, in degrees above the page",
         source: "Galarza 3.2",
+        needs: &[Need::Word("tone_from", &["depth"])],
     },
     Parameter {
         name: "relief",
         kind: Kind::Length { default: Default::Pitches(40.0), least: 0.0, most: 10_000.0 },
         meaning: "with tone_from=depth: height of the nearest depth above the farthest",
         source: "",
+        needs: &[Need::Word("tone_from", &["depth"])],
     },
     Parameter {
         name: "thinnest",
         kind: Kind::Length { default: Default::Pitches(0.14), least: 0.0, most: 50.0 },
         meaning: "width below which a line breaks into dashes and dots; 0 never",
         source: "the engraver's dotted ends",
+        needs: &[NOT_STIPPLED],
     },
     Parameter {
         name: "dash",
         kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 1000.0 },
         meaning: "from one dash to the next along a line that is interrupted",
         source: "Galarza 4.1",
+        needs: &[NOT_STIPPLED, Need::AnyOf(&[&[Need::Above("thinnest", 0.0)], &[Need::Word("look", &["engraving"])]])],
     },
     Parameter {
         name: "cut_out",
         kind: Kind::Number { default: 0.3, least: 0.0, most: 0.9 },
         meaning: "with look=engraving: how much of a line's length the white crossing lines take out of it in the light",
         source: "Galarza 4.1: hatching less thick crosshatching",
+        needs: &[Need::Word("look", &["engraving"])],
     },
     Parameter {
         name: "dot_min",
         kind: Kind::Length { default: Default::Pitches(0.12), least: 0.0, most: 50.0 },
         meaning: "diameter of the smallest dot; what asks for less has fewer dots",
         source: "",
+        needs: &[Need::AnyOf(&[&[Need::Above("thinnest", 0.0)], &[Need::Word("look", &["engraving", "stipple"])]])],
     },
     Parameter {
         name: "ground",
         kind: Kind::Choice(&["white", "black"]),
         meaning: "black: white lines on black paper",
         source: "Galarza 4.4, figure 4.14",
+        needs: &[],
     },
     Parameter {
         name: "outline",
         kind: Kind::Choice(&["off", "on"]),
         meaning: "draw the photograph's coherent lines on top; their ink comes on top of the tone",
         source: "Galarza 5.2; Kang et al. 2007",
+        needs: &[],
     },
     Parameter {
         name: "outline_width",
         kind: Kind::Length { default: Default::Pitches(0.5), least: 0.01, most: 50.0 },
         meaning: "width of the outlines in their middle",
         source: "",
+        needs: &[Need::Word("outline", &["on"])],
     },
 ];
 

@@ -1,6 +1,5 @@
 //! Discrete Glass patterns: points and where a flow takes them (Papari 2009, section 7.2.1), as dots whose ink is the tone.
 
-use super::parameters::Transform;
 use super::{Drawer, Ground};
 use crate::drawing::{Dot, Layer, Mark};
 use crate::geometry::{Point, Rect, Vec2, blue_noise_order};
@@ -10,8 +9,6 @@ use rand::RngExt;
 
 /// Random points of which the most evenly spread one is kept: with fewer the pattern looks random, with more it only costs time.
 const CHOICE: usize = 4;
-/// Half the picture's shorter side in the units of the nonlinear field: its two singular points at y = -1 and 1 and some way around.
-const NONLINEAR_REACH: f64 = 2.5;
 /// Steps of the integration; a turn of half a circle is then off by 1e-6 of its radius.
 const STEPS: u32 = 32;
 /// Smallest ink that gets a dot.
@@ -92,21 +89,8 @@ impl<'a> Mover<'a> {
 
     /// Millimetres a unit of time.
     fn velocity(&self, p: Point) -> Vec2 {
-        let from_centre = p - self.centre;
-        let Vec2 { x, y } = from_centre;
-        match self.drawer.parameters.transform {
-            Transform::Photograph => self.photograph(p) * self.drawer.parameters.length_mm,
-            Transform::Rotation => Vec2::new(-y, x),
-            Transform::Scaling => from_centre,
-            Transform::Hyperbolic => Vec2::new(x, -y),
-            Transform::Spiral => Vec2::new(x - y, x + y),
-            Transform::Translation => Vec2::new(self.half, 0.0),
-            Transform::Nonlinear => {
-                let unit = self.half / NONLINEAR_REACH;
-                let (x, y) = (x / unit, y / unit);
-                Vec2::new(y * y - 1.0 + x * y / 3.0, (y * y - 1.0) / 3.0 - x * y) * unit
-            }
-        }
+        let laid = self.drawer.parameters.transform.velocity(p - self.centre, self.half);
+        laid.unwrap_or_else(|| self.photograph(p) * self.drawer.parameters.length_mm)
     }
 
     fn photograph(&self, p: Point) -> Vec2 {

@@ -2,6 +2,7 @@
 
 mod body;
 mod colour;
+mod cost;
 mod detail;
 mod discrete;
 mod hairs;
@@ -9,13 +10,14 @@ mod noise;
 mod one_pen;
 mod painting;
 mod parameters;
+mod transform;
 mod underpainting;
 mod visible;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Drawing, Layer};
 use crate::field::{Flow, glass_pattern, line_integral_convolution};
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, Portrait, luminance};
 use parameters::{Manner, Painting};
@@ -55,8 +57,29 @@ impl Style for Glass {
         Painting::new(settings).pixels_per_mm()
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: Painting::new(settings), seed, observer }.draw()
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Self::painting(settings, picture), picture, pixels_per_mm)
+    }
+
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
+        let parameters = Self::painting(settings, portrait.placement.picture);
+        Drawer { portrait, parameters, seed, observer }.draw()
+    }
+}
+
+impl Glass {
+    /// The values for a picture: no stroke is longer than its diagonal, for the frame that strokes come in from is as wide as they
+    /// are long.
+    fn painting(settings: &Settings, picture: Rect) -> Painting {
+        let mut painting = Painting::new(settings);
+        painting.length_mm = painting.length_mm.min(picture.width().hypot(picture.height()));
+        painting
     }
 }
 
@@ -109,10 +132,7 @@ impl Drawer<'_> {
             Manner::OnePen => vec![one_pen::layer(self, &ground)?],
             Manner::Discrete => vec![discrete::layer(self, &ground)?],
         };
-        let drawing = Drawing { page: self.portrait.page, layers };
-        let drawing = drawing.clipped(self.portrait.placement.picture);
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
-        Ok(drawing)
+        Ok(Drawing { page: self.portrait.page, layers })
     }
 
     fn check(&self) -> Result<(), StyleError> {
@@ -131,9 +151,26 @@ impl Drawer<'_> {
         let subject = self.portrait.subject.framed(margin);
         let sigma = self.pixels(self.parameters.whirls_mm) as f32;
         let framed = |flow: Flow| flow.completed().framed(margin).within(&subject);
-        let (flow, fine_flow) = (framed(self.flow(&smoothed, sigma)), framed(self.flow(&smoothed, FINE_FORMS * sigma)));
+        let (flow, fine_flow) = if let Some(laid) = self.laid_flow(&subject, margin) {
+            (laid.within(&subject), laid.within(&subject))
+        } else {
+            (framed(self.flow(&smoothed, sigma)), framed(self.flow(&smoothed, FINE_FORMS * sigma)))
+        };
         let smoothed = smoothed.iter().map(|plane| plane.framed(margin)).collect();
         Ground { margin, smoothed, subject, flow, fine_flow }
+    }
+
+    /// A transform's flow in the place of the photograph's (figure 7.4), none with `transform=photo`.
+    fn laid_flow(&self, framed: &Raster<f32>, margin: usize) -> Option<Flow> {
+        let picture = self.portrait.placement.picture;
+        let half = 0.5 * picture.width().min(picture.height());
+        let margin = margin as f64;
+        let velocity = |p: Point| {
+            let place = self.portrait.placement.to_page(Point::new(p.x - margin, p.y - margin));
+            self.parameters.transform.velocity(place - picture.center(), half)
+        };
+        velocity(Point::ORIGIN)?;
+        Some(Flow::from_fn(framed.width(), framed.height(), |p| velocity(p).unwrap_or_default()))
     }
 
     /// Equations 7.9, 7.10 and 7.14.

@@ -1,6 +1,7 @@
 //! The structure grid: dots lined up along and across the features, turning into hatching where it is dark (Son et al. 2011).
 
 mod cells;
+mod cost;
 mod darks;
 mod dots;
 mod features;
@@ -12,8 +13,9 @@ mod shape;
 mod structure;
 mod tiles;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Drawing, Layer, Page};
+use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use cells::Cell;
@@ -49,7 +51,17 @@ impl Style for Grid {
         PIXELS_PER_PITCH / settings.number("pitch")
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Gridding::new(settings), picture, pixels_per_mm)
+    }
+
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Gridding::new(settings), seed, observer }.draw()
     }
 }
@@ -95,10 +107,7 @@ impl Drawer<'_> {
         for (layer, pen) in layers.iter_mut().zip(1..) {
             layer.pen = pen;
         }
-        let page = self.portrait.page;
-        let drawing = Drawing { page, layers }.clipped(page.rect());
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
-        Ok(drawing)
+        Ok(Drawing { page: self.portrait.page, layers })
     }
 
     /// Section 6: lines, dots, and the darks among the lines or, where there are none, among the dots.

@@ -28,8 +28,8 @@ const FLOW_RADIUS: usize = 5;
 const FLOW_ROUNDS: u32 = 3;
 /// Kang's `sigma_m` in `sigma_c`.
 const LINE_LENGTH: f32 = 3.0;
-/// Coherent lines shorter than this, in pitches, are not drawn; an eyelid is three long.
-const LEAST_DRAWN: f64 = 2.0;
+/// Coherent lines shorter than this, in pitches, are specks; an eyelid is three long.
+const LEAST_LINE: f64 = 2.0;
 
 impl Drawer<'_> {
     pub(super) fn features(&self) -> Features {
@@ -74,14 +74,14 @@ impl Drawer<'_> {
     }
 
     /// Coherent lines in the place of Canny's edges (Bruehl 2023, section 4.3.1, wishes for them): those long enough to steer, and
-    /// all of them to be drawn.
+    /// all of them, of which the outline takes the longest.
     fn coherent_edges(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Vec<CoherentLine>) {
         let width = self.pixels(self.parameters.line_width_mm) as f32;
         let flow = edge_tangent_flow(lightness, FLOW_RADIUS, FLOW_ROUNDS);
         let parameters = LineParameters { width, length: LINE_LENGTH * width, contrast: 0.99, threshold: 0.5, rounds: 2 };
         let found = flow_lines(lightness, &flow, parameters);
         self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
-        let least = LEAST_DRAWN * self.pitch();
+        let least = LEAST_LINE * self.pitch();
         let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing_mm), least).lines;
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
         let steering = self.pixels(self.parameters.edge_length_mm);

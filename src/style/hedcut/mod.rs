@@ -1,6 +1,7 @@
 //! The hedcut: dots in rows along the features, sized so that their ink is exactly the tone (Bruehl 2023, after Kim et al.
 //! 2008 and 2010).
 
+mod cost;
 mod features;
 mod highlights;
 mod outline;
@@ -8,10 +9,10 @@ mod parameters;
 mod seeds;
 mod size;
 
-use super::{Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
 use crate::drawing::{Dot, Drawing, Layer, Mark, Page};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
-use crate::geometry::{Point, blob};
+use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use features::Features;
@@ -45,7 +46,17 @@ impl Style for Hedcut {
         Hedcutting::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
     }
 
-    fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
+    fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
+        cost::cost(&Hedcutting::new(settings), picture, pixels_per_mm)
+    }
+
+    fn sketch(
+        &self,
+        portrait: &Portrait,
+        settings: &Settings,
+        seed: u64,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, StyleError> {
         Drawer { portrait, parameters: Hedcutting::new(settings), seed, observer }.draw()
     }
 }
@@ -95,8 +106,6 @@ impl Drawer<'_> {
             self.observer.begin("outline");
             drawing.layers.push(outline::layer(self, &features));
         }
-        let drawing = drawing.clipped(drawing.page.rect());
-        self.observer.picture("drawing", &|| Picture::Drawing(Box::new(drawing.clone())));
         Ok(drawing)
     }
 

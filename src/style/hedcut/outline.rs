@@ -1,5 +1,5 @@
-//! Step 8: the longest edges as strokes that swell in the middle and taper at the ends (Bruehl 2023, section 4.3.2); or coherent lines
-//! as wide as they were found.
+//! Step 8: the longest edges alone as strokes that swell in the middle and taper at the ends (Bruehl 2023, section 4.3.2); coherent
+//! lines as wide as they were found.
 
 use super::Drawer;
 use super::features::Features;
@@ -22,7 +22,8 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
         let taper = LONGEST_TAPER * drawer.pitch();
         let capped =
             |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
-        let strokes = features.drawn.iter().filter_map(|line| feature_stroke(&capped(line), &drawer.portrait.placement, taper));
+        let longest = features.drawn.iter().filter(|line| line.curve.length() >= least);
+        let strokes = longest.filter_map(|line| feature_stroke(&capped(line), &drawer.portrait.placement, taper));
         layer.marks = strokes.collect();
         return layer;
     }

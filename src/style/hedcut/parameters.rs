@@ -1,11 +1,17 @@
 //! The hedcut's parameters and their values.
 
-use crate::style::{Default, Kind, Parameter, Settings};
+use crate::source::MaskRole;
+use crate::style::{Default, Kind, Need, Parameter, Settings};
 
 /// Working pixels a pitch, as in the papers (`l = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;
 /// Least pixels in a lane of a detail region: with fewer, rows break up (errata).
 const LEAST_LANE_PIXELS: f64 = 4.0;
+
+/// Lines are of use only to rows or to the outline.
+const LINES_COUNT: Need = Need::AnyOf(&[&[Need::Above("flow_rounds", 0.0)], &[Need::Word("outline", &["on"])]]);
+/// Weights compare edges with isophotes.
+const BOTH_STEER: Need = Need::AnyOf(&[&[Need::Above("isophotes", 0.0)], &[Need::With(MaskRole::Isophotes)]]);
 
 /// All that a user can set.
 pub(super) const PARAMETERS: &[Parameter] = &[
@@ -14,168 +20,200 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
         meaning: "distance of neighbouring dots; smaller gives finer detail and more of them",
         source: "Bruehl 3.2, l",
+        needs: &[],
     },
     Parameter {
         name: "size",
         kind: Kind::Choice(&["exact", "paper"]),
         meaning: "dot size: exact puts the tone's ink into each dot's own cell; paper is s_max (1 - T)^gamma",
         source: "Bruehl 3.4 and 4.4",
+        needs: &[],
     },
     Parameter {
         name: "size_max",
         kind: Kind::Length { default: Default::Pitches(0.56), least: 0.01, most: 50.0 },
         meaning: "with size=paper: radius of the dot for full ink",
         source: "Bruehl 3.4, s_max",
+        needs: &[Need::Word("size", &["paper"])],
     },
     Parameter {
         name: "size_gamma",
         kind: Kind::Number { default: 1.2, least: 0.1, most: 5.0 },
         meaning: "with size=paper: exponent of 1 - tone",
         source: "Bruehl 3.4, gamma",
+        needs: &[Need::Word("size", &["paper"])],
     },
     Parameter {
         name: "reversed_from",
         kind: Kind::Number { default: 0.76, least: 0.5, most: 1.0 },
         meaning: "with size=exact: ink from which dark regions are black with white holes, as on scraperboard; 1 leaves dots everywhere, which close up there",
         source: "",
+        needs: &[Need::Word("size", &["exact"])],
     },
     Parameter {
         name: "lines",
         kind: Kind::Choice(&["coherent", "canny"]),
         meaning: "how edges are found: coherent lines along the edges' flow, drawn as wide as they are, or Canny's detector",
         source: "Bruehl 2.1 and 4.3.1; Kang et al. 2007",
+        needs: &[Need::Without(MaskRole::Edges), LINES_COUNT],
     },
     Parameter {
         name: "line_width",
-        kind: Kind::Length { default: Default::Pitches(0.2), least: 0.01, most: 50.0 },
+        // Wider lines take minutes, since they are sought three times as far along as across.
+        kind: Kind::Length { default: Default::Pitches(0.2), least: 0.01, most: 10.0 },
         meaning: "with lines=coherent: how fine the lines are that are looked for, standard deviation across them",
         source: "Kang et al. 2007, sigma_c",
+        needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges), LINES_COUNT],
     },
     Parameter {
         name: "line_contrast",
         kind: Kind::Number { default: 0.07, least: 0.0, most: 1.0 },
         meaning: "with lines=coherent: difference of lightness across a line below which it does not count",
         source: "",
+        needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges), LINES_COUNT],
     },
     Parameter {
         name: "edge_blur",
         kind: Kind::Length { default: Default::Pitches(0.4), least: 0.0, most: 50.0 },
-        meaning: "blur before edges are sought; larger finds only the great forms",
+        meaning: "with lines=canny: blur before edges are sought; larger finds only the great forms",
         source: "Bruehl 2.1",
+        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges), LINES_COUNT],
     },
     Parameter {
         name: "edge_high",
         kind: Kind::Number { default: 0.30, least: 0.0, most: 5.0 },
-        meaning: "an edge needs somewhere this change of lightness (0 to 1) a pitch",
+        meaning: "with lines=canny: an edge needs somewhere this change of lightness (0 to 1) a pitch",
         source: "Bruehl 2.1, maxVal",
+        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges), LINES_COUNT],
     },
     Parameter {
         name: "edge_low",
         kind: Kind::Number { default: 0.12, least: 0.0, most: 5.0 },
-        meaning: "an edge ends where the change a pitch falls below this",
+        meaning: "with lines=canny: an edge ends where the change a pitch falls below this",
         source: "Bruehl 2.1, minVal",
+        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges), LINES_COUNT],
     },
     Parameter {
         name: "edge_length",
         kind: Kind::Length { default: Default::Pitches(8.0), least: 0.0, most: 1000.0 },
         meaning: "edges shorter than this do not steer the dots",
         source: "Bruehl 2.1.1, threshold",
+        needs: &[Need::AnyOf(&[&[Need::Without(MaskRole::Edges)], &[Need::Without(MaskRole::Isophotes)]]), LINES_COUNT],
     },
     Parameter {
         name: "smoothing",
         kind: Kind::Length { default: Default::Pitches(1.0), least: 0.0, most: 50.0 },
         meaning: "smoothing along edges and isophotes, so that rows flow",
         source: "Bruehl 4.3.1 asks for smooth lines",
+        needs: &[],
     },
     Parameter {
         name: "levels",
         kind: Kind::Count { default: 8, least: 2, most: 64 },
         meaning: "steps of lightness between which isophotes run",
         source: "Bruehl 2.2",
+        needs: &[Need::AnyOf(&[
+            &[Need::Word("highlights", &["on"])],
+            &[Need::Above("isophotes", 0.0), Need::Without(MaskRole::Isophotes), Need::Above("flow_rounds", 0.0)],
+        ])],
     },
     Parameter {
         name: "isophotes",
         kind: Kind::Count { default: 3, least: 0, most: 63 },
         meaning: "how many of the lightest steps are outlined by isophotes; 0 for none",
         source: "Bruehl 2.2, t",
+        needs: &[Need::Without(MaskRole::Isophotes), Need::Above("flow_rounds", 0.0)],
     },
     Parameter {
         name: "edge_weight",
         kind: Kind::Number { default: 1.0, least: 0.01, most: 100.0 },
         meaning: "how far edges rule against isophotes",
         source: "Bruehl 3.1.2, w_e",
+        needs: &[BOTH_STEER, Need::Above("flow_rounds", 0.0)],
     },
     Parameter {
         name: "isophote_weight",
         kind: Kind::Number { default: 2.0, least: 0.01, most: 100.0 },
         meaning: "how far isophotes rule against edges",
         source: "Bruehl 3.1.2, w_i",
+        needs: &[BOTH_STEER, Need::Above("flow_rounds", 0.0)],
     },
     Parameter {
         name: "flow_reach",
         kind: Kind::Length { default: Default::Pitches(100.0 / 6.0), least: 0.01, most: 10_000.0 },
         meaning: "distance from a feature at which rows dissolve into even scatter",
         source: "Kim et al. 2008, D_w = 100 px",
+        needs: &[Need::Above("flow_rounds", 0.0)],
     },
     Parameter {
         name: "plain_rounds",
         kind: Kind::Count { default: 10, least: 0, most: 1000 },
         meaning: "rounds of relaxation that only spread the dots",
         source: "Kim et al. 2008, t1",
+        needs: &[],
     },
     Parameter {
         name: "flow_rounds",
         kind: Kind::Count { default: 30, least: 0, most: 1000 },
         meaning: "rounds that draw the dots into rows, every second one, and spread them, the others",
         source: "Kim et al. 2008, t2",
+        needs: &[],
     },
     Parameter {
         name: "highlights",
         kind: Kind::Choice(&["on", "off"]),
         meaning: "leave the lightest regions bare, with a fade",
         source: "Bruehl 4.3.2",
+        needs: &[],
     },
     Parameter {
         name: "highlight_steps",
         kind: Kind::Number { default: 1.0, least: 0.0, most: 64.0 },
         meaning: "how many of the lightest of the levels are left bare",
         source: "Bruehl 4.3.2",
+        needs: &[Need::Word("highlights", &["on"])],
     },
     Parameter {
         name: "highlight_fade",
         kind: Kind::Number { default: 0.12, least: 0.0, most: 1.0 },
         meaning: "lightness over which dots shrink and thin out towards a bare highlight",
         source: "Bruehl 4.4 asks for a fade",
+        needs: &[Need::Word("highlights", &["on"])],
     },
     Parameter {
         name: "outline",
         kind: Kind::Choice(&["on", "off"]),
         meaning: "draw the longest edges as swelling strokes",
         source: "Bruehl 4.3.2",
+        needs: &[],
     },
     Parameter {
         name: "outline_length",
         kind: Kind::Length { default: Default::Pitches(16.0), least: 0.0, most: 1000.0 },
-        meaning: "edges at least this long are drawn",
+        meaning: "lines at least this long are drawn, no shorter ones; the rows follow those too",
         source: "Bruehl 4.3.2",
+        needs: &[Need::Word("outline", &["on"])],
     },
     Parameter {
         name: "outline_width",
         kind: Kind::Length { default: Default::Pitches(0.4), least: 0.01, most: 50.0 },
         meaning: "width of an outline at its widest",
         source: "",
+        needs: &[Need::Word("outline", &["on"])],
     },
     Parameter {
         name: "detail",
         kind: Kind::Choice(&["even", "thesis"]),
-        meaning: "lanes in detail regions: even makes them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times",
+        meaning: "with --mask detail=FILE: lanes in detail regions: even makes them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times",
         source: "Bruehl 4.3.2, corrected",
+        needs: &[Need::With(MaskRole::Detail)],
     },
     Parameter {
         name: "blob",
         kind: Kind::Number { default: 0.0, least: 0.0, most: 1.0 },
         meaning: "irregularity of the dots: 0 draws circles, 1 ragged ink blobs of the same area",
         source: "Bruehl 4.4",
+        needs: &[],
     },
 ];
 

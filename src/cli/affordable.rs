@@ -1,0 +1,70 @@
+//! Whether a drawing fits into memory, told before it is begun.
+
+use super::draw::Task;
+use super::failure::Failure;
+use super::toolpaths::duration;
+use crate::geometry::Rect;
+
+/// Bytes that a drawing may take: what a machine with 8 GB has to spare.
+const MOST_BYTES: f64 = 4e9;
+/// Halvings of what is not known of the pitch or the size that fits.
+const HALVINGS: usize = 30;
+
+/// Refuses a drawing that would take too much memory, and says what would fit.
+pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
+    let cost = task.cost(&task.settings, task.layout.picture);
+    if cost.bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    let fits: Vec<String> = [pitch_that_fits(task), size_that_fits(task)].into_iter().flatten().collect();
+    let advice = if fits.is_empty() {
+        "the photograph and its masks alone take more: scale them down first".to_owned()
+    } else {
+        format!("{} would fit", fits.join(", or "))
+    };
+    Err(Failure::Work(format!(
+        "this drawing would take about {} of memory ({:.1} million working pixels) and {} of work, and drypoint takes at most {}: {advice}",
+        memory(cost.bytes),
+        cost.pixels / 1e6,
+        duration(cost.seconds),
+        memory(MOST_BYTES)
+    )))
+}
+
+/// Such as `2.3 GB` or `80 MB`.
+pub(super) fn memory(bytes: f64) -> String {
+    if bytes >= 9.5e8 { format!("{:.1} GB", bytes / 1e9) } else { format!("{:.0} MB", (bytes / 1e7).ceil() * 10.0) }
+}
+
+/// The smallest larger pitch, in hundredths of a millimetre.
+fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
+    let fits = |pitch: f64| {
+        let settings = task.settings_at(pitch);
+        settings.is_some_and(|settings| task.cost(&settings, task.layout.picture).bytes <= MOST_BYTES)
+    };
+    let (mut low, mut high) = (task.settings.number("pitch"), task.sane_pitch());
+    if low >= high || !fits(high) {
+        return None;
+    }
+    for _ in 0..HALVINGS {
+        let middle = (low * high).sqrt();
+        (low, high) = if fits(middle) { (low, middle) } else { (middle, high) };
+    }
+    Some(format!("--pitch {:.2}mm", (high * 100.0).ceil() / 100.0))
+}
+
+/// The largest smaller picture, in whole millimetres.
+fn size_that_fits(task: &Task<'_>) -> Option<String> {
+    let picture = task.layout.picture;
+    let fits = |share: f64| {
+        let smaller = Rect::from_origin_size(picture.origin(), picture.size() * share);
+        task.cost(&task.settings, smaller).bytes <= MOST_BYTES
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        (low, high) = if fits(middle) { (middle, high) } else { (low, middle) };
+    }
+    let (width, height) = ((picture.width() * low).floor(), (picture.height() * low).floor());
+    (width >= 1.0 && height >= 1.0).then(|| format!("--size {width}x{height}mm"))
+}

@@ -1,0 +1,100 @@
+//! `draw --dry-run`: what a drawing and its plot will come to, in a second or two.
+
+use super::affordable::memory;
+use super::arguments::DrawOptions;
+use super::draw::Task;
+use super::failure::Failure;
+use super::foretell::{Care, Foretold, Plan, Teller};
+use super::messages::say;
+use super::pens::PenSet;
+use super::toolpaths::{self, duration};
+use super::{forewarn, output};
+use crate::plot::Profile;
+use serde_json::{Value, json};
+
+/// Reports the estimate and writes nothing.
+pub(super) fn run(task: &Task<'_>, options: &DrawOptions, profile: Option<&Profile>, pens: &mut PenSet) -> Result<(), Failure> {
+    let mut teller = Teller { task, options, profile, pens };
+    let foretold = teller.foretell(&Plan::of(task), Care::Careful)?;
+    foretold.check(&mut teller)?;
+    forewarn::warn(&mut teller, &foretold);
+    let bytes = task.cost(&task.settings, task.layout.picture).bytes;
+    if options.reporting.json {
+        return output::print_json(&as_json(task, &foretold, teller.pens, bytes));
+    }
+    if options.reporting.quiet {
+        return Ok(());
+    }
+    let page = task.layout.page;
+    let [dots, strokes, areas] = foretold.amounts.counts();
+    let areas = if areas >= 1.0 { format!(", {} areas", rounded(areas)) } else { String::new() };
+    let ink: f64 = foretold.amounts.layers.iter().map(|layer| layer.ink_mm2).sum();
+    say!(
+        "{}: {:.1} x {:.1} mm, about {} dots, {} strokes{areas}, {} mm2 of ink; drawing takes about {} and {} of memory",
+        options.output,
+        page.width,
+        page.height,
+        rounded(dots),
+        rounded(strokes),
+        rounded(ink),
+        duration(foretold.work_seconds.max(1.0)),
+        memory(bytes)
+    );
+    if let Some(plot) = &foretold.amounts.plot {
+        say!("about {}", toolpaths::summary(&plot.ordered));
+    }
+    say!("{}; nothing is written", how(foretold.share));
+    Ok(())
+}
+
+/// What the estimate was made from.
+fn how(share: f64) -> String {
+    if share >= 1.0 {
+        "drawn, not searched for the shortest way".to_owned()
+    } else {
+        format!("estimated from pictures of {:.1} % of its area, to about 10 %", 100.0 * share)
+    }
+}
+
+/// Two figures and no more: an estimate has no third.
+fn rounded(count: f64) -> f64 {
+    if count < 100.0 {
+        return count.round();
+    }
+    let unit = 10_f64.powf(count.log10().floor() - 1.0);
+    (count / unit).round() * unit
+}
+
+fn as_json(task: &Task<'_>, foretold: &Foretold, pens: &PenSet, bytes: f64) -> Value {
+    let whole = |count: f64| count.round() as u64;
+    let layers: Vec<Value> = foretold
+        .amounts
+        .layers
+        .iter()
+        .map(|layer| {
+            let [dots, strokes, areas] = layer.counts.map(whole);
+            json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink, "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": layer.ink_mm2 })
+        })
+        .collect();
+    let page = task.layout.page;
+    let mut value = json!({
+        "page_mm": [page.width, page.height],
+        "layers": layers,
+        "estimate": { "share_drawn": foretold.share, "drawing_seconds": foretold.work_seconds, "memory_bytes": whole(bytes) },
+    });
+    if let Some(plot) = &foretold.amounts.plot {
+        value["pens"] = json!(plot.ordered.pens);
+        value["total"] = json!(plot.ordered.total);
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn estimates_have_two_figures() {
+        assert_eq!([0.4, 7.0, 99.0, 123.0, 15_873.0].map(rounded), [0.0, 7.0, 99.0, 120.0, 16_000.0]);
+    }
+}

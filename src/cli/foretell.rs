@@ -1,0 +1,238 @@
+//! What a drawing and its plot will come to, before it is drawn: a smaller picture of the whole photograph is drawn at the same pitch,
+//! and a still smaller one, and those of the sheet follow from how the amounts fall with the side.
+//!
+//! ```text
+//!   amount for each mm2
+//!     |o                     a small picture has more outlines and more ends of lines for its area; what is too much falls
+//!     |   `o                 about with the root of the side
+//!     |        ` - - - - x
+//!     +------------------+- side
+//! ```
+
+use super::amounts::{Amounts, PlotAmounts};
+use super::arguments::{DrawOptions, Order, ToolpathOptions};
+use super::draw::{Task, inked, uncovered};
+use super::failure::Failure;
+use super::interruption::{interrupt, is_interrupted};
+use super::pens::PenSet;
+use super::toolpaths;
+use crate::drawing::{Drawing, Mixing, Painted};
+use crate::geometry::{Point, Rect};
+use crate::plot::{InkModel, PenPaths, Plot, Profile, Toolpath, lower, mount};
+use crate::source::Placement;
+use crate::style::{Observer, Picture, Settings, Silent};
+use std::time::{Duration, Instant};
+
+/// Seconds of work in the smaller picture and in the larger one; with both, and their plots, an estimate stays under a second.
+const QUICK_SECONDS: f64 = 0.06;
+const CAREFUL_SECONDS: f64 = 0.3;
+/// Marks that are plotted in an estimate: paint is cut by what lies over it, which takes nearly a millisecond a stroke.
+const MOST_MARKS: f64 = 6000.0;
+const MOST_PAINT: f64 = 700.0;
+/// The same where two plans are only compared.
+const MOST_QUICK_PAINT: f64 = 200.0;
+/// Least short side of a picture drawn for an estimate, in pitches: on less there is no face left.
+const LEAST_PITCHES: f64 = 12.0;
+/// The larger picture is given up after this, which only a machine much slower than the tables of cost, or a busy one, needs.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Seconds that the measuring of the ink takes for each path, and the full search for a short way besides: together 75 to 160
+/// microseconds on the astronaut in four styles.
+const MEASURING: f64 = 5e-5;
+const FULL_ORDER: f64 = 8e-5;
+
+/// What is to be foretold.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub settings: Settings,
+    pub picture: Rect,
+}
+
+impl Plan {
+    pub(super) fn of(task: &Task<'_>) -> Self {
+        Self { settings: task.settings.clone(), picture: task.layout.picture }
+    }
+}
+
+/// How well it is to be foretold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Care {
+    /// From one small picture: enough to compare two plans.
+    Quick,
+    /// From two, as well as it goes.
+    Careful,
+}
+
+/// What is foretold.
+pub(super) struct Foretold {
+    pub amounts: Amounts,
+    /// Seconds until the file is there, on this machine.
+    pub work_seconds: f64,
+    /// Part of the picture's area that was drawn for it; with 1 the amounts are exact.
+    pub share: f64,
+    /// What was drawn for it.
+    drawing: Drawing,
+}
+
+/// A smaller picture of the photograph.
+struct Sample {
+    /// Its side as a share of the whole's.
+    side: f64,
+    drawing: Drawing,
+    painting: Vec<Painted>,
+    seconds: f64,
+}
+
+/// Who foretells.
+pub(super) struct Teller<'a> {
+    pub task: &'a Task<'a>,
+    pub options: &'a DrawOptions,
+    pub profile: Option<&'a Profile>,
+    pub pens: &'a mut PenSet,
+}
+
+impl Teller<'_> {
+    pub(super) fn foretell(&mut self, plan: &Plan, care: Care) -> Result<Foretold, Failure> {
+        let begun = Instant::now();
+        let mut sample = self.sample(plan, self.side_within(plan, QUICK_SECONDS), None)?;
+        let is_paint = self.profile.is_some() && sample.drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
+        let most = match care {
+            _ if !is_paint => MOST_MARKS,
+            Care::Careful => MOST_PAINT,
+            Care::Quick => MOST_QUICK_PAINT,
+        };
+        let room = (most / sample.drawing.marks().count().max(1) as f64).sqrt();
+        let larger = (sample.side * room).min(self.side_within(plan, CAREFUL_SECONDS));
+        if self.profile.is_some() && (is_paint || room < 1.0) && (larger / sample.side - 1.0).abs() > 0.05 {
+            sample = self.sample(plan, larger, None)?;
+        }
+        let first = self.told(plan, &sample)?;
+        if is_paint || care == Care::Quick || larger < 1.2 * sample.side {
+            return Ok(first);
+        }
+        let sample = match self.sample(plan, larger, Some(begun + PATIENCE)) {
+            Err(Failure::Interrupted) if !is_interrupted() => return Ok(first),
+            drawn => drawn?,
+        };
+        let second = self.told(plan, &sample)?;
+        Ok(Foretold { amounts: extrapolated(&first, &second), ..second })
+    }
+
+    /// The greatest side, as a share of the picture's, that takes at most so many seconds of work.
+    pub(super) fn side_within(&self, plan: &Plan, seconds: f64) -> f64 {
+        let work = |side: f64| self.cost(plan, side);
+        if work(1.0) <= 1.5 * seconds {
+            return 1.0;
+        }
+        let short = plan.picture.width().min(plan.picture.height());
+        let (mut low, mut high) = ((LEAST_PITCHES * plan.settings.number("pitch") / short).min(1.0), 1.0);
+        for _ in 0..20 {
+            let middle = 0.5 * (low + high);
+            (low, high) = if work(middle) <= seconds { (middle, high) } else { (low, middle) };
+        }
+        low
+    }
+
+    /// Seconds of work for a picture whose side is so much smaller, at the whole's resolution.
+    fn cost(&self, plan: &Plan, side: f64) -> f64 {
+        let resolution = self.task.resolution(&plan.settings, plan.picture);
+        self.task.style.cost(&plan.settings, smaller(plan.picture, side), resolution).seconds
+    }
+
+    fn sample(&mut self, plan: &Plan, side: f64, until: Option<Instant>) -> Result<Sample, Failure> {
+        let begun = Instant::now();
+        let resolution = self.task.resolution(&plan.settings, plan.picture);
+        let placement = Placement::new(smaller(plan.picture, side), resolution);
+        let drawing = self.task.draw_in(&plan.settings, placement, &Unseen { until })?;
+        let mut drawing = inked(drawing, self.options, &Silent)?;
+        let painting = self.pens.hand_out(&mut drawing, self.profile)?.painting;
+        Ok(Sample { side, drawing, painting, seconds: begun.elapsed().as_secs_f64() })
+    }
+
+    /// The whole's amounts as a sample has them, by area.
+    fn told(&self, plan: &Plan, sample: &Sample) -> Result<Foretold, Failure> {
+        let begun = Instant::now();
+        let times = 1.0 / (sample.side * sample.side);
+        let plot = self.profile.map(|profile| plotted(sample, profile, &self.options.toolpaths, self.pens)).transpose()?;
+        let plotting = begun.elapsed().as_secs_f64() * times;
+        let fixed = self.profile.map_or(0.0, |profile| profile.pens.change_seconds);
+        let each = MEASURING + if self.options.toolpaths.order == Order::Full { FULL_ORDER } else { 0.0 };
+        let amounts = Amounts::of(&sample.drawing, plot).scaled(times, fixed);
+        let paths = amounts.plot.as_ref().map_or(0.0, |plot| plot.ordered.total.paths as f64);
+        let drawing = sample.seconds * self.cost(plan, 1.0) / self.cost(plan, sample.side);
+        Ok(Foretold {
+            amounts,
+            work_seconds: drawing + plotting + each * paths,
+            share: 1.0 / times,
+            drawing: sample.drawing.clone(),
+        })
+    }
+}
+
+/// The picture smaller, in its place.
+fn smaller(picture: Rect, side: f64) -> Rect {
+    Rect::from_center_size(picture.center(), picture.size() * side)
+}
+
+/// The plot of a drawing, in an order that is quickly found; what it reaches beyond the machine is not looked at.
+fn plotted(sample: &Sample, profile: &Profile, options: &ToolpathOptions, pens: &PenSet) -> Result<PlotAmounts, Failure> {
+    let plot =
+        lower(&*uncovered(&sample.drawing, &sample.painting)?, InkModel::Ink, pens.nibs(), options.tolerance, interrupt())?;
+    let prepared = toolpaths::prepare(plot, Some(profile), &quickly(options), pens)?;
+    Ok(PlotAmounts { ordered: prepared.report, before: prepared.unordered })
+}
+
+/// The same tool paths in an order that is quickly found, cut where they do not fit.
+pub(super) fn quickly(options: &ToolpathOptions) -> ToolpathOptions {
+    let order = if options.order == Order::Full { Order::Fast } else { options.order };
+    ToolpathOptions { order, clip: true, ..options.clone() }
+}
+
+/// The amounts on the line through two samples', over the root of the side.
+fn extrapolated(small: &Foretold, large: &Foretold) -> Amounts {
+    let over_root = |share: f64| share.powf(-0.25);
+    let (near, far) = (over_root(large.share), over_root(small.share));
+    let reach = (near - 1.0) / (far - near);
+    let bounded = |amount: f64, before: f64| (amount - (before - amount) * reach).clamp(0.5 * amount, 1.5 * amount);
+    large.amounts.with(&small.amounts, &bounded)
+}
+
+impl Foretold {
+    /// Refuses what the drawing itself will be refused for: more colours than pens, a picture beyond the machine's reach.
+    pub(super) fn check(&self, teller: &mut Teller<'_>) -> Result<(), Failure> {
+        teller.pens.assign(&mut self.drawing.clone(), teller.profile)?;
+        let Some((profile, drawn)) = teller.profile.zip(self.drawing.bounding_box()) else { return Ok(()) };
+        if teller.options.toolpaths.clip {
+            return Ok(());
+        }
+        let (page, picture) = (teller.task.layout.page, teller.task.layout.picture);
+        let place = |p: Point| picture.center() + (p - picture.center()) / self.share.sqrt();
+        let nib = teller.pens.nibs().usual;
+        let whole =
+            Rect::from_points(place(drawn.origin()), place(Point::new(drawn.x1, drawn.y1))).intersect(picture).inset(-0.5 * nib);
+        let corners = vec![whole.origin(), Point::new(whole.x1, whole.y1)];
+        let pen = PenPaths {
+            number: 1,
+            name: String::new(),
+            colour: crate::drawing::Colour::BLACK,
+            nib,
+            handling: crate::drawing::Handling::default(),
+            paths: vec![Toolpath::new(corners)],
+        };
+        Ok(mount(profile, &page)?.check(profile, &Plot { page, pens: vec![pen] })?)
+    }
+}
+
+/// Samples are not shown; they can be interrupted, and end when it is time.
+struct Unseen {
+    until: Option<Instant>,
+}
+
+impl Observer for Unseen {
+    fn begin(&self, _: &str) {}
+    fn progress(&self, _: f64) {}
+    fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
+    fn warn(&self, _: &str) {}
+    fn is_interrupted(&self) -> bool {
+        is_interrupted() || self.until.is_some_and(|until| Instant::now() > until)
+    }
+}

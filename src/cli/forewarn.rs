@@ -1,0 +1,143 @@
+//! What a user should know before a long drawing or a long plot begins, and what would make it shorter.
+
+use super::affordable::memory;
+use super::arguments::DrawOptions;
+use super::draw::Task;
+use super::failure::Failure;
+use super::foretell::{Care, Foretold, Plan, Teller};
+use super::messages::{say, warning};
+use super::pens::PenSet;
+use super::toolpaths::{LONG_HOURS, duration};
+use crate::geometry::Rect;
+use crate::plot::Profile;
+
+/// Time that a warning names the pitch of, in seconds.
+const USUAL_LIMIT: f64 = 2.0 * 3600.0;
+/// Seconds of work of a picture that is drawn as quickly as it is estimated.
+const AT_ONCE: f64 = 0.1;
+/// Seconds of drawing that are told beforehand.
+const LONG_WORK: f64 = 60.0;
+
+/// Says before it begins what takes long: the drawing, and with a machine its plot. Whether the plot's time was told.
+pub(super) fn of_a_long_wait(
+    task: &Task<'_>,
+    options: &DrawOptions,
+    profile: Option<&Profile>,
+    pens: &mut PenSet,
+) -> Result<bool, Failure> {
+    let cost = task.cost(&task.settings, task.layout.picture);
+    let tell = |wait: f64| {
+        if wait > LONG_WORK && !options.reporting.quiet {
+            say!("drypoint: the drawing takes about {} and {} of memory", duration(wait), memory(cost.bytes));
+        }
+    };
+    let wait = cost.seconds / rayon::current_num_threads() as f64;
+    if profile.is_none() {
+        tell(wait);
+        return Ok(false);
+    }
+    let mut teller = Teller { task, options, profile, pens };
+    let plan = Plan::of(task);
+    if teller.side_within(&plan, AT_ONCE) >= 1.0 {
+        return Ok(false);
+    }
+    match foretold_if_long(&mut teller, &plan, &tell) {
+        Ok(Some(foretold)) => {
+            warn(&mut teller, &foretold);
+            Ok(true)
+        }
+        Err(Failure::Interrupted) => Err(Failure::Interrupted),
+        // What is wrong with it, the drawing itself will say.
+        Ok(None) | Err(_) => Ok(false),
+    }
+}
+
+/// The estimate of a plot that takes long.
+fn foretold_if_long(teller: &mut Teller<'_>, plan: &Plan, tell: &dyn Fn(f64)) -> Result<Option<Foretold>, Failure> {
+    let quick = teller.foretell(plan, Care::Quick)?;
+    tell(quick.work_seconds);
+    if quick.amounts.plot_seconds() < 0.7 * LONG_HOURS * 3600.0 {
+        return Ok(None);
+    }
+    let careful = teller.foretell(plan, Care::Careful)?;
+    Ok((careful.amounts.plot_seconds() > LONG_HOURS * 3600.0).then_some(careful))
+}
+
+/// The warning of a long plot, and what would make it shorter.
+pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
+    let seconds = foretold.amounts.plot_seconds();
+    if seconds > LONG_HOURS * 3600.0 {
+        let advice = advice(teller, seconds);
+        warning!("this plot will take about {}{advice}", duration(seconds));
+    }
+}
+
+/// The pitch that takes two hours, or the size where such a pitch would leave nothing of the picture.
+fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
+    let usual = format!("about {}", duration(USUAL_LIMIT));
+    let shortened = Shortened::new(teller, seconds, USUAL_LIMIT);
+    if let Some(pitch) = shortened.as_ref().and_then(|shortened| shortened.pitch(teller)) {
+        return format!("; --pitch {pitch:.2}mm would take {usual}, and --max-time 2h chooses it");
+    }
+    match shortened.and_then(|shortened| shortened.size(teller)) {
+        Some(size) => format!("; {size} would take {usual}"),
+        None => "; a smaller --size on the same --page makes it shorter".to_owned(),
+    }
+}
+
+/// The size, on the same sheet, whose plot takes so long.
+pub(super) fn smaller_size(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<String> {
+    Shortened::new(teller, seconds, limit)?.size(teller)
+}
+
+/// A plot that is to take less time; quick estimates are compared with each other alone.
+struct Shortened {
+    /// How many times too long it takes.
+    times: f64,
+    /// Its quick estimate in seconds.
+    quick: f64,
+}
+
+impl Shortened {
+    fn new(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<Self> {
+        let quick = quick(teller, &Plan::of(teller.task))?;
+        Some(Self { times: seconds / limit, quick })
+    }
+
+    /// The pitch that does it, of those that leave something of the picture.
+    fn pitch(&self, teller: &mut Teller<'_>) -> Option<f64> {
+        let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.sane_pitch());
+        let guess = pitch * self.times.sqrt();
+        if guess > most {
+            return None;
+        }
+        let plan = Plan { settings: teller.task.settings_at(guess)?, picture: teller.task.layout.picture };
+        let power = (self.quick / quick(teller, &plan)?).ln() / (guess / pitch).ln();
+        let wanted = (pitch * self.times.powf(1.0 / power) * 100.0).ceil() / 100.0;
+        (power > 0.2 && wanted <= most).then_some(wanted)
+    }
+
+    /// The size that does it, on the same sheet.
+    fn size(&self, teller: &mut Teller<'_>) -> Option<String> {
+        let (picture, least) = (teller.task.layout.picture, teller.task.least_side());
+        let guess = 1.0 / self.times.sqrt();
+        let smaller = Rect::from_center_size(picture.center(), picture.size() * guess);
+        let after = quick(teller, &Plan { settings: teller.task.settings.clone(), picture: smaller })?;
+        // Small pictures take more for their area.
+        let side = guess * (self.quick / after / self.times).sqrt().min(1.0);
+        let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
+        let page = teller.options.picture.page.clone().unwrap_or_else(|| {
+            let page = teller.task.layout.page;
+            format!("{}x{}mm", round(page.width), round(page.height))
+        });
+        (width.min(height) >= least).then(|| format!("--size {width}x{height}mm --page {page}"))
+    }
+}
+
+fn quick(teller: &mut Teller<'_>, plan: &Plan) -> Option<f64> {
+    teller.foretell(plan, Care::Quick).ok().map(|foretold| foretold.amounts.plot_seconds()).filter(|seconds| *seconds > 0.0)
+}
+
+fn round(mm: f64) -> f64 {
+    (mm * 100.0).round() / 100.0
+}

@@ -1,0 +1,22 @@
+//! Numbers with their nouns.
+
+/// Such as `1 path`, `2 paths`, `0 touches`.
+pub(super) fn counted(count: usize, noun: &str) -> String {
+    let ending = match noun {
+        _ if count == 1 => "",
+        _ if noun.ends_with("ch") || noun.ends_with('s') => "es",
+        _ => "s",
+    };
+    format!("{count} {noun}{ending}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counted;
+
+    #[test]
+    fn one_stands_alone() {
+        assert_eq!([counted(0, "dot"), counted(1, "dot"), counted(2, "dot")], ["0 dots", "1 dot", "2 dots"]);
+        assert_eq!([counted(1, "touch"), counted(3, "touch")], ["1 touch", "3 touches"]);
+    }
+}

@@ -1,0 +1,280 @@
+//! Ink held inside a box, by half a line's width too, with the tone at the border kept.
+//!
+//! ```text
+//!   dots, areas     cut along the border
+//!   strokes         of each cross-section what lies inside: the line goes on in its middle
+//!
+//!      border  ______________________
+//!                ___----------_____        a line that runs along the border and half over it
+//!              --                  --      goes on as half as wide a line inside
+//! ```
+//!
+//! A stroke stays a stroke, so that a pen still draws it in one pass.
+
+use super::mark::interpolate;
+use super::{Drawing, Mark, Stroke, Width};
+use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
+
+/// How much less than the box strokes keep to, in millimetres: the least step of what is written.
+const RIM: f64 = 0.001;
+/// What rounding may put a mark beyond the box; it stays whole.
+const SLACK: f64 = 5e-7;
+/// Longest pieces of a stroke beside the border, in millimetres, and where its width begins to give way: between two places widths
+/// change smoothly, not straight, by less than [`RIM`] over the shorter ones.
+const SPACING: f64 = 0.05;
+const FINEST: f64 = 0.005;
+/// Steepest fall of the half width along a stroke that ends at the border: what is steeper lies within the round end before it.
+const STEEPEST: f64 = 0.7;
+/// Widths below this are no ink, in millimetres.
+const NO_INK: f64 = 1e-4;
+
+impl Drawing {
+    /// The drawing without the ink outside `rect`. Dots and areas are cut; strokes give way by their width.
+    #[must_use]
+    pub fn held_in(mut self, rect: Rect) -> Self {
+        for layer in &mut self.layers {
+            layer.marks = std::mem::take(&mut layer.marks).into_iter().flat_map(|mark| mark.held_in(rect)).collect();
+        }
+        self
+    }
+}
+
+impl Mark {
+    /// What of its ink lies inside a rectangle.
+    #[must_use]
+    pub fn held_in(self, rect: Rect) -> Vec<Self> {
+        let wide = rect.inflate(SLACK, SLACK);
+        if wide.union(self.bounding_box()) == wide {
+            return vec![self];
+        }
+        match self {
+            Self::Stroke(stroke) => held_stroke(stroke, rect.inset(-RIM)),
+            cut => cut.clipped(rect),
+        }
+    }
+}
+
+/// One place of a stroke after it was held: none where nothing of the cross-section lies inside.
+#[derive(Clone, Copy)]
+struct Held {
+    at: Point,
+    width: f64,
+    node: f64,
+    stretch: Stretch,
+    is_moved: bool,
+}
+
+fn held_stroke(stroke: Stroke, rect: Rect) -> Vec<Mark> {
+    let widths = match &stroke.width {
+        Width::Constant(width) => vec![*width; stroke.curve.segments().count() + 1],
+        Width::Along(widths) => widths.clone(),
+    };
+    let is_clear = |ink: Rect| rect.union(ink) == rect;
+    let hold = |(station, stretch): &(Station, Stretch)| held(station, *stretch, stroke.ends, rect);
+    let coarse = stations(&stroke.curve, &widths, SPACING, is_clear);
+    if coarse.iter().all(|station| hold(station).is_some_and(|held| !held.is_moved)) {
+        return vec![Mark::Stroke(stroke)];
+    }
+    let fine = stations(&stroke.curve, &widths, FINEST, is_clear);
+    let places = thinned(fine.iter().map(hold).collect());
+    let mut runs: Vec<Vec<Held>> =
+        places.split(Option::is_none).filter(|run| run.len() > 1).map(|run| run.iter().copied().flatten().collect()).collect();
+    let is_ring = stroke.is_closed() && runs.len() == 1 && runs[0].len() == places.len();
+    if stroke.is_closed() && runs.len() > 1 && places[0].is_some() && places[places.len() - 1].is_some() {
+        // The ring goes on over its seam.
+        let first = runs.remove(0);
+        if let Some(last) = runs.last_mut() {
+            last.extend(&first[1..]);
+        }
+    }
+    runs.into_iter().filter_map(|run| piece(&stroke, run, is_ring, rect)).collect()
+}
+
+/// The middle and the width of what of a cross-section lies inside; round ends and corners need that room all round.
+fn held(station: &Station, stretch: Stretch, ends: Ends, rect: Rect) -> Option<Held> {
+    let half = station.along.turn_90() * (0.5 * station.width);
+    let (low, high) = inside(station.at, half, rect)?;
+    let (at, width) = (station.at + half * (0.5 * (low + high)), 0.5 * (high - low) * station.width);
+    let width = if ends == Ends::Flat { width } else { width.min(2.0 * room(at, rect)) };
+    let is_moved = at.distance(station.at) > 1e-9 || (width - station.width).abs() > 1e-9;
+    (width > NO_INK || !is_moved).then_some(Held { at, width, node: station.node, stretch, is_moved })
+}
+
+/// From where to where `at + half * t`, t from -1 to 1, lies in a rectangle.
+fn inside(at: Point, half: Vec2, rect: Rect) -> Option<(f64, f64)> {
+    let (mut low, mut high) = (-1.0_f64, 1.0_f64);
+    for (at, half, least, most) in [(at.x, half.x, rect.x0, rect.x1), (at.y, half.y, rect.y0, rect.y1)] {
+        if half.abs() < 1e-12 {
+            if at < least || at > most {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((least - at) / half, (most - at) / half);
+        low = low.max(a.min(b));
+        high = high.min(a.max(b));
+    }
+    (high >= low).then_some((low, high))
+}
+
+/// How far inside a rectangle a place lies.
+fn room(p: Point, rect: Rect) -> f64 {
+    (p.x - rect.x0).min(rect.x1 - p.x).min(p.y - rect.y0).min(rect.y1 - p.y)
+}
+
+/// Without the places that straight stretches of unchanging width do not need: of those in a row that were not moved, and of those
+/// that were, one each [`SPACING`]; where the one becomes the other, all.
+fn thinned(places: Vec<Option<Held>>) -> Vec<Option<Held>> {
+    let moved = |i: usize| places[i].map(|held| held.is_moved);
+    let mut kept: Vec<Option<Held>> = Vec::new();
+    for (i, place) in places.iter().enumerate() {
+        let is_even = i > 0 && i + 1 < places.len() && moved(i - 1) == moved(i) && moved(i) == moved(i + 1);
+        let goes_on = matches!((place, places.get(i + 1)), (Some(held), Some(Some(next)))
+            if matches!(held.stretch, Stretch::Straight) && matches!(next.stretch, Stretch::Straight));
+        let is_near = |last: &Held| place.is_some_and(|held| held.at.distance(last.at) < SPACING);
+        if is_even && goes_on && kept.last().is_some_and(|last| last.as_ref().is_some_and(is_near)) {
+            continue;
+        }
+        kept.push(*place);
+    }
+    kept
+}
+
+/// One run of places as a mark.
+fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Option<Mark> {
+    if !is_ring && stroke.ends == Ends::Round {
+        trim(&mut run);
+        run.reverse();
+        trim(&mut run);
+        run.reverse();
+    }
+    if run.len() < 2 {
+        return None;
+    }
+    let widths = fitted(&run, rect);
+    let mut curve = BezPath::new();
+    curve.move_to(run[0].at);
+    for held in &run[1..] {
+        match held.stretch {
+            Stretch::Curve(c) => curve.curve_to(c.p1, c.p2, held.at),
+            Stretch::Straight => curve.line_to(held.at),
+        }
+    }
+    if is_ring {
+        curve.close_path();
+    }
+    let there = |values: &Vec<f64>| run.iter().map(|held| interpolate(values, held.node)).collect();
+    let width = match stroke.width {
+        Width::Constant(width) if widths.iter().all(|w| (w - width).abs() < 1e-9) => Width::Constant(width),
+        _ => Width::Along(widths),
+    };
+    let (pressure, times) = (stroke.pressure.as_ref().map(there), stroke.times.as_ref().map(there));
+    Some(Mark::Stroke(Stroke { curve, width, pressure, times, ..stroke.clone() }))
+}
+
+/// Takes off the end what lies within the round end before it.
+fn trim(run: &mut Vec<Held>) {
+    while let [_, .., before, last] = run[..] {
+        let fall = 0.5 * (before.width - last.width);
+        if !last.is_moved || fall < STEEPEST * before.at.distance(last.at) {
+            break;
+        }
+        run.pop();
+    }
+}
+
+/// The widths, less where a stretch that has turned with its middle would put a corner outside.
+fn fitted(run: &[Held], rect: Rect) -> Vec<f64> {
+    let mut widths: Vec<f64> = run.iter().map(|held| held.width).collect();
+    for i in 1..run.len() {
+        let way = run[i].at - run[i - 1].at;
+        if !(run[i].is_moved || run[i - 1].is_moved) || way.hypot() < 1e-9 {
+            continue;
+        }
+        let beside = way.normalize().turn_90();
+        for k in [i - 1, i] {
+            let half = beside * (0.5 * run[k].width);
+            let share = inside(run[k].at, half, rect).map_or(0.0, |(low, high)| (-low).min(high));
+            widths[k] = widths[k].min(run[k].width * share.max(0.0));
+        }
+    }
+    widths
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::Shape;
+
+    const BOX: Rect = Rect::new(0.0, 0.0, 20.0, 20.0);
+
+    fn stroke(path: &str, width: f64, ends: Ends) -> Mark {
+        Mark::Stroke(Stroke { ends, ..Stroke::new(BezPath::from_svg(path).unwrap(), Width::Constant(width)) })
+    }
+
+    fn outline(mark: &Mark) -> BezPath {
+        match mark {
+            Mark::Dot(dot) => dot.path(),
+            Mark::Stroke(stroke) => stroke.ink_outline(1e-4),
+            Mark::Area(area) => area.outline.clone(),
+        }
+    }
+
+    /// The ink of one stroke, held, and whether it lies inside.
+    fn held_ink(mark: Mark) -> f64 {
+        let held = mark.held_in(BOX);
+        for mark in &held {
+            let bounds = outline(mark).bounding_box();
+            assert!(BOX.inflate(1e-6, 1e-6).union(bounds) == BOX.inflate(1e-6, 1e-6), "{bounds:?}");
+        }
+        held.iter().map(Mark::area).sum()
+    }
+
+    #[test]
+    fn a_line_along_the_border_keeps_the_half_inside() {
+        for ends in [Ends::Round, Ends::Flat] {
+            let ink = held_ink(stroke("M2,0.1 L18,0.1", 1.0, ends));
+            assert!((ink / (16.0 * 0.6) - 1.0).abs() < 0.03, "{ink}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_crosses_the_border_ends_there() {
+        let flat = held_ink(stroke("M10,-5 L10,10", 1.0, Ends::Flat));
+        assert!((flat - 10.0).abs() < 0.01, "{flat}");
+        let round = held_ink(stroke("M10,-5 L10,10", 1.0, Ends::Round));
+        // A half disc at the lower end; at the border the corners beside another are lost.
+        let expected = 10.0 + std::f64::consts::FRAC_PI_8 - 0.5 * (1.0 - std::f64::consts::FRAC_PI_4);
+        assert!((round - expected).abs() < 0.02, "{round} of {expected}");
+    }
+
+    #[test]
+    fn slanting_lines_rings_and_corners_stay_inside() {
+        for path in ["M-3,4 L9,-2", "M-3,-3 L6,6", "M15,21 C18,21 21,18 21,15", "M-1,10 L21,10.5", "M1,1 L19,1 L19,19 L1,19 Z"] {
+            for (ends, width) in [(Ends::Round, 0.4), (Ends::Flat, 0.4), (Ends::Round, 3.0), (Ends::Flat, 3.0)] {
+                held_ink(stroke(path, width, ends));
+            }
+        }
+        let ring = kurbo::Circle::new((10.0, 10.0), 9.9).to_path(1e-3);
+        let mark = Mark::Stroke(Stroke::new(ring, Width::Constant(0.6)));
+        let held = mark.held_in(BOX);
+        assert!(matches!(&held[..], [Mark::Stroke(ring)] if ring.is_closed()), "it stays a ring");
+    }
+
+    #[test]
+    fn pressure_and_times_go_with_their_places() {
+        let mut stroke = Stroke::new(BezPath::from_svg("M10,10 L10,-10").unwrap(), Width::Constant(0.5));
+        (stroke.pressure, stroke.times) = (Some(vec![0.0, 1.0]), Some(vec![4.0, 6.0]));
+        let held = Mark::Stroke(stroke).held_in(BOX);
+        let [Mark::Stroke(held)] = &held[..] else { panic!("one stroke") };
+        let (pressure, times) = (held.pressure.as_ref().unwrap(), held.times.as_ref().unwrap());
+        assert_eq!(pressure.len(), held.curve.segments().count() + 1);
+        assert!((pressure[pressure.len() - 1] - 0.4875).abs() < 0.005 && (times[times.len() - 1] - 4.975).abs() < 0.01);
+    }
+
+    #[test]
+    fn what_is_inside_is_not_touched() {
+        let mark = stroke("M2,2 C5,9 9,5 12,12", 1.0, Ends::Round);
+        assert_eq!(mark.clone().held_in(BOX), [mark]);
+    }
+}

@@ -1,0 +1,183 @@
+//! The ink that is seen of a drawing: opaque paint covers what lies below it, so it counts once.
+
+use super::{Drawing, Layer, Mark, Mixing};
+use crate::geometry::{BezPath, Rect, flatten};
+use rayon::prelude::*;
+
+/// Distance of the lines along which paint is measured, in millimetres; along them it is exact. At 0.05 a painting's ink is off by
+/// less than 0.05 %.
+const LINE: f64 = 0.05;
+/// Most lines on a page: a large one is measured more coarsely.
+const MOST_LINES: f64 = 20_000.0;
+/// Flattening of outlines, in millimetres.
+const TOLERANCE: f64 = 0.01;
+/// Rows that are measured together.
+const BAND: usize = 64;
+
+impl Drawing {
+    /// Ink of each layer in square millimetres: of ink on ink the sum of its marks, of opaque paint what is seen of it. What paint hides
+    /// of other ink below it counts all the same, as the press prints it.
+    pub fn ink_mm2(&self) -> Vec<f64> {
+        let is_paint = |layer: &&Layer| layer.mixing == Mixing::Paint;
+        let painted = self.layers.iter().filter(is_paint).flat_map(|layer| &layer.marks);
+        let Some(bounds) = painted.map(Mark::bounding_box).reduce(|a, b| a.union(b)) else {
+            return self.layers.iter().map(Layer::ink_mm2).collect();
+        };
+        let lines = Lines::over(bounds);
+        let mut seen: Vec<f64> = self.layers.iter().map(|layer| if is_paint(&layer) { 0.0 } else { layer.ink_mm2() }).collect();
+        // From the top down: each layer adds what no paint above it covers.
+        let mut above: Vec<Spans> = vec![Spans::new(); lines.count];
+        for (ink, layer) in seen.iter_mut().zip(&self.layers).rev().filter(|(_, layer)| is_paint(layer)) {
+            let before: f64 = above.iter().map(length).sum();
+            lines.add(&mut above, layer);
+            *ink = (above.iter().map(length).sum::<f64>() - before) * lines.step;
+        }
+        seen
+    }
+}
+
+/// Stretches of one line from left to right, none of them touching another.
+type Spans = Vec<(f64, f64)>;
+
+fn length(spans: &Spans) -> f64 {
+    spans.iter().map(|(from, to)| to - from).sum()
+}
+
+/// Horizontal lines at even distances.
+struct Lines {
+    top: f64,
+    step: f64,
+    count: usize,
+}
+
+impl Lines {
+    fn over(bounds: Rect) -> Self {
+        let step = LINE.max(bounds.height() / MOST_LINES);
+        Self { top: bounds.y0, step, count: (bounds.height() / step).ceil().max(1.0) as usize }
+    }
+
+    /// Adds what a layer's marks cover.
+    fn add(&self, covered: &mut [Spans], layer: &Layer) {
+        let outlines: Vec<BezPath> = layer.marks.par_iter().map(ink_outline).collect();
+        let edges: Vec<Vec<Edge>> = outlines.par_iter().map(edges).collect();
+        covered.par_chunks_mut(BAND).enumerate().for_each(|(band, rows)| {
+            let (first, end) = (band * BAND, band * BAND + rows.len());
+            for mark in &edges {
+                let mut crossings: Vec<Vec<(f64, i32)>> = Vec::new();
+                for edge in mark {
+                    let range = self.crossed(edge);
+                    for line in range.start.max(first)..range.end.min(end) {
+                        crossings.resize_with(rows.len(), Vec::new);
+                        crossings[line - first].push((edge.at(self.height(line)), edge.winding));
+                    }
+                }
+                rows.iter_mut().zip(crossings).for_each(|(row, crossings)| append_inside(row, crossings));
+            }
+            rows.iter_mut().for_each(join);
+        });
+    }
+
+    fn height(&self, line: usize) -> f64 {
+        self.top + (line as f64 + 0.5) * self.step
+    }
+
+    /// The lines that an edge crosses, its upper end in and its lower end out.
+    fn crossed(&self, edge: &Edge) -> std::ops::Range<usize> {
+        let index = |y: f64| ((y - self.top) / self.step - 0.5).ceil().clamp(0.0, self.count as f64) as usize;
+        index(edge.top.1)..index(edge.bottom.1)
+    }
+}
+
+/// A side of an outline, from its upper end down; +1 if the outline goes down it.
+struct Edge {
+    top: (f64, f64),
+    bottom: (f64, f64),
+    winding: i32,
+}
+
+impl Edge {
+    fn at(&self, y: f64) -> f64 {
+        self.top.0 + (self.bottom.0 - self.top.0) * (y - self.top.1) / (self.bottom.1 - self.top.1)
+    }
+}
+
+fn ink_outline(mark: &Mark) -> BezPath {
+    match mark {
+        Mark::Dot(dot) => dot.path(),
+        Mark::Stroke(stroke) => stroke.ink_outline(TOLERANCE),
+        Mark::Area(area) => area.outline.clone(),
+    }
+}
+
+fn edges(outline: &BezPath) -> Vec<Edge> {
+    let mut edges = Vec::new();
+    for (polygon, _) in flatten(outline, TOLERANCE) {
+        for (i, a) in polygon.iter().enumerate() {
+            let b = polygon[(i + 1) % polygon.len()];
+            let (a, b) = ((a.x, a.y), (b.x, b.y));
+            if a.1 < b.1 {
+                edges.push(Edge { top: a, bottom: b, winding: 1 });
+            } else if b.1 < a.1 {
+                edges.push(Edge { top: b, bottom: a, winding: -1 });
+            }
+        }
+    }
+    edges
+}
+
+/// Adds the stretches of a line that lie inside one outline, by the nonzero rule.
+fn append_inside(spans: &mut Spans, mut crossings: Vec<(f64, i32)>) {
+    crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut winding, mut from) = (0, 0.0);
+    for (x, turn) in crossings {
+        if winding == 0 {
+            from = x;
+        }
+        winding += turn;
+        if winding == 0 {
+            spans.push((from, x));
+        }
+    }
+}
+
+/// Makes one of stretches that overlap.
+fn join(spans: &mut Spans) {
+    spans.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut joined: Spans = Vec::with_capacity(spans.len());
+    for &(from, to) in spans.iter() {
+        match joined.last_mut() {
+            Some(last) if from <= last.1 => last.1 = last.1.max(to),
+            _ => joined.push((from, to)),
+        }
+    }
+    *spans = joined;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Area, Dot, Page};
+    use crate::geometry::Point;
+
+    fn square(x: f64, y: f64, side: f64) -> Mark {
+        let outline = BezPath::from_svg(&format!("M{x},{y} h{side} v{side} h-{side} Z")).unwrap();
+        Mark::Area(Area { outline, colour: None })
+    }
+
+    fn paint(name: &str, marks: Vec<Mark>) -> Layer {
+        Layer { mixing: Mixing::Paint, marks, ..Layer::new(name, 1) }
+    }
+
+    #[test]
+    fn paint_counts_once_and_ink_each_time() {
+        let squares = vec![square(1.0, 1.0, 2.0), square(2.0, 1.0, 2.0)];
+        let below = paint("below", squares.clone());
+        let ink = Layer { marks: squares, ..Layer::new("ink", 1) };
+        let above = paint("above", vec![square(2.0, 2.0, 2.0), Mark::Dot(Dot::circle(Point::new(8.0, 8.0), 1.0))]);
+        let seen = Drawing { page: Page::new(10.0, 10.0), layers: vec![below, ink, above] }.ink_mm2();
+        let expected = [6.0 - 2.0, 8.0, 4.0 + std::f64::consts::PI];
+        for (seen, expected) in seen.iter().zip(expected) {
+            assert!((seen - expected).abs() < 0.02, "{seen} of {expected}");
+        }
+    }
+}

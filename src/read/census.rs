@@ -1,0 +1,173 @@
+//! What an XML text holds once its entities are written out, counted before any of it is.
+
+use super::budget::{ATTRIBUTE, Budget, TAG};
+use super::svg::SvgError;
+use std::collections::{HashMap, HashSet};
+
+/// Entities within entities beyond which a file is not read, as in the parser.
+const DEEPEST: usize = 10;
+/// Names are compared with each other: for namespaces in scope, for an element's attributes, for entities.
+const COMPARISON: f64 = 0.003;
+
+/// Spends the work of parsing a text.
+pub(super) fn take_text(text: &str, budget: &mut Budget) -> Result<(), SvgError> {
+    let mut entities = Entities::of(text);
+    let census = entities.census(text, 0)?;
+    let prefixes = entities.prefixes.len() as f64;
+    budget.text(census.bytes)?;
+    budget.spend(TAG * census.tags, "elements")?;
+    budget.spend(ATTRIBUTE * census.attributes + COMPARISON * census.pairs, "attributes")?;
+    // An element that declares a namespace takes over all that are in scope.
+    budget.spend(COMPARISON * prefixes * (census.tags + 4.0 * census.namespaces), "namespaces")?;
+    budget.spend(COMPARISON * entities.values.len() as f64 * census.references, "entities")?;
+    Ok(())
+}
+
+/// Sums over a text. What looks like an element or an attribute and is none (in a comment or a script) counts too.
+#[derive(Clone, Copy, Default)]
+struct Census {
+    bytes: f64,
+    tags: f64,
+    attributes: f64,
+    /// Squares of the numbers of attributes.
+    pairs: f64,
+    namespaces: f64,
+    references: f64,
+}
+
+impl Census {
+    fn add(&mut self, other: &Self) {
+        self.bytes += other.bytes;
+        self.tags += other.tags;
+        self.attributes += other.attributes;
+        self.pairs += other.pairs;
+        self.namespaces += other.namespaces;
+        self.references += other.references;
+    }
+
+    fn tag(&mut self, attributes: f64) {
+        self.attributes += attributes;
+        self.pairs += attributes * attributes;
+    }
+}
+
+struct Entities<'a> {
+    /// All values of a name, wherever one is declared.
+    values: HashMap<&'a str, Vec<&'a str>>,
+    counted: HashMap<&'a str, Census>,
+    prefixes: HashSet<&'a str>,
+}
+
+impl<'a> Entities<'a> {
+    fn of(text: &'a str) -> Self {
+        let mut values: HashMap<&str, Vec<&str>> = HashMap::new();
+        for (at, sign) in text.match_indices("<!ENTITY") {
+            if let Some((name, value)) = declared(&text[at + sign.len()..]) {
+                values.entry(name).or_default().push(value);
+            }
+        }
+        Self { values, counted: HashMap::new(), prefixes: HashSet::new() }
+    }
+
+    fn census(&mut self, text: &'a str, depth: usize) -> Result<Census, SvgError> {
+        let bytes = text.as_bytes();
+        let mut census = Census { bytes: bytes.len() as f64, ..Census::default() };
+        let mut attributes = 0.0;
+        for (at, byte) in bytes.iter().enumerate() {
+            match byte {
+                b'<' => {
+                    census.tag(std::mem::take(&mut attributes));
+                    census.tags += 1.0;
+                }
+                b'=' if is_value(&bytes[at + 1..]) => {
+                    attributes += 1.0;
+                    if let Some(prefix) = namespace(&text[..at]) {
+                        census.namespaces += 1.0;
+                        self.prefixes.insert(prefix);
+                    }
+                }
+                b'&' if !self.values.is_empty() => {
+                    let rest = &text[at + 1..];
+                    let end = rest.find(|c: char| !(c.is_alphanumeric() || "_-.:".contains(c))).unwrap_or(rest.len());
+                    census.add(&self.entity(&rest[..end], depth)?);
+                }
+                _ => {}
+            }
+        }
+        census.tag(attributes);
+        Ok(census)
+    }
+
+    /// What an entity holds; of several of a name, all.
+    fn entity(&mut self, name: &'a str, depth: usize) -> Result<Census, SvgError> {
+        if let Some(census) = self.counted.get(name) {
+            return Ok(*census);
+        }
+        let Some(values) = self.values.get(name).cloned() else { return Ok(Census::default()) };
+        if depth >= DEEPEST {
+            return Err(SvgError::Entities);
+        }
+        let mut census = Census { references: 1.0, ..Census::default() };
+        for value in values {
+            census.add(&self.census(value, depth + 1)?);
+        }
+        self.counted.insert(name, census);
+        Ok(census)
+    }
+}
+
+/// The name and the value of an entity's declaration.
+fn declared(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim_start();
+    let text = text.strip_prefix('%').map_or(text, str::trim_start);
+    let (name, rest) = text.split_at(text.find(|c: char| c.is_whitespace() || c == '"' || c == '\'')?);
+    let rest = rest.trim_start();
+    let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+    Some((name, rest[1..].split(quote).next().unwrap_or_default()))
+}
+
+/// Whether a quoted value begins.
+fn is_value(bytes: &[u8]) -> bool {
+    matches!(bytes.iter().find(|byte| !byte.is_ascii_whitespace()), Some(b'"' | b'\''))
+}
+
+/// The prefix that an attribute before its `=` declares.
+fn namespace(text: &str) -> Option<&str> {
+    let text = text.trim_end();
+    let name = &text[text.rfind(|c: char| c.is_whitespace() || c == '"' || c == '\'').map_or(0, |at| at + 1)..];
+    name.strip_prefix("xmlns").map(|rest| rest.trim_start_matches(':'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn census(text: &str) -> Census {
+        Entities::of(text).census(text, 0).unwrap_or_default()
+    }
+
+    #[test]
+    fn elements_attributes_and_namespaces() {
+        let found = census("<svg xmlns='a' xmlns:x = \"b\"><g id='1' x:y='2' style='a:b=c'>a = b</g><g/></svg>");
+        assert_eq!((found.tags, found.attributes, found.pairs, found.namespaces), (5.0, 5.0, 4.0 + 9.0, 2.0));
+    }
+
+    #[test]
+    fn entities_are_written_out() {
+        let declared = "<!DOCTYPE svg [<!ENTITY a '0123456789'> <!ENTITY b \"&a;&a;<g/>\">]>";
+        let text = format!("{declared}<svg d='&b;&b;&amp;'/>");
+        let found = census(&text);
+        // The declaration of b counts once too.
+        assert_eq!(found.bytes, text.len() as f64 + 2.0 * 10.0 + 2.0 * (10.0 + 20.0));
+        assert_eq!(found.references, 2.0 + 2.0 * 3.0);
+    }
+
+    #[test]
+    fn entities_without_end_are_refused() {
+        let text = "<!DOCTYPE svg [<!ENTITY a '&b;'> <!ENTITY b '&a;'>]><svg>&a;</svg>";
+        assert!(matches!(take_text(text, &mut Budget::default()), Err(SvgError::Entities)));
+        let levels: String = (1..9).map(|i| format!("<!ENTITY e{i} '{}'>", format!("&e{};", i - 1).repeat(30))).collect();
+        let text = format!("<!DOCTYPE svg [<!ENTITY e0 'lol'>{levels}]><svg>&e8;</svg>");
+        assert!(matches!(take_text(&text, &mut Budget::default()), Err(SvgError::Work(_))));
+    }
+}

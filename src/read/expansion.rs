@@ -1,0 +1,534 @@
+//! What an SVG becomes when every use, marker, pattern, mask and clip path is written out: counted on the XML, before any of it is.
+//!
+//! ```text
+//!   13 markers, each drawn at 3 places of the one before: 3^13 paths from 1.5 KB
+//!
+//!   load(element) = its own + its children's + those of what it uses
+//!   A shape inherits fill, stroke and markers, from wherever it is used: its load leaves them open, as numbers of fills, strokes
+//!   and vertices, and the next element outwards that sets one of them multiplies what is drawn there.
+//! ```
+//!
+//! Each element is counted once, whatever it is used for, in numbers that may grow beyond all bounds without harm.
+
+use super::budget::{ATTRIBUTE, Budget, ELEMENT, PATH, SEGMENT};
+use super::styles::{FILL, MARKERS, OWN, STROKE, Style, Styles, references, style_steps};
+use super::svg::SvgError;
+use roxmltree::{Document, Node, NodeId};
+use std::collections::{HashMap, HashSet};
+
+const XLINK: &str = "http://www.w3.org/1999/xlink";
+
+/// Elements within elements, uses and references followed, beyond which a file is not read: every level takes room on the stack.
+const DEEPEST: usize = 512;
+/// Finding out what a shape inherits, for each attribute of an element around it.
+const INHERITED: f64 = 0.015;
+/// What is referred to is looked up among all others of its kind.
+const LOOKED_UP: f64 = 5e-4;
+/// An element that is passed in the search for references that lead back.
+const PASSED: f64 = 0.02;
+
+/// What an element comes to.
+#[derive(Clone, Copy, Default)]
+struct Load {
+    /// Elements once uses are expanded.
+    elements: f64,
+    /// Steps of reading them with their styles.
+    parsing: f64,
+    /// Steps of drawing them with all that they refer to.
+    drawing: f64,
+    /// References, and how many of them lead to something made for one shape alone.
+    links: f64,
+    single: f64,
+    /// References to elements of another kind than is meant.
+    astray: f64,
+    shapes: f64,
+    /// Fills and strokes that take the paint of what is around the reference.
+    context: f64,
+    /// Fills, strokes, first vertices, vertices and last vertices that are inherited from outside.
+    open: [f64; 5],
+    depth: usize,
+}
+
+impl Load {
+    fn add(&mut self, other: &Self) {
+        self.add_definition(other);
+        self.drawing += other.drawing;
+        self.links += other.links;
+        self.single += other.single;
+        self.shapes += other.shapes;
+        self.context += other.context;
+        self.open.iter_mut().zip(other.open).for_each(|(sum, open)| *sum += open);
+    }
+
+    /// Adds what stands there and is drawn only where it is referred to.
+    fn add_definition(&mut self, other: &Self) {
+        self.elements += other.elements;
+        self.parsing += other.parsing;
+        self.astray += other.astray;
+        self.depth = self.depth.max(other.depth + 1);
+    }
+
+    /// Adds something that is drawn so many times.
+    fn add_drawn(&mut self, other: &Self, times: f64) {
+        self.drawing += times * (ELEMENT + other.drawing);
+        self.links += times * other.links;
+        self.single += times * other.single;
+        self.context += times * other.context;
+        self.depth = self.depth.max(other.depth + 1);
+    }
+}
+
+/// Spends the work of expanding a document; refuses what refers to itself.
+pub(super) fn take_expansion(document: &Document<'_>, budget: &mut Budget) -> Result<f64, SvgError> {
+    let styles = Styles::of(document, budget)?;
+    take_matching(document, &styles, budget)?;
+    let mut expansion = Expansion::new(document, &styles, budget);
+    let root = expansion.element(document.root_element(), 0)?;
+    let largest_pattern = expansion.largest_pattern;
+    budget.spend(root.parsing, "elements and their styles")?;
+    budget.spend(root.drawing + root.context * largest_pattern, "uses, markers, patterns and masks")?;
+    budget.spend(LOOKED_UP * root.links * root.single, "references")?;
+    budget.spend(PASSED * root.astray * root.elements, "references")?;
+    Ok(root.elements)
+}
+
+/// Spends the work of trying every rule on every element once.
+fn take_matching(document: &Document<'_>, styles: &Styles<'_>, budget: &mut Budget) -> Result<(), SvgError> {
+    let mut by_depth: Vec<f64> = Vec::new();
+    let mut open: Vec<NodeId> = Vec::new();
+    let mut steps = 0.0;
+    for node in document.descendants() {
+        let parent = node.parent().map(|parent| parent.id());
+        while !open.is_empty() && open.last().copied() != parent {
+            open.pop();
+        }
+        open.push(node.id());
+        by_depth.resize(by_depth.len().max(open.len()), 0.0);
+        by_depth[open.len() - 1] += 1.0;
+        steps += style_steps(node);
+    }
+    steps += by_depth.iter().enumerate().map(|(depth, number)| number * styles.trials(depth)).sum::<f64>();
+    Ok(budget.spend(steps, "styles")?)
+}
+
+/// Elements that are drawn only where something refers to them.
+const REFERRED: [&str; 7] = ["marker", "pattern", "mask", "clipPath", "filter", "linearGradient", "radialGradient"];
+/// What a property may refer to.
+const PAINTS: &[&str] = &["pattern", "linearGradient", "radialGradient"];
+const KINDS: [&[&str]; 8] = [PAINTS, PAINTS, &["marker"], &["marker"], &["marker"], &["mask"], &["clipPath"], &["filter"]];
+
+struct Expansion<'a, 'd, 'b> {
+    styles: &'b Styles<'a>,
+    budget: &'b mut Budget,
+    by_id: HashMap<&'a str, Vec<Node<'a, 'd>>>,
+    /// Every `use` in document order with what it uses.
+    uses: Vec<(NodeId, NodeId)>,
+    /// Bytes of all text between tags.
+    texts: f64,
+    styles_around: HashMap<NodeId, Style<'a>>,
+    /// Loads of elements with an id: only those are come to twice.
+    loads: HashMap<NodeId, Load>,
+    drawn: HashMap<NodeId, Load>,
+    open: HashSet<NodeId>,
+    open_drawn: HashSet<NodeId>,
+    /// Markers that were met within themselves, where they are not drawn again: what was counted there holds only there.
+    met: Vec<NodeId>,
+    largest_pattern: f64,
+}
+
+impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
+    fn new(document: &'a Document<'d>, styles: &'b Styles<'a>, budget: &'b mut Budget) -> Self {
+        let mut by_id: HashMap<&str, Vec<Node>> = HashMap::new();
+        for node in document.descendants() {
+            if let Some(id) = node.attribute("id") {
+                by_id.entry(id).or_default().push(node);
+            }
+        }
+        let target = |node: Node| by_id.get(href(node)?)?.first().map(Node::id);
+        let uses = document.descendants().filter(|node| node.tag_name().name() == "use");
+        let uses = uses.filter_map(|node| Some((node.id(), target(node)?))).collect();
+        let texts = document.descendants().filter(Node::is_text).filter_map(|node| node.text()).map(str::len).sum::<usize>();
+        Self {
+            styles,
+            budget,
+            by_id,
+            uses,
+            texts: texts as f64,
+            styles_around: HashMap::new(),
+            loads: HashMap::new(),
+            drawn: HashMap::new(),
+            open: HashSet::new(),
+            open_drawn: HashSet::new(),
+            met: Vec::new(),
+            largest_pattern: 0.0,
+        }
+    }
+
+    /// An element where it stands, what it inherits left open.
+    fn element(&mut self, node: Node<'a, 'd>, depth: usize) -> Result<Load, SvgError> {
+        if let Some(load) = self.loads.get(&node.id()) {
+            return Ok(*load);
+        }
+        if depth > DEEPEST {
+            return Err(SvgError::TooDeep(DEEPEST));
+        }
+        if !self.open.insert(node.id()) {
+            return Err(circle(node));
+        }
+        let met_outside = std::mem::take(&mut self.met);
+        let style = self.styles.style(node);
+        let mut load = self.own(node, &style);
+        for child in node.children().filter(Node::is_element) {
+            self.child(child, &mut load, depth + 1)?;
+        }
+        self.linked(node, &style, &mut load, depth + 1)?;
+        self.referred(node, &style, &mut load, depth + 1)?;
+        self.close(node, &style, &mut load, depth + 1)?;
+        if load.depth > DEEPEST {
+            return Err(SvgError::TooDeep(DEEPEST));
+        }
+        self.open.remove(&node.id());
+        if self.met.is_empty() && node.has_attribute("id") {
+            self.loads.insert(node.id(), load);
+        }
+        self.met.extend(met_outside);
+        Ok(load)
+    }
+
+    fn own(&self, node: Node<'a, 'd>, style: &Style<'a>) -> Load {
+        let bytes = node.attributes().map(|attribute| attribute.value().len()).sum::<usize>() as f64;
+        let texts = node.children().filter(Node::is_text);
+        let (mut number, mut text) = (0.0, 0.0);
+        if matches!(node.tag_name().name(), "text" | "tspan" | "textPath") {
+            (number, text) = texts.fold((0.0, 0.0), |(n, sum), node| (n + 1.0, sum + node.text().map_or(0, str::len) as f64));
+        }
+        let reading = Budget::steps_of_text(bytes + text);
+        let trials = if self.styles.is_empty() { 0.0 } else { self.styles.trials(node.ancestors().count()) };
+        let attributes = node.attributes().len() as f64;
+        let parsing = ELEMENT + ATTRIBUTE * attributes + reading + trials + style.steps;
+        let mut load = Load { elements: 1.0 + number, parsing, drawing: reading, ..Load::default() };
+        if let Some((segments, subpaths)) = shape(node) {
+            load.drawing += SEGMENT * segments + PATH * subpaths;
+            load.shapes = 1.0;
+            load.open = [1.0, 1.0, 1.0, segments, 1.0];
+        }
+        load
+    }
+
+    fn child(&mut self, child: Node<'a, 'd>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
+        match child.tag_name().name() {
+            name if REFERRED.contains(&name) => load.add_definition(&self.drawn(child, depth)?),
+            "defs" | "symbol" | "metadata" | "style" | "title" | "desc" => load.add_definition(&self.element(child, depth)?),
+            _ => load.add(&self.element(child, depth)?),
+        }
+        Ok(())
+    }
+
+    /// Adds what an element's `href` leads to.
+    fn linked(&mut self, node: Node<'a, 'd>, style: &Style<'a>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
+        let targets = href(node).and_then(|id| self.by_id.get(id)).cloned().unwrap_or_default();
+        match node.tag_name().name() {
+            "use" => {
+                let Some(&target) = targets.first() else { return Ok(()) };
+                load.parsing += PASSED * (last_within(target).get() - target.id().get()) as f64;
+                if self.leads_back(node, target)? {
+                    return Ok(());
+                }
+                // What inherits a mask from its parent inherits it from the use.
+                let inherits = self.styles.style(target);
+                for place in OWN.filter(|place| inherits.values[*place].is_some_and(|value| value.trim() == "inherit")) {
+                    self.refer(place, style.values[place].unwrap_or_default(), load, depth)?;
+                }
+                match target.tag_name().name() {
+                    name if REFERRED.contains(&name) => load.add_definition(&self.drawn(target, depth)?),
+                    "defs" => load.add_definition(&self.element(target, depth)?),
+                    _ => load.add(&self.element(target, depth)?),
+                }
+            }
+            "pattern" | "linearGradient" | "radialGradient" | "filter" | "feImage" => {
+                for target in targets {
+                    let drawn = self.drawn(target, depth)?;
+                    load.add_drawn(&drawn, 1.0);
+                }
+            }
+            "tref" => load.parsing += Budget::steps_of_text(self.texts) + PASSED * self.by_id.len() as f64,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Whether a use is passed over: it uses itself, what it stands in, or something that uses it.
+    fn leads_back(&mut self, node: Node<'a, 'd>, target: Node<'a, 'd>) -> Result<bool, SvgError> {
+        let first = self.uses.partition_point(|(id, _)| id.get() <= target.id().get());
+        let last = self.uses.partition_point(|(id, _)| id.get() <= last_within(target).get());
+        self.budget.spend(PASSED * 0.1 * (last - first) as f64, "uses")?;
+        Ok(target == node || self.uses[first..last].iter().any(|(_, to)| *to == node.id() || *to == target.id()))
+    }
+
+    /// Adds an element's own mask, clip path and filter.
+    fn referred(&mut self, node: Node<'a, 'd>, style: &Style<'a>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
+        for place in OWN {
+            let mut value = style.values[place];
+            let mut around = node.parent_element();
+            while let (Some("inherit"), Some(parent)) = (value.map(str::trim), around) {
+                value = self.style_around(parent).values[place];
+                around = parent.parent_element();
+            }
+            self.refer(place, value.unwrap_or_default(), load, depth)?;
+        }
+        Ok(())
+    }
+
+    fn refer(&mut self, place: usize, value: &'a str, load: &mut Load, depth: usize) -> Result<(), SvgError> {
+        self.multiply(place, value, 1.0, load, depth)
+    }
+
+    /// Adds so many times what a property's value refers to.
+    fn multiply(&mut self, place: usize, value: &'a str, times: f64, load: &mut Load, depth: usize) -> Result<(), SvgError> {
+        for id in references(value) {
+            let targets = self.by_id.get(id).cloned().unwrap_or_default();
+            self.budget.spend(PASSED * targets.len() as f64, "references")?;
+            for target in targets {
+                if !KINDS[place].contains(&target.tag_name().name()) {
+                    load.astray += times;
+                    continue;
+                }
+                let drawn = self.drawn(target, depth)?;
+                load.add_drawn(&drawn, times);
+                load.links += times;
+                load.single += if MARKERS.contains(&place) { times.min(load.shapes) } else { times * single(target) };
+            }
+        }
+        Ok(())
+    }
+
+    /// Multiplies what an element sets by the numbers of those that inherit it.
+    fn close(&mut self, node: Node<'a, 'd>, style: &Style<'a>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
+        for place in FILL..MARKERS.end {
+            let Some(value) = style.values[place].map(str::trim).filter(|value| *value != "inherit") else { continue };
+            let times = std::mem::take(&mut load.open[place]);
+            if place <= STROKE && value.starts_with("context-") {
+                load.context += times;
+            } else if times > 0.0 {
+                self.multiply(place, value, times, load, depth)?;
+            }
+        }
+        load.drawing += INHERITED * load.shapes * (1 + node.attributes().len()) as f64;
+        Ok(())
+    }
+
+    fn style_around(&mut self, node: Node<'a, 'd>) -> Style<'a> {
+        let styles = self.styles;
+        *self.styles_around.entry(node.id()).or_insert_with(|| styles.style(node))
+    }
+
+    /// What is drawn of an element that is referred to, which inherits from where it stands.
+    fn drawn(&mut self, node: Node<'a, 'd>, depth: usize) -> Result<Load, SvgError> {
+        if let Some(load) = self.drawn.get(&node.id()) {
+            return Ok(*load);
+        }
+        let is_marker = node.tag_name().name() == "marker";
+        if !self.open_drawn.insert(node.id()) {
+            // A marker within itself is not drawn; all else would be drawn without end.
+            self.met.push(node.id());
+            return if is_marker { Ok(Load::default()) } else { Err(circle(node)) };
+        }
+        self.budget.spend(ELEMENT, "references")?;
+        let met_outside = std::mem::take(&mut self.met);
+        let mut load = self.element(node, depth)?;
+        for around in node.ancestors().skip(1).filter(Node::is_element) {
+            let style = self.style_around(around);
+            self.close(around, &style, &mut load, depth)?;
+        }
+        self.open_drawn.remove(&node.id());
+        self.met.retain(|met| *met != node.id());
+        if self.met.is_empty() {
+            self.drawn.insert(node.id(), load);
+        }
+        self.met.extend(met_outside);
+        if node.tag_name().name() == "pattern" {
+            self.largest_pattern = self.largest_pattern.max(load.drawing);
+        }
+        Ok(load)
+    }
+}
+
+fn circle(node: Node<'_, '_>) -> SvgError {
+    SvgError::Circle(node.attribute("id").unwrap_or_else(|| node.tag_name().name()).to_owned())
+}
+
+/// The id that an element links to, by SVG 2's attribute before that of XLink.
+fn href<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    let found = |namespace: Option<&str>| {
+        node.attributes().find(|attribute| attribute.name() == "href" && attribute.namespace() == namespace)
+    };
+    found(None).or_else(|| found(Some(XLINK)))?.value().trim().strip_prefix('#')
+}
+
+fn last_within(node: Node<'_, '_>) -> NodeId {
+    let mut last = node;
+    while let Some(child) = last.last_child() {
+        last = child;
+    }
+    last.id()
+}
+
+/// 1 where each shape has a copy of its own, in the units of its box; else 0.
+fn single(node: Node<'_, '_>) -> f64 {
+    let is_of_box = |attribute: &str| node.attribute(attribute) == Some("objectBoundingBox");
+    let is_of_page = |attribute: &str| node.attribute(attribute) == Some("userSpaceOnUse");
+    let is_shared = match node.tag_name().name() {
+        "clipPath" => !is_of_box("clipPathUnits"),
+        "mask" => is_of_page("maskUnits") && !is_of_box("maskContentUnits"),
+        "pattern" => is_of_page("patternUnits") && !is_of_box("patternContentUnits"),
+        "filter" => is_of_page("filterUnits") && !is_of_box("primitiveUnits"),
+        _ => is_of_page("gradientUnits"),
+    };
+    f64::from(u8::from(!is_shared))
+}
+
+/// How many segments and subpaths a shape has; none for an element that is no shape.
+fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
+    let longest = |names: [&str; 2]| names.into_iter().filter_map(|name| pixels(node.attribute(name)?)).fold(0.0, f64::max);
+    match node.tag_name().name() {
+        "path" => Some(segments(node.attribute("d").unwrap_or_default())),
+        "polyline" | "polygon" => {
+            Some((svgtypes::PointsParser::from(node.attribute("points").unwrap_or_default()).count() as f64, 1.0))
+        }
+        "rect" => Some((4.0 + curves(longest(["rx", "ry"])), 1.0)),
+        "circle" => Some((1.0 + curves(longest(["r", "r"])), 1.0)),
+        "ellipse" => Some((1.0 + curves(longest(["rx", "ry"])), 1.0)),
+        "line" => Some((2.0, 1.0)),
+        _ => None,
+    }
+}
+
+/// How many curves a whole ellipse becomes, at the tenth of a pixel that usvg asks of kurbo.
+fn curves(radius: f64) -> f64 {
+    (1.1163 * radius.abs() / 0.1).powf(1.0 / 6.0).max(4.0).ceil() + 4.0
+}
+
+/// A length in pixels, or more where that depends on other elements.
+fn pixels(text: &str) -> Option<f64> {
+    use svgtypes::LengthUnit as Unit;
+    let length: svgtypes::Length = text.parse().ok()?;
+    let unit = match length.unit {
+        Unit::None | Unit::Px => 1.0,
+        Unit::In | Unit::Cm | Unit::Mm | Unit::Pt | Unit::Pc => 96.0,
+        Unit::Em | Unit::Ex | Unit::Percent => 1e6,
+    };
+    Some(length.number * unit)
+}
+
+/// Segments and subpaths of path data, its arcs as curves.
+fn segments(data: &str) -> (f64, f64) {
+    let (mut segments, mut subpaths) = (0.0, 0.0);
+    // No point so far lies farther out.
+    let mut reach: f64 = 0.0;
+    for segment in svgtypes::PathParser::from(data).map_while(Result::ok) {
+        let (x, y) = match segment {
+            svgtypes::PathSegment::MoveTo { x, y, .. } => {
+                subpaths += 1.0;
+                (x, y)
+            }
+            svgtypes::PathSegment::EllipticalArc { abs, rx, ry, large_arc, x, y, .. } => {
+                let chord = x.hypot(y) + if abs { reach } else { 0.0 };
+                // Radii that do not reach are stretched until they do.
+                let radius = rx.abs().max(ry.abs()) * (chord / rx.abs().min(ry.abs())).max(1.0);
+                let part = if large_arc { 1.0 } else { (chord / (4.0 * radius)).min(0.5) };
+                segments += 1.0 + (curves(radius) * part).max(0.0);
+                (x, y)
+            }
+            svgtypes::PathSegment::LineTo { x, y, .. }
+            | svgtypes::PathSegment::CurveTo { x, y, .. }
+            | svgtypes::PathSegment::SmoothCurveTo { x, y, .. }
+            | svgtypes::PathSegment::Quadratic { x, y, .. }
+            | svgtypes::PathSegment::SmoothQuadratic { x, y, .. } => {
+                segments += 1.0;
+                (x, y)
+            }
+            svgtypes::PathSegment::HorizontalLineTo { x, .. } => {
+                segments += 1.0;
+                (x, 0.0)
+            }
+            svgtypes::PathSegment::VerticalLineTo { y, .. } => {
+                segments += 1.0;
+                (0.0, y)
+            }
+            svgtypes::PathSegment::ClosePath { .. } => {
+                segments += 1.0;
+                (0.0, 0.0)
+            }
+        };
+        reach += x.abs() + y.abs();
+    }
+    (segments, subpaths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn count(body: &str) -> Result<f64, SvgError> {
+        let text = format!("<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='{XLINK}'>{body}</svg>");
+        let mut budget = Budget::of_millions(1e3);
+        take_expansion(&Document::parse(&text).unwrap(), &mut budget)?;
+        Ok(budget.spent())
+    }
+
+    /// Definitions of a chain, in which each member draws the next one some times.
+    fn chain(length: usize, member: impl Fn(usize, Option<usize>) -> String) -> String {
+        (0..length).map(|i| member(i, (i + 1 < length).then_some(i + 1))).collect()
+    }
+
+    fn markers(length: usize) -> String {
+        chain(length, |i, next| {
+            let next = next.map_or(String::new(), |next| format!("style='marker:url(#m{next})'"));
+            format!("<marker id='m{i}'><path d='M0 0L1 1L2 0' stroke='red' {next}/></marker>")
+        }) + "<path d='M0 0L9 9' marker-end='url(#m0)'/>"
+    }
+
+    #[test]
+    fn each_level_of_markers_multiplies() {
+        let [one, two, three] = [1, 2, 3].map(|length| count(&markers(length)).unwrap());
+        // One vertex at the start, two in between and one at the end: at least four times as much.
+        assert!(three - two > 3.0 * (two - one), "{one} {two} {three}");
+        assert!(matches!(count(&markers(40)), Err(SvgError::Work(_))));
+    }
+
+    #[test]
+    fn what_is_inherited_is_counted_where_it_is_used() {
+        let pattern = format!("<pattern id='p'>{}</pattern>", "<rect/>".repeat(1000));
+        let plain = count(&format!("{pattern}<g id='g'>{}</g>", "<rect/>".repeat(10))).unwrap();
+        let filled = count(&format!("{pattern}<g fill='url(#p)'>{}</g>", "<rect/>".repeat(10))).unwrap();
+        let used = count(&format!("{pattern}<defs><g id='g'>{}</g></defs><use href='#g' fill='url(#p)'/>", "<rect/>".repeat(10)));
+        let own = count(&format!("{pattern}<g fill='url(#p)'>{}</g>", "<rect fill='red'/>".repeat(10))).unwrap();
+        assert!(filled > plain + 10.0 * 1000.0 && used.unwrap() > plain + 10.0 * 1000.0, "{plain} {filled}");
+        assert!(own < plain + 1000.0, "{plain} {own}");
+    }
+
+    #[test]
+    fn circles_are_refused_but_for_what_svg_passes_over() {
+        let masks = "<mask id='a'><rect mask='url(#b)'/></mask><mask id='b'><rect mask='url(#c)'/></mask><mask id='c'><rect mask='url(#a)'/></mask>";
+        let inherited = "<g fill='url(#p)'><pattern id='p'><rect/></pattern><rect/></g>";
+        let gradients = "<linearGradient id='a' href='#b'/><linearGradient id='b' href='#c'/><linearGradient id='c' href='#b'/>";
+        let uses = "<g id='a'><use href='#b'/></g><g id='b'><use href='#c'/></g><g id='c'><use href='#a'/></g>";
+        for body in [masks, inherited, gradients, uses] {
+            assert!(matches!(count(body), Err(SvgError::Circle(_))), "{body}");
+        }
+        let self_use = "<g id='g'><use href='#g'/><rect/></g><use href='#g'/>";
+        let self_marker = "<style>path{marker-end:url(#m);marker-start:url(#n)}</style><marker id='m'><path d='M0 0H1'/></marker>                           <marker id='n'><path d='M0 0H1'/></marker><path d='M0 0H9'/>";
+        for body in [self_use, self_marker] {
+            assert!(count(body).is_ok(), "{body}: {:?}", count(body));
+        }
+    }
+
+    #[test]
+    fn path_data_is_counted_as_it_will_be_drawn() {
+        let (count, subpaths) = segments("M0 0 1 1 2 2zM5 5a1 1 0 0 0 1 1h3");
+        assert!((4.0 + 1.0..4.0 + 8.0).contains(&count) && subpaths == 2.0, "{count}");
+        assert!(segments("M0 0A1e300 1e300 0 1 0 1 1").0 > 1e40 && segments("M0 0A1e9 1e9 0 0 0 1 1").0 < 3.0);
+        assert!(curves(10.0) < 10.0 && curves(1e38) > 1e6);
+        assert_eq!(segments("M0 0L1 1 oops L2 2"), (1.0, 1.0));
+    }
+}

@@ -1,0 +1,73 @@
+//! What a parameter needs to have an effect: other settings, a mask, no depth map. One table and one place that reads it, so that a new
+//! style's users hear of what does nothing without a line of its own.
+
+use super::Settings;
+use crate::source::{MaskRole, Portrait};
+
+/// One thing that a parameter needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Need {
+    /// A choice is one of these words.
+    Word(&'static str, &'static [&'static str]),
+    /// A number, a count or a length in millimetres lies above this.
+    Above(&'static str, f64),
+    /// A length lies below so many pitches.
+    BelowPitches(&'static str, f64),
+    /// A number or a length is not 0.
+    Nonzero(&'static str),
+    /// A number is 0.
+    Zero(&'static str),
+    /// This mask is given.
+    With(MaskRole),
+    /// This mask is not given.
+    Without(MaskRole),
+    /// No depth map is given.
+    WithoutDepth,
+    /// All of one of these lists.
+    AnyOf(&'static [&'static [Self]]),
+}
+
+impl Need {
+    /// Whether a drawing of this portrait with these settings has it.
+    pub fn is_met(&self, settings: &Settings, portrait: &Portrait) -> bool {
+        let has = |role: &MaskRole| match role {
+            MaskRole::Scribbles => portrait.scribbles.is_some(),
+            role => portrait.masks.contains_key(role),
+        };
+        match self {
+            Self::Word(name, words) => words.contains(&settings.word(name)),
+            Self::Above(name, least) => settings.number(name) > *least,
+            Self::BelowPitches(name, most) => settings.number(name) < most * settings.number("pitch"),
+            Self::Nonzero(name) => settings.number(name) != 0.0,
+            Self::Zero(name) => settings.number(name) == 0.0,
+            Self::With(role) => has(role),
+            Self::Without(role) => !has(role),
+            Self::WithoutDepth => portrait.depth.is_none(),
+            Self::AnyOf(lists) => lists.iter().any(|all| all.iter().all(|need| need.is_met(settings, portrait))),
+        }
+    }
+
+    /// What would meet it, as it stands on the command line.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Word(name, words) => format!("{name}={}", words.join(" or ")),
+            Self::Above(name, least) => format!("{name} above {least}"),
+            Self::BelowPitches(name, most) => format!("{name} below {} pitches", (most * 100.0).round() / 100.0),
+            Self::Nonzero(name) => format!("{name} other than 0"),
+            Self::Zero(name) => format!("{name}=0"),
+            Self::With(role) => format!("--mask {}=FILE", role_name(*role)),
+            Self::Without(role) => format!("no --mask {}", role_name(*role)),
+            Self::WithoutDepth => "no --depth".to_owned(),
+            Self::AnyOf(lists) => lists.iter().map(|all| all_text(all)).collect::<Vec<_>>().join(", or "),
+        }
+    }
+}
+
+/// All of a list, in words.
+pub(super) fn all_text(needs: &[Need]) -> String {
+    needs.iter().map(Need::text).collect::<Vec<_>>().join(" and ")
+}
+
+fn role_name(role: MaskRole) -> &'static str {
+    MaskRole::ALL.iter().find(|(_, known)| *known == role).map_or("", |(name, _)| name)
+}
