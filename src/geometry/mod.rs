@@ -35,7 +35,7 @@ pub use polyline::{distance_to_segment, flatten, polygon_area, polyline_length, 
 pub use region::{Region, Winding, untangled, untangled_within};
 pub use smooth::{catmull_rom, smooth_polyline};
 pub use swell::{Ends, curve_length, sample_swelling, swelling_outline};
-pub use tangle::{Thread, tangles};
+pub use tangle::{Thread, tangles, tangles_among};
 pub use thinning::thinned;
 
 pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};
