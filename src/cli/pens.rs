@@ -176,3 +176,27 @@ pub(super) fn in_layer_s_ink(mark: &Mark) -> Mark {
     }
     mark
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::{Dot, Page};
+    use crate::geometry::Point;
+
+    #[test]
+    fn marks_sorted_by_pens_keep_their_painting_order() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), "[blue]\ncolour = \"blue\"\nslot = 1\n[red]\ncolour = \"red\"\nslot = 2\n").unwrap();
+        let mut pens = PenSet::read(file.path().to_str(), 0.3, None).unwrap();
+        let mut layer = Layer::new("strokes", 1);
+        for colour in ["#1010f0", "#f01010", "#2020ff", "#ff3030"] {
+            let dot = Dot { colour: Some(colour.parse().unwrap()), ..Dot::circle(Point::new(5.0, 5.0), 2.0) };
+            layer.marks.push(Mark::Dot(dot));
+        }
+        let mut drawing = Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] };
+        let painting = pens.assign(&mut drawing, None).unwrap();
+        let mark = |layer, mark| Painted::Mark { layer, mark };
+        assert_eq!(painting, [mark(0, 0), mark(1, 0), mark(0, 1), mark(1, 1)]);
+        assert_eq!(drawing.layers.iter().map(|layer| layer.pen).collect::<Vec<_>>(), [1, 2]);
+    }
+}

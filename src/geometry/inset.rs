@@ -34,6 +34,11 @@ impl Insets {
         Self { shapes: contours.overlay(&nothing, OverlayRule::Subject, FillRule::NonZero) }
     }
 
+    /// Its borders, holes' too.
+    pub fn borders(&self) -> Vec<Vec<Point>> {
+        self.shapes.iter().flatten().map(|ring| points(ring)).collect()
+    }
+
     /// Number of vertices.
     pub fn len(&self) -> usize {
         self.shapes.iter().flatten().map(Vec::len).sum()
@@ -55,7 +60,7 @@ impl Insets {
 
     /// The rings that lie `distance` inside the border, holes' rings too; empty where nothing is that far inside.
     pub fn rings(&self, distance: f64) -> Vec<Vec<Point>> {
-        self.grown(-distance).shapes.iter().flatten().map(|ring| points(ring)).collect()
+        self.grown(-distance).borders()
     }
 
     /// The outline with its border moved outwards by `distance` (inwards when it is negative), round at corners.
@@ -63,6 +68,14 @@ impl Insets {
     pub fn grown(&self, distance: f64) -> Self {
         let style = OutlineStyle::new(distance).line_join(LineJoin::Round(0.3));
         Self { shapes: self.shapes.outline(&style) }
+    }
+
+    /// With fewer vertices: those go that lie within `tolerance` of the border without them.
+    #[must_use]
+    pub fn simplified(&self, tolerance: f64) -> Self {
+        let ring = |ring: &Vec<[f64; 2]>| ring_of(points(ring), tolerance);
+        let rings = |shape: &Vec<Vec<[f64; 2]>>| shape.iter().map(ring).filter(|ring| ring.len() > 2).collect::<Vec<_>>();
+        Self { shapes: self.shapes.iter().map(rings).filter(|shape| !shape.is_empty()).collect() }
     }
 
     /// What of this lies outside `other`.
@@ -109,14 +122,14 @@ fn points(ring: &[[f64; 2]]) -> Vec<Point> {
 }
 
 impl Insets {
-    /// The outer borders of what is narrower than `2 distance`: the parts that a disc of that radius cannot reach from inside.
-    pub fn narrow_parts(&self, distance: f64) -> Vec<Vec<Point>> {
+    /// What is narrower than `2 distance`: the parts that a disc of that radius cannot reach from inside, each as its rings, the border
+    /// first and holes turning the other way.
+    pub fn narrow_parts(&self, distance: f64) -> Vec<Vec<Vec<Point>>> {
         let style = |distance: f64| OutlineStyle::new(distance).line_join(LineJoin::Round(0.3));
         // A little more, so that flattened corners leave no crumbs.
         let reached = self.shapes.outline(&style(-distance)).outline(&style(1.04 * distance));
         let rest = self.shapes.overlay(&reached, OverlayRule::Difference, FillRule::NonZero);
-        let outer = rest.into_iter().filter_map(|shape| shape.into_iter().next());
-        outer.map(|ring| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect()).collect()
+        rest.iter().map(|shape| shape.iter().map(|ring| points(ring)).collect()).collect()
     }
 }
 
@@ -129,7 +142,7 @@ mod tests {
     fn a_flag_s_pole_is_narrow_and_its_cloth_is_not() {
         let flag = Insets::new(&BezPath::from_svg("M0,0 H5 V3 H0.2 V9 H0 Z").unwrap(), 0.01);
         let parts = flag.narrow_parts(0.3);
-        let area: f64 = parts.iter().map(|part| polygon_area(part).abs()).sum();
+        let area: f64 = parts.iter().map(|part| polygon_area(&part[0]).abs()).sum();
         // The pole, and the cloth's corners that no disc reaches.
         assert!((1.1..1.6).contains(&area), "{area}");
     }

@@ -41,7 +41,7 @@ pub use polyline::{distance_to_segment, flatten, flattened_points, polygon_area,
 pub use region::{Region, Winding, untangled, untangled_polygons};
 pub use smooth::{catmull_rom, smooth_polyline};
 pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, stations, swelling_outline};
-pub use tangle::{Thread, tangles};
+pub use tangle::{Thread, tangles, tangles_among};
 pub use thinning::thinned;
 
 pub use kurbo::{Affine, BezPath, Point, Rect, Vec2};

@@ -25,8 +25,13 @@ pub struct Thread {
 /// About how many pairs of lines cross, or lie on one another where they have widths; lines that follow one another do not count.
 /// Exact for up to a thousand lines; for more it is off by a tenth or so where there are a hundred pairs or more among four million.
 pub fn tangles(threads: &[Thread]) -> f64 {
+    tangles_among(threads, |i, j| i.abs_diff(j) > 1)
+}
+
+/// The same of the pairs that count.
+pub fn tangles_among(threads: &[Thread], counts: impl Fn(usize, usize) -> bool) -> f64 {
     let count = threads.len();
-    let meets = |i: usize, j: usize| i.abs_diff(j) > 1 && do_meet(&threads[i], &threads[j]);
+    let meets = |i: usize, j: usize| counts(i, j) && do_meet(&threads[i], &threads[j]);
     if count <= FEW {
         let behind = |i: usize| (i + 1..count).filter(move |&j| meets(i, j)).count();
         return (0..count).map(behind).sum::<usize>() as f64;
@@ -94,5 +99,6 @@ mod tests {
         // Each covers those up to 0.4 mm away on either side: about a hundred.
         let covered = tangles(&threads(&zigzag, 0.2));
         assert!((covered / (50_000.0 * 100.0) - 1.0).abs() < 0.3, "{covered}");
+        assert_eq!(tangles_among(&threads(&zigzag, 0.2), |_, _| false), 0.0);
     }
 }

@@ -1,14 +1,17 @@
 //! What a plot may cost, reckoned before the work is begun.
 
-use super::lower::{InkModel, Nibs};
+use super::lower::{InkModel, Nibs, turns_sharply};
 use super::occlude::Hides;
-use crate::drawing::{Drawing, Mark, Stroke};
-use crate::geometry::{BezPath, Point, Thread, flatten, simplify, tangles};
+use crate::drawing::{Colour, Drawing, Mark};
+use crate::geometry::{BezPath, Point, Thread, flatten, simplify, tangles, tangles_among};
 use crate::interrupt::{Interrupt, Interrupted};
 use thiserror::Error;
 
 /// Crossings of one mark's borders up to which it is filled: two million take about a gigabyte and some seconds.
 const MOST_IN_A_MARK: f64 = 2e6;
+/// Pairs of a mark's borders that may lie nearer to one another than the nib is wide, or than a wide line is: each crosses some six times
+/// in the nib's ways along them, at their rounded corners.
+const MOST_NEAR_IN_A_MARK: f64 = 4e5;
 /// The same of all marks together, where they are cut by one another.
 const MOST_IN_ALL: f64 = 1e7;
 /// Length of all lines, in widths of their nibs: 6 km with a nib of 0.3 mm, two days of a plotter's work and a gigabyte.
@@ -64,29 +67,70 @@ pub fn check_work(
     interrupt: &Interrupt,
 ) -> Result<(), TooMuch> {
     check_length(drawing, model, nibs)?;
-    let mut all = Vec::new();
+    let mut cut = Cut::default();
     for layer in &drawing.layers {
         let nib = nibs.of(layer.pen);
         for mark in &layer.marks {
             interrupt.check()?;
-            let threads = threads(mark);
-            let is_outlined = match mark {
-                Mark::Stroke(stroke) => stroke.widest() > nib,
-                Mark::Dot(_) | Mark::Area(_) => true,
-            };
-            if model == InkModel::Ink && is_outlined {
-                refuse_above(MOST_IN_A_MARK, &threads)?;
+            if model == InkModel::Ink && is_outlined(mark, nib) {
+                refuse_tangled(&threads(mark, 0.0), MOST_IN_A_MARK)?;
+                refuse_tangled(&threads(mark, nib), MOST_NEAR_IN_A_MARK)?;
             }
             if hides.is_some() {
-                all.extend(threads);
+                cut.add(mark, mark.colour().unwrap_or(layer.ink.colour()));
             }
         }
     }
-    refuse_above(MOST_IN_ALL, &all)
+    hides.map_or(Ok(()), |hides| refuse_above(MOST_IN_ALL, cut.crossings(hides)))
 }
 
-fn refuse_above(most: f64, threads: &[Thread]) -> Result<(), TooMuch> {
-    let crossings = tangles(threads);
+/// Marks that are cut by one another.
+#[derive(Default)]
+struct Cut {
+    threads: Vec<Thread>,
+    /// For each line, whose it is.
+    owner: Vec<u32>,
+    /// For each mark, its colour and whether it is a line.
+    marks: Vec<(Colour, bool)>,
+}
+
+impl Cut {
+    fn add(&mut self, mark: &Mark, colour: Colour) {
+        let threads = threads(mark, 0.0);
+        self.owner.extend(threads.iter().map(|_| self.marks.len() as u32));
+        self.threads.extend(threads);
+        self.marks.push((colour, matches!(mark, Mark::Stroke(_))));
+    }
+
+    /// About how many pairs of lines are cut by one another.
+    fn crossings(&self, hides: Hides) -> f64 {
+        tangles_among(&self.threads, |i, j| {
+            let (a, b) = (self.owner[i] as usize, self.owner[j] as usize);
+            let ((colour, is_line), (other, is_other_line)) = (self.marks[a], self.marks[b]);
+            a != b
+                && match hides {
+                    Hides::AllLines => !is_line || !is_other_line,
+                    Hides::OtherColours | Hides::PaintOnOtherColours => colour != other,
+                }
+        })
+    }
+}
+
+/// Whether a mark is filled from its outline.
+fn is_outlined(mark: &Mark, nib: f64) -> bool {
+    match mark {
+        Mark::Stroke(stroke) => turns_sharply(stroke, nib),
+        Mark::Dot(_) | Mark::Area(_) => true,
+    }
+}
+
+/// Few lines cannot cross often, and need not be looked at.
+fn refuse_tangled(threads: &[Thread], most: f64) -> Result<(), TooMuch> {
+    let pairs = 0.5 * (threads.len() as f64).powi(2);
+    if pairs > most { refuse_above(most, tangles(threads)) } else { Ok(()) }
+}
+
+fn refuse_above(most: f64, crossings: f64) -> Result<(), TooMuch> {
     if crossings > most { Err(TooMuch::Crossings { crossings, most }) } else { Ok(()) }
 }
 
@@ -114,13 +158,15 @@ fn length_of(mark: &Mark, model: InkModel, nib: f64) -> f64 {
     }
 }
 
-/// A mark's borders, or its wide line.
-fn threads(mark: &Mark) -> Vec<Thread> {
-    match mark {
-        Mark::Dot(_) => Vec::new(),
-        Mark::Area(area) => lines(&area.outline).into_iter().flat_map(|line| threads_along(&line, 0.0)).collect(),
-        Mark::Stroke(stroke) => lines(&stroke.curve).into_iter().flat_map(|line| threads_of_line(&line, stroke)).collect(),
-    }
+/// A mark's borders, as wide as the nib that follows them, or its wide line.
+fn threads(mark: &Mark, nib: f64) -> Vec<Thread> {
+    let (curve, half_width) = match mark {
+        Mark::Dot(_) => return Vec::new(),
+        Mark::Area(area) => (&area.outline, 0.5 * nib),
+        Mark::Stroke(stroke) => (&stroke.curve, 0.5 * stroke.widest()),
+    };
+    let coarse = |line: Vec<Point>| simplify(&line, OFF * 2.0 * half_width);
+    lines(curve).into_iter().map(coarse).flat_map(|line| threads_along(&line, half_width)).collect()
 }
 
 fn lines(curve: &BezPath) -> Vec<Vec<Point>> {
@@ -132,11 +178,6 @@ fn lines(curve: &BezPath) -> Vec<Vec<Point>> {
     flatten(curve, COARSE).into_iter().map(closed).collect()
 }
 
-fn threads_of_line(line: &[Point], stroke: &Stroke) -> Vec<Thread> {
-    let half_width = 0.5 * stroke.widest();
-    threads_along(&simplify(line, OFF * 2.0 * half_width), half_width)
-}
-
 fn threads_along(line: &[Point], half_width: f64) -> Vec<Thread> {
     line.windows(2).map(|pair| Thread { from: pair[0], to: pair[1], half_width }).collect()
 }
@@ -144,7 +185,7 @@ fn threads_along(line: &[Point], half_width: f64) -> Vec<Thread> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Area, Layer, Page, Width};
+    use crate::drawing::{Area, Layer, Page, Stroke, Width};
 
     fn check(marks: Vec<Mark>, hides: Option<Hides>) -> Result<(), TooMuch> {
         let drawing = Drawing { page: Page::new(200.0, 200.0), layers: vec![Layer { marks, ..Layer::new("x", 1) }] };

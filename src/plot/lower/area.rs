@@ -5,8 +5,8 @@ use super::super::Toolpath;
 use super::dash::dashes;
 use super::dot::OVERLAP;
 use super::hatch::hatching;
-use super::needle::needle;
-use crate::geometry::{Insets, Point, distance_to_segment, polygon_area, resample};
+use super::needle::{ink_of, needle, pieces};
+use crate::geometry::{Insets, Point, distance_to_segment, resample};
 use crate::interrupt::Interrupt;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
@@ -16,18 +16,21 @@ use std::f64::consts::FRAC_PI_4;
 const LIFT: f64 = 10.0;
 /// A narrow part is worth drawing from this share of a touch's ink: corners of wide parts stay round.
 const LEAST_PART: f64 = 0.5;
-/// Vertices of all rings after which an area is hatched without finding the rest: about three seconds. An outline of 2000 vertices
-/// has that many in a disc of 400 rings.
+/// How far a ring may lie off for fewer vertices, in pitches. An offset makes two vertices of each at a rounded corner: with none left
+/// out, rings have twice as many at each level.
+const SMOOTH: f64 = 0.02;
+/// Vertices of all rings after which an area is hatched without finding the rest: about three seconds. A disc of 400 rings has a tenth of
+/// that.
 const MOST_RING_VERTICES: usize = 2_000_000;
 
 /// The paths that fill a shape; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes of narrow
 /// parts begin.
 pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
-    let outermost = insets.rings(0.5 * nib);
-    let border = closed_rings(&outermost);
+    let outermost = insets.grown(-0.5 * nib);
+    let border = closed_rings(outermost.borders());
     let hatched = hatching(insets, &border, nib, pitch, interrupt);
-    let ringed = rings(insets, outermost, nib, pitch, interrupt).map(|rings| joined(&rings, 1.5 * pitch, interrupt));
+    let ringed = rings(outermost, pitch, interrupt).map(|rings| joined(&rings, 1.5 * pitch, interrupt));
     let mut paths = match (hatched, ringed) {
         (Some(hatched), Some(ringed)) if cost(&hatched) < cost(&ringed) => hatched,
         (Some(hatched), None) => hatched,
@@ -38,7 +41,11 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
     if interrupt.is_raised() {
         return paths;
     }
-    for (i, part) in insets.narrow_parts(0.5 * nib).into_iter().filter(|part| polygon_area(part).abs() >= least).enumerate() {
+    let parts = insets.narrow_parts(0.5 * nib).into_iter().flat_map(|part| pieces(part, nib));
+    for (i, part) in parts.filter(|part| ink_of(part) >= least).enumerate() {
+        if interrupt.is_raised() {
+            break;
+        }
         paths.extend(dashes(&needle(&part, nib), nib, phase + 0.618 * i as f64));
     }
     paths
@@ -48,40 +55,35 @@ fn cost(paths: &[Toolpath]) -> f64 {
     paths.iter().map(|path| path.length() + LIFT).sum()
 }
 
-/// Rings half a nib inside the border and then a pitch further in each time, level by level; between two levels, pieces of a ring where
-/// the next one is missing and the middle would stay bare. None where that would be too many.
-fn rings(
-    insets: &Insets,
-    outermost: Vec<Vec<Point>>,
-    nib: f64,
-    pitch: f64,
-    interrupt: &Interrupt,
-) -> Option<Vec<Vec<Vec<Point>>>> {
+/// The outermost rings and then, level by level, those a pitch further in; between two levels, pieces of a ring where the next one is
+/// missing and the middle would stay bare. None where that would be too many.
+///
+/// Each level is found from the one before: from the border, a comb's teeth would each swing an arc as wide as the depth through all
+/// others.
+fn rings(outermost: Insets, pitch: f64, interrupt: &Interrupt) -> Option<Vec<Vec<Vec<Point>>>> {
     let mut levels = Vec::new();
-    let mut depth = 0.5 * nib;
     let mut rings = outermost;
     let mut work = 0;
     while !rings.is_empty() && !interrupt.is_raised() {
-        work += rings.iter().map(Vec::len).sum::<usize>() + insets.len();
+        work += rings.len();
         if work > MOST_RING_VERTICES {
             return None;
         }
-        let next = insets.rings(depth + pitch);
-        let between = insets.rings(depth + 0.5 * pitch);
-        let sides = Sides::new(&next, 0.75 * pitch);
+        let next = rings.grown(-pitch).simplified(SMOOTH * pitch);
+        let between = rings.rings(0.5 * pitch);
+        let sides = Sides::new(&next.borders(), 0.75 * pitch);
         let pieces: Vec<Vec<Point>> = between.iter().flat_map(|ring| far_pieces(ring, &sides, interrupt)).collect();
-        levels.push(closed_rings(&rings));
+        levels.push(closed_rings(rings.borders()));
         if !pieces.is_empty() {
             levels.push(pieces);
         }
         rings = next;
-        depth += pitch;
     }
     Some(levels)
 }
 
-fn closed_rings(rings: &[Vec<Point>]) -> Vec<Vec<Point>> {
-    rings.iter().filter(|ring| ring.len() > 2).cloned().map(closed).collect()
+fn closed_rings(rings: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
+    rings.into_iter().filter(|ring| ring.len() > 2).map(closed).collect()
 }
 
 fn closed(mut ring: Vec<Point>) -> Vec<Point> {

@@ -23,7 +23,8 @@ use area::fill;
 use dot::fill_dot;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use stroke::{lower_stroke, turns_sharply};
+use stroke::lower_stroke;
+pub(super) use stroke::turns_sharply;
 use swell::swelling_pass;
 
 /// What of a drawing a plotter draws.

@@ -1,13 +1,53 @@
-//! A long thin polygon as a line with a width.
+//! A long thin shape as a line with a width.
 
 use super::dash::Sample;
-use crate::geometry::{Point, polygon_area, polyline_length, resample};
+use crate::geometry::{BezPath, Point, Rect, Region, Vec2, half_plane, polygon_area, polyline_length, resample};
 
-/// The middle line of a polygon between its two tips, with widths whose ink is the polygon's area.
+/// Side, in nibs, of the pieces into which a shape with holes is cut: its threads run everywhere, and no one line through it is its middle.
+/// With 2, a thread falls into pieces that are less than half a touch and are lost; with 8, holes are filled.
+const PIECE: f64 = 4.0;
+
+/// A shape's ink, in square millimetres: its first ring's area less those of the others, which turn the other way.
+pub(super) fn ink_of(shape: &[Vec<Point>]) -> f64 {
+    shape.iter().map(|ring| polygon_area(ring)).sum::<f64>().abs()
+}
+
+/// A shape with holes cut into pieces of a few nibs; one without stays whole.
+pub(super) fn pieces(shape: Vec<Vec<Point>>, nib: f64) -> Vec<Vec<Vec<Point>>> {
+    let mut done = Vec::new();
+    let mut left = vec![shape];
+    while let Some(shape) = left.pop() {
+        let all = shape.iter().flatten();
+        let bounds = all.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)).unwrap_or_default();
+        if shape.len() < 2 || bounds.width().max(bounds.height()) <= PIECE * nib {
+            done.push(shape);
+            continue;
+        }
+        let across = if bounds.width() > bounds.height() { Vec2::new(1.0, 0.0) } else { Vec2::new(0.0, 1.0) };
+        left.extend(
+            [across, -across].map(|normal| cut(&shape, bounds.center(), normal)).into_iter().filter(|half| !half.is_empty()),
+        );
+    }
+    done
+}
+
+/// What of a shape lies on the side of a place that the normal points away from.
+fn cut(shape: &[Vec<Point>], at: Point, normal: Vec2) -> Vec<Vec<Point>> {
+    let half = |ring: &Vec<Point>| {
+        let mut out = Vec::new();
+        half_plane(ring, at, normal, &mut out);
+        out
+    };
+    shape.iter().map(half).filter(|ring| ring.len() > 2).collect()
+}
+
+/// The middle line of a shape's first ring between its two tips, with widths whose ink is the shape's; where that line is outside of the
+/// shape, no ink.
 ///
 /// The tips are the two vertices farthest apart; the border between them is cut into two sides, and points at the same share of either
 /// side's length are taken as opposite.
-pub(super) fn needle(polygon: &[Point], nib: f64) -> Vec<Sample> {
+pub(super) fn needle(shape: &[Vec<Point>], nib: f64) -> Vec<Sample> {
+    let Some(polygon) = shape.first() else { return Vec::new() };
     let Some((a, b)) = tips(polygon) else { return Vec::new() };
     let count = polygon.len();
     let side = |from: usize, to: usize| -> Vec<Point> {
@@ -22,8 +62,19 @@ pub(super) fn needle(polygon: &[Point], nib: f64) -> Vec<Sample> {
     let middle: Vec<Point> = pairs.iter().map(|(p, q)| p.midpoint(*q)).collect();
     let across: Vec<f64> = pairs.iter().map(|(p, q)| p.distance(*q)).collect();
     let ink: f64 = (1..middle.len()).map(|i| middle[i].distance(middle[i - 1]) * 0.5 * (across[i] + across[i - 1])).sum();
-    let scale = if ink > 0.0 { polygon_area(polygon).abs() / ink } else { 0.0 };
-    middle.into_iter().zip(across).map(|(at, across)| Sample { at, width: across * scale }).collect()
+    let scale = if ink > 0.0 { ink_of(shape) / ink } else { 0.0 };
+    let inside = Region::new(&outline(shape), 0.01);
+    let width = |at: Point, across: f64| if inside.contains(at) { across * scale } else { 0.0 };
+    middle.into_iter().zip(across).map(|(at, across)| Sample { at, width: width(at, across) }).collect()
+}
+
+fn outline(shape: &[Vec<Point>]) -> BezPath {
+    let mut path = BezPath::new();
+    for ring in shape {
+        ring.iter().enumerate().for_each(|(i, p)| if i == 0 { path.move_to(*p) } else { path.line_to(*p) });
+        path.close_path();
+    }
+    path
 }
 
 /// Two vertices about as far apart as any: the farthest from the first vertex, and the farthest from that.
@@ -48,11 +99,22 @@ mod tests {
             Point::new(radius * angle.cos(), radius * angle.sin())
         };
         let strip: Vec<Point> = (0..=30).map(|k| arc(10.1, k)).chain((0..=30).rev().map(|k| arc(9.9, k))).collect();
-        let line = needle(&strip, 0.3);
+        let line = needle(&[strip], 0.3);
         let length: f64 = line.windows(2).map(|w| w[0].at.distance(w[1].at)).sum();
         assert!((length - 15.0).abs() < 0.3, "{length}");
         let inner = &line[3..line.len() - 3];
         assert!(inner.iter().all(|s| (s.at.to_vec2().hypot() - 10.0).abs() < 0.08 && (s.width - 0.2).abs() < 0.06));
-        assert!(needle(&[Point::ORIGIN], 0.3).is_empty());
+        assert!(needle(&[vec![Point::ORIGIN]], 0.3).is_empty());
+    }
+    #[test]
+    fn a_shape_with_holes_is_cut_into_pieces_with_its_ink() {
+        let square = |x0: f64, x1: f64| vec![Point::new(x0, x0), Point::new(x1, x0), Point::new(x1, x1), Point::new(x0, x1)];
+        let mut hole = square(1.0, 9.0);
+        hole.reverse();
+        let frame = vec![square(0.0, 10.0), hole];
+        let cut = pieces(frame.clone(), 0.5);
+        assert!(cut.len() > 10, "{}", cut.len());
+        assert!((cut.iter().map(|piece| ink_of(piece)).sum::<f64>() - ink_of(&frame)).abs() < 1e-9);
+        assert_eq!(pieces(vec![square(0.0, 10.0)], 0.5).len(), 1);
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64, interrupt: &In
 
 /// Whether a stroke wider than the nib turns so sharply that passes along it would leave the outside of the turn bare: in less than
 /// 0.6 of its width.
-pub(super) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
+pub(in crate::plot) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
     if stroke.widest() <= ONE_PASS * nib {
         return false;
     }
