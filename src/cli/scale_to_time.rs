@@ -119,10 +119,10 @@ mod tests {
     #[test]
     fn the_scale_found_is_the_largest_that_keeps_to_the_time() {
         let time = |percent: u32| Ok(10.0 + 0.5 * f64::from(percent * percent));
-        for limit in [30.0, 500.0, 2000.0, 4900.0] {
+        for limit in [70.0, 500.0, 2000.0, 4900.0] {
             let (percent, seconds) = largest_percent(limit, time).unwrap().unwrap();
             assert!(seconds <= limit && time(percent + 1).unwrap() > limit, "{limit}: {percent}");
         }
-        assert_eq!(largest_percent(20.0, time).unwrap(), None);
+        assert_eq!(largest_percent(50.0, time).unwrap(), None);
     }
 }
