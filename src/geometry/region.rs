@@ -166,6 +166,11 @@ impl Region {
         pieces
     }
 
+    /// How often a polyline meets the outline.
+    pub fn cut_count(&self, points: &[Point]) -> usize {
+        points.windows(2).map(|pair| self.cuts(pair[0], pair[1]).len() - 2).sum()
+    }
+
     /// Parameters at which a segment meets the outline, its own ends included.
     fn cuts(&self, a: Point, b: Point) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];

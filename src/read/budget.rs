@@ -48,7 +48,8 @@ pub struct TooMuchWork {
 
 fn shown(steps: f64) -> String {
     match steps / MILLION {
-        millions if millions < 10.0 => format!("{millions:.1}").trim_end_matches(".0").to_owned(),
+        // Rounded up, so that it is more than the limit where it is.
+        millions if millions < 100.0 => format!("{:.1}", (10.0 * millions).ceil() / 10.0).trim_end_matches(".0").to_owned(),
         millions if millions < 1e9 => format!("{millions:.0}"),
         millions if millions.is_finite() => format!("{millions:.0e}"),
         _ => "10^300".to_owned(),
@@ -59,7 +60,7 @@ fn shown(steps: f64) -> String {
 fn lifted(steps: f64) -> String {
     // The count is of what was met so far: with a little more there is a chance to get through.
     match (1.25 * steps / MILLION).ceil() {
-        millions if millions <= MOST_WORK => format!("; --most-work {millions:.0} may be enough, and takes memory to match"),
+        millions if millions <= MOST_WORK => format!("; --most-work {millions:.0} or more lifts it, with memory to match"),
         _ => String::new(),
     }
 }
@@ -102,9 +103,9 @@ impl Budget {
         self.spend(CROSSING * found.crossings as f64 + PAIR * found.pairs as f64, "crossings of outlines")
     }
 
-    /// Takes the work of cutting so many points of a line at so many edges.
+    /// Takes the work of meeting so many points of a line, or so many of its pieces, with all edges of a border.
     pub(super) fn cuts(&mut self, points: f64, edges: usize) -> Result<(), TooMuchWork> {
-        self.spend(POINT * points + PAIR * points * edges as f64, "clipped lines")
+        self.spend(POINT * points + 2.0 * PAIR * points * edges as f64, "clipped lines")
     }
 
     /// What was taken so far.
@@ -136,7 +137,7 @@ mod tests {
         assert_eq!(
             refused,
             "takes at least 20 million steps of work to read, counted up to its arcs, and the limit is 12 million; \
-             --most-work 25 may be enough, and takes memory to match"
+             --most-work 25 or more lifts it, with memory to match"
         );
         for endless in [1e12, 1e300, f64::INFINITY, f64::NAN] {
             let refused = Budget::default().spend(endless, "arcs").unwrap_err().to_string();

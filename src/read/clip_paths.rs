@@ -124,6 +124,8 @@ pub(super) fn clip_curve(curve: &BezPath, clip: &Clip, budget: &mut Budget) -> R
         if closed {
             points.push(points[0]);
         }
+        // Each piece between two cuts is looked for inside.
+        budget.cuts(clip.region.cut_count(&points) as f64, clip.region.edge_count())?;
         for piece in clip.region.clip_line(&points, clip.slack) {
             clipped.move_to(piece[0]);
             piece[1..].iter().for_each(|p| clipped.line_to(*p));

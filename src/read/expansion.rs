@@ -395,6 +395,7 @@ fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
         "polyline" | "polygon" => {
             Some((svgtypes::PointsParser::from(node.attribute("points").unwrap_or_default()).count() as f64, 1.0))
         }
+        "rect" if !node.has_attribute("rx") && !node.has_attribute("ry") => Some((4.0, 1.0)),
         "rect" => Some((4.0 + curves(longest(["rx", "ry"])), 1.0)),
         "circle" => Some((1.0 + curves(longest(["r", "r"])), 1.0)),
         "ellipse" => Some((1.0 + curves(longest(["rx", "ry"])), 1.0)),
@@ -405,7 +406,11 @@ fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
 
 /// How many curves a whole ellipse becomes, at the tenth of a pixel that usvg asks of kurbo.
 fn curves(radius: f64) -> f64 {
-    (1.1163 * radius.abs() / 0.1).powf(1.0 / 6.0).max(4.0).ceil() + 4.0
+    match (1.1163 * radius.abs() / 0.1).powf(1.0 / 6.0) {
+        number if number <= 4.0 => 4.0,
+        // Each quarter is rounded up.
+        number => number.ceil() + 4.0,
+    }
 }
 
 /// A length in pixels, or more where that depends on other elements.

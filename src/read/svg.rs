@@ -3,6 +3,7 @@
 use super::Dropped;
 use super::budget::{Budget, TooMuchWork};
 use super::census::take_text;
+use super::clip_paths::FARTHEST;
 use super::colour_names::with_known_colours;
 use super::curves::MM_PER_PX;
 use super::expansion::take_expansion;
@@ -42,6 +43,11 @@ pub enum SvgError {
     /// Not SVG, or beyond usvg's limits.
     #[error("cannot be used as an SVG: {0}")]
     Svg(#[from] usvg::Error),
+    /// A sheet that no machine has.
+    #[error(
+        "cannot be used as an SVG: its page is {0} x {1} mm, and at most 100 m can be read; give it a smaller width and height"
+    )]
+    Page(f64, f64),
     /// More than may be read at once.
     #[error("cannot be used as an SVG: it {0}")]
     Work(#[from] TooMuchWork),
@@ -112,6 +118,9 @@ pub fn read_svg_within(bytes: &[u8], budget: &mut Budget) -> Result<Imported, Sv
         }
     };
     let page = Page::new(f64::from(tree.size().width()) * MM_PER_PX, f64::from(tree.size().height()) * MM_PER_PX);
+    if page.width.max(page.height) > FARTHEST {
+        return Err(SvgError::Page(page.width, page.height));
+    }
     let mut importer = Importer::new(&outline, budget);
     importer.group(tree.root(), Place::TOP, &[])?;
     let is_toolpaths = importer.is_toolpaths;
@@ -293,6 +302,8 @@ mod tests {
     #[test]
     fn faults_are_named() {
         assert!(read_svg(b"\xff\x00").unwrap_err().to_string().contains("UTF-8"));
+        let endless = b"<svg xmlns='http://www.w3.org/2000/svg' width='1e30mm' height='1mm'><path d='M0 0H9'/></svg>";
+        assert!(read_svg(endless).unwrap_err().to_string().contains("100 m"));
         assert!(read_svg(b"<svg").is_err());
         assert!(read_svg(b"<html/>").is_err());
     }
