@@ -246,10 +246,10 @@ impl Mounting {
         if fits {
             format!("{size}; turned by 90 degrees it would fit: --rotate 90")
         } else {
-            let (width, height) = ((free.width() - 1.0).floor().max(1.0), (free.height() - 1.0).floor().max(1.0));
-            let page = format!("--page {}x{}mm", round(plot.page.width), round(plot.page.height));
+            // On a sheet that is named, a picture without a size of its own is fitted into what the machine reaches.
+            let page = format!("{}x{}mm", round(plot.page.width), round(plot.page.height));
             format!(
-                "{size}, and --rotate 90 would not help: draw it with {page} --size {width}x{height}mm, plot it with --fit page"
+                "{size}, and --rotate 90 would not help: draw it with --page {page} and no --size or --margin, plot it with --fit page"
             )
         }
     }
