@@ -44,11 +44,10 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let task = Task::new(&options.picture, reach_of(profile.as_ref()))?;
-    if let Some(notice) = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet) {
-        eprintln!("drypoint: {notice}");
-    }
+    let notice = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
+    let tell = || notice.iter().for_each(|notice| eprintln!("drypoint: {notice}"));
     if options.dry_run {
-        return dry_run::run(&task, options, profile.as_ref(), &mut pens);
+        return dry_run::run(&task, options, profile.as_ref(), &mut pens).inspect(|()| tell());
     }
     let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
     let watcher = Watcher::new(options.reporting.quiet);
@@ -68,6 +67,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         toolpaths::warn(prepared, profile.as_ref(), if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
     }
     max_time::warn_if_longer(&prepared, options.max_time);
+    tell();
     report(options, &drawing, &pens, &prepared, &seconds, watcher.elapsed())
 }
 
