@@ -77,9 +77,9 @@ fn glass_on_pens_is_told_without_being_cut() {
 #[test]
 fn a_huge_drawing_is_told_from_little_of_it() {
     let folder = folder();
-    for style in ["hedcut", "grid", "engrave", "charcoal", "glass"] {
+    for (style, page) in [("hedcut", "a1"), ("grid", "a1"), ("engrave", "a1"), ("charcoal", "a3"), ("glass", "a1")] {
         let (status, told, message) =
-            run(&folder, &["draw", "face.jpg", "--style", style, "--page", "a1", "--dry-run", "--json", "-o", "out.svg"]);
+            run(&folder, &["draw", "face.jpg", "--style", style, "--page", page, "--dry-run", "--json", "-o", "out.svg"]);
         assert_eq!(status, Some(0), "{style}: {message}");
         assert!(told["estimate"]["share_drawn"].as_f64().unwrap() < 0.1, "{style}: {told}");
         assert!(told["estimate"]["memory_bytes"].as_f64().unwrap() > 1e8, "{style}: {told}");
@@ -112,9 +112,11 @@ fn where_no_pitch_helps_a_size_on_the_same_sheet_does() {
     let asked = [&asked[..], &["--profile", "axidraw-v3", "-o", "out.svg", "--dry-run"]].concat();
     let (_, _, message) = run(&folder, &asked);
     let advice = message.lines().find(|line| line.contains("warning")).expect(&message);
-    assert!(advice.contains("--size ") && advice.contains("--page a4") && !advice.contains("--pitch"), "{advice}");
-    let size = advice.split_once("--size ").unwrap().1.split(' ').next().unwrap();
-    let (_, told, message) = run(&folder, &[&asked[..], &["--size", size, "--json"]].concat());
+    assert!(advice.contains("--size ") && advice.contains("--page a4"), "{advice}");
+    let after = |option: &str| advice.split_once(option).unwrap().1.split(' ').next().unwrap();
+    let (size, pitch) = (after("--size "), after("--pitch "));
+    let smaller: Vec<&str> = asked.iter().map(|word| if *word == "5mm" { pitch } else { *word }).collect();
+    let (_, told, message) = run(&folder, &[&smaller[..], &["--size", size, "--json"]].concat());
     let hours = told["total"]["seconds"].as_f64().expect(&message) / 3600.0;
     println!("{advice}: {hours:.2} h");
     assert!((1.4..2.6).contains(&hours), "{advice}: {hours} h");
@@ -123,13 +125,13 @@ fn where_no_pitch_helps_a_size_on_the_same_sheet_does() {
 }
 
 #[test]
-fn a_refusal_s_size_fits_the_sheet_that_was_refused() {
+fn what_a_refusal_advises_fits_the_sheet() {
     let folder = folder();
     let asked = ["draw", "face.jpg", "--pitch", "3mm", "--profile", "hp7475a", "-o", "out.hpgl", "--order", "fast"];
     let (status, _, message) =
         run(&folder, &[&asked[..], &["--page", "a4", "--margin", "0", "--size", "210x297mm", "--fit", "cover"]].concat());
     assert_eq!(status, Some(1), "{message}");
-    let advice = message.split_once("draw it with ").expect(&message).1.split_once(',').unwrap().0;
+    let advice = message.split_once("draw it with ").expect(&message).1.split_once(" and no --size").expect(&message).0;
     let advised: Vec<&str> = advice.split(' ').collect();
     let (status, _, message) = run(&folder, &[&asked[..], &advised, &["--fit", "cover"]].concat());
     assert_eq!(status, Some(0), "{advice}: {message}");
@@ -138,7 +140,7 @@ fn a_refusal_s_size_fits_the_sheet_that_was_refused() {
 #[test]
 fn the_plot_of_an_svg_is_told_from_windows_of_it() {
     let folder = folder();
-    let drawn = run(&folder, &["draw", "face.jpg", "--style", "glass", "--size", "40x40mm", "-o", "paint.svg"]);
+    let drawn = run(&folder, &["draw", "face.jpg", "--style", "glass", "--size", "40x40mm", "--margin", "5", "-o", "paint.svg"]);
     assert_eq!(drawn.0, Some(0), "{}", drawn.2);
     for (more, most) in [(&["--occlude"][..], 0.5), (&["--ink-model", "lines"], 1.01)] {
         let asked = ["plot", "paint.svg", "--pens", "pens.toml", "--profile", "axidraw-v3", "-o", "out.svg", "--order", "fast"];

@@ -41,10 +41,10 @@ pub(super) fn check_line(drawing: &Drawing, nibs: &Nibs, model: InkModel, times:
     if model == InkModel::Lines {
         return Ok(());
     }
-    let page = drawing.page.rect().area();
+    let whole = drawing.bounding_box().map_or(0.0, |bounds| bounds.area());
     let of = |layer: &Layer| {
         // What is covered is not drawn.
-        let ink = if layer.mixing == Mixing::Paint { layer.ink_mm2().min(page) } else { layer.ink_mm2() };
+        let ink = if layer.mixing == Mixing::Paint { layer.ink_mm2().min(whole) } else { layer.ink_mm2() };
         (ink / nibs.of(layer.pen), nibs.of(layer.pen))
     };
     let lines: Vec<(f64, f64)> = drawing.layers.iter().map(of).collect();

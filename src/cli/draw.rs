@@ -50,12 +50,11 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
-    if let Some(notice) = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet) {
-        say!("drypoint: {notice}");
-    }
+    let notice = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
+    let tell = || notice.iter().for_each(|notice| say!("drypoint: {notice}"));
     if options.dry_run {
         let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
-        return told.map_err(|failure| advice::for_draw(failure, options, &task.layout));
+        return told.map_err(|failure| advice::for_draw(failure, options, &task.layout)).inspect(|()| tell());
     }
     let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
     let watcher = Watcher::new(options.reporting.quiet);
@@ -81,6 +80,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         toolpaths::warn(prepared, profile.as_ref(), if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
     }
     max_time::warn_if_longer(&prepared, options.max_time);
+    tell();
     report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
 }
 

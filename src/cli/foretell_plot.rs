@@ -21,17 +21,20 @@ use super::output;
 use super::pens::PenSet;
 use super::plot::{choose_layers, count_fills, hides, place, reach_of};
 use super::toolpaths::{self, LONG_HOURS, duration};
-use crate::drawing::{Layer, Mark, Painted, Stroke, Width};
-use crate::geometry::{BezPath, Point, Rect};
+use crate::drawing::{Dot, Layer, Mark, Painted};
+use crate::geometry::{Point, Rect};
 use crate::plot::{InkModel, Profile, lower, occluded};
 use crate::read::Imported;
 use kurbo::Shape;
 use serde_json::json;
 
 /// Marks that are plotted at most: as lines, with their ink, and where what is hidden is cut away.
-const MOST_LINES: usize = 40_000;
-const MOST_INKED: usize = 6000;
-const MOST_OCCLUDED: usize = 700;
+const MOST_LINES: f64 = 40_000.0;
+const MOST_INKED: f64 = 6000.0;
+const MOST_OCCLUDED: f64 = 700.0;
+/// For how many strokes an area counts that is filled, and each nib of its width once more: discs of 0.6 mm and a nib of 0.3 mm take a
+/// millisecond, ten times as large ones fifteen.
+const AREA_WORK: f64 = 6.0;
 /// Cells a side.
 const CELLS: f64 = 4.0;
 /// Share of the drawing's longer side from which a mark is large.
@@ -56,7 +59,7 @@ pub(super) fn dry_run(
         dropped = counted.dropped;
     }
     let mut told: Option<PlotAmounts> = None;
-    let strata = strata(imported, most(options, model));
+    let strata = strata(imported, options, model)?;
     let share = strata.iter().map(|stratum| 1.0 / stratum.weight).fold(1.0, f64::min);
     for stratum in &strata {
         let amounts = plotted(imported, stratum, options, model, profile, pens)?.scaled(stratum.weight);
@@ -100,7 +103,7 @@ pub(super) fn dry_run(
     Ok(())
 }
 
-fn most(options: &PlotOptions, model: InkModel) -> usize {
+fn most(options: &PlotOptions, model: InkModel) -> f64 {
     match model {
         _ if options.occlude => MOST_OCCLUDED,
         InkModel::Ink => MOST_INKED,
@@ -108,9 +111,22 @@ fn most(options: &PlotOptions, model: InkModel) -> usize {
     }
 }
 
+/// How many marks' work a mark is.
+fn work(mark: &Mark, bounds: Rect, options: &PlotOptions, model: InkModel) -> f64 {
+    match mark {
+        Mark::Area(_) if model == InkModel::Ink => {
+            AREA_WORK * (1.0 + 0.5 * bounds.width().min(bounds.height()) * options.scale.unwrap_or(1.0) / options.pen)
+        }
+        _ => 1.0,
+    }
+}
+
 /// Marks of a drawing that are plotted together, and how many each of them stands for.
+#[derive(Clone, Copy)]
 struct Stratum {
     bounds: Rect,
+    /// The box of the layers asked for, which says where the drawing is placed.
+    placed: Rect,
     kind: Kind,
     weight: f64,
 }
@@ -124,22 +140,29 @@ enum Kind {
 }
 
 /// All marks, or the large ones and windows of the small.
-fn strata(imported: &Imported, most: usize) -> Vec<Stratum> {
-    let boxes: Vec<Rect> = imported.layers.iter().flat_map(|layer| &layer.layer.marks).map(Mark::bounding_box).collect();
-    let Some(bounds) = boxes.iter().copied().reduce(|a, b| a.union(b)) else { return Vec::new() };
-    let all = Stratum { bounds, kind: Kind::All, weight: 1.0 };
-    let small = boxes.iter().filter(|mark| !is_large(**mark, bounds)).count();
-    if boxes.len() <= most || small < most {
-        return vec![all];
+fn strata(imported: &Imported, options: &PlotOptions, model: InkModel) -> Result<Vec<Stratum>, Failure> {
+    let marks: Vec<(Rect, f64)> = imported
+        .layers
+        .iter()
+        .flat_map(|layer| &layer.layer.marks)
+        .map(|mark| (mark.bounding_box(), work(mark, mark.bounding_box(), options, model)))
+        .collect();
+    let Some(bounds) = marks.iter().map(|mark| mark.0).reduce(|a, b| a.union(b)) else { return Ok(Vec::new()) };
+    let mut chosen = imported.clone();
+    choose_layers(&mut chosen, &options.layers)?;
+    let placed = chosen.drawing().bounding_box().unwrap_or(bounds);
+    let all = Stratum { bounds, placed, kind: Kind::All, weight: 1.0 };
+    let small: Vec<(Rect, f64)> = marks.iter().copied().filter(|mark| !is_large(mark.0, bounds)).collect();
+    let (work, most) = (small.iter().map(|mark| mark.1).sum::<f64>(), most(options, model));
+    if work <= most {
+        return Ok(vec![all]);
     }
-    let windows = Kind::Windows((most as f64 / small as f64).sqrt());
-    let mut stratum = Stratum { kind: windows, weight: 1.0, ..all };
-    let held = boxes.iter().filter(|mark| stratum.holds(**mark, 1.0)).count();
+    let windows = Stratum { kind: Kind::Windows((most / work).sqrt()), ..all };
+    let held = small.iter().filter(|mark| windows.holds(mark.0, 1.0)).count();
     if held == 0 {
-        return vec![all];
+        return Ok(vec![all]);
     }
-    stratum.weight = small as f64 / held as f64;
-    vec![Stratum { kind: Kind::Large, ..all }, stratum]
+    Ok(vec![Stratum { kind: Kind::Large, ..all }, Stratum { weight: small.len() as f64 / held as f64, ..windows }])
 }
 
 fn is_large(mark: Rect, bounds: Rect) -> bool {
@@ -163,7 +186,7 @@ impl Stratum {
         }
     }
 
-    /// The drawing's marks of this stratum, what hides them cut away; two touches at the ends of its box keep its place.
+    /// The drawing's marks of this stratum, what hides them cut away.
     fn of(&self, imported: &Imported, options: &PlotOptions, model: InkModel) -> Result<Imported, Failure> {
         let mut part = imported.clone();
         if options.occlude {
@@ -184,21 +207,16 @@ impl Stratum {
         for layer in &mut part.layers {
             layer.layer.marks.retain(|mark| is_cut || self.holds(mark.bounding_box(), 1.0));
         }
-        if self.kind != Kind::All
-            && let Some(first) = part.layers.first_mut()
-        {
-            self.hold_box(&mut first.layer);
-        }
         Ok(part)
     }
 
-    fn hold_box(&self, layer: &mut Layer) {
-        for p in [self.bounds.origin(), Point::new(self.bounds.x1, self.bounds.y1)] {
-            let mut curve = BezPath::new();
-            curve.move_to(p);
-            curve.line_to(p);
-            layer.marks.push(Mark::Stroke(Stroke::new(curve, Width::Constant(1e-3))));
+    /// A layer of two points at the ends of the whole drawing's box: with it a part is placed as the whole is.
+    fn ends(&self) -> Layer {
+        let mut layer = Layer::new("ends", 1);
+        for p in [self.placed.origin(), Point::new(self.placed.x1, self.placed.y1)] {
+            layer.marks.push(Mark::Dot(Dot::circle(p, 0.0)));
         }
+        layer
     }
 }
 
@@ -212,7 +230,10 @@ fn plotted(
 ) -> Result<PlotAmounts, Failure> {
     let mut part = stratum.of(imported, options, model)?;
     choose_layers(&mut part, &options.layers)?;
-    let (mut drawing, turning) = place(&part.drawing(), options, reach_of(profile))?;
+    let mut drawing = part.drawing();
+    drawing.layers.push(stratum.ends());
+    let (mut drawing, turning) = place(&drawing, options, reach_of(profile))?;
+    drawing.layers.pop();
     pens.hand_out(&mut drawing, profile)?;
     affordable::check_line(&drawing, pens.nibs(), model, stratum.weight)?;
     let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;

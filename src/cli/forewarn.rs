@@ -119,19 +119,29 @@ impl Shortened {
 
     /// The size that does it, on the same sheet.
     fn size(&self, teller: &mut Teller<'_>) -> Option<String> {
-        let (picture, least) = (teller.task.layout.picture, teller.task.least_side());
+        let picture = teller.task.layout.picture;
         let guess = 1.0 / self.times.sqrt();
         let smaller = Rect::from_center_size(picture.center(), picture.size() * guess);
-        let after = quick(teller, &Plan { settings: teller.task.settings.clone(), picture: smaller })?;
+        let pitch = finer_pitch(teller.task, smaller.width().min(smaller.height()));
+        let settings = pitch.map_or_else(|| Some(teller.task.settings.clone()), |pitch| teller.task.settings_at(pitch))?;
+        let after = quick(teller, &Plan { settings, picture: smaller })?;
         // Small pictures take more for their area.
         let side = guess * (self.quick / after / self.times).sqrt().min(1.0);
         let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
+        let pitch =
+            finer_pitch(teller.task, width.min(height)).map_or_else(String::new, |pitch| format!(" --pitch {pitch:.2}mm"));
         let page = teller.options.picture.page.clone().unwrap_or_else(|| {
             let (width, height) = teller.task.layout.sheet();
             format!("{}x{}mm", round(width), round(height))
         });
-        (width.min(height) >= least).then(|| format!("--size {width}x{height}mm --page {page}"))
+        (width.min(height) >= 1.0).then(|| format!("--size {width}x{height}mm{pitch} --page {page}"))
     }
+}
+
+/// The pitch that a picture so small needs, where its own would leave nothing of it.
+fn finer_pitch(task: &Task<'_>, short: f64) -> Option<f64> {
+    let share = short / task.least_side();
+    (share < 1.0).then(|| (task.settings.number("pitch") * share * 100.0).floor() / 100.0)
 }
 
 fn quick(teller: &mut Teller<'_>, plan: &Plan) -> Option<f64> {
