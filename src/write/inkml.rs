@@ -31,10 +31,13 @@ const USUAL_SPEED: f64 = 80.0;
 const FULL_FORCE: f64 = 1000.0;
 /// Seconds between two strokes where a style says nothing.
 const USUAL_PAUSE: f64 = 0.2;
-/// The brush that fills an area, as a share of the root of the area, and its least and greatest width in millimetres: wider ones leave
-/// the corners and holes of grains, narrower ones make many lines of them.
+/// The brush that fills an area, as a share of the root of the area, and its greatest width in millimetres: wider ones leave the corners
+/// and holes of grains, narrower ones make many lines of them.
 const FILLING: f64 = 0.4;
-const FILLING_WIDTHS: (f64, f64) = (0.02, 0.1);
+const FILLING_WIDTH: f64 = 0.1;
+
+/// Areas up to this many square millimetres are one touch: their form is not seen, and a smudged tone has tens of thousands.
+const LEAST_FILLED: f64 = 0.01;
 
 /// Writes a drawing as `InkML`. Strokes become one trace each with their pressure as force (their width's share of the layer's
 /// widest where they have none); a round dot is one vertex of a brush as wide as itself; other dots and areas are filled with traces.
@@ -105,7 +108,7 @@ impl Brush {
     fn of(layer: &Layer) -> Self {
         let width = |mark: &Mark| if let Mark::Stroke(stroke) = mark { stroke.widest() } else { 0.0 };
         let widest = layer.marks.iter().map(width).fold(0.0, f64::max);
-        Self::new(layer.ink.colour(), if widest > 0.0 { widest } else { FILLING_WIDTHS.1 })
+        Self::new(layer.ink.colour(), if widest > 0.0 { widest } else { FILLING_WIDTH })
     }
 
     fn width(self) -> f64 {
@@ -172,7 +175,11 @@ fn touch(centre: Point, radius: f64, colour: Colour) -> Drawn<'static> {
 /// The lines that fill an outline, as a fine pen would; of what is too small for one, a touch.
 fn filled(outline: &BezPath, colour: Colour) -> Drawn<'static> {
     let area = outline.area().abs();
-    let brush = Brush::new(colour, (FILLING * area.sqrt()).clamp(FILLING_WIDTHS.0, FILLING_WIDTHS.1));
+    let one_touch = || touch(outline.bounding_box().center(), (area / std::f64::consts::PI).sqrt(), colour);
+    if area <= LEAST_FILLED {
+        return one_touch();
+    }
+    let brush = Brush::new(colour, (FILLING * area.sqrt()).min(FILLING_WIDTH));
     let mut layer = Layer::new("", 1);
     layer.marks.push(Mark::Area(Area { outline: outline.clone(), colour: None }));
     let page = crate::drawing::Page::new(1.0, 1.0);
@@ -180,10 +187,7 @@ fn filled(outline: &BezPath, colour: Colour) -> Drawn<'static> {
     let plot = lower(&drawing, InkModel::Ink, &Nibs::all(brush.width()), TOLERANCE, &Interrupt::never());
     let pens = plot.map(|plot| plot.pens).unwrap_or_default();
     let lines: Vec<Vec<Point>> = pens.into_iter().flat_map(|pen| pen.paths).map(|path| path.points).collect();
-    if lines.is_empty() {
-        return touch(outline.bounding_box().center(), (area / std::f64::consts::PI).sqrt(), colour);
-    }
-    Drawn { brush, way: Way::Lines(lines) }
+    if lines.is_empty() { one_touch() } else { Drawn { brush, way: Way::Lines(lines) } }
 }
 
 impl Drawn<'_> {

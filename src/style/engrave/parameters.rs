@@ -62,8 +62,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         source: "Galarza 3.6, Theta",
         needs: &[Need::AnyOf(&[
             &[Need::Word("angles", &["given", "hue"])],
-            &[Need::Word("angles", &["auto"]), Need::Word("regions", &["one"])],
-            &[Need::Word("angles", &["auto"]), Need::Word("regions", &["auto"]), Need::Without(MaskRole::Scribbles)],
+            &[Need::Word("regions", &["one"]), Need::Word("angles", &["auto"])],
+            &[Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("angles", &["auto"])],
         ])],
     },
     Parameter {
@@ -73,7 +73,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         source: "Galarza 3.6, alpha",
         needs: &[Need::AnyOf(&[
             &[Need::Word("look", &["crosshatch", "engraving", "net"])],
-            &[Need::Word("look", &["hatch", "contour"]), Need::Above("thinnest", 0.0)],
+            &[Need::Above("thinnest", 0.0), Need::Word("look", &["hatch", "contour"])],
         ])],
     },
     Parameter {
