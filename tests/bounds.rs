@@ -83,7 +83,7 @@ fn widths_of_pens_have_the_same_range() {
         fs::write(folder.path().join("pens.toml"), format!("[1]\nwidth = {width}\n")).unwrap();
         let (status, message) = run(&folder, &["plot", "curve.svg", "--pens", "pens.toml", "-o", "out.svg"]);
         assert_eq!(status == Some(1), is_refused, "{width}: {message}");
-        assert!(!is_refused || message.contains("[1] width must be from 0.01 to 20 mm"), "{width}: {message}");
+        assert!(!is_refused || message.contains("[1] width takes a length from 0.01 to 20 mm"), "{width}: {message}");
     }
 }
 

@@ -27,7 +27,8 @@ const RENAMING: Duration = Duration::from_millis(200);
 
 /// The first signal asks the work to end and ends the process if it goes on; the second ends the process at once.
 pub(super) fn catch() {
-    let caught = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+    let hang_up = Some(SIGHUP).filter(|signal| !is_ignored(*signal));
+    let caught = [SIGINT, SIGTERM].into_iter().chain(hang_up);
     // Without a handler the process just ends, which is also right.
     let Ok(mut signals) = Signals::new(caught) else { return };
     std::thread::spawn(move || {
@@ -44,7 +45,8 @@ pub(super) fn catch() {
     });
 }
 
-/// Whether whoever started us wants a signal ignored, as `nohup` does.
+/// Whether whoever started us wants a signal ignored, as `nohup` wants of SIGHUP. (Shells ignore SIGINT for all that they start in the
+/// background, where nobody meant it for us.)
 fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
