@@ -6,8 +6,9 @@ use super::dash::dashes;
 use super::dot::OVERLAP;
 use super::hatch::hatching;
 use super::needle::{ink_of, needle, pieces};
-use crate::geometry::{Insets, Point, distance_to_segment, resample};
+use crate::geometry::{Insets, Point, Region, Vec2, distance_to_segment, resample};
 use crate::interrupt::Interrupt;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
@@ -28,6 +29,7 @@ const MOST_RING_VERTICES: usize = 2_000_000;
 pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let outermost = insets.grown(-0.5 * nib);
+    let reached = outermost.grown(0.5 * nib);
     let border = closed_rings(outermost.borders());
     let hatched = hatching(insets, &border, nib, pitch, interrupt);
     let ringed = rings(outermost, pitch, interrupt).map(|rings| joined(&rings, 1.5 * pitch, interrupt));
@@ -37,18 +39,57 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
         (_, Some(ringed)) => ringed,
         (None, None) => joined(&[border], 1.5 * pitch, interrupt),
     };
-    let least = LEAST_PART * FRAC_PI_4 * nib * nib;
-    if interrupt.is_raised() {
-        return paths;
-    }
-    let parts = insets.narrow_parts(0.5 * nib).into_iter().flat_map(|part| pieces(part, nib));
-    for (i, part) in parts.filter(|part| ink_of(part) >= least).enumerate() {
-        if interrupt.is_raised() {
-            break;
-        }
-        paths.extend(dashes(&needle(&part, nib), nib, phase + 0.618 * i as f64));
-    }
+    paths.extend(narrow_parts(insets, &reached, nib, phase, interrupt));
     paths
+}
+
+/// What is narrower than the nib, as dashes with its ink.
+fn narrow_parts(insets: &Insets, reached: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
+    let least = LEAST_PART * FRAC_PI_4 * nib * nib;
+    let parts = insets.narrow_parts(0.5 * nib).into_iter().take_while(|_| !interrupt.is_raised());
+    let pieces = parts.flat_map(|part| pieces(part, nib)).filter(|piece| ink_of(piece) >= least);
+    let drawn = pieces.enumerate().flat_map(|(i, piece)| dashes(&needle(&piece, nib), nib, phase + 0.618 * i as f64));
+    let ground = OnceCell::new();
+    drawn.filter(|path| ground.get_or_init(|| Ground::new(insets, reached)).bears(&path.points, nib)).collect()
+}
+
+/// What is to be inked, and what of it is inked already where the nib fits.
+struct Ground {
+    asked: Region,
+    reached: Region,
+}
+
+/// Places across the nib at which its ink is looked at; 5 are right to a tenth.
+const ACROSS: i32 = 5;
+/// Share of a dash on ink that is there already from which it must cover more than it spills. A dash that begins at a wide part's border
+/// has a tenth there; a thread of a net, between two places where the nib fits, a third or more.
+const SHARED: f64 = 0.2;
+
+impl Ground {
+    fn new(asked: &Insets, reached: &Insets) -> Self {
+        // Polygons: nothing is flattened.
+        let region = |insets: &Insets| Region::new(&insets.path(), 1.0);
+        Self { asked: region(asked), reached: region(reached) }
+    }
+
+    /// Whether a dash may be drawn: it stands by itself, or covers more than it spills. Nets' threads beside one another would fill the
+    /// holes else.
+    fn bears(&self, points: &[Point], nib: f64) -> bool {
+        let half = 0.5 * nib;
+        let grid = (-ACROSS..=ACROSS).flat_map(|j| (-ACROSS..=ACROSS).map(move |i| Vec2::new(f64::from(i), f64::from(j))));
+        let under: Vec<Vec2> = grid.map(|v| v * (half / f64::from(ACROSS))).filter(|v| v.hypot() <= half).collect();
+        let middles = if points.len() > 1 { resample(points, half) } else { points.to_vec() };
+        let (mut shared, mut gained, mut all) = (0.0, 0.0, 0.0);
+        for place in middles.iter().flat_map(|p| under.iter().map(|v| *p + *v)) {
+            all += 1.0;
+            if self.reached.contains(place) {
+                shared += 1.0;
+            } else {
+                gained += if self.asked.contains(place) { 1.0 } else { -1.0 };
+            }
+        }
+        shared < SHARED * all || gained > 0.0
+    }
 }
 
 fn cost(paths: &[Toolpath]) -> f64 {
