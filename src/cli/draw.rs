@@ -384,7 +384,7 @@ fn given(options: &PictureOptions) -> Result<Vec<(String, String)>, Failure> {
 }
 
 fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
-    let text = String::from_utf8(output::read(name)?).map_err(|_| Failure::Work(format!("{name} is not UTF-8 text")))?;
+    let text = output::read_settings(name)?;
     let table: toml::Table =
         text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
     table

@@ -5,26 +5,47 @@ use super::failure::Failure;
 use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;
 use super::messages::{self, warning};
+use super::plot::MORE_WORK;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
 use crate::plot::{
     InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, PlotReport, Profile, Toolpath, built_in_names, lower, mount, report,
 };
-use crate::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl, read_svg};
+use crate::read::{Budget, PenLift, Strokes, read_gcode_within, read_hpgl_within, read_svg_within};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
     let shown = if options.file == "-" { "stdin" } else { &options.file };
     let profile = options.profile.as_deref().map(|name| toolpaths::plain_profile(name, &[])).transpose()?;
-    let bytes = output::read(&options.file)?;
-    let text = std::str::from_utf8(&bytes)
+    let mut budget = Budget::of_millions(options.most_work);
+    let bytes = output::read(&options.file, budget.most_bytes(), MORE_WORK)?;
+    let value = if is_encoded(&bytes) {
+        inspect_svg(shown, &bytes, profile.as_ref(), &mut budget)?
+    } else {
+        inspect_text(shown, &bytes, profile, &mut budget)?
+    };
+    if !options.json {
+        return output::to_stdout(in_words(&value).as_bytes());
+    }
+    let mut value = value;
+    value["warnings"] = json!(messages::warnings());
+    output::print_json(&value)
+}
+
+/// Whether a file begins as gzip or UTF-16, which of all that is read only an SVG may be.
+fn is_encoded(bytes: &[u8]) -> bool {
+    matches!(bytes, [0x1f, 0x8b, ..] | [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
+}
+
+fn inspect_text(shown: &str, bytes: &[u8], profile: Option<Profile>, budget: &mut Budget) -> Result<Value, Failure> {
+    let text = std::str::from_utf8(bytes)
         .map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
-    let value = match kind_of(shown, text) {
-        Kind::Svg => inspect_svg(shown, text, profile.as_ref())?,
+    Ok(match kind_of(shown, text) {
+        Kind::Svg => inspect_svg(shown, bytes, profile.as_ref(), budget)?,
         Kind::Hpgl => {
-            let motion = read_hpgl(text).map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
+            let motion = read_hpgl_within(text, budget).map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
             let profile = profile.map_or_else(|| Profile::built_in("hp7475a"), Ok)?;
             if profile.language != Language::Hpgl {
                 return Err(Failure::Usage(format!("{shown} is HP-GL, which {} does not read", profile.name)));
@@ -33,17 +54,11 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
         }
         Kind::Gcode => {
             let profile = profile.map_or_else(|| gcode_profile(text), Ok)?;
-            let motion = gcode_motion(shown, text, &profile)?;
+            let motion = gcode_motion(shown, text, &profile, budget)?;
             inspect_motion("gcode", &motion, &profile)?
         }
         Kind::Unknown => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
-    };
-    if !options.json {
-        return output::to_stdout(in_words(&value).as_bytes());
-    }
-    let mut value = value;
-    value["warnings"] = json!(messages::warnings());
-    output::print_json(&value)
+    })
 }
 
 enum Kind {
@@ -88,20 +103,20 @@ fn gcode_profile(text: &str) -> Result<Profile, Failure> {
 }
 
 /// What the pen does, told by the profile's commands or heights.
-fn gcode_motion(shown: &str, text: &str, profile: &Profile) -> Result<Strokes, Failure> {
+fn gcode_motion(shown: &str, text: &str, profile: &Profile, budget: &mut Budget) -> Result<Strokes, Failure> {
     let dialect = profile
         .gcode
         .as_ref()
         .ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
-    let motion = match (dialect.lift, dialect.height) {
-        (Lift::Height, Some(height)) => read_gcode_heights(text, height.up, height.down),
-        _ => read_gcode(text, dialect.pen_up.as_deref().unwrap_or(""), dialect.pen_down.as_deref().unwrap_or("")),
+    let lift = match (dialect.lift, dialect.height) {
+        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: height.down },
+        _ => PenLift::Commands { up: dialect.pen_up.as_deref().unwrap_or(""), down: dialect.pen_down.as_deref().unwrap_or("") },
     };
-    motion.map_err(|error| Failure::Work(format!("{shown}: {error}")))
+    read_gcode_within(text, &lift, budget).map_err(|error| Failure::Work(format!("{shown}: {error}")))
 }
 
-fn inspect_svg(name: &str, text: &str, profile: Option<&Profile>) -> Result<Value, Failure> {
-    let mut imported = read_svg(text.as_bytes()).map_err(|error| Failure::about(name)(&error))?;
+fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut Budget) -> Result<Value, Failure> {
+    let mut imported = read_svg_within(bytes, budget).map_err(|error| Failure::about(name)(&error))?;
     if let Some(profile) = profile {
         fit_to_machine(&mut imported, profile);
     }

@@ -8,11 +8,26 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// The bytes of a file, or of stdin for `-`.
-pub(super) fn read(name: &str) -> Result<Vec<u8>, Failure> {
+/// Bytes of a TOML file beyond which it is not read: 2000 keys, where a machine's profile has 50. Each key's line is found from the
+/// file's start.
+const MOST_SETTINGS: u64 = 1 << 16;
+
+/// The bytes of a file, or of stdin for `-`, if there are no more than `most`; what never ends is not read to the end. `advice`
+/// goes behind the refusal.
+pub(super) fn read(name: &str, most: u64, advice: &str) -> Result<Vec<u8>, Failure> {
+    let shown = if name == "-" { "stdin" } else { name };
     let mut bytes = Vec::new();
-    open(name)?.read_to_end(&mut bytes).map_err(|error| Failure::Work(format!("{name} cannot be read: {error}")))?;
+    let taken = open(name)?.take(most.saturating_add(1)).read_to_end(&mut bytes);
+    taken.map_err(|error| Failure::Work(format!("{shown} cannot be read: {error}")))?;
+    if bytes.len() as u64 > most {
+        return Err(Failure::Work(format!("{shown} is longer than {most} bytes, the most that is read of it{advice}")));
+    }
     Ok(bytes)
+}
+
+/// The text of a TOML file.
+pub(super) fn read_settings(name: &str) -> Result<String, Failure> {
+    String::from_utf8(read(name, MOST_SETTINGS, "")?).map_err(|_| Failure::Work(format!("{name} is not UTF-8 text")))
 }
 
 /// A reader of a file, or of stdin for `-`.

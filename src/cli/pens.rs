@@ -44,8 +44,7 @@ impl PenSet {
         let mut set = Self { entries: Vec::new(), nibs: Nibs::all(usual), dwell: BTreeMap::new() };
         set.nibs.swell = profile.as_ref().and_then(|profile| profile.swell.clone());
         let Some(file) = file else { return Ok(set) };
-        let text = String::from_utf8(output::read(file)?).map_err(|_| Failure::Work(format!("{file} is not UTF-8 text")))?;
-        set.entries = read_pens(file, &text)?;
+        set.entries = read_pens(file, &output::read_settings(file)?)?;
         if let Some(profile) = profile {
             for entry in &set.entries {
                 if let (Some(offset), Some(slot)) = (entry.offset, entry.fixed_slot()) {

@@ -17,10 +17,13 @@ use super::{advice, foretell_plot, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
 use crate::plot::{Hides, InkModel, Profile, TooMuch, check_work, coverage, lower, occluded};
-use crate::read::{Imported, read_svg};
+use crate::read::{Budget, Imported, read_svg_within};
 use crate::style::Observer;
 use crate::write::SvgHead;
 use serde_json::json;
+
+/// How more of a file is read.
+pub(super) const MORE_WORK: &str = "; --most-work lifts it";
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
@@ -37,11 +40,13 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let watcher = Watcher::new(options.reporting.quiet);
     watcher.begin("reading");
-    let bytes = output::read(&options.drawing)?;
-    let mut imported = read_svg(&bytes).map_err(|error| {
+    let mut budget = Budget::of_millions(options.most_work);
+    let bytes = output::read(&options.drawing, budget.most_bytes(), MORE_WORK)?;
+    let mut imported = read_svg_within(&bytes, &mut budget).map_err(|error| {
         let other = if image::guess_format(&bytes).is_ok() { "; a photograph is drawn with `drypoint draw`" } else { "" };
         Failure::about(shown)(&format_args!("{error}{other}"))
     })?;
+    drop(bytes);
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let model = ink_model(options, &imported);
     let hides = options.occlude.then(|| hides(model));

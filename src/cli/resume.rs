@@ -10,6 +10,8 @@ use crate::resume::{Stop, resume_gcode, resume_hpgl};
 
 /// Plotter units a millimetre, near enough for how much is drawn again.
 const HPGL_UNITS_PER_MM: f64 = 40.0;
+/// A file of many days' drawing, in bytes. Short instructions take thirty times their length in memory.
+const MOST_BYTES: u64 = 1 << 26;
 
 pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
     let stop = match (options.line, options.byte, options.path) {
@@ -19,7 +21,7 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
         _ => return Err(Failure::Usage("say where the machine stopped: --line N, --byte N or --path N".to_owned())),
     };
     let shown = if options.file == "-" { "stdin" } else { &options.file };
-    let text = String::from_utf8(output::read(&options.file)?)
+    let text = String::from_utf8(output::read(&options.file, MOST_BYTES, "")?)
         .map_err(|_| Failure::Work(format!("{shown} is neither HP-GL nor G-code: it is not plain text")))?;
     if is_svg(&text) {
         return Err(Failure::Work(svg_advice(shown, &text)));

@@ -45,9 +45,7 @@ pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Prof
     if !is_file {
         return Ok(Profile::parse_with(name, built_in(name)?, set)?);
     }
-    let text = String::from_utf8(output::read(name)?)
-        .map_err(|_| Failure::Work(format!("{name} is not a profile: it is not UTF-8 text")))?;
-    Profile::parse_with(name, &text, set).map_err(|error| Failure::Work(error.to_string()))
+    Profile::parse_with(name, &output::read_settings(name)?, set).map_err(|error| Failure::Work(error.to_string()))
 }
 
 /// The profile with what the options say of its speeds.

@@ -3,11 +3,11 @@
 use super::polyline::flatten;
 use kurbo::{BezPath, CubicBez, ParamCurve, PathEl, Point, QuadBez, Rect};
 
-/// The closed subpaths of an outline as polygons within a frame; an open one is closed. Winding numbers inside the frame stay. None
-/// when a coordinate is no finite number.
+/// An outline with straight lines in place of what is of no use to a frame. Winding numbers inside the frame stay. None when a
+/// coordinate is no finite number.
 ///
 /// A piece of a curve whose control points all lie beyond one side of the frame is as good as its chord, which lies there too.
-pub fn polygons_within(outline: &BezPath, frame: Rect, tolerance: f64) -> Option<Vec<Vec<Point>>> {
+pub fn tamed(outline: &BezPath, frame: Rect) -> Option<BezPath> {
     let mut tame = Tame { path: BezPath::new(), frame, near: frame.inflate(frame.width(), frame.height()) };
     let mut at = Point::ORIGIN;
     for element in outline.elements() {
@@ -28,8 +28,13 @@ pub fn polygons_within(outline: &BezPath, frame: Rect, tolerance: f64) -> Option
         }
         at = end;
     }
-    let polygons = flatten(&tame.path, tolerance).into_iter().map(|(points, _)| cut(points, frame));
-    Some(polygons.filter(|polygon| polygon.len() > 2).collect())
+    Some(tame.path)
+}
+
+/// The subpaths of an outline that was tamed, as polygons within its frame; an open one is closed.
+pub fn polygons_within(tamed: &BezPath, frame: Rect, tolerance: f64) -> Vec<Vec<Point>> {
+    let polygons = flatten(tamed, tolerance).into_iter().map(|(points, _)| cut(points, frame));
+    polygons.filter(|polygon| polygon.len() > 2).collect()
 }
 
 /// Halvings of a curve beyond which its chord is taken: 1e38, the greatest of single precision, is then as short as the frame.
@@ -97,8 +102,12 @@ mod tests {
 
     const FRAME: Rect = Rect::new(-1000.0, -1000.0, 1000.0, 1000.0);
 
+    fn polygons(outline: &BezPath) -> Vec<Vec<Point>> {
+        polygons_within(&tamed(outline, FRAME).unwrap(), FRAME, 0.005)
+    }
+
     fn area(outline: &BezPath) -> f64 {
-        polygons_within(outline, FRAME, 0.005).unwrap().iter().map(|polygon| polygon_area(polygon)).sum::<f64>().abs()
+        polygons(outline).iter().map(|polygon| polygon_area(polygon)).sum::<f64>().abs()
     }
 
     #[test]
@@ -106,7 +115,7 @@ mod tests {
         for size in [1e4, 1e15, 1e20, 1e38] {
             assert!((area(&Rect::new(-size, -size, size, size).to_path(0.1)) - 4e6).abs() < 1e-3, "square of {size}");
             let circle = Circle::new((0.0, 0.0), size).to_path(1e-3 * size);
-            let points: usize = polygons_within(&circle, FRAME, 0.005).unwrap().iter().map(Vec::len).sum();
+            let points: usize = polygons(&circle).iter().map(Vec::len).sum();
             assert!((area(&circle) - 4e6).abs() < 1e-3 && points < 1000, "circle of {size}: {points} points");
         }
     }
@@ -127,7 +136,7 @@ mod tests {
             let mut path = BezPath::new();
             path.move_to((0.0, 0.0));
             path.curve_to((1.0, endless), (2.0, 2.0), (3.0, 0.0));
-            assert!(polygons_within(&path, FRAME, 0.005).is_none());
+            assert!(tamed(&path, FRAME).is_none());
         }
     }
 }

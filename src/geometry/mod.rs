@@ -28,7 +28,7 @@ pub use apart::Gap;
 pub use arc::{Step, arc_points, fit_arcs, flatten_arc};
 pub use blob::blob;
 pub use blue_noise::blue_noise_order;
-pub use bounded::polygons_within;
+pub use bounded::{polygons_within, tamed};
 pub use clip::{clip_disc, clip_polygon, clip_polyline, half_plane};
 pub use crossings::{Crossings, crossings};
 pub use disc::{disc_area_in, radius_for_area};

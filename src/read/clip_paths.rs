@@ -3,7 +3,8 @@
 use super::budget::{Budget, POINT, TooMuchWork};
 use super::curves::{affine, bez_path, with_closed_subpaths};
 use crate::geometry::{
-    Affine, BezPath, Point, Rect, Region, Winding, crossings, flatten, flattened_points, polygons_within, untangled_polygons,
+    Affine, BezPath, Point, Rect, Region, Winding, crossings, flatten, flattened_points, polygons_within, tamed,
+    untangled_polygons,
 };
 
 /// Flattening where a path must be clipped or dashed, in millimetres.
@@ -110,10 +111,9 @@ fn gather(group: &usvg::Group, own: Affine, shapes: &mut Vec<BezPath>, budget: &
 
 /// An outline's polygons up to [`FARTHEST`].
 fn within_frame(outline: &BezPath, budget: &mut Budget) -> Result<Vec<Vec<Point>>, NoClip> {
-    // A piece that is kept is no longer than three frames, however large the whole.
-    let most = outline.elements().len() as f64 * 4.0 * (3.0 * FARTHEST / CLIP_TOLERANCE).sqrt();
-    budget.spend(POINT * flattened_points(outline, CLIP_TOLERANCE).min(most), "clip paths")?;
-    polygons_within(outline, FRAME, CLIP_TOLERANCE).ok_or(NoClip::Endless)
+    let tamed = tamed(outline, FRAME).ok_or(NoClip::Endless)?;
+    budget.spend(POINT * flattened_points(&tamed, CLIP_TOLERANCE), "clip paths")?;
+    Ok(polygons_within(&tamed, FRAME, CLIP_TOLERANCE))
 }
 
 /// A stroke's curve within a clip path.

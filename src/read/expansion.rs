@@ -389,27 +389,78 @@ fn single(node: Node<'_, '_>) -> f64 {
 
 /// How many segments and subpaths a shape has; none for an element that is no shape.
 fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
+    let longest = |names: [&str; 2]| names.into_iter().filter_map(|name| pixels(node.attribute(name)?)).fold(0.0, f64::max);
     match node.tag_name().name() {
         "path" => Some(segments(node.attribute("d").unwrap_or_default())),
         "polyline" | "polygon" => {
             Some((svgtypes::PointsParser::from(node.attribute("points").unwrap_or_default()).count() as f64, 1.0))
         }
-        "rect" => Some((8.0, 1.0)),
-        "circle" | "ellipse" => Some((5.0, 1.0)),
+        "rect" => Some((4.0 + curves(longest(["rx", "ry"])), 1.0)),
+        "circle" => Some((1.0 + curves(longest(["r", "r"])), 1.0)),
+        "ellipse" => Some((1.0 + curves(longest(["rx", "ry"])), 1.0)),
         "line" => Some((2.0, 1.0)),
         _ => None,
     }
 }
 
-/// Segments and subpaths of path data; an arc becomes four curves at most.
+/// How many curves a whole ellipse becomes, at the tenth of a pixel that usvg asks of kurbo.
+fn curves(radius: f64) -> f64 {
+    (1.1163 * radius.abs() / 0.1).powf(1.0 / 6.0).max(4.0).ceil() + 4.0
+}
+
+/// A length in pixels, or more where that depends on other elements.
+fn pixels(text: &str) -> Option<f64> {
+    use svgtypes::LengthUnit as Unit;
+    let length: svgtypes::Length = text.parse().ok()?;
+    let unit = match length.unit {
+        Unit::None | Unit::Px => 1.0,
+        Unit::In | Unit::Cm | Unit::Mm | Unit::Pt | Unit::Pc => 96.0,
+        Unit::Em | Unit::Ex | Unit::Percent => 1e6,
+    };
+    Some(length.number * unit)
+}
+
+/// Segments and subpaths of path data, its arcs as curves.
 fn segments(data: &str) -> (f64, f64) {
     let (mut segments, mut subpaths) = (0.0, 0.0);
+    // No point so far lies farther out.
+    let mut reach: f64 = 0.0;
     for segment in svgtypes::PathParser::from(data).map_while(Result::ok) {
-        match segment {
-            svgtypes::PathSegment::MoveTo { .. } => subpaths += 1.0,
-            svgtypes::PathSegment::EllipticalArc { .. } => segments += 4.0,
-            _ => segments += 1.0,
-        }
+        let (x, y) = match segment {
+            svgtypes::PathSegment::MoveTo { x, y, .. } => {
+                subpaths += 1.0;
+                (x, y)
+            }
+            svgtypes::PathSegment::EllipticalArc { abs, rx, ry, large_arc, x, y, .. } => {
+                let chord = x.hypot(y) + if abs { reach } else { 0.0 };
+                // Radii that do not reach are stretched until they do.
+                let radius = rx.abs().max(ry.abs()) * (chord / rx.abs().min(ry.abs())).max(1.0);
+                let part = if large_arc { 1.0 } else { (chord / (4.0 * radius)).min(0.5) };
+                segments += 1.0 + (curves(radius) * part).max(0.0);
+                (x, y)
+            }
+            svgtypes::PathSegment::LineTo { x, y, .. }
+            | svgtypes::PathSegment::CurveTo { x, y, .. }
+            | svgtypes::PathSegment::SmoothCurveTo { x, y, .. }
+            | svgtypes::PathSegment::Quadratic { x, y, .. }
+            | svgtypes::PathSegment::SmoothQuadratic { x, y, .. } => {
+                segments += 1.0;
+                (x, y)
+            }
+            svgtypes::PathSegment::HorizontalLineTo { x, .. } => {
+                segments += 1.0;
+                (x, 0.0)
+            }
+            svgtypes::PathSegment::VerticalLineTo { y, .. } => {
+                segments += 1.0;
+                (0.0, y)
+            }
+            svgtypes::PathSegment::ClosePath { .. } => {
+                segments += 1.0;
+                (0.0, 0.0)
+            }
+        };
+        reach += x.abs() + y.abs();
     }
     (segments, subpaths)
 }
@@ -474,7 +525,10 @@ mod tests {
 
     #[test]
     fn path_data_is_counted_as_it_will_be_drawn() {
-        assert_eq!(segments("M0 0 1 1 2 2zM5 5a1 1 0 0 0 1 1h3"), (3.0 + 4.0 + 1.0, 2.0));
+        let (count, subpaths) = segments("M0 0 1 1 2 2zM5 5a1 1 0 0 0 1 1h3");
+        assert!((4.0 + 1.0..4.0 + 8.0).contains(&count) && subpaths == 2.0, "{count}");
+        assert!(segments("M0 0A1e300 1e300 0 1 0 1 1").0 > 1e40 && segments("M0 0A1e9 1e9 0 0 0 1 1").0 < 3.0);
+        assert!(curves(10.0) < 10.0 && curves(1e38) > 1e6);
         assert_eq!(segments("M0 0L1 1 oops L2 2"), (1.0, 1.0));
     }
 }

@@ -10,11 +10,9 @@ pub(super) fn check_gcode(text: &str) -> Result<(), ResumeError> {
         let is_motion = code.trim_start().starts_with(['G', 'g']);
         for word in code.split([' ', '\t', '=']).flat_map(words) {
             let body = word.get(1..).unwrap_or("");
-            let is_sound = match body.parse::<f64>() {
-                Ok(_) => parse_finite(body).is_some(),
-                Err(_) => !is_motion || body.is_empty(),
-            };
-            if !is_sound {
+            let is_endless = |text: &str| text.parse::<f64>().is_ok() && parse_finite(text).is_none();
+            let is_none = is_motion && !body.is_empty() && body.parse::<f64>().is_err();
+            if is_none || is_endless(body) || is_endless(word) {
                 return Err(ResumeError::NotFinite { place: format!("line {}", i + 1), number: word.to_owned() });
             }
         }

@@ -2,7 +2,7 @@
 
 use super::choices::Format;
 use super::toolpaths::ToolpathOptions;
-use super::values::{length_from_zero, nib};
+use super::values::{length_from_zero, nib, work};
 use clap::Args;
 
 /// How to report.
@@ -54,6 +54,9 @@ pub(in crate::cli) struct InspectOptions {
     /// Adds the time on this plotter.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
+    /// How much work the file may ask for, in millions of steps (up to 1000); 12 stay below 2 GB.
+    #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
+    pub most_work: f64,
     /// Print one JSON object on stdout.
     #[arg(long)]
     pub json: bool,

@@ -4,7 +4,7 @@ use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, P
 use super::files::Reporting;
 use super::placing::PlacingOptions;
 use super::values::{
-    drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, scale, seconds, tolerance,
+    drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, scale, seconds, tolerance, work,
 };
 use clap::Args;
 
@@ -128,6 +128,10 @@ pub(in crate::cli) struct PlotOptions {
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
+    /// How much work the drawing may ask for when it is read, in millions of steps (up to 1000): elements with all that is used,
+    /// segments, dashes. 12 stay below 2 GB.
+    #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
+    pub most_work: f64,
     /// Worker threads [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

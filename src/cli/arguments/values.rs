@@ -39,6 +39,12 @@ pub(super) fn length_from_zero(text: &str) -> Result<f64, String> {
     if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
 }
 
+/// Work for reading a file, in millions of steps.
+pub(super) fn work(text: &str) -> Result<f64, String> {
+    let millions = number_above_zero(text).ok().filter(|millions| *millions <= crate::read::MOST_WORK);
+    millions.ok_or_else(|| format!("must be a number of millions above 0, up to {}", crate::read::MOST_WORK))
+}
+
 /// A length of a drawing that is read, in pixels too.
 pub(super) fn drawn_length_from_zero(text: &str) -> Result<f64, String> {
     let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;

@@ -1,0 +1,61 @@
+//! Every command of the README and of `docs/` does what it says, run as written.
+
+use rayon::prelude::*;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The indented commands of a page, their lines joined and their comments gone.
+fn commands(page: &str) -> Vec<String> {
+    let text = fs::read_to_string(root().join(page)).unwrap().replace("\\\n", " ");
+    let indented = text.lines().filter_map(|line| line.strip_prefix("    "));
+    let ours = indented.filter(|line| line.starts_with("drypoint ") || line.contains("| drypoint "));
+    ours.map(|line| line.split(" # ").next().unwrap_or(line).trim().to_owned()).collect()
+}
+
+/// A folder with every file that the pages name.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let copy = |sample: &str, name: &str| fs::copy(root().join("samples").join(sample), folder.path().join(name)).unwrap();
+    for name in ["portrait.jpg", "photo.jpg"] {
+        copy("grace-hopper.jpg", name);
+    }
+    for name in ["mask.png", "eyes.png", "hair.png", "face.png", "mine.png"] {
+        copy("grace-hopper-subject.png", name);
+    }
+    copy("grace-hopper-depth.png", "depth.png");
+    copy("astronaut-cutout.png", "cutout.png");
+    let anything = root().join("tests/data/foreign/inkscape.svg");
+    fs::copy(anything, folder.path().join("anything.svg")).unwrap();
+    fs::write(folder.path().join("my-plotter.toml"), "extends = \"grbl-servo\"\nname = \"my-plotter\"\nscale_x = 1.002\n")
+        .unwrap();
+    std::os::unix::fs::symlink(root().join("samples"), folder.path().join("samples")).unwrap();
+    folder
+}
+
+fn run(folder: &Path, command: &str) -> Result<(), String> {
+    let program = Path::new(env!("CARGO_BIN_EXE_drypoint")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let output =
+        Command::new("bash").current_dir(folder).env("PATH", path).args(["-eo", "pipefail", "-c", command]).output().unwrap();
+    // `head` stops reading early, which is what that recipe is about.
+    if output.status.success() { Ok(()) } else { Err(format!("{command}\n{}", String::from_utf8_lossy(&output.stderr))) }
+}
+
+#[test]
+fn every_command_of_the_pages_runs_as_written() {
+    let pages = ["README.md", "docs/first-plot.md", "docs/calibration.md", "docs/gallery.md"];
+    let all: Vec<String> = pages.into_iter().flat_map(commands).collect();
+    assert!(all.len() > 30, "{all:?}");
+    // What reads another command's file comes after it.
+    let folder = folder();
+    let is_second = |command: &&String| ["drypoint resume", "drypoint inspect"].iter().any(|start| command.starts_with(start));
+    let (second, first): (Vec<&String>, Vec<&String>) = all.iter().partition(is_second);
+    let mut failures: Vec<String> = first.par_iter().filter_map(|command| run(folder.path(), command).err()).collect();
+    failures.extend(second.iter().filter_map(|command| run(folder.path(), command).err()));
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
