@@ -271,7 +271,7 @@ fn a_dry_run_is_turned_and_refused_as_the_drawing_is() {
     for (line, status, words) in [
         ("draw wide.png --profile hp7475a --page a4 --rotate 90 -o o.hpgl --pitch 4", 0, "210.0 x 297.0 mm"),
         ("draw wide.png --profile hp7475a --page a4 --rotate auto --mirror -o o.hpgl --pitch 4", 0, "210.0 x 297.0 mm"),
-        ("draw wide.png --profile hp7475a --size 200x100mm --rotate 90 -o o.hpgl --pitch 4", 0, "100.0 x 200.0 mm"),
+        ("draw wide.png --profile hp7475a --size 160x80mm --rotate 90 -o o.hpgl --pitch 4", 0, "80.0 x 160.0 mm"),
         ("draw wide.png --profile hp7475a --page a4 --at 150,10 -o o.hpgl --pitch 4", 1, "leave --at away"),
         ("plot f.svg --profile hp7475a --page a4 -o o.hpgl", 1, "--rotate 90 --center"),
     ] {

@@ -122,15 +122,17 @@ fn warnings_stand_in_the_json_as_on_stderr() {
 #[test]
 fn the_summary_names_the_files_of_the_layers() {
     let folder = folder();
-    let said =
-        |arguments: &[&str]| text(&run(folder.path(), &[&["draw", "photo.png", "--page", "a6"], arguments].concat()).stderr);
+    let square = |x: u32, y: u32| if (12..36).contains(&x) && (16..48).contains(&y) { 0.02 } else { 0.6 };
+    fs::write(folder.path().join("square.png"), png_of_light(48, 64, square)).unwrap();
+    let draw =
+        |arguments: &[&str]| run(folder.path(), &[&["draw", "square.png", "--page", "a6", "--pitch", "1.2"], arguments].concat());
+    let said = |arguments: &[&str]| text(&draw(arguments).stderr);
     let printed = said(&["-o", "x-{layer}.svg"]);
-    assert!(printed.starts_with("x-dots.svg, x-outline.svg: 105.0 x 148.0 mm"), "{printed}");
-    let machine = said(&["-o", "x-{layer}.gcode", "--profile", "grbl-servo"]);
-    assert!(machine.contains("\nx-dots.gcode: ") && machine.contains("\nx-outline.gcode: "), "{machine}");
-    let both =
-        run(folder.path(), &["draw", "photo.png", "--page", "a6", "-o", "x-{layer}.gcode", "--profile", "grbl-servo", "--json"]);
-    let both: serde_json::Value = serde_json::from_slice(&both.stdout).unwrap();
+    assert!(printed.contains("x-dots.svg, x-outline.svg: 105.0 x 148.0 mm"), "{printed}");
+    let machine = ["-o", "x-{layer}.gcode", "--profile", "grbl-servo"];
+    let plotted = said(&machine);
+    assert!(plotted.contains("\nx-dots.gcode: ") && plotted.contains("\nx-outline.gcode: "), "{plotted}");
+    let both: serde_json::Value = serde_json::from_slice(&draw(&[&machine[..], &["--json"]].concat()).stdout).unwrap();
     assert_eq!(both["files"], serde_json::json!(["x-dots.gcode", "x-outline.gcode"]));
     let pens = both["pens"].as_array().unwrap();
     let sum: f64 = pens.iter().map(|pen| pen["seconds"].as_f64().unwrap()).sum();

@@ -1,9 +1,10 @@
 //! What would bring a drawing onto its machine, in the options of the command that refuses it.
 
-use super::arguments::{DrawOptions, PlotFit, PlotOptions};
+use super::arguments::{DrawOptions, PictureOptions, PlacingOptions, PlotFit, PlotOptions, Rotate};
+use super::draw::Task;
 use super::failure::Failure;
 use super::layout::Layout;
-use crate::plot::{MountingError, Room};
+use crate::plot::{MountingError, Profile, Room};
 
 /// Least part of its scale that a drawing is offered.
 const LEAST_SCALE: f64 = 0.01;
@@ -56,61 +57,58 @@ const fn other_turn(degrees: u32) -> &'static str {
 }
 
 /// A refusal of `draw`.
-pub(super) fn for_draw(failure: Failure, options: &DrawOptions, layout: &Layout) -> Failure {
-    match failure {
-        Failure::Misfit(error @ MountingError::PageTooLarge { .. }) => Failure::Work(if options.picture.page.is_some() {
-            format!("{error}; choose one of them with --page")
-        } else {
-            format!("{error}; choose a --size that one of them holds")
-        }),
-        Failure::Misfit(
-            error @ (MountingError::OutOfReach { room, excess, .. } | MountingError::OffSheet { room, excess, .. }),
-        ) => Failure::Work(format!("{error}: {}, or cut it with --clip", draw_remedy(&room, excess, options, layout))),
-        other => other,
+pub(super) fn for_draw(failure: Failure, options: &DrawOptions, task: &Task<'_>, profile: Option<&Profile>) -> Failure {
+    match (failure, profile) {
+        (Failure::Misfit(error @ MountingError::PageTooLarge { .. }), _) => {
+            let what = if options.picture.page.is_some() {
+                "choose one of them with --page"
+            } else {
+                "choose a --size that one of them holds"
+            };
+            Failure::Work(format!("{error}; {what}"))
+        }
+        (
+            Failure::Misfit(
+                error @ (MountingError::OutOfReach { room, excess, .. } | MountingError::OffSheet { room, excess, .. }),
+            ),
+            Some(profile),
+        ) => {
+            let remedy =
+                draw_remedy(&room, excess, options, &|picture, placing| task.would_fit(picture, placing, profile), &task.layout);
+            Failure::Work(format!("{error}: {remedy}, or cut it with --clip"))
+        }
+        (other, _) => other,
     }
 }
 
-fn draw_remedy(room: &Room, excess: f64, options: &DrawOptions, layout: &Layout) -> String {
-    let has_sheet = options.picture.page.is_some();
-    if options.placing.at.is_some() && room.is_enough() {
+/// Whether a picture with these options would lie where the machine draws.
+type WouldFit<'a> = dyn Fn(&PictureOptions, &PlacingOptions) -> bool + 'a;
+
+fn draw_remedy(room: &Room, excess: f64, options: &DrawOptions, would_fit: &WouldFit<'_>, layout: &Layout) -> String {
+    let (picture, placing) = (&options.picture, &options.placing);
+    if placing.at.is_some() && would_fit(picture, &PlacingOptions { at: None, ..placing.clone() }) {
         return "put it elsewhere with --at, or leave --at away".to_owned();
     }
-    let placed = layout.placed();
-    let limit = if has_sheet { room.free } else { room.reach };
-    let is_too_large = !is_within((placed.width(), placed.height()), limit);
-    let fits_turned = if has_sheet { room.is_enough_across() } else { room.is_enough_turned() };
-    if is_too_large && fits_turned {
+    if would_fit(picture, placing) {
+        // Ink reaches over the picture's box; a sheet of the picture's own size grows with its margin.
+        let margin = (picture.margin.unwrap_or(0.0) + excess).ceil();
+        let what = if picture.page.is_some() { "the picture smaller" } else { "the sheet larger than the drawing" };
+        return format!("--margin {margin}mm makes {what}");
+    }
+    let rotate = if layout.turning.degrees % 180 == 90 { Rotate::None } else { Rotate::Quarter };
+    if would_fit(picture, &PlacingOptions { rotate, ..placing.clone() }) {
         return format!("turned by 90 degrees it would fit, with {}", other_turn(layout.turning.degrees));
     }
-    // A sheet of the picture's own size grows with its margin.
-    let margin = (options.picture.margin.unwrap_or(0.0) + excess).ceil();
-    if !has_sheet && !is_too_large && is_within((room.drawn.0 + margin, room.drawn.1 + margin), room.reach) {
-        return format!("--margin {margin}mm makes the sheet larger than the drawing");
-    }
-    let share = share_that_fits((placed.width(), placed.height()), room.drawn, limit, excess);
-    let (width, height) = ((layout.picture.width() * share).floor(), (layout.picture.height() * share).floor());
-    if width < 1.0 || height < 1.0 {
-        return "choose a larger --page".to_owned();
-    }
-    format!("make it smaller, with --size {width}x{height}mm")
-}
-
-fn is_within(inner: (f64, f64), outer: (f64, f64)) -> bool {
-    inner.0 <= outer.0 && inner.1 <= outer.1
-}
-
-/// How much smaller a picture's box must be so that what is drawn of it stays within limits; ink that reaches over the box does so
-/// at every size.
-fn share_that_fits(picture: (f64, f64), drawn: (f64, f64), limit: (f64, f64), excess: f64) -> f64 {
-    let share = |side: f64, drawn: f64, limit: f64| {
-        let over = (drawn - side).max(0.0);
-        let room = if drawn <= limit { side } else { limit - over };
-        (room / side).clamp(0.0, 1.0)
+    let size = |percent: u32| {
+        let share = f64::from(percent) / 100.0;
+        ((layout.picture.width() * share).floor(), (layout.picture.height() * share).floor())
     };
-    if is_within(drawn, limit) {
-        // It would fit elsewhere, but stays in the middle: what is gained lies half on either side.
-        return (1.0 - 2.0 * excess / picture.0.min(picture.1)).max(0.0);
+    let fits = |percent: &u32| {
+        let size = Some(size(*percent)).filter(|size| size.0 >= 1.0 && size.1 >= 1.0);
+        size.is_some() && would_fit(&PictureOptions { size, ..picture.clone() }, placing)
+    };
+    match (1..100).rev().find(fits).map(size) {
+        Some((width, height)) => format!("make it smaller, with --size {width}x{height}mm"),
+        None => format!("choose a larger --page; {:.1} x {:.1} mm can be drawn on this one", room.free.0, room.free.1),
     }
-    // And a little for rounding.
-    0.999 * share(picture.0, drawn.0, limit.0).min(share(picture.1, drawn.1, limit.1))
 }

@@ -54,7 +54,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let tell = || notice.iter().for_each(|notice| say!("drypoint: {notice}"));
     if options.dry_run {
         let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
-        return told.map_err(|failure| advice::for_draw(failure, options, &task.layout)).inspect(|()| tell());
+        return told.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref())).inspect(|()| tell());
     }
     let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
     let watcher = Watcher::new(options.reporting.quiet);
@@ -73,7 +73,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         }
         let machine = profile.as_ref().map(|profile| (profile, &pens));
         let written = write_one(file, format, machine, options, &head, &watcher);
-        prepared.extend(written.map_err(|failure| advice::for_draw(failure, options, &task.layout))?);
+        prepared.extend(written.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref()))?);
     }
     let seconds = watcher.finish();
     for prepared in &prepared {
@@ -226,6 +226,15 @@ impl<'a> Task<'a> {
         let task = Self { options, style, settings, photograph, masks, depth, layout, given };
         affordable::check(&task)?;
         Ok(task)
+    }
+
+    /// Whether a picture of another size or place, and with it all its ink, would lie where the machine draws.
+    pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
+        let Ok(layout) = lay_out(picture, placing, &self.photograph, reach_of(Some(profile))) else { return false };
+        let (width, height) = layout.sheet();
+        let page = Page { width, height, ..layout.page };
+        let drawable = mount(profile, &page).map(|mounting| mounting.drawable(&page).inflate(0.01, 0.01));
+        drawable.is_ok_and(|drawable| drawable.union(layout.placed()) == drawable)
     }
 
     /// The parameters with another pitch; none when the style has none like that.

@@ -141,7 +141,7 @@ impl<'a> Trials<'a> {
         let visible = uncovered(&drawing, &painting)?;
         let plot = lower(&visible, InkModel::Ink, self.pens.nibs(), options.toolpaths.tolerance, interrupt())?;
         let prepared = toolpaths::prepare(plot, Some(&self.profile), &options.toolpaths, &self.pens)
-            .map_err(|failure| advice::for_draw(failure, &options, &task.layout))?;
+            .map_err(|failure| advice::for_draw(failure, &options, &task, Some(&self.profile)))?;
         Ok(prepared.report.total.seconds.unwrap_or(0.0))
     }
 
