@@ -2,6 +2,11 @@
 
 use super::{Language, Profile};
 
+/// The least and the greatest that a scale, a speed or the like may be, and the farthest place: beyond any machine by a factor of a
+/// thousand, and near enough that all that is reckoned with them is finite and fits on the grid of a file.
+const LEAST: f64 = 1e-6;
+const MOST: f64 = 1e7;
+
 /// A key and what is wrong with its value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Refusal {
@@ -15,12 +20,24 @@ impl Refusal {
     }
 }
 
+/// Refuses what is not above 0, or beyond all measure.
+pub(super) fn above_zero(key: &str, value: f64) -> Result<(), Refusal> {
+    if (LEAST..=MOST).contains(&value) {
+        return Ok(());
+    }
+    let is_in_sight = value.is_finite() && value > 0.0;
+    Err(Refusal::new(key, if is_in_sight { "must be from 0.000001 to 10000000" } else { "must be above 0" }))
+}
+
+/// Whether places and heights are near enough to be reckoned with.
+pub(super) fn are_near(places: &[f64]) -> bool {
+    places.iter().all(|place| place.abs() <= MOST)
+}
+
 impl Profile {
     pub(super) fn check(&self) -> Result<(), Refusal> {
         for (key, value) in [("units_per_mm", self.units_per_mm), ("scale_x", self.scale_x), ("scale_y", self.scale_y)] {
-            if !value.is_finite() || value <= 0.0 {
-                return Err(Refusal::new(key, "must be above 0"));
-            }
+            above_zero(key, value)?;
         }
         for (key, scale) in [("scale_x", self.scale_x), ("scale_y", self.scale_y)] {
             if !(0.8..=1.25).contains(&scale) {
@@ -58,6 +75,9 @@ impl Profile {
     }
 
     fn check_park(&self, [x, y]: [f64; 2]) -> Result<(), Refusal> {
+        if !are_near(&[x, y]) {
+            return Err(Refusal::new("gcode.park", "must be two numbers up to 10000000"));
+        }
         let is_within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
         if self.area.is_some_and(|area| !is_within(area.x, x) || !is_within(area.y, y)) {
             return Err(Refusal::new("gcode.park", "must lie in the area"));

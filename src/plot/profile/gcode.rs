@@ -1,6 +1,6 @@
 //! How G-code is written for one machine.
 
-use super::check::Refusal;
+use super::check::{Refusal, above_zero, are_near};
 use serde::Deserialize;
 
 /// G-code for one machine.
@@ -103,13 +103,14 @@ impl GcodeDialect {
                 Err(Refusal::new("gcode.pen_up", "must differ from gcode.pen_down"))
             }
             (Lift::Height, None) => Err(Refusal::new("gcode.height", "is missing, and the pen is lifted by its height")),
-            (Lift::Height, Some(z)) if !z.up.is_finite() || !z.down.is_finite() || (z.up - z.down).abs() < 0.05 => {
+            (Lift::Height, Some(z)) if !are_near(&[z.up, z.down]) => {
+                Err(Refusal::new("gcode.height.up", "and gcode.height.down must be numbers up to 10000000"))
+            }
+            (Lift::Height, Some(z)) if (z.up - z.down).abs() < 0.05 => {
                 Err(Refusal::new("gcode.height.up", "must differ from gcode.height.down by 0.05 mm or more"))
             }
-            (Lift::Height, Some(z)) if !z.plunge_speed.is_finite() || z.plunge_speed <= 0.0 => {
-                Err(Refusal::new("gcode.height.plunge_speed", "must be above 0"))
-            }
-            (Lift::Command, _) | (Lift::Height, Some(_)) => Ok(()),
+            (Lift::Height, Some(z)) => above_zero("gcode.height.plunge_speed", z.plunge_speed),
+            (Lift::Command, _) => Ok(()),
         }
     }
 

@@ -1,6 +1,6 @@
 //! How HP-GL is written for one machine, and SVG for a machine whose own program reads it.
 
-use super::check::Refusal;
+use super::check::{Refusal, above_zero};
 use serde::Deserialize;
 
 /// HP-GL for one machine.
@@ -57,9 +57,6 @@ pub struct SvgDialect {
 
 impl SvgDialect {
     pub(super) fn check(self) -> Result<(), Refusal> {
-        if self.speed_of_percent.is_finite() && self.speed_of_percent > 0.0 {
-            return Ok(());
-        }
-        Err(Refusal::new("svg.speed_of_percent", "must be above 0"))
+        above_zero("svg.speed_of_percent", self.speed_of_percent)
     }
 }

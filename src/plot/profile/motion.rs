@@ -1,6 +1,6 @@
 //! How fast a machine moves, and how it plans.
 
-use super::check::Refusal;
+use super::check::{Refusal, above_zero};
 use serde::Deserialize;
 
 /// Speeds and times.
@@ -121,9 +121,7 @@ impl Motion {
             ("motion.junction_deviation", self.junction_deviation.unwrap_or(1.0)),
             ("motion.corner_factor", self.corner_factor.unwrap_or(1.0)),
         ] {
-            if !value.is_finite() || value <= 0.0 {
-                return Err(Refusal::new(key, "must be above 0"));
-            }
+            above_zero(key, value)?;
         }
         if self.junction_deviation.is_some() == self.corner_factor.is_some() {
             return Err(Refusal::new("motion.junction_deviation", "or motion.corner_factor must be given, and not both"));
@@ -164,14 +162,10 @@ impl Planner {
             ("motion.planner.axis_acceleration", self.axis_acceleration),
             ("motion.planner.steps_per_mm", self.steps_per_mm),
         ] {
-            if values.into_iter().flatten().any(|value| !value.is_finite() || value <= 0.0) {
-                return Err(Refusal::new(key, "must be above 0 for x, y and z"));
-            }
+            values.into_iter().flatten().try_for_each(|value| above_zero(key, value))?;
         }
         for (key, value) in [("motion.planner.z_speed", self.z_speed), ("motion.planner.z_acceleration", self.z_acceleration)] {
-            if value.is_some_and(|value| !value.is_finite() || value <= 0.0) {
-                return Err(Refusal::new(key, "must be above 0"));
-            }
+            value.into_iter().try_for_each(|value| above_zero(key, value))?;
         }
         let has_axes = self.axis_speed.is_some() || self.axis_acceleration.is_some();
         if self.limits == Limits::Path && (has_axes || self.z_speed.is_some() || self.z_acceleration.is_some()) {

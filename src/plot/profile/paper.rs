@@ -1,6 +1,6 @@
 //! Where a sheet lies: papers, the machine's reach, its axes.
 
-use super::check::Refusal;
+use super::check::{Refusal, above_zero, are_near};
 use crate::geometry::{Point, Vec2};
 use serde::Deserialize;
 
@@ -31,14 +31,12 @@ impl Paper {
     pub(super) fn check(&self) -> Result<(), Refusal> {
         let key = |last: &str| format!("paper.{}.{last}", self.name);
         for (last, side) in [("width", self.width), ("height", self.height)] {
-            if !side.is_finite() || side <= 0.0 {
-                return Err(Refusal::new(&key(last), "must be above 0"));
-            }
+            above_zero(&key(last), side)?;
         }
         check_range(&key("x"), self.x)?;
         check_range(&key("y"), self.y)?;
-        if !self.zero.iter().all(|v| v.is_finite()) {
-            return Err(Refusal::new(&key("zero"), "must be two numbers"));
+        if !are_near(&self.zero) {
+            return Err(Refusal::new(&key("zero"), "must be two numbers up to 10000000"));
         }
         let is_within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
         if self.park.is_some_and(|[x, y]| !is_within(self.x, x) || !is_within(self.y, y)) {
@@ -66,7 +64,10 @@ impl Area {
 }
 
 fn check_range(key: &str, [low, high]: [f64; 2]) -> Result<(), Refusal> {
-    if low.is_finite() && high.is_finite() && low < high {
+    if !are_near(&[low, high]) {
+        return Err(Refusal::new(key, "must be two numbers up to 10000000"));
+    }
+    if low < high {
         return Ok(());
     }
     Err(Refusal::new(key, "needs its lower limit first"))

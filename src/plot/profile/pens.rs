@@ -1,6 +1,6 @@
 //! Pens, how they are changed, and how high each width of line needs them.
 
-use super::check::Refusal;
+use super::check::{Refusal, above_zero, are_near};
 use serde::Deserialize;
 
 /// Pens and how they are changed.
@@ -49,10 +49,7 @@ impl Pens {
         if !(0.0..=60.0).contains(&self.change_seconds) {
             return Err(Refusal::new("pens.change_seconds", "must be from 0 to 60 seconds"));
         }
-        if self.pen_life.is_some_and(|metres| !metres.is_finite() || metres <= 0.0) {
-            return Err(Refusal::new("pens.pen_life", "must be above 0"));
-        }
-        Ok(())
+        self.pen_life.into_iter().try_for_each(|metres| above_zero("pens.pen_life", metres))
     }
 }
 
@@ -62,7 +59,7 @@ impl PenSlot {
             let key = format!("pen.{}.offset", self.slot);
             return Err(Refusal::new(&key, "must be at most 100 mm, and slots count from 1"));
         }
-        Ok(())
+        self.pen_life.into_iter().try_for_each(|metres| above_zero(&format!("pen.{}.pen_life", self.slot), metres))
     }
 }
 
@@ -77,7 +74,7 @@ pub struct Swell {
 impl Swell {
     pub(super) fn check(&self) -> Result<(), Refusal> {
         let grows = self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-        if self.table.len() < 2 || !grows || self.table.iter().flatten().any(|v| !v.is_finite()) {
+        if self.table.len() < 2 || !grows || !are_near(self.table.as_flattened()) {
             return Err(Refusal::new("swell.table", "must hold two or more pairs of width and height, widths growing"));
         }
         Ok(())

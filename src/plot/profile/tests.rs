@@ -45,6 +45,35 @@ fn a_wrong_profile_says_file_line_and_key() {
 }
 
 #[test]
+fn numbers_beyond_all_measure_are_refused() {
+    for (machine, key) in [
+        ("grbl-servo", "units_per_mm"),
+        ("grbl-servo", "motion.draw_speed"),
+        ("grbl-servo", "motion.acceleration"),
+        ("grbl-z", "gcode.height.plunge_speed"),
+        ("grbl-z", "motion.planner.z_speed"),
+        ("hp7475a", "paper.a4.width"),
+        ("hp7475a", "pens.pen_life"),
+        ("hp7475a", "pen.2.pen_life"),
+        ("axidraw-v3", "svg.speed_of_percent"),
+    ] {
+        for value in ["1e300", "1e-300", "inf", "nan", "-1"] {
+            let said = message(built_in(machine).unwrap(), &[(key, value)]);
+            assert!(said.starts_with(&format!("--set-profile: {key} must be ")), "{key} = {value}: {said}");
+        }
+    }
+    for (machine, key, value) in [
+        ("grbl-servo", "area.x", "[0, 1e300]"),
+        ("grbl-servo", "gcode.park", "[0, nan]"),
+        ("grbl-z", "gcode.height.up", "1e300"),
+        ("hp7475a", "paper.a4.zero", "[-1e300, 0]"),
+    ] {
+        let said = message(built_in(machine).unwrap(), &[(key, value)]);
+        assert!(said.starts_with(&format!("--set-profile: {key}")) && said.contains("number"), "{key} = {value}: {said}");
+    }
+}
+
+#[test]
 fn a_file_changes_one_key_and_keeps_the_others() {
     let base = Profile::built_in("hp7475a").unwrap();
     let text = "extends = \"hp7475a\"\nname = \"mine\"\nscale_x = 1.002\n[[pen]]\nslot = 2\noffset = [0.1, -0.2]\n\
