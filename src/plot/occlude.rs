@@ -24,6 +24,16 @@ pub enum Hides {
 
 /// The drawing without what is hidden. `painting` names every mark once, the lowest first; marks that it does not name are hidden.
 pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides) -> Drawing {
+    occluded_where(drawing, painting, hides, |_, _| true)
+}
+
+/// The same of those marks alone, by layer and number, that are wanted; the others hide them and are left out.
+pub fn occluded_where(
+    drawing: &Drawing,
+    painting: &[Painted],
+    hides: Hides,
+    is_wanted: impl Fn(usize, usize) -> bool,
+) -> Drawing {
     let mut covers = Covers::new(drawing);
     let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
     for painted in painting.iter().rev() {
@@ -34,7 +44,9 @@ pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides) -> Drawin
                     continue;
                 };
                 let colour = the_mark.colour().unwrap_or(layer_of.ink.colour());
-                left[layer].push((mark, covers.visible(the_mark, colour, hides)));
+                if is_wanted(layer, mark) {
+                    left[layer].push((mark, covers.visible(the_mark, colour, hides)));
+                }
                 let is_cover = match hides {
                     Hides::OtherColours => true,
                     Hides::AllLines => !matches!(the_mark, Mark::Stroke(_)),
