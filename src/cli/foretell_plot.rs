@@ -21,17 +21,17 @@ use super::output;
 use super::pens::PenSet;
 use super::plot::{choose_layers, count_fills, hides, place, reach_of};
 use super::toolpaths::{self, LONG_HOURS, duration};
-use crate::drawing::{Dot, Layer, Mark, Painted};
+use crate::drawing::{Dot, Layer, Mark};
 use crate::geometry::{Point, Rect};
-use crate::plot::{InkModel, Profile, lower, occluded};
+use crate::plot::{InkModel, Profile, lower, occluded_where};
 use crate::read::Imported;
-use kurbo::Shape;
 use serde_json::json;
 
-/// Marks that are plotted at most: as lines, with their ink, and where what is hidden is cut away.
+/// Strokes that are plotted at most, as lines and with their ink.
 const MOST_LINES: f64 = 40_000.0;
 const MOST_INKED: f64 = 6000.0;
-const MOST_OCCLUDED: f64 = 700.0;
+/// For how many strokes a mark counts that what hides it is cut out of.
+const CUT_WORK: f64 = 5.0;
 /// For how many strokes an area counts that is filled, and each nib of its width once more: discs of 0.6 mm and a nib of 0.3 mm take a
 /// millisecond, ten times as large ones fifteen.
 const AREA_WORK: f64 = 6.0;
@@ -39,8 +39,6 @@ const AREA_WORK: f64 = 6.0;
 const CELLS: f64 = 4.0;
 /// Share of the drawing's longer side from which a mark is large.
 const LARGE: f64 = 1.0 / 8.0;
-/// How much wider than a window that is where marks may hide what lies in it.
-const COVER_REACH: f64 = 1.5;
 
 /// Reports the estimate and writes nothing.
 pub(super) fn dry_run(
@@ -103,17 +101,10 @@ pub(super) fn dry_run(
     Ok(())
 }
 
-fn most(options: &PlotOptions, model: InkModel) -> f64 {
-    match model {
-        _ if options.occlude => MOST_OCCLUDED,
-        InkModel::Ink => MOST_INKED,
-        InkModel::Lines => MOST_LINES,
-    }
-}
-
-/// How many marks' work a mark is.
+/// How many strokes' work a mark is.
 fn work(mark: &Mark, bounds: Rect, options: &PlotOptions, model: InkModel) -> f64 {
-    match mark {
+    let cut = if options.occlude { CUT_WORK } else { 0.0 };
+    cut + match mark {
         Mark::Area(_) if model == InkModel::Ink => {
             AREA_WORK * (1.0 + 0.5 * bounds.width().min(bounds.height()) * options.scale.unwrap_or(1.0) / options.pen)
         }
@@ -153,12 +144,13 @@ fn strata(imported: &Imported, options: &PlotOptions, model: InkModel) -> Result
     let placed = chosen.drawing().bounding_box().unwrap_or(bounds);
     let all = Stratum { bounds, placed, kind: Kind::All, weight: 1.0 };
     let small: Vec<(Rect, f64)> = marks.iter().copied().filter(|mark| !is_large(mark.0, bounds)).collect();
-    let (work, most) = (small.iter().map(|mark| mark.1).sum::<f64>(), most(options, model));
+    let most = if model == InkModel::Ink || options.occlude { MOST_INKED } else { MOST_LINES };
+    let work: f64 = small.iter().map(|mark| mark.1).sum();
     if work <= most {
         return Ok(vec![all]);
     }
     let windows = Stratum { kind: Kind::Windows((most / work).sqrt()), ..all };
-    let held = small.iter().filter(|mark| windows.holds(mark.0, 1.0)).count();
+    let held = small.iter().filter(|mark| windows.holds(mark.0)).count();
     if held == 0 {
         return Ok(vec![all]);
     }
@@ -170,18 +162,17 @@ fn is_large(mark: Rect, bounds: Rect) -> bool {
 }
 
 impl Stratum {
-    /// Whether a mark belongs to it, its windows so many times as wide.
-    fn holds(&self, mark: Rect, wider: f64) -> bool {
+    /// Whether a mark of this box belongs to it.
+    fn holds(&self, mark: Rect) -> bool {
         match self.kind {
             Kind::All => true,
             Kind::Large => is_large(mark, self.bounds),
             Kind::Windows(side) => {
                 let off_middle = |at: f64, low: f64, extent: f64| ((at - low) / extent.max(1e-9) * CELLS).fract() - 0.5;
                 let p = mark.center();
-                let reach = 0.5 * side * wider;
                 !is_large(mark, self.bounds)
-                    && off_middle(p.x, self.bounds.x0, self.bounds.width()).abs() <= reach
-                    && off_middle(p.y, self.bounds.y0, self.bounds.height()).abs() <= reach
+                    && off_middle(p.x, self.bounds.x0, self.bounds.width()).abs() <= 0.5 * side
+                    && off_middle(p.y, self.bounds.y0, self.bounds.height()).abs() <= 0.5 * side
             }
         }
     }
@@ -190,22 +181,11 @@ impl Stratum {
     fn of(&self, imported: &Imported, options: &PlotOptions, model: InkModel) -> Result<Imported, Failure> {
         let mut part = imported.clone();
         if options.occlude {
-            let is_near = |painted: &&Painted| match painted {
-                Painted::White(outline) => self.kind != Kind::Large || is_large(outline.bounding_box(), self.bounds),
-                Painted::Mark { layer, mark } => {
-                    let mark = imported.layers[*layer].layer.marks[*mark].bounding_box();
-                    is_large(mark, self.bounds) || self.holds(mark, COVER_REACH)
-                }
-            };
-            let painting: Vec<Painted> = imported.painting.iter().filter(is_near).cloned().collect();
-            let seen = occluded(&imported.drawing(), &painting, hides(model), interrupt())?;
-            for (layer, seen) in part.layers.iter_mut().zip(seen.layers) {
-                layer.layer = seen;
-            }
-        }
-        let is_cut = options.occlude && self.kind == Kind::Large;
-        for layer in &mut part.layers {
-            layer.layer.marks.retain(|mark| is_cut || self.holds(mark.bounding_box(), 1.0));
+            let is_wanted = |layer: usize, mark: usize| self.holds(imported.layers[layer].layer.marks[mark].bounding_box());
+            let seen = occluded_where(&imported.drawing(), &imported.painting, hides(model), is_wanted, interrupt())?;
+            part.layers.iter_mut().zip(seen.layers).for_each(|(layer, seen)| layer.layer = seen);
+        } else {
+            part.layers.iter_mut().for_each(|layer| layer.layer.marks.retain(|mark| self.holds(mark.bounding_box())));
         }
         Ok(part)
     }

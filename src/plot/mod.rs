@@ -25,7 +25,7 @@ pub use drying::let_dry;
 pub use errands::{add_registration, pause_every, rest_touches};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Room, Turn, clip_to, mount};
-pub use occlude::{Hides, occluded};
+pub use occlude::{Hides, occluded, occluded_where};
 pub use order::{Direction, Effort, PathEnds, Stop, Visit, chain, drop_duplicates, order, order_stops, pen_up_length};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
 pub use profile::{

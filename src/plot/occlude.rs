@@ -27,6 +27,17 @@ pub enum Hides {
 /// The drawing without what is hidden. What is left of paint lies under no other colour, so that it needs no order and belongs to no
 /// group any more ([`Hides::PaintOnOtherColours`]). `painting` names every mark once, the lowest first; marks that it does not name are hidden.
 pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides, interrupt: &Interrupt) -> Result<Drawing, Interrupted> {
+    occluded_where(drawing, painting, hides, |_, _| true, interrupt)
+}
+
+/// The same of those marks alone, by layer and number, that are wanted; the others hide them and are left out.
+pub fn occluded_where(
+    drawing: &Drawing,
+    painting: &[Painted],
+    hides: Hides,
+    is_wanted: impl Fn(usize, usize) -> bool,
+    interrupt: &Interrupt,
+) -> Result<Drawing, Interrupted> {
     let mut covers = Covers::new(drawing);
     let is_paint = hides == Hides::PaintOnOtherColours;
     let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
@@ -39,11 +50,13 @@ pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides, interrupt
                     continue;
                 };
                 let colour = the_mark.colour().unwrap_or(layer_of.ink.colour());
-                let mut visible = covers.visible(the_mark, colour, hides, interrupt);
-                if is_paint && layer_of.mixing == Mixing::Paint {
-                    visible.iter_mut().for_each(ungroup);
+                if is_wanted(layer, mark) {
+                    let mut visible = covers.visible(the_mark, colour, hides, interrupt);
+                    if is_paint && layer_of.mixing == Mixing::Paint {
+                        visible.iter_mut().for_each(ungroup);
+                    }
+                    left[layer].push((mark, visible));
                 }
-                left[layer].push((mark, visible));
                 let is_cover = match hides {
                     Hides::OtherColours => true,
                     Hides::AllLines => !matches!(the_mark, Mark::Stroke(_)),
