@@ -30,12 +30,12 @@ pub(super) struct PlotAmounts {
 
 impl Amounts {
     pub(super) fn of(drawing: &Drawing, plot: Option<PlotAmounts>) -> Self {
-        let layers = drawing.layers.iter().map(|layer| LayerAmounts {
+        let layers = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink_mm2)| LayerAmounts {
             name: layer.name.clone(),
             pen: layer.pen,
             ink: layer.ink.to_string(),
             counts: layer.counts().map(|count| count as f64),
-            ink_mm2: layer.ink_mm2(),
+            ink_mm2,
         });
         Self { layers: layers.collect(), plot }
     }

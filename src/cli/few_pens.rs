@@ -15,6 +15,8 @@ const MOST_CHANGES: u32 = 12;
 const MOST_CANDIDATES: usize = 128;
 /// Colours that a message names; more says nothing to anyone.
 const MOST_NAMED: usize = 40;
+/// Of more, the first few.
+const FEW_NAMED: usize = 6;
 
 /// A drawing whose layers have their pens.
 pub(super) struct HandedOut {
@@ -152,7 +154,8 @@ fn told(count: usize, profile: &Profile, palette: &[Colour], became: &[BTreeSet<
 }
 
 fn named(colours: &[Colour]) -> String {
-    let names: Vec<String> = colours.iter().take(MOST_NAMED).map(Colour::to_string).collect();
-    let more = colours.len().saturating_sub(MOST_NAMED);
+    let shown = if colours.len() > MOST_NAMED { FEW_NAMED } else { colours.len() };
+    let names: Vec<String> = colours.iter().take(shown).map(Colour::to_string).collect();
+    let more = colours.len() - shown;
     names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
