@@ -625,7 +625,15 @@ fn shaved_bust(shade: (f64, f64), gleam: f64) -> Vec<u8> {
         hair.enumerate_pixels().filter(|(.., v)| v.0[0] > 127).fold((u32::MAX, 0), |(l, r), (x, ..)| (l.min(x), r.max(x)));
     let top = in_face().map(|(_, y, _)| y).min().unwrap();
     let (width, middle) = (f64::from(right - left), 0.5 * f64::from(left + right));
-    for (x, y, _) in hair.enumerate_pixels().filter(|(.., v)| v.0[0] > 60) {
+    // With the single strands that hang out of the mask.
+    let is_near = |x: u32, y: u32| {
+        let step = |v: u32, by: i64, most: u32| (i64::from(v) + by).clamp(0, i64::from(most) - 1) as u32;
+        let reach = [-14, -7, 0, 7, 14_i64];
+        reach
+            .iter()
+            .any(|dx| reach.iter().any(|dy| hair.get_pixel(step(x, *dx, hair.width()), step(y, *dy, hair.height())).0[0] > 60))
+    };
+    for (x, y, _) in hair.enumerate_pixels().filter(|(x, y, _)| is_near(*x, *y)) {
         let across = (f64::from(x) - f64::from(left)) / width;
         let away = (f64::from(x) - middle).hypot(f64::from(y) - f64::from(top)) / (0.22 * width);
         let share = shade.0 + (shade.1 - shade.0) * across + gleam * (-away * away).exp();

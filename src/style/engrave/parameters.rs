@@ -171,7 +171,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 1000.0 },
         meaning: "from one dash to the next along a line that is interrupted",
         source: "Galarza 4.1",
-        needs: &[NOT_STIPPLED, Need::AnyOf(&[&[Need::Above("thinnest", 0.0)], &[Need::Word("look", &["engraving"])]])],
+        needs: &[NOT_STIPPLED, Need::AnyOf(&[&[Need::Word("look", &["engraving"])], &[Need::Above("thinnest", 0.0)]])],
     },
     Parameter {
         name: "cut_out",
@@ -185,7 +185,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Length { default: Default::Pitches(0.12), least: 0.0, most: 50.0 },
         meaning: "diameter of the smallest dot; what asks for less has fewer dots",
         source: "",
-        needs: &[Need::AnyOf(&[&[Need::Above("thinnest", 0.0)], &[Need::Word("look", &["engraving", "stipple"])]])],
+        needs: &[],
     },
     Parameter {
         name: "ground",

@@ -33,13 +33,17 @@ impl Drawer<'_> {
         curves.extend(silhouette);
         let border = distance_to_curves(&curves, placement.columns, placement.rows)
             .map_or_else(|| labels.map(|_| NO_BORDER), |field| field.distance.map(|d| d * scale));
+        // A single region has no neighbour to run into.
+        let overlap = if angles.len() > 1 { self.parameters.overlap } else { 0.0 };
         let regions = bounds_of(&labels, angles.len() as i32)
             .into_iter()
             .zip(&angles)
             .enumerate()
-            .filter_map(|(i, (bounds, angle))| Some(Region { label: i as i32 + 1, angle: *angle, bounds: self.on_page(bounds?) }))
+            .filter_map(|(i, (bounds, angle))| {
+                Some(Region { label: i as i32 + 1, angle: *angle, bounds: self.on_page(bounds?, overlap) })
+            })
             .collect();
-        let (overlap, gap) = (self.parameters.overlap, self.parameters.min_gap + 2.0 * FIT_ROOM);
+        let gap = self.parameters.min_gap + 2.0 * FIT_ROOM;
         let near = 0.5 * self.parameters.width_max + gap;
         let displacement = relief.nearness.map(|nearness| (self.parameters.displacement * f64::from(nearness)) as f32);
         Ground { grid: Grid::new(placement), labels, border, regions, angles, displacement, overlap, gap, near }
@@ -90,11 +94,11 @@ impl Drawer<'_> {
     }
 
     /// A rectangle of working pixels on the page, with a pixel and the overlap around it.
-    fn on_page(&self, pixels: Rect) -> Rect {
+    fn on_page(&self, pixels: Rect, overlap: f64) -> Rect {
         let placement = &self.portrait.placement;
         let wide = pixels.inflate(1.0, 1.0);
         Rect::from_points(placement.to_page((wide.x0, wide.y0).into()), placement.to_page((wide.x1, wide.y1).into()))
-            .inflate(self.parameters.overlap, self.parameters.overlap)
+            .inflate(overlap, overlap)
     }
 }
 

@@ -8,8 +8,6 @@ const PIXELS_PER_PITCH: f64 = 6.0;
 /// Least pixels in a lane of a detail region: with fewer, rows break up (errata).
 const LEAST_LANE_PIXELS: f64 = 4.0;
 
-/// Lines are of use only to rows or to the outline.
-const LINES_COUNT: Need = Need::AnyOf(&[&[Need::Above("flow_rounds", 0.0)], &[Need::Word("outline", &["on"])]]);
 /// Weights compare edges with isophotes.
 const BOTH_STEER: Need = Need::AnyOf(&[&[Need::Above("isophotes", 0.0)], &[Need::With(MaskRole::Isophotes)]]);
 
@@ -55,7 +53,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Choice(&["coherent", "canny"]),
         meaning: "how edges are found: coherent lines along the edges' flow, drawn as wide as they are, or Canny's detector",
         source: "Bruehl 2.1 and 4.3.1; Kang et al. 2007",
-        needs: &[Need::Without(MaskRole::Edges), LINES_COUNT],
+        needs: &[Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "line_width",
@@ -63,42 +61,42 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Length { default: Default::Pitches(0.2), least: 0.01, most: 10.0 },
         meaning: "with lines=coherent: how fine the lines are that are looked for, standard deviation across them",
         source: "Kang et al. 2007, sigma_c",
-        needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges), LINES_COUNT],
+        needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "line_contrast",
         kind: Kind::Number { default: 0.07, least: 0.0, most: 1.0 },
         meaning: "with lines=coherent: difference of lightness across a line below which it does not count",
         source: "",
-        needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges), LINES_COUNT],
+        needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_blur",
         kind: Kind::Length { default: Default::Pitches(0.4), least: 0.0, most: 50.0 },
         meaning: "with lines=canny: blur before edges are sought; larger finds only the great forms",
         source: "Bruehl 2.1",
-        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges), LINES_COUNT],
+        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_high",
         kind: Kind::Number { default: 0.30, least: 0.0, most: 5.0 },
         meaning: "with lines=canny: an edge needs somewhere this change of lightness (0 to 1) a pitch",
         source: "Bruehl 2.1, maxVal",
-        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges), LINES_COUNT],
+        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_low",
         kind: Kind::Number { default: 0.12, least: 0.0, most: 5.0 },
         meaning: "with lines=canny: an edge ends where the change a pitch falls below this",
         source: "Bruehl 2.1, minVal",
-        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges), LINES_COUNT],
+        needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_length",
         kind: Kind::Length { default: Default::Pitches(8.0), least: 0.0, most: 1000.0 },
         meaning: "edges shorter than this do not steer the dots",
         source: "Bruehl 2.1.1, threshold",
-        needs: &[Need::AnyOf(&[&[Need::Without(MaskRole::Edges)], &[Need::Without(MaskRole::Isophotes)]]), LINES_COUNT],
+        needs: &[Need::AnyOf(&[&[Need::Without(MaskRole::Edges)], &[Need::Without(MaskRole::Isophotes)]])],
     },
     Parameter {
         name: "smoothing",
@@ -114,7 +112,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         source: "Bruehl 2.2",
         needs: &[Need::AnyOf(&[
             &[Need::Word("highlights", &["on"])],
-            &[Need::Above("isophotes", 0.0), Need::Without(MaskRole::Isophotes), Need::Above("flow_rounds", 0.0)],
+            &[Need::Above("isophotes", 0.0), Need::Without(MaskRole::Isophotes)],
         ])],
     },
     Parameter {
@@ -122,21 +120,21 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         kind: Kind::Count { default: 3, least: 0, most: 63 },
         meaning: "how many of the lightest steps are outlined by isophotes; 0 for none",
         source: "Bruehl 2.2, t",
-        needs: &[Need::Without(MaskRole::Isophotes), Need::Above("flow_rounds", 0.0)],
+        needs: &[Need::Without(MaskRole::Isophotes)],
     },
     Parameter {
         name: "edge_weight",
         kind: Kind::Number { default: 1.0, least: 0.01, most: 100.0 },
         meaning: "how far edges rule against isophotes",
         source: "Bruehl 3.1.2, w_e",
-        needs: &[BOTH_STEER, Need::Above("flow_rounds", 0.0)],
+        needs: &[BOTH_STEER],
     },
     Parameter {
         name: "isophote_weight",
         kind: Kind::Number { default: 2.0, least: 0.01, most: 100.0 },
         meaning: "how far isophotes rule against edges",
         source: "Bruehl 3.1.2, w_i",
-        needs: &[BOTH_STEER, Need::Above("flow_rounds", 0.0)],
+        needs: &[BOTH_STEER],
     },
     Parameter {
         name: "flow_reach",
