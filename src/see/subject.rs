@@ -25,6 +25,10 @@ const REACH: f64 = 0.01;
 const LEAST_REACH: usize = 4;
 /// Its `eps`, values 0 to 1: edges of a hundredth count.
 const EPS: f64 = 1e-4;
+/// The network's doubt: up to the first it is background, from the second person, smooth between. The flags beside heads, shadows on
+/// walls and blurred lights of sixteen portraits lie between 0.3 and 0.8; from 0.5 to 1 a dark jacket on a dark ground goes with them
+/// (intersection over union on the astronaut: 0.970 without, 0.972 with 0.4 and 0.9, 0.969 with 0.5 and 1).
+const DOUBT: [f32; 2] = [0.4, 0.9];
 /// What is at least so much person hangs together.
 const SOLID: u8 = 89;
 /// Pixels round it that are kept for the soft edge.
@@ -68,7 +72,11 @@ impl Head {
 /// How much of each pixel of the view belongs to a person whose face was found, 0 to 255.
 pub(super) fn subject(network: &Network, view: &View, faces: &[Vec<[f64; 3]>]) -> Result<Raster<u8>, SeeError> {
     let heads: Vec<Head> = faces.iter().map(|points| Head::new(points)).collect();
-    let coarse = with_ovals(&looks(network, view, &heads)?, view, &heads);
+    let decided = looks(network, view, &heads)?.map(|v| {
+        let t = ((v - DOUBT[0]) / (DOUBT[1] - DOUBT[0])).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    });
+    let coarse = with_ovals(&decided, view, &heads);
     let (width, height) = (view.pixels.width(), view.pixels.height());
     let guide = view.pixels.map(|colour| colour.map(|v| f32::from(v) / 255.0));
     let radius = ((REACH * width.max(height) as f64) as usize).max(LEAST_REACH);
