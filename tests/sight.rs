@@ -5,6 +5,7 @@ mod common;
 use assert_cmd::Command;
 use common::{png_of_light, sample};
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
+#[cfg(feature = "see")]
 use serde_json::Value;
 use std::fs;
 use std::io::Cursor;

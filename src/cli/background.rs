@@ -10,30 +10,44 @@ use crate::see::{SeeError, can_see, look};
 use crate::source::{MaskRole, Photograph};
 use crate::style::Style;
 
-/// The subject found in the photograph, where it is wanted and none is given, and what to tell the user.
+/// What was decided.
+#[derive(Default)]
+pub(super) struct Decision {
+    /// The subject found in the photograph, where it is wanted and none is given.
+    pub found: Option<RoleMask>,
+    /// What the user is told of it, and how to have the other.
+    pub notice: Option<String>,
+}
+
+/// Looks at the photograph if that decides.
 pub(super) fn decide(
     options: &PictureOptions,
     style: &dyn Style,
     photograph: &Photograph,
     has_subject: bool,
-) -> Result<(Option<RoleMask>, Option<String>), Failure> {
+) -> Result<Decision, Failure> {
     let is_wanted = match options.background {
         Background::Auto => style.leaves_out_background(),
         Background::Keep => false,
         Background::None => true,
     };
     if !is_wanted || has_subject || photograph.is_cut_out() {
-        return Ok((None, None));
+        return Ok(Decision::default());
     }
-    let reason = if options.sight.is_some() {
-        "there is no subject.png in --sight".to_owned()
-    } else if can_see() {
-        match found(options, photograph)? {
-            Ok(found) => return Ok(found),
-            Err(reason) => reason,
-        }
-    } else {
+    let reason = if let Some(folder) = &options.sight {
+        format!("there is no subject.png in {folder}")
+    } else if !can_see() {
         "this drypoint was built without the networks that find faces (cargo feature `see`)".to_owned()
+    } else {
+        let sight = look(photograph, interrupt()).map_err(|error| failure(&options.photo, error))?;
+        if let Some(subject) = &sight.subject {
+            let faces = counted(sight.faces.len(), "face");
+            return Ok(Decision {
+                found: Some(RoleMask { role: MaskRole::Subject, file: None, mask: Photograph::from_grey(subject) }),
+                notice: Some(format!("background left out: {faces} found; --background keep draws it")),
+            });
+        }
+        "no face found".to_owned()
     };
     if options.background == Background::None {
         return Err(Failure::Work(format!(
@@ -41,20 +55,7 @@ pub(super) fn decide(
             options.photo
         )));
     }
-    Ok((None, Some(format!("background drawn: {reason}; --mask subject=FILE leaves it out"))))
-}
-
-/// The people found, or why there are none.
-#[allow(clippy::type_complexity)]
-fn found(
-    options: &PictureOptions,
-    photograph: &Photograph,
-) -> Result<Result<(Option<RoleMask>, Option<String>), String>, Failure> {
-    let sight = look(photograph, interrupt()).map_err(|error| failure(&options.photo, error))?;
-    let Some(subject) = &sight.subject else { return Ok(Err("no face found".to_owned())) };
-    let mask = RoleMask { role: MaskRole::Subject, file: None, mask: Photograph::from_grey(subject) };
-    let notice = format!("background left out: {} found; --background keep draws it", counted(sight.faces.len(), "face"));
-    Ok(Ok((Some(mask), Some(notice))))
+    Ok(Decision { found: None, notice: Some(format!("background drawn: {reason}; --mask subject=FILE leaves it out")) })
 }
 
 /// What a photograph that could not be looked at means.

@@ -253,12 +253,13 @@ impl<'a> Task<'a> {
             masks.extend(seen);
         }
         let has_subject = masks.iter().any(|mask| mask.role == MaskRole::Subject);
-        let (found, background) = background::decide(options, style, &photograph, has_subject)?;
-        masks.extend(found);
+        let background = background::decide(options, style, &photograph, has_subject)?;
+        masks.extend(background.found);
         let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
         let layout = lay_out(options, placing, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
+        let background = background.notice;
         let task = Self { options, style, settings, photograph, masks, background, depth, layout, given };
         affordable::check(&task)?;
         Ok(task)

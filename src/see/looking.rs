@@ -17,11 +17,11 @@ use std::f64::consts::FRAC_PI_2;
 /// Longer side in pixels of what is looked at, and of the masks that are found: a face that fills a fifth of it still has the 200
 /// pixels that the mesh takes, and a mask's edge is fine enough for a picture of 170 mm at the usual pitch.
 const LONGEST: f64 = 1024.0;
-/// A face of fewer pixels in the view is looked at closer, if the photograph has more.
-const ENOUGH: f64 = 400.0;
+/// A face of fewer pixels in the view is looked at closer, if the photograph has more: the mesh and the irises take 128 for a face.
+const ENOUGH: f64 = 160.0;
 /// Longer side of such a closer view, which shows so many longer sides of the face's box.
 const CLOSER: f64 = 640.0;
-const ROUND_A_FACE: f64 = 2.4;
+const ROUND_A_FACE: f64 = 3.0;
 /// Least width of a face in pixels of the photograph; smaller ones give no drawing and are found in foliage.
 const LEAST_FACE: f64 = 20.0;
 /// How sure the mesh must be that it lies on a face, as far as the detector's gate leaves doubt.
