@@ -9,6 +9,7 @@
 //! | module | in | out |
 //! |---|---|---|
 //! | [`source`] | bytes of an image | [`source::Portrait`]: light, tone, masks at a style's working resolution |
+//! | [`see`] | a photograph | [`see::Sight`]: faces, their points, the person without the background |
 //! | [`raster`] | rasters | rasters: filters that know of nothing else |
 //! | [`field`] | rasters, curves | edges, isophotes, distances, lanes, Voronoi cells, traced lines |
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
@@ -56,6 +57,7 @@ pub mod press;
 pub mod raster;
 pub mod read;
 pub mod resume;
+pub mod see;
 pub mod source;
 pub mod style;
 pub mod write;

@@ -9,6 +9,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("drawing", &["geometry"]),
     ("source", &["raster", "geometry", "drawing"]),
+    ("see", &["source", "raster", "geometry"]),
     ("field", &["raster", "geometry"]),
     ("style", &["field", "raster", "drawing", "geometry", "source"]),
     ("press", &["drawing", "geometry"]),

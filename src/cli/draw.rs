@@ -2,7 +2,8 @@
 
 use super::advice;
 use super::affordable;
-use super::arguments::{DrawOptions, Format, PictureOptions, PlacingOptions, Tone};
+use super::arguments::{Background, DrawOptions, Format, PictureOptions, PlacingOptions, Tone};
+use super::background;
 use super::dry_run;
 use super::failure::Failure;
 use super::forewarn;
@@ -15,6 +16,7 @@ use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
+use super::sight_folder;
 use super::toolpaths::{self, Prepared};
 use super::words::counted;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
@@ -53,6 +55,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let notice = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
     let tell = || notice.iter().for_each(|notice| say!("drypoint: {notice}"));
     if options.dry_run {
+        task.tell_background(options.reporting.quiet);
         let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
         return told.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref())).inspect(|()| tell());
     }
@@ -81,6 +84,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     }
     max_time::warn_if_longer(&prepared, options.max_time);
     tell();
+    task.tell_background(options.reporting.quiet);
     report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
 }
 
@@ -172,13 +176,38 @@ fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
 /// Pitches across the short side of a picture below which no advice leads: of a face on fewer there is nothing left.
 const LEAST_PITCHES: f64 = 25.0;
 
+/// A mask of the photograph.
+pub(super) struct RoleMask {
+    pub role: MaskRole,
+    /// Its file; none when it was found in the photograph.
+    pub file: Option<String>,
+    pub mask: Photograph,
+}
+
+impl RoleMask {
+    /// The name of its role on the command line.
+    fn name(&self) -> &'static str {
+        MaskRole::ALL.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name)
+    }
+
+    /// Where it comes from.
+    fn recipe(&self) -> Value {
+        match &self.file {
+            Some(file) => json!({ "file": file_name(file), "sha256": self.mask.info.sha256 }),
+            None => json!({ "found": true }),
+        }
+    }
+}
+
 /// Everything that decides a drawing.
 pub(super) struct Task<'a> {
     options: &'a PictureOptions,
     pub style: &'static dyn Style,
     pub settings: Settings,
     photograph: Photograph,
-    masks: Vec<(MaskRole, String, Photograph)>,
+    masks: Vec<RoleMask>,
+    /// What was decided about the background, for the user.
+    pub background: Option<String>,
     depth: Option<(String, Photograph)>,
     pub layout: Layout,
     /// The parameters that were given.
@@ -215,15 +244,25 @@ impl<'a> Task<'a> {
             return Err(Failure::Usage(format!("--depth: {} has no use for a depth map; it is for {able}", style.name())));
         }
         let photograph = photograph(&options.photo)?;
-        let masks = mask_files
+        let painted = mask_files
             .into_iter()
-            .map(|(role, file)| Ok((role, file.to_owned(), self::photograph(file)?)))
-            .collect::<Result<_, Failure>>()?;
+            .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: self::photograph(file)? }));
+        let mut masks: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
+        if let Some(folder) = &options.sight {
+            let is_wanted = |role| role != MaskRole::Subject || options.background != Background::Keep;
+            let missing = |role| is_wanted(role) && masks.iter().all(|mask| mask.role != role);
+            let seen = sight_folder::masks(folder, style, missing)?;
+            masks.extend(seen);
+        }
+        let has_subject = masks.iter().any(|mask| mask.role == MaskRole::Subject);
+        let background = background::decide(options, style, &photograph, has_subject)?;
+        masks.extend(background.found);
         let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
         let layout = lay_out(options, placing, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
-        let task = Self { options, style, settings, photograph, masks, depth, layout, given };
+        let background = background.notice;
+        let task = Self { options, style, settings, photograph, masks, background, depth, layout, given };
         affordable::check(&task)?;
         Ok(task)
     }
@@ -235,6 +274,13 @@ impl<'a> Task<'a> {
         let page = Page { width, height, ..layout.page };
         let drawable = mount(profile, &page).map(|mounting| mounting.drawable(&page).inflate(0.01, 0.01));
         drawable.is_ok_and(|drawable| drawable.union(layout.placed()) == drawable)
+    }
+
+    /// Says what was decided about the background, when the work is done: a failure has one message.
+    pub(super) fn tell_background(&self, is_quiet: bool) {
+        if let Some(background) = self.background.as_ref().filter(|_| !is_quiet) {
+            say!("drypoint: {background}");
+        }
     }
 
     /// The parameters with another pitch; none when the style has none like that.
@@ -259,14 +305,14 @@ impl<'a> Task<'a> {
     /// What drawing a picture takes; its photographs are in memory already.
     pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
         let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
-        let others = self.masks.iter().map(|(.., mask)| mask).chain(self.depth.iter().map(|(_, depth)| depth));
+        let others = self.masks.iter().map(|mask| &mask.mask).chain(self.depth.iter().map(|(_, depth)| depth));
         let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
         Cost { bytes: cost.bytes + photographs as f64, ..cost }
     }
 
     /// Working pixels a millimetre.
     pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
-        let roles: Vec<MaskRole> = self.masks.iter().map(|(role, ..)| *role).collect();
+        let roles: Vec<MaskRole> = self.masks.iter().map(|mask| mask.role).collect();
         self.style.resolution(settings, &roles, picture)
     }
 
@@ -302,7 +348,8 @@ impl<'a> Task<'a> {
         };
         let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
             .map_err(about(&self.options.photo))?;
-        for (role, name, mask) in &self.masks {
+        for RoleMask { role, file, mask } in &self.masks {
+            let name = file.as_deref().unwrap_or(&self.options.photo);
             portrait.add_mask(*role, mask, &self.photograph, self.layout.crop).map_err(about(name))?;
         }
         if let Some((name, depth)) = &self.depth {
@@ -316,13 +363,8 @@ impl<'a> Task<'a> {
     fn recipe(&self, options: &DrawOptions) -> Value {
         let set: serde_json::Map<String, Value> =
             self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
-        let masks: serde_json::Map<String, Value> = self
-            .options
-            .mask
-            .iter()
-            .zip(&self.masks)
-            .map(|((role, _), (_, name, mask))| (role.clone(), json!({ "file": file_name(name), "sha256": mask.info.sha256 })))
-            .collect();
+        let masks: serde_json::Map<String, Value> =
+            self.masks.iter().map(|mask| (mask.name().to_owned(), mask.recipe())).collect();
         let picture = self.options;
         let (sheet, placed) = (self.layout.sheet(), self.layout.placed());
         let depth = self.depth.as_ref().map(
@@ -409,7 +451,7 @@ fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
         .collect()
 }
 
-fn photograph(name: &str) -> Result<Photograph, Failure> {
+pub(super) fn photograph(name: &str) -> Result<Photograph, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
     Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
         let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));

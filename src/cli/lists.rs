@@ -27,7 +27,7 @@ pub(super) fn styles_with_role(name: &str) -> impl Iterator<Item = &'static dyn 
 pub(super) fn mask_roles() -> String {
     let styles: Vec<String> = STYLES.iter().map(|style| format!("{} takes {}", style.name(), role_names(*style))).collect();
     format!(
-        "A region, white inside, on the photograph's pixel grid, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
+        "A region, white inside, of the photograph's proportions, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
          --mask hair=hair.png; once for each role. Of the styles, {}; `drypoint styles NAME` says what each role is",
         styles.join("; ")
     )

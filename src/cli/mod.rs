@@ -4,6 +4,7 @@ mod advice;
 mod affordable;
 mod amounts;
 mod arguments;
+mod background;
 mod calibrate;
 mod claims;
 mod draw;
@@ -22,6 +23,7 @@ mod lists;
 mod max_time;
 mod messages;
 mod output;
+mod overlay;
 mod pen_file;
 mod pens;
 mod placing;
@@ -29,6 +31,8 @@ mod plot;
 mod progress;
 mod resume;
 mod scale_to_time;
+mod see;
+mod sight_folder;
 mod stages;
 mod toolpaths;
 mod words;
@@ -64,6 +68,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Draw(options) => draw::run(&options),
         Command::Plot(options) => plot::run(&options),
         Command::Stages(options) => stages::run(&options),
+        Command::See(options) => see::run(&options),
         Command::Inspect(options) => inspect::run(&options),
         Command::Resume(options) => resume::run(&options),
         Command::Calibrate(options) => calibrate::run(&options),

@@ -33,6 +33,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
         return Err(failure);
     }
     drawn?;
+    task.tell_background(options.quiet);
     if !options.quiet {
         say!("{folder}: {} of {}", counted(taken.count, "stage"), task.style.name());
     }
@@ -91,7 +92,8 @@ fn svg(name: &str, drawing: &Drawing, title: &str) -> Result<(), Failure> {
     output::write(name, |mut out| write_svg(drawing, &head, &mut out))
 }
 
-fn png(name: &str, picture: &image::DynamicImage) -> Result<(), Failure> {
+/// Writes a picture as PNG.
+pub(super) fn png(name: &str, picture: &image::DynamicImage) -> Result<(), Failure> {
     let mut bytes = Cursor::new(Vec::new());
     picture.write_to(&mut bytes, ImageFormat::Png).map_err(|error| Failure::Work(format!("{name}: {error}")))?;
     output::write(name, |out| out.write_all(bytes.get_ref()))

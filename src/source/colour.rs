@@ -5,6 +5,11 @@ pub fn srgb_to_linear(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
+/// The sRGB encoding (0 to 1) of linear light (0 to 1), IEC 61966-2-1.
+pub fn linear_to_srgb(light: f32) -> f32 {
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
+
 /// Luminance Y (0 to 1) of linear sRGB.
 pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
@@ -24,6 +29,7 @@ mod tests {
     #[test]
     fn known_values() {
         assert!((srgb_to_linear(0.5) - 0.214_041).abs() < 1e-5);
+        assert!((0..=255).map(|v| v as f32 / 255.0).all(|v| (linear_to_srgb(srgb_to_linear(v)) - v).abs() < 1e-5));
         assert!((lightness(0.184_187) - 0.5).abs() < 1e-4);
         assert!((lightness(1.0) - 1.0).abs() < 1e-6);
         assert!(lightness(0.0).abs() < 1e-4);

@@ -58,9 +58,9 @@ pub enum SourceError {
     /// A colour profile that cannot be used.
     #[error("has a colour profile that cannot be used ({0}); convert the picture to sRGB first")]
     Profile(String),
-    /// A mask or depth map on another pixel grid.
+    /// A mask or depth map of other proportions.
     #[error(
-        "is {width} x {height} px, but the photograph is {expected_width} x {expected_height} px; a mask needs the photograph's pixel grid (after its EXIF turn)"
+        "is {width} x {height} px, but the photograph is {expected_width} x {expected_height} px; a mask needs the photograph's proportions (after its EXIF turn), at any size"
     )]
     OtherSize {
         /// Columns of the mask.

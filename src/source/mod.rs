@@ -1,19 +1,20 @@
 //! From bytes to a [`Portrait`]: decoding, orientation, colour management, alpha, resampling, tone.
 //!
 //! In: a reader with an image file of any supported kind. Out: a [`Photograph`] (the file's pixels, upright), and from it a
-//! [`Portrait`] at the working resolution that a style asks for. Nothing here opens files or knows of styles.
+//! [`Portrait`] at the working resolution that a style asks for, or its sRGB bytes at any smaller size. Nothing here opens files or knows of styles.
 
 mod cmyk;
 mod colour;
 mod decode;
 mod depth;
+mod encoded;
 mod error;
 mod jpeg;
 mod linear;
 mod portrait;
 mod scribbles;
 
-pub use colour::{lightness, luminance, srgb_to_linear};
+pub use colour::{lightness, linear_to_srgb, luminance, srgb_to_linear};
 pub use decode::{Limits, Photograph, SourceInfo};
 pub use depth::DepthSense;
 pub use error::SourceError;

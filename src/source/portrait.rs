@@ -16,6 +16,8 @@ use std::collections::BTreeMap;
 
 /// Working pixels beyond which a page is refused whatever draws it; a style takes 80 to 500 bytes for each, and says beforehand.
 const WORK_LIMIT: u64 = 60_000_000;
+/// How far the proportions of a mask may be from the photograph's; a thumbnail of 50 pixels is rounded by as much.
+const MOST_DISTORTION: f64 = 0.03;
 /// Rows of the working raster resampled at a time.
 const BAND: usize = 64;
 
@@ -204,7 +206,7 @@ impl Portrait {
         target: ToneTarget,
         curve: ToneCurve,
     ) -> Result<Self, SourceError> {
-        let planes = resample(photograph, crop, placement)?;
+        let planes = resample(photograph, crop.within(photograph)?, placement)?;
         let unit = |v: f32| v.clamp(0.0, 1.0);
         let light = planes.map(|[r, g, b, _]| [unit(r), unit(g), unit(b)]);
         let subject = planes.map(|[_, _, _, alpha]| unit(alpha));
@@ -228,7 +230,7 @@ impl Portrait {
         })
     }
 
-    /// Adds a mask, resampled alike; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
+    /// Adds a mask, resampled alike, on the photograph's pixel grid or one of the same proportions; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
     /// replaces the photograph's alpha.
     pub fn add_mask(
         &mut self,
@@ -237,9 +239,9 @@ impl Portrait {
         photograph: &Photograph,
         crop: Crop,
     ) -> Result<(), SourceError> {
-        check_grid(mask, photograph)?;
+        let crop = crop_on_grid(mask, photograph, crop.within(photograph)?)?;
         if role == MaskRole::Scribbles {
-            self.scribbles = Some(Scribbles::read(mask, crop.within(mask)?, self.placement)?);
+            self.scribbles = Some(Scribbles::read(mask, crop, self.placement)?);
             return Ok(());
         }
         let planes = resample(mask, crop, self.placement)?;
@@ -258,7 +260,7 @@ impl Portrait {
         Ok(())
     }
 
-    /// Adds a depth map, resampled alike.
+    /// Adds a depth map, resampled alike, on the photograph's pixel grid or one of the same proportions.
     pub fn add_depth(
         &mut self,
         depth: &Photograph,
@@ -266,8 +268,8 @@ impl Portrait {
         photograph: &Photograph,
         crop: Crop,
     ) -> Result<(), SourceError> {
-        check_grid(depth, photograph)?;
-        self.depth = Some(read_depth(depth, sense, crop.within(depth)?, self.placement));
+        let crop = crop_on_grid(depth, photograph, crop.within(photograph)?)?;
+        self.depth = Some(read_depth(depth, sense, crop, self.placement));
         Ok(())
     }
 
@@ -282,22 +284,43 @@ impl Portrait {
     }
 }
 
-fn check_grid(mask: &Photograph, photograph: &Photograph) -> Result<(), SourceError> {
-    if (mask.width(), mask.height()) == (photograph.width(), photograph.height()) {
-        return Ok(());
+/// The photograph's crop on the pixel grid of a mask or depth map: the same grid, or one of the same proportions, larger or smaller.
+fn crop_on_grid(mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<Crop, SourceError> {
+    let [w, h, width, height] = [mask.width(), mask.height(), photograph.width(), photograph.height()].map(f64::from);
+    // What lies across: none for the same proportions, up to a pixel of the mask after a program has rounded its sides.
+    let across = (w * height - h * width).abs();
+    if across > width.max(height) || across > MOST_DISTORTION * w * height {
+        return Err(SourceError::OtherSize {
+            width: mask.width(),
+            height: mask.height(),
+            expected_width: photograph.width(),
+            expected_height: photograph.height(),
+        });
     }
-    Err(SourceError::OtherSize {
-        width: mask.width(),
-        height: mask.height(),
-        expected_width: photograph.width(),
-        expected_height: photograph.height(),
-    })
+    let (x, y) = (w / width, h / height);
+    Ok(Crop { x: crop.x * x, y: crop.y * y, width: crop.width * x, height: crop.height * y })
 }
 
 /// Linear light on white, and alpha, at the working resolution; in bands, so that memory does not grow with the photograph.
 fn resample(photograph: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<[f32; 4]>, SourceError> {
-    let crop = crop.within(photograph)?;
-    let (columns, rows) = (placement.columns, placement.rows);
+    resample_by(photograph, inside(crop, photograph), (placement.columns, placement.rows), FilterType::Lanczos3)
+}
+
+/// The part of a crop that lies inside a photograph, however little: a mask may have fewer pixels than the photograph.
+fn inside(crop: Crop, photograph: &Photograph) -> Crop {
+    let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
+    let (x, y) = (crop.x.clamp(0.0, width), crop.y.clamp(0.0, height));
+    Crop { x, y, width: crop.width.min(width - x), height: crop.height.min(height - y) }
+}
+
+/// Linear light on white, and alpha, of a crop inside the photograph at another size, by one of the filters that reach three pixels
+/// or less.
+pub(super) fn resample_by(
+    photograph: &Photograph,
+    crop: Crop,
+    (columns, rows): (usize, usize),
+    filter: FilterType,
+) -> Result<Raster<[f32; 4]>, SourceError> {
     let pixels = columns as u64 * rows as u64;
     if pixels > WORK_LIMIT {
         return Err(SourceError::WorkTooLarge { pixels, limit: WORK_LIMIT });
@@ -314,19 +337,25 @@ fn resample(photograph: &Photograph, crop: Crop, placement: Placement) -> Result
             let end_source = ((bottom + reach).ceil() as u32).min(photograph.height());
             let source = photograph.lineariser.rows(&photograph.pixels, first_source, end_source - first_source);
             let window = Rect::new(crop.x, top - f64::from(first_source), crop.x + crop.width, bottom - f64::from(first_source));
-            resize_band(&source, photograph.width(), window, columns, last - first)
+            resize_band(&source, photograph.width(), window, (columns, last - first), filter)
         })
         .collect();
     Ok(Raster::from_vec(columns, rows, bands.concat()))
 }
 
-fn resize_band(source: &[[f32; 4]], width: u32, window: Rect, columns: usize, rows: usize) -> Vec<[f32; 4]> {
+fn resize_band(
+    source: &[[f32; 4]],
+    width: u32,
+    window: Rect,
+    (columns, rows): (usize, usize),
+    filter: FilterType,
+) -> Vec<[f32; 4]> {
     let pixels: Vec<F32x4> = source.iter().map(|&p| F32x4::new(p)).collect();
     let height = (pixels.len() / width as usize) as u32;
     let view = TypedImageRef::new(width, height, &pixels).expect("the band fills its rows");
     let mut band = TypedImage::<F32x4>::new(columns as u32, rows as u32);
     let options = ResizeOptions::new()
-        .resize_alg(ResizeAlg::Convolution(FilterType::Lanczos3))
+        .resize_alg(ResizeAlg::Convolution(filter))
         .crop(window.x0, window.y0, window.width(), window.height().min(f64::from(height) - window.y0))
         .use_alpha(false);
     Resizer::new().resize_typed(&view, &mut band, &options).expect("the window lies inside the band");

@@ -42,6 +42,10 @@ pub trait Style: Sync {
     fn uses_depth(&self) -> bool {
         false
     }
+    /// Whether what is behind a person is left out when nobody says otherwise: newspapers print heads on bare paper.
+    fn leaves_out_background(&self) -> bool {
+        false
+    }
     /// Working pixels a millimetre, given the masks at hand.
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
     /// Working pixels a millimetre for a picture of this size on the page; for most styles the size does not matter.

@@ -19,6 +19,16 @@ pub(in crate::cli) enum PlotFit {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Background {
+    /// Left out by hedcut, grid and engrave where a face is found, else drawn.
+    Auto,
+    /// Drawn, unless a mask or the photograph's alpha leaves it out.
+    Keep,
+    /// Left out in every style.
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Tone {
     /// CIE L*/100.
     Lightness,

@@ -1,6 +1,6 @@
 //! Options of `draw` and `stages`: the photograph, its sheet and its style.
 
-use super::choices::{Fit, Format, Tone};
+use super::choices::{Background, Fit, Format, Tone};
 use super::files::Reporting;
 use super::placing::PlacingOptions;
 use super::toolpaths::ToolpathOptions;
@@ -47,7 +47,14 @@ pub(in crate::cli) struct PictureOptions {
     pub pitch: Option<f64>,
     #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
-    /// Depth map of 8 or 16 bits on the photograph's pixel grid: white is near, 0 is unknown or background.
+    /// Use what `drypoint see` wrote into this folder, edited or not: its PNGs are the masks of their roles, except for roles given
+    /// with --mask.
+    #[arg(long, value_name = "DIR")]
+    pub sight: Option<String>,
+    /// What is behind the person.
+    #[arg(long, value_enum, default_value_t = Background::Auto)]
+    pub background: Background,
+    /// Depth map of 8 or 16 bits, of the photograph's proportions: white is near, 0 is unknown or background.
     #[arg(long, value_name = "FILE")]
     pub depth: Option<String>,
     /// In the depth map white is far.
@@ -135,4 +142,19 @@ pub(in crate::cli) struct StagesOptions {
     /// No progress and no summary; warnings and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct SeeOptions {
+    /// The photograph: JPEG, PNG, WebP, TIFF, BMP or GIF; `-` for stdin.
+    pub photo: String,
+    /// The folder to write sight.json, subject.png and overlay.png into; it is made if need be, and what an earlier `see` wrote there
+    /// is replaced.
+    #[arg(long, short, value_name = "DIR", required_unless_present = "json")]
+    pub output: Option<PathBuf>,
+    /// Worker threads [default: all cores]; the bytes written do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub reporting: Reporting,
 }

@@ -61,6 +61,9 @@ pub(super) enum Command {
     Plot(PlotOptions),
     /// Write every intermediate result of a style, numbered and named, as PNG or SVG.
     Stages(StagesOptions),
+    /// Say what is found in a photograph, faces and the person without the background, and write it as PNG and JSON for
+    /// `draw --sight`.
+    See(SeeOptions),
     /// Say what is in a drawing: sheet, layers, pens, marks, lengths, time.
     Inspect(InspectOptions),
     /// Write the rest of a plotter's file from where the machine stopped: state, pen and position restored.

@@ -64,6 +64,10 @@ impl Style for Engrave {
         true
     }
 
+    fn leaves_out_background(&self) -> bool {
+        true
+    }
+
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
         parameters::PIXELS_PER_PITCH / settings.number("pitch")
     }

@@ -47,6 +47,10 @@ impl Style for Grid {
         &[MaskRole::Subject, MaskRole::Edges, MaskRole::Isophotes]
     }
 
+    fn leaves_out_background(&self) -> bool {
+        true
+    }
+
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
         PIXELS_PER_PITCH / settings.number("pitch")
     }

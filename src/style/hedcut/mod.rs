@@ -42,6 +42,10 @@ impl Style for Hedcut {
         &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes]
     }
 
+    fn leaves_out_background(&self) -> bool {
+        true
+    }
+
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
         Hedcutting::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
     }

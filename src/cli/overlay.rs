@@ -1,0 +1,83 @@
+//! What was found, drawn over the photograph, to look at.
+
+use crate::geometry::{Point, resample};
+use crate::raster::Raster;
+use crate::see::{Face, Sight, outlines};
+use crate::source::{Crop, Photograph, SourceError};
+use image::{Rgb, RgbImage};
+
+/// Longer side of the overlay, at most: enough for eyes, and no burden for viewers.
+const LONGEST: f64 = 1600.0;
+/// The colour that lies over what is not subject, and how much of the photograph shows through it.
+const BACKGROUND: [f32; 3] = [20.0, 160.0, 60.0];
+const SHOWS: f32 = 0.25;
+/// Half the width of a line, in longer sides of the overlay.
+const LINE: f64 = 0.0008;
+
+/// The photograph with its background veiled and the lines of each face.
+pub(super) fn overlay(sight: &Sight, photograph: &Photograph) -> Result<RgbImage, SourceError> {
+    let scale = (LONGEST / f64::from(sight.width.max(sight.height))).min(1.0);
+    let [columns, rows] = [sight.width, sight.height].map(|side| (f64::from(side) * scale).round().max(1.0) as usize);
+    let mut pixels = photograph.encoded(Crop::all(photograph), columns, rows)?;
+    if let Some(subject) = &sight.subject {
+        let subject = subject.map(|v| f32::from(v) / 255.0);
+        let (x_step, y_step) = (subject.width() as f64 / columns as f64, subject.height() as f64 / rows as f64);
+        pixels = Raster::from_fn(columns, rows, |x, y| {
+            let inside = subject.sample((x as f64 + 0.5) * x_step, (y as f64 + 0.5) * y_step);
+            let shows = inside + (1.0 - inside) * SHOWS;
+            let colour = pixels.get(x, y);
+            [0, 1, 2].map(|k| (shows * f32::from(colour[k]) + (1.0 - shows) * BACKGROUND[k]).round() as u8)
+        });
+    }
+    for face in &sight.faces {
+        draw_face(&mut pixels, face, scale);
+    }
+    Ok(RgbImage::from_fn(columns as u32, rows as u32, |x, y| Rgb(pixels.get(x as usize, y as usize))))
+}
+
+fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Face, scale: f64) {
+    let lines: [(&[usize], bool, [u8; 3]); 9] = [
+        (&outlines::OVAL, true, [255, 0, 0]),
+        (&outlines::LEFT_EYE, true, [0, 255, 0]),
+        (&outlines::RIGHT_EYE, true, [0, 255, 0]),
+        (&outlines::LEFT_BROW, true, [255, 255, 0]),
+        (&outlines::RIGHT_BROW, true, [255, 255, 0]),
+        (&outlines::LIPS, true, [255, 0, 255]),
+        (&outlines::MOUTH, true, [255, 0, 255]),
+        (&outlines::NOSE, false, [0, 200, 255]),
+        (&outlines::NOSE_WINGS, false, [0, 200, 255]),
+    ];
+    for (indices, is_closed, colour) in lines {
+        let mut line = face.line(indices);
+        if is_closed {
+            line.extend(line.first().copied());
+        }
+        draw_line(pixels, &line, scale, colour);
+    }
+    for iris in face.irises {
+        let round = |i: i32| {
+            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 32.0).sin_cos();
+            Point::new(iris.centre.x + iris.radius * cos, iris.centre.y + iris.radius * sin)
+        };
+        draw_line(pixels, &(0..=32).map(round).collect::<Vec<_>>(), scale, [0, 255, 255]);
+        draw_line(pixels, &[iris.centre, iris.centre], scale, [0, 255, 255]);
+    }
+    let b = face.bounds;
+    let corners = [(b.x0, b.y0), (b.x1, b.y0), (b.x1, b.y1), (b.x0, b.y1), (b.x0, b.y0)].map(Point::from);
+    draw_line(pixels, &corners, scale, [255, 255, 255]);
+}
+
+/// A line of the photograph's pixels.
+fn draw_line(pixels: &mut Raster<[u8; 3]>, line: &[Point], scale: f64, colour: [u8; 3]) {
+    let half = (LINE * pixels.width().max(pixels.height()) as f64).max(0.5);
+    let line: Vec<Point> = line.iter().map(|p| (p.to_vec2() * scale).to_point()).collect();
+    let places = if line.windows(2).all(|ends| ends[0] == ends[1]) { line } else { resample(&line, 0.5) };
+    for p in places {
+        let span = |v: f64| ((v - half).round() as isize)..=((v + half).round() as isize - 1).max((v - half).round() as isize);
+        for (x, y) in span(p.y).flat_map(|y| span(p.x).map(move |x| (x, y))) {
+            if pixels.contains(x, y) {
+                pixels.set(x as usize, y as usize, colour);
+            }
+        }
+    }
+}

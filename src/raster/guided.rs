@@ -1,0 +1,88 @@
+//! The guided filter (He, Sun and Tang 2010): a mask takes the edges of a colour picture.
+
+use super::{Raster, box_blur};
+
+/// `raster` smoothed along the edges of `guide`, of the same size, values 0 to 1: in each window of `radius` pixels it is a linear
+/// function of the guide's three channels, by least squares, and each pixel takes the mean of the functions of its windows. Edges of
+/// a contrast well below the root of `eps` do not count. The cost does not depend on `radius`.
+///
+/// # Panics
+/// If the sizes differ.
+pub fn guided_filter(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usize, eps: f64) -> Raster<f32> {
+    let mean = |plane: &Raster<f32>| box_blur(plane, radius);
+    let channels = [0, 1, 2].map(|k| guide.map(|colour| colour[k]));
+    let means = channels.each_ref().map(mean);
+    let mean_value = mean(raster);
+    let covariance = |a: &Raster<f32>, b: &Raster<f32>, mean_a: &Raster<f32>, mean_b: &Raster<f32>| {
+        mean(&a.zip_map(b, |a, b| a * b)).zip_map(&mean_a.zip_map(mean_b, |a, b| a * b), |ab, product| ab - product)
+    };
+    let with_value = [0, 1, 2].map(|k| covariance(&channels[k], raster, &means[k], &mean_value));
+    // Upper triangle of the guide's covariance, row by row.
+    let spread = PAIRS.map(|(i, j)| covariance(&channels[i], &channels[j], &means[i], &means[j]));
+    let slopes = Raster::from_fn(guide.width(), guide.height(), |x, y| {
+        let at = |plane: &Raster<f32>| f64::from(plane.get(x, y));
+        solved(spread.each_ref().map(at), with_value.each_ref().map(at), eps)
+    });
+    drop((spread, with_value));
+    let offset = Raster::from_fn(guide.width(), guide.height(), |x, y| {
+        let slope = slopes.get(x, y);
+        mean_value.get(x, y) - (0..3).map(|k| slope[k] * means[k].get(x, y)).sum::<f32>()
+    });
+    drop((means, mean_value));
+    let slope = [0, 1, 2].map(|k| mean(&slopes.map(|slope| slope[k])));
+    let offset = mean(&offset);
+    Raster::from_fn(guide.width(), guide.height(), |x, y| {
+        let sum = (0..3).map(|k| slope[k].get(x, y) * channels[k].get(x, y)).sum::<f32>();
+        (sum + offset.get(x, y)).clamp(0.0, 1.0)
+    })
+}
+
+/// Rows and columns of a symmetric matrix's upper triangle.
+const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+/// The solution of `(S + eps) x = v`, `S` symmetric and given by its upper triangle, by Cramer's rule.
+fn solved([rr, rg, rb, gg, gb, bb]: [f64; 6], [r, g, b]: [f64; 3], eps: f64) -> [f32; 3] {
+    let (rr, gg, bb) = (rr + eps, gg + eps, bb + eps);
+    let cofactors = [gg * bb - gb * gb, gb * rb - rg * bb, rg * gb - gg * rb];
+    let determinant = rr * cofactors[0] + rg * cofactors[1] + rb * cofactors[2];
+    if determinant.abs() < f64::MIN_POSITIVE {
+        return [0.0; 3];
+    }
+    let (second, third, last) = (rr * bb - rb * rb, rg * rb - rr * gb, rr * gg - rg * rg);
+    [
+        (cofactors[0] * r + cofactors[1] * g + cofactors[2] * b) / determinant,
+        (cofactors[1] * r + second * g + third * b) / determinant,
+        (cofactors[2] * r + third * g + last * b) / determinant,
+    ]
+    .map(|v| v as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coarse_mask_takes_the_edge_of_the_picture() {
+        let guide = Raster::from_fn(60, 40, |x, _| if x < 30 { [0.2, 0.5, 0.1] } else { [0.6, 0.3, 0.7] });
+        let coarse = Raster::from_fn(60, 40, |x, _| ((x as f32 - 22.0) / 16.0).clamp(0.0, 1.0));
+        let fine = guided_filter(&guide, &coarse, 8, 1e-4);
+        assert!(fine.get(28, 20) < 0.3 && fine.get(31, 20) > 0.7, "{} {}", fine.get(28, 20), fine.get(31, 20));
+    }
+
+    #[test]
+    fn a_flat_guide_leaves_a_double_box_blur() {
+        let mask = Raster::from_fn(40, 30, |x, y| f32::from(u8::from(x > 17 && y > 9)));
+        let blurred = box_blur(&box_blur(&mask, 3), 3);
+        let filtered = guided_filter(&Raster::filled(40, 30, [0.3; 3]), &mask, 3, 1e-4);
+        assert!(filtered.pixels().iter().zip(blurred.pixels()).all(|(a, b)| (a - b).abs() < 1e-3));
+    }
+
+    #[test]
+    fn the_solution_solves() {
+        let (s, v) = ([2.0, 0.3, -0.4, 1.5, 0.2, 1.1], [0.7, -0.2, 0.5]);
+        let x = solved(s, v, 0.1).map(f64::from);
+        let row = |a: f64, b: f64, c: f64| a * x[0] + b * x[1] + c * x[2];
+        let back = [row(2.1, 0.3, -0.4), row(0.3, 1.6, 0.2), row(-0.4, 0.2, 1.2)];
+        assert!(back.iter().zip(v).all(|(a, b)| (a - b).abs() < 1e-6), "{back:?}");
+    }
+}

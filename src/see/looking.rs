@@ -1,0 +1,136 @@
+//! The order of looks: upright, else by quarter turns, else at tiles; then each face, then the people.
+
+use super::SeeError;
+use super::faces::{self, Found};
+use super::iris::irises;
+use super::mesh::mesh;
+use super::networks::{DETECTOR, Engine, IRIS, MESH, Network, PERSON};
+use super::sight::{Face, Iris, Sight};
+use super::subject::subject;
+use super::turn::Turn;
+use super::view::View;
+use crate::geometry::{Point, Rect};
+use crate::interrupt::Interrupt;
+use crate::source::Photograph;
+use std::f64::consts::FRAC_PI_2;
+
+/// Longer side in pixels of what is looked at, and of the masks that are found: a face that fills a fifth of it still has the 200
+/// pixels that the mesh takes, and a mask's edge is fine enough for a picture of 170 mm at the usual pitch.
+const LONGEST: f64 = 1024.0;
+/// A face of fewer pixels in the view is looked at closer, if the photograph has more: the mesh and the irises take 128 for a face.
+const ENOUGH: f64 = 160.0;
+/// Longer side of such a closer view, which shows so many longer sides of the face's box.
+const CLOSER: f64 = 640.0;
+const ROUND_A_FACE: f64 = 3.0;
+/// Least width of a face in pixels of the photograph; smaller ones give no drawing and are found in foliage.
+const LEAST_FACE: f64 = 20.0;
+/// How sure the mesh must be that it lies on a face, as far as the detector's gate leaves doubt.
+const PRESENCE: f64 = 0.5;
+
+pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sight, SeeError> {
+    let engine = Engine::new();
+    let upright = Turn::new(0, [photograph.width(), photograph.height()]);
+    let mut sight = Sight { width: photograph.width(), height: photograph.height(), faces: Vec::new(), subject: None };
+    let first = View::whole(photograph, upright, LONGEST)?;
+    let Some((turn, view, found)) = find(&engine.load(&DETECTOR)?, photograph, first, upright, interrupt)? else {
+        return Ok(sight);
+    };
+    let faces = measured(&engine, photograph, turn, &view, &found, interrupt)?;
+    if faces.is_empty() {
+        return Ok(sight);
+    }
+    interrupt.check()?;
+    let points: Vec<Vec<[f64; 3]>> = faces.iter().map(|face| face.points.clone()).collect();
+    let subject = subject(&engine.load(&PERSON)?, &view, &points)?;
+    sight.subject = Some(turn.raster_back(&subject));
+    sight.faces = faces.into_iter().map(|face| turned_back(turn, face)).collect();
+    Ok(sight)
+}
+
+/// The faces, with the turn and the view in which they stand upright.
+fn find(
+    detector: &Network,
+    photograph: &Photograph,
+    first: View,
+    upright: Turn,
+    interrupt: &Interrupt,
+) -> Result<Option<(Turn, View, Vec<Found>)>, SeeError> {
+    let found = faces::find(detector, &first)?;
+    let is_upright = |found: &[Found]| found.first().is_some_and(|largest| largest.angle().abs() < 0.5 * FRAC_PI_2);
+    let (turn, view, found) = if is_upright(&found) {
+        (upright, first, found)
+    } else {
+        let turned = find_turned(detector, &first, upright, interrupt)?;
+        match turned {
+            Some((turn, found)) => (turn, View::whole(photograph, turn, LONGEST)?, found),
+            None => (upright, first, Vec::new()),
+        }
+    };
+    let found =
+        if faces::wants_second_look(&found, &view) { faces::find_small(detector, &view, found, interrupt)? } else { found };
+    Ok((!found.is_empty()).then_some((turn, view, found)))
+}
+
+/// The quarter turn in which a face is found upright and the surest.
+fn find_turned(
+    detector: &Network,
+    first: &View,
+    upright: Turn,
+    interrupt: &Interrupt,
+) -> Result<Option<(Turn, Vec<Found>)>, SeeError> {
+    let mut best: Option<(f64, Turn, Vec<Found>)> = None;
+    for quarters in [1, 3, 2] {
+        interrupt.check()?;
+        let turn = upright.further(quarters);
+        let [width, height] = turn.upright_size();
+        let view = View { pixels: turn.raster(&first.pixels), part: Rect::new(0.0, 0.0, width, height) };
+        let found = faces::find(detector, &view)?;
+        let Some(largest) = found.first().filter(|largest| largest.angle().abs() < 0.5 * FRAC_PI_2) else { continue };
+        if best.as_ref().is_none_or(|(score, ..)| largest.score > *score) {
+            best = Some((largest.score, turn, found));
+        }
+    }
+    Ok(best.map(|(_, turn, found)| (turn, found)))
+}
+
+/// Points and irises of each face, in pixels of the upright picture.
+fn measured(
+    engine: &Engine,
+    photograph: &Photograph,
+    turn: Turn,
+    view: &View,
+    found: &[Found],
+    interrupt: &Interrupt,
+) -> Result<Vec<Face>, SeeError> {
+    let (points_of, irises_of) = (engine.load(&MESH)?, engine.load(&IRIS)?);
+    let mut faces = Vec::new();
+    for found in found.iter().filter(|found| found.bounds.width() >= LEAST_FACE) {
+        interrupt.check()?;
+        let side = found.side();
+        let step = view.step().x;
+        let closer = if step > 1.0 && side / step < ENOUGH {
+            let round = Rect::from_center_size(found.bounds.center(), (ROUND_A_FACE * side, ROUND_A_FACE * side));
+            Some(View::of_part(photograph, turn, round, CLOSER)?)
+        } else {
+            None
+        };
+        let view = closer.as_ref().unwrap_or(view);
+        let mesh = mesh(&points_of, view, found)?;
+        if mesh.presence < PRESENCE {
+            continue;
+        }
+        let irises = irises(&irises_of, view, &mesh.points)?;
+        faces.push(Face { bounds: found.bounds, score: found.score, points: mesh.points, irises });
+    }
+    Ok(faces)
+}
+
+/// A face of the upright picture on the photograph's own grid.
+fn turned_back(turn: Turn, face: Face) -> Face {
+    let points = face.points.into_iter().map(|[x, y, z]| {
+        let p = turn.back(Point::new(x, y));
+        [p.x, p.y, z]
+    });
+    let irises = face.irises.map(|iris| Iris { centre: turn.back(iris.centre), radius: iris.radius });
+    Face { bounds: turn.box_back(face.bounds), score: face.score, points: points.collect(), irises }
+}

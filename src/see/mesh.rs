@@ -1,0 +1,77 @@
+//! The 468 points of a face: found in the detector's box, then twice more in the box that the points themselves give.
+
+use super::SeeError;
+use super::faces::Found;
+use super::networks::{Network, sigmoid, sixteenths};
+use super::view::{Outside, View, Window};
+use crate::geometry::{Point, Vec2};
+
+/// Points of the mesh.
+pub(super) const POINTS: usize = 468;
+/// Side of the window in longer sides of the box, which leaves out brow and hair.
+const ROOM: f64 = 1.5;
+/// The outer corners of the right and the left eye.
+const EYE_LINE: (usize, usize) = (33, 263);
+/// How often the points are found again, in their own box: the detector's is a few percent off, and lids follow the box.
+const AGAIN: usize = 2;
+
+/// The points in pixels of the upright picture, z alike, and how sure the network is that they are a face's.
+pub(super) struct Mesh {
+    pub points: Vec<[f64; 3]>,
+    pub presence: f64,
+}
+
+pub(super) fn mesh(network: &Network, view: &View, found: &Found) -> Result<Mesh, SeeError> {
+    let window = Window::square(found.bounds.center(), ROOM * found.side(), found.angle());
+    (0..AGAIN).try_fold(points_in(network, view, window)?, |mesh, _| points_in(network, view, window_of(&mesh.points)))
+}
+
+/// The window that points themselves ask for: their box when the eyes are level, and room.
+fn window_of(points: &[[f64; 3]]) -> Window {
+    let at = |i: usize| Point::new(points[i][0], points[i][1]);
+    let across = (at(EYE_LINE.1) - at(EYE_LINE.0)).normalize();
+    let down = Vec2::new(-across.y, across.x);
+    let ends = |axis: Vec2| {
+        let along = points.iter().map(|p| axis.dot(Vec2::new(p[0], p[1])));
+        along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+    };
+    let ((left, right), (top, bottom)) = (ends(across), ends(down));
+    let centre = (0.5 * (left + right) * across + 0.5 * (top + bottom) * down).to_point();
+    Window::square(centre, ROOM * (right - left).max(bottom - top), across.atan2())
+}
+
+fn points_in(network: &Network, view: &View, window: Window) -> Result<Mesh, SeeError> {
+    let side = network.side as f64;
+    let [numbers, flag] = network.run(&view.through(&window, network.side, Outside::Repeated), 1.0 / 255.0, 0.0)?;
+    let depth = window.across.hypot() / side;
+    let points: Vec<[f64; 3]> = numbers
+        .chunks_exact(3)
+        .map(|p| {
+            let place = window.place(f64::from(p[0]) / side, f64::from(p[1]) / side);
+            [place.x, place.y, f64::from(p[2]) * depth].map(sixteenths)
+        })
+        .collect();
+    let is_whole = points.len() == POINTS && points.iter().flatten().all(|v| v.is_finite());
+    if !is_whole || points[EYE_LINE.0] == points[EYE_LINE.1] {
+        return Err(SeeError::Network { network: "face_landmark", reason: "its points are no face".to_owned() });
+    }
+    Ok(Mesh { points, presence: flag.first().map_or(0.0, |flag| sigmoid(*flag)) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_window_of_points_is_level_with_their_eyes() {
+        let angle = 0.3_f64;
+        let (sin, cos) = angle.sin_cos();
+        let turned = |x: f64, y: f64| [50.0 + x * cos - y * sin, 70.0 + x * sin + y * cos, 0.0];
+        let mut points = vec![turned(0.0, 0.0); POINTS];
+        (points[33], points[263]) = (turned(-10.0, -5.0), turned(10.0, -5.0));
+        (points[10], points[152]) = (turned(0.0, -20.0), turned(0.0, 20.0));
+        let window = window_of(&points);
+        assert!((window.across.atan2() - angle).abs() < 1e-9 && (window.across.hypot() - 60.0).abs() < 1e-9);
+        assert!((window.place(0.5, 0.5) - Point::new(50.0, 70.0)).hypot() < 1e-9);
+    }
+}

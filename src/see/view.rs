@@ -1,0 +1,159 @@
+//! The upright picture, or a part of it, as bytes, and windows onto it for the networks.
+
+use super::SeeError;
+use super::turn::Turn;
+use crate::geometry::{Point, Rect, Vec2};
+use crate::raster::Raster;
+use crate::source::{Crop, Photograph};
+
+/// Most samples of a window's pixel in one direction; at 1024 pixels a side the smallest window needs eight.
+const MOST_SAMPLES: f64 = 8.0;
+
+/// Pixels of the upright picture, or of a part of it.
+pub(super) struct View {
+    pub pixels: Raster<[u8; 3]>,
+    /// The part in pixels of the upright picture.
+    pub part: Rect,
+}
+
+impl View {
+    /// The whole picture, at most `longest` pixels on its longer side, and never more than the photograph has.
+    pub(super) fn whole(photograph: &Photograph, turn: Turn, longest: f64) -> Result<Self, SeeError> {
+        let [width, height] = turn.upright_size();
+        Self::of_part(photograph, turn, Rect::new(0.0, 0.0, width, height), longest)
+    }
+
+    /// A part of the picture, as far as there is one.
+    pub(super) fn of_part(photograph: &Photograph, turn: Turn, part: Rect, longest: f64) -> Result<Self, SeeError> {
+        let [width, height] = turn.upright_size();
+        let part = part.expand().intersect(Rect::new(0.0, 0.0, width, height));
+        let stored = turn.box_back(part);
+        let crop = Crop { x: stored.x0, y: stored.y0, width: stored.width(), height: stored.height() };
+        let scale = (longest / part.width().max(part.height())).min(1.0);
+        let count = |length: f64| (length * scale).round().max(1.0) as usize;
+        let pixels = turn.raster(&photograph.encoded(crop, count(stored.width()), count(stored.height()))?);
+        Ok(Self { pixels, part })
+    }
+
+    /// Pixels of the upright picture for each pixel of the view.
+    pub(super) fn step(&self) -> Vec2 {
+        Vec2::new(self.part.width() / self.pixels.width() as f64, self.part.height() / self.pixels.height() as f64)
+    }
+
+    /// The upright picture's place of the centre of a pixel of the view.
+    pub(super) fn place(&self, x: usize, y: usize) -> Point {
+        let step = self.step();
+        self.part.origin() + Vec2::new((x as f64 + 0.5) * step.x, (y as f64 + 0.5) * step.y)
+    }
+
+    /// What is seen through a window, `side` pixels a side, in bytes as numbers: each pixel is the mean of as many bilinear samples
+    /// as it covers pixels of the view.
+    pub(super) fn through(&self, window: &Window, side: usize, outside: Outside) -> Raster<[f32; 3]> {
+        let step = self.step();
+        let in_view = |v: Vec2| Vec2::new(v.x / step.x, v.y / step.y) / side as f64;
+        let (across, down) = (in_view(window.across), in_view(window.down));
+        let origin = window.origin - self.part.origin();
+        let origin = Point::new(origin.x / step.x, origin.y / step.y);
+        let samples = |v: Vec2| v.hypot().ceil().clamp(1.0, MOST_SAMPLES) as usize;
+        let (columns, rows) = (samples(across), samples(down));
+        Raster::from_fn(side, side, |x, y| {
+            let mut sum = [0.0; 3];
+            for (i, j) in (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))) {
+                let u = x as f64 + (i as f64 + 0.5) / columns as f64;
+                let v = y as f64 + (j as f64 + 0.5) / rows as f64;
+                let colour = self.sample(origin + across * u + down * v, outside);
+                sum = [sum[0] + colour[0], sum[1] + colour[1], sum[2] + colour[2]];
+            }
+            sum.map(|v| v / (columns * rows) as f32)
+        })
+    }
+
+    /// The colour at a place in pixels of the view, bilinear.
+    fn sample(&self, p: Point, outside: Outside) -> [f32; 3] {
+        let (width, height) = (self.pixels.width() as f64, self.pixels.height() as f64);
+        if let Outside::Grey(grey) = outside
+            && !((0.0..width).contains(&p.x) && (0.0..height).contains(&p.y))
+        {
+            return [grey; 3];
+        }
+        let (x, y) = (p.x - 0.5, p.y - 0.5);
+        let (tx, ty) = ((x - x.floor()) as f32, (y - y.floor()) as f32);
+        let (x, y) = (x.floor() as isize, y.floor() as isize);
+        let at = |x: isize, y: isize| self.pixels.clamped(x, y).map(f32::from);
+        let (a, b, c, d) = (at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
+        [0, 1, 2].map(|k| (a[k] * (1.0 - tx) + b[k] * tx) * (1.0 - ty) + (c[k] * (1.0 - tx) + d[k] * tx) * ty)
+    }
+}
+
+/// What a window shows beyond the picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Outside {
+    /// The border's pixels again.
+    Repeated,
+    /// A grey, 0 to 255.
+    Grey(f32),
+}
+
+/// A parallelogram of the upright picture that a network looks at, in pixels of that picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    /// Its first corner.
+    pub origin: Point,
+    /// Its upper side, from the first corner.
+    pub across: Vec2,
+    /// Its left side.
+    pub down: Vec2,
+}
+
+impl Window {
+    /// An upright box, whatever its proportions.
+    pub(super) fn stretched(part: Rect) -> Self {
+        Self { origin: part.origin(), across: Vec2::new(part.width(), 0.0), down: Vec2::new(0.0, part.height()) }
+    }
+
+    /// A square turned by an angle in radians, clockwise.
+    pub(super) fn square(centre: Point, side: f64, angle: f64) -> Self {
+        let across = Vec2::from_angle(angle) * side;
+        let down = Vec2::new(-across.y, across.x);
+        Self { origin: centre - 0.5 * (across + down), across, down }
+    }
+
+    /// The same window, mirrored left to right.
+    pub(super) fn mirrored(self) -> Self {
+        Self { origin: self.origin + self.across, across: -self.across, down: self.down }
+    }
+
+    /// The upright picture's place of a place in the window, both from 0 to 1.
+    pub(super) fn place(&self, x: f64, y: f64) -> Point {
+        self.origin + self.across * x + self.down * y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn slope() -> View {
+        let pixels = Raster::from_fn(40, 20, |x, y| [(2 * x + 3 * y) as u8, 7, 200]);
+        View { pixels, part: Rect::new(0.0, 0.0, 80.0, 40.0) }
+    }
+
+    #[test]
+    fn a_turned_and_mirrored_window_shows_what_lies_there() {
+        let view = slope();
+        let window = Window::square(Point::new(40.0, 20.0), 16.0, 0.4).mirrored();
+        let seen = view.through(&window, 8, Outside::Repeated);
+        for (x, y) in [(0, 0), (3, 5), (7, 7)] {
+            let p = window.place((x as f64 + 0.5) / 8.0, (y as f64 + 0.5) / 8.0);
+            let expected = (p.x - 1.0) + 1.5 * (p.y - 1.0);
+            assert!((f64::from(seen.get(x, y)[0]) - expected).abs() < 1e-3, "{:?} {expected}", seen.get(x, y));
+        }
+    }
+
+    #[test]
+    fn beyond_the_picture_there_is_grey() {
+        let seen = slope().through(&Window::stretched(Rect::new(-80.0, 0.0, 80.0, 40.0)), 4, Outside::Grey(127.0));
+        assert_eq!((seen.get(0, 1), seen.get(1, 2)), ([127.0; 3], [127.0; 3]));
+        assert_eq!(seen.get(2, 2)[1], 7.0);
+    }
+}
