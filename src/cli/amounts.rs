@@ -91,7 +91,8 @@ impl PlotAmounts {
 
     fn add_seconds(&mut self, seconds: f64) {
         for report in [&mut self.ordered, &mut self.before] {
-            let pens = report.pens.iter_mut().flat_map(|pen| &mut pen.seconds);
+            // What does not grow is waiting: for a pen to be fetched or changed.
+            let pens = report.pens.iter_mut().flat_map(|pen| [&mut pen.seconds, &mut pen.waiting_seconds]).flatten();
             pens.for_each(|time| *time = (*time + seconds).max(0.0));
             report.total = total(&report.pens);
         }
@@ -118,13 +119,16 @@ fn joined(one: &PlotReport, other: &PlotReport) -> PlotReport {
 
 fn pen_together(one: &PenReport, other: &PenReport, f: &impl Fn(f64, f64) -> f64) -> PenReport {
     let count = |one: usize, other: usize| f(one as f64, other as f64).round().max(0.0) as usize;
+    let both = |one: Option<f64>, other: Option<f64>| one.zip(other).map(|(one, other)| f(one, other));
     PenReport {
         paths: count(one.paths, other.paths),
         pen_down_mm: f(one.pen_down_mm, other.pen_down_mm),
         pen_up_mm: f(one.pen_up_mm, other.pen_up_mm),
         pen_up_mm_before: f(one.pen_up_mm_before, other.pen_up_mm_before),
         pen_lifts: count(one.pen_lifts, other.pen_lifts),
-        seconds: one.seconds.zip(other.seconds).map(|(one, other)| f(one, other)),
+        seconds: both(one.seconds, other.seconds),
+        motion_seconds: both(one.motion_seconds, other.motion_seconds),
+        waiting_seconds: both(one.waiting_seconds, other.waiting_seconds),
         ..one.clone()
     }
 }
@@ -139,6 +143,8 @@ fn total(pens: &[PenReport]) -> PenReport {
         pen_up_mm_before: pens.iter().map(|pen| pen.pen_up_mm_before).sum(),
         pen_lifts: pens.iter().map(|pen| pen.pen_lifts).sum(),
         seconds: pens.iter().map(|pen| pen.seconds).sum(),
+        motion_seconds: pens.iter().map(|pen| pen.motion_seconds).sum(),
+        waiting_seconds: pens.iter().map(|pen| pen.waiting_seconds).sum(),
         ..PenReport::default()
     }
 }

@@ -92,7 +92,8 @@ pub(super) fn dry_run(
     if !options.reporting.quiet {
         say!("{shown}: about {}", toolpaths::summary(&told.ordered));
         let part = if share < 1.0 {
-            format!("estimated from {:.1} % of its small marks, to about 10 %; ", 100.0 * share)
+            let accuracy = if options.occlude { "with --occlude at most twice too long" } else { "to about 10 %" };
+            format!("estimated from {:.1} % of its small marks, {accuracy}; ", 100.0 * share)
         } else {
             String::new()
         };
