@@ -9,8 +9,8 @@ use drypoint::drawing::{Colour, Drawing, Handling, Mark, Page};
 use drypoint::geometry::{BezPath, Point, Rect, Vec2, distance_to_segment, flatten};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    Direction, Effort, InkModel, Language, Lift, Mounting, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath, built_in_names,
-    clip_to, lower, mount,
+    Direction, Effort, InkModel, Language, Lift, Mounting, MountingError, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath,
+    built_in_names, clip_to, lower, mount,
 };
 use drypoint::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl, read_svg};
 use drypoint::write::{SvgHead, write_gcode, write_hpgl, write_svg_plotter};
@@ -272,9 +272,10 @@ fn what_lies_off_the_sheet_is_refused_though_the_machine_reaches_it() {
     let path = Toolpath::new(vec![Point::new(20.0, 20.0), Point::new(260.0, 150.0)]);
     let mut plot = Plot { page, pens: vec![pen(1, "a", vec![path])] };
     let mounting = mount(&large, &page).unwrap();
-    let message = mounting.check(&large, &plot).unwrap_err().to_string();
-    assert!(message.contains("50.00 mm beyond the sheet's right edge"), "{message}");
-    assert!(message.contains("--rotate 90"), "{message}");
+    let error = mounting.check(&large, &plot).unwrap_err();
+    assert!(error.to_string().contains("50.00 mm beyond the sheet's right edge"), "{error}");
+    let MountingError::OffSheet { room, .. } = error else { panic!("{error}") };
+    assert!(!room.is_enough() && room.is_enough_turned(), "{room:?}");
     let (lost, _) = clip_to(&mut plot, mounting.drawable(&page));
     assert!(lost > 50.0);
     assert_holds(&plot, &large);
@@ -313,7 +314,7 @@ fn three_pens_on_a3_have_their_slots_their_pauses_and_their_preview() {
     let wide = ["--set-profile", "area.x=[0, 430]", "--profile", "grbl-servo", "-o", "a.gcode"];
     let (status, message) = run(&wide);
     assert_eq!(status, 2, "{message}");
-    assert!(message.contains("1 to 200 %"), "{message}");
+    assert!(message.contains("'red' 120 mm/s, and grbl-servo draws at 100 mm/s at most"), "{message}");
     fs::write(folder.path().join("pens.toml"), "[red]\nwidth = 0.5\nspeed = 30\n").unwrap();
     let (status, message) = run(&wide);
     assert!(status == 0 && message.contains("pauses for each change"), "a warning in spite of -q: {message}");
