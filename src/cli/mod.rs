@@ -63,6 +63,12 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// How many pens the text of a `--pens` file holds, or what is wrong with it; open for tests that try any text.
+#[doc(hidden)]
+pub fn count_pens(text: &str) -> Result<usize, String> {
+    pen_file::read_pens("pens.toml", text).map(|pens| pens.len()).map_err(|failure| failure.to_string())
+}
+
 fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Draw(options) => draw::run(&options),

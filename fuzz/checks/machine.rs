@@ -1,0 +1,95 @@
+//! A small plot that meets every kind of move, and any plot's way through a machine's profile to its file.
+
+use super::refusal;
+use drypoint::drawing::{Colour, Handling, Page};
+use drypoint::geometry::{Point, Rect};
+use drypoint::interrupt::Interrupt;
+use drypoint::plot::{
+    GcodeDialect, Language, Lift, Mounting, PenPaths, Plot, Profile, Toolpath, let_dry, mount, report, rest_touches,
+};
+use drypoint::read::{PenLift, Strokes};
+use drypoint::write::{ShownTravel, SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plotter};
+
+/// An arc, a touch, a closed path and a swelling one; the second pen of the same number waits first.
+pub(crate) fn small_plot(page: Page) -> Plot {
+    let at = |x: f64, y: f64| Point::new(x * page.width, y * page.height);
+    let arc = (0..=12).map(|i| f64::from(i) * 0.25).map(|a| at(0.5 + 0.2 * a.cos(), 0.5 + 0.2 * a.sin())).collect();
+    let square = [(0.3, 0.3), (0.6, 0.3), (0.6, 0.6), (0.3, 0.6), (0.3, 0.3)].map(|(x, y)| at(x, y)).to_vec();
+    let mut swelling = Toolpath::new(vec![at(0.2, 0.8), at(0.5, 0.7), at(0.8, 0.8)]);
+    swelling.heights = Some(vec![0.0, -0.5, 0.1]);
+    let pen = |name: &str, handling: Handling, paths: Vec<Toolpath>| PenPaths {
+        number: 1,
+        name: name.to_owned(),
+        colour: Colour::BLACK,
+        nib: 0.3,
+        handling,
+        paths,
+    };
+    let level = vec![Toolpath::new(arc), Toolpath::new(vec![at(0.1, 0.1)]), Toolpath::new(square)];
+    let second = Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
+    Plot { page, pens: vec![pen("lines", Handling::default(), level), pen("swell", second, vec![swelling])] }
+}
+
+/// A machine's file and what it was made of.
+pub(crate) struct Written {
+    pub(crate) text: String,
+    pub(crate) plot: Plot,
+    pub(crate) mounting: Mounting,
+}
+
+/// Lays a plot on a machine, takes its time, and writes it and its preview; nothing where the machine refuses it.
+pub(crate) fn written(profile: &Profile, mut plot: Plot) -> Option<Written> {
+    let mounting = told(mount(profile, &plot.page))?;
+    let reach = mounting.reach_on_page();
+    assert!(reach.is_finite() && mounting.drawable(&plot.page).is_finite(), "reach {reach:?}");
+    told(mounting.check(profile, &plot))?;
+    if !profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_some()) {
+        plot.pens.iter_mut().for_each(|pen| pen.handling.pauses = false);
+    }
+    let never = Interrupt::never();
+    rest_touches(&mut plot, |_| profile.motion.touch_seconds);
+    let waited = let_dry(&mut plot, 2.0, Point::ORIGIN, &profile.motion, &never).expect("nobody interrupts");
+    let times = report(&plot, Point::ORIGIN, Some((profile, &mounting)), None, &never).expect("nobody interrupts");
+    let seconds = times.total.seconds.expect("the machine is known");
+    assert!(seconds.is_finite() && seconds >= 0.0 && waited.is_finite(), "{seconds} s, waiting {waited} s");
+    let text = ascii(|out| match profile.language {
+        Language::Hpgl => write_hpgl(&plot, profile, &mounting, out),
+        Language::Gcode => write_gcode(&plot, profile, &mounting, out),
+        Language::Svg => write_svg_plotter(&plot, profile, &SvgHead::default(), out),
+    });
+    ascii(|out| write_preview(&plot, Some(&mounting), Point::ORIGIN, ShownTravel::Faint, out));
+    Some(Written { text, plot, mounting })
+}
+
+fn told<T, E: std::fmt::Display>(result: Result<T, E>) -> Option<T> {
+    result.inspect_err(refusal::is_told).ok()
+}
+
+fn ascii(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
+    let mut bytes = Vec::new();
+    write(&mut bytes).expect("memory takes all that is written");
+    String::from_utf8(bytes).expect("what is written is text")
+}
+
+/// How a dialect moves its pen.
+pub(crate) fn lift_of(dialect: &GcodeDialect) -> PenLift<'_> {
+    match (dialect.lift, dialect.height) {
+        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: height.down },
+        _ => PenLift::Commands {
+            up: dialect.pen_up.as_deref().unwrap_or_default(),
+            down: dialect.pen_down.as_deref().unwrap_or_default(),
+        },
+    }
+}
+
+/// Everything that a file makes a machine do is finite, and within `reach` if there is one.
+pub(crate) fn is_sound(motion: &Strokes, reach: Option<Rect>) {
+    for p in motion.visited.iter().chain(motion.paths.iter().flat_map(|(_, path)| path)) {
+        assert!(p.is_finite(), "{p:?}");
+        if let Some(reach) = reach {
+            let inside = (reach.x0..=reach.x1).contains(&p.x) && (reach.y0..=reach.y1).contains(&p.y);
+            assert!(inside, "{p:?} is outside of {reach:?}");
+        }
+    }
+    assert!(motion.paths.iter().all(|(_, path)| !path.is_empty()), "a path without a point");
+}
