@@ -34,7 +34,7 @@ fn run(name: &str, bytes: &[u8], arguments: &[&str]) -> Output {
     // Each thread's heap would take address space of its own.
     command.env("MALLOC_ARENA_MAX", "1").env("RAYON_NUM_THREADS", "2").current_dir(folder.path());
     command.arg(arguments[0]).arg(&file).args(&arguments[1..]);
-    command.timeout(std::time::Duration::from_secs(600)).output().unwrap()
+    command.timeout(std::time::Duration::from_mins(10)).output().unwrap()
 }
 
 fn told(output: &Output) -> String {

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// What a drawing at an end may take here; by itself on a quiet machine the slowest takes a quarter of a minute, and this one may be busy.
-const MOST: Duration = Duration::from_secs(240);
+const MOST: Duration = Duration::from_mins(4);
 /// Drawings at the same time.
 const MOST_WORKERS: usize = 2;
 

@@ -23,7 +23,7 @@ fn folder() -> TempDir {
 /// Status, standard output as JSON if it is that, and the message.
 fn run(folder: &TempDir, arguments: &[&str]) -> (Option<i32>, Value, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-    let output = command.current_dir(folder.path()).args(arguments).timeout(Duration::from_secs(300)).output().unwrap();
+    let output = command.current_dir(folder.path()).args(arguments).timeout(Duration::from_mins(5)).output().unwrap();
     let json = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
     (output.status.code(), json, String::from_utf8(output.stderr).unwrap())
 }

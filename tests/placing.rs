@@ -231,7 +231,7 @@ fn the_advice_of_a_refused_drawing_works() {
 #[test]
 fn a_plot_is_made_smaller_to_keep_to_its_time() {
     let folder = tempfile::tempdir().unwrap();
-    let lines: String = (0..40).map(|i| format!("M10 {0}h180", 10 + 2 * i)).collect();
+    let lines = (0..40).map(|i| format!("M10 {0}h180", 10 + 2 * i)).collect::<Vec<_>>().concat();
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200mm\" height=\"100mm\" viewBox=\"0 0 200 100\" fill=\"none\" \
          stroke=\"#000\" stroke-width=\".3\"><path d=\"{lines}\"/></svg>"

@@ -48,12 +48,13 @@ fn assert_nothing_new(folder: &Path, before: usize, what: &str) {
 
 /// A hatching of many lines, which takes long to read, to order and to write.
 fn long_drawing(lines: usize) -> String {
-    let paths: String = (0..lines)
+    let paths = (0..lines)
         .map(|i| {
             let (x, y) = (200.0 * (i as f64 * 0.754_877_666).fract(), 200.0 * (i as f64 * 0.569_840_291).fract());
             format!("M{x:.3} {y:.3}l2 1")
         })
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     format!(
         "<svg xmlns='http://www.w3.org/2000/svg' width='210mm' height='210mm' viewBox='0 0 210 210'><path d='{paths}' fill='none' stroke='black'/></svg>"
     )

@@ -224,7 +224,7 @@ fn are_read_back(svg: &str, plot: &Plot) {
     is_numeric(svg);
     let again = read_svg(svg.as_bytes()).unwrap_or_else(|error| panic!("{error}: {svg}"));
     let lines = lower(&again.drawing(), InkModel::Lines, &Nibs::all(0.3), 0.01, &Interrupt::never()).expect("nobody interrupts");
-    let length = |plot: &Plot| plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.length()).sum::<f64>();
+    let length = |plot: &Plot| plot.pens.iter().flat_map(|pen| &pen.paths).map(drypoint::plot::Toolpath::length).sum::<f64>();
     let vertices = plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points.len()).sum::<usize>();
     let (asked, told) = (length(plot), length(&lines));
     assert!((asked - told).abs() <= 0.02 + 0.004 * vertices as f64, "{asked} mm came back as {told} mm: {svg}");

@@ -43,7 +43,7 @@ pub(crate) fn written(profile: &Profile, mut plot: Plot) -> Option<Written> {
     let reach = mounting.reach_on_page();
     assert!(reach.is_finite() && mounting.drawable(&plot.page).is_finite(), "reach {reach:?}");
     told(mounting.check(profile, &plot))?;
-    if !profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_some()) {
+    if profile.gcode.as_ref().is_none_or(|gcode| gcode.pause.is_none()) {
         plot.pens.iter_mut().for_each(|pen| pen.handling.pauses = false);
     }
     let never = Interrupt::never();

@@ -37,7 +37,7 @@ fn placed(photograph: &Photograph) -> Result<(), SourceError> {
             Err(SourceError::EmptyCrop { .. }) if crop != all => continue,
             portrait => portrait?,
         };
-        assert!(portrait.light.pixels().iter().flatten().all(is_unit), "light");
+        assert!(portrait.light.pixels().iter().flatten().copied().all(is_unit), "light");
         are_units("tone", &portrait.tone);
         are_units("ink", &portrait.ink());
         for (name, role) in MaskRole::ALL {
@@ -58,10 +58,10 @@ fn placed(photograph: &Photograph) -> Result<(), SourceError> {
     Ok(())
 }
 
-fn is_unit(value: &f32) -> bool {
-    (-1e-3..=1.001).contains(value)
+fn is_unit(value: f32) -> bool {
+    (-1e-3..=1.001).contains(&value)
 }
 
 fn are_units(name: &str, raster: &Raster<f32>) {
-    assert!(raster.pixels().iter().all(is_unit), "{name} is not from 0 to 1");
+    assert!(raster.pixels().iter().copied().all(is_unit), "{name} is not from 0 to 1");
 }

@@ -65,11 +65,14 @@ impl Tame {
 }
 
 /// A polygon within a frame (Sutherland and Hodgman 1974), with coordinates on the border that are exactly the border's however far
+/// What reads a point along and across a side, where the side lies, and which way is out.
+type Side = (fn(Point) -> (f64, f64), f64, f64);
+
 /// away the corners were.
 fn cut(polygon: Vec<Point>, frame: Rect) -> Vec<Point> {
     let horizontal = |p: Point| (p.x, p.y);
     let vertical = |p: Point| (p.y, p.x);
-    let sides: [(fn(Point) -> (f64, f64), f64, f64); 4] =
+    let sides: [Side; 4] =
         [(horizontal, frame.x0, -1.0), (horizontal, frame.x1, 1.0), (vertical, frame.y0, -1.0), (vertical, frame.y1, 1.0)];
     let mut current = polygon;
     for (i, (split, border, sign)) in sides.into_iter().enumerate() {

@@ -27,7 +27,7 @@ pub(super) const SEGMENT: f64 = 2.0;
 pub(super) const PATH: f64 = 8.0;
 /// A point of a flattened curve or arc that is kept.
 pub(super) const POINT: f64 = 0.5;
-/// A crossing of two borders in an overlay: i_overlay took 480 bytes and 2 to 5 microseconds for each.
+/// A crossing of two borders in an overlay: `i_overlay` took 480 bytes and 2 to 5 microseconds for each.
 const CROSSING: f64 = 6.0;
 /// Two edges that are looked at.
 const PAIR: f64 = 0.004;

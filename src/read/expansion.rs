@@ -230,7 +230,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         match node.tag_name().name() {
             "use" => {
                 let Some(&target) = targets.first() else { return Ok(()) };
-                load.parsing += PASSED * (last_within(target).get() - target.id().get()) as f64;
+                load.parsing += PASSED * f64::from(last_within(target).get() - target.id().get());
                 if self.leads_back(node, target)? {
                     return Ok(());
                 }
@@ -357,7 +357,7 @@ fn circle(node: Node<'_, '_>) -> SvgError {
     SvgError::Circle(node.attribute("id").unwrap_or_else(|| node.tag_name().name()).to_owned())
 }
 
-/// The id that an element links to, by SVG 2's attribute before that of XLink.
+/// The id that an element links to, by SVG 2's attribute before that of `XLink`.
 fn href<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     let found = |namespace: Option<&str>| {
         node.attributes().find(|attribute| attribute.name() == "href" && attribute.namespace() == namespace)

@@ -83,7 +83,7 @@ pub fn read_gcode_within(text: &str, lift: &PenLift<'_>, budget: &mut Budget) ->
         match lift {
             PenLift::Commands { up, .. } if line == *up => reader.is_down = false,
             PenLift::Commands { down, .. } if line == *down => {
-                reader.lower().map_err(|work| GcodeError::Work { line: i + 1, work })?
+                reader.lower().map_err(|work| GcodeError::Work { line: i + 1, work })?;
             }
             _ if line == "M0" || line == "PAUSE" => reader.motion.pauses += 1,
             _ if line.split_whitespace().next().is_some_and(is_named) => {}

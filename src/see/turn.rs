@@ -24,7 +24,7 @@ impl Turn {
     /// Width and height of the upright picture.
     pub(super) fn upright_size(self) -> [f64; 2] {
         let [w, h] = self.size.map(f64::from);
-        if self.quarters % 2 == 0 { [w, h] } else { [h, w] }
+        if self.quarters.is_multiple_of(2) { [w, h] } else { [h, w] }
     }
 
     /// The photograph's place of a place in the upright picture.

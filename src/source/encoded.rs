@@ -23,6 +23,9 @@ impl Photograph {
     }
 
     /// Grey bytes as a picture, such as a mask that was found.
+    ///
+    /// # Panics
+    /// Never: a raster's pixels fill it.
     pub fn from_grey(grey: &Raster<u8>) -> Self {
         let pixels = GrayImage::from_raw(grey.width() as u32, grey.height() as u32, grey.pixels().to_vec());
         let info = SourceInfo { format: "raster", sha256: String::new(), warnings: Vec::new() };

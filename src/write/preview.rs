@@ -117,7 +117,10 @@ fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
 /// What one pen draws, as wide as its nib.
 fn ink(pen: &PenPaths, colour: Colour) -> String {
     let told = if colour == pen.colour { String::new() } else { format!("<desc>its own colour is {}</desc>\n", pen.colour) };
-    let lines: String = pen.paths.iter().map(|path| format!("<path d=\"{}\"/>\n", polyline(&path.points))).collect();
+    let lines = pen.paths.iter().fold(String::new(), |mut lines, path| {
+        let _ = writeln!(lines, "<path d=\"{}\"/>", polyline(&path.points));
+        lines
+    });
     let style = format!("stroke=\"{colour}\" stroke-width=\"{}\"", number(pen.nib));
     format!("<g fill=\"none\" {style} stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{told}{lines}</g>\n")
 }

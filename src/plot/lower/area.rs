@@ -214,17 +214,14 @@ fn joined(levels: &[Vec<Vec<Point>>], reach: f64, interrupt: &Interrupt) -> Vec<
             let turned = line[start..].iter().chain(if is_ring { &line[1..=start] } else { &[] });
             turned.copied().collect::<Vec<Point>>()
         };
-        let path = match best {
-            Some((path, _, start)) => {
-                let end = end_of(path);
-                ends.entry(cell(end, reach)).or_default().retain(|other| *other != path);
-                paths[path].points.extend(from(start));
-                path
-            }
-            None => {
-                paths.push(Toolpath::new(from(0)));
-                paths.len() - 1
-            }
+        let path = if let Some((path, _, start)) = best {
+            let end = end_of(path);
+            ends.entry(cell(end, reach)).or_default().retain(|other| *other != path);
+            paths[path].points.extend(from(start));
+            path
+        } else {
+            paths.push(Toolpath::new(from(0)));
+            paths.len() - 1
         };
         let end = paths[path].points[paths[path].points.len() - 1];
         ends.entry(cell(end, reach)).or_default().push(path);

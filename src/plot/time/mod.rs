@@ -320,7 +320,7 @@ impl<'a> Run<'a> {
 /// Chords after which GRBL works out the next from the arc's beginning.
 const CHORDS_BY_TURNING: usize = 12;
 
-/// The arms from an arc's centre to the ends of its chords but the last, as GRBL finds them (motion_control.c): each is the one before,
+/// The arms from an arc's centre to the ends of its chords but the last, as GRBL finds them (`motion_control.c`): each is the one before,
 /// turned with a sine and a cosine of the third order, and every thirteenth is exact. On a dot of 0.15 mm, whose chords turn by a third
 /// of a radian, they come to lie a motor step aside.
 fn turned(start: Vec2, angle: f64, count: usize) -> impl Iterator<Item = Vec2> {
