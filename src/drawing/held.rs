@@ -9,8 +9,8 @@
 //!              --                  --      goes on as half as wide a line inside
 //! ```
 //!
-//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are an engraving's, end
-//! before the border instead.
+//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are an engraving's, keep
+//! their middle lines only.
 
 use super::mark::interpolate;
 use super::{Drawing, Mark, Stroke, Width};
@@ -53,18 +53,14 @@ impl Mark {
             return vec![self];
         }
         match self {
-            Self::Stroke(stroke) if is_engraved(&stroke) => {
-                let room = rect.inset(-0.5 * stroke.widest() - SLACK);
-                Self::Stroke(stroke).clipped(room)
-            }
-            Self::Stroke(stroke) => held_stroke(stroke, rect.inset(-RIM)),
+            Self::Stroke(stroke) if !is_engraved(&stroke) => held_stroke(stroke, rect.inset(-RIM)),
             cut => cut.clipped(rect),
         }
     }
 }
 
 /// An engraving's line: its middle is fitted to keep a least distance from its neighbours' and few nodes, so it is neither moved nor
-/// made of pieces. It ends half of its greatest width before the border: at most a quarter of a pitch, the same all round.
+/// cut into pieces; its middle ends inside, and by half its width it may reach over.
 fn is_engraved(stroke: &Stroke) -> bool {
     stroke.ends == Ends::Flat && matches!(stroke.width, Width::Along(_))
 }
