@@ -24,7 +24,7 @@ fn folder() -> TempDir {
 /// Exit status and message of a command that is stopped when it does far more than it should.
 fn run(folder: &TempDir, arguments: &[&str]) -> (Option<i32>, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-    let output = command.current_dir(folder.path()).args(arguments).timeout(Duration::from_secs(240)).output().unwrap();
+    let output = command.current_dir(folder.path()).args(arguments).timeout(Duration::from_mins(4)).output().unwrap();
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
@@ -63,7 +63,8 @@ fn nibs_tolerances_and_scales_out_of_range_are_refused_with_the_range() {
 #[test]
 fn ink_that_no_plotter_draws_is_refused_before_it_is_laid_out() {
     let folder = folder();
-    let dots: String = (0..4000).map(|i| format!("<circle cx=\"{}\" cy=\"{}\" r=\"0.3\"/>", i % 63, i / 63)).collect();
+    let dot = |i: usize| format!("<circle cx=\"{}\" cy=\"{}\" r=\"0.3\"/>", i % 63, i / 63);
+    let dots = (0..4000).map(dot).collect::<Vec<_>>().concat();
     let svg =
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"64mm\" height=\"64mm\" viewBox=\"0 0 64 64\">{dots}</svg>");
     fs::write(folder.path().join("dots.svg"), svg).unwrap();

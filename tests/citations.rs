@@ -88,7 +88,9 @@ fn prose(text: &str) -> String {
         text.lines().filter_map(|line| line.trim_start().strip_prefix("//")).map(|line| line.trim_start_matches(['/', '!']));
     let sources =
         text.lines().filter_map(|line| line.trim_start().strip_prefix("source: \"")).map(|rest| rest.split('"').next().unwrap());
-    comments.map(str::trim).collect::<Vec<_>>().join(" ") + " . " + &sources.map(|s| format!("{s} . ")).collect::<String>()
+    comments.map(str::trim).collect::<Vec<_>>().join(" ")
+        + " . "
+        + &sources.map(|s| s.to_owned() + " . ").collect::<Vec<_>>().concat()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

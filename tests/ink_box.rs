@@ -152,7 +152,7 @@ fn pdf_box(drawing: &Drawing) -> Rect {
     ink.unwrap()
 }
 
-/// The ink of an InkML file: each vertex with half its brush at its force.
+/// The ink of an `InkML` file: each vertex with half its brush at its force.
 fn inkml_box(drawing: &Drawing) -> Option<Rect> {
     let mut bytes = Vec::new();
     write_inkml(drawing, "", &mut bytes).unwrap();

@@ -275,7 +275,7 @@ fn what_lies_off_the_sheet_is_refused_though_the_machine_reaches_it() {
     let error = mounting.check(&large, &plot).unwrap_err();
     assert!(error.to_string().contains("50.00 mm beyond the sheet's right edge"), "{error}");
     let MountingError::OffSheet { room, .. } = error else { panic!("{error}") };
-    assert!(!room.is_enough() && room.is_enough_turned(), "{room:?}");
+    assert!(!room.is_enough() && room.is_enough_across(), "{room:?}");
     let (lost, _) = clip_to(&mut plot, mounting.drawable(&page));
     assert!(lost > 50.0);
     assert_holds(&plot, &large);

@@ -258,20 +258,20 @@ fn a_z_axis_has_its_own_rate_and_acceleration() {
     assert!(errors.iter().all(|error| *error <= 0.3), "{errors:?} %");
 }
 
-/// Seconds of motion that the firmware's own code takes (gnea/grbl 1.1: planner.c, stepper.c and motion_control.c compiled for a
+/// Seconds of motion that the firmware's own code takes (gnea/grbl 1.1: `planner.c`, `stepper.c` and `motion_control.c` compiled for a
 /// computer, the timer's interrupt called by hand and its periods added up), at 80 and 400 steps/mm, `$112` = 500 and 250 mm/s^2.
 #[test]
 fn the_simulated_machine_takes_what_the_firmware_takes() {
     let measured = [
-        ("G1 X.05 Y.02 F3000", 0.032426),
-        ("G1 X.03 Y.04 F3000\nG4 P.1\nG1 X.08 Y.06\nG4 P.1\nG1 X.1 Y.12", 0.096911),
-        ("G1 X1.5 F3000\nG1 X1.45 Y.04", 0.175792),
-        ("G3 X0 Y0 I-.129 J0 F3000", 0.119840),
-        ("G3 X0 Y0 I-2 J0 F3000", 0.510190),
-        ("G3 X-.3 Y.3 I-.3 J0 F3000\nG4 P.1\nG2 X0 Y0 I.3 J.05", 0.246365),
-        ("G0 Z2\nG0 X10 Y5\nG1 Z0 F480\nG1 X20 Y5 F3000\nG0 Z2\nG0 X0 Y0", 2.091922),
-        ("G1 X3 Y4 Z1 F3000\nG1 X6 Y4 Z.5\nG1 X8 Y1 Z0\nG0 Z2", 0.885763),
-        ("G1 Z1 F480\nG4 P.1\nG0 X.4 Z1.2", 0.236975),
+        ("G1 X.05 Y.02 F3000", 0.032_426),
+        ("G1 X.03 Y.04 F3000\nG4 P.1\nG1 X.08 Y.06\nG4 P.1\nG1 X.1 Y.12", 0.096_911),
+        ("G1 X1.5 F3000\nG1 X1.45 Y.04", 0.175_792),
+        ("G3 X0 Y0 I-.129 J0 F3000", 0.119_840),
+        ("G3 X0 Y0 I-2 J0 F3000", 0.510_190),
+        ("G3 X-.3 Y.3 I-.3 J0 F3000\nG4 P.1\nG2 X0 Y0 I.3 J.05", 0.246_365),
+        ("G0 Z2\nG0 X10 Y5\nG1 Z0 F480\nG1 X20 Y5 F3000\nG0 Z2\nG0 X0 Y0", 2.091_922),
+        ("G1 X3 Y4 Z1 F3000\nG1 X6 Y4 Z.5\nG1 X8 Y1 Z0\nG0 Z2", 0.885_763),
+        ("G1 Z1 F480\nG4 P.1\nG0 X.4 Z1.2", 0.236_975),
     ];
     for (text, seconds) in measured {
         let simulated = run(text, &Z).motion;

@@ -149,13 +149,15 @@ fn noises_gradients_and_textures_have_no_face() {
     }
 }
 
+/// Where a place of the upright picture, `x`, `y`, of its width and height, comes to lie.
+type Place = fn(f64, f64, f64, f64) -> Point;
+
 #[test]
 fn a_photograph_on_its_side_is_turned() {
     let upright = picture("grace-hopper.jpg");
     let (width, height) = (f64::from(upright.width()), f64::from(upright.height()));
     let pupils = PUPILS[1].1;
     let subject = seen(&sample("grace-hopper.jpg")).subject_at_full_size().unwrap();
-    type Place = fn(f64, f64, f64, f64) -> Point;
     let turns: [(RgbImage, Place); 3] = [
         (image::imageops::rotate90(&upright), |x, y, _, h| Point::new(h - y, x)),
         (image::imageops::rotate180(&upright), |x, y, w, h| Point::new(w - x, h - y)),

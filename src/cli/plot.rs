@@ -48,6 +48,9 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     })?;
     drop(bytes);
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
+    if let Some(profile) = &profile {
+        fit_to_machine(&mut imported, profile);
+    }
     let model = ink_model(options, &imported);
     let hides = options.occlude.then(|| hides(model));
     // Pens are given when all marks are known to be drawn; the usual one is near enough for what they will cost.
@@ -59,9 +62,6 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         leave_out_hidden(&mut imported, hides)?;
     }
     choose_layers(&mut imported, &options.layers)?;
-    if let Some(profile) = &profile {
-        fit_to_machine(&mut imported, profile);
-    }
     if model == InkModel::Lines {
         count_fills(&mut imported);
     }
