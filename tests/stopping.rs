@@ -66,27 +66,13 @@ fn each_signal_stops_every_long_command_soon() {
     fs::write(folder.path().join("long.svg"), long_drawing(300_000)).unwrap();
     assert!(Command::new("mkfifo").arg(folder.path().join("fifo")).status().unwrap().success());
     let before = fs::read_dir(folder.path()).unwrap().count();
-    let commands: [&[&str]; 9] = [
+    let commands: [&[&str]; 8] = [
         &["draw", "photo.png", "-o", "o.svg", "--page", "a3", "--pitch", "0.4", "-q"],
         &["draw", "photo.png", "-o", "o.svg", "--page", "a3", "--style", "grid", "--pitch", "0.4", "-q"],
         &["draw", "photo.png", "-o", "o.svg", "--page", "a3", "--style", "engrave", "--pitch", "0.4", "-q"],
         &["draw", "photo.png", "-o", "o.svg", "--page", "a3", "--style", "charcoal", "-q"],
         &["draw", "photo.png", "-o", "o.svg", "--page", "a3", "--style", "glass", "-q"],
         &["plot", "long.svg", "-o", "o.gcode", "--profile", "grbl-servo", "-q"],
-        &[
-            "plot",
-            "long.svg",
-            "-o",
-            "o.gcode",
-            "--profile",
-            "grbl-servo",
-            "--ink-model",
-            "ink",
-            "--occlude",
-            "--pen",
-            "0.1",
-            "-q",
-        ],
         &["draw", "-", "-o", "o.svg"],
         &["draw", "fifo", "-o", "o.svg"],
     ];
