@@ -31,6 +31,8 @@ fn send(signal: &str, child: &Child) {
 /// Starts a command, sends a signal after a while, and gives the exit status and how long the end took; `None` if it was done before.
 fn stopped(folder: &Path, arguments: &[&str], signal: &str, after: Duration) -> Option<(Option<i32>, Duration)> {
     let mut child = start(folder, arguments);
+    // To wait for a child closes its stdin, which would end its reading.
+    let _stdin = child.stdin.take();
     std::thread::sleep(after);
     if child.try_wait().unwrap().is_some() {
         return None;
