@@ -74,11 +74,12 @@ fn an_order_of_a_million_dots_stops() {
     });
 }
 
-// Later it is within one inset of all teeth, a call that nothing stops: of 1500 of them it takes two seconds.
 #[test]
 fn lowering_of_a_large_area_stops() {
     let area = page_of(vec![Mark::Area(Area { outline: comb(1500), colour: None })]);
-    stops_at_once("area", &[0.05, 0.3], |interrupt| lower(&area, InkModel::Ink, &Nibs::all(0.1), 0.005, interrupt));
+    stops_at_once("area", &[0.05, 0.3, 1.0, 2.5, 5.0, 9.0], |interrupt| {
+        lower(&area, InkModel::Ink, &Nibs::all(0.1), 0.005, interrupt)
+    });
 }
 
 #[test]

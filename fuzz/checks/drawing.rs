@@ -5,7 +5,7 @@ use super::invented::{drawing, length, window};
 use super::machine::{Written, is_sound, lift_of, written};
 use super::svg::is_finite;
 use arbitrary::{Result, Unstructured};
-use drypoint::drawing::{Drawing, Painted};
+use drypoint::drawing::{Colour, Drawing, Painted};
 use drypoint::geometry::{Point, Rect};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
@@ -59,13 +59,14 @@ struct Options {
 impl Options {
     fn invented(u: &mut Unstructured<'_>) -> Result<Self> {
         let names = built_in_names();
-        let profile = Profile::built_in(u.choose(&names)?).expect("a built-in profile is sound");
+        let mut profile = Profile::built_in(u.choose(&names)?).expect("a built-in profile is sound");
         let mut nibs = Nibs::all(length(u, 0.1, 3.0)?);
         if u.ratio(1, 8)? {
             nibs.by_pen.insert(2, length(u, 0.1, 3.0)?);
         }
         if u.ratio(1, 8)? {
-            nibs.swell = Some(Swell { table: vec![[0.2, 1.0], [0.4, 0.0], [1.0, -3.0]] });
+            profile.swell = Some(swell(&profile));
+            nibs.swell.clone_from(&profile.swell);
         }
         let hides = [None, None, Some(Hides::OtherColours), Some(Hides::AllLines), Some(Hides::PaintOnOtherColours)];
         Ok(Self {
@@ -78,6 +79,13 @@ impl Options {
             does_clip: u.arbitrary()?,
         })
     }
+}
+
+/// A brush that touches the paper above where the pen is lowered, and swells below it.
+fn swell(profile: &Profile) -> Swell {
+    let (up, down) = profile.gcode.as_ref().and_then(|gcode| gcode.height).map_or((2.0, 0.0), |height| (height.up, height.down));
+    let at = |share: f64| down + share * (up - down);
+    Swell { table: vec![[0.2, at(0.7)], [0.4, down], [1.0, at(-1.5)]] }
 }
 
 fn sequence(u: &mut Unstructured<'_>) -> Result<Sequence> {
@@ -211,21 +219,23 @@ fn on_machine(mut plot: Plot, options: &Options) {
         assert!(motion.ends_up && motion.paths.len() == count, "{} of {count} paths: {text}", motion.paths.len());
     }
     if let Some(dialect) = &profile.gcode {
-        let motion =
-            read_gcode_within(&text, &lift_of(dialect), &mut Budget::default()).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let motion = read_gcode_within(&text, &lift_of(profile, dialect), &mut Budget::default())
+            .unwrap_or_else(|error| panic!("{error}: {text}"));
         is_sound(&motion, Some(reach));
         assert!(motion.ends_up && motion.paths.len() == count, "{} of {count} paths: {text}", motion.paths.len());
         assert!(text.lines().all(|line| line.len() <= dialect.line_length && line.is_ascii()), "{text}");
     }
 }
 
-/// Tool paths as SVG come back as long as they were.
+/// Tool paths as SVG come back as long as they were, but for white ones, which are paper where they are read.
 fn are_read_back(svg: &str, plot: &Plot) {
     is_numeric(svg);
     let again = read_svg(svg.as_bytes()).unwrap_or_else(|error| panic!("{error}: {svg}"));
     let lines = lower(&again.drawing(), InkModel::Lines, &Nibs::all(0.3), 0.01, &Interrupt::never()).expect("nobody interrupts");
     let length = |plot: &Plot| plot.pens.iter().flat_map(|pen| &pen.paths).map(drypoint::plot::Toolpath::length).sum::<f64>();
-    let vertices = plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points.len()).sum::<usize>();
-    let (asked, told) = (length(plot), length(&lines));
+    let mut inked = plot.clone();
+    inked.pens.retain(|pen| pen.colour != Colour::WHITE);
+    let vertices = inked.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points.len()).sum::<usize>();
+    let (asked, told) = (length(&inked), length(&lines));
     assert!((asked - told).abs() <= 0.02 + 0.004 * vertices as f64, "{asked} mm came back as {told} mm: {svg}");
 }

@@ -71,10 +71,10 @@ fn ascii(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
     String::from_utf8(bytes).expect("what is written is text")
 }
 
-/// How a dialect moves its pen.
-pub(crate) fn lift_of(dialect: &GcodeDialect) -> PenLift<'_> {
+/// How a profile's machine moves its pen.
+pub(crate) fn lift_of<'a>(profile: &Profile, dialect: &'a GcodeDialect) -> PenLift<'a> {
     match (dialect.lift, dialect.height) {
-        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: height.down },
+        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: profile.lightest().unwrap_or(height.down) },
         _ => PenLift::Commands {
             up: dialect.pen_up.as_deref().unwrap_or_default(),
             down: dialect.pen_down.as_deref().unwrap_or_default(),

@@ -9,8 +9,8 @@
 //!              --                  --      goes on as half as wide a line inside
 //! ```
 //!
-//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are an engraving's, keep
-//! their middle lines only.
+//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are an engraving's, are
+//! cut by their middle lines only: their style ends them, and narrows them, before the border itself.
 
 use super::mark::interpolate;
 use super::{Drawing, Mark, Stroke, Width};
@@ -60,7 +60,7 @@ impl Mark {
 }
 
 /// An engraving's line: its middle is fitted to keep a least distance from its neighbours' and few nodes, so it is neither moved nor
-/// cut into pieces; its middle ends inside, and by half its width it may reach over.
+/// cut into pieces; its style has left room for its width.
 fn is_engraved(stroke: &Stroke) -> bool {
     stroke.ends == Ends::Flat && matches!(stroke.width, Width::Along(_))
 }

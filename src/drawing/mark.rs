@@ -112,8 +112,10 @@ impl Dot {
             None => clip_disc(self.centre, self.radius, rect),
         };
         let area = outline.area().abs();
+        // What is left of a slanting blob may lie anywhere along the border.
+        let left = outline.bounding_box();
         (area > 0.0).then(|| Self {
-            centre: Point::new(self.centre.x.clamp(rect.x0, rect.x1), self.centre.y.clamp(rect.y0, rect.y1)),
+            centre: Point::new(self.centre.x.clamp(left.x0, left.x1), self.centre.y.clamp(left.y0, left.y1)),
             radius: (area / std::f64::consts::PI).sqrt(),
             outline: Some(Box::new(outline)),
             colour: self.colour,
@@ -368,5 +370,13 @@ mod tests {
         assert_eq!(pieces.len(), 1);
         let Width::Along(widths) = &pieces[0].width else { panic!("it swells") };
         assert!((widths[0] - 0.5).abs() < 1e-9 && (widths[1] - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_clipped_blob_s_middle_lies_in_what_is_left_of_it() {
+        let slanting = BezPath::from_svg("M-4,-4 L4,3 L4,4 L-4,-3 Z").unwrap();
+        let blob = Dot { outline: Some(Box::new(slanting)), ..Dot::circle(Point::ORIGIN, 1.6) };
+        let left = blob.clipped(Rect::new(2.0, -9.0, 9.0, 9.0)).unwrap();
+        assert!(left.bounding_box().contains(left.centre) && left.centre.y > 1.0, "{:?}", left.centre);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::polyline::{flatten, simplify};
 use super::tangle::Thread;
+use crate::interrupt::Interrupt;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
@@ -123,13 +124,12 @@ fn points(ring: &[[f64; 2]]) -> Vec<Point> {
 
 impl Insets {
     /// What is narrower than `2 distance`: the parts that a disc of that radius cannot reach from inside, each as its rings, the border
-    /// first and holes turning the other way.
-    pub fn narrow_parts(&self, distance: f64) -> Vec<Vec<Vec<Point>>> {
-        let style = |distance: f64| OutlineStyle::new(distance).line_join(LineJoin::Round(0.3));
+    /// first and holes turning the other way. `core` is this moved inwards by `distance`, which is where the disc's middle can be.
+    /// Nothing once the interrupt is raised.
+    pub fn narrow_parts(&self, core: &Self, distance: f64, interrupt: &Interrupt) -> Vec<Vec<Vec<Point>>> {
         // A little more, so that flattened corners leave no crumbs.
-        let reached = self.shapes.outline(&style(-distance)).outline(&style(1.04 * distance));
-        let rest = self.shapes.overlay(&reached, OverlayRule::Difference, FillRule::NonZero);
-        rest.iter().map(|shape| shape.iter().map(|ring| points(ring)).collect()).collect()
+        let reached = core.grown(1.04 * distance);
+        if interrupt.is_raised() { Vec::new() } else { self.without(&reached).shapes().collect() }
     }
 }
 
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn a_flag_s_pole_is_narrow_and_its_cloth_is_not() {
         let flag = Insets::new(&BezPath::from_svg("M0,0 H5 V3 H0.2 V9 H0 Z").unwrap(), 0.01);
-        let parts = flag.narrow_parts(0.3);
+        let parts = flag.narrow_parts(&flag.grown(-0.3), 0.3, &Interrupt::never());
         let area: f64 = parts.iter().map(|part| polygon_area(&part[0]).abs()).sum();
         // The pole, and the cloth's corners that no disc reaches.
         assert!((1.1..1.6).contains(&area), "{area}");

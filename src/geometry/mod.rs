@@ -8,6 +8,7 @@ mod blob;
 mod blue_noise;
 mod bounded;
 mod clip;
+mod convex_hull;
 mod crossings;
 mod direct_search;
 mod disc;
@@ -30,6 +31,7 @@ pub use blob::blob;
 pub use blue_noise::blue_noise_order;
 pub use bounded::{polygons_within, tamed};
 pub use clip::{clip_disc, clip_polygon, clip_polyline, half_plane};
+pub use convex_hull::convex_hull;
 pub use crossings::{Crossings, crossings};
 pub use disc::{disc_area_in, radius_for_area};
 pub use graph::{FitTolerance, Graph, GraphNode};
@@ -37,7 +39,9 @@ pub use hand_shading::HandShading;
 pub use inset::Insets;
 pub use length::{LengthError, parse_drawn_length, parse_drawn_size, parse_length, parse_size};
 pub use number::parse_finite;
-pub use polyline::{distance_to_segment, flatten, flattened_points, polygon_area, polyline_length, resample, simplify};
+pub use polyline::{
+    distance_to_segment, flatten, flattened_points, polygon_area, polyline_length, resample, simplify, simplify_until,
+};
 pub use region::{Region, Winding, untangled, untangled_polygons};
 pub use smooth::{catmull_rom, smooth_polyline};
 pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, stations, swelling_outline};

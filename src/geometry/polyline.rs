@@ -1,5 +1,6 @@
 //! Polylines and polygons: length, area, even spacing, simplification, flattening of curves.
 
+use crate::interrupt::Interrupt;
 use kurbo::{BezPath, PathEl, Point};
 
 /// Length of an open polyline.
@@ -45,6 +46,11 @@ const TOGETHER: usize = 4096;
 /// Drops vertices that lie within `tolerance` of the line left without them (Douglas and Peucker 1973). Ends are kept, and of a very
 /// long line some vertices on the way.
 pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
+    simplify_until(points, tolerance, &Interrupt::never())
+}
+
+/// The same; too few vertices once the interrupt is raised.
+pub fn simplify_until(points: &[Point], tolerance: f64, interrupt: &Interrupt) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
     }
@@ -53,7 +59,7 @@ pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     ends.push(points.len() - 1);
     ends.iter().for_each(|&end| keep[end] = true);
     let mut ranges: Vec<(usize, usize)> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
-    while let Some((first, last)) = ranges.pop() {
+    while let Some((first, last)) = ranges.pop().filter(|_| !interrupt.is_raised()) {
         let farthest = (first + 1..last)
             .map(|i| (distance_to_segment(points[i], points[first], points[last]), i))
             .fold((0.0, 0), |best, next| if next.0 > best.0 { next } else { best });

@@ -133,8 +133,7 @@ fn is_value(bytes: &[u8]) -> bool {
 
 /// The prefix that an attribute before its `=` declares.
 fn namespace(text: &str) -> Option<&str> {
-    let text = text.trim_end();
-    let name = &text[text.rfind(|c: char| c.is_whitespace() || c == '"' || c == '\'').map_or(0, |at| at + 1)..];
+    let name = text.trim_end().rsplit(|c: char| c.is_whitespace() || c == '"' || c == '\'').next()?;
     name.strip_prefix("xmlns").map(|rest| rest.trim_start_matches(':'))
 }
 
@@ -150,6 +149,12 @@ mod tests {
     fn elements_attributes_and_namespaces() {
         let found = census("<svg xmlns='a' xmlns:x = \"b\"><g id='1' x:y='2' style='a:b=c'>a = b</g><g/></svg>");
         assert_eq!((found.tags, found.attributes, found.pairs, found.namespaces), (5.0, 5.0, 4.0 + 9.0, 2.0));
+    }
+
+    #[test]
+    fn white_space_of_any_length_ends_a_name() {
+        let found = census("<?xml\u{2000}xmlns:a=\"b\"\u{85}xmlns='c'\u{a0}d='e'?>");
+        assert_eq!((found.attributes, found.namespaces), (3.0, 2.0));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::Strokes;
 use super::budget::{Budget, PATH, POINT, TooMuchWork};
 use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
+use std::ops::Range;
 use thiserror::Error;
 
 /// Motion in plotter units.
@@ -48,6 +49,9 @@ pub enum HpglError {
 /// Distance from an arc at which it is followed, in plotter units.
 const ARC_TOLERANCE: f64 = 0.1;
 
+/// Begins what is meant for the interface, not the plotter.
+const ESCAPE: char = '\u{1b}';
+
 /// Reads `IN SP VS FS PU PD PA PR PE AA AR PS` and skips other instructions' effects; escape sequences are passed over.
 pub fn read_hpgl(text: &str) -> Result<HpglMotion, HpglError> {
     read_hpgl_within(text, &mut Budget::default())
@@ -64,34 +68,44 @@ pub fn read_hpgl_within(text: &str, budget: &mut Budget) -> Result<HpglMotion, H
         is_down: false,
         is_relative: false,
     };
-    let mut at = 0;
-    while at < text.len() {
-        let rest = &text[at..];
-        let length = match rest.as_bytes()[0] {
-            b'\x1b' => escape_length(rest),
-            // Packed numbers may hold any printable character but the one that ends them.
-            b'P' if rest.starts_with("PE") => rest.find(';').map_or(rest.len(), |end| end + 1),
-            _ => rest.find([';', '\n', '\x1b']).map_or(rest.len(), |end| end + usize::from(!rest[end..].starts_with('\x1b'))),
-        };
-        let instruction = rest[..length].trim_matches(|c: char| c == ';' || c.is_whitespace());
-        if !instruction.is_empty() && !instruction.starts_with('\u{1b}') {
-            reader.execute(instruction, at)?;
-        }
-        at += length;
+    for (bytes, instruction) in instructions(text) {
+        reader.execute(instruction, bytes.start)?;
     }
     reader.motion.ends_up = !reader.is_down;
     Ok(reader.motion)
 }
 
-/// An escape sequence is ESC, a point and a letter; some letters take parameters up to a colon.
+/// The instructions of a file, each with its bytes and whatever ends it; escape sequences are passed over.
+pub(crate) fn instructions(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
+    let separates = |c: char| c == ';' || c.is_whitespace();
+    let mut left = text.trim_start_matches(separates);
+    std::iter::from_fn(move || {
+        while left.starts_with(ESCAPE) {
+            left = left[escape_length(left)..].trim_start_matches(separates);
+        }
+        let start = text.len() - left.len();
+        let (instruction, after) = (!left.is_empty()).then(|| left.split_at(length(left)))?;
+        left = after.trim_start_matches(separates);
+        Some((start..start + instruction.len(), instruction.trim_end_matches(separates)))
+    })
+}
+
+/// Bytes of the instruction that a text begins with.
+fn length(text: &str) -> usize {
+    // Packed numbers may hold any printable character but the one that ends them.
+    let is_packed = text.get(..2).is_some_and(|name| name.eq_ignore_ascii_case("PE"));
+    let end = if is_packed { text.find(';') } else { text.find([';', '\n', ESCAPE]) };
+    end.map_or(text.len(), |end| end + usize::from(!text[end..].starts_with(ESCAPE)))
+}
+
+/// An escape sequence is ESC, a point and a letter; some letters take numbers, which a colon ends.
 fn escape_length(text: &str) -> usize {
-    let takes_parameters = text.as_bytes().get(2).is_some_and(|letter| b"@HIMNPQSTY".contains(letter));
-    let end = if takes_parameters { text.find(':').map(|colon| colon + 1) } else { None };
-    let mut length = end.unwrap_or(3).min(text.len());
-    while !text.is_char_boundary(length) {
-        length += 1;
+    let letter: usize = text.chars().take(3).map(char::len_utf8).sum();
+    if !text.as_bytes().get(2).is_some_and(|letter| b"@HIMNPQSTY".contains(letter)) {
+        return letter;
     }
-    length
+    let numbers = text[letter..].bytes().take_while(|byte| byte.is_ascii_digit() || b"; ".contains(byte)).count();
+    if text[letter + numbers..].starts_with(':') { letter + numbers + 1 } else { letter }
 }
 
 struct Reader<'a> {
@@ -245,6 +259,8 @@ mod tests {
     fn faults_are_named() {
         assert!(matches!(read_hpgl("IN;PU1;"), Err(HpglError::OddCoordinates { at: 3, .. })));
         assert!(matches!(read_hpgl("IN;<svg>"), Err(HpglError::Instruction { at: 3, .. })));
+        assert!(matches!(read_hpgl("IN;F\u{136}=aI;PU1,2;"), Err(HpglError::Instruction { at: 3, .. })));
+        assert!(matches!(read_hpgl("IN;P"), Err(HpglError::Instruction { at: 3, .. })));
     }
 
     #[test]
@@ -262,6 +278,13 @@ mod tests {
         let text = format!("IN;SP1;PU0,0;PD;{}", "AA5,5,1e18;".repeat(20_000));
         let Err(HpglError::Work { at, work }) = read_hpgl(&text) else { panic!("it was read") };
         assert!(at == 16 && work.what == "arcs" && work.steps > work.most);
+    }
+
+    #[test]
+    fn instructions_end_at_semicolons_lines_and_escapes() {
+        let text = "\u{1b}.N;19:\u{1b}.N\u{1b}.@;0;in\n PU1,2\u{1b}.E;;PD;\n pe\nab\n;SP0";
+        let found: Vec<_> = instructions(text).map(|(bytes, text)| (bytes.len(), text)).collect();
+        assert_eq!(found, [(2, "0"), (3, "in"), (5, "PU1,2"), (3, "PD"), (7, "pe\nab"), (3, "SP0")]);
     }
 
     #[test]

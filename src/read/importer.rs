@@ -248,7 +248,12 @@ impl<'a> Importer<'a> {
         // An offset of many periods is that of its rest.
         let offset = (f64::from(stroke.dashoffset()) * unit).rem_euclid(dashes.iter().sum());
         let offset = if offset.is_finite() { offset } else { 0.0 };
-        let mut dashed: BezPath = kurbo::dash(curve.iter(), offset, &dashes).collect();
+        // A subpath without length is a dot.
+        let dashed = subpaths(&curve).into_iter().flat_map(|piece| {
+            let has_length = crate::geometry::curve_length(&piece) > 0.0;
+            if has_length { kurbo::dash(piece.iter(), offset, &dashes).collect() } else { piece }
+        });
+        let mut dashed: BezPath = dashed.collect();
         if ends == Ends::Flat && pattern.contains(&0.0) {
             let long = subpaths(&dashed).into_iter().filter(|dash| crate::geometry::curve_length(dash) > 2.0 * least);
             dashed = long.flat_map(std::iter::IntoIterator::into_iter).collect();

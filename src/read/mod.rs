@@ -22,6 +22,7 @@ mod text;
 pub use budget::{Budget, MOST_WORK, TooMuchWork};
 pub use dropped::Dropped;
 pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights, read_gcode_within};
+pub(crate) use hpgl::instructions as hpgl_instructions;
 pub use hpgl::{HpglError, HpglMotion, read_hpgl, read_hpgl_within};
 pub use layers::LabelSpeeds;
 pub use svg::{Imported, ImportedLayer, SvgError, read_svg, read_svg_within};

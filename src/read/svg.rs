@@ -14,6 +14,9 @@ use crate::drawing::{Drawing, Layer, Page, Painted};
 use std::borrow::Cow;
 use thiserror::Error;
 
+/// A sheet's least side, in millimetres: files are written in thousandths, and a narrower one would have none there.
+const NARROWEST: f64 = 0.0006;
+
 /// Why an SVG could not be read.
 #[derive(Debug, Error)]
 pub enum SvgError {
@@ -45,7 +48,7 @@ pub enum SvgError {
     Svg(#[from] usvg::Error),
     /// A sheet that no machine has.
     #[error(
-        "cannot be used as an SVG: its page is {0} x {1} mm, and at most 100 m can be read; give it a smaller width and height"
+        "cannot be used as an SVG: its page is {0} x {1} mm, and sides from 0.001 mm to 100 m can be read; give it another width and height"
     )]
     Page(f64, f64),
     /// More than may be read at once.
@@ -118,7 +121,7 @@ pub fn read_svg_within(bytes: &[u8], budget: &mut Budget) -> Result<Imported, Sv
         }
     };
     let page = Page::new(f64::from(tree.size().width()) * MM_PER_PX, f64::from(tree.size().height()) * MM_PER_PX);
-    if page.width.max(page.height) > FARTHEST {
+    if page.width.max(page.height) > FARTHEST || page.width.min(page.height) < NARROWEST {
         return Err(SvgError::Page(page.width, page.height));
     }
     let mut importer = Importer::new(&outline, budget);

@@ -2,8 +2,10 @@
 
 use super::{ResumeError, Stop};
 use crate::geometry::parse_finite;
+use crate::read::hpgl_instructions;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::ops::Range;
 
 /// The rest of an HP-GL file from the place that was not taken; `again` is how many plotter units are drawn again. A path packed with
 /// `PE` is drawn again from its start.
@@ -20,7 +22,7 @@ pub fn resume_hpgl(text: &str, stop: Stop, again: f64) -> Result<String, ResumeE
     }
     let open = instructions.iter().find(|i| i.start < byte && byte < i.end);
     // Inside a list of points: those before the byte are done.
-    if let Some(open) = open.filter(|open| matches!(open.name, "PD" | "PA" | "PU")) {
+    if let Some(open) = open.filter(|open| matches!(open.name.as_str(), "PD" | "PA" | "PU")) {
         let done = open.numbers.iter().take_while(|(_, end)| *end <= byte).count() & !1;
         if done > 0 {
             state.take(open, done);
@@ -55,8 +57,8 @@ fn byte_of(text: &str, instructions: &[Instruction], stop: Stop) -> Result<usize
         Stop::Path(path) => {
             let mut is_down = false;
             let falls = instructions.iter().filter(|i| {
-                let falls = !is_down && matches!(i.name, "PD" | "PE");
-                is_down = if matches!(i.name, "PU" | "PE" | "SP" | "IN") { false } else { is_down || i.name == "PD" };
+                let falls = !is_down && matches!(i.name.as_str(), "PD" | "PE");
+                is_down = if matches!(i.name.as_str(), "PU" | "PE" | "SP" | "IN") { false } else { is_down || i.name == "PD" };
                 falls
             });
             let starts: Vec<usize> = falls.map(|i| i.start).collect();
@@ -70,39 +72,32 @@ fn byte_of(text: &str, instructions: &[Instruction], stop: Stop) -> Result<usize
 
 /// One instruction with its bytes, and each number with the byte behind it.
 struct Instruction<'a> {
-    name: &'a str,
+    /// In capitals.
+    name: String,
+    /// Without what ends it.
     text: &'a str,
     start: usize,
     end: usize,
     numbers: Vec<(f64, usize)>,
 }
 
-/// The instructions from `IN` on; what is before is for the interface.
+/// The instructions as they are read.
 fn instructions(text: &str) -> Vec<Instruction<'_>> {
-    let mut found = Vec::new();
-    let mut start = text.find("IN").unwrap_or(0);
-    while let Some(length) = text[start..].find(';') {
-        let end = start + length + 1;
-        let blank = text[start..end].len() - text[start..end].trim_start().len();
-        let from = start + blank;
-        let body = &text[from..end];
-        if body.len() > 2 && body.is_char_boundary(2) {
-            let name = &body[..2];
-            let numbers = if name == "PE" { Vec::new() } else { numbers(&body[2..], from + 2) };
-            found.push(Instruction { name, text: body, start: from, end, numbers });
-        }
-        start = end;
-    }
-    found
+    let instruction = |(bytes, body): (Range<usize>, _)| {
+        let (name, numbers) = str::split_at_checked(body, 2)?;
+        let name = name.to_ascii_uppercase();
+        let numbers = if name == "PE" { Vec::new() } else { self::numbers(numbers, bytes.start + 2, bytes.end) };
+        Some(Instruction { name, text: body, start: bytes.start, end: bytes.end, numbers })
+    };
+    hpgl_instructions(text).filter_map(instruction).collect()
 }
 
-/// Refuses numbers that are none or infinite, wherever an instruction takes numbers.
+/// Refuses what is no number, or none that a machine may get, wherever an instruction takes numbers.
 fn check(instructions: &[Instruction]) -> Result<(), ResumeError> {
-    let takes_numbers = |i: &&Instruction| matches!(i.name, "PU" | "PD" | "PA" | "PR" | "AA" | "AR" | "SP" | "VS" | "FS" | "AS");
-    for instruction in instructions.iter().filter(takes_numbers) {
-        let is_sound = |number: &str| number.parse::<f64>().is_err() || parse_finite(number).is_some();
-        let mut parts = instruction.text[2..].split([',', ';', ' ']).map(str::trim);
-        if let Some(number) = parts.find(|number| !is_sound(number)) {
+    let takes_numbers = |name: &str| matches!(name, "PU" | "PD" | "PA" | "PR" | "AA" | "AR" | "SP" | "VS" | "FS" | "AS");
+    for instruction in instructions.iter().filter(|i| takes_numbers(&i.name)) {
+        let mut parts = pieces(&instruction.text[2..]).map(|(part, _)| part);
+        if let Some(number) = parts.find(|part| parse_finite(part).is_none()) {
             let place = format!("byte {}", instruction.start);
             return Err(ResumeError::NotFinite { place, number: number.chars().take(20).collect() });
         }
@@ -110,16 +105,22 @@ fn check(instructions: &[Instruction]) -> Result<(), ResumeError> {
     Ok(())
 }
 
-fn numbers(body: &str, offset: usize) -> Vec<(f64, usize)> {
-    let mut found = Vec::new();
-    let mut start = 0;
-    for (i, c) in body.char_indices() {
-        if c == ',' || c == ';' || c == ' ' {
-            if let Ok(number) = body[start..i].trim().parse() {
-                found.push((number, offset + i + 1));
-            }
-            start = i + 1;
-        }
+/// What stands between commas and blanks, with the byte behind it and what follows it.
+fn pieces(text: &str) -> impl Iterator<Item = (&str, usize)> {
+    let mut end = 0;
+    let pieces = text.split_inclusive([',', ' ']).map(move |piece| {
+        end += piece.len();
+        (piece.trim_end_matches([',', ' ']), end)
+    });
+    pieces.filter(|(piece, _)| !piece.is_empty())
+}
+
+/// The last one takes with it whatever ends the instruction.
+fn numbers(text: &str, offset: usize, end: usize) -> Vec<(f64, usize)> {
+    let number = |(piece, behind): (&str, _)| Some((piece.parse().ok()?, offset + behind));
+    let mut found: Vec<_> = pieces(text).filter_map(number).collect();
+    if let Some((_, last)) = found.last_mut() {
+        *last = end;
     }
     found
 }
@@ -139,17 +140,17 @@ struct State<'a> {
     is_down: bool,
     pen: Option<&'a str>,
     /// Speed, force, acceleration and the like as they were set last.
-    set: BTreeMap<&'a str, &'a str>,
+    set: BTreeMap<String, &'a str>,
     path: Vec<Vertex>,
 }
 
 impl<'a> State<'a> {
     /// Takes an instruction, of a list of points only so many numbers.
     fn take(&mut self, instruction: &Instruction<'a>, numbers: usize) {
-        match instruction.name {
+        match instruction.name.as_str() {
             "SP" => (self.pen, self.is_down) = (Some(instruction.text), false),
             "VS" | "FS" | "AS" => {
-                self.set.insert(instruction.name, instruction.text);
+                self.set.insert(instruction.name.clone(), instruction.text);
             }
             "PU" => self.is_down = false,
             "PD" if !self.is_down => {
@@ -162,7 +163,7 @@ impl<'a> State<'a> {
             "AA" => self.turn(instruction),
             _ => {}
         }
-        if !matches!(instruction.name, "PU" | "PD" | "PA") {
+        if !matches!(instruction.name.as_str(), "PU" | "PD" | "PA") {
             return;
         }
         for pair in instruction.numbers[..numbers].chunks_exact(2) {
@@ -187,7 +188,9 @@ impl<'a> State<'a> {
 
     fn restore_pen(&self, rest: &mut String) {
         rest.push_str("PU;");
-        self.pen.into_iter().chain(self.set.values().copied()).for_each(|text| rest.push_str(text));
+        for text in self.pen.into_iter().chain(self.set.values().copied()) {
+            let _ = write!(rest, "{text};");
+        }
     }
 
     /// Goes back a few units along the path and goes on from there with the pen down.
@@ -237,11 +240,26 @@ mod tests {
     }
 
     #[test]
-    fn numbers_without_end_are_faults() {
-        let infinite = FILE.replace("PD200,100", "PDnan,inf");
-        let refused = resume_hpgl(&infinite, Stop::Path(2), 120.0);
-        let place = format!("byte {}", at("PD200,100"));
-        assert_eq!(refused, Err(ResumeError::NotFinite { place, number: "nan".into() }));
+    fn what_is_no_finite_number_is_a_fault() {
+        for number in ["nan", "1e999", "inf5", "2x"] {
+            let refused = resume_hpgl(&FILE.replace("PD200", &format!("PD{number}")), Stop::Path(2), 120.0);
+            let place = format!("byte {}", at("PD200,100"));
+            assert_eq!(refused, Err(ResumeError::NotFinite { place, number: number.into() }));
+        }
+    }
+
+    /// Semicolons, ends of lines and the next escape sequence all end an instruction, and letters may be small.
+    #[test]
+    fn instructions_are_told_apart_as_they_are_read() {
+        let stop = |text: &str, byte| resume_hpgl(text, Stop::Byte(byte), 120.0).unwrap();
+        let expected = stop(FILE, at("300,300;PU500"));
+        let lines = FILE.replace(';', "\n");
+        assert_eq!(stop(&lines, at("300,300;PU500")).replace('\n', ";"), expected.replace('\n', ";"));
+        assert_eq!(stop(&FILE.to_lowercase(), at("300,300;PU500")).to_uppercase(), expected);
+        let escape = "\u{1b}.N;19:";
+        let escaped = FILE.replace(";PD200", &format!("{escape}PD200")).replace("SP1;", "SP1\u{1b}.E");
+        let rest = stop(&escaped, escaped.find("PD300,200").unwrap());
+        assert_eq!(rest, stop(FILE, at("PD300,200")));
     }
 
     #[test]

@@ -29,7 +29,7 @@ const MOST_RING_VERTICES: usize = 2_000_000;
 pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let outermost = insets.grown(-0.5 * nib);
-    let reached = outermost.grown(0.5 * nib);
+    let narrow = narrow_parts(insets, &outermost, nib, phase, interrupt);
     let border = closed_rings(outermost.borders());
     let hatched = hatching(insets, &border, nib, pitch, interrupt);
     let ringed = rings(outermost, pitch, interrupt).map(|rings| joined(&rings, 1.5 * pitch, interrupt));
@@ -39,18 +39,23 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
         (_, Some(ringed)) => ringed,
         (None, None) => joined(&[border], 1.5 * pitch, interrupt),
     };
-    paths.extend(narrow_parts(insets, &reached, nib, phase, interrupt));
+    paths.extend(narrow);
     paths
 }
 
-/// What is narrower than the nib, as dashes with its ink.
-fn narrow_parts(insets: &Insets, reached: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
+/// What is narrower than the nib, as dashes with its ink; `outermost` is where the nib's middle can be.
+fn narrow_parts(insets: &Insets, outermost: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let least = LEAST_PART * FRAC_PI_4 * nib * nib;
-    let parts = insets.narrow_parts(0.5 * nib).into_iter().take_while(|_| !interrupt.is_raised());
+    let parts = insets.narrow_parts(outermost, 0.5 * nib, interrupt).into_iter();
     let pieces = parts.flat_map(|part| pieces(part, nib)).filter(|piece| ink_of(piece) >= least);
+    let pieces = pieces.take_while(|_| !interrupt.is_raised());
     let drawn = pieces.enumerate().flat_map(|(i, piece)| dashes(&needle(&piece, nib), nib, phase + 0.618 * i as f64));
     let ground = OnceCell::new();
-    drawn.filter(|path| ground.get_or_init(|| Ground::new(insets, reached)).bears(&path.points, nib)).collect()
+    let bears = |path: &Toolpath| {
+        let ground = ground.get_or_init(|| Ground::new(insets, &outermost.grown(0.5 * nib)));
+        !interrupt.is_raised() && ground.bears(&path.points, nib)
+    };
+    drawn.filter(bears).collect()
 }
 
 /// What is to be inked, and what of it is inked already where the nib fits.

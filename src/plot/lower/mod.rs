@@ -17,7 +17,7 @@ mod unite;
 use super::profile::Swell;
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
-use crate::geometry::{BezPath, Insets, flatten, simplify};
+use crate::geometry::{BezPath, Insets, flatten, simplify_until};
 use crate::interrupt::{Interrupt, Interrupted};
 use area::fill;
 use dot::fill_dot;
@@ -156,7 +156,8 @@ impl Lowering<'_> {
 
     /// Paths without the vertices that straight stretches do not need.
     fn simplified(&self, paths: Vec<Toolpath>) -> Vec<Toolpath> {
-        let thinned = |path: Toolpath| Toolpath { points: simplify(&path.points, 0.5 * self.tolerance), ..path };
+        let points = |path: &Toolpath| simplify_until(&path.points, 0.5 * self.tolerance, self.interrupt);
+        let thinned = |path: Toolpath| Toolpath { points: points(&path), ..path };
         paths.into_iter().map(thinned).collect()
     }
 }

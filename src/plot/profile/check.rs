@@ -54,10 +54,23 @@ impl Profile {
         self.area.iter().try_for_each(super::Area::check)?;
         self.pen.iter().try_for_each(super::PenSlot::check)?;
         self.swell.iter().try_for_each(super::Swell::check)?;
+        self.check_heights()?;
         self.axes.check()?;
         self.pens.check()?;
         self.motion.check()?;
         self.check_language()
+    }
+
+    /// A pen that swells touches the paper at every height of its table.
+    fn check_heights(&self) -> Result<(), Refusal> {
+        let (Some(swell), Some(height)) = (&self.swell, self.gcode.as_ref().and_then(|gcode| gcode.height)) else {
+            return Ok(());
+        };
+        let touches = |row: &[f64; 2]| (row[1] - height.up) * (height.down - height.up) > 0.0;
+        if swell.table.iter().all(touches) {
+            return Ok(());
+        }
+        Err(Refusal::new("swell.table", "must hold heights on the paper's side of gcode.height.up"))
     }
 
     fn check_language(&self) -> Result<(), Refusal> {

@@ -115,6 +115,13 @@ impl Profile {
         self.pen.iter().find(|pen| pen.slot == slot).map_or([0.0; 2], |pen| pen.offset)
     }
 
+    /// The z, in machine units, of the lightest touch of a pen on the z axis: lowered, or at the least width that it swells from.
+    pub fn lightest(&self) -> Option<f64> {
+        let height = self.gcode.as_ref()?.height?;
+        let swelling = self.swell.iter().flat_map(|swell| &swell.table).map(|row| row[1]);
+        swelling.chain([height.down]).min_by(|a, b| (a - height.up).abs().total_cmp(&(b - height.up).abs()))
+    }
+
     /// Metres that the pen in a slot draws, where that is known.
     pub fn life_of(&self, slot: u32) -> Option<f64> {
         self.pen.iter().find(|pen| pen.slot == slot).and_then(|pen| pen.pen_life).or(self.pens.pen_life)

@@ -121,3 +121,13 @@ fn a_line_s_width_has_its_height() {
         assert!((swell.height(width) - height).abs() < 1e-9, "{width}");
     }
 }
+
+#[test]
+fn a_pen_that_swells_touches_at_every_height_of_its_table() {
+    let toy = built_in("toy").unwrap();
+    let with = |table: &str| Profile::parse_with("toy", toy, &[("swell.table".to_owned(), table.to_owned())]);
+    assert_eq!(with("[[0.2, 1.2], [0.6, -0.5]]").unwrap().lightest(), Some(1.2));
+    assert_eq!(with("[[0.2, -0.3], [0.6, -0.5]]").unwrap().lightest(), Some(-0.2));
+    assert!(with("[[0.2, 1.5], [0.6, -0.5]]").unwrap_err().to_string().contains("paper's side"));
+    assert_eq!(Profile::built_in("hp7475a").unwrap().lightest(), None);
+}
