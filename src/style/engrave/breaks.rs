@@ -147,7 +147,7 @@ impl Breaking<'_> {
                 let cover = self.cover.map_or(0.0, |cover| f64::from(self.grid.read(cover, place)));
                 let (duty, carried) = self.duty(ink, courses.family.pitch, cover);
                 let phase = if duty < 1.0 && !self.is_stippled { self.phase(place, k, &mut hint) } else { 0.0 };
-                let (width, room) = (value(&course.width), value(&course.room));
+                let (width, room) = (value(&course.width), value(&course.room).min(courses.rim(line, at).width));
                 Reading { at, width, room, stretch: value(&course.stretch), strip: value(&course.strip), duty, carried, phase }
             })
             .collect();

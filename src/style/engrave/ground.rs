@@ -43,6 +43,12 @@ impl Grid {
         let r = self.picture;
         (p.x - r.x0).min(r.x1 - p.x).min((p.y - r.y0).min(r.y1 - p.y)) - RIM
     }
+
+    /// The same for the upright and the level sides each.
+    pub(super) fn inside_sides(&self, p: Point) -> [f64; 2] {
+        let r = self.picture;
+        [(p.x - r.x0).min(r.x1 - p.x) - RIM, (p.y - r.y0).min(r.y1 - p.y) - RIM]
+    }
 }
 
 /// One region.

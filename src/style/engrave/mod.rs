@@ -13,6 +13,7 @@ mod parameters;
 mod presence;
 mod regions;
 mod relief;
+mod rim;
 mod spans;
 mod strokes;
 mod tones;

@@ -2,13 +2,17 @@
 
 use super::Drawer;
 use crate::field::nearest_seed;
-use crate::raster::{Raster, bilateral, gaussian_blur};
+use crate::raster::{Raster, bilateral, fast_gaussian, gaussian_blur};
 use crate::style::Picture;
 
 /// Difference of depth beyond which smoothing sees an edge, as a fraction of the whole range.
 const DEPTH_EDGE: f32 = 0.06;
 /// Blur of the known area's border, which is a staircase, in pixels.
 const BORDER_BLUR: f32 = 0.8;
+
+/// Smoothing of the depth that is continued beyond what is known, reached at the same distance, in pitches: with half of it a curl's
+/// teeth still show, with twice it lines turn away before a silhouette.
+const CONTINUED: f64 = 2.0;
 
 /// What bends the lines.
 pub(super) struct Relief {
@@ -30,7 +34,7 @@ impl Drawer<'_> {
             None => (self.guessed_depth(), subject.clone()),
         };
         self.observer.picture("depth", &|| Picture::Grey(depth.clone()));
-        let nearness = self.smoothed(&continued(&depth, &cover));
+        let nearness = self.smoothed(&continued(&depth, &cover, self.pixels(CONTINUED * self.parameters.pitch) as f32));
         self.observer.picture("depth-smoothed", &|| Picture::Grey(nearness.clone()));
         Relief { nearness, cover }
     }
@@ -45,11 +49,18 @@ impl Drawer<'_> {
     }
 }
 
-/// Depth where there is none: that of the nearest place inside that has one.
-fn continued(depth: &Raster<f32>, cover: &Raster<f32>) -> Raster<f32> {
+/// Depth where there is none: that of the nearest place inside that has one, smoother the farther away. Lines are bent by what is
+/// read where they come from, which at a silhouette is outside: its teeth would show in them.
+fn continued(depth: &Raster<f32>, cover: &Raster<f32>, smoothing: f32) -> Raster<f32> {
     let is_known = depth.zip_map(cover, |d, c| u8::from(d > 0.0 && c >= 0.5));
-    match nearest_seed(&is_known) {
-        Some(nearest) => nearest.map(|i| depth.pixels()[i as usize]),
-        None => depth.clone(),
-    }
+    let Some(nearest) = nearest_seed(&is_known) else { return depth.clone() };
+    let plain = nearest.map(|i| depth.pixels()[i as usize]);
+    let smooth = fast_gaussian(&plain, smoothing);
+    let width = depth.width();
+    Raster::from_fn(width, depth.height(), |x, y| {
+        let seed = nearest.get(x, y) as usize;
+        let away = (x as f32 - (seed % width) as f32).hypot(y as f32 - (seed / width) as f32);
+        let share = (away / smoothing).min(1.0);
+        plain.get(x, y) * (1.0 - share) + smooth.get(x, y) * share
+    })
 }

@@ -148,14 +148,9 @@ impl Courses<'_> {
     /// The parts of a span that are inside the picture, looked at in every column: over noise a line may leave it and come back
     /// between two readings.
     fn on_page(&self, line: &Line, span: Span) -> Vec<Span> {
-        let Family { first, step, frame, .. } = *self.family;
+        let Family { first, step, .. } = *self.family;
         let column = |u: f64| (u - first) / step;
-        let inside = |u: f64| {
-            let x = (column(u) - line.first as f64).clamp(0.0, (line.heights.len() - 1) as f64);
-            let i = (x as usize).min(line.heights.len() - 2);
-            let height = line.heights[i] + (line.heights[i + 1] - line.heights[i]) * (x - i as f64);
-            self.wanted.ground.grid.inside_picture(frame.to_page(u, height))
-        };
+        let inside = |u: f64| self.rim(line, u).inside;
         let columns = (column(span.from) + 1e-6).ceil() as usize..=(column(span.to) - 1e-6).floor() as usize;
         let places = columns.map(|c| first + c as f64 * step);
         let mut parts = Vec::new();

@@ -1,0 +1,56 @@
+//! The picture's rim: no ink reaches over it, by half a line's width neither.
+//!
+//! ```text
+//!      rim  ______________________________________________
+//!             _____------------------------------|   |         a line that runs along the rim is as wide there as the
+//!           --------                             | <-|  ends   room on both sides of its middle; one that comes to
+//!                   ----------___________________|   |         the rim ends where its square end's corner touches
+//! ```
+
+use super::lines::{Family, Line};
+use super::widths::Courses;
+use crate::geometry::Vec2;
+
+/// Half the width in pitches that a line must have room for where it runs along the rim: with less it would be a hair that leaves
+/// its strip white, with more the strip beside the rim stays white.
+const ALONG: f64 = 0.25;
+/// How much of a line's half width points at a side of the picture: up to the first it ends flat before it, with room for its greatest
+/// width (a narrowing would be a spike); from the second it runs along it.
+const ENDS: f64 = 0.35;
+const RUNS: f64 = 0.7;
+/// Greatest width that is kept room for, in pitches; wider lines grow narrower at the rim.
+const WIDEST: f64 = 1.5;
+/// What the fit of widths and ends may be off, in pitches.
+const FITTED: f64 = 0.03;
+
+/// The rim as a line meets it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rim {
+    /// Width in millimetres at which its ink touches the rim.
+    pub width: f64,
+    /// How far the line is inside what it may be drawn in, in millimetres; below 0 outside.
+    pub inside: f64,
+}
+
+impl Courses<'_> {
+    /// The rim at a place along a line.
+    pub(super) fn rim(&self, line: &Line, u: f64) -> Rim {
+        let Family { first, step, frame, pitch, .. } = *self.family;
+        let x = ((u - first) / step - line.first as f64).clamp(0.0, (line.heights.len() - 1) as f64);
+        let i = (x as usize).min(line.heights.len() - 2);
+        let rise = line.heights[i + 1] - line.heights[i];
+        let sides = self.wanted.ground.grid.inside_sides(frame.to_page(u, line.heights[i] + rise * (x - i as f64)));
+        let along = frame.to_page(step, rise) - frame.to_page(0.0, 0.0);
+        let across = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
+        let mut rim = Rim { width: f64::INFINITY, inside: f64::INFINITY };
+        for (room, across) in sides.into_iter().zip([across.x.abs(), across.y.abs()]) {
+            let room = room - across * FITTED * pitch;
+            let t = ((across - ENDS) / (RUNS - ENDS)).clamp(0.0, 1.0);
+            let widest = 0.5 * self.wanted.width_max.min(WIDEST * pitch);
+            let half = widest * (1.0 - t) + widest.min(ALONG * pitch) * t;
+            rim.width = rim.width.min((2.0 * room / across.max(1e-9)).max(0.0));
+            rim.inside = rim.inside.min(room - across * half);
+        }
+        rim
+    }
+}
