@@ -9,7 +9,8 @@
 //! | module | in | out |
 //! |---|---|---|
 //! | [`source`] | bytes of an image | [`source::Portrait`]: light, tone, masks at a style's working resolution |
-//! | [`see`] | a photograph | [`see::Sight`]: faces, their points, the person without the background |
+//! | [`see`] | a photograph | [`see::Sight`]: faces, their points, the person without the background, its regions, how near each part is |
+//! | [`tone`] | a portrait with faces | the tone that its ink must match |
 //! | [`raster`] | rasters | rasters: filters that know of nothing else |
 //! | [`field`] | rasters, curves | edges, isophotes, distances, lanes, Voronoi cells, traced lines |
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
@@ -60,4 +61,5 @@ pub mod resume;
 pub mod see;
 pub mod source;
 pub mod style;
+pub mod tone;
 pub mod write;

@@ -9,14 +9,15 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("drawing", &["geometry"]),
     ("source", &["raster", "geometry", "drawing"]),
-    ("see", &["source", "raster", "geometry"]),
+    ("see", &["source", "field", "raster", "geometry"]),
+    ("tone", &["source", "raster", "geometry"]),
     ("field", &["raster", "geometry"]),
     ("style", &["field", "raster", "drawing", "geometry", "source"]),
     ("press", &["drawing", "geometry"]),
     ("plot", &["drawing", "geometry"]),
     ("write", &["drawing", "geometry", "plot"]),
     ("read", &["drawing", "geometry"]),
-    ("resume", &["geometry"]),
+    ("resume", &["geometry", "read"]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

@@ -27,7 +27,22 @@ pub struct FaceFrame {
     pub tilt: f64,
     /// How far the pattern stands out, 0 (not at all) to about 1.
     pub score: f64,
+    /// Where each feature lies, in the order of [`super::FacialFeature::ALL`].
+    pub windows: [FeatureWindow; 6],
 }
+
+/// Where a feature may lie, in eye distances from between the eyes: its middle across and down, half its sizes across and down.
+pub type FeatureWindow = [f64; 4];
+
+/// The windows of a face of which no more is known: brows, eyes, nose, mouth.
+pub const USUAL_WINDOWS: [FeatureWindow; 6] = [
+    [-0.5, -0.36, 0.45, 0.17],
+    [0.5, -0.36, 0.45, 0.17],
+    [-0.5, 0.0, 0.36, 0.17],
+    [0.5, 0.0, 0.36, 0.17],
+    [0.0, 0.6, 0.36, 0.2],
+    [0.0, 1.06, 0.52, 0.22],
+];
 
 /// The template in units of the eyes' distance: place and weight; the weights of the dark and of the light places add up to one
 /// each. Tuned on the busts and portraits: with less on the brows they pass for the eyes of a dark face; without the upper lip, the
@@ -130,7 +145,7 @@ fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpe
             let surprise = SURPRISE * off.iter().map(|o| o * o).sum::<f64>();
             for (stretch, tilt) in STRETCHES.into_iter().flat_map(|s| TILTS.map(|t| (s, t))) {
                 let between_eyes = expected.between_eyes + offset;
-                let frame = FaceFrame { between_eyes, eye_distance: size, stretch, tilt, score: 0.0 };
+                let frame = FaceFrame { between_eyes, eye_distance: size, stretch, tilt, score: 0.0, windows: USUAL_WINDOWS };
                 let score = likeness.of(&frame, surprise);
                 if best.is_none_or(|best| score > best.score) {
                     best = Some(FaceFrame { score, ..frame });

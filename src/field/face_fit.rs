@@ -176,8 +176,14 @@ mod tests {
             let is_mark = marks.iter().any(|&(cx, cy, w, h)| ((across - cx) / w).hypot((down - cy) / h) < 1.0);
             if down < -0.5 || is_mark { 0.25 } else { 0.8 }
         });
-        let first =
-            FaceFrame { between_eyes: Point::new(138.0, 108.0), eye_distance: 88.0, stretch: 0.9, tilt: 0.06, score: 0.2 };
+        let first = FaceFrame {
+            between_eyes: Point::new(138.0, 108.0),
+            eye_distance: 88.0,
+            stretch: 0.9,
+            tilt: 0.06,
+            score: 0.2,
+            windows: crate::field::USUAL_WINDOWS,
+        };
         let frame = fitted(&first, &lightness, &Raster::filled(260, 300, 1.0));
         assert!(frame.between_eyes.distance(Point::new(130.0, 120.0)) < 2.0, "{frame:?}");
         assert!((frame.eye_distance - 80.0).abs() < 2.0 && frame.tilt.abs() < 0.02, "{frame:?}");

@@ -41,18 +41,6 @@ impl FacialFeature {
             Self::Mouth => "mouth",
         }
     }
-
-    /// Where it may lie, in eye distances from between the eyes: middle and half sizes, across and down.
-    const fn window(self) -> [f64; 4] {
-        match self {
-            Self::LeftEyebrow => [-0.5, -0.36, 0.45, 0.17],
-            Self::RightEyebrow => [0.5, -0.36, 0.45, 0.17],
-            Self::LeftEye => [-0.5, 0.0, 0.36, 0.17],
-            Self::RightEye => [0.5, 0.0, 0.36, 0.17],
-            Self::Nose => [0.0, 0.6, 0.36, 0.2],
-            Self::Mouth => [0.0, 1.06, 0.52, 0.22],
-        }
-    }
 }
 
 /// Where the skin's own tone is read.
@@ -178,14 +166,14 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
             return 0;
         }
         let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-        let off = |feature: FacialFeature| {
-            let [cx, cy, hx, hy] = feature.window();
+        let off = |feature: usize| {
+            let [cx, cy, hx, hy] = frame.windows[feature];
             ((across - cx) / hx).hypot((down - cy) / hy)
         };
-        let nearest = (0..6).min_by(|a, b| off(FacialFeature::ALL[*a]).total_cmp(&off(FacialFeature::ALL[*b])));
+        let nearest = (0..6).min_by(|a, b| off(*a).total_cmp(&off(*b)));
         // What is dark at the face's upper border is hair that comes down to it, not a brow.
         let is_hairline = |i: usize| i < 2 && rim.get(x, y) != 0;
-        nearest.filter(|i| off(FacialFeature::ALL[*i]) <= WINDOW_REACH && !is_hairline(*i)).map_or(0, |i| i as u8 + 1)
+        nearest.filter(|i| off(*i) <= WINDOW_REACH && !is_hairline(*i)).map_or(0, |i| i as u8 + 1)
     })
 }
 
@@ -225,7 +213,7 @@ fn named(dark: &Raster<u8>, windows: &Raster<u8>, depth: &Raster<f32>, frame: &F
 
 /// Each cluster's pixels, those near the window's middle counting most.
 fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) -> Vec<f64> {
-    let [cx, cy, hx, hy] = FacialFeature::ALL[usize::from(name) - 1].window();
+    let [cx, cy, hx, hy] = frame.windows[usize::from(name) - 1];
     let mut weights = vec![0.0; count + 1];
     for (i, cluster) in clusters.pixels().iter().enumerate().filter(|(_, cluster)| **cluster != 0) {
         let p = Point::new((i % clusters.width()) as f64 + 0.5, (i / clusters.width()) as f64 + 0.5);

@@ -77,7 +77,14 @@ mod tests {
 
     #[test]
     fn a_fringe_is_hair_and_a_brow_is_not() {
-        let frame = FaceFrame { between_eyes: Point::new(100.0, 150.0), eye_distance: 60.0, stretch: 1.0, tilt: 0.0, score: 0.3 };
+        let frame = FaceFrame {
+            between_eyes: Point::new(100.0, 150.0),
+            eye_distance: 60.0,
+            stretch: 1.0,
+            tilt: 0.0,
+            score: 0.3,
+            windows: crate::field::USUAL_WINDOWS,
+        };
         let page = Raster::from_fn(200, 300, |_, y| if y < 120 || (129..134).contains(&y) { 0.4 } else { 0.8 });
         let hair = hair_over_face(&page, &Raster::filled(200, 300, 1.0), &frame);
         assert_eq!((hair.get(100, 60), hair.get(100, 118), hair.get(100, 131), hair.get(100, 200)), (1, 1, 0, 0));

@@ -15,13 +15,14 @@ struct Level {
     z: Raster<f32>,
     source: Raster<f32>,
     is_given: Raster<u8>,
+    /// What is taken off the Laplacian for each unit of height, times the grid's squared pixel.
+    screening: f32,
 }
 
 /// The heights with `laplacian(z) = source` (per squared pixel) where nothing is given, and `z = given` where there is; at the
 /// raster's border the slope is 0. After `cycles` V-cycles; each takes off about nine tenths of the error, so 8 are plenty.
 pub fn poisson(source: &Raster<f32>, given: &Raster<Option<f32>>, cycles: usize) -> Raster<f32> {
-    let mut level =
-        Level { z: given.map(|v| v.unwrap_or(0.0)), source: source.clone(), is_given: given.map(|v| u8::from(v.is_some())) };
+    let mut level = Level::new(source, given, 0.0);
     if level.is_given.pixels().iter().all(|&g| g == 0) {
         // Without a given height any constant may be added: the mean of the source must vanish, then the first pixel is 0.
         let mean = source.pixels().iter().map(|&v| f64::from(v)).sum::<f64>() / source.len().max(1) as f64;
@@ -33,7 +34,22 @@ pub fn poisson(source: &Raster<f32>, given: &Raster<Option<f32>>, cycles: usize)
     level.z
 }
 
+/// The heights with `laplacian(z) - z / reach^2 = source` where nothing is given; else like [`poisson`]. What is given is felt about
+/// `reach` pixels (above 0) far; farther away the heights tend to `-source * reach^2`.
+pub fn screened_poisson(source: &Raster<f32>, given: &Raster<Option<f32>>, reach: f32, cycles: usize) -> Raster<f32> {
+    let mut level = Level::new(source, given, 1.0 / (reach * reach));
+    for _ in 0..cycles {
+        level.cycle();
+    }
+    level.z
+}
+
 impl Level {
+    fn new(source: &Raster<f32>, given: &Raster<Option<f32>>, screening: f32) -> Self {
+        let is_given = given.map(|v| u8::from(v.is_some()));
+        Self { z: given.map(|v| v.unwrap_or(0.0)), source: source.clone(), is_given, screening }
+    }
+
     fn cycle(&mut self) {
         let (width, height) = (self.z.width(), self.z.height());
         if width.min(height) <= COARSEST {
@@ -83,7 +99,7 @@ impl Level {
                         return old.get(x, y);
                     }
                     let (sum, count) = Self::neighbours(old, x, y);
-                    (sum - self.source.get(x, y)) / count.max(1.0)
+                    (sum - self.source.get(x, y)) / (count + self.screening).max(1.0)
                 })
                 .collect();
             self.z = Raster::from_vec(width, self.z.height(), new);
@@ -95,7 +111,7 @@ impl Level {
             return 0.0;
         }
         let (sum, count) = Self::neighbours(&self.z, x, y);
-        self.source.get(x, y) - (sum - count * self.z.get(x, y))
+        self.source.get(x, y) - (sum - (count + self.screening) * self.z.get(x, y))
     }
 
     /// The equation for the error on a grid of half the size. A coarse pixel is given where any of its four is, so that thin
@@ -111,7 +127,7 @@ impl Level {
         let is_given = Raster::from_fn(width, height, |x, y| u8::from(children(x, y).any(|(x, y)| self.is_given.get(x, y) != 0)));
         // The sum over the children: the mean, times the four squared pixels that a coarse one holds.
         let source = Raster::from_fn(width, height, |x, y| children(x, y).map(|(x, y)| self.residual(x, y)).sum());
-        Self { z: Raster::filled(width, height, 0.0), source, is_given }
+        Self { z: Raster::filled(width, height, 0.0), source, is_given, screening: 4.0 * self.screening }
     }
 
     /// Adds the coarse grid's error, bilinear.
@@ -141,11 +157,20 @@ mod tests {
     }
 
     #[test]
+    fn screened_heights_fall_off_with_the_distance() {
+        let given = Raster::from_fn(200, 20, |x, _| (x == 0).then_some(0.0_f32));
+        let z = screened_poisson(&Raster::filled(200, 20, -0.25), &given, 20.0, 10);
+        for x in [1, 10, 40, 150] {
+            let expected = 100.0 * (1.0 - (-(x as f32) / 20.0).exp());
+            assert!((z.get(x, 10) - expected).abs() < 1.0, "{x}: {} for {expected}", z.get(x, 10));
+        }
+    }
+
+    #[test]
     fn multigrid_agrees_with_plain_sweeps() {
         let given = Raster::from_fn(40, 30, |x, y| (x == 0 || (x == 20 && y > 8)).then_some(x as f32 * 0.1));
         let source = Raster::from_fn(40, 30, |x, y| ((x * 7 + y * 13) % 11) as f32 * 0.01 - 0.05);
-        let mut plain =
-            Level { z: given.map(|v| v.unwrap_or(0.0)), source: source.clone(), is_given: given.map(|v| u8::from(v.is_some())) };
+        let mut plain = Level::new(&source, &given, 0.0);
         (0..6000).for_each(|_| plain.sweep());
         let fast = poisson(&source, &given, 12);
         let worst = fast.pixels().iter().zip(plain.z.pixels()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);

@@ -1,14 +1,59 @@
-//! The guided filter (He, Sun and Tang 2010): a mask takes the edges of a colour picture.
+//! The guided filter (He, Sun and Tang 2010): a mask takes the edges of a colour picture. And its fast form (He and Sun 2015),
+//! where the mask is coarser than the picture.
 
 use super::{Raster, box_blur};
 
-/// `raster` smoothed along the edges of `guide`, of the same size, values 0 to 1: in each window of `radius` pixels it is a linear
-/// function of the guide's three channels, by least squares, and each pixel takes the mean of the functions of its windows. Edges of
-/// a contrast well below the root of `eps` do not count. The cost does not depend on `radius`.
+/// `raster` smoothed along the edges of `guide`, of the same size, values 0 to 1: in each window of `radius` pixels it is a
+/// linear function of the guide's three channels, by least squares, and each pixel takes the mean of the functions of its
+/// windows. Edges of a contrast well below the root of `eps` do not count. The cost does not depend on `radius`.
 ///
 /// # Panics
 /// If the sizes differ.
 pub fn guided_filter(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usize, eps: f64) -> Raster<f32> {
+    fitted(guide, raster, radius, eps).zip_map(guide, applied)
+}
+
+/// A coarse raster, values 0 to 1, on the grid of a picture of bytes, along the picture's edges: the functions of the guided
+/// filter are found on `coarse_guide`, the same picture in the coarse raster's size, values 0 to 1, in windows of `radius` coarse
+/// pixels, and each fine pixel takes the bilinear mean of those round it.
+///
+/// # Panics
+/// If the coarse sizes differ.
+pub fn guided_enlargement(
+    guide: &Raster<[u8; 3]>,
+    coarse_guide: &Raster<[f32; 3]>,
+    coarse: &Raster<f32>,
+    radius: usize,
+    eps: f64,
+) -> Raster<f32> {
+    let functions = fitted(coarse_guide, coarse, radius, eps);
+    let columns = neighbours(guide.width(), functions.width());
+    let rows = neighbours(guide.height(), functions.height());
+    Raster::from_fn(guide.width(), guide.height(), |x, y| {
+        let ((left, right, tx), (above, below, ty)) = (columns[x], rows[y]);
+        let corners = [(left, above), (right, above), (left, below), (right, below)].map(|(x, y)| functions.get(x, y));
+        let weights = [(1.0 - tx) * (1.0 - ty), tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty];
+        let function = [0, 1, 2, 3].map(|k| (0..4).map(|corner| weights[corner] * corners[corner][k]).sum());
+        applied(function, guide.get(x, y).map(|v| f32::from(v) / 255.0))
+    })
+}
+
+/// For each of `fine` pixels in a row the two of `coarse` between whose centres it lies, and how far it is towards the second, 0
+/// to 1.
+fn neighbours(fine: usize, coarse: usize) -> Vec<(usize, usize, f32)> {
+    let last = coarse.saturating_sub(1);
+    let place = |i: usize| ((i as f64 + 0.5) * coarse as f64 / fine as f64 - 0.5).clamp(0.0, last as f64);
+    (0..fine).map(place).map(|p| (p as usize, (p as usize + 1).min(last), p.fract() as f32)).collect()
+}
+
+/// A function's value, 0 to 1, at a colour: slopes for its three channels, then the offset.
+fn applied(function: [f32; 4], colour: [f32; 3]) -> f32 {
+    let sum = (0..3).map(|k| function[k] * colour[k]).sum::<f32>();
+    (sum + function[3]).clamp(0.0, 1.0)
+}
+
+/// For each pixel the mean of the linear functions of its windows: slopes for the guide's three channels, then the offset.
+fn fitted(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usize, eps: f64) -> Raster<[f32; 4]> {
     let mean = |plane: &Raster<f32>| box_blur(plane, radius);
     let channels = [0, 1, 2].map(|k| guide.map(|colour| colour[k]));
     let means = channels.each_ref().map(mean);
@@ -32,8 +77,7 @@ pub fn guided_filter(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usi
     let slope = [0, 1, 2].map(|k| mean(&slopes.map(|slope| slope[k])));
     let offset = mean(&offset);
     Raster::from_fn(guide.width(), guide.height(), |x, y| {
-        let sum = (0..3).map(|k| slope[k].get(x, y) * channels[k].get(x, y)).sum::<f32>();
-        (sum + offset.get(x, y)).clamp(0.0, 1.0)
+        [slope[0].get(x, y), slope[1].get(x, y), slope[2].get(x, y), offset.get(x, y)]
     })
 }
 
@@ -67,6 +111,15 @@ mod tests {
         let coarse = Raster::from_fn(60, 40, |x, _| ((x as f32 - 22.0) / 16.0).clamp(0.0, 1.0));
         let fine = guided_filter(&guide, &coarse, 8, 1e-4);
         assert!(fine.get(28, 20) < 0.3 && fine.get(31, 20) > 0.7, "{} {}", fine.get(28, 20), fine.get(31, 20));
+    }
+
+    #[test]
+    fn a_coarser_mask_takes_the_edge_of_the_fine_picture() {
+        let fine = Raster::from_fn(120, 80, |x, _| if x < 61 { [50, 130, 25] } else { [150, 80, 180] });
+        let small = Raster::from_fn(30, 20, |x, _| if x < 15 { [0.2, 0.5, 0.1] } else { [0.6, 0.3, 0.7] });
+        let coarse = Raster::from_fn(30, 20, |x, _| ((x as f32 - 11.0) / 8.0).clamp(0.0, 1.0));
+        let mask = guided_enlargement(&fine, &small, &coarse, 4, 1e-4);
+        assert!(mask.get(60, 40) < 0.35 && mask.get(61, 40) > 0.65, "{} {}", mask.get(60, 40), mask.get(61, 40));
     }
 
     #[test]

@@ -6,16 +6,21 @@ use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::interrupt::Interrupt;
 
-/// Least score of a face. On sixteen portraits and the samples faces score 0.88 and more where the head is upright, cats, parrots, a
-/// raccoon and a cup at most 0.60: at 0.6 animals become people, and their drawings lose the background; at 0.9 heads that are
-/// tilted or half in shade are passed over.
+/// Least score of a face. On sixteen portraits and the samples faces score 0.88 and more where the head is upright, cats,
+/// parrots, a raccoon and a cup at most 0.60: at 0.6 animals become people, and their drawings lose the background; at 0.9 heads
+/// that are tilted or half in shade are passed over.
 const GATE: f64 = 0.75;
 /// Least score of a box that has a say in where a face lies.
 const CANDIDATE: f64 = 0.5;
 /// Boxes that share more than this of their union mean one face.
 const ONE_FACE: f64 = 0.3;
-/// A face narrower than this part of the longer side is worth a second look: the detector misses half of those that fill 0.12 of what
-/// it sees and all below 0.08, so that others may stand beside it.
+/// A stranger's face is narrower than this part of the largest known one: a companion of the same size, not found because of
+/// turning away, is not cut out.
+const SMALLER: f64 = 2.0 / 3.0;
+/// Its middle is at least so far away, in the sum of half their sides.
+const BESIDE: f64 = 0.7;
+/// A face narrower than this part of the longer side is worth a second look: the detector misses half of those that fill 0.12 of
+/// what it sees and all below 0.08, so that others may stand beside it.
 const SMALL: f64 = 0.15;
 /// Sides of the tiles of the second look, in longer sides of the picture: faces down to 0.05 of it are found.
 const TILES: [f64; 2] = [0.5, 1.0 / 3.0];
@@ -47,7 +52,25 @@ impl Found {
 pub(super) fn find(detector: &Network, view: &View) -> Result<Vec<Found>, SeeError> {
     let side = view.part.width().max(view.part.height());
     let found = candidates(detector, view, Window::square(view.part.center(), side, 0.0))?;
-    Ok(joined(found))
+    Ok(joined(found, GATE))
+}
+
+/// The boxes of people behind those whose faces are `known`: smaller faces beside theirs that the detector is not sure of,
+/// because they are out of focus, cut by the frame or half hidden.
+pub(super) fn strangers(detector: &Network, view: &View, known: &[Found]) -> Result<Vec<Rect>, SeeError> {
+    let side = view.part.width().max(view.part.height());
+    let widest = known.first().map_or(0.0, |largest| largest.bounds.width());
+    let found = joined(candidates(detector, view, Window::square(view.part.center(), side, 0.0))?, CANDIDATE);
+    let is_stranger =
+        |bounds: &Rect| bounds.width() < SMALLER * widest && known.iter().all(|known| is_beside(*bounds, known.bounds));
+    Ok(found.into_iter().map(|found| found.bounds).filter(is_stranger).collect())
+}
+
+/// Whether two boxes' middles are so far apart that they can hardly mean one face.
+fn is_beside(a: Rect, b: Rect) -> bool {
+    let between = a.center() - b.center();
+    let half = 0.5 * (a.size() + b.size());
+    (between.x / half.width).hypot(between.y / half.height) > BESIDE
 }
 
 /// Whether there may be more faces than a look at the whole shows.
@@ -74,7 +97,7 @@ pub(super) fn find_small(
             found.extend(candidates(detector, view, Window::square(centre, side, 0.0))?);
         }
     }
-    Ok(joined(found))
+    Ok(joined(found, GATE))
 }
 
 /// Middles of tiles along a side, at most half a tile apart, the first and the last at its ends.
@@ -113,11 +136,11 @@ fn anchors() -> impl Iterator<Item = Point> {
 }
 
 /// One face for each heap of boxes: the mean by score of all that overlap the surest one, with its score (weighted non-maximum
-/// suppression); those above the gate, largest first.
-fn joined(mut candidates: Vec<Found>) -> Vec<Found> {
+/// suppression); those from the gate on, largest first.
+fn joined(mut candidates: Vec<Found>, gate: f64) -> Vec<Found> {
     candidates.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut faces = Vec::new();
-    while let Some(surest) = candidates.first().cloned().filter(|surest| surest.score >= GATE) {
+    while let Some(surest) = candidates.first().cloned().filter(|surest| surest.score >= gate) {
         let (heap, others): (Vec<Found>, Vec<Found>) =
             candidates.into_iter().partition(|other| overlap(other.bounds, surest.bounds) > ONE_FACE);
         candidates = others;
@@ -154,10 +177,17 @@ mod tests {
 
     #[test]
     fn boxes_of_one_face_are_averaged_by_score_and_faint_ones_dropped() {
-        let faces = joined(vec![found(0.0, 0.9), found(2.0, 0.6), found(50.0, 0.8), found(90.0, 0.7)]);
+        let faces = joined(vec![found(0.0, 0.9), found(2.0, 0.6), found(50.0, 0.8), found(90.0, 0.7)], GATE);
         assert_eq!(faces.len(), 2);
         assert_eq!((faces[0].bounds.x0, faces[0].score), (sixteenths(0.8), 0.9));
         assert_eq!(faces[1].bounds.x0, 50.0);
+    }
+
+    #[test]
+    fn a_smaller_face_beside_is_no_second_guess_at_the_known_one() {
+        let known = Rect::new(177.0, 150.0, 540.0, 513.0);
+        assert!(is_beside(Rect::new(26.0, 450.0, 216.0, 640.0), known));
+        assert!(!is_beside(Rect::new(250.0, 300.0, 440.0, 490.0), known));
     }
 
     #[test]

@@ -2,9 +2,9 @@
 
 use super::SeeError;
 use super::networks::{Network, sixteenths};
-use super::sight::Iris;
 use super::view::{Outside, View, Window};
 use crate::geometry::Point;
+use crate::source::Iris;
 
 /// Corners of the eyes: outer and inner of the right, inner and outer of the left, each from left to right on an upright face.
 const CORNERS: [(usize, usize); 2] = [(33, 133), (362, 263)];

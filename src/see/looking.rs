@@ -1,17 +1,19 @@
 //! The order of looks: upright, else by quarter turns, else at tiles; then each face, then the people.
 
 use super::SeeError;
+use super::depth::depth;
 use super::faces::{self, Found};
 use super::iris::irises;
 use super::mesh::mesh;
 use super::networks::{DETECTOR, Engine, IRIS, MESH, Network, PERSON};
-use super::sight::{Face, Iris, Sight};
+use super::regions::regions;
+use super::sight::{Face, Sight};
 use super::subject::subject;
 use super::turn::Turn;
 use super::view::View;
 use crate::geometry::{Point, Rect};
 use crate::interrupt::Interrupt;
-use crate::source::Photograph;
+use crate::source::{Landmarks, Photograph};
 use std::f64::consts::FRAC_PI_2;
 
 /// Longer side in pixels of what is looked at, and of the masks that are found: a face that fills a fifth of it still has the 200
@@ -30,9 +32,17 @@ const PRESENCE: f64 = 0.5;
 pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sight, SeeError> {
     let engine = Engine::new();
     let upright = Turn::new(0, [photograph.width(), photograph.height()]);
-    let mut sight = Sight { width: photograph.width(), height: photograph.height(), faces: Vec::new(), subject: None };
+    let mut sight = Sight {
+        width: photograph.width(),
+        height: photograph.height(),
+        faces: Vec::new(),
+        subject: None,
+        regions: None,
+        depth: None,
+    };
     let first = View::whole(photograph, upright, LONGEST)?;
-    let Some((turn, view, found)) = find(&engine.load(&DETECTOR)?, photograph, first, upright, interrupt)? else {
+    let detector = engine.load(&DETECTOR)?;
+    let Some((turn, view, found)) = find(&detector, photograph, first, upright, interrupt)? else {
         return Ok(sight);
     };
     let faces = measured(&engine, photograph, turn, &view, &found, interrupt)?;
@@ -40,10 +50,16 @@ pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sig
         return Ok(sight);
     }
     interrupt.check()?;
-    let points: Vec<Vec<[f64; 3]>> = faces.iter().map(|face| face.points.clone()).collect();
-    let subject = subject(&engine.load(&PERSON)?, &view, &points)?;
+    let points: Vec<Vec<[f64; 3]>> = faces.iter().map(|face| face.landmarks.points.clone()).collect();
+    let strangers = faces::strangers(&detector, &view, &found)?;
+    let subject = subject(&engine.load(&PERSON)?, &view, &points, &strangers)?;
+    let step = view.step();
+    let on_view = |p: Point| Point::new((p.x - view.part.x0) / step.x, (p.y - view.part.y0) / step.y);
+    let landmarks: Vec<Landmarks> = faces.iter().map(|face| face.landmarks.placed(on_view, 1.0 / step.x)).collect();
+    sight.regions = Some(regions(&view.pixels, &subject, &landmarks).map(|plane| turn.raster_back(plane)));
+    sight.depth = Some(turn.raster_back(&depth(&subject, &view, &faces)));
     sight.subject = Some(turn.raster_back(&subject));
-    sight.faces = faces.into_iter().map(|face| turned_back(turn, face)).collect();
+    sight.faces = faces.iter().map(|face| turned_back(turn, face)).collect();
     Ok(sight)
 }
 
@@ -83,7 +99,7 @@ fn find_turned(
         interrupt.check()?;
         let turn = upright.further(quarters);
         let [width, height] = turn.upright_size();
-        let view = View { pixels: turn.raster(&first.pixels), part: Rect::new(0.0, 0.0, width, height) };
+        let view = View::new(turn.raster(&first.pixels), Rect::new(0.0, 0.0, width, height));
         let found = faces::find(detector, &view)?;
         let Some(largest) = found.first().filter(|largest| largest.angle().abs() < 0.5 * FRAC_PI_2) else { continue };
         if best.as_ref().is_none_or(|(score, ..)| largest.score > *score) {
@@ -120,17 +136,13 @@ fn measured(
             continue;
         }
         let irises = irises(&irises_of, view, &mesh.points)?;
-        faces.push(Face { bounds: found.bounds, score: found.score, points: mesh.points, irises });
+        faces.push(Face { bounds: found.bounds, score: found.score, landmarks: Landmarks { points: mesh.points, irises } });
     }
     Ok(faces)
 }
 
 /// A face of the upright picture on the photograph's own grid.
-fn turned_back(turn: Turn, face: Face) -> Face {
-    let points = face.points.into_iter().map(|[x, y, z]| {
-        let p = turn.back(Point::new(x, y));
-        [p.x, p.y, z]
-    });
-    let irises = face.irises.map(|iris| Iris { centre: turn.back(iris.centre), radius: iris.radius });
-    Face { bounds: turn.box_back(face.bounds), score: face.score, points: points.collect(), irises }
+fn turned_back(turn: Turn, face: &Face) -> Face {
+    let landmarks = face.landmarks.placed(|p| turn.back(p), 1.0);
+    Face { bounds: turn.box_back(face.bounds), score: face.score, landmarks }
 }

@@ -5,9 +5,8 @@ use super::faces::Found;
 use super::networks::{Network, sigmoid, sixteenths};
 use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Vec2};
+use crate::source::POINTS;
 
-/// Points of the mesh.
-pub(super) const POINTS: usize = 468;
 /// Side of the window in longer sides of the box, which leaves out brow and hair.
 const ROOM: f64 = 1.5;
 /// The outer corners of the right and the left eye.

@@ -6,20 +6,35 @@
 //!
 //! ```text
 //!   photograph --1024 px--> detector --box--> mesh, three times --corners of the eyes--> irises
-//!                   \                           \--oval, width--v
-//!                    \-------> person, three looks, median --> guided filter --> what hangs together with a face
+//!                   \           \               \--oval, width--v
+//!                    \           \--unsure ones: strangers--v
+//!                     \----> person, three looks --> colours of both sides --> guided filter --> what hangs together with a face
+//!                                                                                  \--> skin, hair, headwear, clothing by colour
+//!                                                                                  \--> depth: the subject bulged, the faces on it
 //! ```
 
 #[cfg(feature = "see")]
+mod colours;
+#[cfg(feature = "see")]
+mod depth;
+#[cfg(feature = "see")]
+mod detail;
+#[cfg(feature = "see")]
 mod faces;
+#[cfg(feature = "see")]
+mod head;
 #[cfg(feature = "see")]
 mod iris;
 #[cfg(feature = "see")]
 mod looking;
 #[cfg(feature = "see")]
+mod looks;
+#[cfg(feature = "see")]
 mod mesh;
 #[cfg(feature = "see")]
 mod networks;
+#[cfg(feature = "see")]
+mod regions;
 mod sight;
 #[cfg(feature = "see")]
 mod subject;
@@ -28,7 +43,9 @@ mod turn;
 #[cfg(feature = "see")]
 mod view;
 
-pub use sight::{Face, Iris, Sight, outlines};
+#[cfg(feature = "see")]
+pub use detail::{DetailRegion, detail_regions};
+pub use sight::{Face, Regions, Sight};
 
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::source::{Photograph, SourceError};

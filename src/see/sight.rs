@@ -1,7 +1,8 @@
 //! What was found in a photograph.
 
-use crate::geometry::{Point, Rect};
+use crate::geometry::Rect;
 use crate::raster::Raster;
+use crate::source::{Landmarks, MaskRole};
 
 /// What was found in a photograph, on its pixel grid (after its EXIF turn; x right, y down, pixel centres at halves).
 #[derive(Clone, Debug, PartialEq)]
@@ -15,17 +16,72 @@ pub struct Sight {
     /// The people whose faces were found, 255 inside, with a soft edge; of the photograph's proportions, at most 1024 pixels on the
     /// longer side. None without a face: what the network then takes for a person is a guess (animals are found in pieces).
     pub subject: Option<Raster<u8>>,
+    /// What the people are made of, on the subject's grid. None without a face.
+    pub regions: Option<Regions>,
+    /// How near each pixel of the subject is: 65535 the nearest, 0 the background; on the subject's grid. None without a face.
+    pub depth: Option<Raster<u16>>,
+}
+
+/// How much of each pixel belongs to what, 0 to 255; all but `detail` together are the subject.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regions {
+    /// Bare skin: face, ears, neck, hands; shaved heads too.
+    pub skin: Raster<u8>,
+    /// Hair of the head, long hair on shoulders too.
+    pub hair: Raster<u8>,
+    /// Beards and moustaches.
+    pub facial_hair: Raster<u8>,
+    /// Hats, caps and scarves.
+    pub headwear: Raster<u8>,
+    /// Clothing and what else is worn below the chin.
+    pub clothing: Raster<u8>,
+    /// Eyes with their lids, brows, nose and mouth, over whatever they are part of: where strokes want to be finer.
+    pub detail: Raster<u8>,
+}
+
+impl Regions {
+    /// Every region changed alike.
+    #[must_use]
+    pub fn map(&self, change: impl Fn(&Raster<u8>) -> Raster<u8>) -> Self {
+        Self {
+            skin: change(&self.skin),
+            hair: change(&self.hair),
+            facial_hair: change(&self.facial_hair),
+            headwear: change(&self.headwear),
+            clothing: change(&self.clothing),
+            detail: change(&self.detail),
+        }
+    }
 }
 
 impl Sight {
+    /// Every region that was found, by the role of a mask.
+    pub fn masks(&self) -> Vec<(MaskRole, &Raster<u8>)> {
+        let subject = self.subject.iter().map(|subject| (MaskRole::Subject, subject));
+        let regions = self.regions.iter().flat_map(|regions| {
+            [
+                (MaskRole::Skin, &regions.skin),
+                (MaskRole::Hair, &regions.hair),
+                (MaskRole::FacialHair, &regions.facial_hair),
+                (MaskRole::Headwear, &regions.headwear),
+                (MaskRole::Clothing, &regions.clothing),
+                (MaskRole::Detail, &regions.detail),
+            ]
+        });
+        subject.chain(regions).collect()
+    }
+
     /// The subject in the photograph's own size.
     pub fn subject_at_full_size(&self) -> Option<Raster<u8>> {
-        let small = self.subject.as_ref()?.map(f32::from);
+        let subject = self.subject.as_ref()?.map(f32::from);
+        Some(self.at_full_size(&subject).map(|v| v.round() as u8))
+    }
+
+    /// A map of the photograph in the photograph's own size, bilinear.
+    pub fn at_full_size(&self, map: &Raster<f32>) -> Raster<f32> {
         let (width, height) = (self.width as usize, self.height as usize);
-        let (x_step, y_step) = (small.width() as f64 / f64::from(self.width), small.height() as f64 / f64::from(self.height));
-        Some(Raster::from_fn(width, height, |x, y| {
-            small.sample((x as f64 + 0.5) * x_step, (y as f64 + 0.5) * y_step).round() as u8
-        }))
+        let (x_step, y_step) = (map.width() as f64 / f64::from(self.width), map.height() as f64 / f64::from(self.height));
+        Raster::from_fn(width, height, |x, y| map.sample((x as f64 + 0.5) * x_step, (y as f64 + 0.5) * y_step))
     }
 }
 
@@ -36,59 +92,6 @@ pub struct Face {
     pub bounds: Rect,
     /// How sure the detector is, 0.75 to 1.
     pub score: f64,
-    /// The 468 points of the mesh: x, y, and z in pixels too, smaller is nearer, 0 about the centre of the head's front.
-    pub points: Vec<[f64; 3]>,
-    /// The irises: the person's right one, then the left.
-    pub irises: [Iris; 2],
-}
-
-/// One iris.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Iris {
-    /// Its centre.
-    pub centre: Point,
-    /// Its radius in pixels.
-    pub radius: f64,
-}
-
-impl Face {
-    /// A point of the mesh, seen from the front.
-    pub fn point(&self, index: usize) -> Point {
-        Point::new(self.points[index][0], self.points[index][1])
-    }
-
-    /// A line of the mesh.
-    pub fn line(&self, indices: &[usize]) -> Vec<Point> {
-        indices.iter().map(|&index| self.point(index)).collect()
-    }
-
-    /// The distance of the irises in pixels, by which errors of points are measured.
-    pub fn eye_distance(&self) -> f64 {
-        (self.irises[1].centre - self.irises[0].centre).hypot()
-    }
-}
-
-/// Lines of the mesh, as indices of its points (`MediaPipe`'s canonical face); left and right are the person's.
-pub mod outlines {
-    /// The outline of the face, from the middle of the forehead, closed.
-    pub const OVAL: [usize; 36] = [
-        10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152, 148, 176, 149, 150, 136,
-        172, 58, 132, 93, 234, 127, 162, 21, 54, 103, 67, 109,
-    ];
-    /// The lids of the left eye, closed.
-    pub const LEFT_EYE: [usize; 16] = [263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466];
-    /// The lids of the right eye, closed.
-    pub const RIGHT_EYE: [usize; 16] = [33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246];
-    /// The left brow: its lower line, then its upper, not a ring.
-    pub const LEFT_BROW: [usize; 10] = [276, 283, 282, 295, 285, 336, 296, 334, 293, 300];
-    /// The right brow alike.
-    pub const RIGHT_BROW: [usize; 10] = [46, 53, 52, 65, 55, 107, 66, 105, 63, 70];
-    /// The lips' outer border, closed.
-    pub const LIPS: [usize; 20] = [61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 409, 270, 269, 267, 0, 37, 39, 40, 185];
-    /// The border between the lips, closed.
-    pub const MOUTH: [usize; 20] = [78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 415, 310, 311, 312, 13, 82, 81, 80, 191];
-    /// The ridge of the nose, from between the eyes to below its tip.
-    pub const NOSE: [usize; 10] = [168, 6, 197, 195, 5, 4, 1, 19, 94, 2];
-    /// The wings of the nose, across its ridge.
-    pub const NOSE_WINGS: [usize; 11] = [129, 49, 131, 134, 51, 5, 281, 363, 360, 279, 358];
+    /// Its points and irises.
+    pub landmarks: Landmarks,
 }

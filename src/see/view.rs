@@ -6,7 +6,9 @@ use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::{Crop, Photograph};
 
-/// Most samples of a window's pixel in one direction; at 1024 pixels a side the smallest window needs eight.
+/// How often the pixels are halved beforehand: 1024 pixels a side down to the 128 that the smallest window takes.
+const HALVINGS: usize = 3;
+/// Most samples of a window's pixel in one direction, once the pixels are halved as often as can be; larger steps are left out.
 const MOST_SAMPLES: f64 = 8.0;
 
 /// Pixels of the upright picture, or of a part of it.
@@ -14,9 +16,20 @@ pub(super) struct View {
     pub pixels: Raster<[u8; 3]>,
     /// The part in pixels of the upright picture.
     pub part: Rect,
+    /// The pixels at half their size, at a quarter, and so on.
+    halves: Vec<Raster<[u8; 3]>>,
 }
 
 impl View {
+    /// Pixels that show a part of the upright picture.
+    pub(super) fn new(pixels: Raster<[u8; 3]>, part: Rect) -> Self {
+        let mut halves: Vec<Raster<[u8; 3]>> = Vec::with_capacity(HALVINGS);
+        for _ in 0..HALVINGS {
+            halves.push(halved(halves.last().unwrap_or(&pixels)));
+        }
+        Self { pixels, part, halves }
+    }
+
     /// The whole picture, at most `longest` pixels on its longer side, and never more than the photograph has.
     pub(super) fn whole(photograph: &Photograph, turn: Turn, longest: f64) -> Result<Self, SeeError> {
         let [width, height] = turn.upright_size();
@@ -32,7 +45,7 @@ impl View {
         let scale = (longest / part.width().max(part.height())).min(1.0);
         let count = |length: f64| (length * scale).round().max(1.0) as usize;
         let pixels = turn.raster(&photograph.encoded(crop, count(stored.width()), count(stored.height()))?);
-        Ok(Self { pixels, part })
+        Ok(Self::new(pixels, part))
     }
 
     /// Pixels of the upright picture for each pixel of the view.
@@ -40,49 +53,63 @@ impl View {
         Vec2::new(self.part.width() / self.pixels.width() as f64, self.part.height() / self.pixels.height() as f64)
     }
 
-    /// The upright picture's place of the centre of a pixel of the view.
-    pub(super) fn place(&self, x: usize, y: usize) -> Point {
-        let step = self.step();
-        self.part.origin() + Vec2::new((x as f64 + 0.5) * step.x, (y as f64 + 0.5) * step.y)
+    /// What is seen through a window, `side` pixels a side, in bytes as numbers.
+    pub(super) fn through(&self, window: &Window, side: usize, outside: Outside) -> Raster<[f32; 3]> {
+        self.through_to(window, [side, side], outside)
     }
 
-    /// What is seen through a window, `side` pixels a side, in bytes as numbers: each pixel is the mean of as many bilinear samples
-    /// as it covers pixels of the view.
-    pub(super) fn through(&self, window: &Window, side: usize, outside: Outside) -> Raster<[f32; 3]> {
+    /// What is seen through a window, so many columns and rows, in bytes as numbers: each pixel is the mean of as many bilinear
+    /// samples as it covers pixels, of those halved so often that it covers at most two by two.
+    pub(super) fn through_to(&self, window: &Window, size: [usize; 2], outside: Outside) -> Raster<[f32; 3]> {
         let step = self.step();
-        let in_view = |v: Vec2| Vec2::new(v.x / step.x, v.y / step.y) / side as f64;
-        let (across, down) = (in_view(window.across), in_view(window.down));
+        let in_view = |v: Vec2, count: usize| Vec2::new(v.x / step.x, v.y / step.y) / count as f64;
+        let (across, down) = (in_view(window.across, size[0]), in_view(window.down, size[1]));
+        let halvings = (across.hypot().max(down.hypot()).max(1.0).log2() as usize).min(self.halves.len());
+        let pixels = halvings.checked_sub(1).map_or(&self.pixels, |last| &self.halves[last]);
+        let scale = 0.5_f64.powi(halvings as i32);
+        let (across, down) = (across * scale, down * scale);
         let origin = window.origin - self.part.origin();
-        let origin = Point::new(origin.x / step.x, origin.y / step.y);
+        let origin = Point::new(origin.x / step.x * scale, origin.y / step.y * scale);
         let samples = |v: Vec2| v.hypot().ceil().clamp(1.0, MOST_SAMPLES) as usize;
         let (columns, rows) = (samples(across), samples(down));
-        Raster::from_fn(side, side, |x, y| {
+        Raster::from_fn(size[0], size[1], |x, y| {
             let mut sum = [0.0; 3];
             for (i, j) in (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))) {
                 let u = x as f64 + (i as f64 + 0.5) / columns as f64;
                 let v = y as f64 + (j as f64 + 0.5) / rows as f64;
-                let colour = self.sample(origin + across * u + down * v, outside);
+                let colour = sample(pixels, origin + across * u + down * v, outside);
                 sum = [sum[0] + colour[0], sum[1] + colour[1], sum[2] + colour[2]];
             }
             sum.map(|v| v / (columns * rows) as f32)
         })
     }
+}
 
-    /// The colour at a place in pixels of the view, bilinear.
-    fn sample(&self, p: Point, outside: Outside) -> [f32; 3] {
-        let (width, height) = (self.pixels.width() as f64, self.pixels.height() as f64);
-        if let Outside::Grey(grey) = outside
-            && !((0.0..width).contains(&p.x) && (0.0..height).contains(&p.y))
-        {
-            return [grey; 3];
-        }
-        let (x, y) = (p.x - 0.5, p.y - 0.5);
-        let (tx, ty) = ((x - x.floor()) as f32, (y - y.floor()) as f32);
-        let (x, y) = (x.floor() as isize, y.floor() as isize);
-        let at = |x: isize, y: isize| self.pixels.clamped(x, y).map(f32::from);
-        let (a, b, c, d) = (at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
-        [0, 1, 2].map(|k| (a[k] * (1.0 - tx) + b[k] * tx) * (1.0 - ty) + (c[k] * (1.0 - tx) + d[k] * tx) * ty)
+/// Half as many columns and rows, each pixel the mean of four.
+fn halved(pixels: &Raster<[u8; 3]>) -> Raster<[u8; 3]> {
+    let (right, bottom) = (pixels.width() - 1, pixels.height() - 1);
+    Raster::from_fn(pixels.width().div_ceil(2), pixels.height().div_ceil(2), |x, y| {
+        let (x, y) = (2 * x, 2 * y);
+        let (x2, y2) = ((x + 1).min(right), (y + 1).min(bottom));
+        let four = [pixels.get(x, y), pixels.get(x2, y), pixels.get(x, y2), pixels.get(x2, y2)];
+        [0, 1, 2].map(|k| ((four.iter().map(|colour| u32::from(colour[k])).sum::<u32>() + 2) / 4) as u8)
+    })
+}
+
+/// The colour at a place in pixels, bilinear.
+fn sample(pixels: &Raster<[u8; 3]>, p: Point, outside: Outside) -> [f32; 3] {
+    let (width, height) = (pixels.width() as f64, pixels.height() as f64);
+    if let Outside::Grey(grey) = outside
+        && !((0.0..width).contains(&p.x) && (0.0..height).contains(&p.y))
+    {
+        return [grey; 3];
     }
+    let (x, y) = (p.x - 0.5, p.y - 0.5);
+    let (tx, ty) = ((x - x.floor()) as f32, (y - y.floor()) as f32);
+    let (x, y) = (x.floor() as isize, y.floor() as isize);
+    let at = |x: isize, y: isize| pixels.clamped(x, y).map(f32::from);
+    let (a, b, c, d) = (at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
+    [0, 1, 2].map(|k| (a[k] * (1.0 - tx) + b[k] * tx) * (1.0 - ty) + (c[k] * (1.0 - tx) + d[k] * tx) * ty)
 }
 
 /// What a window shows beyond the picture.
@@ -135,7 +162,7 @@ mod tests {
 
     fn slope() -> View {
         let pixels = Raster::from_fn(40, 20, |x, y| [(2 * x + 3 * y) as u8, 7, 200]);
-        View { pixels, part: Rect::new(0.0, 0.0, 80.0, 40.0) }
+        View::new(pixels, Rect::new(0.0, 0.0, 80.0, 40.0))
     }
 
     #[test]

@@ -22,9 +22,25 @@ pub fn lightness(luminance: f32) -> f32 {
     (1.16 * f - 0.16).clamp(0.0, 1.0)
 }
 
+/// CIE L*, a*, b* (0 to 100, about -100 to 100) of linear sRGB, for white D65.
+pub fn lab(light: [f32; 3]) -> [f32; 3] {
+    let [r, g, b] = light;
+    let x = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505;
+    let y = luminance(light);
+    let z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0891;
+    let f = |t: f32| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+    [100.0 * lightness(y), 500.0 * (f(x) - f(y)), 200.0 * (f(y) - f(z))]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lab_of_known_colours() {
+        let near = |light: [f32; 3], expected: [f32; 3]| lab(light).into_iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.2);
+        assert!(near([1.0; 3], [100.0, 0.0, 0.0]) && near([0.0; 3], [0.0; 3]) && near([1.0, 0.0, 0.0], [53.24, 80.09, 67.2]));
+    }
 
     #[test]
     fn known_values() {

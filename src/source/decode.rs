@@ -4,6 +4,7 @@ use super::cmyk;
 use super::error::SourceError;
 use super::jpeg;
 use super::linear::Lineariser;
+use super::png;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use sha2::{Digest, Sha256};
 use std::io::{Cursor, Read};
@@ -64,6 +65,10 @@ impl Photograph {
         let format = format_name(kind).ok_or_else(|| SourceError::Unrecognised(first_bytes(bytes)))?;
         if kind == ImageFormat::Jpeg && !jpeg::is_whole(bytes) {
             return Err(SourceError::Truncated { format });
+        }
+        if let Some(length) = png::uneven_palette(bytes).filter(|_| kind == ImageFormat::Png) {
+            let reason = format!("its palette is of {length} bytes, three a colour");
+            return Err(SourceError::Damaged { format, reason });
         }
         let mut decoder =
             ImageReader::with_format(Cursor::new(bytes), kind).into_decoder().map_err(|error| describe(format, &error))?;

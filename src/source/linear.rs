@@ -46,6 +46,11 @@ impl Lineariser {
         Ok(Self { transform: Some(transform), ..Self::srgb() })
     }
 
+    /// Whether an embedded profile says what the numbers mean, so that they are not sRGB as they stand.
+    pub(super) const fn is_managed(&self) -> bool {
+        self.transform.is_some()
+    }
+
     /// Rows `first..first + count` as linear red, green, blue on white paper, and alpha.
     pub(super) fn rows(&self, pixels: &DynamicImage, first: u32, count: u32) -> Vec<[f32; 4]> {
         match pixels {

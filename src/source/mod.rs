@@ -10,13 +10,16 @@ mod depth;
 mod encoded;
 mod error;
 mod jpeg;
+mod landmarks;
 mod linear;
+mod png;
 mod portrait;
 mod scribbles;
 
-pub use colour::{lightness, linear_to_srgb, luminance, srgb_to_linear};
+pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
 pub use decode::{Limits, Photograph, SourceInfo};
 pub use depth::DepthSense;
 pub use error::SourceError;
+pub use landmarks::{Iris, Landmarks, POINTS, outlines};
 pub use portrait::{Crop, MaskRole, Placement, Portrait, ToneCurve, ToneTarget, fill_box};
 pub use scribbles::Scribbles;

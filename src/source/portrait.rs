@@ -4,6 +4,7 @@ use super::colour::{lightness, luminance};
 use super::decode::Photograph;
 use super::depth::{DepthSense, read_depth};
 use super::error::SourceError;
+use super::landmarks::Landmarks;
 use super::scribbles::Scribbles;
 use crate::drawing::Page;
 use crate::geometry::{Point, Rect};
@@ -18,6 +19,8 @@ use std::collections::BTreeMap;
 const WORK_LIMIT: u64 = 60_000_000;
 /// How far the proportions of a mask may be from the photograph's; a thumbnail of 50 pixels is rounded by as much.
 const MOST_DISTORTION: f64 = 0.03;
+/// The mesh's point on the tip of the nose, the middle of a face.
+const NOSE_TIP: usize = 1;
 /// Rows of the working raster resampled at a time.
 const BAND: usize = 64;
 
@@ -34,6 +37,12 @@ pub enum MaskRole {
     Face,
     /// Clothing.
     Clothing,
+    /// Bare skin.
+    Skin,
+    /// Beards and moustaches.
+    FacialHair,
+    /// Hats, caps, scarves.
+    Headwear,
     /// Hand-made edges, as white lines.
     Edges,
     /// Hand-made isophotes, as white lines.
@@ -44,12 +53,15 @@ pub enum MaskRole {
 
 impl MaskRole {
     /// Every role and its name on the command line.
-    pub const ALL: [(&'static str, Self); 8] = [
+    pub const ALL: [(&'static str, Self); 11] = [
         ("subject", Self::Subject),
         ("detail", Self::Detail),
         ("hair", Self::Hair),
         ("face", Self::Face),
         ("clothing", Self::Clothing),
+        ("skin", Self::Skin),
+        ("facial-hair", Self::FacialHair),
+        ("headwear", Self::Headwear),
         ("edges", Self::Edges),
         ("isophotes", Self::Isophotes),
         ("scribbles", Self::Scribbles),
@@ -63,6 +75,9 @@ impl MaskRole {
             Self::Hair => "hair, white, which is drawn in strokes that flow",
             Self::Face => "the face, white, whose eyes, nose and mouth are looked for and drawn",
             Self::Clothing => "clothing, white, which is shaded by hand where it is dark",
+            Self::Skin => "bare skin, white, whose lights and shadows the portrait tone evens out",
+            Self::FacialHair => "beards and moustaches, white",
+            Self::Headwear => "hats, caps and scarves, white",
             Self::Edges => {
                 "edges as white lines, in the place of those that would be found (charcoal: which of those to keep, and more)"
             }
@@ -186,12 +201,18 @@ pub struct Portrait {
     pub lightness: Raster<f32>,
     /// How much of each pixel belongs to the subject, 0 to 1.
     pub subject: Raster<f32>,
+    /// Whether the tone was made for faces.
+    has_portrait_tone: bool,
+    /// The people, where their background is drawn too.
+    people: Option<Raster<f32>>,
     /// Whether the photograph was composed on white by `subject` itself, its alpha.
     is_on_white: bool,
     /// Other masks, 0 to 1.
     pub masks: BTreeMap<MaskRole, Raster<f32>>,
     /// Nearness, 1 nearest and towards 0 far; 0 where nothing is known or there is background.
     pub depth: Option<Raster<f32>>,
+    /// The faces that were found, in working pixels, largest first.
+    pub faces: Vec<Landmarks>,
     /// Regions marked by hand.
     pub scribbles: Option<Scribbles>,
 }
@@ -223,9 +244,12 @@ impl Portrait {
             tone,
             lightness,
             subject,
+            has_portrait_tone: false,
+            people: None,
             is_on_white: true,
             masks: BTreeMap::new(),
             depth: None,
+            faces: Vec::new(),
             scribbles: None,
         })
     }
@@ -244,13 +268,7 @@ impl Portrait {
             self.scribbles = Some(Scribbles::read(mask, crop, self.placement)?);
             return Ok(());
         }
-        let planes = resample(mask, crop, self.placement)?;
-        // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
-        let region = planes.map(|[r, g, b, alpha]| {
-            let on_white = luminance([r, g, b]);
-            let on_black = (on_white - (1.0 - alpha)).max(0.0);
-            lightness(on_black)
-        });
+        let region = region(mask, crop, self.placement)?;
         if role == MaskRole::Subject {
             self.subject = region;
             self.is_on_white = false;
@@ -258,6 +276,29 @@ impl Portrait {
             self.masks.insert(role, region);
         }
         Ok(())
+    }
+
+    /// Adds the people without their background, which is drawn all the same; as a mask.
+    pub fn add_people(&mut self, mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
+        let crop = crop_on_grid(mask, photograph, crop.within(photograph)?)?;
+        self.people = Some(region(mask, crop, self.placement)?);
+        Ok(())
+    }
+
+    /// The people, where they are known apart from the subject, else the subject; 0 to 1.
+    pub fn people(&self) -> &Raster<f32> {
+        self.people.as_ref().unwrap_or(&self.subject)
+    }
+
+    /// Gives it a tone made for its faces, 0 to 1, to which the curve is applied.
+    pub fn set_portrait_tone(&mut self, tone: &Raster<f32>, curve: ToneCurve) {
+        self.tone = tone.map(|t| curve.apply(t));
+        self.has_portrait_tone = true;
+    }
+
+    /// Whether the tone was made for its faces, so that the whites are those that are wanted.
+    pub const fn has_portrait_tone(&self) -> bool {
+        self.has_portrait_tone
     }
 
     /// Adds a depth map, resampled alike, on the photograph's pixel grid or one of the same proportions.
@@ -270,6 +311,17 @@ impl Portrait {
     ) -> Result<(), SourceError> {
         let crop = crop_on_grid(depth, photograph, crop.within(photograph)?)?;
         self.depth = Some(read_depth(depth, sense, crop, self.placement));
+        Ok(())
+    }
+
+    /// Adds faces that were found in the photograph, in its pixels, largest first; those whose middle lies outside the crop are left out.
+    pub fn add_faces(&mut self, faces: &[Landmarks], photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
+        let crop = crop.within(photograph)?;
+        let (x, y) = (self.placement.columns as f64 / crop.width, self.placement.rows as f64 / crop.height);
+        let place = |p: Point| Point::new((p.x - crop.x) * x, (p.y - crop.y) * y);
+        let picture = Rect::new(0.0, 0.0, self.placement.columns as f64, self.placement.rows as f64);
+        let placed = faces.iter().map(|face| face.placed(place, (x * y).sqrt()));
+        self.faces = placed.filter(|face| picture.contains(face.point(NOSE_TIP))).collect();
         Ok(())
     }
 
@@ -299,6 +351,16 @@ fn crop_on_grid(mask: &Photograph, photograph: &Photograph, crop: Crop) -> Resul
     }
     let (x, y) = (w / width, h / height);
     Ok(Crop { x: crop.x * x, y: crop.y * y, width: crop.width * x, height: crop.height * y })
+}
+
+/// How much of each working pixel a mask marks.
+fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<f32>, SourceError> {
+    // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
+    Ok(resample(mask, crop, placement)?.map(|[r, g, b, alpha]| {
+        let on_white = luminance([r, g, b]);
+        let on_black = (on_white - (1.0 - alpha)).max(0.0);
+        lightness(on_black)
+    }))
 }
 
 /// Linear light on white, and alpha, at the working resolution; in bands, so that memory does not grow with the photograph.

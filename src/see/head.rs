@@ -1,0 +1,148 @@
+//! A head's place: what is person for sure, and where head, shoulders and body are to be expected.
+
+use crate::geometry::{Point, Rect, Vec2};
+use crate::raster::{Raster, filled_polygon};
+use crate::source::outlines::OVAL;
+
+/// A close-up: the face wider than this part of the picture, or the top of the head, so many heights of the face above the
+/// forehead, out of it.
+const CLOSE_UP: f64 = 0.5;
+const CROWN: f64 = 0.3;
+/// Reach of what is near the head, in widths of the face: to either side, and above the forehead.
+const NEAR_SIDE: f64 = 1.7;
+const NEAR_TOP: f64 = 1.0;
+/// A face turned to the side is narrower than its head: its width counts at least this part of its height.
+const LEAST_WIDTH: f64 = 0.6;
+/// Part of the oval, about its middle, that is person for sure: the oval of a turned face goes beyond its far cheek, by up to a
+/// twelfth of the face; at 1 a strip of what is behind stays there, at 0.7 lights on a forehead are lost.
+const SURE: f64 = 0.85;
+/// Hair and ears beside the oval, in widths of the face, and what is left of that at the far side of a face turned so far that
+/// the nose is `TURNED` widths from the middle; the head's back adds so many widths for each of the nose's on the near side.
+const BESIDE: f64 = 0.22;
+const FAR: f64 = 0.03;
+const TURNED: f64 = 0.3;
+const BACK: f64 = 0.8;
+/// The expected head's reach above and below its middle in widths of the face, and how far that lies above the face's: hats and
+/// high hair are common above, and flags and lamps are rare there.
+const HEIGHTS: [f64; 2] = [1.35, 1.0];
+const RAISED: f64 = 0.12;
+/// The expected head narrows by this part from eyes to chin: hair that ends at the ears leaves shadows on walls beside the jaw.
+const JAW: f64 = 0.35;
+
+/// A piecewise linear function by its corners: the ends' values beyond them.
+fn through_corners<const N: usize>(corners: [(f64, f64); N], x: f64) -> f64 {
+    let inside = corners.windows(2).find(|pair| x < pair[1].0);
+    let [(x0, y0), (x1, y1)] = inside.map_or([corners[N - 1]; 2], |pair| [pair[0], pair[1]]);
+    if x1 > x0 { y0 + (y1 - y0) * ((x - x0) / (x1 - x0)).clamp(0.0, 1.0) } else { y1 }
+}
+
+/// A face's place, in pixels of the upright picture.
+pub(super) struct Head {
+    oval: Vec<Point>,
+    /// Between the ears.
+    pub centre: Point,
+    forehead: Point,
+    /// From ear to ear.
+    pub width: f64,
+    crown: f64,
+    /// The middle of the face, and the way from the person's right to left, of length 1.
+    middle: Point,
+    across: Vec2,
+    /// How far the expected head reaches to either side of the middle, in widths of the face.
+    reach: [f64; 2],
+}
+
+impl Head {
+    /// Of a face's 468 points.
+    pub(super) fn new(points: &[[f64; 3]]) -> Self {
+        let at = |i: usize| Point::new(points[i][0], points[i][1]);
+        let (nose, forehead, chin, right, left) = (at(1), at(10), at(152), at(234), at(454));
+        let up = forehead - chin;
+        let width = (left - right).hypot().max(LEAST_WIDTH * up.hypot()).max(1.0);
+        let eyes = at(263) - at(33);
+        let across = if eyes.hypot() > 0.0 { eyes.normalize() } else { Vec2::new(1.0, 0.0) };
+        let (oval, centre) = (OVAL.map(at).to_vec(), right.midpoint(left));
+        let down = Vec2::new(-across.y, across.x);
+        let middle = centre + down * (forehead.midpoint(chin) - centre).dot(down);
+        let turn = (nose - centre).dot(across) / width;
+        let turned = (turn.abs() / TURNED).min(1.0);
+        let (far, near) = (FAR + BESIDE * (1.0 - turned), BESIDE + BACK * turn.abs());
+        let beside = if turn < 0.0 { [far, near] } else { [near, far] };
+        let most = |sign: f64| oval.iter().map(|p| sign * (*p - middle).dot(across)).fold(0.0, f64::max) / width;
+        let reach = [most(-1.0) + beside[0], most(1.0) + beside[1]];
+        Self { oval, centre, forehead, width, crown: forehead.y + CROWN * up.y, middle, across, reach }
+    }
+
+    pub(super) fn is_close_up(&self, picture: Rect) -> bool {
+        self.width > CLOSE_UP * picture.width() || self.crown < picture.y0
+    }
+
+    /// The part of the picture near this head, down to the lower border.
+    pub(super) fn surroundings(&self, picture: Rect) -> Rect {
+        let reach = NEAR_SIDE * self.width;
+        let top = self.forehead.y - NEAR_TOP * self.width;
+        Rect::new(self.centre.x - reach, top, self.centre.x + reach, picture.y1).intersect(picture)
+    }
+
+    /// The face without its rim, on a grid of so many columns and rows over a picture.
+    pub(super) fn sure(&self, picture: Rect, columns: usize, rows: usize) -> Raster<u8> {
+        let middle = self.oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / self.oval.len() as f64;
+        let outline: Vec<[f64; 2]> = self
+            .oval
+            .iter()
+            .map(|p| middle + SURE * (p.to_vec2() - middle) - picture.origin().to_vec2())
+            .map(|p| [p.x * columns as f64 / picture.width(), p.y * rows as f64 / picture.height()])
+            .collect();
+        filled_polygon(columns, rows, &outline)
+    }
+
+    /// Whether a place is where this person is to be expected, without knowing hair or hat: from 1, in head and body, to 0.
+    pub(super) fn expects(&self, place: Point) -> f64 {
+        let from = (place - self.middle) / self.width;
+        let (across, down) = (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)));
+        let reach = self.reach[usize::from(across >= 0.0)] * through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down);
+        let down_from_middle = down + RAISED;
+        let height = HEIGHTS[usize::from(down_from_middle >= 0.0)];
+        let head = through_corners([(0.9, 1.0), (1.25, 0.0)], (across / reach).hypot(down_from_middle / height));
+        // Below the chin, at half a width, shoulders grow to either side.
+        let shoulders = through_corners([(0.5, 0.4), (0.8, 1.15), (1.2, 2.2)], down);
+        let body = if down > 0.45 { through_corners([(1.0, 1.0), (1.4, 0.0)], across.abs() / shoulders) } else { 0.0 };
+        head.max(body)
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A face 100 wide and 140 high about `(x, y)`, its nose so far to the side.
+    pub(in super::super) fn face(x: f64, y: f64, nose: f64) -> Vec<[f64; 3]> {
+        let mut points = vec![[x, y, 0.0]; 468];
+        for (i, k) in OVAL.iter().enumerate() {
+            let (sin, cos) = (i as f64 / OVAL.len() as f64 * std::f64::consts::TAU).sin_cos();
+            points[*k] = [x + 50.0 * sin, y - 70.0 * cos, 0.0];
+        }
+        (points[33], points[263], points[1]) = ([x - 30.0, y - 20.0, 0.0], [x + 30.0, y - 20.0, 0.0], [x + nose, y, 0.0]);
+        (points[10], points[152]) = ([x, y - 70.0, 0.0], [x, y + 70.0, 0.0]);
+        (points[234], points[454]) = ([x - 50.0, y, 0.0], [x + 50.0, y, 0.0]);
+        points
+    }
+
+    #[test]
+    fn head_and_shoulders_are_expected_and_what_is_beside_them_is_not() {
+        let head = Head::new(&face(300.0, 200.0, 0.0));
+        for (x, y) in [(300.0, 200.0), (300.0, 110.0), (245.0, 180.0), (300.0, 300.0), (400.0, 320.0)] {
+            assert_eq!(head.expects(Point::new(x, y)), 1.0, "{x} {y}");
+        }
+        for (x, y) in [(200.0, 180.0), (235.0, 255.0), (300.0, 20.0), (120.0, 260.0)] {
+            assert!(head.expects(Point::new(x, y)) < 0.5, "{x} {y}: {}", head.expects(Point::new(x, y)));
+        }
+    }
+
+    #[test]
+    fn a_turned_head_has_its_back_on_the_other_side() {
+        let head = Head::new(&face(300.0, 200.0, -30.0));
+        let (far, near) = (head.expects(Point::new(237.0, 190.0)), head.expects(Point::new(380.0, 190.0)));
+        assert!(far < 0.2 && near == 1.0, "{far} {near}");
+    }
+}

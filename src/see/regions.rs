@@ -1,0 +1,194 @@
+//! What the people are made of: skin, hair, facial hair, headwear and clothing, found in the photograph's own colours.
+//!
+//! No network knows these; the mesh of the face does: it tells where skin surely is, where hair would begin, where shoulders would be.
+//! What lies there is learned (Gaussian mixtures of colour and texture), each pixel takes what suits it best at its place on the
+//! head, and the picture's own edges decide the rest.
+//!
+//! ```text
+//!   view, subject, points --> plate (face 110 px wide) --> is it bald? --> parting: skin, hair, clothing --> pieces that hang together
+//!                                                                             /             \
+//!                                                                       facial hair      headwear --> shares at the view's size
+//! ```
+
+mod baldness;
+mod facial_hair;
+mod head;
+mod headwear;
+mod mixture;
+mod parting;
+mod path;
+mod pieces;
+mod plate;
+mod smoothing;
+
+use super::detail::detail;
+use super::sight::Regions;
+use crate::raster::Raster;
+use crate::source::Landmarks;
+use facial_hair::Beard;
+use head::Head;
+use headwear::headwear;
+use parting::{CLOTHING, HAIR, Parting, SKIN, Shares};
+use plate::{Plate, owner};
+use rayon::prelude::*;
+use smoothing::{Guide, Lines, value};
+
+/// Skin, hair, facial hair, headwear, clothing.
+const KINDS: usize = 5;
+const LAST: usize = KINDS - 1;
+/// Radii in working pixels of the filters that bring shares to the picture's edges, the second at the view's size too, and their
+/// `eps`: at twice the radii fair hair melts into the forehead.
+const REACHES: [usize; 2] = [5, 3];
+const EPS: f32 = 1.5e-3;
+
+/// What one head's plate says, ready to be asked for any colour.
+struct Told {
+    plate: Plate,
+    lines: [Lines; KINDS],
+}
+
+/// The regions of the people in a view, whose faces lie on its pixels.
+pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks]) -> Regions {
+    let detail = detail(subject, faces);
+    let (heads, faces): (Vec<Head>, Vec<&Landmarks>) = faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
+    let told: Vec<Option<Told>> = (0..heads.len()).map(|i| told(pixels, subject, faces[i], &heads, i)).collect();
+    let planes = at_full_size(pixels, subject, &heads, &told);
+    let [skin, hair, facial_hair, headwear, clothing] = [0, 1, 2, 3, 4].map(|k| planes.map(|p| p[k]));
+    Regions { skin, hair, facial_hair, headwear, clothing, detail }
+}
+
+fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads: &[Head], which: usize) -> Option<Told> {
+    let plate = Plate::new(pixels, subject, face, heads, which)?;
+    let parting = Parting::learned(&plate);
+    let guides = REACHES.map(|radius| Guide::new(&plate.colours, radius, EPS));
+    let beard = Beard::found(&plate);
+    let shares = pieces::hung_together(&parting, &plate, parting.shares(&guides), beard.as_ref());
+    let beard = beard.map(|beard| beard.shares(&plate, &shares));
+    let hat = headwear(&plate, &shares);
+    let kinds = kinds(&shares, beard.as_ref(), hat.as_ref());
+    let lines = [0, 1, 2, 3, 4].map(|k| {
+        let plane = kinds.map(|s| s[k]);
+        let is_empty = plane.pixels().iter().all(|v| *v == 0.0);
+        if is_empty { plane.map(|_| [0.0; 4]) } else { guides[1].lines(&plane) }
+    });
+    drop((guides, parting));
+    Some(Told { plate, lines })
+}
+
+/// The five kinds within the person: facial hair takes from skin and clothing, headwear from hair.
+fn kinds(shares: &Raster<Shares>, beard: Option<&Raster<f32>>, hat: Option<&Raster<f32>>) -> Raster<[f32; KINDS]> {
+    Raster::from_fn(shares.width(), shares.height(), |x, y| {
+        let s = shares.get(x, y);
+        let beard = beard.map_or(0.0, |b| b.get(x, y));
+        let hat = hat.map_or(0.0, |h| h.get(x, y).min(s[HAIR]));
+        let rest = 1.0 - beard;
+        let under = s[SKIN] + s[HAIR] - hat + s[CLOTHING];
+        let kinds = [s[SKIN] * rest, (s[HAIR] - hat) * rest, beard * under.max(0.5), hat, s[CLOTHING] * rest];
+        let kinds = kinds.map(|v| v.max(0.0) * v.max(0.0));
+        let sum: f32 = kinds.iter().sum();
+        kinds.map(|v| if sum > 1e-4 { v / sum } else { 0.0 })
+    })
+}
+
+/// The kinds at the view's size, each pixel by its nearest head; what no plate shows is clothing.
+fn at_full_size(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, heads: &[Head], told: &[Option<Told>]) -> Raster<[u8; KINDS]> {
+    let width = pixels.width();
+    let mut out = Raster::filled(width, pixels.height(), [0_u8; KINDS]);
+    out.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        for (x, out) in row.iter_mut().enumerate() {
+            let whole = subject.get(x, y);
+            if whole == 0 {
+                continue;
+            }
+            let p = crate::geometry::Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let own = owner(heads, p).and_then(|i| told[i].as_ref());
+            let colour = pixels.get(x, y).map(|v| f32::from(v) / 255.0);
+            let shares = own.and_then(|own| shares_at(own, p.x, p.y, colour));
+            *out = shared_out(whole, shares.unwrap_or([0.0, 0.0, 0.0, 0.0, 1.0]));
+        }
+    });
+    out
+}
+
+/// What a plate says of a colour at a place of the view; none where it does not reach.
+fn shares_at(told: &Told, x: f64, y: f64, colour: [f32; 3]) -> Option<[f32; KINDS]> {
+    let plate = &told.plate;
+    if !plate.part.contains(crate::geometry::Point::new(x, y)) {
+        return None;
+    }
+    let place =
+        |v: f64, from: f64, length: f64, count: usize| ((v - from) / length * count as f64 - 0.5).clamp(0.0, count as f64 - 1.0);
+    let (fx, fy) = (
+        place(x, plate.part.x0, plate.part.width(), plate.width()),
+        place(y, plate.part.y0, plate.part.height(), plate.height()),
+    );
+    let (x0, y0) = (fx as usize, fy as usize);
+    let (x1, y1) = ((x0 + 1).min(plate.width() - 1), (y0 + 1).min(plate.height() - 1));
+    let (tx, ty) = (fx.fract() as f32, fy.fract() as f32);
+    let weights = [(1.0 - tx) * (1.0 - ty), tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty];
+    Some([0, 1, 2, 3, 4].map(|k| {
+        let corners = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].map(|(x, y)| told.lines[k].get(x, y));
+        let line = [0, 1, 2, 3].map(|j| (0..4).map(|c| weights[c] * corners[c][j]).sum());
+        value(line, colour)
+    }))
+}
+
+/// A whole of at most 255 shared out without remainder.
+fn shared_out(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
+    let sum: f32 = shares.iter().sum();
+    let shares = if sum > 0.02 { shares.map(|v| v / sum) } else { [0.0, 0.0, 0.0, 0.0, 1.0] };
+    let (mut given, mut upto) = (0_u8, 0.0_f32);
+    let mut out = [0; KINDS];
+    for (k, share) in shares.into_iter().enumerate() {
+        upto += share;
+        let reached = if k == LAST { whole } else { ((upto * f32::from(whole)).round() as u8).clamp(given, whole) };
+        out[k] = reached - given;
+        given = reached;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::source::Iris;
+
+    /// A face of so many pixels' width, turned by `yaw` radians: only the points that heads are measured by are where they should be.
+    pub(in crate::see) fn face(centre: Point, width: f64, yaw: f64) -> Landmarks {
+        let mut points = vec![[centre.x, centre.y, 0.0]; 468];
+        let (sin, cos) = yaw.sin_cos();
+        let mut put = |i: usize, x: f64, y: f64, z: f64| {
+            points[i] = [centre.x + width * (x * cos + z * sin), centre.y + width * y, width * (z * cos - x * sin)];
+        };
+        put(10, 0.0, -0.6, -0.3);
+        put(152, 0.0, 0.6, -0.3);
+        put(234, -0.5, 0.0, 0.0);
+        put(454, 0.5, 0.0, 0.0);
+        Landmarks { points, irises: [Iris { centre, radius: 0.04 * width }; 2] }
+    }
+
+    #[test]
+    fn a_whole_is_shared_out_without_remainder() {
+        for whole in [0, 1, 7, 254, 255] {
+            let out = shared_out(whole, [0.2, 0.31, 0.02, 0.0, 0.4]);
+            assert_eq!(out.iter().map(|v| u32::from(*v)).sum::<u32>(), u32::from(whole));
+        }
+    }
+
+    #[test]
+    fn faces_out_of_the_picture_or_of_one_point_do_no_harm() {
+        let pixels = Raster::from_fn(40, 30, |x, y| [(6 * x) as u8, (8 * y) as u8, 90]);
+        let subject = Raster::filled(40, 30, 200_u8);
+        for (x, y, width) in [(20.0, 15.0, 20.0), (-500.0, 15.0, 30.0), (39.0, 29.0, 300.0), (20.0, 15.0, 1.0), (20.0, 15.0, 0.0)]
+        {
+            let found = regions(&pixels, &subject, &[face(Point::new(x, y), width, 0.3)]);
+            let sum = |x: usize, y: usize| {
+                let all = [&found.skin, &found.hair, &found.facial_hair, &found.headwear, &found.clothing];
+                all.iter().map(|r| u32::from(r.get(x, y))).sum::<u32>()
+            };
+            assert!((0..30).all(|y| (0..40).all(|x| sum(x, y) == 200)));
+        }
+        assert_eq!(regions(&pixels, &subject, &[]).clothing, subject);
+    }
+}

@@ -1,0 +1,193 @@
+//! Beards and moustaches: below the nose and round the lips, darker, greyer and more uneven than the cheeks.
+
+use super::parting::{CLOTHING, HAIR, Shares};
+use super::plate::Plate;
+use super::smoothing::Guide;
+use crate::raster::{Raster, components, dilate, gaussian_blur};
+use crate::source::outlines::{LIPS, MOUTH};
+
+/// Points under the cheekbones, which stay bare.
+const CHEEKS: [usize; 6] = [50, 101, 205, 280, 330, 425];
+/// The upper lip from the nose's wings to the mouth's corners, and the nose's own underside, whose shadow is no moustache.
+const MOUSTACHE: [usize; 8] = [98, 327, 2, 61, 291, 0, 37, 267];
+const UNDER_NOSE: [usize; 5] = [98, 97, 2, 326, 327];
+/// The chin below the lower lip.
+const CHIN: [usize; 12] = [17, 84, 314, 181, 405, 152, 148, 377, 176, 400, 149, 378];
+/// The lowest point of the chin.
+const CHIN_END: usize = 152;
+/// The middle of the upper lip.
+const PHILTRUM: usize = 2;
+/// A zone counts as covered when in both of its halves (the nose's shadow falls on one) the median is darker than the cheeks by the
+/// first and as uneven as the second; or its colour is so much paler, and not black; or it is so much darker still. Tuned on sixteen
+/// portraits, four of them with beards or moustaches; stubble and shadow reach 0.83 and 0.74.
+const DARK: f32 = 0.8;
+const UNEVEN: f32 = 6.6;
+const PALE: f32 = 0.7;
+const BLACK: f32 = 18.0;
+const DARKEST: f32 = 0.45;
+/// How far a beard may hang below the chin, in `v`: a longer one is taken for clothing there, a shaded neck for beard if it may.
+const BELOW_CHIN: f32 = -0.25;
+/// Fewer pixels say nothing of a half.
+const LEAST_HALF: usize = 8;
+
+/// The wings of the nose, its tip and its underside.
+const NOSE: [usize; 12] = [4, 45, 275, 48, 278, 64, 294, 98, 327, 2, 97, 326];
+/// A pixel between the lips' borders is hair that hangs over them when it is so much darker than the cheeks.
+const OVER_LIPS: f32 = 0.55;
+
+/// Lightness, colour and unevenness, each pixel against the cheeks'.
+struct Face<'a> {
+    plate: &'a Plate,
+    /// L* over that of the cheeks.
+    light: Raster<f32>,
+    /// Chroma for the lightness, over that of the cheeks.
+    colour: Raster<f32>,
+    uneven: Raster<f32>,
+    lips: Raster<bool>,
+}
+
+impl<'a> Face<'a> {
+    fn new(plate: &'a Plate) -> Option<Self> {
+        let cheeks = plate.round(&CHEEKS, 0.06);
+        let light = plate.lab.map(|c| c[0]);
+        let colour = plate.lab.map(|c| c[1].hypot(c[2]) / (c[0] + 8.0));
+        let (light_there, colour_there) = (median(&light, &cheeks)?.max(1.0), median(&colour, &cheeks)?.max(0.01));
+        let smooth = gaussian_blur(&light, 0.02 * plate.face_width);
+        let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), 0.03 * plate.face_width);
+        let uneven = energy.zip_map(&light, |e, l| 50.0 * e.max(0.0).sqrt() / (l + 8.0));
+        let lips = dilate(&plate.hull(&LIPS).map(u8::from), 1).map(|v| v != 0);
+        Some(Self { plate, light: light.map(|v| v / light_there), colour: colour.map(|v| v / colour_there), uneven, lips })
+    }
+
+    /// Whether both halves of a zone look covered with hair.
+    fn is_covered(&self, zone: &Raster<bool>) -> bool {
+        let middle = self.plate.coordinates(self.plate.point(PHILTRUM))[0];
+        let half = |sign: f32| self.plate.where_(|[u, _], i| zone.pixels()[i] && sign * (u - middle) > 0.01);
+        let halves: Vec<bool> = [-1.0, 1.0]
+            .into_iter()
+            .map(half)
+            .filter(|half| half.pixels().iter().filter(|is| **is).count() >= LEAST_HALF)
+            .filter_map(|half| {
+                let (light, colour, uneven) =
+                    (median(&self.light, &half)?, median(&self.colour, &half)?, median(&self.uneven, &half)?);
+                let l = median(&self.plate.lab.map(|c| c[0]), &half)?;
+                let is_dark = light < DARK && uneven > UNEVEN;
+                let is_pale = colour < PALE && l > BLACK;
+                let is_darkest = light < DARKEST && uneven > 6.5 && colour < 1.3;
+                Some(is_dark || is_pale || is_darkest)
+            })
+            .collect();
+        !halves.is_empty() && halves.into_iter().all(|is| is)
+    }
+
+    /// The pixels that are too dark for lips.
+    fn over_lips(&self) -> Raster<bool> {
+        let light = gaussian_blur(&self.light, 0.012 * self.plate.face_width);
+        self.plate.where_(|_, i| light.pixels()[i] < OVER_LIPS)
+    }
+
+    /// The pixels that look like hair on a face.
+    fn hairs(&self) -> Raster<bool> {
+        let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
+        let (light, colour, uneven) = (blur(&self.light, 0.012), blur(&self.colour, 0.012), blur(&self.uneven, 0.02));
+        self.plate.where_(|_, i| {
+            let (l, c) = (light.pixels()[i], colour.pixels()[i]);
+            let is_dark = l < 0.74 && uneven.pixels()[i] > 5.5;
+            is_dark || c < 0.74 || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
+        })
+    }
+}
+
+/// A beard, a moustache or both.
+pub(super) struct Beard {
+    hairs: Raster<bool>,
+    /// Where hair on the face may be, whatever is worn below it.
+    allowed: Raster<bool>,
+    /// Where it must reach.
+    zones: Raster<bool>,
+    /// Whether it covers the chin.
+    pub is_full: bool,
+}
+
+impl Beard {
+    /// The facial hair that both halves of the upper lip or of the chin show.
+    pub(super) fn found(plate: &Plate) -> Option<Self> {
+        let face = Face::new(plate)?;
+        let off_lips = |zone: Raster<bool>| zone.zip_map(&face.lips, |zone, lips| zone && !lips);
+        let under_nose = plate.round(&UNDER_NOSE, 0.035);
+        let moustache = off_lips(plate.hull(&MOUSTACHE)).zip_map(&under_nose, |zone, nose| zone && !nose);
+        let chin = off_lips(plate.hull(&CHIN));
+        let middle = chin_middle(plate);
+        let jaw = off_lips(plate.where_(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
+        let hairs = face.hairs();
+        let has_moustache = face.is_covered(&moustache);
+        let is_full = face.is_covered(&chin) && (has_moustache || share_of(&hairs, &jaw) > 0.4);
+        if !has_moustache && !is_full {
+            return None;
+        }
+        let lip = plate.hull(&MOUSTACHE).zip_map(&plate.hull(&LIPS), |a, b| a || b).map(u8::from);
+        let lip = dilate(&lip, (0.04 * plate.face_width) as usize);
+        let nose = plate.hull(&NOSE);
+        let mouth = plate.hull(&MOUTH);
+        let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
+        let over_lips = face.over_lips();
+        let allowed = plate.where_(|[u, v], i| {
+            let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;
+            let is_jaw = v < 0.44 && near_oval.pixels()[i] != 0;
+            let on_lip = has_moustache && lip.pixels()[i] != 0 && !plate.is_below_lips(i);
+            let is_free = !face.lips.pixels()[i] || (over_lips.pixels()[i] && !mouth.pixels()[i]);
+            plate.inside.pixels()[i]
+                && !nose.pixels()[i]
+                && is_free
+                && (on_lip || (is_full && (is_below || (is_jaw && v > -0.05))))
+        });
+        let zones = plate.where_(|_, i| moustache.pixels()[i] || chin.pixels()[i] || jaw.pixels()[i]);
+        Some(Self { hairs, allowed, zones, is_full })
+    }
+
+    /// How much of each pixel is beard or moustache; below the chin collars are none.
+    pub(super) fn shares(&self, plate: &Plate, shares: &Raster<Shares>) -> Raster<f32> {
+        let middle = chin_middle(plate);
+        let found = plate.where_(|_, i| {
+            let (s, [u, v]) = (shares.pixels()[i], plate.at.pixels()[i]);
+            let aside = (u - middle).abs();
+            let is_under_chin = aside < 0.25 && v > -0.05;
+            let is_worn = !plate.oval.pixels()[i]
+                && ((s[CLOTHING] > 0.5 && !is_under_chin) || (aside > 0.42 && (v < 0.05 || s[HAIR] < 0.5)));
+            self.hairs.pixels()[i] && self.allowed.pixels()[i] && !is_worn
+        });
+        let closed = dilate(&dilate(&found.map(u8::from), 1).map(|v| 1 - v), 1).map(|v| 1 - v);
+        let kept = large_pieces(&closed, &self.zones, 0.006 * plate.face_width * plate.face_width);
+        Guide::new(&plate.colours, 3, 1e-3).filtered(&kept)
+    }
+}
+
+/// Where the chin is across the head, in `u`.
+fn chin_middle(plate: &Plate) -> f32 {
+    plate.coordinates(plate.point(CHIN_END))[0]
+}
+
+/// The pieces of at least so many pixels that reach into the zones.
+fn large_pieces(found: &Raster<u8>, zones: &Raster<bool>, least: f32) -> Raster<f32> {
+    let (labels, count) = components(found);
+    let mut sizes = vec![(0.0_f32, false); count + 1];
+    for (&label, &zone) in labels.pixels().iter().zip(zones.pixels()) {
+        let (size, reaches) = &mut sizes[label as usize];
+        *size += 1.0;
+        *reaches |= zone;
+    }
+    labels.map(|label| f32::from(u8::from(label != 0 && sizes[label as usize].0 > least && sizes[label as usize].1)))
+}
+
+fn share_of(marked: &Raster<bool>, zone: &Raster<bool>) -> f32 {
+    let both = marked.pixels().iter().zip(zone.pixels()).filter(|(m, z)| **m && **z).count();
+    let all = zone.pixels().iter().filter(|is| **is).count();
+    if all > 10 { both as f32 / all as f32 } else { 0.0 }
+}
+
+/// The median over a zone.
+fn median(plane: &Raster<f32>, zone: &Raster<bool>) -> Option<f32> {
+    let mut values: Vec<f32> = plane.pixels().iter().zip(zone.pixels()).filter(|(_, is)| **is).map(|(v, _)| *v).collect();
+    values.sort_by(f32::total_cmp);
+    values.get(values.len() / 2).copied()
+}

@@ -1,0 +1,85 @@
+//! A head's own coordinates: across it in widths of the face, up it in heights of the face.
+
+use crate::geometry::{Point, Vec2};
+use crate::source::Landmarks;
+
+/// The middle of the forehead's upper border, the chin, and the ends of the face's width before the ears.
+const FOREHEAD: usize = 10;
+const CHIN: usize = 152;
+const EARS: [usize; 2] = [234, 454];
+/// Faces are at least so wide, in their heights: on one turned to the side the points' own width is a guess.
+const LEAST_WIDTH: f64 = 0.6;
+/// How far behind the face's width the middle of the skull lies, in widths: on a turned head it shows beside the face.
+const BACK: f64 = 0.3;
+/// Least width and height in pixels, so that nothing is divided by nothing.
+const LEAST: f64 = 1.0;
+
+/// A head in a picture. `u` grows to the picture's right, 0 in the middle of the skull, 0.5 about at the ears; `v` grows upwards, 0
+/// at the chin, 1 at the forehead's upper border.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Head {
+    middle: Point,
+    chin: Point,
+    up: Vec2,
+    across: Vec2,
+    /// From ear to ear in pixels, in the three dimensions of the points: a turned head is as wide as one seen from the front.
+    pub width: f64,
+    /// From chin to forehead in pixels of the picture.
+    pub height: f64,
+}
+
+impl Head {
+    /// The head of a face that lies on the picture's pixels; none where its points are no face.
+    pub(super) fn new(face: &Landmarks) -> Option<Self> {
+        let [forehead, chin, right, left] = [FOREHEAD, CHIN, EARS[0], EARS[1]].map(|i| face.point(i));
+        let rise = forehead - chin;
+        let deep = |a: usize, b: usize| face.points[a][2] - face.points[b][2];
+        let width = (left - right).hypot().hypot(deep(EARS[0], EARS[1]));
+        // The way from ear to ear leans into the picture as far as the head is turned.
+        let turn = deep(EARS[0], EARS[1]) / width.max(LEAST);
+        let up = rise / rise.hypot().max(f64::MIN_POSITIVE);
+        let across = Vec2::new(-up.y, up.x);
+        let head = Self {
+            middle: right.midpoint(left) + across * (BACK * turn * width),
+            chin,
+            up,
+            across,
+            width: width.max(LEAST_WIDTH * rise.hypot()).max(LEAST),
+            height: rise.hypot().max(LEAST),
+        };
+        (rise.hypot() > 0.0 && head.middle.is_finite() && head.width.is_finite() && head.height.is_finite()).then_some(head)
+    }
+
+    /// `u` and `v` of a place.
+    pub(super) fn coordinates(&self, p: Point) -> [f32; 2] {
+        let u = (p - self.middle).dot(self.across) / self.width;
+        let v = (p - self.chin).dot(self.up) / self.height;
+        [u as f32, v as f32]
+    }
+
+    /// The place of `u` and `v`.
+    pub(super) fn place(&self, u: f64, v: f64) -> Point {
+        let sideways = (self.chin - self.middle).dot(self.across);
+        self.chin + self.up * (v * self.height) + self.across * (u * self.width - sideways)
+    }
+
+    /// How far a place is from the middle of the face, in widths of the face.
+    pub(super) fn distance(&self, p: Point) -> f64 {
+        (p - self.place(0.0, 0.5)).hypot() / self.width
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::face;
+    use super::*;
+
+    #[test]
+    fn places_and_coordinates_are_each_others_way_back() {
+        let head = Head::new(&face(Point::new(100.0, 80.0), 60.0, 0.4)).unwrap();
+        for (u, v) in [(0.0, 0.0), (0.4, 1.2), (-1.0, -0.7)] {
+            let [back_u, back_v] = head.coordinates(head.place(u, v));
+            assert!((f64::from(back_u) - u).abs() < 1e-5 && (f64::from(back_v) - v).abs() < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What hangs together: hair with the head, clothing with the shoulders, skin with the face; stray pieces go to what they lie in.
+
+use super::facial_hair::Beard;
+use super::parting::{CLOTHING, HAIR, Parting, SKIN, Shares, greatest};
+use super::plate::Plate;
+use crate::raster::{Raster, components};
+
+/// Pieces of fewer working pixels are nothing of their own.
+const LEAST: usize = 50;
+
+/// One piece of a class: the numbers of its pixels, and its middle height.
+struct Piece {
+    pixels: Vec<usize>,
+    middle: f32,
+    /// Its mean distance from the middle of the head.
+    aside: f32,
+}
+
+/// The shares with stray pieces given away and hair that ends at the jaw ended there.
+pub(super) fn hung_together(
+    parting: &Parting,
+    plate: &Plate,
+    mut shares: Raster<Shares>,
+    beard: Option<&Beard>,
+) -> Raster<Shares> {
+    let width = plate.width();
+    let at = |i: usize| plate.at.pixels()[i];
+    for piece in pieces(plate, &shares, HAIR) {
+        let is_on_head = piece.pixels.iter().any(|&i| at(i)[1] > 0.5 && at(i)[0].abs() < 0.95);
+        if !is_on_head || piece.pixels.len() < LEAST {
+            let is_worn = piece.middle < -0.12 || piece.aside > 0.55;
+            give(&mut shares, &piece, HAIR, if is_worn { CLOTHING } else { SKIN });
+        }
+    }
+    let is_at_border = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        y + 3 >= plate.height() || x < 2 || x + 2 >= width
+    };
+    for piece in pieces(plate, &shares, CLOTHING) {
+        let is_low = piece.pixels.iter().any(|&i| at(i)[1] < -0.25 || (at(i)[1] < -0.05 && is_at_border(i)));
+        if !is_low || piece.pixels.len() < LEAST {
+            give(&mut shares, &piece, CLOTHING, if piece.middle > 0.3 && parting.has_hair() { HAIR } else { SKIN });
+        }
+    }
+    for piece in pieces(plate, &shares, SKIN) {
+        if let Some(to) = home_of_skin(parting, plate, &shares, &piece) {
+            give(&mut shares, &piece, SKIN, to);
+        }
+    }
+    for sign in [-1.0, 1.0] {
+        end_at_jaw(parting, plate, &mut shares, sign, beard.is_some_and(|beard| beard.is_full));
+    }
+    shares
+}
+
+fn pieces(plate: &Plate, shares: &Raster<Shares>, class: usize) -> Vec<Piece> {
+    let (labels, count) = components(&shares.map(|s| u8::from(greatest(s) == class)));
+    let mut pieces: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for (i, &label) in labels.pixels().iter().enumerate().filter(|(_, label)| **label != 0) {
+        pieces[label as usize - 1].push(i);
+    }
+    let measured = |pixels: Vec<usize>| {
+        let middle = pixels.iter().map(|&i| plate.at.pixels()[i][1]).sum::<f32>() / pixels.len().max(1) as f32;
+        let aside = pixels.iter().map(|&i| plate.at.pixels()[i][0].abs()).sum::<f32>() / pixels.len().max(1) as f32;
+        Piece { pixels, middle, aside }
+    };
+    pieces.into_iter().map(measured).collect()
+}
+
+fn give(shares: &mut Raster<Shares>, piece: &Piece, from: usize, to: usize) {
+    for &i in &piece.pixels {
+        let share = &mut shares.pixels_mut()[i];
+        share[to] += share[from];
+        share[from] = 0.0;
+    }
+}
+
+/// What skin that does not touch the face turns out to be: what surrounds it, hair above the brow, clothing far below.
+fn home_of_skin(parting: &Parting, plate: &Plate, shares: &Raster<Shares>, piece: &Piece) -> Option<usize> {
+    let is_ear = || piece.middle > 0.2 && piece.middle < 0.85 && parting.mean_from_skin(&piece.pixels) < 6.0;
+    if piece.pixels.iter().any(|&i| plate.oval.pixels()[i]) || is_ear() {
+        return None;
+    }
+    let (width, height) = (plate.width(), plate.height());
+    let mut counts = [0_usize; 4];
+    for &i in &piece.pixels {
+        let (x, y) = (i % width, i / width);
+        let round =
+            [(x.saturating_sub(2), y), ((x + 2).min(width - 1), y), (x, y.saturating_sub(2)), (x, (y + 2).min(height - 1))];
+        for class in round.map(|(x, y)| greatest(shares.get(x, y))).into_iter().filter(|class| *class != SKIN) {
+            counts[class] += 1;
+        }
+    }
+    let all: usize = counts.iter().sum();
+    let is_small = (piece.pixels.len() as f32) < 0.25 * plate.face_width * plate.face_width;
+    if 2 * (counts[HAIR] + counts[CLOTHING]) > all && is_small {
+        return Some(if counts[HAIR] >= counts[CLOTHING] { HAIR } else { CLOTHING });
+    }
+    match piece.middle {
+        v if v > 0.75 && !parting.is_bald => Some(HAIR),
+        v if v < -0.9 => Some(CLOTHING),
+        _ => None,
+    }
+}
+
+/// Hair that is short beside the jaw does not go on below it.
+fn end_at_jaw(parting: &Parting, plate: &Plate, shares: &mut Raster<Shares>, sign: f32, with_beard: bool) {
+    // A full beard covers the ground beside the jaw too: long hair shows farther out.
+    let from = if with_beard { 0.65 } else { 0.5 };
+    let (mut hair, mut all) = (0_usize, 0_usize);
+    for i in 0..plate.at.len() {
+        let [u, v] = plate.at.pixels()[i];
+        let is_out = plate.inside.pixels()[i] && !plate.oval.pixels()[i];
+        if is_out && v > 0.12 && v < 0.42 && u * sign > from && u * sign < from + 0.3 {
+            all += 1;
+            hair += usize::from(greatest(shares.pixels()[i]) == HAIR);
+        }
+    }
+    let covered = if all > 20 { hair as f32 / all as f32 } else { 0.0 };
+    if covered >= 0.2 && parting.is_long(sign) {
+        return;
+    }
+    for i in 0..plate.at.len() {
+        let [u, v] = plate.at.pixels()[i];
+        if v < 0.12 && u * sign > 0.0 {
+            let share = &mut shares.pixels_mut()[i];
+            share[if v < 0.0 || u.abs() > 0.6 { CLOTHING } else { SKIN }] += share[HAIR];
+            share[HAIR] = 0.0;
+        }
+    }
+}

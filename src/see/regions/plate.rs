@@ -1,0 +1,205 @@
+//! What is looked at for one head: its surroundings at a working size, with colour, texture and places on the head.
+
+use super::head::Head;
+use crate::geometry::{Point, Rect, Vec2, convex_hull};
+use crate::raster::{Raster, dilate, filled_polygon, gaussian_blur};
+use crate::source::outlines::OVAL;
+use crate::source::{Landmarks, lab, srgb_to_linear};
+
+/// Lightness, green to red, blue to yellow, and texture, so weighted that a unit of each is as telling.
+pub(super) type Feature = [f32; 4];
+
+/// Width of the face in working pixels: at 60 braids and brows melt, at 200 single hairs have a say and time grows fourfold.
+const FACE: f64 = 110.0;
+/// Longer side of the working picture at most.
+const LONGEST: f64 = 400.0;
+/// Room round the face, in widths to either side and in heights above and below the chin.
+const ASIDE: f64 = 2.6;
+const ABOVE: f64 = 2.4;
+const BELOW: f64 = 2.4;
+/// Weight of L* (0 to 100) against a* and b*.
+pub(super) const LIGHTNESS_WEIGHT: f32 = 2.2;
+/// Texture is the deviation from a blur of so many pixels, averaged over so many, on a logarithmic scale of this weight.
+const TEXTURE_BLUR: f32 = 2.0;
+const TEXTURE_REACH: f32 = 2.5;
+const TEXTURE_WEIGHT: f32 = 9.0;
+/// The middle of the lower lip's lower border.
+const LIPS_END: usize = 17;
+/// Width of the oval's rim, in widths of the face.
+const RIM: f32 = 0.05;
+/// From so much on a pixel is the subject's.
+const SOLID: f32 = 0.5;
+
+/// A head's surroundings.
+pub(super) struct Plate {
+    pub head: Head,
+    /// The part of the view that is shown, in its pixels.
+    pub part: Rect,
+    /// Working pixels for each of the view.
+    pub scale: f64,
+    /// The width of the face in working pixels.
+    pub face_width: f32,
+    /// sRGB, 0 to 1.
+    pub colours: Raster<[f32; 3]>,
+    /// L*, a*, b*.
+    pub lab: Raster<[f32; 3]>,
+    pub features: Raster<Feature>,
+    /// `u` and `v` of each pixel.
+    pub at: Raster<[f32; 2]>,
+    /// Where this head's person is.
+    pub inside: Raster<bool>,
+    /// The face's oval.
+    pub oval: Raster<bool>,
+    /// The oval without its rim, over which hair may hang.
+    pub core: Raster<bool>,
+    points: Vec<Point>,
+}
+
+impl Plate {
+    /// The surroundings of `heads[which]`; each pixel of the subject belongs to the nearest head.
+    pub(super) fn new(
+        pixels: &Raster<[u8; 3]>,
+        subject: &Raster<u8>,
+        face: &Landmarks,
+        heads: &[Head],
+        which: usize,
+    ) -> Option<Self> {
+        let head = heads[which];
+        let part = surroundings(&head, pixels.width() as f64, pixels.height() as f64)?;
+        let scale = (FACE / head.width).min(LONGEST / part.width().max(part.height())).min(1.0);
+        let count = |length: f64| ((length * scale).round() as usize).max(1);
+        let (width, height) = (count(part.width()), count(part.height()));
+        let grid = Grid { part, x_step: part.width() / width as f64, y_step: part.height() / height as f64 };
+        let colours = Raster::from_fn(width, height, |x, y| grid.mean(pixels, x, y, |c| c.map(f32::from)).map(|v| v / 255.0));
+        let points: Vec<Point> = face.points.iter().map(|p| grid.inward(Point::new(p[0], p[1]))).collect();
+        let corners: Vec<[f64; 2]> = OVAL.iter().map(|&i| [points[i].x, points[i].y]).collect();
+        let oval = filled_polygon(width, height, &corners).map(|v| v != 0);
+        let inside = Raster::from_fn(width, height, |x, y| {
+            let [share, ..] = grid.mean(subject, x, y, |v| [f32::from(v) / 255.0, 0.0, 0.0]);
+            (share > SOLID || oval.get(x, y)) && owner(heads, grid.middle(x, y)) == Some(which)
+        });
+        let lab = colours.map(|encoded| lab(encoded.map(srgb_to_linear)));
+        let features = features(&lab);
+        let at = Raster::from_fn(width, height, |x, y| head.coordinates(grid.middle(x, y)));
+        let face_width = (head.width * scale) as f32;
+        let beyond = dilate(&oval.map(|is| u8::from(!is)), (RIM * face_width) as usize);
+        let core = beyond.map(|v| v == 0);
+        Some(Self { head, part, scale, face_width, colours, lab, features, at, inside, oval, core, points })
+    }
+
+    pub(super) fn width(&self) -> usize {
+        self.at.width()
+    }
+
+    pub(super) fn height(&self) -> usize {
+        self.at.height()
+    }
+
+    /// A point of the mesh in working pixels.
+    pub(super) fn point(&self, index: usize) -> Point {
+        self.points[index]
+    }
+
+    /// `u` and `v` of a place in working pixels.
+    pub(super) fn coordinates(&self, p: Point) -> [f32; 2] {
+        self.head.coordinates(self.part.origin() + p.to_vec2() / self.scale)
+    }
+
+    /// Whether a pixel lies below the lips.
+    pub(super) fn is_below_lips(&self, i: usize) -> bool {
+        self.at.pixels()[i][1] < self.coordinates(self.point(LIPS_END))[1]
+    }
+
+    /// The pixels within `radius` widths of the face of some points of the mesh, at least two pixels.
+    pub(super) fn round(&self, indices: &[usize], radius: f32) -> Raster<bool> {
+        let radius = f64::from((radius * self.face_width).max(2.0));
+        let mut marked = Raster::filled(self.width(), self.height(), false);
+        for p in indices.iter().map(|&i| self.point(i)) {
+            let range = |centre: f64, count: usize| {
+                let end = |v: f64| v.clamp(0.0, count as f64) as usize;
+                end(centre - radius)..end(centre + radius + 1.0)
+            };
+            for (x, y) in range(p.y, self.height()).flat_map(|y| range(p.x, self.width()).map(move |x| (x, y))) {
+                if (Point::new(x as f64 + 0.5, y as f64 + 0.5) - p).hypot() <= radius {
+                    marked.set(x, y, true);
+                }
+            }
+        }
+        marked
+    }
+
+    /// The pixels inside the convex hull of some points of the mesh.
+    pub(super) fn hull(&self, indices: &[usize]) -> Raster<bool> {
+        let hull = convex_hull(indices.iter().map(|&i| self.point(i)).collect());
+        let hull: Vec<[f64; 2]> = hull.iter().map(|p| [p.x, p.y]).collect();
+        filled_polygon(self.width(), self.height(), &hull).map(|v| v != 0)
+    }
+
+    /// The features of the pixels that are marked.
+    pub(super) fn samples(&self, marked: &Raster<bool>) -> Vec<Feature> {
+        self.features.pixels().iter().zip(marked.pixels()).filter(|(_, marked)| **marked).map(|(f, _)| *f).collect()
+    }
+
+    /// The pixels for which a rule of their place (`u`, `v`) and number holds.
+    pub(super) fn where_(&self, rule: impl Fn([f32; 2], usize) -> bool + Sync) -> Raster<bool> {
+        let width = self.width();
+        Raster::from_fn(width, self.height(), |x, y| rule(self.at.get(x, y), y * width + x))
+    }
+}
+
+/// The number of the head that is nearest in widths of its face.
+pub(super) fn owner(heads: &[Head], p: Point) -> Option<usize> {
+    let nearest = heads.iter().enumerate().min_by(|a, b| a.1.distance(p).total_cmp(&b.1.distance(p)));
+    nearest.map(|(i, _)| i)
+}
+
+/// The part of the view round a head, in whole pixels; none when it is out of the picture.
+fn surroundings(head: &Head, width: f64, height: f64) -> Option<Rect> {
+    let corners = [(-ASIDE, ABOVE), (ASIDE, ABOVE), (-ASIDE, -BELOW), (ASIDE, -BELOW)].map(|(u, v)| head.place(u, v));
+    let round = corners.iter().fold(Rect::from_points(corners[0], corners[3]), |round, p| round.union_pt(*p));
+    let part = round.expand().intersect(Rect::new(0.0, 0.0, width, height));
+    (part.width() >= 1.0 && part.height() >= 1.0).then_some(part)
+}
+
+/// Working pixels over a part of the view.
+struct Grid {
+    part: Rect,
+    x_step: f64,
+    y_step: f64,
+}
+
+impl Grid {
+    /// The view's place of a working pixel's centre.
+    fn middle(&self, x: usize, y: usize) -> Point {
+        self.part.origin() + Vec2::new((x as f64 + 0.5) * self.x_step, (y as f64 + 0.5) * self.y_step)
+    }
+
+    /// The place in working pixels of a place in the view.
+    fn inward(&self, p: Point) -> Point {
+        Point::new((p.x - self.part.x0) / self.x_step, (p.y - self.part.y0) / self.y_step)
+    }
+
+    /// The mean of the view's pixels that have their centres in a working pixel, at least one.
+    fn mean<T: Copy + Send + Sync>(&self, raster: &Raster<T>, x: usize, y: usize, value: impl Fn(T) -> [f32; 3]) -> [f32; 3] {
+        let range = |from: f64, step: f64, i: usize, count: usize| {
+            let start = ((from + i as f64 * step).round() as usize).min(count - 1);
+            start..((from + (i + 1) as f64 * step).round() as usize).clamp(start + 1, count.max(start + 1))
+        };
+        let rows = range(self.part.y0, self.y_step, y, raster.height());
+        let columns = range(self.part.x0, self.x_step, x, raster.width());
+        let count = (rows.len() * columns.len()) as f32;
+        let mut sum = [0.0; 3];
+        for v in rows.flat_map(|y| raster.row(y)[columns.clone()].iter()) {
+            let v = value(*v);
+            sum = [sum[0] + v[0], sum[1] + v[1], sum[2] + v[2]];
+        }
+        sum.map(|v| v / count)
+    }
+}
+
+fn features(lab: &Raster<[f32; 3]>) -> Raster<Feature> {
+    let light = lab.map(|c| LIGHTNESS_WEIGHT * c[0]);
+    let smooth = gaussian_blur(&light, TEXTURE_BLUR);
+    let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), TEXTURE_REACH);
+    lab.zip_map(&energy, |c, e| [LIGHTNESS_WEIGHT * c[0], c[1], c[2], TEXTURE_WEIGHT * e.max(0.0).sqrt().ln_1p()])
+}

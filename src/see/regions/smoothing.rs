@@ -1,0 +1,98 @@
+//! Guided filtering of several planes over one picture (He, Sun and Tang 2010), and at a finer size than they were found (He and Sun
+//! 2015): what each place says of a colour is found on the small picture and asked of the large one's colours.
+
+use crate::raster::{Raster, box_blur};
+
+/// For each pixel the least squares' slopes for red, green and blue, then the offset.
+pub(super) type Lines = Raster<[f32; 4]>;
+
+/// A picture's colours in windows of one size.
+pub(super) struct Guide<'a> {
+    colours: &'a Raster<[f32; 3]>,
+    radius: usize,
+    means: Raster<[f32; 3]>,
+    /// The inverse of the colours' covariance in the window: its upper triangle.
+    inverse: Raster<[f32; 6]>,
+}
+
+impl<'a> Guide<'a> {
+    /// Edges of a contrast well below the root of `eps` do not count; colours from 0 to 1.
+    pub(super) fn new(colours: &'a Raster<[f32; 3]>, radius: usize, eps: f32) -> Self {
+        let blur = |plane: Raster<f32>| box_blur(&plane, radius);
+        let means = [0, 1, 2].map(|k| blur(colours.map(|c| c[k])));
+        let means = joined(&means);
+        let squares = PAIRS.map(|(i, j)| blur(colours.map(|c| c[i] * c[j])));
+        let inverse = Raster::from_fn(colours.width(), colours.height(), |x, y| {
+            let m = means.get(x, y);
+            let mut spread = [0.0; 6];
+            for (k, (i, j)) in PAIRS.into_iter().enumerate() {
+                let own = if i == j { eps } else { 0.0 };
+                spread[k] = f64::from(squares[k].get(x, y) - m[i] * m[j] + own);
+            }
+            inverse(spread)
+        });
+        Self { colours, radius, means, inverse }
+    }
+
+    /// The linear functions of colour that are nearest to a plane, each averaged over the windows that hold the pixel.
+    pub(super) fn lines(&self, plane: &Raster<f32>) -> Lines {
+        let blur = |plane: &Raster<f32>| box_blur(plane, self.radius);
+        let mean = blur(plane);
+        let with_colour = [0, 1, 2].map(|k| blur(&self.colours.zip_map(plane, |c, v| c[k] * v)));
+        let lines = Raster::from_fn(plane.width(), plane.height(), |x, y| {
+            let (m, s) = (self.means.get(x, y), self.inverse.get(x, y));
+            let c = [0, 1, 2].map(|k| with_colour[k].get(x, y) - m[k] * mean.get(x, y));
+            let slope = [
+                s[0] * c[0] + s[1] * c[1] + s[2] * c[2],
+                s[1] * c[0] + s[3] * c[1] + s[4] * c[2],
+                s[2] * c[0] + s[4] * c[1] + s[5] * c[2],
+            ];
+            [slope[0], slope[1], slope[2], mean.get(x, y) - slope[0] * m[0] - slope[1] * m[1] - slope[2] * m[2]]
+        });
+        let smooth = [0, 1, 2, 3].map(|k| blur(&lines.map(|line| line[k])));
+        Raster::from_fn(plane.width(), plane.height(), |x, y| [0, 1, 2, 3].map(|k| smooth[k].get(x, y)))
+    }
+
+    /// A plane of values from 0 to 1 that has taken the picture's edges.
+    pub(super) fn filtered(&self, plane: &Raster<f32>) -> Raster<f32> {
+        self.lines(plane).zip_map(self.colours, value)
+    }
+}
+
+/// What a line says of a colour, 0 to 1.
+#[inline]
+pub(super) fn value(line: [f32; 4], colour: [f32; 3]) -> f32 {
+    (line[0] * colour[0] + line[1] * colour[1] + line[2] * colour[2] + line[3]).clamp(0.0, 1.0)
+}
+
+/// Rows and columns of a symmetric matrix's upper triangle.
+const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+fn joined(planes: &[Raster<f32>; 3]) -> Raster<[f32; 3]> {
+    Raster::from_fn(planes[0].width(), planes[0].height(), |x, y| [0, 1, 2].map(|k| planes[k].get(x, y)))
+}
+
+/// The upper triangle of the inverse of a symmetric matrix, given alike.
+fn inverse([rr, rg, rb, gg, gb, bb]: [f64; 6]) -> [f32; 6] {
+    let cofactors = [gg * bb - gb * gb, gb * rb - rg * bb, rg * gb - gg * rb];
+    let determinant = rr * cofactors[0] + rg * cofactors[1] + rb * cofactors[2];
+    if determinant.abs() < f64::MIN_POSITIVE {
+        return [0.0; 6];
+    }
+    let rest = [rr * bb - rb * rb, rg * rb - rr * gb, rr * gg - rg * rg];
+    [cofactors[0], cofactors[1], cofactors[2], rest[0], rest[1], rest[2]].map(|v| (v / determinant) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::guided_filter;
+
+    #[test]
+    fn it_is_the_guided_filter() {
+        let guide = Raster::from_fn(40, 30, |x, y| [x as f32 / 40.0, ((x * y) % 7) as f32 / 7.0, f32::from(u8::from(y > 12))]);
+        let plane = Raster::from_fn(40, 30, |x, y| f32::from(u8::from(x + y > 30)));
+        let (ours, theirs) = (Guide::new(&guide, 3, 1e-3).filtered(&plane), guided_filter(&guide, &plane, 3, 1e-3));
+        assert!(ours.pixels().iter().zip(theirs.pixels()).all(|(a, b)| (a - b).abs() < 2e-3));
+    }
+}

@@ -1,0 +1,184 @@
+//! The tone that one face asks for, over the whole picture.
+
+use super::blurred_within;
+use super::curve::Curve;
+use super::zones::Zones;
+use crate::geometry::Point;
+use crate::raster::{Raster, Remapping, box_blur, fast_gaussian, local_laplacian};
+use crate::source::Landmarks;
+
+/// Lighting: the reach of what counts as light rather than form, and how much of its departure from the median is taken back, in shade
+/// and in light.
+const LIGHT_REACH: f64 = 0.22;
+const SHADE_EVENED: f32 = 0.5;
+const LIGHT_EVENED: f32 = 0.35;
+/// Local contrast: contrasts below the first are raised by the power, larger ones lowered a little; levels finer than this part of a
+/// sixtieth of the face, which is about a dot, are left.
+const CONTRAST: Remapping = Remapping { alpha: 0.65, sigma: 0.16, beta: 0.85 };
+const LEFT: Remapping = Remapping { alpha: 1.0, sigma: 0.16, beta: 0.85 };
+const DOTS: f64 = 60.0;
+const FINE: f64 = 0.35;
+const SAMPLES: usize = 14;
+/// The base layer of the curve: its reach, and the contrast that it keeps.
+const BASE_REACH: f64 = 0.045;
+const BASE_CONTRAST: f32 = 0.03;
+const DETAIL: f32 = 1.25;
+/// The paper's tone for a face's median `m`: `MEDIAN[0] + MEDIAN[1] m`.
+const MEDIAN: [f32; 2] = [0.32, 0.61];
+/// Black, and the end of the curve's toe.
+const BLACK: f32 = 0.06;
+const TOE: [f32; 2] = [0.10, 0.19];
+/// The lights: which hundredths of the skin take which tone, and the curve's slope there.
+const LIGHTS: f64 = 84.0;
+const LIGHT_TONE: f32 = 0.955;
+const WHITES: f64 = 96.0;
+const SLOPES: [f32; 2] = [0.8, 3.1];
+/// Lights count at the size of the dots, in widths of the face.
+const DOT: f64 = 0.012;
+/// Clothing's own curve: black cloth is opened, white cloth stays white.
+const CLOTHING: [[f32; 2]; 6] = [[-0.3, 0.0], [0.0, 0.06], [0.10, 0.17], [0.35, 0.40], [0.70, 0.73], [1.0, 1.0]];
+/// Hair lighter than this is held back, and the contrast of its strands raised.
+const LIGHT_HAIR: f32 = 0.80;
+const HELD: f32 = 0.45;
+const STRANDS: f32 = 1.6;
+/// How much the difference of eyes, brows and lips from the skin round them is raised.
+const FEATURES: f32 = 0.40;
+/// Large blacks are opened below this tone, in the face from a lighter one.
+const OPENED: f32 = 0.19;
+const OPENED_IN_FACE: f32 = 0.07;
+
+/// The picture that faces are in.
+pub(super) struct Setting<'a> {
+    pub lightness: &'a Raster<f32>,
+    /// 0 to 1, its edge made firmer.
+    pub subject: Raster<f32>,
+    /// Hair and headwear.
+    pub hair: Option<Raster<f32>>,
+    pub clothing: Option<Raster<f32>>,
+}
+
+/// The steps in their order; not held to 0 and 1.
+pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32>> {
+    let zones = Zones::new(face, setting.lightness)?;
+    let evened = evened_light(&zones, setting.lightness);
+    let contrasted = local_contrast(&zones, &evened, &setting.subject);
+    let base = self_guided(&contrasted, (BASE_REACH * zones.width).round().max(2.0) as usize, BASE_CONTRAST * BASE_CONTRAST);
+    let detail = contrasted.zip_map(&base, |v, base| DETAIL * (v - base));
+    let curve = curve_of(&zones, &contrasted, &base);
+    let mut tone = base.zip_map(&detail, |base, detail| curve.at(base) + detail);
+    if let Some(clothing) = &setting.clothing {
+        let own = Curve::through(&CLOTHING);
+        let cloth = base.zip_map(&detail, |base, detail| own.at(base) + detail);
+        tone = mixed(&tone, &cloth, &fast_gaussian(clothing, (0.012 * zones.width) as f32));
+    }
+    if let Some(hair) = &setting.hair {
+        tone = light_hair(&zones, face, &tone, hair, &setting.subject);
+    }
+    let tone = raised_features(&zones, &tone, &setting.subject);
+    let tone = opened_blacks(&zones, &tone, &setting.subject);
+    Some(mixed(setting.lightness, &tone, &setting.subject))
+}
+
+/// Step 1: a very smooth lightness of the skin is taken towards its median.
+fn evened_light(zones: &Zones, lightness: &Raster<f32>) -> Raster<f32> {
+    let weight = zones.skin.zip_map(&zones.oval, |skin, oval| skin + 1e-5 * f32::from(oval));
+    let smooth = zones.over_skin(lightness, &weight, LIGHT_REACH);
+    let sigma = (LIGHT_REACH * zones.width) as f32;
+    let sure = fast_gaussian(&zones.skin, sigma).map(|v| (v / 0.25).clamp(0.0, 1.0));
+    let median = zones.median;
+    let off = smooth.zip_map(&sure, |smooth, sure| {
+        let share = if smooth < median { SHADE_EVENED } else { LIGHT_EVENED };
+        share * (median - smooth) * sure
+    });
+    let off = fast_gaussian(&off, 0.5 * sigma);
+    // Blacks stay black and whites white.
+    lightness.zip_map(&off, |l, off| (l + off * (l / 0.25).clamp(0.0, 1.0) * ((1.0 - l) / 0.1).clamp(0.0, 1.0)).clamp(0.0, 1.0))
+}
+
+/// Step 2: the subject goes on beyond its border by its own mean, so that the border itself has no contrast and no halo.
+fn local_contrast(zones: &Zones, evened: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+    let weight = subject.map(|v| v + 1e-6);
+    let beyond = zones.over_skin(evened, &weight, 0.1);
+    let filled = mixed(&beyond, evened, subject);
+    let count = ((zones.width / 10.0).max(1.0).log2().round() as usize).max(3);
+    let levels: Vec<Remapping> =
+        (0..count).map(|level| if f64::from(1 << level) < FINE * zones.width / DOTS { LEFT } else { CONTRAST }).collect();
+    local_laplacian(&filled, &levels, SAMPLES)
+}
+
+/// Step 3: the rising curve through the skin's median and its lights.
+fn curve_of(zones: &Zones, contrasted: &Raster<f32>, base: &Raster<f32>) -> Curve {
+    let median = zones.median_of(contrasted);
+    let paper = MEDIAN[0] + MEDIAN[1] * zones.median;
+    let dots = fast_gaussian(base, (DOT * zones.width) as f32);
+    let lights = zones.percentile(&dots, LIGHTS).max(median + 0.03);
+    let slope = ((LIGHT_TONE - paper) / (lights - median)).clamp(SLOPES[0], SLOPES[1]);
+    let lights = median + (LIGHT_TONE - paper) / slope;
+    let white = if lights < 0.94 { zones.percentile(&dots, WHITES).min(lights + 0.06).max(lights + 0.02) } else { lights + 0.05 };
+    let toe = TOE[0].min(0.4 * median);
+    Curve::through(&[
+        [-0.3, BLACK - 0.15],
+        [0.0, BLACK],
+        [toe, TOE[1]],
+        [median, paper],
+        [lights, LIGHT_TONE],
+        [white, 1.0],
+        [(white + 0.2).max(1.3), 1.12],
+    ])
+}
+
+/// Step 5: light hair takes strands instead of bare paper.
+fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+    let above_chin = above_chin(face);
+    let soft = fast_gaussian(hair, (0.015 * zones.width) as f32);
+    let zone = Raster::from_fn(tone.width(), tone.height(), |x, y| {
+        let height = above_chin(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+        soft.get(x, y) * subject.get(x, y) * ((height + 0.3) / 0.3).clamp(0.0, 1.0) as f32
+    });
+    let weight = zone.zip_map(subject, |zone, subject| zone + 1e-4 * subject + 1e-6);
+    let mean = zones.over_skin(&tone.map(|v| v.clamp(0.0, 1.05)), &weight, 0.05);
+    let held = tone.zip_map(&mean, |tone, mean| {
+        let strand = (tone - mean) * (1.0 + STRANDS * ((mean - 0.5) / 0.3).clamp(0.0, 1.0));
+        mean.min(LIGHT_HAIR + HELD * (mean - LIGHT_HAIR).max(0.0)) + strand
+    });
+    mixed(tone, &held, &zone)
+}
+
+/// How high above the chin a place is, in heights of the face.
+fn above_chin(face: &Landmarks) -> impl Fn(Point) -> f64 + Sync {
+    let (chin, up) = (face.point(152), face.point(10) - face.point(152));
+    move |p| (p - chin).dot(up) / up.hypot2().max(1e-9)
+}
+
+/// Step 6: eyes, brows and lips stand out against the skin round them.
+fn raised_features(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+    let weight = zones.skin.zip_map(subject, |skin, subject| (skin + 1e-4) * subject + 1e-6);
+    let round = zones.over_skin(tone, &weight, 0.10);
+    let raised = tone.zip_map(&round, |tone, round| FEATURES * (tone - round));
+    tone.zip_map(&raised.zip_map(&zones.features, |raised, feature| raised * feature), |tone, more| tone + more)
+}
+
+/// Step 7: hair, beards and cloth keep holes of paper; thin dark lines stay.
+fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+    let clamped = tone.map(|v| v.clamp(0.0, 1.0));
+    let mean = blurred_within(&clamped, &subject.map(|v| v + 1e-6), (zones.width / 40.0) as f32);
+    let in_face = fast_gaussian(&zones.oval.map(f32::from), (0.03 * zones.width) as f32);
+    let lift = mean.zip_map(&in_face, |mean, face| (0.45 + 0.2 * face) * (OPENED + OPENED_IN_FACE * face - mean).clamp(0.0, 1.0));
+    tone.zip_map(&lift, |tone, lift| tone + lift)
+}
+
+/// Smoothed but for edges of more than a contrast: the guided filter with itself as its guide.
+fn self_guided(raster: &Raster<f32>, radius: usize, eps: f32) -> Raster<f32> {
+    let mean = |raster: &Raster<f32>| box_blur(&box_blur(raster, radius), (radius / 2).max(1));
+    let means = mean(raster);
+    let spread = mean(&raster.map(|v| v * v)).zip_map(&means, |square, m| (square - m * m).max(0.0));
+    let slope = spread.map(|v| v / (v + eps));
+    let offset = mean(&slope.zip_map(&means, |a, m| m - a * m));
+    mean(&slope).zip_map(raster, |a, v| a * v).zip_map(&offset, |av, b| av + b)
+}
+
+/// The first where the share is 0, the second where it is 1.
+fn mixed(first: &Raster<f32>, second: &Raster<f32>, share: &Raster<f32>) -> Raster<f32> {
+    let off = second.zip_map(first, |second, first| second - first).zip_map(share, |off, share| off * share);
+    first.zip_map(&off, |first, off| first + off)
+}

@@ -1,0 +1,99 @@
+//! Where a face's skin and its features lie.
+
+use super::blurred_within;
+use crate::geometry::{Point, convex_hull};
+use crate::raster::{Raster, dilate, fast_gaussian, filled_polygon};
+use crate::source::{Landmarks, outlines};
+
+/// The face's border and its features are kept off skin by so many widths of the face: lashes and shadows at the hair are not skin.
+const INSET: f64 = 0.04;
+const ROUND_FEATURES: f64 = 0.03;
+/// Features are raised with so much round them, and a soft edge.
+const WITH_FEATURES: f64 = 0.02;
+const SOFT: f64 = 0.018;
+/// Skin's tones lie within so many deviations of its median, and at least within this of L*/100.
+const DEVIATIONS: f32 = 2.2;
+const LEAST_SPREAD: f32 = 0.06;
+/// A normal distribution's standard deviation in median deviations.
+const MEDIAN_DEVIATION: f32 = 1.4826;
+/// So often what lies far off is left out.
+const ROUNDS: usize = 4;
+
+/// A face's zones on the grid that the tone is worked out on.
+pub(super) struct Zones {
+    /// Inside the outline of the face.
+    pub oval: Raster<u8>,
+    /// Skin without features: where tones are counted.
+    pub counted: Raster<u8>,
+    /// The part of it that has skin's tones, 0 or 1.
+    pub skin: Raster<f32>,
+    /// Eyes, brows and lips, softly.
+    pub features: Raster<f32>,
+    /// Median of the skin's lightness.
+    pub median: f32,
+    /// The face's width in pixels.
+    pub width: f64,
+}
+
+impl Zones {
+    /// None where the face has no pixels of skin.
+    pub(super) fn new(face: &Landmarks, lightness: &Raster<f32>) -> Option<Self> {
+        let (columns, rows) = (lightness.width(), lightness.height());
+        let width = face.width();
+        let oval = polygon(columns, rows, &face.line(&outlines::OVAL));
+        let parts: [&[usize]; 5] =
+            [&outlines::LEFT_EYE, &outlines::RIGHT_EYE, &outlines::LEFT_BROW, &outlines::RIGHT_BROW, &outlines::LIPS];
+        let parts = parts.map(|indices| polygon(columns, rows, &convex_hull(face.line(indices))));
+        let parts = parts.iter().fold(oval.map(|_| 0), |all: Raster<u8>, part| all.zip_map(part, |a, b| a | b));
+        let pixels = |share: f64| (share * width).round().max(1.0) as usize;
+        let outside = dilate(&oval.map(|v| 1 - v), pixels(INSET));
+        let counted = outside.zip_map(&dilate(&parts, pixels(ROUND_FEATURES)), |out, part| u8::from(out == 0 && part == 0));
+        let (median, spread) = skin_tones(lightness, &counted)?;
+        let skin = counted.zip_map(lightness, |v, l| f32::from(u8::from(v == 1 && (l - median).abs() < 1.4 * spread)));
+        let features = fast_gaussian(&dilate(&parts, pixels(WITH_FEATURES)).map(f32::from), (SOFT * width) as f32);
+        Some(Self { oval, counted, skin, features, median, width })
+    }
+
+    /// A value of the counted skin below which so many hundredths of it lie.
+    pub(super) fn percentile(&self, values: &Raster<f32>, hundredths: f64) -> f32 {
+        let sorted = sorted_where(values, &self.counted);
+        sorted[((hundredths / 100.0 * (sorted.len() - 1) as f64).round() as usize).min(sorted.len() - 1)]
+    }
+
+    /// The median of values where skin has skin's tones.
+    pub(super) fn median_of(&self, values: &Raster<f32>) -> f32 {
+        let sorted = sorted_where(values, &self.skin.map(|v| u8::from(v > 0.0)));
+        sorted.get(sorted.len() / 2).copied().unwrap_or(self.median)
+    }
+
+    /// Values blurred over skin alone, by so many widths of the face.
+    pub(super) fn over_skin(&self, values: &Raster<f32>, weight: &Raster<f32>, share: f64) -> Raster<f32> {
+        blurred_within(values, weight, (share * self.width) as f32)
+    }
+}
+
+/// Median of the tones and how far they lie from it, without what lies far off: glasses, hair over the forehead, beards.
+fn skin_tones(lightness: &Raster<f32>, counted: &Raster<u8>) -> Option<(f32, f32)> {
+    let all = sorted_where(lightness, counted);
+    let mut kept = &all[..];
+    let mut spread = f32::INFINITY;
+    for _ in 0..=ROUNDS {
+        let median = *kept.get(kept.len() / 2)?;
+        let mut off: Vec<f32> = kept.iter().map(|v| (v - median).abs()).collect();
+        off.sort_unstable_by(f32::total_cmp);
+        spread = (DEVIATIONS * MEDIAN_DEVIATION * off[off.len() / 2]).max(LEAST_SPREAD);
+        kept = &all[all.partition_point(|v| *v < median - spread)..all.partition_point(|v| *v <= median + spread)];
+    }
+    Some((*kept.get(kept.len() / 2)?, spread))
+}
+
+fn sorted_where(values: &Raster<f32>, mask: &Raster<u8>) -> Vec<f32> {
+    let inside = values.pixels().iter().zip(mask.pixels()).filter(|(_, inside)| **inside == 1);
+    let mut inside: Vec<f32> = inside.map(|(v, _)| *v).collect();
+    inside.sort_unstable_by(f32::total_cmp);
+    inside
+}
+
+fn polygon(columns: usize, rows: usize, corners: &[Point]) -> Raster<u8> {
+    filled_polygon(columns, rows, &corners.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())
+}
