@@ -36,7 +36,10 @@ fn help_manual_and_lists_name_every_role_that_a_style_takes() {
     let out = |arguments: &[&str]| text(&run(folder.path(), arguments).stdout);
     let pages = [out(&["draw", "--help"]), out(&["draw", "-h"]), out(&["stages", "--help"]), out(&["man"])];
     for style in STYLES {
-        let roles: Vec<(&str, MaskRole)> = MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role)).collect();
+        let roles: Vec<(&str, MaskRole)> = MaskRole::ALL
+            .into_iter()
+            .filter(|(_, role)| style.masks().contains(role) || drypoint::tone::ROLES.contains(role))
+            .collect();
         let names: Vec<&str> = roles.iter().map(|(name, _)| *name).collect();
         for page in &pages {
             let words = format!("{} takes {}", style.name(), names.join(", "));
@@ -58,14 +61,24 @@ fn help_manual_and_lists_name_every_role_that_a_style_takes() {
 fn a_role_of_other_styles_is_refused_with_those() {
     let folder = folder();
     for (role, words) in [
-        ("hair=photo.png", "--mask hair: hedcut takes subject, detail, edges, isophotes; hair is for charcoal"),
+        (
+            "facial-hair=photo.png",
+            "--mask facial-hair: hedcut takes subject, detail, hair, clothing, headwear, edges, isophotes; facial-hair is for charcoal",
+        ),
         ("scribbles=photo.png", "scribbles is for engrave"),
-        ("nose=photo.png", "--mask nose: hedcut takes subject, detail, edges, isophotes"),
+        ("nose=photo.png", "--mask nose: hedcut takes subject, detail, hair, clothing, headwear, edges, isophotes"),
         ("hair", "write it as ROLE=FILE"),
     ] {
         let output = run(folder.path(), &["draw", "photo.png", "-o", "o.svg", "--mask", role]);
         assert!(output.status.code() == Some(2) && text(&output.stderr).contains(words), "{role}: {output:?}");
     }
+}
+
+#[test]
+fn a_mask_for_the_tone_of_faces_that_has_none_is_told() {
+    let folder = folder();
+    let output = run(folder.path(), &["draw", "photo.png", "-o", "o.svg", "--mask", "hair=photo.png"]);
+    assert!(output.status.success() && text(&output.stderr).contains("--mask hair changes nothing"), "{output:?}");
 }
 
 #[test]

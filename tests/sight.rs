@@ -242,3 +242,75 @@ fn without_networks_it_says_what_is_missing() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("cargo feature `see`"), "{refused:?}");
     assert!(!sample("astronaut.jpg").is_empty());
 }
+
+#[cfg(feature = "see")]
+#[test]
+fn without_a_face_nothing_of_sight_is_used() {
+    let folder = folder();
+    fs::write(folder.path().join("cat.png"), sample("chelsea.png")).unwrap();
+    let (plain, said) = drawn(folder.path(), "cat.png", &[]);
+    assert!(said.contains("no face found") && !said.contains("tone made"), "{said}");
+    let (kept, _) = drawn(folder.path(), "cat.png", &["--background", "keep", "--tone", "lightness"]);
+    let (unseen, _) = drawn(folder.path(), "cat.png", &["--sight", "none"]);
+    assert_eq!((&plain, &plain), (&kept, &unseen));
+    for (options, message) in [
+        (["--crop", "head"], "no face is known"),
+        (["--crop", "face"], "no face is known"),
+        (["--tone", "portrait"], "--tone lightness needs none"),
+    ] {
+        let refused = run(folder.path(), &[&["draw", "cat.png", "-o", "no.svg"], &options[..]].concat());
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert!(refused.status.code() == Some(1) && said.contains(message), "{options:?}: {said}");
+    }
+}
+
+#[cfg(feature = "see")]
+#[test]
+fn the_part_round_the_head_and_the_tone_are_found() {
+    let folder = folder();
+    fs::write(folder.path().join("photo.jpg"), sample("grace-hopper.jpg")).unwrap();
+    let recipe = |svg: &str, key: &str| {
+        let json = svg.split_once('{').unwrap().1.split("</metadata>").next().unwrap();
+        let json = format!("{{{}", json.rsplit_once('}').unwrap().0) + "}";
+        serde_json::from_str::<Value>(&json.replace("&quot;", "\"")).map_or(Value::Null, |recipe| recipe[key].clone())
+    };
+    let (head, said) = drawn(folder.path(), "photo.jpg", &["--crop", "head"]);
+    assert!(said.contains("tone made for the face") && said.contains("background left out"), "{said}");
+    let (face, _) = drawn(folder.path(), "photo.jpg", &["--crop", "face", "--tone", "portrait"]);
+    let part =
+        |svg: &str| -> Vec<f64> { recipe(svg, "crop_px").as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect() };
+    let (head_part, face_part) = (part(&head), part(&face));
+    // The eyes lie 87 pixels apart, their middle at 264, 206; the head with its cap is cut by no border.
+    assert!(head_part[0] < 150.0 && head_part[0] + head_part[2] > 380.0 && head_part[1] < 20.0, "{head_part:?}");
+    assert!(face_part[2] < 0.75 * head_part[2] && face_part[1] > head_part[1], "{face_part:?}");
+    assert_eq!(recipe(&head, "tone"), "portrait");
+    let (lightness, said) = drawn(folder.path(), "photo.jpg", &["--crop", "head", "--tone", "lightness"]);
+    assert!(!said.contains("tone made"), "{said}");
+    assert_ne!(marks(&lightness), marks(&head));
+    let (half, _) = drawn(folder.path(), "photo.jpg", &["--crop", "head", "--tone-strength", "0.5"]);
+    assert!(marks(&half) != marks(&head) && marks(&half) != marks(&lightness));
+    // A small face at this pitch: said, with what shows it.
+    let said = drawn(folder.path(), "photo.jpg", &[]).1;
+    assert!(said.contains("too small for a pitch of 0.8 mm") && said.contains("--crop head"), "{said}");
+}
+
+#[cfg(feature = "see")]
+#[test]
+fn a_folder_that_was_written_draws_what_was_found() {
+    let folder = folder();
+    fs::write(folder.path().join("photo.jpg"), sample("grace-hopper.jpg")).unwrap();
+    runs(folder.path(), &["see", "photo.jpg", "-o", "seen"]);
+    for file in ["subject", "skin", "hair", "facial-hair", "headwear", "clothing", "detail", "depth", "overlay"] {
+        assert!(folder.path().join(format!("seen/{file}.png")).exists(), "{file}");
+    }
+    let (by_folder, said) = drawn(folder.path(), "photo.jpg", &["--sight", "seen"]);
+    assert!(said.contains("tone made for the face"), "{said}");
+    let (found, _) = drawn(folder.path(), "photo.jpg", &[]);
+    let (a, b) = (marks(&by_folder).len() as f64, marks(&found).len() as f64);
+    assert!((a / b - 1.0).abs() < 0.05, "{a} bytes by the folder, {b} found");
+    // What is no sight is refused with its name.
+    fs::write(folder.path().join("seen/sight.json"), "{}").unwrap();
+    let refused = run(folder.path(), &["draw", "photo.jpg", "--sight", "seen", "-o", "no.svg"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("sight.json is no sight"), "{refused:?}");
+}

@@ -2,12 +2,14 @@
 
 use super::advice;
 use super::affordable;
-use super::arguments::{Background, DrawOptions, Format, PictureOptions, PlacingOptions, Tone};
-use super::background;
+use super::arguments::{DrawOptions, Format, PictureOptions, PlacingOptions};
+use super::crop;
 use super::dry_run;
+use super::eyes;
 use super::failure::Failure;
 use super::forewarn;
 use super::interruption::{interrupt, is_interrupted};
+use super::known::{self, Known, Wanted};
 use super::layer_files::{self, LayerFile, split_by_layer};
 use super::layout::{self, Layout, lay_out};
 use super::lists::{role_names, roles_of, styles_with_role};
@@ -16,7 +18,6 @@ use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
-use super::sight_folder;
 use super::toolpaths::{self, Prepared};
 use super::words::counted;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
@@ -25,6 +26,7 @@ use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
 use crate::press::Press;
 use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
+use crate::tone::portrait_tone;
 use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -55,7 +57,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let notice = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
     let tell = || notice.iter().for_each(|notice| say!("drypoint: {notice}"));
     if options.dry_run {
-        task.tell_background(options.reporting.quiet);
+        task.tell(options.reporting.quiet);
         let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
         return told.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref())).inspect(|()| tell());
     }
@@ -84,7 +86,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     }
     max_time::warn_if_longer(&prepared, options.max_time);
     tell();
-    task.tell_background(options.reporting.quiet);
+    task.tell(options.reporting.quiet);
     report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
 }
 
@@ -186,7 +188,7 @@ pub(super) struct RoleMask {
 
 impl RoleMask {
     /// The name of its role on the command line.
-    fn name(&self) -> &'static str {
+    pub(super) fn name(&self) -> &'static str {
         MaskRole::ALL.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name)
     }
 
@@ -205,10 +207,7 @@ pub(super) struct Task<'a> {
     pub style: &'static dyn Style,
     pub settings: Settings,
     photograph: Photograph,
-    masks: Vec<RoleMask>,
-    /// What was decided about the background, for the user.
-    pub background: Option<String>,
-    depth: Option<(String, Photograph)>,
+    known: Known,
     pub layout: Layout,
     /// The parameters that were given.
     given: Vec<(String, String)>,
@@ -247,40 +246,32 @@ impl<'a> Task<'a> {
         let painted = mask_files
             .into_iter()
             .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: self::photograph(file)? }));
-        let mut masks: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
-        if let Some(folder) = &options.sight {
-            let is_wanted = |role| role != MaskRole::Subject || options.background != Background::Keep;
-            let missing = |role| is_wanted(role) && masks.iter().all(|mask| mask.role != role);
-            let seen = sight_folder::masks(folder, style, missing)?;
-            masks.extend(seen);
-        }
-        let has_subject = masks.iter().any(|mask| mask.role == MaskRole::Subject);
-        let background = background::decide(options, style, &photograph, has_subject)?;
-        masks.extend(background.found);
-        let depth = options.depth.as_ref().map(|file| Ok::<_, Failure>((file.clone(), self::photograph(file)?))).transpose()?;
+        let mut known = known::of(options, style, &photograph, painted.collect::<Result<_, Failure>>()?)?;
         // Marks stand on the picture's border and reach over it by less than a pitch.
         let pitch = settings.number("pitch");
-        let layout = lay_out(options, placing, &photograph, |page| Some(reach(page)?.inset(-pitch)))?;
-        let background = background.notice;
-        let task = Self { options, style, settings, photograph, masks, background, depth, layout, given };
+        let crop = crop::part(options, &photograph, &known.faces)?;
+        let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
+        if style.leaves_out_background() {
+            known.notices.extend(eyes::too_small(&known.faces, &layout, pitch, options.crop));
+        }
+        let task = Self { options, style, settings, photograph, known, layout, given };
         affordable::check(&task)?;
         Ok(task)
     }
 
     /// Whether a picture of another size or place, and with it all its ink, would lie where the machine draws.
     pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
-        let Ok(layout) = lay_out(picture, placing, &self.photograph, reach_of(Some(profile))) else { return false };
+        let Ok(crop) = crop::part(picture, &self.photograph, &self.known.faces) else { return false };
+        let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
         let (width, height) = layout.sheet();
         let page = Page { width, height, ..layout.page };
         let drawable = mount(profile, &page).map(|mounting| mounting.drawable(&page).inflate(0.01, 0.01));
         drawable.is_ok_and(|drawable| drawable.union(layout.placed()) == drawable)
     }
 
-    /// Says what was decided about the background, when the work is done: a failure has one message.
-    pub(super) fn tell_background(&self, is_quiet: bool) {
-        if let Some(background) = self.background.as_ref().filter(|_| !is_quiet) {
-            say!("drypoint: {background}");
-        }
+    /// Says what was decided by what was found, when the work is done: a failure has one message.
+    pub(super) fn tell(&self, is_quiet: bool) {
+        self.known.notices.iter().filter(|_| !is_quiet).for_each(|notice| say!("drypoint: {notice}"));
     }
 
     /// The parameters with another pitch; none when the style has none like that.
@@ -305,14 +296,15 @@ impl<'a> Task<'a> {
     /// What drawing a picture takes; its photographs are in memory already.
     pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
         let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
-        let others = self.masks.iter().map(|mask| &mask.mask).chain(self.depth.iter().map(|(_, depth)| depth));
+        let masks = self.known.masks.iter().chain(&self.known.people).map(|mask| &mask.mask);
+        let others = masks.chain(self.known.depth.iter().map(|depth| &depth.map));
         let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
         Cost { bytes: cost.bytes + photographs as f64, ..cost }
     }
 
     /// Working pixels a millimetre.
     pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
-        let roles: Vec<MaskRole> = self.masks.iter().map(|mask| mask.role).collect();
+        let roles: Vec<MaskRole> = self.known.masks.iter().map(|mask| mask.role).collect();
         self.style.resolution(settings, &roles, picture)
     }
 
@@ -336,10 +328,7 @@ impl<'a> Task<'a> {
     }
 
     fn portrait(&self, placement: Placement) -> Result<Portrait, Failure> {
-        let target = match self.options.tone {
-            Tone::Lightness => ToneTarget::Lightness,
-            Tone::Linear => ToneTarget::Linear,
-        };
+        let target = if let Wanted::Own(target) = self.known.tone { target } else { ToneTarget::Lightness };
         let curve =
             ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
         let about = |name: &str| {
@@ -348,13 +337,24 @@ impl<'a> Task<'a> {
         };
         let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
             .map_err(about(&self.options.photo))?;
-        for RoleMask { role, file, mask } in &self.masks {
+        let (photograph, crop) = (&self.photograph, self.layout.crop);
+        for RoleMask { role, file, mask } in &self.known.masks {
             let name = file.as_deref().unwrap_or(&self.options.photo);
-            portrait.add_mask(*role, mask, &self.photograph, self.layout.crop).map_err(about(name))?;
+            portrait.add_mask(*role, mask, photograph, crop).map_err(about(name))?;
         }
-        if let Some((name, depth)) = &self.depth {
+        if let Some(RoleMask { file, mask, .. }) = &self.known.people {
+            portrait.add_people(mask, photograph, crop).map_err(about(file.as_deref().unwrap_or(&self.options.photo)))?;
+        }
+        if let Some(depth) = &self.known.depth {
             let sense = if self.options.depth_far_white { DepthSense::FarWhite } else { DepthSense::NearWhite };
-            portrait.add_depth(depth, sense, &self.photograph, self.layout.crop).map_err(about(name))?;
+            let name = depth.file.as_deref().unwrap_or(&self.options.photo);
+            portrait.add_depth(&depth.map, sense, photograph, crop).map_err(about(name))?;
+        }
+        portrait.add_faces(&self.known.faces, photograph, crop).map_err(about(&self.options.photo))?;
+        if let Wanted::Portrait(strength) = self.known.tone
+            && let Some(tone) = portrait_tone(&portrait, strength as f32)
+        {
+            portrait.set_portrait_tone(&tone, curve);
         }
         Ok(portrait)
     }
@@ -364,12 +364,20 @@ impl<'a> Task<'a> {
         let set: serde_json::Map<String, Value> =
             self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
         let masks: serde_json::Map<String, Value> =
-            self.masks.iter().map(|mask| (mask.name().to_owned(), mask.recipe())).collect();
+            self.known.masks.iter().map(|mask| (mask.name().to_owned(), mask.recipe())).collect();
         let picture = self.options;
         let (sheet, placed) = (self.layout.sheet(), self.layout.placed());
-        let depth = self.depth.as_ref().map(
-            |(name, depth)| json!({ "file": file_name(name), "sha256": depth.info.sha256, "far_white": picture.depth_far_white }),
-        );
+        let depth = self.known.depth.as_ref().map(|depth| match &depth.file {
+            Some(file) => {
+                json!({ "file": file_name(file), "sha256": depth.map.info.sha256, "far_white": picture.depth_far_white })
+            }
+            None => json!({ "found": true }),
+        });
+        let (tone, strength) = match self.known.tone {
+            Wanted::Portrait(strength) => ("portrait", Some(strength)),
+            Wanted::Own(ToneTarget::Lightness) => ("lightness", None),
+            Wanted::Own(ToneTarget::Linear) => ("linear", None),
+        };
         json!({
             "drypoint": env!("CARGO_PKG_VERSION"),
             "command": "draw",
@@ -384,7 +392,8 @@ impl<'a> Task<'a> {
             "rotate": self.layout.turning.degrees,
             "mirror": self.layout.turning.is_mirrored,
             "crop_px": [round(self.layout.crop.x), round(self.layout.crop.y), round(self.layout.crop.width), round(self.layout.crop.height)],
-            "tone": if picture.tone == Tone::Lightness { "lightness" } else { "linear" },
+            "tone": tone,
+            "tone_strength": strength,
             "gamma": picture.gamma,
             "black": picture.black,
             "white": picture.white,

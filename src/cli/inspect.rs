@@ -109,7 +109,7 @@ fn gcode_motion(shown: &str, text: &str, profile: &Profile, budget: &mut Budget)
         .as_ref()
         .ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
     let lift = match (dialect.lift, dialect.height) {
-        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: height.down },
+        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: profile.lightest().unwrap_or(height.down) },
         _ => PenLift::Commands { up: dialect.pen_up.as_deref().unwrap_or(""), down: dialect.pen_down.as_deref().unwrap_or("") },
     };
     read_gcode_within(text, &lift, budget).map_err(|error| Failure::Work(format!("{shown}: {error}")))

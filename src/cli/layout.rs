@@ -1,11 +1,11 @@
 //! Sheets and boxes: where the picture lies on the page.
 
-use super::arguments::{CropNumber, Fit, PictureOptions, PlacingOptions};
+use super::arguments::{Fit, PictureOptions, PlacingOptions};
 use super::failure::Failure;
 use super::placing::{Turning, asked_move, move_inside};
 use crate::drawing::Page;
 use crate::geometry::{Rect, parse_drawn_size};
-use crate::source::{Crop, Photograph, fill_box};
+use crate::source::{Crop, fill_box};
 
 /// Named sheets, portrait, in millimetres (ISO 216; ANSI/ASME Y14.1).
 const SHEETS: [(&str, f64, f64); 10] = [
@@ -78,10 +78,9 @@ impl Layout {
 pub(super) fn lay_out(
     options: &PictureOptions,
     placing: &PlacingOptions,
-    photograph: &Photograph,
+    crop: Crop,
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<Layout, Failure> {
-    let crop = used_part(options, photograph)?;
     let with = |turning: Turning| Sheet::new(options, placing, turning, &reach)?.lay_out(options, placing, crop);
     let upright = Turning { degrees: 0, is_mirrored: placing.mirror };
     let quarter_helps = || match (with(upright), with(Turning { degrees: 90, ..upright })) {
@@ -185,27 +184,6 @@ impl Sheet {
     }
 }
 
-/// The part of the photograph that is drawn; a pixel is forgiven a hundredth, for percents that do not quite add up.
-fn used_part(options: &PictureOptions, photograph: &Photograph) -> Result<Crop, Failure> {
-    let crop = crop_of(options, photograph);
-    let within = crop.within(photograph).map_err(|error| Failure::about(&options.photo)(&error))?;
-    let ends = |crop: Crop| [crop.x, crop.y, crop.x + crop.width, crop.y + crop.height];
-    if ends(crop).into_iter().zip(ends(within)).any(|(asked, there)| (asked - there).abs() > 0.01) {
-        let shown = |crop: Crop| {
-            [crop.x, crop.y, crop.width, crop.height].map(|px| format!("{}", (px * 100.0).round() / 100.0)).join(",")
-        };
-        return Err(Failure::Work(format!(
-            "--crop {} reaches beyond {}, which is {} x {} px; what lies in it is --crop {}",
-            shown(crop),
-            if options.photo == "-" { "the photograph" } else { &options.photo },
-            photograph.width(),
-            photograph.height(),
-            shown(within)
-        )));
-    }
-    Ok(within)
-}
-
 /// What to say when a box that was asked for stays empty by more than a twentieth of a side.
 pub(super) fn unfilled(options: &PictureOptions, layout: &Layout) -> Option<String> {
     let (width, height) = options.size.filter(|_| options.fit == Fit::Contain)?;
@@ -215,16 +193,6 @@ pub(super) fn unfilled(options: &PictureOptions, layout: &Layout) -> Option<Stri
         let (w, h) = (picture.width(), picture.height());
         format!("the picture is {w:.1} x {h:.1} mm in its box of {width} x {height} mm; --fit cover fills the box and cuts the photograph")
     })
-}
-
-fn crop_of(options: &PictureOptions, photograph: &Photograph) -> Crop {
-    let whole = Crop::all(photograph);
-    let Some([x, y, w, h]) = options.crop else { return whole };
-    let pixels = |number: CropNumber, of: f64| match number {
-        CropNumber::Pixels(pixels) => pixels,
-        CropNumber::Percent(percent) => percent / 100.0 * of,
-    };
-    Crop { x: pixels(x, whole.width), y: pixels(y, whole.height), width: pixels(w, whole.width), height: pixels(h, whole.height) }
 }
 
 #[cfg(test)]

@@ -6,12 +6,13 @@ use super::{output, pen_file};
 use crate::plot::{Profile, built_in, built_in_names};
 use crate::source::MaskRole;
 use crate::style::{STYLES, Style, find};
+use crate::tone::ROLES;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The roles of masks that a style takes, with their names.
+/// The roles of masks that a style takes, or the tone that it draws, with their names.
 pub(super) fn roles_of(style: &dyn Style) -> impl Iterator<Item = (&'static str, MaskRole)> {
-    MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role))
+    MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role) || ROLES.contains(role))
 }
 
 pub(super) fn role_names(style: &dyn Style) -> String {

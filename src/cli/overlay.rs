@@ -2,8 +2,8 @@
 
 use crate::geometry::{Point, resample};
 use crate::raster::Raster;
-use crate::see::{Face, Sight, outlines};
-use crate::source::{Crop, Photograph, SourceError};
+use crate::see::{Face, Sight};
+use crate::source::{Crop, Photograph, SourceError, outlines};
 use image::{Rgb, RgbImage};
 
 /// Longer side of the overlay, at most: enough for eyes, and no burden for viewers.
@@ -48,13 +48,13 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Face, scale: f64) {
         (&outlines::NOSE_WINGS, false, [0, 200, 255]),
     ];
     for (indices, is_closed, colour) in lines {
-        let mut line = face.line(indices);
+        let mut line = face.landmarks.line(indices);
         if is_closed {
             line.extend(line.first().copied());
         }
         draw_line(pixels, &line, scale, colour);
     }
-    for iris in face.irises {
+    for iris in face.landmarks.irises {
         let round = |i: i32| {
             let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 32.0).sin_cos();
             Point::new(iris.centre.x + iris.radius * cos, iris.centre.y + iris.radius * sin)

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::interruption::interrupt;
 use super::messages::{say, warning};
 use super::words::counted;
-use super::{background, output, sight_folder};
+use super::{known, output, sight_folder};
 use crate::see::{Sight, look};
 
 pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
@@ -18,7 +18,7 @@ pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
     for warning in &photograph.info.warnings {
         warning!("{}: {warning}", options.photo);
     }
-    let sight = look(&photograph, interrupt()).map_err(|error| background::failure(&options.photo, error))?;
+    let sight = look(&photograph, interrupt()).map_err(|error| known::failure(&options.photo, error))?;
     if let Some(folder) = &options.output {
         sight_folder::write(folder, &sight, &photograph)?;
     }

@@ -1,69 +1,154 @@
-//! The folder that `see` writes and `draw --sight` reads: `sight.json`, a picture for each region, named by its role, and an overlay
-//! to look at.
+//! The folder that `see` writes and `draw --sight` reads: `sight.json`, a picture for each region, named by its role, the depth, and
+//! an overlay to look at.
 
 use super::draw::{RoleMask, photograph};
 use super::failure::Failure;
-use super::lists::roles_of;
+use super::known::{Depth, Seen};
 use super::overlay::overlay;
 use super::stages::png;
 use super::{claims, output};
 use crate::geometry::{Point, Rect};
-use crate::see::{Face, Iris, Sight};
-use crate::source::{MaskRole, Photograph};
-use crate::style::Style;
-use image::GrayImage;
+use crate::raster::Raster;
+use crate::see::{Face, Sight};
+use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph};
+use image::{GrayImage, ImageBuffer, Luma};
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::Path;
 
 const SIGHT: &str = "sight.json";
-const SUBJECT: &str = "subject.png";
+const DEPTH: &str = "depth.png";
 const OVERLAY: &str = "overlay.png";
+
+/// The picture of a role.
+fn file_of(role: MaskRole) -> String {
+    let name = MaskRole::ALL.iter().find(|(_, known)| *known == role).map_or("", |(name, _)| name);
+    format!("{name}.png")
+}
 
 /// Writes all that was found; what an earlier sight left there and this one has not is removed.
 pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Result<(), Failure> {
     let name = folder.to_string_lossy();
     std::fs::create_dir_all(folder).map_err(|error| Failure::Work(format!("{name} cannot be made: {error}")))?;
-    let paths = [SIGHT, SUBJECT, OVERLAY].map(|file| folder.join(file).to_string_lossy().into_owned());
-    claims::are_distinct(paths.iter().map(String::as_str))?;
-    let [json, subject, overlaid] = &paths;
-    let was_a_sight = Path::new(json).exists();
-    if let Some(raster) = sight.subject_at_full_size() {
-        let grey = GrayImage::from_raw(sight.width, sight.height, raster.into_vec()).expect("a raster's pixels fill it");
-        png(subject, &grey.into())?;
+    let path = |file: &str| folder.join(file).to_string_lossy().into_owned();
+    let masks: Vec<(String, &Raster<u8>)> = sight.masks().into_iter().map(|(role, mask)| (path(&file_of(role)), mask)).collect();
+    let others = [SIGHT, DEPTH, OVERLAY].map(path);
+    claims::are_distinct(others.iter().chain(masks.iter().map(|(file, _)| file)).map(String::as_str))?;
+    let [json, depth, overlaid] = &others;
+    if Path::new(json).exists() {
+        let stale = MaskRole::ALL.into_iter().map(|(_, role)| path(&file_of(role))).chain([depth.clone(), overlaid.clone()]);
+        for stale in stale.filter(|file| Path::new(file).exists() && masks.iter().all(|(mask, _)| mask != file)) {
+            std::fs::remove_file(&stale).map_err(|error| Failure::Work(format!("{stale} cannot be removed: {error}")))?;
+        }
+    }
+    for (file, mask) in &masks {
+        let full = sight.at_full_size(&mask.map(f32::from)).map(|v| v.round() as u8);
+        png(file, &GrayImage::from_raw(sight.width, sight.height, full.into_vec()).expect("a raster's pixels fill it").into())?;
+    }
+    if let Some(map) = &sight.depth {
+        let full = sight.at_full_size(&map.map(f32::from)).map(|v| v.round() as u16);
+        let grey: Option<ImageBuffer<Luma<u16>, _>> = ImageBuffer::from_raw(sight.width, sight.height, full.into_vec());
+        png(depth, &grey.expect("a raster's pixels fill it").into())?;
+    }
+    if sight.subject.is_some() {
         let picture = overlay(sight, photograph).map_err(|error| Failure::about(&name)(&error))?;
         png(overlaid, &picture.into())?;
-    } else if was_a_sight {
-        for stale in [subject, overlaid].into_iter().filter(|file| Path::new(file).exists()) {
-            std::fs::remove_file(stale).map_err(|error| Failure::Work(format!("{stale} cannot be removed: {error}")))?;
-        }
     }
     let mut text = serde_json::to_vec_pretty(&as_json(sight, photograph)).expect("a value is JSON");
     text.push(b'\n');
     output::write(json, |out| out.write_all(&text))
 }
 
-/// The folder's masks of the roles that a style takes and that are `missing`.
-pub(super) fn masks(folder: &str, style: &dyn Style, missing: impl Fn(MaskRole) -> bool) -> Result<Vec<RoleMask>, Failure> {
+/// All that a folder holds, edited or not.
+pub(super) fn read(folder: &str, photograph: &Photograph) -> Result<Seen, Failure> {
     let path = |file: &str| Path::new(folder).join(file);
-    let of_roles = || MaskRole::ALL.into_iter().map(|(name, role)| (role, path(&format!("{name}.png"))));
+    let of_roles = || MaskRole::ALL.into_iter().map(|(_, role)| (role, path(&file_of(role))));
     if !path(SIGHT).exists() && !of_roles().any(|(_, file)| file.exists()) {
         return Err(Failure::Work(format!(
-            "{folder} holds no {SIGHT} and no picture named by a role such as {SUBJECT}; `drypoint see PHOTO -o {folder}` writes them"
+            "{folder} holds no {SIGHT} and no picture named by a role such as subject.png; `drypoint see PHOTO -o {folder}` writes them"
         )));
     }
-    roles_of(style)
-        .map(|(name, role)| (role, path(&format!("{name}.png"))))
-        .filter(|(role, file)| missing(*role) && file.exists())
-        .map(|(role, file)| {
-            let file = file.to_string_lossy().into_owned();
-            Ok(RoleMask { role, mask: photograph(&file)?, file: Some(file) })
-        })
-        .collect()
+    let masks = of_roles().filter(|(_, file)| file.exists()).map(|(role, file)| {
+        let file = file.to_string_lossy().into_owned();
+        Ok(RoleMask { role, mask: self::photograph(&file)?, file: Some(file) })
+    });
+    let masks = masks.collect::<Result<_, Failure>>()?;
+    let depth = Some(path(DEPTH)).filter(|file| file.exists()).map(|file| {
+        let file = file.to_string_lossy().into_owned();
+        Ok::<_, Failure>(Depth { map: self::photograph(&file)?, file: Some(file) })
+    });
+    let faces = if path(SIGHT).exists() { faces(&path(SIGHT).to_string_lossy(), photograph)? } else { Vec::new() };
+    Ok(Seen { masks, faces, depth: depth.transpose()?, lack: None })
+}
+
+/// `sight.json` as it is read again; the rest of it is for other programs.
+#[derive(Deserialize)]
+struct Written {
+    photograph: WrittenSize,
+    faces: Vec<WrittenFace>,
+}
+
+#[derive(Deserialize)]
+struct WrittenSize {
+    width: f64,
+    height: f64,
+}
+
+#[derive(Deserialize)]
+struct WrittenFace {
+    irises: WrittenIrises,
+    points: Vec<[f64; 3]>,
+}
+
+#[derive(Deserialize)]
+struct WrittenIrises {
+    right: WrittenIris,
+    left: WrittenIris,
+}
+
+#[derive(Deserialize)]
+struct WrittenIris {
+    centre: [f64; 2],
+    radius: f64,
+}
+
+/// The faces of a `sight.json`, in pixels of this photograph, which may have another size than the one that was looked at.
+fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure> {
+    let bytes = output::read_settings(name)?;
+    let written: Written = serde_json::from_str(&bytes).map_err(|error| Failure::Work(format!("{name} is no sight: {error}")))?;
+    let WrittenSize { width, height } = written.photograph;
+    let (x, y) = (f64::from(photograph.width()) / width, f64::from(photograph.height()) / height);
+    let is_alike = x.is_finite() && y.is_finite() && x > 0.0 && (x / y - 1.0).abs() < 0.03;
+    if !is_alike {
+        return Err(Failure::Work(format!(
+            "{name} is of a photograph of {width} x {height} px, and this one has other proportions: {} x {} px",
+            photograph.width(),
+            photograph.height()
+        )));
+    }
+    let iris = |iris: &WrittenIris| Iris { centre: Point::new(iris.centre[0], iris.centre[1]), radius: iris.radius };
+    let placed = written.faces.iter().map(|face| {
+        let numbers = face.points.iter().flatten();
+        if face.points.len() != POINTS || numbers.into_iter().any(|v| !v.is_finite() || v.abs() > 1e6) {
+            return Err(Failure::Work(format!("{name}: a face has {POINTS} points of three numbers each")));
+        }
+        let irises = [iris(&face.irises.right), iris(&face.irises.left)];
+        let landmarks = Landmarks { points: face.points.clone(), irises };
+        Ok(landmarks.placed(|p| Point::new(p.x * x, p.y * y), (x * y).sqrt()))
+    });
+    placed.collect()
 }
 
 /// What was found, in pixels of the photograph after its EXIF turn.
 pub(super) fn as_json(sight: &Sight, photograph: &Photograph) -> Value {
-    let regions = sight.subject.as_ref().map_or_else(|| json!({}), |_| json!({ "subject": SUBJECT }));
+    let of_roles = sight.masks().into_iter().map(|(role, _)| {
+        let file = file_of(role);
+        (file.trim_end_matches(".png").to_owned(), Value::String(file.clone()))
+    });
+    let mut regions: serde_json::Map<String, Value> = of_roles.collect();
+    if sight.depth.is_some() {
+        regions.insert("depth".to_owned(), Value::String(DEPTH.to_owned()));
+    }
     json!({
         "drypoint": env!("CARGO_PKG_VERSION"),
         "photograph": { "width": sight.width, "height": sight.height, "sha256": photograph.info.sha256 },
@@ -74,11 +159,12 @@ pub(super) fn as_json(sight: &Sight, photograph: &Photograph) -> Value {
 
 fn face_json(face: &Face) -> Value {
     let Rect { x0, y0, .. } = face.bounds;
-    let [right, left] = face.irises.map(|Iris { centre: Point { x, y }, radius }| json!({ "centre": [x, y], "radius": radius }));
+    let [right, left] =
+        face.landmarks.irises.map(|Iris { centre: Point { x, y }, radius }| json!({ "centre": [x, y], "radius": radius }));
     json!({
         "box": [x0, y0, face.bounds.width(), face.bounds.height()],
         "score": face.score,
         "irises": { "right": right, "left": left },
-        "points": face.points,
+        "points": face.landmarks.points,
     })
 }

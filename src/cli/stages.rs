@@ -33,7 +33,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
         return Err(failure);
     }
     drawn?;
-    task.tell_background(options.quiet);
+    task.tell(options.quiet);
     if !options.quiet {
         say!("{folder}: {} of {}", counted(taken.count, "stage"), task.style.name());
     }

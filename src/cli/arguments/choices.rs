@@ -30,6 +30,8 @@ pub(in crate::cli) enum Background {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Tone {
+    /// Made for the faces that are found: they take the whole range from paper to ink, and darker skin stays darker.
+    Portrait,
     /// CIE L*/100.
     Lightness,
     /// Luminance Y.

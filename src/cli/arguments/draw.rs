@@ -5,7 +5,7 @@ use super::files::Reporting;
 use super::placing::PlacingOptions;
 use super::toolpaths::ToolpathOptions;
 use super::values::{
-    CropNumber, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, nib, role_file,
+    CropPart, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, nib, role_file,
     screen, size_above_zero,
 };
 use crate::cli::lists::mask_roles;
@@ -39,17 +39,18 @@ pub(in crate::cli) struct PictureOptions {
     /// How the photograph fills the box.
     #[arg(long, value_enum, default_value_t = Fit::Contain)]
     pub fit: Fit,
-    /// The part of the photograph used, in pixels or %; it must lie inside it.
-    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
-    pub crop: Option<[CropNumber; 4]>,
+    /// The part of the photograph used: in pixels or %, lying inside it; or the head and shoulders, or the face, of all the people
+    /// whose faces are found.
+    #[arg(long, value_name = "head|face|X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
+    pub crop: Option<CropPart>,
     /// Distance of neighbouring dots or lines [default: the style's].
     #[arg(long, value_name = "LENGTH", value_parser = length_above_zero, allow_negative_numbers = true)]
     pub pitch: Option<f64>,
     #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
     /// Use what `drypoint see` wrote into this folder, edited or not: its PNGs are the masks of their roles, except for roles given
-    /// with --mask.
-    #[arg(long, value_name = "DIR")]
+    /// with --mask. `none` uses nothing of what could be found.
+    #[arg(long, value_name = "DIR|none")]
     pub sight: Option<String>,
     /// What is behind the person.
     #[arg(long, value_enum, default_value_t = Background::Auto)]
@@ -60,9 +61,12 @@ pub(in crate::cli) struct PictureOptions {
     /// In the depth map white is far.
     #[arg(long, requires = "depth")]
     pub depth_far_white: bool,
-    /// What the ink must match: CIE L*/100 or luminance Y.
-    #[arg(long, value_enum, default_value_t = Tone::Lightness)]
-    pub tone: Tone,
+    /// What the ink must match [default: portrait where a face is found, else lightness].
+    #[arg(long, value_enum)]
+    pub tone: Option<Tone>,
+    /// How much of the portrait tone is used, the rest being lightness (0 to 1).
+    #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = fraction, allow_negative_numbers = true)]
+    pub tone_strength: f64,
     /// Middle tones: above 1 lightens (0.1 to 10).
     #[arg(long, value_name = "G", default_value_t = 1.0, value_parser = gamma, allow_negative_numbers = true)]
     pub gamma: f64,

@@ -12,7 +12,7 @@ pub(super) use draw::*;
 pub(super) use files::*;
 pub(super) use placing::*;
 pub(super) use toolpaths::*;
-pub(super) use values::{CropNumber, NIBS};
+pub(super) use values::{CropNumber, CropPart, NIBS};
 
 use clap::{Parser, Subcommand};
 

@@ -18,6 +18,17 @@ pub(in crate::cli) enum CropNumber {
     Percent(f64),
 }
 
+/// The part of a photograph that is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::cli) enum CropPart {
+    /// Heads and shoulders of the faces.
+    Head,
+    /// The faces.
+    Face,
+    /// A box: x, y, width, height.
+    Box([CropNumber; 4]),
+}
+
 pub(super) fn key_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
@@ -160,8 +171,13 @@ pub(super) fn ink(text: &str) -> Result<Ink, String> {
     text.parse().map_err(|error: crate::drawing::ColourError| error.to_string())
 }
 
-pub(super) fn crop(text: &str) -> Result<[CropNumber; 4], String> {
-    let refuse = || "write it as X,Y,W,H in pixels or %, such as 10%,0,80%,100%".to_owned();
+pub(super) fn crop(text: &str) -> Result<CropPart, String> {
+    match text.trim() {
+        "head" => return Ok(CropPart::Head),
+        "face" => return Ok(CropPart::Face),
+        _ => {}
+    }
+    let refuse = || "write it as X,Y,W,H in pixels or %, such as 10%,0,80%,100%, or as head or face".to_owned();
     let numbers: Vec<CropNumber> = text
         .split(',')
         .map(|part| {
@@ -172,7 +188,7 @@ pub(super) fn crop(text: &str) -> Result<[CropNumber; 4], String> {
         })
         .collect::<Option<_>>()
         .ok_or_else(refuse)?;
-    numbers.try_into().map_err(|_| refuse())
+    numbers.try_into().map(CropPart::Box).map_err(|_| refuse())
 }
 
 #[cfg(test)]
@@ -224,7 +240,9 @@ mod tests {
 
     #[test]
     fn crops() {
-        assert_eq!(crop("10%,0,80%,100").unwrap()[0], CropNumber::Percent(10.0));
+        let CropPart::Box(numbers) = crop("10%,0,80%,100").unwrap() else { panic!("a box") };
+        assert_eq!(numbers[0], CropNumber::Percent(10.0));
+        assert_eq!(crop("head"), Ok(CropPart::Head));
         assert!(crop("1,2,3").is_err() && crop("a,b,c,d").is_err() && crop("NaN,0,1,1").is_err());
     }
 }

@@ -4,16 +4,16 @@
 use super::Drawer;
 use super::shading::{Patch, Pressing};
 use crate::drawing::Mark;
-use crate::field::{FaceFrame, FacialFeature, FacialFeatures, histogram_modes};
+use crate::field::{FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, histogram_modes};
 use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
 use std::f64::consts::PI;
 
-/// Half an eye with its lids, a nose's underside and a mouth: middle down the face, half sizes across and down, in distances of the
-/// eyes; beyond is skin. Smaller loses the outer lashes of an eye that is found a little aside, larger takes in the brow.
-const EYE: Oval = Oval { down: 0.0, half: (0.36, 0.2), has_white: true, sharp: SHARP };
-const NOSE: Oval = Oval { down: 0.6, half: (0.4, 0.26), has_white: false, sharp: SHARP };
-const MOUTH: Oval = Oval { down: 1.06, half: (0.56, 0.3), has_white: false, sharp: SOFT };
+/// An eye with its lids, a nose's underside and a mouth: half sizes across and down in those of their windows; beyond is skin. Smaller
+/// loses the outer lashes of an eye that is found a little aside, larger takes in the brow.
+const EYE: Oval = Oval { half: (1.0, 0.2 / 0.17), has_white: true, sharp: SHARP };
+const NOSE: Oval = Oval { half: (0.4 / 0.36, 1.3), has_white: false, sharp: SHARP };
+const MOUTH: Oval = Oval { half: (0.56 / 0.52, 0.3 / 0.22), has_white: false, sharp: SOFT };
 /// How far inside its oval (1 in its middle) a feature is drawn, from the first on and wholly from the second, and where there may be
 /// white of the eye: farther out, what is lighter than skin is skin that shines.
 const DRAWN: (f32, f32) = (0.0, 0.25);
@@ -55,7 +55,6 @@ const WIDTH: f64 = 0.01;
 
 /// Where a feature is drawn.
 struct Oval {
-    down: f64,
     half: (f64, f64),
     has_white: bool,
     sharp: (f32, f32),
@@ -78,14 +77,14 @@ impl Drawer<'_> {
         let around = gaussian_blur(&tone, (AROUND * frame.eye_distance) as f32);
         let sharp = tone.zip_map(&around, |n, around| ramp(n / around.max(0.02), SHARP));
         let mut tones = FeatureTones { share: tone.map(|_| 0.0), ink: tone.map(|_| 0.0), sharp };
-        let inside = |feature: FacialFeature| {
-            let (oval, across) = oval_of(feature)?;
-            found.found.contains(&feature).then(|| oval.within(frame, across, tone.width(), tone.height()))
+        let inside = |(feature, window): (FacialFeature, FeatureWindow)| {
+            let oval = oval_of(feature)?;
+            found.found.contains(&feature).then(|| oval.within(frame, window, tone.width(), tone.height()))
         };
-        let ovals: Vec<Option<Raster<f32>>> = FacialFeature::ALL.into_iter().map(inside).collect();
+        let ovals: Vec<Option<Raster<f32>>> = FacialFeature::ALL.into_iter().zip(frame.windows).map(inside).collect();
         let darkest = darkest(&tone, &ovals);
         for (feature, inside) in FacialFeature::ALL.into_iter().zip(&ovals) {
-            let (Some(inside), Some((oval, _))) = (inside, oval_of(feature)) else { continue };
+            let (Some(inside), Some(oval)) = (inside, oval_of(feature)) else { continue };
             let limit = limit(&tone, inside);
             for i in (0..tone.len()).filter(|i| inside.pixels()[*i] > 0.0) {
                 let (n, inside) = (tone.pixels()[i], inside.pixels()[i]);
@@ -133,21 +132,21 @@ impl Drawer<'_> {
 
 impl Oval {
     /// How far inside the oval each place lies: 1 in its middle, 0 on its border, less outside.
-    fn within(&self, frame: &FaceFrame, middle: f64, width: usize, height: usize) -> Raster<f32> {
+    fn within(&self, frame: &FaceFrame, window: FeatureWindow, width: usize, height: usize) -> Raster<f32> {
+        let [middle, lies_down, half_across, half_down] = window;
         Raster::from_fn(width, height, |x, y| {
             let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            (1.0 - ((across - middle) / self.half.0).hypot((down - self.down) / self.half.1)) as f32
+            (1.0 - ((across - middle) / (half_across * self.half.0)).hypot((down - lies_down) / (half_down * self.half.1))) as f32
         })
     }
 }
 
-/// The oval of a feature that is drawn by its tones, and how far across the face it is.
-const fn oval_of(feature: FacialFeature) -> Option<(Oval, f64)> {
+/// The oval of a feature that is drawn by its tones.
+const fn oval_of(feature: FacialFeature) -> Option<Oval> {
     match feature {
-        FacialFeature::LeftEye => Some((EYE, -0.5)),
-        FacialFeature::RightEye => Some((EYE, 0.5)),
-        FacialFeature::Nose => Some((NOSE, 0.0)),
-        FacialFeature::Mouth => Some((MOUTH, 0.0)),
+        FacialFeature::LeftEye | FacialFeature::RightEye => Some(EYE),
+        FacialFeature::Nose => Some(NOSE),
+        FacialFeature::Mouth => Some(MOUTH),
         FacialFeature::LeftEyebrow | FacialFeature::RightEyebrow => None,
     }
 }

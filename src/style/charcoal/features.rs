@@ -11,12 +11,19 @@ use crate::raster::{Raster, gaussian_blur};
 use crate::style::Picture;
 use std::f64::consts::PI;
 
-/// The face's features, in working pixels.
+/// The faces' features, in working pixels.
 pub(super) struct Features {
-    found: Option<(FacialFeatures, FaceFrame)>,
+    found: Vec<SeenFeatures>,
     /// 1 where any feature is drawn.
     pub drawn: Raster<f32>,
     pub tones: FeatureTones,
+}
+
+/// One face's features.
+struct SeenFeatures {
+    features: FacialFeatures,
+    frame: FaceFrame,
+    tones: FeatureTones,
 }
 
 /// Direction of the strokes in the left eyebrow, in degrees; the right one's is opposed (6.3.4).
@@ -32,26 +39,38 @@ impl Drawer<'_> {
     pub(super) fn features(&self, regions: &Regions) -> Features {
         self.observer.begin("features");
         let nothing = || regions.face.map(|_| 0.0);
-        let none = || Features {
-            found: None,
-            drawn: nothing(),
-            tones: FeatureTones { share: nothing(), ink: nothing(), sharp: nothing() },
+        let frames = if self.parameters.has_features { &regions.frames[..] } else { &[] };
+        let found: Vec<SeenFeatures> = frames.iter().map(|frame| self.features_of(regions, frame)).collect();
+        let all =
+            |of: &dyn Fn(&SeenFeatures) -> Raster<f32>| found.iter().fold(nothing(), |all, one| all.zip_map(&of(one), f32::max));
+        let tones = FeatureTones {
+            share: all(&|one| one.tones.share.clone()),
+            ink: all(&|one| one.tones.ink.clone()),
+            sharp: all(&|one| one.tones.sharp.clone()),
         };
-        let Some(frame) = regions.frame.filter(|_| self.parameters.has_features) else { return none() };
+        let drawn = all(&|one| {
+            one.features
+                .labels
+                .zip_map(&one.tones.share, |label, share| f32::from(u8::from(matches!(label, 1 | 2) || share >= 0.5)))
+        });
+        if !found.is_empty() {
+            self.observer.picture("feature-tones", &|| Picture::Grey(tones.ink.map(|ink| 1.0 - ink)));
+        }
+        Features { found, drawn, tones }
+    }
+
+    fn features_of(&self, regions: &Regions, frame: &FaceFrame) -> SeenFeatures {
         let (width, height) = self.size();
         let skin: Vec<Point> =
             self.parameters.skin.shares().map(|(across, down)| Point::new(across * width as f64, down * height as f64)).collect();
         let tone = if skin.is_empty() { SkinTone::Found } else { SkinTone::Given(&skin) };
-        let found = facial_features(&self.portrait.lightness, &regions.face, &frame, tone);
+        let found = facial_features(&self.portrait.lightness, &regions.face, frame, tone);
         self.observer
             .picture("normalised", &|| Picture::Grey(found.normalised.zip_map(&regions.face, |n, f| 1.0 - f + f * n.min(1.0))));
         self.observer.picture("features", &|| Picture::Labels(found.labels.map(i32::from)));
         self.warn_of_missing(&found);
-        let tones = self.feature_tones(&found, &frame);
-        self.observer.picture("feature-tones", &|| Picture::Grey(tones.ink.map(|ink| 1.0 - ink)));
-        let drawn =
-            found.labels.zip_map(&tones.share, |label, share| f32::from(u8::from(matches!(label, 1 | 2) || share >= 0.5)));
-        Features { tones, drawn, found: Some((found, frame)) }
+        let tones = self.feature_tones(&found, frame);
+        SeenFeatures { features: found, frame: *frame, tones }
     }
 
     fn warn_of_missing(&self, found: &FacialFeatures) {
@@ -64,17 +83,21 @@ impl Drawer<'_> {
 
     /// Eyebrows in one tone, opposed to each other; the rest by its tones.
     pub(super) fn draw_features(&self, features: &Features) -> Vec<Mark> {
-        let Some((found, frame)) = &features.found else { return Vec::new() };
+        (0_u64..).zip(&features.found).flat_map(|(face, one)| self.draw_face(face, one)).collect()
+    }
+
+    fn draw_face(&self, face: u64, SeenFeatures { features: found, frame, tones }: &SeenFeatures) -> Vec<Mark> {
         let darkest = darkest_brow(found);
         // Firmer where it is darker.
         let press = |p: Point| ((1.0 - f64::from(found.normalised.sample(p.x, p.y))) / (1.0 - darkest)).clamp(FAINTEST, 1.0);
         let brows = [(FacialFeature::LeftEyebrow, EYEBROW_ORIENT), (FacialFeature::RightEyebrow, -180.0 - EYEBROW_ORIENT)];
         let mut marks = Vec::new();
         for (label, (_, degrees)) in (1_u8..).zip(brows).filter(|(_, (feature, _))| found.found.contains(feature)) {
-            let inside = found.labels.zip_map(&features.tones.sharp, |l, sharp| u8::from(l == label && sharp > 0.0));
-            marks.extend(self.shade_patch(&self.eyebrow(&inside, degrees, frame), "eyebrows", u64::from(label), press));
+            let inside = found.labels.zip_map(&tones.sharp, |l, sharp| u8::from(l == label && sharp > 0.0));
+            let element = u64::from(label) + 2 * face;
+            marks.extend(self.shade_patch(&self.eyebrow(&inside, degrees, frame), "eyebrows", element, press));
         }
-        marks.extend(self.draw_tones(&features.tones, frame));
+        marks.extend(self.draw_tones(tones, frame));
         marks
     }
 

@@ -12,6 +12,7 @@ mod features;
 mod hair;
 mod parameters;
 mod regions;
+mod seen_face;
 mod shading;
 mod skin;
 mod strokes;
@@ -50,7 +51,19 @@ impl Style for Charcoal {
     }
 
     fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject, MaskRole::Hair, MaskRole::Face, MaskRole::Clothing, MaskRole::Edges]
+        &[
+            MaskRole::Subject,
+            MaskRole::Hair,
+            MaskRole::Face,
+            MaskRole::Clothing,
+            MaskRole::FacialHair,
+            MaskRole::Headwear,
+            MaskRole::Edges,
+        ]
+    }
+
+    fn leaves_out_background(&self) -> bool {
+        true
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {

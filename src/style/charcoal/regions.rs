@@ -1,6 +1,7 @@
 //! Step 1 (section 3.1): background, hair, face and what is left; each pixel belongs to one of them.
 
 use super::Drawer;
+use super::seen_face;
 use super::skin::may_be_skin;
 use crate::field::{FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
@@ -13,8 +14,8 @@ pub(super) struct Regions {
     pub subject: Raster<f32>,
     pub hair: Raster<f32>,
     pub face: Raster<f32>,
-    /// Where the face's pattern lies, when one was found.
-    pub frame: Option<FaceFrame>,
+    /// Where the faces' patterns lie, of those that were found.
+    pub frames: Vec<FaceFrame>,
     /// Clothing, when it was given; else all that is neither hair nor face.
     pub clothing: Raster<f32>,
     pub has_background: bool,
@@ -65,11 +66,23 @@ impl Drawer<'_> {
         self.observer.begin("regions");
         let mask = |role| self.portrait.masks.get(&role).cloned();
         let (subject, has_background) = self.subject();
+        let (width, height) = self.size();
+        let seen = &self.portrait.faces;
         let given_face = mask(MaskRole::Face);
         let head = if has_background { head(&subject) } else { None };
-        let frame = self.frame(&subject, head, given_face.as_ref());
-        let fringe = frame.map(|frame| hair_over_face(&self.portrait.lightness, &subject, &frame));
-        let hair = match (mask(MaskRole::Hair), &frame, &fringe) {
+        let (frame, frames) = if seen.is_empty() {
+            let frame = self.frame(&subject, head, given_face.as_ref());
+            (frame, frame.into_iter().collect())
+        } else {
+            let frames: Vec<FaceFrame> = seen.iter().map(seen_face::frame).collect();
+            (frames.first().copied(), frames)
+        };
+        let given_face = given_face.or_else(|| (!seen.is_empty()).then(|| seen_face::region(seen, width, height)));
+        let given_hair = joined(mask(MaskRole::Hair), mask(MaskRole::FacialHair));
+        let fringe = frame
+            .filter(|_| seen.is_empty() || given_hair.is_none())
+            .map(|frame| hair_over_face(&self.portrait.lightness, &subject, &frame));
+        let hair = match (given_hair, &frame, &fringe) {
             (Some(given), ..) => Ok(given),
             (None, Some(frame), Some(fringe)) => self.found_hair(&subject, given_face.as_ref(), frame, fringe),
             _ => Err(NO_HAIR),
@@ -84,11 +97,11 @@ impl Drawer<'_> {
             .unwrap_or_else(nothing);
         let face = face.zip_map(&subject, f32::min).zip_map(&hair, |face, hair| face.min(1.0 - hair));
         let rest = subject.zip_map(&hair, |s, hair| s.min(1.0 - hair)).zip_map(&face, |s, face| s.min(1.0 - face));
-        let clothing = mask(MaskRole::Clothing).map_or_else(
+        let clothing = joined(mask(MaskRole::Clothing), mask(MaskRole::Headwear)).map_or_else(
             || if frame.is_some() { self.not_skin(&rest) } else { rest.clone() },
             |cloth| cloth.zip_map(&rest, f32::min),
         );
-        let regions = Regions { subject, hair, face, frame, clothing, has_background };
+        let regions = Regions { subject, hair, face, frames, clothing, has_background };
         self.observer.picture("regions", &|| Picture::Labels(regions.labels()));
         regions
     }
@@ -255,6 +268,14 @@ impl Drawer<'_> {
             .filter(|c| distance(*c, skin) > 0.1)
             .collect();
         (crown.len() >= 20).then(|| (median(&crown), skin))
+    }
+}
+
+/// What either mask marks.
+fn joined(a: Option<Raster<f32>>, b: Option<Raster<f32>>) -> Option<Raster<f32>> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.zip_map(&b, f32::max)),
+        (a, b) => a.or(b),
     }
 }
 

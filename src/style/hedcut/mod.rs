@@ -131,7 +131,7 @@ impl Drawer<'_> {
         }
         let parameters = LaneParameters {
             pitch: self.pitch() as f32,
-            detail_pitch: (self.pitch() / self.parameters.detail_lanes) as f32,
+            detail_pitch: (self.pitch() / self.parameters.detail_lanes.unwrap_or(1.0)) as f32,
             edge_weight: self.parameters.edge_weight,
             isophote_weight: self.parameters.isophote_weight,
         };
@@ -177,6 +177,6 @@ impl Drawer<'_> {
     }
 
     fn detail(&self) -> Option<&Raster<f32>> {
-        self.portrait.masks.get(&MaskRole::Detail)
+        self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail_lanes.is_some())
     }
 }

@@ -201,8 +201,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "detail",
-        kind: Kind::Choice(&["even", "thesis"]),
-        meaning: "with --mask detail=FILE: lanes in detail regions: even makes them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times",
+        kind: Kind::Choice(&["auto", "even", "thesis", "off"]),
+        meaning: "lanes in detail regions, which are those of --mask detail=FILE, else the eyes, brows, noses and mouths that are found: auto and even make them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times; off as everywhere",
         source: "Bruehl 4.3.2, corrected",
         needs: &[Need::With(MaskRole::Detail)],
     },
@@ -251,8 +251,8 @@ pub(super) struct Hedcutting {
     pub has_outline: bool,
     pub outline_length_mm: f64,
     pub outline_width_mm: f64,
-    /// Lanes of a detail region in the place of one.
-    pub detail_lanes: f64,
+    /// Lanes of a detail region in the place of one; none where detail is off.
+    pub detail_lanes: Option<f64>,
     pub blob: f64,
 }
 
@@ -286,13 +286,18 @@ impl Hedcutting {
             has_outline: settings.word("outline") == "on",
             outline_length_mm: settings.number("outline_length"),
             outline_width_mm: settings.number("outline_width"),
-            detail_lanes: if settings.word("detail") == "even" { 3.0_f64.sqrt() } else { 3.0 },
+            detail_lanes: match settings.word("detail") {
+                "off" => None,
+                "thesis" => Some(3.0),
+                _ => Some(3.0_f64.sqrt()),
+            },
             blob: settings.number("blob"),
         }
     }
 
     /// Working pixels a pitch: the papers' six, more where detail lanes would become too narrow.
     pub(super) fn pixels_per_pitch(&self, has_detail: bool) -> f64 {
-        if has_detail { PIXELS_PER_PITCH.max(LEAST_LANE_PIXELS * self.detail_lanes) } else { PIXELS_PER_PITCH }
+        let lanes = self.detail_lanes.filter(|_| has_detail).unwrap_or(1.0);
+        if lanes > 1.0 { PIXELS_PER_PITCH.max(LEAST_LANE_PIXELS * lanes) } else { PIXELS_PER_PITCH }
     }
 }

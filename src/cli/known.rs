@@ -1,0 +1,208 @@
+//! What is known of a photograph before it is drawn: what a person painted, else what is in the folder of a sight, else what is found.
+//! One place decides, role by role; where no face is found nothing of it is used.
+
+use super::arguments::{Background, PictureOptions, Tone};
+use super::draw::{RoleMask, photograph};
+use super::failure::Failure;
+use super::interruption::interrupt;
+use super::sight_folder;
+use super::words::counted;
+use crate::see::{SeeError, Sight, can_see, look};
+use crate::source::{Landmarks, MaskRole, Photograph, ToneTarget};
+use crate::style::Style;
+use crate::tone;
+
+/// The word that stands for no sight at all, in the place of a folder.
+const NOTHING: &str = "none";
+
+/// What a drawing is made of beside the photograph.
+pub(super) struct Known {
+    pub masks: Vec<RoleMask>,
+    /// The people without the background, where the background is drawn and the tone goes by faces all the same.
+    pub people: Option<RoleMask>,
+    pub faces: Vec<Landmarks>,
+    pub depth: Option<Depth>,
+    pub tone: Wanted,
+    /// What the user is told of it, and how to have the other.
+    pub notices: Vec<String>,
+}
+
+/// A depth map of the photograph.
+pub(super) struct Depth {
+    /// Its file; none when it was found in the photograph.
+    pub file: Option<String>,
+    pub map: Photograph,
+}
+
+/// What the ink must match.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Wanted {
+    /// The photograph's own light.
+    Own(ToneTarget),
+    /// A tone made for its faces, by so much.
+    Portrait(f64),
+}
+
+/// What somebody or something has seen in the photograph.
+#[derive(Default)]
+pub(super) struct Seen {
+    pub masks: Vec<RoleMask>,
+    pub faces: Vec<Landmarks>,
+    pub depth: Option<Depth>,
+    /// Why there is no more of it, for a user.
+    pub lack: Option<String>,
+}
+
+impl Seen {
+    fn nothing(lack: &str) -> Self {
+        Self { lack: Some(lack.to_owned()), ..Self::default() }
+    }
+
+    /// What was found, as pictures.
+    fn found(sight: &Sight) -> Self {
+        if sight.faces.is_empty() {
+            return Self::nothing("no face found");
+        }
+        let masks = sight.masks().into_iter();
+        Self {
+            masks: masks.map(|(role, mask)| RoleMask { role, file: None, mask: Photograph::from_grey(mask) }).collect(),
+            faces: sight.faces.iter().map(|face| face.landmarks.clone()).collect(),
+            depth: sight.depth.as_ref().map(|map| Depth { file: None, map: Photograph::from_deep_grey(map) }),
+            lack: None,
+        }
+    }
+
+    fn take(&mut self, role: MaskRole) -> Option<RoleMask> {
+        let place = self.masks.iter().position(|mask| mask.role == role)?;
+        Some(self.masks.swap_remove(place))
+    }
+}
+
+/// Decides; `painted` are the masks that were given.
+pub(super) fn of(
+    options: &PictureOptions,
+    style: &dyn Style,
+    photograph: &Photograph,
+    painted: Vec<RoleMask>,
+) -> Result<Known, Failure> {
+    let mut seen = seen(options, photograph)?;
+    let tone = wanted_tone(options, &seen)?;
+    let mut known =
+        Known { masks: painted, people: None, faces: seen.faces.clone(), depth: depth(options)?, tone, notices: Vec::new() };
+    decide_background(&mut known, &mut seen, options, style, photograph.is_cut_out())?;
+    let by_tone: &[MaskRole] = if matches!(known.tone, Wanted::Portrait(_)) { tone::ROLES } else { &[] };
+    for role in style.masks().iter().chain(by_tone).filter(|role| **role != MaskRole::Subject) {
+        if known.masks.iter().all(|mask| mask.role != *role) {
+            known.masks.extend(seen.take(*role));
+        }
+    }
+    if style.uses_depth() && known.depth.is_none() {
+        known.depth = seen.depth.take();
+    }
+    tell_of_tone(&mut known, options);
+    tell_of_idle_masks(&mut known, style);
+    Ok(known)
+}
+
+/// Looks, or reads what was seen.
+fn seen(options: &PictureOptions, photograph: &Photograph) -> Result<Seen, Failure> {
+    match options.sight.as_deref() {
+        Some(NOTHING) => Ok(Seen::nothing("--sight none")),
+        Some(folder) => sight_folder::read(folder, photograph),
+        None if !can_see() => {
+            Ok(Seen::nothing("this drypoint was built without the networks that find faces (cargo feature `see`)"))
+        }
+        None => Ok(Seen::found(&look(photograph, interrupt()).map_err(|error| failure(&options.photo, error))?)),
+    }
+}
+
+/// By faces where there are any and nobody says otherwise.
+fn wanted_tone(options: &PictureOptions, seen: &Seen) -> Result<Wanted, Failure> {
+    let has_faces = !seen.faces.is_empty();
+    match options.tone {
+        Some(Tone::Lightness) => Ok(Wanted::Own(ToneTarget::Lightness)),
+        Some(Tone::Linear) => Ok(Wanted::Own(ToneTarget::Linear)),
+        Some(Tone::Portrait) if !has_faces => {
+            let lack = seen.lack.as_deref().unwrap_or("there are no faces in sight.json");
+            Err(Failure::Work(format!(
+                "{}: {lack}, so --tone portrait has none to go by; --tone lightness needs none",
+                options.photo
+            )))
+        }
+        None if !has_faces => Ok(Wanted::Own(ToneTarget::Lightness)),
+        Some(Tone::Portrait) | None => Ok(Wanted::Portrait(options.tone_strength)),
+    }
+}
+
+fn depth(options: &PictureOptions) -> Result<Option<Depth>, Failure> {
+    options.depth.as_ref().map(|file| Ok(Depth { map: photograph(file)?, file: Some(file.clone()) })).transpose()
+}
+
+/// Whether what is behind the people is drawn.
+fn decide_background(
+    known: &mut Known,
+    seen: &mut Seen,
+    options: &PictureOptions,
+    style: &dyn Style,
+    is_cut_out: bool,
+) -> Result<(), Failure> {
+    let is_left_out = match options.background {
+        Background::Auto => style.leaves_out_background(),
+        Background::Keep => false,
+        Background::None => true,
+    };
+    let is_given = is_cut_out || known.masks.iter().any(|mask| mask.role == MaskRole::Subject);
+    if is_given {
+        return Ok(());
+    }
+    let subject = seen.take(MaskRole::Subject);
+    if !is_left_out {
+        known.people = subject;
+        return Ok(());
+    }
+    if let Some(subject) = subject {
+        if subject.file.is_none() {
+            let faces = counted(seen.faces.len(), "face");
+            known.notices.push(format!("background left out: {faces} found; --background keep draws it"));
+        }
+        known.masks.push(subject);
+        return Ok(());
+    }
+    let lack = seen
+        .lack
+        .clone()
+        .unwrap_or_else(|| format!("there is no subject.png in {}", options.sight.as_deref().unwrap_or("the sight's folder")));
+    if options.background == Background::None {
+        return Err(Failure::Work(format!(
+            "{}: {lack}, so it is not known what --background none leaves out; say it with --mask subject=FILE",
+            options.photo
+        )));
+    }
+    known.notices.push(format!("background drawn: {lack}; --mask subject=FILE leaves it out"));
+    Ok(())
+}
+
+fn tell_of_tone(known: &mut Known, options: &PictureOptions) {
+    if options.tone.is_none() && matches!(known.tone, Wanted::Portrait(_)) {
+        known.notices.push("tone made for the face; --tone lightness keeps the photograph's".to_owned());
+    }
+}
+
+/// Painted masks that only a tone made for faces goes by, where there is none.
+fn tell_of_idle_masks(known: &mut Known, style: &dyn Style) {
+    if matches!(known.tone, Wanted::Portrait(_)) {
+        return;
+    }
+    let idle = known.masks.iter().filter(|mask| mask.role != MaskRole::Subject && !style.masks().contains(&mask.role));
+    let told = idle.map(|mask| format!("--mask {} changes nothing here: only a tone made for faces goes by it", mask.name()));
+    let told: Vec<String> = told.collect();
+    known.notices.extend(told);
+}
+
+/// What a photograph that could not be looked at means.
+pub(super) fn failure(photo: &str, error: SeeError) -> Failure {
+    match error {
+        SeeError::Interrupted(stopped) => stopped.into(),
+        other => Failure::about(photo)(&other),
+    }
+}
