@@ -26,14 +26,13 @@ painting() {
     convert "$WORK/$name.png" -resize 50% "$WORK/$name.jpg"
 }
 
-HOPPER="--mask subject=$S/grace-hopper-subject.png"
+# Portraits are drawn as anybody would draw them: by what is found in the photograph.
 BUST="--mask subject=$S/bust-mask-subject.png"
-SKETCH="$BUST --mask hair=$S/bust-mask-hair.png --mask face=$S/bust-mask-face.png"
 
-ink hedcut-hopper $S/grace-hopper.jpg $HOPPER
-ink hedcut-light $S/bust-light.png $BUST
-ink hedcut-brown $S/bust-brown.png $BUST
-ink hedcut-dark $S/bust-dark.png $BUST
+ink hedcut-hopper $S/grace-hopper.jpg
+ink hedcut-light $S/bust-light.png
+ink hedcut-brown $S/bust-brown.png
+ink hedcut-dark $S/bust-dark.png
 
 "$D" --version >/dev/null
 cargo run --quiet --release --example fields -- "$WORK"
@@ -41,27 +40,27 @@ for field in circular saddle; do
     ink grid-$field "$WORK/$field.png" --style grid --size 90x90mm --mask edges="$WORK/$field-edges.png" \
         --set lines=off --set isophotes=0
 done
-ink grid-hopper $S/grace-hopper.jpg --style grid $HOPPER
-ink grid-hatching $S/grace-hopper.jpg --style grid $HOPPER --set size_max=0
-ink grid-tiles $S/grace-hopper.jpg --style grid $HOPPER --set primitive=tile
-ink grid-dark $S/bust-dark.png --style grid $BUST
+ink grid-hopper $S/grace-hopper.jpg --style grid
+ink grid-hatching $S/grace-hopper.jpg --style grid --set size_max=0
+ink grid-tiles $S/grace-hopper.jpg --style grid --set primitive=tile
+ink grid-dark $S/bust-dark.png --style grid
 ink grid-astronaut $S/astronaut-cutout.png --style grid
 ink grid-coffee $S/coffee.png --style grid
 
 DEPTH="--depth $S/bust-depth.png $BUST"
 ink engrave-bust $S/bust-light.png $DEPTH --style engrave --pitch 0.45mm --set displacement=5mm --set cross_angle=60
-ink engrave-hopper $S/grace-hopper.jpg $HOPPER --crop 22%,2%,56%,58% --style engrave --size 90x120mm --pitch 0.4mm \
+ink engrave-hopper $S/grace-hopper.jpg --crop 22%,2%,56%,58% --style engrave --size 90x120mm --pitch 0.4mm \
     --set cross_angle=60
-ink engrave-hopper-depth $S/grace-hopper.jpg --depth $S/grace-hopper-depth.png $HOPPER --crop 22%,2%,56%,58% --style engrave \
+ink engrave-hopper-depth $S/grace-hopper.jpg --depth $S/grace-hopper-depth.png --crop 22%,2%,56%,58% --style engrave \
     --size 90x120mm --pitch 0.4mm --set cross_angle=60
 ink engrave-coffee $S/coffee.png --style engrave --size 120x80mm --pitch 0.45mm --set regions=superpixels --set overlap=0.2mm \
     --set cross_angle=60
 ink engrave-stipple $S/bust-light.png $DEPTH --style engrave --size 60x80mm --set look=stipple
 
 for bust in light brown dark; do
-    ink charcoal-$bust $S/bust-$bust.png --style charcoal $SKETCH
+    ink charcoal-$bust $S/bust-$bust.png --style charcoal
 done
-ink charcoal-hopper $S/grace-hopper.jpg --style charcoal $HOPPER
+ink charcoal-hopper $S/grace-hopper.jpg --style charcoal
 ink charcoal-astronaut $S/astronaut-cutout.png --style charcoal
 
 # Each angle is a row, each reach of the whirls a column, beside the photograph.
