@@ -6,14 +6,19 @@ use drypoint::interrupt::{Interrupt, Interrupted};
 use drypoint::plot::{
     Effort, Hides, InkModel, Nibs, PenPaths, Plot, Profile, Sequence, Toolpath, coverage, let_dry, lower, mount, occluded, report,
 };
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A second, and as much again for a machine that is busy with other tests.
 const AT_ONCE: Duration = Duration::from_secs(2);
 
+/// One at a time: they share the threads of one pool, where the work of one would wait until another's is over.
+static ALONE: Mutex<()> = Mutex::new(());
+
 /// Starts some work again and again, asks it to stop after each of these many seconds and holds it to the limit. Work that is over before
 /// it is asked proves nothing; the first must not be.
 fn stops_at_once<T>(name: &str, moments: &[f64], mut work: impl FnMut(&Interrupt) -> Result<T, Interrupted>) {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     for (i, &moment) in moments.iter().enumerate() {
         let interrupt = Interrupt::new();
         let handle = interrupt.clone();
