@@ -47,6 +47,18 @@ const FEATURES: f32 = 0.40;
 const OPENED: f32 = 0.19;
 const OPENED_IN_FACE: f32 = 0.07;
 
+/// What is seen as bare paper from the distance of a print: a blur in widths of the face, the hundredths of the face that are below the
+/// lights which reach paper, and their tone. With 98 hundredths three of sixteen faces had less than 2 % of bare paper.
+const SEEN: f64 = 0.03;
+const BELOW_PAPER: f64 = 96.5;
+const PAPER: f32 = 0.985;
+/// From these hundredths up the lights are raised; and by how much more than they were above them, at most.
+const RAISED_FROM: f64 = 75.0;
+const MOST_RAISED: f32 = 1.8;
+const HALVINGS: usize = 5;
+/// Width of the border, in widths of the face, over which raised lights go over into the tone as it was.
+const FACE_EDGE: f64 = 0.05;
+
 /// The picture that faces are in.
 pub(super) struct Setting<'a> {
     pub lightness: &'a Raster<f32>,
@@ -76,6 +88,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     }
     let tone = raised_features(&zones, &tone, &setting.subject);
     let tone = opened_blacks(&zones, &tone, &setting.subject);
+    let tone = lights_to_paper(&zones, &tone);
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }
 
@@ -165,6 +178,33 @@ fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Ra
     let in_face = fast_gaussian(&zones.oval.map(f32::from), (0.03 * zones.width) as f32);
     let lift = mean.zip_map(&in_face, |mean, face| (0.45 + 0.2 * face) * (OPENED + OPENED_IN_FACE * face - mean).clamp(0.0, 1.0));
     tone.zip_map(&lift, |tone, lift| tone + lift)
+}
+
+/// Step 8: a face whose lights are small or scattered has bare paper too. Above the face's bright quarter the tone rises more steeply,
+/// by as little as takes its lights, as they are seen in print, to paper.
+fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
+    let seen = |tone: &Raster<f32>| fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), (SEEN * zones.width) as f32);
+    let before = seen(tone);
+    let [from, lights] = [RAISED_FROM, BELOW_PAPER].map(|hundredths| zones.percentile(&before, hundredths));
+    let range = lights - from;
+    let in_face = fast_gaussian(&zones.oval.map(f32::from), (FACE_EDGE * zones.width) as f32);
+    let raised = |most: f32| {
+        let more = tone.map(|v| {
+            let above = ((v - from) / range).max(0.0);
+            most * if above < 1.0 { above * above } else { 2.0 * above - 1.0 }
+        });
+        tone.zip_map(&more.zip_map(&in_face, |more, face| more * face), |tone, more| tone + more)
+    };
+    if lights >= PAPER || range <= 0.0 {
+        return tone.clone();
+    }
+    let (mut low, mut high) = (0.0, MOST_RAISED * range);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        let reaches = zones.percentile(&seen(&raised(middle)), BELOW_PAPER) >= PAPER;
+        if reaches { high = middle } else { low = middle }
+    }
+    raised(high)
 }
 
 /// Smoothed but for edges of more than a contrast: the guided filter with itself as its guide.
