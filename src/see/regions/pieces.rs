@@ -7,6 +7,11 @@ use crate::raster::{Raster, components};
 
 /// Pieces of fewer working pixels are nothing of their own.
 const LEAST: usize = 50;
+/// A piece of hair below this height of the face, all but this part of it inside the face's outline and smaller than this part of the
+/// square of its width, is a brow or a lid in shadow.
+const BROW_HEIGHT: f32 = 0.85;
+const BROW_INSIDE: f32 = 0.8;
+const BROW_SIZE: f32 = 0.08;
 
 /// One piece of a class: the numbers of its pixels, and its middle height.
 struct Piece {
@@ -30,6 +35,8 @@ pub(super) fn hung_together(
         if !is_on_head || piece.pixels.len() < LEAST {
             let is_worn = piece.middle < -0.12 || piece.aside > 0.55;
             give(&mut shares, &piece, HAIR, if is_worn { CLOTHING } else { SKIN });
+        } else if is_brow(plate, &piece) {
+            give(&mut shares, &piece, HAIR, SKIN);
         }
     }
     let is_at_border = |i: usize| {
@@ -51,6 +58,12 @@ pub(super) fn hung_together(
         end_at_jaw(parting, plate, &mut shares, sign, beard.is_some_and(|beard| beard.is_full));
     }
     shares
+}
+
+fn is_brow(plate: &Plate, piece: &Piece) -> bool {
+    let inside = piece.pixels.iter().filter(|i| plate.oval.pixels()[**i]).count() as f32;
+    let size = piece.pixels.len() as f32;
+    piece.middle < BROW_HEIGHT && inside > BROW_INSIDE * size && size < BROW_SIZE * plate.face_width * plate.face_width
 }
 
 fn pieces(plate: &Plate, shares: &Raster<Shares>, class: usize) -> Vec<Piece> {

@@ -17,6 +17,12 @@ const LINE_BLUR: f32 = 2.0;
 const LINE_QUANTILE: f64 = 0.5;
 /// Width of a strand at full pressure as a share of the stick's: with the whole of it hair looks cut in wood.
 const HAIR_WIDTH: f64 = 0.7;
+/// Median darkness of hair that is light altogether, and from which it is no more: light hair in the photograph's own tone is bare
+/// paper (looked at on white and blond hair).
+const LIGHT_HAIR: (f32, f32) = (0.25, 0.45);
+/// Ink of the shaded side of a lock in light hair, and a lock's breadth.
+const LOCK_INK: f32 = 0.45;
+const LOCK_MM: f64 = 2.5;
 /// Angles of the Hough accumulator.
 const ANGLES: usize = 36;
 
@@ -84,15 +90,36 @@ impl Drawer<'_> {
         strengths.get(at).map_or(0.0, |c| c / (0.8 * LINE_BLUR * LINE_BLUR))
     }
 
-    /// Ink of the strokes: the photograph's, with the lights and darks of the hair pulled apart so that strands show.
+    /// Ink of the strokes: the photograph's, with the lights and darks of the hair pulled apart so that strands show; light hair takes
+    /// few of them, along its shaded locks.
     fn hair_ink(&self, darkness: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
-        let mut inside: Vec<f32> =
-            darkness.pixels().iter().zip(hair.pixels()).filter(|(_, h)| **h >= 0.5).map(|(d, _)| *d).collect();
-        inside.sort_by(f32::total_cmp);
-        let at = |share: f64| inside[((inside.len() - 1) as f64 * share) as usize];
-        let (light, middle, dark) = (at(0.03), at(0.5), at(0.97));
+        let [light, middle, dark] = levels_inside(darkness, hair, [0.03, 0.5, 0.97]);
         let spread = (dark - light).max(0.08);
         let level = self.parameters.hair_ink * middle;
-        darkness.map(|d| (level * (0.35 + 1.3 * ((d - light) / spread).clamp(0.0, 1.0))).clamp(0.0, 1.2))
+        let plain = darkness.map(|d| (level * (0.35 + 1.3 * ((d - light) / spread).clamp(0.0, 1.0))).clamp(0.0, 1.2));
+        let is_light = ((LIGHT_HAIR.1 - middle) / (LIGHT_HAIR.1 - LIGHT_HAIR.0)).clamp(0.0, 1.0);
+        if is_light == 0.0 {
+            return plain;
+        }
+        let locks = self.locks(hair).map(|lock| self.parameters.hair_ink * LOCK_INK * lock);
+        plain.zip_map(&locks, |plain, lock| plain.max(is_light * lock))
     }
+
+    /// The shaded sides of locks, 0 to 1: where the photograph is darker than the hair around.
+    fn locks(&self, hair: &Raster<f32>) -> Raster<f32> {
+        let fine = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
+        let around = self.pixels(LOCK_MM) as f32;
+        let sum = gaussian_blur(&fine.zip_map(hair, |v, hair| v * hair), around);
+        let mean = sum.zip_map(&gaussian_blur(hair, around), |sum, hair| sum / hair.max(1e-3));
+        let shade = mean.zip_map(&fine, |mean, v| mean - v);
+        let [_, middle, dark] = levels_inside(&shade, hair, [0.03, 0.5, 0.95]);
+        shade.map(|shade| ((shade - middle) / (dark - middle).max(0.01)).clamp(0.0, 1.0))
+    }
+}
+
+/// Values inside the hair below which these shares of it lie.
+fn levels_inside(values: &Raster<f32>, hair: &Raster<f32>, shares: [f64; 3]) -> [f32; 3] {
+    let mut inside: Vec<f32> = values.pixels().iter().zip(hair.pixels()).filter(|(_, h)| **h >= 0.5).map(|(v, _)| *v).collect();
+    inside.sort_by(f32::total_cmp);
+    shares.map(|share| inside[((inside.len() - 1) as f64 * share) as usize])
 }
