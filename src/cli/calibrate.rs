@@ -5,7 +5,7 @@ use super::arguments::{CalibrateOptions, Order, READING};
 use super::failure::Failure;
 use super::messages::say;
 use super::pens::PenSet;
-use super::{layout, toolpaths};
+use super::{job, layout, toolpaths};
 use crate::drawing::Page;
 use crate::plot::{calibration_page, calibration_sheet, mount};
 use crate::write::SvgHead;
@@ -30,19 +30,19 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
         .map_err(|error| Failure::Work(format!("{}: {error}", profile.name)))?;
     // In the order of the sheet: what a trial shows must not depend on what was drawn before it.
     let toolpath_options = super::arguments::ToolpathOptions { order: Order::None, ..options.toolpaths.clone() };
-    let prepared = toolpaths::prepare(sheet.plot, Some(&profile), &toolpath_options, &pens).map_err(advice::for_test_sheet)?;
+    let job = job::of_paths(sheet.plot, Some(&profile), &toolpath_options, &pens).map_err(advice::for_test_sheet)?;
     let head = SvgHead {
         title: format!("Test sheet for {}", profile.name),
         description: "Tool paths in drawing order; docs/calibration.md says what to read off.".to_owned(),
         recipe: json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "calibrate", "pen_mm": options.pen }).to_string(),
     };
     if !options.dry_run {
-        toolpaths::write(&options.output, format, &prepared, Some(&profile), &head)?;
-        toolpaths::write_preview_of(&prepared, &options.toolpaths, None)?;
+        toolpaths::write(&options.output, format, &job, &head)?;
+        toolpaths::write_preview_of(&job, &options.toolpaths, None)?;
     }
-    toolpaths::warn(&prepared, Some(&profile), Some(""));
+    toolpaths::warn(&job, Some(""));
     if !options.quiet {
-        let (square, summary) = (sheet.square.width(), toolpaths::summary(&prepared.report));
+        let (square, summary) = (sheet.square.width(), toolpaths::summary(job.report()));
         say!("{}: {:.1} x {:.1} mm, a square of {square:.0} mm, {summary}", options.output, page.width, page.height);
         sheet.left_out.iter().for_each(|why| say!("{why}"));
         say!("{READING}");

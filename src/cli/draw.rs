@@ -9,6 +9,7 @@ use super::eyes;
 use super::failure::Failure;
 use super::forewarn;
 use super::interruption::{interrupt, is_interrupted};
+use super::job;
 use super::known::{self, Known, Wanted};
 use super::layer_files::{self, LayerFile, split_by_layer};
 use super::layout::{self, Layout, lay_out};
@@ -18,11 +19,11 @@ use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
-use super::toolpaths::{self, Prepared};
+use super::toolpaths;
 use super::words::counted;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
 use crate::geometry::Rect;
-use crate::plot::{Hides, InkModel, Profile, coverage, lower, mount, occluded};
+use crate::plot::{Hides, InkModel, Job, Profile, mount, occluded};
 use crate::press::Press;
 use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
@@ -71,23 +72,23 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let head = head(options, &task.recipe(options));
     let files = split_by_layer(&visible, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
-    let mut prepared = Vec::new();
+    let mut jobs = Vec::new();
     for file in &files {
         if is_interrupted() {
             return Err(Failure::Interrupted);
         }
         let machine = profile.as_ref().map(|profile| (profile, &pens));
         let written = write_one(file, format, machine, options, &head, &watcher);
-        prepared.extend(written.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref()))?);
+        jobs.extend(written.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref()))?);
     }
     let seconds = watcher.finish();
-    for prepared in &prepared {
-        toolpaths::warn(prepared, profile.as_ref(), if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
+    for job in &jobs {
+        toolpaths::warn(job, if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
     }
-    max_time::warn_if_longer(&prepared, options.max_time);
+    max_time::warn_if_longer(&jobs, options.max_time);
     tell();
     task.tell(options.reporting.quiet);
-    report(options, &drawing, &pens, (&files, &prepared), &seconds, watcher.elapsed())
+    report(options, &drawing, &pens, (&files, &jobs), &seconds, watcher.elapsed())
 }
 
 /// What a machine reaches of a page.
@@ -121,15 +122,15 @@ pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn 
     Ok(drawing)
 }
 
-/// One file; gives back the plot when it is one.
-fn write_one(
+/// One file; gives back the job when it is a machine's.
+fn write_one<'a>(
     file: &LayerFile,
     format: Format,
-    machine: Option<(&Profile, &PenSet)>,
+    machine: Option<(&'a Profile, &PenSet)>,
     options: &DrawOptions,
     head: &SvgHead,
     observer: &dyn Observer,
-) -> Result<Option<Prepared>, Failure> {
+) -> Result<Option<Job<'a>>, Failure> {
     let LayerFile { name, drawing, .. } = file;
     let Some((profile, pens)) = machine else {
         observer.begin("writing");
@@ -143,16 +144,11 @@ fn write_one(
         return Ok(None);
     };
     affordable::check_line(drawing, pens.nibs(), InkModel::Ink, 1.0)?;
-    observer.begin("lowering");
-    let plot = lower(drawing, InkModel::Ink, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
-    observer.begin("ordering");
-    let mut prepared = toolpaths::prepare(plot, Some(profile), &options.toolpaths, pens)?;
-    observer.begin("coverage");
-    prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
+    let job = job::of_drawing(drawing, InkModel::Ink, Some(profile), &options.toolpaths, pens, observer)?;
     observer.begin("writing");
-    toolpaths::write(name, format, &prepared, Some(profile), head)?;
-    toolpaths::write_preview_of(&prepared, &options.toolpaths, Some(&file.layer))?;
-    Ok(Some(prepared))
+    toolpaths::write(name, format, &job, head)?;
+    toolpaths::write_preview_of(&job, &options.toolpaths, Some(&file.layer))?;
+    Ok(Some(job))
 }
 
 /// What a pen draws of a drawing: of opaque paint, not what other paint covers.
@@ -506,12 +502,12 @@ fn report(
     options: &DrawOptions,
     drawing: &Drawing,
     pens: &PenSet,
-    (files, prepared): (&[LayerFile], &[Prepared]),
+    (files, jobs): (&[LayerFile], &[Job<'_>]),
     seconds: &[(String, f64)],
     elapsed: f64,
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        return output::print_json(&report_json(drawing, pens, (files, prepared), seconds));
+        return output::print_json(&report_json(drawing, pens, (files, jobs), seconds));
     }
     if !options.reporting.quiet {
         let counts =
@@ -526,21 +522,16 @@ fn report(
             counted(counts[0], "dot"),
             counted(counts[1], "stroke")
         );
-        for (file, prepared) in files.iter().zip(prepared) {
+        for (file, job) in files.iter().zip(jobs) {
             let name = if files.len() > 1 { format!("{}: ", file.name) } else { String::new() };
-            say!("{name}{}", toolpaths::summary(&prepared.report));
-            toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
+            say!("{name}{}", toolpaths::summary(job.report()));
+            toolpaths::pen_lines(job).iter().for_each(|line| say!("{line}"));
         }
     }
     Ok(())
 }
 
-fn report_json(
-    drawing: &Drawing,
-    pens: &PenSet,
-    (files, prepared): (&[LayerFile], &[Prepared]),
-    seconds: &[(String, f64)],
-) -> Value {
+fn report_json(drawing: &Drawing, pens: &PenSet, (files, jobs): (&[LayerFile], &[Job<'_>]), seconds: &[(String, f64)]) -> Value {
     let layers: Vec<Value> = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink)| {
         let [dots, strokes, areas] = layer.counts();
         json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": ink })
@@ -551,10 +542,10 @@ fn report_json(
         "layers": layers,
         "seconds": seconds_of_steps(seconds),
     });
-    if let Some(report) = toolpaths::of_all(prepared) {
+    if let Some(report) = toolpaths::of_all(jobs) {
         value["pens"] = json!(report.pens);
         value["total"] = json!(report.total);
-        value["duplicates"] = json!(prepared.iter().map(|one| one.duplicates).sum::<usize>());
+        value["duplicates"] = json!(jobs.iter().map(Job::duplicates).sum::<usize>());
     }
     value["warnings"] = json!(messages::warnings());
     value

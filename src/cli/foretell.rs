@@ -14,8 +14,8 @@ use super::arguments::{DrawOptions, Order, ToolpathOptions};
 use super::draw::{Task, inked, uncovered};
 use super::failure::Failure;
 use super::interruption::{interrupt, is_interrupted};
+use super::job;
 use super::pens::PenSet;
-use super::toolpaths;
 use crate::drawing::{Drawing, Mixing, Painted};
 use crate::geometry::{Point, Rect};
 use crate::plot::{InkModel, PenPaths, Plot, Profile, Toolpath, lower, mount};
@@ -174,8 +174,8 @@ fn smaller(picture: Rect, side: f64) -> Rect {
 fn plotted(sample: &Sample, profile: &Profile, options: &ToolpathOptions, pens: &PenSet) -> Result<PlotAmounts, Failure> {
     let plot =
         lower(&*uncovered(&sample.drawing, &sample.painting)?, InkModel::Ink, pens.nibs(), options.tolerance, interrupt())?;
-    let prepared = toolpaths::prepare(plot, Some(profile), &quickly(options), pens)?;
-    Ok(PlotAmounts { ordered: prepared.report, before: prepared.unordered })
+    let job = job::of_paths(plot, Some(profile), &quickly(options), pens)?;
+    Ok(PlotAmounts { ordered: job.report().clone(), before: job.unordered().clone() })
 }
 
 /// The same tool paths in an order that is quickly found, cut where they do not fit.

@@ -16,6 +16,7 @@ use super::arguments::PlotOptions;
 use super::failure::Failure;
 use super::foretell::quickly;
 use super::interruption::interrupt;
+use super::job;
 use super::messages::{self, say, warning};
 use super::output;
 use super::pens::PenSet;
@@ -220,7 +221,7 @@ fn plotted(
     let plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     let clips = options.toolpaths.clip;
     let quick = super::arguments::ToolpathOptions { clip: clips, ..quickly(&options.toolpaths) };
-    let prepared =
-        toolpaths::prepare(plot, profile, &quick, pens).map_err(|failure| advice::for_plot(failure, options, turning.degrees))?;
-    Ok(PlotAmounts { ordered: prepared.report, before: prepared.unordered })
+    let job =
+        job::of_paths(plot, profile, &quick, pens).map_err(|failure| advice::for_plot(failure, options, turning.degrees))?;
+    Ok(PlotAmounts { ordered: job.report().clone(), before: job.unordered().clone() })
 }

@@ -10,7 +10,8 @@ use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
 use crate::plot::{
-    InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, PlotReport, Profile, Toolpath, built_in_names, lower, mount, report,
+    InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, PlotReport, Profile, Toolpath, built_in_names, home_of, lower,
+    mount, report,
 };
 use crate::read::{Budget, PenLift, Strokes, read_gcode_within, read_hpgl_within, read_svg_within};
 use serde_json::{Value, json};
@@ -144,7 +145,7 @@ fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut
             warning!("no time: {error}");
         }
         let mounting = mounting.ok();
-        let home = toolpaths::home_of(mounting.as_ref(), &plot);
+        let home = home_of(mounting.as_ref(), &plot);
         value["plot"] = json!(report(&plot, home, mounting.as_ref().map(|mounting| (profile, mounting)), None, interrupt())?);
     }
     Ok(value)

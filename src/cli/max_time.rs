@@ -7,10 +7,11 @@ use super::failure::Failure;
 use super::foretell::{Care, Plan, Teller};
 use super::forewarn::smaller_size;
 use super::interruption::{interrupt, is_interrupted};
+use super::job;
 use super::messages::{say, warning};
 use super::pens::PenSet;
-use super::toolpaths::{self, Prepared, duration};
-use crate::plot::{InkModel, Profile, lower};
+use super::toolpaths::{self, duration};
+use crate::plot::{InkModel, Job, Profile, lower};
 use crate::style::{Observer, Picture};
 
 /// Share of the time allowed that is near enough: the last trials would gain a pitch that no eye tells apart.
@@ -54,8 +55,8 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
 }
 
 /// Says so when a finished plot takes longer than its trial, which is ordered by another way, promised.
-pub(super) fn warn_if_longer(prepared: &[Prepared], limit: Option<f64>) {
-    let seconds: f64 = prepared.iter().filter_map(|one| one.report.total.seconds).sum();
+pub(super) fn warn_if_longer(jobs: &[Job<'_>], limit: Option<f64>) {
+    let seconds: f64 = jobs.iter().filter_map(|job| job.report().total.seconds).sum();
     if let Some(limit) = limit.filter(|limit| seconds > *limit) {
         warning!("the plot takes {}, longer than --max-time {}", duration(seconds), duration(limit));
     }
@@ -140,9 +141,9 @@ impl<'a> Trials<'a> {
         let (drawing, painting) = drawing_of(&task, &options, Some(&self.profile), &mut self.pens, &Unseen)?;
         let visible = uncovered(&drawing, &painting)?;
         let plot = lower(&visible, InkModel::Ink, self.pens.nibs(), options.toolpaths.tolerance, interrupt())?;
-        let prepared = toolpaths::prepare(plot, Some(&self.profile), &options.toolpaths, &self.pens)
+        let job = job::of_paths(plot, Some(&self.profile), &options.toolpaths, &self.pens)
             .map_err(|failure| advice::for_draw(failure, &options, &task, Some(&self.profile)))?;
-        Ok(prepared.report.total.seconds.unwrap_or(0.0))
+        Ok(job.report().total.seconds.unwrap_or(0.0))
     }
 
     fn estimate(&mut self, pitch: f64, care: Care) -> Result<f64, Failure> {

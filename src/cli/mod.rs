@@ -17,6 +17,7 @@ mod foretell_plot;
 mod forewarn;
 mod inspect;
 mod interruption;
+mod job;
 mod known;
 mod label_speeds;
 mod layer_files;

@@ -93,9 +93,9 @@ impl PenSet {
         &self.nibs
     }
 
-    /// How long touches of a pen rest, where it was told.
-    pub(super) fn dwell(&self, pen: u32) -> Option<f64> {
-        self.dwell.get(&pen).copied()
+    /// How long touches rest, for the pens of which it was told: seconds by pen.
+    pub(super) const fn dwell(&self) -> &BTreeMap<u32, f64> {
+        &self.dwell
     }
 
     /// Marks of layers that no entry names go to layers of the nearest colour's entry. Returns the order in which they were painted.

@@ -12,13 +12,12 @@ use super::pens::PenSet;
 use super::placing::{Turning, asked_move};
 use super::progress::Watcher;
 use super::scale_to_time::{Trials, scaled_to};
-use super::toolpaths::Prepared;
-use super::{advice, affordable, foretell_plot, layout, output, toolpaths};
+use super::{advice, affordable, foretell_plot, job, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, Profile, TooMuch, check_work, coverage, lower, occluded};
+use crate::plot::{Hides, InkModel, Job, TooMuch, check_work, occluded};
 use crate::read::{Budget, Imported, read_svg_within};
-use crate::style::Observer;
+use crate::style::Observer as _;
 use crate::write::SvgHead;
 use serde_json::json;
 
@@ -87,56 +86,37 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
         let scaled = scaled_to(&drawing, &trials).map_err(advised)?;
         (drawing, scale) = (scaled.drawing, Some(scaled.scale));
     }
-    let mut plots = Vec::new();
+    let mut jobs = Vec::new();
     let files = split_by_layer(&drawing, &options.output);
     toolpaths::check_layer_files(&files, &options.toolpaths)?;
     for file in files {
-        let prepared = prepared(&file.drawing, model, profile.as_ref(), &pens, options, &watcher).map_err(advised)?;
+        let made = job::of_drawing(&file.drawing, model, profile.as_ref(), &options.toolpaths, &pens, &watcher);
+        let job = made.map_err(advised)?;
         watcher.begin("writing");
-        toolpaths::write(&file.name, format, &prepared, profile.as_ref(), &head)?;
-        toolpaths::write_preview_of(&prepared, &options.toolpaths, Some(&file.layer))?;
-        plots.push((file.name, prepared));
+        toolpaths::write(&file.name, format, &job, &head)?;
+        toolpaths::write_preview_of(&job, &options.toolpaths, Some(&file.layer))?;
+        jobs.push((file.name, job));
     }
     let seconds = watcher.finish();
-    plots.iter().for_each(|(_, prepared)| toolpaths::warn(prepared, profile.as_ref(), Some("")));
+    jobs.iter().for_each(|(_, job)| toolpaths::warn(job, Some("")));
     if !imported.dropped.is_empty() {
         warning!("left out or drawn otherwise: {}", imported.dropped.summary());
     }
-    report(options, &imported, &plots, scale, &seconds)
-}
-
-/// The tool paths of one file, in order.
-fn prepared(
-    drawing: &Drawing,
-    model: InkModel,
-    profile: Option<&Profile>,
-    pens: &PenSet,
-    options: &PlotOptions,
-    observer: &dyn Observer,
-) -> Result<Prepared, Failure> {
-    observer.begin("lowering");
-    let plot = lower(drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
-    observer.begin("ordering");
-    let mut prepared = toolpaths::prepare(plot, profile, &options.toolpaths, pens)?;
-    if model == InkModel::Ink {
-        observer.begin("coverage");
-        prepared.report.add_coverage(&coverage(drawing, &prepared.plot, pens.nibs(), interrupt())?);
-    }
-    Ok(prepared)
+    report(options, &imported, &jobs, scale, &seconds)
 }
 
 fn report(
     options: &PlotOptions,
     imported: &Imported,
-    plots: &[(String, Prepared)],
+    jobs: &[(String, Job<'_>)],
     scale: Option<f64>,
     seconds: &[(String, f64)],
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        let mut value = json!(toolpaths::of_all(plots.iter().map(|(_, prepared)| prepared)));
-        value["files"] = json!(plots.iter().map(|(name, _)| name).collect::<Vec<_>>());
+        let mut value = json!(toolpaths::of_all(jobs.iter().map(|(_, job)| job)));
+        value["files"] = json!(jobs.iter().map(|(name, _)| name).collect::<Vec<_>>());
         value["dropped"] = json!(imported.dropped);
-        value["duplicates"] = json!(plots.iter().map(|(_, prepared)| prepared.duplicates).sum::<usize>());
+        value["duplicates"] = json!(jobs.iter().map(|(_, job)| job.duplicates()).sum::<usize>());
         if let Some(scale) = scale {
             value["scale"] = json!(scale);
         }
@@ -144,9 +124,9 @@ fn report(
         value["warnings"] = json!(messages::warnings());
         return output::print_json(&value);
     }
-    for (name, prepared) in plots.iter().filter(|_| !options.reporting.quiet) {
-        say!("{name}: {}", toolpaths::summary(&prepared.report));
-        toolpaths::pen_lines(prepared).iter().for_each(|line| say!("{line}"));
+    for (name, job) in jobs.iter().filter(|_| !options.reporting.quiet) {
+        say!("{name}: {}", toolpaths::summary(job.report()));
+        toolpaths::pen_lines(job).iter().for_each(|line| say!("{line}"));
     }
     Ok(())
 }

@@ -3,9 +3,10 @@
 use super::arguments::{Order, PlotFit, PlotOptions};
 use super::failure::Failure;
 use super::interruption::{interrupt, is_interrupted};
+use super::job;
 use super::messages::say;
 use super::pens::PenSet;
-use super::toolpaths::{self, duration};
+use super::toolpaths::duration;
 use crate::drawing::Drawing;
 use crate::geometry::Affine;
 use crate::plot::{InkModel, Profile, lower};
@@ -108,8 +109,8 @@ fn seconds_at(drawing: &Drawing, trials: &Trials<'_>) -> Result<f64, Failure> {
         options.order = Order::Fast;
     }
     let plot = lower(drawing, trials.model, trials.pens.nibs(), options.tolerance, interrupt())?;
-    let prepared = toolpaths::prepare(plot, Some(trials.profile), &options, trials.pens)?;
-    Ok(prepared.report.total.seconds.unwrap_or(0.0))
+    let job = job::of_paths(plot, Some(trials.profile), &options, trials.pens)?;
+    Ok(job.report().total.seconds.unwrap_or(0.0))
 }
 
 #[cfg(test)]

@@ -1,20 +1,15 @@
-//! From a plot to a machine's file: profile, order, mounting, checks, report.
+//! What a machine's file is made of and with: its profile, its format, its preview, what is said of it.
 
-use super::arguments::{DuplicatesOption, Format, Order, PreviewTravel, SeamOption, StartCorner, ToolpathOptions};
+use super::arguments::{Format, PreviewTravel, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;
-use super::interruption::interrupt;
 use super::layer_files::LayerFile;
 use super::messages::{say, warning};
 use super::output;
-use super::pens::PenSet;
 use super::words::counted;
-use crate::geometry::{Point, Rect};
-use crate::plot::{
-    Course, Direction, DrawingCorner, Duplicates, Effort, Language, Mounting, PenChange, PenReport, Plot, PlotReport, Profile,
-    Seam, Sequence, Travel, add_registration, built_in, clip_to, let_dry, mount, pause_every, report, rest_touches,
-};
-use crate::write::{ShownTravel, SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plot, write_svg_plotter};
+use crate::geometry::Point;
+use crate::plot::{Cut, Job, Language, PenChange, PenReport, PlotReport, Profile, Travel, built_in};
+use crate::write::{ShownTravel, SvgHead, write_job, write_preview, write_svg_plot};
 use std::collections::BTreeSet;
 
 /// Plotting time above which the user is warned.
@@ -122,188 +117,12 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
     }
 }
 
-/// A plot that is ready to be written.
-pub(super) struct Prepared {
-    pub plot: Plot,
-    pub mounting: Option<Mounting>,
-    pub report: PlotReport,
-    /// The same before ordering.
-    pub unordered: PlotReport,
-    /// Millimetres and touches that --clip cut away.
-    pub cut: (f64, usize),
-    /// Where the pen starts, on the page.
-    pub home: Point,
-    /// Repeated paths that are not drawn again.
-    pub duplicates: usize,
-}
-
-/// Orders a plot, lays it on the machine and checks that all of it can be drawn there.
-pub(super) fn prepare(
-    mut plot: Plot,
-    profile: Option<&Profile>,
-    options: &ToolpathOptions,
-    pens: &PenSet,
-) -> Result<Prepared, Failure> {
-    if profile.is_none() && (options.frame || options.pause_every.is_some()) {
-        return Err(Failure::Usage("--frame and --pause-every tell a machine to wait: they need --profile".to_owned()));
-    }
-    plot.pens.retain(|pen| !pen.paths.is_empty());
-    let mut mounting = profile.map(|profile| mount(profile, &plot.page)).transpose()?;
-    let drawable = mounting.as_ref().map_or(plot.page.rect(), |m| m.drawable(&plot.page));
-    let mut cut = (0.0, 0);
-    if options.clip {
-        cut = clip_to(&mut plot, drawable);
-        plot.pens.retain(|pen| !pen.paths.is_empty());
-    }
-    if let (Some(profile), Some(mounting)) = (profile, &mut mounting) {
-        mounting.tolerance = options.tolerance;
-        mounting.frame = if options.frame { bounds_of(&plot) } else { None };
-        check_pens(&plot, profile, options)?;
-        mounting.check(profile, &plot)?;
-    }
-    let home = home_of(mounting.as_ref(), &plot);
-    let machine = profile.zip(mounting.as_ref());
-    let unordered = report(&plot, home, machine, None, interrupt())?;
-    let before: Vec<f64> = unordered.pens.iter().map(|pen| pen.pen_up_mm).collect();
-    let duplicates = plot.put_in_order(home, &sequence(options), interrupt())?;
-    if options.registration {
-        add_registration(&mut plot, drawable);
-    }
-    let usual = profile.map_or(0.0, |profile| profile.motion.touch_seconds);
-    rest_touches(&mut plot, |pen| pens.dwell(pen).unwrap_or(usual));
-    if let Some(seconds) = options.dry_time {
-        let Some(profile) = profile else {
-            return Err(Failure::Usage("--dry-time reckons with a machine's speeds: it needs --profile".to_owned()));
-        };
-        let waited = let_dry(&mut plot, seconds, home, &profile.motion, interrupt())?;
-        if waited > 0.0 && profile.language != Language::Gcode {
-            return Err(Failure::Work(format!(
-                "--dry-time {seconds}: the machine would have to wait {} in all, for which its language has no word; ask for less",
-                duration(waited)
-            )));
-        }
-    }
-    let report = report(&plot, home, machine, Some(&before), interrupt())?;
-    if let Some(length) = options.pause_every {
-        pause_every(&mut plot, length);
-    }
-    Ok(Prepared { plot, mounting, report, unordered, cut, home, duplicates })
-}
-
-fn bounds_of(plot: &Plot) -> Option<Rect> {
-    let points = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
-    points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
-}
-
-/// The order that was asked for.
-fn sequence(options: &ToolpathOptions) -> Sequence {
-    let corner = |corner: StartCorner| match corner {
-        StartCorner::TopLeft => DrawingCorner::TopLeft,
-        StartCorner::TopRight => DrawingCorner::TopRight,
-        StartCorner::BottomLeft => DrawingCorner::BottomLeft,
-        StartCorner::BottomRight => DrawingCorner::BottomRight,
-    };
-    Sequence {
-        effort: match options.order {
-            Order::Full => Effort::Full,
-            Order::Fast | Order::Random => Effort::Fast,
-            Order::None => Effort::None,
-        },
-        direction: if options.keep_direction { Direction::AsDrawn } else { Direction::Either },
-        merge: options.merge,
-        duplicates: match options.duplicates {
-            DuplicatesOption::Drop => Duplicates::Drop,
-            DuplicatesOption::Keep => Duplicates::Keep,
-        },
-        seam: match options.seam {
-            SeamOption::Nearest => Seam::Nearest,
-            SeamOption::Drawn => Seam::Drawn,
-            SeamOption::Top => Seam::Top,
-            SeamOption::Bottom => Seam::Bottom,
-            SeamOption::Left => Seam::Left,
-            SeamOption::Right => Seam::Right,
-            SeamOption::Corner => Seam::Corner,
-        },
-        course: match options.order {
-            Order::Random => Course::Shuffled(options.order_seed),
-            _ if options.reverse => Course::Backwards,
-            _ => Course::Forwards,
-        },
-        start: options.start_corner.map(corner),
-    }
-}
-
-/// Where the pen starts, on the page: machine zero, else the page's upper left corner.
-pub(super) fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
-    let zero = mounting.map_or(Point::ORIGIN, |m| m.to_machine.inverse() * Point::ORIGIN);
-    Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
-}
-
-/// Whether a file can make the machine wait for its user.
-fn can_wait(profile: &Profile) -> bool {
-    match profile.language {
-        Language::Gcode => profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_some()),
-        Language::Hpgl => false,
-        Language::Svg => true,
-    }
-}
-
-/// Every pen is there, or the machine can wait until it is; what asks for a wait gets it.
-fn check_pens(plot: &Plot, profile: &Profile, options: &ToolpathOptions) -> Result<(), Failure> {
-    let name = &profile.name;
-    if profile.language == Language::Hpgl
-        && let Some(pen) = plot.pens.iter().find(|pen| pen.handling.pauses || pen.handling.delay_seconds > 0.0)
-    {
-        return Err(Failure::Work(format!(
-            "layer '{}' asks for a pause or a delay, for which HP-GL has no word; draw the layers one by one with --layers, or take ! and +D from its label",
-            pen.name
-        )));
-    }
-    if let Some(pen) = plot.pens.iter().find(|pen| pen.number > profile.pens.count)
-        && profile.pens.change == PenChange::Machine
-    {
-        return Err(Failure::Work(format!(
-            "layer '{}' wants pen {}, but {name} holds {}; choose --layers, or give its layer a lower number or a slot with --pens",
-            pen.name, pen.number, profile.pens.count
-        )));
-    }
-    if options.frame && profile.language == Language::Svg {
-        return Err(Failure::Usage(format!("--frame: {name} is driven by its own program, which has that")));
-    }
-    if can_wait(profile) {
-        return Ok(());
-    }
-    let asks = |what: &str| Err(Failure::Work(format!("{what} needs a pause, and {name} has no word for one")));
-    if options.frame {
-        return asks("--frame");
-    }
-    if options.pause_every.is_some() {
-        return asks("--pause-every");
-    }
-    let changes = plot.pens.windows(2).any(|pair| pair[0].number != pair[1].number);
-    if plot.pens.iter().any(|pen| pen.handling.pauses) || (changes && profile.pens.change == PenChange::Pause) {
-        return Err(Failure::Work(format!(
-            "a change of pen needs a pause, and {name} has no word for one; write one file for each layer: -o 'name-{{layer}}.gcode'"
-        )));
-    }
-    Ok(())
-}
-
-/// Writes a prepared plot.
-pub(super) fn write(
-    name: &str,
-    format: Format,
-    prepared: &Prepared,
-    profile: Option<&Profile>,
-    head: &SvgHead,
-) -> Result<(), Failure> {
-    output::write(name, |mut out| match (format, profile, &prepared.mounting) {
-        (Format::Hpgl, Some(profile), Some(mounting)) => write_hpgl(&prepared.plot, profile, mounting, &mut out),
-        (Format::Gcode, Some(profile), Some(mounting)) => write_gcode(&prepared.plot, profile, mounting, &mut out),
-        (Format::Svg, Some(profile), _) if profile.language == Language::Svg => {
-            write_svg_plotter(&prepared.plot, profile, head, &mut out)
-        }
-        _ => write_svg_plot(&prepared.plot, head, &mut out),
+/// Writes a job in its machine's language, or as a picture of its tool paths.
+pub(super) fn write(name: &str, format: Format, job: &Job<'_>, head: &SvgHead) -> Result<(), Failure> {
+    output::write(name, |mut out| match format {
+        Format::Hpgl | Format::Gcode => write_job(job, head, &mut out),
+        _ if job.machine().is_some_and(|machine| machine.language == Language::Svg) => write_job(job, head, &mut out),
+        _ => write_svg_plot(job.plot(), head, &mut out),
     })
 }
 
@@ -332,42 +151,42 @@ fn preview_name(name: &str, layer: Option<&str>) -> String {
 
 /// Writes the picture of what the machine will do, where one is asked for; `{layer}` in its name stands for the same as in the
 /// output's.
-pub(super) fn write_preview_of(prepared: &Prepared, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
+pub(super) fn write_preview_of(job: &Job<'_>, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
     let Some(name) = &options.preview else { return Ok(()) };
     let name = preview_name(name, layer);
-    let start = prepared.mounting.as_ref().map_or(prepared.home, |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
+    let start = job.mounting().map_or(job.home(), |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
     let travel = match options.preview_travel {
         PreviewTravel::Off => ShownTravel::Off,
         PreviewTravel::Faint => ShownTravel::Faint,
         PreviewTravel::Full => ShownTravel::Full,
     };
-    output::write(&name, |mut out| write_preview(&prepared.plot, prepared.mounting.as_ref(), start, travel, &mut out))
+    output::write(&name, |mut out| write_preview(job.plot(), job.mounting(), start, travel, &mut out))
 }
 
 /// Warnings about the machine, shown whatever was asked for; `shorter` says what makes a long plot shorter, unless that was said
 /// before.
-pub(super) fn warn(prepared: &Prepared, profile: Option<&Profile>, shorter: Option<&str>) {
-    let (length, touches) = prepared.cut;
+pub(super) fn warn(job: &Job<'_>, shorter: Option<&str>) {
+    let Cut { length, touches } = job.cut();
     if length > 0.0 || touches > 0 {
         warning!("--clip cut away {length:.1} mm of line and {}", counted(touches, "touch"));
     }
-    if prepared.duplicates > 0 {
-        let paths = counted(prepared.duplicates, "path");
+    if job.duplicates() > 0 {
+        let paths = counted(job.duplicates(), "path");
         say!("drypoint: {paths} repeating an earlier one left out; --duplicates keep draws them all");
     }
-    if let (Some(seconds), Some(shorter)) = (prepared.report.total.seconds, shorter)
+    if let (Some(seconds), Some(shorter)) = (job.report().total.seconds, shorter)
         && seconds > LONG_HOURS * 3600.0
     {
         warning!("this plot takes {}{shorter}", duration(seconds));
     }
-    let Some(profile) = profile else { return };
-    let numbers: std::collections::BTreeSet<u32> = prepared.plot.pens.iter().map(|pen| pen.number).collect();
+    let Some(profile) = job.machine() else { return };
+    let numbers: BTreeSet<u32> = job.plot().pens.iter().map(|pen| pen.number).collect();
     if profile.pens.change == PenChange::Pause && numbers.len() as u32 > profile.pens.count {
         let (pens, count) = (counted(numbers.len(), "pen"), profile.pens.count);
         warning!("{pens} on a machine with {count}: the file pauses for each change");
     }
     for number in numbers {
-        let drawn: f64 = prepared.report.pens.iter().filter(|pen| pen.pen == number).map(|pen| pen.pen_down_mm / 1000.0).sum();
+        let drawn: f64 = job.report().pens.iter().filter(|pen| pen.pen == number).map(|pen| pen.pen_down_mm / 1000.0).sum();
         if let Some(life) = profile.life_of(number).filter(|life| drawn > *life) {
             warning!("pen {number} draws {drawn:.1} m and lasts {life} m; --pause-every {life}m waits for a new one");
         }
@@ -390,7 +209,7 @@ pub(super) fn summary(report: &PlotReport) -> String {
 }
 
 /// The report of several files as one: each file's pens, and all together. What is covered is told for one file only.
-pub(super) fn of_all<'a>(prepared: impl IntoIterator<Item = &'a Prepared>) -> Option<PlotReport> {
+pub(super) fn of_all<'a>(jobs: impl IntoIterator<Item = &'a Job<'a>>) -> Option<PlotReport> {
     let add = |mut sum: PlotReport, next: PlotReport| {
         let (total, more) = (&mut sum.total, next.total);
         total.paths += more.paths;
@@ -403,16 +222,16 @@ pub(super) fn of_all<'a>(prepared: impl IntoIterator<Item = &'a Prepared>) -> Op
         sum.pens.extend(next.pens);
         sum
     };
-    prepared.into_iter().map(|one| one.report.clone()).reduce(add)
+    jobs.into_iter().map(|job| job.report().clone()).reduce(add)
 }
 
 /// A line for each pen: time, ink and lifts, and in brackets what they were before ordering.
-pub(super) fn pen_lines(prepared: &Prepared) -> Vec<String> {
+pub(super) fn pen_lines(job: &Job<'_>) -> Vec<String> {
     let amounts = |pen: &PenReport| {
         let time = pen.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();
         format!("{time}{:.2} m of ink, {}", pen.pen_down_mm / 1000.0, counted(pen.pen_lifts, "lift"))
     };
-    let pens = prepared.report.pens.iter().zip(&prepared.unordered.pens);
+    let pens = job.report().pens.iter().zip(&job.unordered().pens);
     pens.map(|(after, before)| {
         format!("  pen {} {}: {} (before ordering: {})", after.pen, after.name, amounts(after), amounts(before))
     })

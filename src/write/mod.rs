@@ -6,6 +6,7 @@
 mod gcode;
 mod hpgl;
 mod inkml;
+mod job;
 mod number;
 mod pdf;
 mod preview;
@@ -14,6 +15,7 @@ mod svg;
 pub use gcode::write_gcode;
 pub use hpgl::write_hpgl;
 pub use inkml::write_inkml;
+pub use job::write_job;
 pub use number::{decimal, thousandths};
 pub use pdf::write_pdf;
 pub use preview::{ShownTravel, write_preview};

@@ -1,0 +1,122 @@
+//! The library's plotting job in the words of the command line: options in, refusals out.
+
+use super::arguments::{DuplicatesOption, Order, SeamOption, StartCorner, ToolpathOptions};
+use super::failure::Failure;
+use super::interruption::interrupt;
+use super::pens::PenSet;
+use super::toolpaths::duration;
+use crate::drawing::Drawing;
+use crate::plot::{
+    Beyond, Course, Direction, DrawingCorner, Duplicates, Effort, InkModel, Job, JobError, JobOptions, PlacingMarks, Plot,
+    Profile, Seam, Sequence, Wish,
+};
+use crate::style::Observer;
+
+/// The job of a drawing, each step told to the observer.
+pub(super) fn of_drawing<'a>(
+    drawing: &Drawing,
+    model: InkModel,
+    machine: Option<&'a Profile>,
+    options: &ToolpathOptions,
+    pens: &PenSet,
+    observer: &dyn Observer,
+) -> Result<Job<'a>, Failure> {
+    let begin = |step: &str| observer.begin(step);
+    let made = Job::of_drawing(drawing, model, pens.nibs(), machine, &asked(options, pens), &begin, interrupt());
+    made.map_err(|error| refused(error, options))
+}
+
+/// The job of tool paths.
+pub(super) fn of_paths<'a>(
+    plot: Plot,
+    machine: Option<&'a Profile>,
+    options: &ToolpathOptions,
+    pens: &PenSet,
+) -> Result<Job<'a>, Failure> {
+    Job::of_paths(plot, machine, &asked(options, pens), interrupt()).map_err(|error| refused(error, options))
+}
+
+fn asked(options: &ToolpathOptions, pens: &PenSet) -> JobOptions {
+    JobOptions {
+        sequence: sequence(options),
+        tolerance: options.tolerance,
+        beyond: if options.clip { Beyond::Clip } else { Beyond::Refuse },
+        marks: PlacingMarks { has_frame: options.frame, has_registration: options.registration },
+        pause_every: options.pause_every,
+        dry_seconds: options.dry_time,
+        dwell: pens.dwell().clone(),
+    }
+}
+
+/// The order that was asked for.
+fn sequence(options: &ToolpathOptions) -> Sequence {
+    let corner = |corner: StartCorner| match corner {
+        StartCorner::TopLeft => DrawingCorner::TopLeft,
+        StartCorner::TopRight => DrawingCorner::TopRight,
+        StartCorner::BottomLeft => DrawingCorner::BottomLeft,
+        StartCorner::BottomRight => DrawingCorner::BottomRight,
+    };
+    Sequence {
+        effort: match options.order {
+            Order::Full => Effort::Full,
+            Order::Fast | Order::Random => Effort::Fast,
+            Order::None => Effort::None,
+        },
+        direction: if options.keep_direction { Direction::AsDrawn } else { Direction::Either },
+        merge: options.merge,
+        duplicates: match options.duplicates {
+            DuplicatesOption::Drop => Duplicates::Drop,
+            DuplicatesOption::Keep => Duplicates::Keep,
+        },
+        seam: match options.seam {
+            SeamOption::Nearest => Seam::Nearest,
+            SeamOption::Drawn => Seam::Drawn,
+            SeamOption::Top => Seam::Top,
+            SeamOption::Bottom => Seam::Bottom,
+            SeamOption::Left => Seam::Left,
+            SeamOption::Right => Seam::Right,
+            SeamOption::Corner => Seam::Corner,
+        },
+        course: match options.order {
+            Order::Random => Course::Shuffled(options.order_seed),
+            _ if options.reverse => Course::Backwards,
+            _ => Course::Forwards,
+        },
+        start: options.start_corner.map(corner),
+    }
+}
+
+/// A refusal with the options that led to it, and those that lead out.
+fn refused(error: JobError, options: &ToolpathOptions) -> Failure {
+    match error {
+        JobError::Interrupted => Failure::Interrupted,
+        JobError::Misfit(error) => Failure::Misfit(error),
+        JobError::NoMachine(Wish::Drying) => {
+            Failure::Usage("--dry-time reckons with a machine's speeds: it needs --profile".to_owned())
+        }
+        JobError::NoMachine(_) => {
+            Failure::Usage("--frame and --pause-every tell a machine to wait: they need --profile".to_owned())
+        }
+        JobError::OwnFrame { machine } => {
+            Failure::Usage(format!("--frame: {machine} is driven by its own program, which has that"))
+        }
+        JobError::NoHandling { .. } => {
+            Failure::Work(format!("{error}; draw the layers one by one with --layers, or take ! and +D from its label"))
+        }
+        JobError::NoSuchPen { .. } => {
+            Failure::Work(format!("{error}; choose --layers, or give its layer a lower number or a slot with --pens"))
+        }
+        JobError::NoPause { wish: Wish::Frame, machine } => no_pause("--frame", &machine),
+        JobError::NoPause { wish: Wish::PauseEvery, machine } => no_pause("--pause-every", &machine),
+        JobError::NoPause { .. } => Failure::Work(format!("{error}; write one file for each layer: -o 'name-{{layer}}.gcode'")),
+        JobError::NoWait { seconds } => Failure::Work(format!(
+            "--dry-time {}: the machine would have to wait {} in all, for which its language has no word; ask for less",
+            options.dry_time.unwrap_or_default(),
+            duration(seconds)
+        )),
+    }
+}
+
+fn no_pause(option: &str, machine: &str) -> Failure {
+    Failure::Work(format!("{option} needs a pause, and {machine} has no word for one"))
+}

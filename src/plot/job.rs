@@ -1,0 +1,380 @@
+//! The plotting job: what one machine draws, in order, laid on it, checked and timed.
+//!
+//! ```text
+//!   drawing --lower--> tool paths --clip, order, rest, dry--> checked against the machine --> timed, and its ink counted --> Job
+//! ```
+//!
+//! A [`Job`] can only be had by way of these checks, and only a job is written for a machine.
+
+use super::errands::{add_registration, pause_every, rest_touches};
+use super::{
+    InkModel, Language, Mounting, MountingError, Nibs, PenChange, Plot, PlotReport, Profile, Sequence, clip_to, coverage,
+    let_dry, lower, mount, report,
+};
+use crate::drawing::Drawing;
+use crate::geometry::{Point, Rect};
+use crate::interrupt::{Interrupt, Interrupted};
+use std::collections::BTreeMap;
+use std::fmt;
+use thiserror::Error;
+
+/// What is asked of a job beyond its drawing and its machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JobOptions {
+    /// How its paths are put in order.
+    pub sequence: Sequence,
+    /// How far curves and arcs may lie from what they stand for, in millimetres.
+    pub tolerance: f64,
+    /// What becomes of what the machine does not reach.
+    pub beyond: Beyond,
+    /// What is drawn or traced besides.
+    pub marks: PlacingMarks,
+    /// After so many millimetres of line the machine waits for a new pen.
+    pub pause_every: Option<f64>,
+    /// Seconds for which ink that is crossed must have dried.
+    pub dry_seconds: Option<f64>,
+    /// For pens whose touches rest longer than the machine's usual: seconds by pen.
+    pub dwell: BTreeMap<u32, f64>,
+}
+
+impl Default for JobOptions {
+    fn default() -> Self {
+        Self {
+            sequence: Sequence::default(),
+            tolerance: 0.02,
+            beyond: Beyond::default(),
+            marks: PlacingMarks::default(),
+            pause_every: None,
+            dry_seconds: None,
+            dwell: BTreeMap::new(),
+        }
+    }
+}
+
+/// What becomes of paths that the machine does not reach, or that leave the page.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Beyond {
+    /// The job is refused.
+    #[default]
+    Refuse,
+    /// They are cut at the border, and what is lost is counted.
+    Clip,
+}
+
+/// What helps to put paper and pens in their places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PlacingMarks {
+    /// The drawing's box is traced with the pen up before the first pen draws; then the machine waits.
+    pub has_frame: bool,
+    /// Each pen draws crosses at the corners.
+    pub has_registration: bool,
+}
+
+/// What is asked of a machine that must be able to wait.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// Tracing the frame before the first pen draws.
+    Frame,
+    /// Waiting after every so many millimetres.
+    PauseEvery,
+    /// Letting ink dry.
+    Drying,
+    /// Another pen, or a layer that asks for a pause.
+    PenChange,
+}
+
+impl fmt::Display for Wish {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Frame => "tracing the frame",
+            Self::PauseEvery => "waiting after some line",
+            Self::Drying => "letting ink dry",
+            Self::PenChange => "a change of pen",
+        })
+    }
+}
+
+/// Why there is no job.
+#[derive(Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum JobError {
+    /// The page or the drawing does not go onto the machine.
+    #[error(transparent)]
+    Misfit(#[from] MountingError),
+    /// What is asked for needs a machine.
+    #[error("{0} needs a machine")]
+    NoMachine(Wish),
+    /// What is asked for needs a pause.
+    #[error("{wish} needs a pause, and {machine} has no word for one")]
+    NoPause {
+        /// What was asked for.
+        wish: Wish,
+        /// The profile's name.
+        machine: String,
+    },
+    /// A layer asks for a pause or a delay.
+    #[error("layer '{layer}' asks for a pause or a delay, for which HP-GL has no word")]
+    NoHandling {
+        /// The layer's name.
+        layer: String,
+    },
+    /// A layer wants a pen that the machine does not hold.
+    #[error("layer '{layer}' wants pen {pen}, but {machine} holds {holds}")]
+    NoSuchPen {
+        /// The layer's name.
+        layer: String,
+        /// The pen that it wants.
+        pen: u32,
+        /// The profile's name.
+        machine: String,
+        /// How many pens the machine holds.
+        holds: u32,
+    },
+    /// The machine's own program traces frames.
+    #[error("{machine} is driven by its own program, which traces the frame")]
+    OwnFrame {
+        /// The profile's name.
+        machine: String,
+    },
+    /// Ink would have to dry, and the machine's language has no word for waiting.
+    #[error("the machine would have to wait {seconds:.0} s in all, for which its language has no word")]
+    NoWait {
+        /// In all, in seconds.
+        seconds: f64,
+    },
+    /// It was stopped.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl From<Interrupted> for JobError {
+    fn from(_: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
+/// A checked job.
+#[derive(Clone, Debug)]
+pub struct Job<'a> {
+    plot: Plot,
+    machine: Option<(&'a Profile, Mounting)>,
+    report: PlotReport,
+    unordered: PlotReport,
+    cut: Cut,
+    home: Point,
+    duplicates: usize,
+}
+
+/// What was cut away.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cut {
+    /// Millimetres of line.
+    pub length: f64,
+    /// Touches.
+    pub touches: usize,
+}
+
+impl<'a> Job<'a> {
+    /// The job of a drawing: lowered to tool paths, then as [`Job::of_paths`]. `begin` is told each step as it begins: `lowering`,
+    /// `ordering`, `coverage`. Of opaque paint, what is covered must have been left out ([`occluded`](super::occluded)).
+    ///
+    /// ```
+    /// use drypoint::drawing::{Dot, Drawing, Layer, Mark, Page};
+    /// use drypoint::geometry::Point;
+    /// use drypoint::interrupt::Interrupt;
+    /// use drypoint::plot::{InkModel, Job, JobOptions, Nibs, Profile};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut layer = Layer::new("dots", 1);
+    /// layer.marks.push(Mark::Dot(Dot::circle(Point::new(20.0, 20.0), 1.5)));
+    /// let drawing = Drawing { page: Page::new(40.0, 40.0), layers: vec![layer] };
+    /// let machine = Profile::built_in("grbl-servo")?;
+    /// let options = JobOptions::default();
+    /// let job =
+    ///     Job::of_drawing(&drawing, InkModel::Ink, &Nibs::all(0.3), Some(&machine), &options, &|_| {}, &Interrupt::never())?;
+    /// assert!(job.report().total.seconds.is_some_and(|seconds| seconds > 1.0));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn of_drawing(
+        drawing: &Drawing,
+        model: InkModel,
+        nibs: &Nibs,
+        machine: Option<&'a Profile>,
+        options: &JobOptions,
+        begin: &dyn Fn(&str),
+        interrupt: &Interrupt,
+    ) -> Result<Self, JobError> {
+        begin("lowering");
+        let plot = lower(drawing, model, nibs, options.tolerance, interrupt)?;
+        begin("ordering");
+        let mut job = Self::of_paths(plot, machine, options, interrupt)?;
+        if model == InkModel::Ink {
+            begin("coverage");
+            job.report.add_coverage(&coverage(drawing, &job.plot, nibs, interrupt)?);
+        }
+        Ok(job)
+    }
+
+    /// The job of tool paths: clipped, laid on the machine and checked, put in order, with its rests, pauses and times.
+    pub fn of_paths(
+        mut plot: Plot,
+        machine: Option<&'a Profile>,
+        options: &JobOptions,
+        interrupt: &Interrupt,
+    ) -> Result<Self, JobError> {
+        without_machine(machine, options)?;
+        plot.pens.retain(|pen| !pen.paths.is_empty());
+        let mut machine = machine.map(|profile| Ok::<_, JobError>((profile, mount(profile, &plot.page)?))).transpose()?;
+        let drawable = machine.as_ref().map_or(plot.page.rect(), |(_, mounting)| mounting.drawable(&plot.page));
+        let mut cut = Cut::default();
+        if options.beyond == Beyond::Clip {
+            (cut.length, cut.touches) = clip_to(&mut plot, drawable);
+            plot.pens.retain(|pen| !pen.paths.is_empty());
+        }
+        if let Some((profile, mounting)) = &mut machine {
+            mounting.tolerance = options.tolerance;
+            mounting.frame = if options.marks.has_frame { bounds_of(&plot) } else { None };
+            check_pens(&plot, profile, options)?;
+            mounting.check(profile, &plot)?;
+        }
+        let home = home_of(machine.as_ref().map(|(_, mounting)| mounting), &plot);
+        let timed = machine.as_ref().map(|(profile, mounting)| (*profile, mounting));
+        let unordered = report(&plot, home, timed, None, interrupt)?;
+        let before: Vec<f64> = unordered.pens.iter().map(|pen| pen.pen_up_mm).collect();
+        let duplicates = plot.put_in_order(home, &options.sequence, interrupt)?;
+        if options.marks.has_registration {
+            add_registration(&mut plot, drawable);
+        }
+        rest_and_dry(&mut plot, timed.map(|(profile, _)| profile), options, home, interrupt)?;
+        let report = report(&plot, home, timed, Some(&before), interrupt)?;
+        if let Some(length) = options.pause_every {
+            pause_every(&mut plot, length);
+        }
+        Ok(Self { plot, machine, report, unordered, cut, home, duplicates })
+    }
+
+    /// Its tool paths in drawing order.
+    pub const fn plot(&self) -> &Plot {
+        &self.plot
+    }
+
+    /// The machine that it is for.
+    pub fn machine(&self) -> Option<&'a Profile> {
+        self.machine.as_ref().map(|(profile, _)| *profile)
+    }
+
+    /// Where its page lies on the machine.
+    pub fn mounting(&self) -> Option<&Mounting> {
+        self.machine.as_ref().map(|(_, mounting)| mounting)
+    }
+
+    /// Lengths and times, as it will be drawn.
+    pub const fn report(&self) -> &PlotReport {
+        &self.report
+    }
+
+    /// The same before its paths were put in order.
+    pub const fn unordered(&self) -> &PlotReport {
+        &self.unordered
+    }
+
+    /// What was cut away.
+    pub const fn cut(&self) -> Cut {
+        self.cut
+    }
+
+    /// Where the pen starts, in millimetres on the page: machine zero, else the page's upper left corner.
+    pub const fn home(&self) -> Point {
+        self.home
+    }
+
+    /// How many repeated paths are not drawn again.
+    pub const fn duplicates(&self) -> usize {
+        self.duplicates
+    }
+}
+
+/// What only a machine can do is not asked of paper.
+fn without_machine(machine: Option<&Profile>, options: &JobOptions) -> Result<(), JobError> {
+    let wishes = [
+        (options.marks.has_frame, Wish::Frame),
+        (options.pause_every.is_some(), Wish::PauseEvery),
+        (options.dry_seconds.is_some(), Wish::Drying),
+    ];
+    match wishes.into_iter().find(|(is_asked, _)| *is_asked && machine.is_none()) {
+        Some((_, wish)) => Err(JobError::NoMachine(wish)),
+        None => Ok(()),
+    }
+}
+
+/// Touches rest, and ink that is crossed dries first.
+fn rest_and_dry(
+    plot: &mut Plot,
+    machine: Option<&Profile>,
+    options: &JobOptions,
+    home: Point,
+    interrupt: &Interrupt,
+) -> Result<(), JobError> {
+    let usual = machine.map_or(0.0, |profile| profile.motion.touch_seconds);
+    rest_touches(plot, |pen| options.dwell.get(&pen).copied().unwrap_or(usual));
+    let (Some(seconds), Some(profile)) = (options.dry_seconds, machine) else { return Ok(()) };
+    let waited = let_dry(plot, seconds, home, &profile.motion, interrupt)?;
+    if waited > 0.0 && profile.language != Language::Gcode {
+        return Err(JobError::NoWait { seconds: waited });
+    }
+    Ok(())
+}
+
+fn bounds_of(plot: &Plot) -> Option<Rect> {
+    let points = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
+    points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
+}
+
+/// Where the pen starts, on the page: machine zero, else the page's upper left corner.
+pub(crate) fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
+    let zero = mounting.map_or(Point::ORIGIN, |m| m.to_machine.inverse() * Point::ORIGIN);
+    Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
+}
+
+/// Whether a file can make the machine wait for its user.
+fn can_wait(profile: &Profile) -> bool {
+    match profile.language {
+        Language::Gcode => profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_some()),
+        Language::Hpgl => false,
+        Language::Svg => true,
+    }
+}
+
+/// Every pen is there, or the machine can wait until it is; what asks for a wait gets it.
+fn check_pens(plot: &Plot, profile: &Profile, options: &JobOptions) -> Result<(), JobError> {
+    let machine = || profile.name.clone();
+    if profile.language == Language::Hpgl
+        && let Some(pen) = plot.pens.iter().find(|pen| pen.handling.pauses || pen.handling.delay_seconds > 0.0)
+    {
+        return Err(JobError::NoHandling { layer: pen.name.clone() });
+    }
+    if let Some(pen) = plot.pens.iter().find(|pen| pen.number > profile.pens.count)
+        && profile.pens.change == PenChange::Machine
+    {
+        let (layer, holds) = (pen.name.clone(), profile.pens.count);
+        return Err(JobError::NoSuchPen { layer, pen: pen.number, machine: machine(), holds });
+    }
+    if options.marks.has_frame && profile.language == Language::Svg {
+        return Err(JobError::OwnFrame { machine: machine() });
+    }
+    if can_wait(profile) {
+        return Ok(());
+    }
+    let changes = plot.pens.windows(2).any(|pair| pair[0].number != pair[1].number);
+    let asks_for_pen = plot.pens.iter().any(|pen| pen.handling.pauses) || (changes && profile.pens.change == PenChange::Pause);
+    let wishes = [
+        (options.marks.has_frame, Wish::Frame),
+        (options.pause_every.is_some(), Wish::PauseEvery),
+        (asks_for_pen, Wish::PenChange),
+    ];
+    match wishes.into_iter().find(|(is_asked, _)| *is_asked) {
+        Some((_, wish)) => Err(JobError::NoPause { wish, machine: machine() }),
+        None => Ok(()),
+    }
+}
