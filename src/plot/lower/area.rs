@@ -4,9 +4,12 @@
 use super::super::Toolpath;
 use super::dash::dashes;
 use super::dot::OVERLAP;
+use super::ground::Ground;
 use super::hatch::hatching;
 use super::needle::{ink_of, needle, pieces};
-use crate::geometry::{Insets, Point, Region, Vec2, distance_to_segment, resample};
+use super::net::Net;
+use super::room::Room;
+use crate::geometry::{Insets, Point, distance_to_segment, resample};
 use crate::interrupt::Interrupt;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -31,13 +34,14 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
     let outermost = insets.grown(-0.5 * nib);
     let narrow = narrow_parts(insets, &outermost, nib, phase, interrupt);
     let border = closed_rings(outermost.borders());
-    let hatched = hatching(insets, &border, nib, pitch, interrupt);
-    let ringed = rings(outermost, pitch, interrupt).map(|rings| joined(&rings, 1.5 * pitch, interrupt));
+    let room = Room::new(&outermost, nib);
+    let hatched = hatching(insets, &border, &room, nib, pitch, interrupt);
+    let ringed = rings(outermost, pitch, interrupt).map(|rings| joined(&rings, &room, 1.5 * pitch, interrupt));
     let mut paths = match (hatched, ringed) {
         (Some(hatched), Some(ringed)) if cost(&hatched) < cost(&ringed) => hatched,
         (Some(hatched), None) => hatched,
         (_, Some(ringed)) => ringed,
-        (None, None) => joined(&[border], 1.5 * pitch, interrupt),
+        (None, None) => joined(&[border], &room, 1.5 * pitch, interrupt),
     };
     paths.extend(narrow);
     paths
@@ -46,55 +50,19 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
 /// What is narrower than the nib, as dashes with its ink; `outermost` is where the nib's middle can be.
 fn narrow_parts(insets: &Insets, outermost: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let least = LEAST_PART * FRAC_PI_4 * nib * nib;
-    let parts = insets.narrow_parts(outermost, 0.5 * nib, interrupt).into_iter();
-    let pieces = parts.flat_map(|part| pieces(part, nib)).filter(|piece| ink_of(piece) >= least);
-    let pieces = pieces.take_while(|_| !interrupt.is_raised());
-    let drawn = pieces.enumerate().flat_map(|(i, piece)| dashes(&needle(&piece, nib), nib, phase + 0.618 * i as f64));
     let ground = OnceCell::new();
-    let bears = |path: &Toolpath| {
-        let ground = ground.get_or_init(|| Ground::new(insets, &outermost.grown(0.5 * nib)));
-        !interrupt.is_raised() && ground.bears(&path.points, nib)
-    };
-    drawn.filter(bears).collect()
-}
-
-/// What is to be inked, and what of it is inked already where the nib fits.
-struct Ground {
-    asked: Region,
-    reached: Region,
-}
-
-/// Places across the nib at which its ink is looked at; 5 are right to a tenth.
-const ACROSS: i32 = 5;
-/// Share of a dash on ink that is there already from which it must cover more than it spills. A dash that begins at a wide part's border
-/// has a tenth there; a thread of a net, between two places where the nib fits, a third or more.
-const SHARED: f64 = 0.2;
-
-impl Ground {
-    fn new(asked: &Insets, reached: &Insets) -> Self {
-        // Polygons: nothing is flattened.
-        let region = |insets: &Insets| Region::new(&insets.path(), 1.0);
-        Self { asked: region(asked), reached: region(reached) }
+    let ground = || ground.get_or_init(|| Ground::new(insets, &outermost.grown(0.5 * nib)));
+    let (nets, strips): (Vec<_>, Vec<_>) =
+        insets.narrow_parts(outermost, 0.5 * nib, interrupt).into_iter().partition(|part| part.len() > 1);
+    let strips = strips.into_iter().filter(|strip| ink_of(strip) >= least).take_while(|_| !interrupt.is_raised());
+    let drawn = strips.enumerate().flat_map(|(i, strip)| dashes(&needle(&strip, nib), nib, phase + 0.618 * i as f64));
+    let mut paths: Vec<Toolpath> = drawn.filter(|path| !interrupt.is_raised() && ground().bears(&path.points, nib)).collect();
+    if !nets.is_empty() {
+        let mut net = Net::new(ground(), nib, interrupt);
+        let pieces = nets.into_iter().flat_map(|part| pieces(part, nib)).take_while(|_| !interrupt.is_raised());
+        paths.extend(pieces.flat_map(|piece| net.lines(&piece)).map(Toolpath::new));
     }
-
-    /// Whether a dash may be drawn: it stands by itself, or covers more than it spills. Nets' threads beside one another would fill the
-    /// holes else.
-    fn bears(&self, points: &[Point], nib: f64) -> bool {
-        let half = 0.5 * nib;
-        let grid = (-ACROSS..=ACROSS).flat_map(|j| (-ACROSS..=ACROSS).map(move |i| Vec2::new(f64::from(i), f64::from(j))));
-        let under: Vec<Vec2> = grid.map(|v| v * (half / f64::from(ACROSS))).filter(|v| v.hypot() <= half).collect();
-        let middles = if points.len() > 1 { resample(points, half) } else { points.to_vec() };
-        let (mut shared, mut gained, mut all) = (0.0, 0.0, 0.0);
-        for place in middles.iter().flat_map(|p| under.iter().map(|v| *p + *v)) {
-            all += 1.0;
-            if self.reached.contains(place) {
-                shared += 1.0;
-            } else {
-                gained += if self.asked.contains(place) { 1.0 } else { -1.0 };
-            }
-        }
-        shared < SHARED * all || gained > 0.0
-    }
+    paths
 }
 
 fn cost(paths: &[Toolpath]) -> f64 {
@@ -200,7 +168,7 @@ fn far_pieces(ring: &[Point], others: &Sides, interrupt: &Interrupt) -> Vec<Vec<
 
 /// Rings as few paths: each continues at the nearest ring of the next level when a step over is short; where several paths could go on
 /// there, the one begun last does.
-fn joined(levels: &[Vec<Vec<Point>>], reach: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
+fn joined(levels: &[Vec<Vec<Point>>], room: &Room, reach: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
     let mut ends: HashMap<Cell, Vec<usize>> = HashMap::new();
     for line in levels.iter().flatten().take_while(|_| !interrupt.is_raised()) {
@@ -211,10 +179,13 @@ fn joined(levels: &[Vec<Vec<Point>>], reach: f64, interrupt: &Interrupt) -> Vec<
         let near = |start: usize| around(cell(line[start], reach)).filter_map(|cell| known.get(&cell)).flatten();
         let pairs = starts.flat_map(|start| near(start).map(move |path| (*path, start)));
         let pairs = pairs.map(|(path, start)| (path, line[start].distance(end_of(path)), start));
-        let best = pairs.filter(|(_, distance, _)| *distance <= reach).reduce(|best, next| {
-            let is_better = next.0 > best.0 || (next.0 == best.0 && next.1 < best.1);
-            if is_better { next } else { best }
-        });
+        let mut best: Option<(usize, f64, usize)> = None;
+        for next in pairs.filter(|(_, distance, _)| *distance <= reach) {
+            let is_better = best.is_none_or(|best| next.0 > best.0 || (next.0 == best.0 && next.1 < best.1));
+            if is_better && room.holds(end_of(next.0), line[next.2]) {
+                best = Some(next);
+            }
+        }
         let from = |start: usize| {
             let turned = line[start..].iter().chain(if is_ring { &line[1..=start] } else { &[] });
             turned.copied().collect::<Vec<Point>>()

@@ -1,6 +1,7 @@
 //! One ring along the border and lines back and forth inside it.
 
 use super::super::Toolpath;
+use super::room::Room;
 use crate::geometry::{Insets, Point};
 use crate::interrupt::Interrupt;
 
@@ -8,10 +9,11 @@ use crate::interrupt::Interrupt;
 const TUCK: f64 = 0.55;
 
 /// A filled outline as its border rings (closed lines) and lines along its longer extent, a pitch apart, joined back and forth where they
-/// lie side by side. None where the inside holds no line; some of the lines once the interrupt is raised.
+/// lie side by side and the room holds the step. None where the inside holds no line; some of the lines once the interrupt is raised.
 pub(super) fn hatching(
     insets: &Insets,
     border: &[Vec<Point>],
+    room: &Room,
     nib: f64,
     pitch: f64,
     interrupt: &Interrupt,
@@ -35,7 +37,7 @@ pub(super) fn hatching(
     let heights: Vec<f64> = (0..count as usize).map(|k| low + (k as f64 + 0.5) * step).collect();
     let rows = spans(&rings, &heights).into_iter().take_while(|_| !interrupt.is_raised());
     let mut paths: Vec<Toolpath> = border.iter().map(|ring| Toolpath::new(ring.clone())).collect();
-    paths.extend(back_and_forth(rows, 2.5 * pitch).into_iter().map(|line| {
+    paths.extend(back_and_forth(rows, 2.5 * pitch, |a, b| room.holds(turned(a), turned(b))).into_iter().map(|line| {
         let points = line.into_iter().map(turned).collect();
         Toolpath::new(points)
     }));
@@ -72,7 +74,11 @@ fn spans(rings: &[Vec<Point>], rows: &[f64]) -> Vec<Vec<[Point; 2]>> {
 
 /// Spans of successive rows, each from left to right, as few lines: each row's span continues a line whose end is within reach of one of
 /// its own.
-fn back_and_forth(rows: impl Iterator<Item = Vec<[Point; 2]>>, reach: f64) -> Vec<Vec<Point>> {
+fn back_and_forth(
+    rows: impl Iterator<Item = Vec<[Point; 2]>>,
+    reach: f64,
+    joins: impl Fn(Point, Point) -> bool,
+) -> Vec<Vec<Point>> {
     let mut done: Vec<Vec<Point>> = Vec::new();
     let mut open: Vec<Vec<Point>> = Vec::new();
     for row in rows {
@@ -81,9 +87,10 @@ fn back_and_forth(rows: impl Iterator<Item = Vec<[Point; 2]>>, reach: f64) -> Ve
         open.sort_by(|a, b| end_of(a).x.total_cmp(&end_of(b).x));
         let places: Vec<Point> = open.iter().map(end_of).collect();
         for [left, right] in row {
-            let near = |i: usize| places[i].distance(left).min(places[i].distance(right));
+            let nearer = |i: usize| if places[i].distance(left) <= places[i].distance(right) { left } else { right };
+            let near = |i: usize| places[i].distance(nearer(i));
             let beside = |x: f64| places.partition_point(|p| p.x < x - reach)..places.partition_point(|p| p.x <= x + reach);
-            let ends = beside(left.x).chain(beside(right.x)).filter(|&i| !open[i].is_empty());
+            let ends = beside(left.x).chain(beside(right.x)).filter(|&i| !open[i].is_empty() && joins(places[i], nearer(i)));
             let best = ends.min_by(|&a, &b| near(a).total_cmp(&near(b)));
             match best.filter(|&i| near(i) <= reach) {
                 Some(i) => {
@@ -112,12 +119,13 @@ mod tests {
     fn a_square_is_its_border_and_one_line_back_and_forth() {
         let insets = Insets::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z").unwrap(), 0.01);
         let border = insets.rings(0.25);
+        let room = Room::new(&insets.grown(-0.25), 0.5);
         let closed: Vec<Vec<Point>> = border.iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
-        let paths = hatching(&insets, &closed, 0.5, 0.45, &Interrupt::never()).unwrap();
+        let paths = hatching(&insets, &closed, &room, 0.5, 0.45, &Interrupt::never()).unwrap();
         assert_eq!(paths.len(), 2);
         let length: f64 = paths.iter().map(Toolpath::length).sum();
         assert!((200.0..250.0).contains(&length), "{length}");
-        assert!(hatching(&insets, &border, 12.0, 10.0, &Interrupt::never()).is_none());
+        assert!(hatching(&insets, &border, &room, 12.0, 10.0, &Interrupt::never()).is_none());
     }
 
     #[test]
@@ -125,7 +133,8 @@ mod tests {
         // Rows at 4.574 and 5.426 pass above and below what is left of the small square, 4.845 to 5.155.
         let insets = Insets::new(&BezPath::from_svg("M0,0 H40 V10 H0 Z M50,4.1 H51.8 V5.9 H50 Z").unwrap(), 0.01);
         let border: Vec<Vec<Point>> = insets.rings(0.25).iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
-        let paths = hatching(&insets, &border, 0.5, 0.9, &Interrupt::never()).unwrap();
+        let room = Room::new(&insets.grown(-0.25), 0.5);
+        let paths = hatching(&insets, &border, &room, 0.5, 0.9, &Interrupt::never()).unwrap();
         let inside = |path: &&Toolpath| path.points.iter().all(|p| p.x > 50.5);
         assert_eq!(paths.iter().filter(inside).count(), 1);
     }

@@ -7,8 +7,11 @@
 mod area;
 mod dash;
 mod dot;
+mod ground;
 mod hatch;
 mod needle;
+mod net;
+mod room;
 mod stroke;
 mod swell;
 mod thin;

@@ -3,8 +3,8 @@
 use super::dash::Sample;
 use crate::geometry::{BezPath, Point, Rect, Region, Vec2, half_plane, polygon_area, polyline_length, resample};
 
-/// Side, in nibs, of the pieces into which a shape with holes is cut: its threads run everywhere, and no one line through it is its middle.
-/// With 2, a thread falls into pieces that are less than half a touch and are lost; with 8, holes are filled.
+/// Side, in nibs, of the pieces into which a net is cut: each is given its own threads' ink. With 2, most are less than half a touch; with
+/// 16, the ink of a whole net is laid where its threads are widest.
 const PIECE: f64 = 4.0;
 
 /// A shape's ink, in square millimetres: its first ring's area less those of the others, which turn the other way.
@@ -12,14 +12,14 @@ pub(super) fn ink_of(shape: &[Vec<Point>]) -> f64 {
     shape.iter().map(|ring| polygon_area(ring)).sum::<f64>().abs()
 }
 
-/// A shape with holes cut into pieces of a few nibs; one without stays whole.
+/// A shape cut into pieces of a few nibs.
 pub(super) fn pieces(shape: Vec<Vec<Point>>, nib: f64) -> Vec<Vec<Vec<Point>>> {
     let mut done = Vec::new();
     let mut left = vec![shape];
     while let Some(shape) = left.pop() {
         let all = shape.iter().flatten();
         let bounds = all.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)).unwrap_or_default();
-        if shape.len() < 2 || bounds.width().max(bounds.height()) <= PIECE * nib {
+        if bounds.width().max(bounds.height()) <= PIECE * nib {
             done.push(shape);
             continue;
         }
@@ -115,6 +115,6 @@ mod tests {
         let cut = pieces(frame.clone(), 0.5);
         assert!(cut.len() > 10, "{}", cut.len());
         assert!((cut.iter().map(|piece| ink_of(piece)).sum::<f64>() - ink_of(&frame)).abs() < 1e-9);
-        assert_eq!(pieces(vec![square(0.0, 10.0)], 0.5).len(), 1);
+        assert_eq!(pieces(vec![square(0.0, 2.0)], 0.5).len(), 1);
     }
 }

@@ -1,0 +1,52 @@
+//! The ground on which the dashes of narrow parts are drawn: where their ink is asked for, where it is there already, where it spills.
+
+use crate::geometry::{Insets, Point, Region, Vec2, resample};
+
+/// What is to be inked, and what of it is inked already where the nib fits.
+pub(super) struct Ground {
+    asked: Region,
+    reached: Region,
+}
+
+/// Places across the nib at which its ink is looked at; 5 are right to a tenth.
+const ACROSS: i32 = 5;
+/// Share of a dash on ink that is there already from which it must cover more than it spills. A dash that begins at a wide part's border
+/// has a tenth there; a thread of a net, between two places where the nib fits, a third or more.
+const SHARED: f64 = 0.2;
+
+impl Ground {
+    pub fn new(asked: &Insets, reached: &Insets) -> Self {
+        // Polygons: nothing is flattened.
+        let region = |insets: &Insets| Region::new(&insets.path(), 1.0);
+        Self { asked: region(asked), reached: region(reached) }
+    }
+
+    /// Whether a dash may be drawn: it stands by itself, or covers more than it spills. Nets' threads beside one another would fill the
+    /// holes else.
+    pub fn bears(&self, points: &[Point], nib: f64) -> bool {
+        let half = 0.5 * nib;
+        let grid = (-ACROSS..=ACROSS).flat_map(|j| (-ACROSS..=ACROSS).map(move |i| Vec2::new(f64::from(i), f64::from(j))));
+        let under: Vec<Vec2> = grid.map(|v| v * (half / f64::from(ACROSS))).filter(|v| v.hypot() <= half).collect();
+        let middles = if points.len() > 1 { resample(points, half) } else { points.to_vec() };
+        let (mut shared, mut gained, mut all) = (0.0, 0.0, 0.0);
+        for place in middles.iter().flat_map(|p| under.iter().map(|v| *p + *v)) {
+            all += 1.0;
+            if self.reached.contains(place) {
+                shared += 1.0;
+            } else {
+                gained += if self.asked.contains(place) { 1.0 } else { -1.0 };
+            }
+        }
+        shared < SHARED * all || gained > 0.0
+    }
+
+    /// Whether ink is asked for at a place.
+    pub fn is_asked(&self, place: Point) -> bool {
+        self.asked.contains(place)
+    }
+
+    /// Whether it is inked where the nib fits.
+    pub fn is_reached(&self, place: Point) -> bool {
+        self.reached.contains(place)
+    }
+}
