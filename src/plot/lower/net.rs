@@ -17,7 +17,7 @@ const WAYS: usize = 16;
 /// Shares of the ink newly laid that must lie on threads, and up to what share of a piece's ink: the best places first. Tuned on the
 /// hedcuts of the tests, of which the dark bust at a nib of 0.8 mm spills most: with 1 for all, it spills more than 3 % of its ink; without
 /// the last, threads of half a nib and less would be lost.
-const LEVELS: [(f64, f64); 4] = [(0.95, 1.0), (0.9, 1.0), (0.8, 0.6), (0.6, 0.3)];
+const LEVELS: [(f64, f64); 4] = [(0.95, 1.0), (0.9, 1.0), (0.8, 0.5), (0.6, 0.15)];
 /// Share of a touch, and of a step, that must lie on bare threads.
 const LEAST_TOUCH: f64 = 0.4;
 const LEAST_STEP: f64 = 0.4;
