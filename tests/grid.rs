@@ -152,6 +152,7 @@ struct Case<'a> {
     style: &'a str,
     photo: &'a [u8],
     mask: Option<&'a [u8]>,
+    detail: Option<&'a [u8]>,
     mm: (f64, f64),
     tone: ToneTarget,
     set: &'a [(&'a str, &'a str)],
@@ -183,12 +184,14 @@ impl Case<'_> {
         let given: Vec<(String, String)> = self.set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
         let settings = Settings::resolve(self.style, style.parameters(), &given).unwrap();
         let photograph = Photograph::decode(self.photo, Limits::default()).unwrap();
-        let placement = Placement::new(Rect::new(0.0, 0.0, self.mm.0, self.mm.1), style.pixels_per_mm(&settings, &[]));
+        let roles: &[MaskRole] = if self.detail.is_some() { &[MaskRole::Detail] } else { &[] };
+        let placement = Placement::new(Rect::new(0.0, 0.0, self.mm.0, self.mm.1), style.pixels_per_mm(&settings, roles));
         let (crop, page) = (Crop::all(&photograph), Page::new(self.mm.0, self.mm.1));
         let mut portrait = Portrait::new(&photograph, crop, page, placement, self.tone, ToneCurve::default()).unwrap();
-        if let Some(bytes) = self.mask {
+        for (role, bytes) in [(MaskRole::Subject, self.mask), (MaskRole::Detail, self.detail)] {
+            let Some(bytes) = bytes else { continue };
             let mask = Photograph::decode(bytes, Limits::default()).unwrap();
-            portrait.add_mask(MaskRole::Subject, &mask, &photograph, crop).unwrap();
+            portrait.add_mask(role, &mask, &photograph, crop).unwrap();
         }
         let stages = Stages::default();
         let drawing = style.draw(&portrait, &settings, 0, &stages).unwrap();
@@ -250,7 +253,8 @@ fn dot_centres(drawing: &Drawing) -> Vec<Point> {
 /// On every point that calls for ink; a patch without stripes would be farther away.
 fn check_holes((name, mm, mask): SamplePicture) {
     let (photo, mask) = (sample(name), mask.map(sample));
-    let case = Case { style: "grid", photo: &photo, mask: mask.as_deref(), mm, tone: ToneTarget::Lightness, set: &[] };
+    let case =
+        Case { style: "grid", photo: &photo, mask: mask.as_deref(), detail: None, mm, tone: ToneTarget::Lightness, set: &[] };
     let (portrait, _, stages) = case.draw();
     let ink = portrait.ink();
     for family in ["along", "across"] {
@@ -320,7 +324,8 @@ fn no_point_of_the_dark_bust_is_far_from_a_line_of_either_family() {
 fn check_alignment((name, mm, mask): SamplePicture) {
     let (photo, mask) = (sample(name), mask.map(sample));
     // All crossings as dots, where the hedcut has all of its own.
-    let case = |style, set| Case { style, photo: &photo, mask: mask.as_deref(), mm, tone: ToneTarget::Lightness, set };
+    let case =
+        |style, set| Case { style, photo: &photo, mask: mask.as_deref(), detail: None, mm, tone: ToneTarget::Lightness, set };
     let (portrait, grid, stages) = case("grid", &[("size_max", "0.75mm"), ("lines", "off"), ("reversed_from", "1")]).draw();
     let (_, hedcut, _) = case("hedcut", &[("highlights", "off"), ("outline", "off"), ("reversed_from", "1")]).draw();
     let strokes = curves(&stages["field"], "field", 1.0);
@@ -388,7 +393,7 @@ fn tones() -> Vec<f64> {
 fn wedge_errors(set: &[(&str, &str)]) -> Vec<(f64, f64)> {
     let tones = tones();
     let photo = png_of_light(600, 800, |x, y| tones[(x / 200 + 3 * (y / 200)) as usize]);
-    let case = Case { style: "grid", photo: &photo, mask: None, mm: (60.0, 80.0), tone: ToneTarget::Linear, set };
+    let case = Case { style: "grid", photo: &photo, mask: None, detail: None, mm: (60.0, 80.0), tone: ToneTarget::Linear, set };
     let white = rendered(&svg_of(&case.draw().1), FINE);
     (0..12)
         .map(|i| {
@@ -430,12 +435,65 @@ fn lines_that_close_up_have_the_tone_of_the_wedge() {
     check_wedge("not reversed", &[("pitch", "0.8mm"), ("reversed_from", "1")]);
 }
 
+/// A disc of detail of 12 mm in each patch: the tone holds in it, on its border and around it, and three times the dots stand in it.
+#[test]
+fn detail_has_three_times_the_dots_and_the_tone_of_the_wedge() {
+    let (tones, disc) = (tones(), 6.0);
+    let from_middle = |x: f64, y: f64| (x % 20.0 - 10.0).hypot(y % 20.0 - 10.0);
+    let photo = png_of_light(600, 800, |x, y| tones[(x / 200 + 3 * (y / 200)) as usize]);
+    let detail =
+        png_of_light(600, 800, |x, y| if from_middle(f64::from(x) / 10.0, f64::from(y) / 10.0) < disc { 1.0 } else { 0.0 });
+    for size_max in ["0.8mm", "0.4mm", "0"] {
+        let set = [("pitch", "0.8mm"), ("size_max", size_max)];
+        let mut case = Case {
+            style: "grid",
+            photo: &photo,
+            mask: None,
+            detail: Some(&detail),
+            mm: (60.0, 80.0),
+            tone: ToneTarget::Linear,
+            set: &set,
+        };
+        let drawing = case.draw().1;
+        let white = rendered(&svg_of(&drawing), FINE);
+        let mut worst = [0.0_f64; 3];
+        for (i, tone) in tones.iter().enumerate() {
+            let (left, top) = (20.0 * (i % 3) as f64, 20.0 * (i / 3) as f64);
+            for (zone, (from, to)) in [(0.0, disc - 1.0), (disc - 1.0, disc + 1.5), (disc + 1.5, 9.0)].into_iter().enumerate() {
+                let (mut sum, mut count) = (0.0, 0.0);
+                for y in 0..(20.0 * FINE) as usize {
+                    for x in 0..(20.0 * FINE) as usize {
+                        let (px, py) = ((x as f64 + 0.5) / FINE, (y as f64 + 0.5) / FINE);
+                        if (from..to).contains(&from_middle(px, py)) {
+                            sum += f64::from(white.get((left * FINE) as usize + x, (top * FINE) as usize + y));
+                            count += 1.0;
+                        }
+                    }
+                }
+                worst[zone] = worst[zone].max((sum / count - tone).abs());
+            }
+        }
+        println!("size_max {size_max}: off by {worst:.4?} at most inside, on the border and outside");
+        assert!(worst.iter().all(|off| *off <= 0.015), "size_max {size_max}: {worst:?}");
+        let inside = |drawing: &Drawing| {
+            dot_centres(drawing).iter().filter(|p| p.y < 40.0 && from_middle(p.x, p.y) < disc - 1.0).count() as f64
+        };
+        let fine = inside(&drawing);
+        case.detail = None;
+        let even = inside(&case.draw().1);
+        if size_max == "0.8mm" {
+            assert!((2.7..3.3).contains(&(fine / even)), "{fine} dots for {even}");
+        }
+    }
+}
+
 /// A ramp of 200 mm; the error of tone may not jump from one strip of two pitches to the next.
 #[test]
 fn the_change_from_dots_to_lines_is_no_step() {
     let photo = png_of_light(1600, 160, |x, _| f64::from(x) / 1600.0);
     let set = [("pitch", "0.8mm"), ("isophotes", "0"), ("lines", "off")];
-    let case = Case { style: "grid", photo: &photo, mask: None, mm: (160.0, 16.0), tone: ToneTarget::Linear, set: &set };
+    let case =
+        Case { style: "grid", photo: &photo, mask: None, detail: None, mm: (160.0, 16.0), tone: ToneTarget::Linear, set: &set };
     let white = rendered(&svg_of(&case.draw().1), FINE);
     let strip = 3.2;
     let errors: Vec<f64> = (1..49)
@@ -453,7 +511,8 @@ fn the_change_from_dots_to_lines_is_no_step() {
 fn tiles_do_not_overlap_and_carry_colours() {
     let photo = sample("coffee.png");
     let set = [("primitive", "tile"), ("pitch", "2mm")];
-    let case = Case { style: "grid", photo: &photo, mask: None, mm: (90.0, 60.0), tone: ToneTarget::Lightness, set: &set };
+    let case =
+        Case { style: "grid", photo: &photo, mask: None, detail: None, mm: (90.0, 60.0), tone: ToneTarget::Lightness, set: &set };
     let (_, drawing, _) = case.draw();
     let tiles: Vec<_> =
         drawing.layers[0].marks.iter().filter_map(|m| if let Mark::Area(area) = m { Some(area) } else { None }).collect();
@@ -471,7 +530,8 @@ fn kurbo_area(outline: &drypoint::geometry::BezPath) -> f64 {
 fn seeds_differ_and_repeat() {
     let photo = png_of_light(90, 90, |x, y| f64::from(x + y) / 180.0);
     let style = find("grid").unwrap();
-    let case = Case { style: "grid", photo: &photo, mask: None, mm: (20.0, 20.0), tone: ToneTarget::Lightness, set: &[] };
+    let case =
+        Case { style: "grid", photo: &photo, mask: None, detail: None, mm: (20.0, 20.0), tone: ToneTarget::Lightness, set: &[] };
     let (portrait, first, _) = case.draw();
     let settings = Settings::resolve("grid", style.parameters(), &[]).unwrap();
     let draw = |seed| svg_of(&style.draw(&portrait, &settings, seed, &drypoint::style::Silent).unwrap());

@@ -314,3 +314,32 @@ fn a_folder_that_was_written_draws_what_was_found() {
     assert_eq!(refused.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("sight.json is no sight"), "{refused:?}");
 }
+
+#[cfg(feature = "see")]
+#[test]
+fn the_first_stages_are_what_was_seen() {
+    let folder = folder();
+    fs::write(folder.path().join("photo.jpg"), sample("grace-hopper.jpg")).unwrap();
+    let stages = |name: &str, options: &[&str]| {
+        runs(folder.path(), &[&["stages", "photo.jpg", "-o", name], &SMALL[..], options].concat());
+        let entries = fs::read_dir(folder.path().join(name)).unwrap();
+        let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    // The hedcut has a use for some of them only.
+    let names = stages("found", &[]);
+    assert_eq!(names[..3], ["01-subject.png", "02-skin.png", "03-hair.png"]);
+    for role in ["headwear", "clothing", "detail", "faces", "depth"] {
+        assert!(names.iter().any(|name| name.ends_with(&format!("-{role}.png"))), "{role}: {names:?}");
+    }
+    let place = |step: &str| names.iter().position(|name| name.contains(step)).unwrap();
+    assert!(place("-depth.png") < place("-tone.png"), "{names:?}");
+    // What was painted stands in the place of what was found.
+    grey_png(&folder.path().join("left.png"), 128, 150, |x, _| if x < 64 { 255 } else { 0 });
+    stages("painted", &["--mask", "subject=left.png"]);
+    let painted = image::open(folder.path().join("painted/01-subject.png")).unwrap().to_luma8();
+    assert_eq!((painted.get_pixel(10, 60).0, painted.get_pixel(100, 60).0), ([255], [0]));
+    // Unseen, nothing of it is shown.
+    assert_eq!(stages("unseen", &["--sight", "none"])[0], "01-tone.png");
+}

@@ -19,6 +19,7 @@ use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
+use super::seen_stages;
 use super::toolpaths;
 use super::words::counted;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
@@ -29,6 +30,7 @@ use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrai
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
 use crate::tone::portrait_tone;
 use crate::write::{SvgHead, write_inkml, write_pdf, write_svg};
+use image::DynamicImage;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::path::Path;
@@ -185,7 +187,7 @@ pub(super) struct RoleMask {
 impl RoleMask {
     /// The name of its role on the command line.
     pub(super) fn name(&self) -> &'static str {
-        MaskRole::ALL.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name)
+        self.role.name()
     }
 
     /// Where it comes from.
@@ -270,6 +272,11 @@ impl<'a> Task<'a> {
         self.known.notices.iter().filter(|_| !is_quiet).for_each(|notice| say!("drypoint: {notice}"));
     }
 
+    /// What was seen of the photograph, by name.
+    pub(super) fn seen(&self) -> Result<Vec<(&'static str, DynamicImage)>, Failure> {
+        seen_stages::pictures(&self.photograph, &self.known).map_err(|error| Failure::about(&self.options.photo)(&error))
+    }
+
     /// The parameters with another pitch; none when the style has none like that.
     pub(super) fn settings_at(&self, pitch: f64) -> Option<Settings> {
         let mut given = self.given.clone();
@@ -292,8 +299,9 @@ impl<'a> Task<'a> {
     /// What drawing a picture takes; its photographs are in memory already.
     pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
         let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
-        let masks = self.known.masks.iter().chain(&self.known.people).map(|mask| &mask.mask);
-        let others = masks.chain(self.known.depth.iter().map(|depth| &depth.map));
+        let unused = &self.known.unused;
+        let masks = self.known.masks.iter().chain(&self.known.people).chain(&unused.masks).map(|mask| &mask.mask);
+        let others = masks.chain(self.known.depth.iter().chain(&unused.depth).map(|depth| &depth.map));
         let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
         Cost { bytes: cost.bytes + photographs as f64, ..cost }
     }

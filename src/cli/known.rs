@@ -23,6 +23,8 @@ pub(super) struct Known {
     pub faces: Vec<Landmarks>,
     pub depth: Option<Depth>,
     pub tone: Wanted,
+    /// What was seen and this style has no use for; `stages` shows it.
+    pub unused: Seen,
     /// What the user is told of it, and how to have the other.
     pub notices: Vec<String>,
 }
@@ -87,8 +89,15 @@ pub(super) fn of(
 ) -> Result<Known, Failure> {
     let mut seen = seen(options, photograph)?;
     let tone = wanted_tone(options, &seen)?;
-    let mut known =
-        Known { masks: painted, people: None, faces: seen.faces.clone(), depth: depth(options)?, tone, notices: Vec::new() };
+    let mut known = Known {
+        masks: painted,
+        people: None,
+        faces: seen.faces.clone(),
+        depth: depth(options)?,
+        tone,
+        unused: Seen::default(),
+        notices: Vec::new(),
+    };
     decide_background(&mut known, &mut seen, options, style, photograph.is_cut_out())?;
     let by_tone: &[MaskRole] = if matches!(known.tone, Wanted::Portrait(_)) { tone::ROLES } else { &[] };
     for role in style.masks().iter().chain(by_tone).filter(|role| **role != MaskRole::Subject) {
@@ -101,6 +110,7 @@ pub(super) fn of(
     }
     tell_of_tone(&mut known, options);
     tell_of_idle_masks(&mut known, style);
+    known.unused = seen;
     Ok(known)
 }
 

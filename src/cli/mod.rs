@@ -35,6 +35,7 @@ mod progress;
 mod resume;
 mod scale_to_time;
 mod see;
+mod seen_stages;
 mod sight_folder;
 mod stages;
 mod toolpaths;

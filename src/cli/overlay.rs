@@ -1,9 +1,8 @@
-//! What was found, drawn over the photograph, to look at.
+//! What was seen, drawn over the photograph, to look at.
 
-use crate::geometry::{Point, resample};
+use crate::geometry::{Point, Rect, resample};
 use crate::raster::Raster;
-use crate::see::{Face, Sight};
-use crate::source::{Crop, Photograph, SourceError, outlines};
+use crate::source::{Crop, Landmarks, Photograph, SourceError, outlines};
 use image::{Rgb, RgbImage};
 
 /// Longer side of the overlay, at most: enough for eyes, and no burden for viewers.
@@ -14,12 +13,24 @@ const SHOWS: f32 = 0.25;
 /// Half the width of a line, in longer sides of the overlay.
 const LINE: f64 = 0.0008;
 
-/// The photograph with its background veiled and the lines of each face.
-pub(super) fn overlay(sight: &Sight, photograph: &Photograph) -> Result<RgbImage, SourceError> {
-    let scale = (LONGEST / f64::from(sight.width.max(sight.height))).min(1.0);
-    let [columns, rows] = [sight.width, sight.height].map(|side| (f64::from(side) * scale).round().max(1.0) as usize);
+/// A face to draw.
+pub(super) struct Overlaid<'a> {
+    pub landmarks: &'a Landmarks,
+    /// The detector's box, where it is known.
+    pub bounds: Option<Rect>,
+}
+
+/// The photograph with its background veiled and the lines of each face; `subject` is 255 inside and of the photograph's proportions.
+pub(super) fn overlay(
+    photograph: &Photograph,
+    subject: Option<&Raster<u8>>,
+    faces: &[Overlaid<'_>],
+) -> Result<RgbImage, SourceError> {
+    let size = [photograph.width(), photograph.height()];
+    let scale = (LONGEST / f64::from(size[0].max(size[1]))).min(1.0);
+    let [columns, rows] = size.map(|side| (f64::from(side) * scale).round().max(1.0) as usize);
     let mut pixels = photograph.encoded(Crop::all(photograph), columns, rows)?;
-    if let Some(subject) = &sight.subject {
+    if let Some(subject) = subject {
         let subject = subject.map(|v| f32::from(v) / 255.0);
         let (x_step, y_step) = (subject.width() as f64 / columns as f64, subject.height() as f64 / rows as f64);
         pixels = Raster::from_fn(columns, rows, |x, y| {
@@ -29,13 +40,13 @@ pub(super) fn overlay(sight: &Sight, photograph: &Photograph) -> Result<RgbImage
             [0, 1, 2].map(|k| (shows * f32::from(colour[k]) + (1.0 - shows) * BACKGROUND[k]).round() as u8)
         });
     }
-    for face in &sight.faces {
+    for face in faces {
         draw_face(&mut pixels, face, scale);
     }
     Ok(RgbImage::from_fn(columns as u32, rows as u32, |x, y| Rgb(pixels.get(x as usize, y as usize))))
 }
 
-fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Face, scale: f64) {
+fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Overlaid<'_>, scale: f64) {
     let lines: [(&[usize], bool, [u8; 3]); 9] = [
         (&outlines::OVAL, true, [255, 0, 0]),
         (&outlines::LEFT_EYE, true, [0, 255, 0]),
@@ -62,7 +73,7 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Face, scale: f64) {
         draw_line(pixels, &(0..=32).map(round).collect::<Vec<_>>(), scale, [0, 255, 255]);
         draw_line(pixels, &[iris.centre, iris.centre], scale, [0, 255, 255]);
     }
-    let b = face.bounds;
+    let Some(b) = face.bounds else { return };
     let corners = [(b.x0, b.y0), (b.x1, b.y0), (b.x1, b.y1), (b.x0, b.y1), (b.x0, b.y0)].map(Point::from);
     draw_line(pixels, &corners, scale, [255, 255, 255]);
 }

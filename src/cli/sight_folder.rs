@@ -4,7 +4,7 @@
 use super::draw::{RoleMask, photograph};
 use super::failure::Failure;
 use super::known::{Depth, Seen};
-use super::overlay::overlay;
+use super::overlay::{Overlaid, overlay};
 use super::stages::png;
 use super::{claims, output};
 use crate::geometry::{Point, Rect};
@@ -22,8 +22,7 @@ const OVERLAY: &str = "overlay.png";
 
 /// The picture of a role.
 fn file_of(role: MaskRole) -> String {
-    let name = MaskRole::ALL.iter().find(|(_, known)| *known == role).map_or("", |(name, _)| name);
-    format!("{name}.png")
+    format!("{}.png", role.name())
 }
 
 /// Writes all that was found; what an earlier sight left there and this one has not is removed.
@@ -51,7 +50,9 @@ pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Re
         png(depth, &grey.expect("a raster's pixels fill it").into())?;
     }
     if sight.subject.is_some() {
-        let picture = overlay(sight, photograph).map_err(|error| Failure::about(&name)(&error))?;
+        let faces: Vec<Overlaid<'_>> =
+            sight.faces.iter().map(|face| Overlaid { landmarks: &face.landmarks, bounds: Some(face.bounds) }).collect();
+        let picture = overlay(photograph, sight.subject.as_ref(), &faces).map_err(|error| Failure::about(&name)(&error))?;
         png(overlaid, &picture.into())?;
     }
     let mut text = serde_json::to_vec_pretty(&as_json(sight, photograph)).expect("a value is JSON");

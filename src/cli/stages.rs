@@ -1,4 +1,4 @@
-//! `drypoint stages`: every intermediate result, numbered and named.
+//! `drypoint stages`: what was seen and every intermediate result, numbered and named.
 
 use super::arguments::StagesOptions;
 use super::draw::{Task, limit_threads};
@@ -26,6 +26,9 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be made: {error}")))?;
     let recorder =
         Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };
+    for (name, picture) in task.seen()? {
+        recorder.write(name, |stem| png(&format!("{stem}.png"), &picture));
+    }
     let drawn = task.draw(&recorder);
     recorder.watcher.finish();
     let taken = recorder.taken.into_inner().expect("no stage panics while it is written");
@@ -53,6 +56,19 @@ struct Taken {
     failure: Option<Failure>,
 }
 
+impl Recorder {
+    /// One more picture; none after a failure.
+    fn write(&self, name: &str, write: impl FnOnce(&str) -> Result<(), Failure>) {
+        let mut taken = self.taken.lock().expect("no stage panics while it is written");
+        if taken.failure.is_some() {
+            return;
+        }
+        taken.count += 1;
+        let stem = self.folder.join(format!("{:02}-{name}", taken.count)).to_string_lossy().into_owned();
+        taken.failure = write(&stem).err();
+    }
+}
+
 impl Observer for Recorder {
     fn begin(&self, step: &str) {
         self.watcher.begin(step);
@@ -63,19 +79,12 @@ impl Observer for Recorder {
     }
 
     fn picture(&self, name: &str, make: &dyn Fn() -> Picture) {
-        let mut taken = self.taken.lock().expect("no stage panics while it is written");
-        if taken.failure.is_some() {
-            return;
-        }
-        taken.count += 1;
-        let stem = self.folder.join(format!("{:02}-{name}", taken.count)).to_string_lossy().into_owned();
-        let written = match make() {
+        self.write(name, |stem| match make() {
             Picture::Drawing(drawing) => svg(&format!("{stem}.svg"), &drawing, name),
             Picture::Grey(raster) => png(&format!("{stem}.png"), &grey(&raster)),
             Picture::Mask(raster) => png(&format!("{stem}.png"), &grey(&raster.map(|v| if v == 0 { 1.0 } else { 0.0 }))),
             Picture::Labels(raster) => png(&format!("{stem}.png"), &coloured(&raster)),
-        };
-        taken.failure = written.err();
+        });
     }
 
     fn warn(&self, message: &str) {

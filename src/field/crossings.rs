@@ -7,13 +7,16 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Where both phases are 0, no two nearer than `least` pixels.
+/// A length in pixels that differs from place to place.
+pub type LocalLength<'a> = &'a (dyn Fn(Point) -> f64 + Sync);
+
+/// Where both phases are 0, no two nearer than `least` pixels at the later one's place.
 ///
 /// Within each cell both phases are bilinear; each pair of whole cycles in the cell's range is sought by Newton's method.
 ///
 /// # Panics
 /// If the lattices differ in size.
-pub fn crossings(along: &StripeLattice, across: &StripeLattice, least: f64) -> Vec<Point> {
+pub fn crossings(along: &StripeLattice, across: &StripeLattice, least: LocalLength<'_>) -> Vec<Point> {
     assert_eq!(along.phase.width(), across.phase.width(), "both families stand on one lattice");
     let (columns, rows) = (along.phase.width().saturating_sub(1), along.phase.height().saturating_sub(1));
     let by_row: Vec<Vec<Point>> = (0..rows)
@@ -32,18 +35,18 @@ pub fn crossings(along: &StripeLattice, across: &StripeLattice, least: f64) -> V
     apart(Vec::new(), &by_row.concat(), least)
 }
 
-/// Places for more points where none is within `reach` pixels: rows that end leave holes. At the corners of Voronoi cells, which
-/// are the farthest from all points.
-pub fn holes(points: &[Point], field: Rect, reach: f64) -> Vec<Point> {
+/// Places for more points where none is within `reach` pixels, which is `farthest` at most: rows that end leave holes. At the corners
+/// of Voronoi cells, which are the farthest from all points.
+pub fn holes(points: &[Point], field: Rect, reach: LocalLength<'_>, farthest: f64) -> Vec<Point> {
     if points.is_empty() {
         return Vec::new();
     }
-    let sites = Sites::new(points, field.x1, field.y1, reach);
+    let sites = Sites::new(points, field.x1, field.y1, farthest);
     let corners: Vec<Vec<(f64, Point)>> = (0..points.len())
         .into_par_iter()
         .map(|i| {
-            let cell = cell_polygon(&sites, i, field, 2.0 * reach);
-            cell.into_iter().map(|p| (p.distance(points[i]), p)).filter(|(away, _)| *away > reach).collect()
+            let cell = cell_polygon(&sites, i, field, 2.0 * farthest);
+            cell.into_iter().map(|p| (p.distance(points[i]) / reach(p), p)).filter(|(away, _)| *away > 1.0).collect()
         })
         .collect();
     let mut corners = corners.concat();
@@ -93,8 +96,9 @@ fn solve(a: &CellPhases, b: &CellPhases, first: f64, second: f64) -> Option<(f64
 }
 
 /// The kept points and those of the others that are no nearer than `least` to one before them.
-fn apart(kept: Vec<Point>, others: &[Point], least: f64) -> Vec<Point> {
-    let cell = |p: &Point| ((p.x / least).floor() as i64, (p.y / least).floor() as i64);
+fn apart(kept: Vec<Point>, others: &[Point], least: LocalLength<'_>) -> Vec<Point> {
+    let side = others.iter().map(|p| least(*p)).fold(f64::MIN_POSITIVE, f64::max);
+    let cell = |p: &Point| ((p.x / side).floor() as i64, (p.y / side).floor() as i64);
     let mut by_cell: HashMap<(i64, i64), Vec<Point>> = HashMap::new();
     for p in &kept {
         by_cell.entry(cell(p)).or_default().push(*p);
@@ -103,6 +107,7 @@ fn apart(kept: Vec<Point>, others: &[Point], least: f64) -> Vec<Point> {
     for p in others {
         let (cx, cy) = cell(p);
         let near = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (cx + dx, cy + dy)));
+        let least = least(*p);
         let is_free = near.filter_map(|c| by_cell.get(&c)).flatten().all(|q| q.distance(*p) >= least);
         if is_free {
             by_cell.entry((cx, cy)).or_default().push(*p);
@@ -121,9 +126,9 @@ mod tests {
         let all: Vec<Point> =
             (0..100).map(|i| Point::new(f64::from(i % 10) * 6.0 + 3.0, f64::from(i / 10) * 6.0 + 3.0)).collect();
         let field = Rect::new(0.0, 0.0, 60.0, 60.0);
-        assert!(holes(&all, field, 5.7).is_empty());
+        assert!(holes(&all, field, &|_| 5.7, 5.7).is_empty());
         let without: Vec<Point> = all.iter().copied().filter(|p| p.distance(all[44]) > 1.0).collect();
-        let found = holes(&without, field, 5.7);
+        let found = holes(&without, field, &|_| 5.7, 5.7);
         assert_eq!(found.len(), 1);
         assert!(found[0].distance(all[44]) < 0.5);
     }

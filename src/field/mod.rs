@@ -40,7 +40,7 @@ pub use b_spline::{BSpline, Datum, multilevel_b_spline};
 pub use coherent_lines::{CoherentLine, CoherentLines, coherent_lines};
 pub use contour::contours;
 pub use covering::{Covering, cover};
-pub use crossings::{crossings, holes};
+pub use crossings::{LocalLength, crossings, holes};
 pub use direction::{DirectionField, FieldParameters, Guides, Singularity, direction_field};
 pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};

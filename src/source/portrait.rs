@@ -67,6 +67,11 @@ impl MaskRole {
         ("scribbles", Self::Scribbles),
     ];
 
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, role)| *role == self).map_or("", |(name, _)| name)
+    }
+
     /// What its picture shows, for a user.
     pub const fn meaning(self) -> &'static str {
         match self {

@@ -66,7 +66,7 @@ pub fn both_families(field: &Field, size: (usize, usize), seed: u64) -> [StripeL
 }
 
 pub fn dots_of(families: &[StripeLattice; 2]) -> Vec<Point> {
-    crossings(&families[0], &families[1], 0.6 * PITCH)
+    crossings(&families[0], &families[1], &|_| 0.6 * PITCH)
 }
 
 /// How dots keep to a field.

@@ -16,7 +16,8 @@ const MICROSECONDS: f64 = 1.5;
 const STEP_MICROSECONDS: f64 = 0.0015;
 
 pub(super) fn cost(parameters: &Gridding, picture: Rect, pixels_per_mm: f64) -> Cost {
-    let (adaptive, closer) = (f64::from(parameters.adaptive), 1.0 / (1.0 - f64::from(parameters.adaptive)));
+    let narrowest = parameters.narrowest(parameters.is_for_detail(pixels_per_mm));
+    let (adaptive, closer) = (1.0 - narrowest, 1.0 / narrowest);
     // Nodes stand half a pitch apart, closer where stripes do; each small step widens the window by two fifths of a node's square.
     let window = 2.0 * closer * parameters.window_mm / parameters.pitch_mm;
     let steps = f64::from(parameters.rounds) * (0.625 * window * window).max(1.0);

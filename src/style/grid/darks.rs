@@ -78,7 +78,7 @@ impl Darks {
 fn meshes(drawer: &Drawer<'_>, grid: &StructureGrid) -> Vec<Point> {
     let shifted = |family: &StripeLattice| StripeLattice { phase: family.phase.map(|[re, im]| [-re, -im]), ..family.clone() };
     let [along, across] = [0, 1].map(|family| shifted(&grid.stripes[family]));
-    drawer.points(&along, &across).0
+    drawer.points(&along, &across, &grid.spacing).0
 }
 
 fn reversed_cell(cell: Cell, mixing: &Mixing, pitch: f64) -> ReversedCell {

@@ -30,7 +30,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], d
         .filter_map(|(i, cell)| {
             let radius = radius(drawer, grid, &mixing, cell, ink);
             let least = if cell.is_cut { LEAST_CUT_RADIUS } else { LEAST_RADIUS };
-            (radius > least * drawer.pitch()).then(|| Mark::Dot(mark(drawer, grid, cell, radius, i)))
+            (radius > least * grid.spacing.at(cell.centre)).then(|| Mark::Dot(mark(drawer, grid, cell, radius, i)))
         })
         .collect();
     layer
@@ -44,7 +44,7 @@ fn radius(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, cell: &Cel
         return 0.0;
     }
     if drawer.parameters.overlap == Overlap::Paper {
-        return (1.0 - share) * paper_radius(1.0 - cell.ink / cell.area.max(1e-9), drawer.pitch());
+        return (1.0 - share) * paper_radius(1.0 - cell.ink / cell.area.max(1e-9), grid.spacing.at(cell.centre));
     }
     if share == 0.0 {
         return radius_for_area(&cell.polygon, cell.centre, cell.ink);

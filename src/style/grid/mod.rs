@@ -20,7 +20,7 @@ use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use cells::Cell;
 use darks::Darks;
-use parameters::{Gridding, PIXELS_PER_PITCH, Primitive};
+use parameters::{Gridding, Primitive};
 use structure::StructureGrid;
 
 /// The style.
@@ -44,15 +44,15 @@ impl Style for Grid {
     }
 
     fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject, MaskRole::Edges, MaskRole::Isophotes]
+        &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes]
     }
 
     fn leaves_out_background(&self) -> bool {
         true
     }
 
-    fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
-        PIXELS_PER_PITCH / settings.number("pitch")
+    fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
+        Gridding::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
@@ -142,6 +142,11 @@ impl Drawer<'_> {
     /// The pitch in working pixels.
     fn pitch(&self) -> f64 {
         self.pixels(self.parameters.pitch_mm)
+    }
+
+    /// Where dots and lines stand closer.
+    fn detail(&self) -> Option<&Raster<f32>> {
+        self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.has_detail)
     }
 
     /// A length of the page in working pixels.

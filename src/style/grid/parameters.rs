@@ -4,7 +4,12 @@ use crate::source::MaskRole;
 use crate::style::{Default, Kind, Need, Parameter, Settings};
 
 /// Working pixels a pitch, as in the paper (`d = 6`).
-pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
+const PIXELS_PER_PITCH: f64 = 6.0;
+/// The same with closer dots somewhere: four for each of these.
+const PIXELS_PER_PITCH_WITH_DETAIL: f64 = 7.0;
+
+/// How many times closer rows stand in detail regions, where three times the dots stay in square cells.
+pub(super) const DETAIL_CLOSENESS: f32 = 1.732_050_8;
 
 /// Dots and hatching, not tiles.
 const MIXED: Need = Need::Word("primitive", &["mixed"]);
@@ -236,6 +241,13 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         needs: &[],
     },
     Parameter {
+        name: "detail",
+        kind: Kind::Choice(&["auto", "off"]),
+        meaning: "dots and lines in detail regions, which are those of --mask detail=FILE, else the eyes, brows, noses and mouths that are found: auto sets them sqrt(3) as close, so that there are three times as many; off as everywhere",
+        source: "Son 5.2, scale factor of the window; Bruehl 4.3.2",
+        needs: &[Need::With(MaskRole::Detail)],
+    },
+    Parameter {
         name: "feature_rows",
         kind: Kind::Choice(&["beside", "on", "free"]),
         meaning: "the rows nearest to a feature line run half a pitch beside it, or on it, or where they fall",
@@ -309,6 +321,7 @@ pub(super) struct Gridding {
     pub window_mm: f64,
     pub rounds: u32,
     pub adaptive: f32,
+    pub has_detail: bool,
     pub feature_rows: FeatureRows,
 }
 
@@ -355,11 +368,28 @@ impl Gridding {
             window_mm: settings.number("window").min(WIDEST_WINDOW * settings.number("pitch")),
             rounds: count("rounds"),
             adaptive: settings.number("adaptive") as f32,
+            has_detail: settings.word("detail") == "auto",
             feature_rows: match settings.word("feature_rows") {
                 "on" => FeatureRows::On,
                 "free" => FeatureRows::Free,
                 _ => FeatureRows::Beside,
             },
         }
+    }
+
+    /// The least spacing anywhere, in pitches.
+    pub(super) fn narrowest(&self, is_given_detail: bool) -> f64 {
+        let in_detail = if self.has_detail && is_given_detail { f64::from(DETAIL_CLOSENESS) } else { 1.0 };
+        f64::from(1.0 - self.adaptive) / in_detail
+    }
+
+    /// Whether a picture has this resolution for the sake of its detail regions.
+    pub(super) fn is_for_detail(&self, pixels_per_mm: f64) -> bool {
+        pixels_per_mm * self.pitch_mm > 0.5 * (PIXELS_PER_PITCH + PIXELS_PER_PITCH_WITH_DETAIL)
+    }
+
+    /// Working pixels a pitch.
+    pub(super) const fn pixels_per_pitch(&self, is_given_detail: bool) -> f64 {
+        if self.has_detail && is_given_detail { PIXELS_PER_PITCH_WITH_DETAIL } else { PIXELS_PER_PITCH }
     }
 }

@@ -1,0 +1,79 @@
+//! How like the drawings of faces are, and how their tone is: `cargo bench --bench portraits [-- FOLDER]`.
+//!
+//! Each photograph of a person (those of `samples`, or all JPEG and PNG files of a folder) is drawn in every style by the whole command,
+//! with no mask and nothing tuned, and printed by resvg. The face finder that looked at the photograph looks at the print: how far
+//! are eyes, nose and mouth from where they were? Then the tone of the faces as hedcuts, weighed on the print.
+
+mod face_tone;
+mod likeness;
+mod print;
+mod sitter;
+
+use face_tone::FaceTone;
+use likeness::{Likeness, Row};
+use print::Print;
+use sitter::{Sitter, Skin};
+use std::path::Path;
+
+/// One way to draw.
+struct Way {
+    name: &'static str,
+    options: &'static [&'static str],
+    /// Most that a feature may be off in the median, in percent of the distance of the eyes.
+    limit: f64,
+}
+
+/// Portraits are 90 mm wide by default.
+const WAYS: [Way; 6] = [
+    Way { name: "hedcut", options: &["--style", "hedcut"], limit: 3.0 },
+    Way { name: "grid", options: &["--style", "grid"], limit: 3.0 },
+    Way { name: "engrave", options: &["--style", "engrave", "--set", "pitch=0.4"], limit: 3.0 },
+    Way { name: "charcoal", options: &["--style", "charcoal"], limit: 3.0 },
+    Way { name: "glass", options: &["--style", "glass"], limit: 3.0 },
+    Way { name: "hedcut 38x50", options: &["--crop", "head", "--size", "38x50mm", "--set", "pitch=0.35"], limit: 5.0 },
+];
+/// Pixels a millimetre at which the face finder looks at a print, which it makes smaller itself.
+const TO_LOOK_AT: f64 = 20.0;
+
+fn main() {
+    let folder = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let paths = sitter::photographs(folder.as_deref().map(Path::new));
+    let (sitters, faceless): (Vec<Sitter>, Vec<String>) = sitter::seen(&paths);
+    faceless.iter().for_each(|name| println!("{name}: no face found, left out"));
+    assert!(!sitters.is_empty(), "there is no portrait to draw");
+    let place = tempfile::tempdir().expect("a folder for the drawings");
+    let count = |skin: Skin| sitters.iter().filter(|sitter| sitter.skin() == skin).count();
+    println!(
+        "{} portraits; skin by its median L*: {} light (60 and more), {} brown, {} dark (below 45)\n",
+        sitters.len(),
+        count(Skin::Light),
+        count(Skin::Brown),
+        count(Skin::Dark)
+    );
+    println!("likeness: medians in % of the distance of the eyes");
+    println!(
+        "{:14} {:>7} {:>6} {:>6} {:>6}          all three: {:>6} {:>6} {:>6}",
+        "", "found", "eyes", "nose", "mouth", "light", "brown", "dark"
+    );
+    for way in &WAYS {
+        let rows: Vec<Row> = sitters.iter().map(|sitter| Row::new(sitter, likeness(sitter, way, place.path()))).collect();
+        likeness::report(way.name, &rows, way.limit);
+    }
+    println!("\ntone of faces, hedcut 90 mm wide");
+    let tones: Vec<(&str, FaceTone)> = sitters.iter().map(|sitter| (sitter.name.as_str(), tone(sitter, place.path()))).collect();
+    face_tone::report(&tones);
+}
+
+fn likeness(sitter: &Sitter, way: &Way, place: &Path) -> Option<Likeness> {
+    let svg = print::drawn(&sitter.path, way.options, place);
+    likeness::likeness(sitter, &Print::new(&svg, TO_LOOK_AT))
+}
+
+fn tone(sitter: &Sitter, place: &Path) -> FaceTone {
+    let svg = print::drawn(&sitter.path, WAYS[0].options, place);
+    face_tone::measured(sitter, &Print::new(&svg, 2.0 * TO_LOOK_AT))
+}
+
+fn kept(is_kept: bool) -> &'static str {
+    if is_kept { "kept" } else { "MISSED" }
+}
