@@ -188,8 +188,11 @@ pub fn report(tones: &[(&str, FaceTone)]) {
     );
 }
 
+/// What is promised, and whether a face keeps it.
+type Promise = (&'static str, fn(&FaceTone) -> bool);
+
 /// What every face was promised.
-const PROMISES: [(&str, fn(&FaceTone) -> bool); 5] = [
+const PROMISES: [Promise; 5] = [
     ("bare, 2 to 25 % of the face", |tone| (0.02..=0.25).contains(&tone.bare)),
     ("black, at most 5 % of the face", |tone| tone.black <= 0.05),
     ("eyes, contrast at least the photograph's", |tone| tone.eyes.is_enough()),

@@ -75,7 +75,7 @@ impl Print {
 
 fn recipe(svg: &str) -> Value {
     let document = resvg::usvg::roxmltree::Document::parse(svg).expect("the drawing is sound");
-    let texts = document.descendants().filter(|node| node.is_text()).filter_map(|node| node.text());
+    let texts = document.descendants().filter(resvg::usvg::roxmltree::Node::is_text).filter_map(|node| node.text());
     let mut recipes = texts.filter_map(|text| serde_json::from_str(text.trim()).ok());
     recipes.next().expect("the drawing holds its recipe")
 }
