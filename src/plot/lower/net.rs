@@ -137,10 +137,10 @@ impl<'a> Net<'a> {
         let (start, laid) = good.reduce(|a, b| if b.1.covered > a.1.covered { b } else { a })?;
         self.ink(patch, start, laid);
         let mut ends = [vec![self.middle(start)], Vec::new()];
-        for k in 0..2 {
+        for end in &mut ends {
             let mut at = self.middle(start);
             while let Some(next) = self.step(patch, at, level) {
-                ends[k].push(next);
+                end.push(next);
                 at = next;
             }
         }
