@@ -21,7 +21,7 @@
 //! | [`mod@write`] | a drawing or a plot | bytes |
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
 //! | [`resume`] | a plotter's file and where it stopped | the rest of it |
-//! | [`cli`] | arguments | the only place with files, stdout and exit codes |
+//! | `cli` (cargo feature) | arguments | the only place with files, stdout and exit codes |
 //! | [`mod@interrupt`] | | a request to stop, which long loops everywhere look at |
 //!
 //! The page is in millimetres, x right, y down, from the sheet's upper left corner; pixels exist only left of [`style`]. Tone is
@@ -48,6 +48,7 @@
 //! # }
 //! ```
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod drawing;
 pub mod field;

@@ -1,5 +1,6 @@
 //! Whatever a file asks for is counted before it is done: each of these small files once took all memory or never ended. All of them
 //! are read, or refused with the number and the limit, within two gigabytes.
+#![cfg(feature = "cli")]
 
 use assert_cmd::Command;
 use drypoint::read::{Budget, SvgError, read_svg, read_svg_within};

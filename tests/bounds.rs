@@ -1,5 +1,6 @@
 //! What is asked for has ends: nibs, tolerances and scales have ranges, and what would not fit into memory is refused before it is begun,
 //! with what would fit.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,5 +1,6 @@
 //! The test sheet of every machine: inside sheet and machine, exact where it is measured, and read back as it was asked. A plot
 //! kept to a time.
+#![cfg(feature = "cli")]
 
 mod common;
 

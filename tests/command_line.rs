@@ -1,4 +1,5 @@
 //! The command line's contract: exit status, messages, whole files or none, the same bytes on any number of threads.
+#![cfg(feature = "cli")]
 
 mod common;
 

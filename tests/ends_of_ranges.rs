@@ -1,4 +1,5 @@
 //! Every parameter of every style can be set to either end of its range.
+#![cfg(feature = "cli")]
 
 mod common;
 

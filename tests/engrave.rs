@@ -1,4 +1,5 @@
 //! The engraving's promises: lines never cross, follow the depth, and print the tone.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Nothing that was given is destroyed: no output is an input or another output, whatever way it is spelled.
+#![cfg(feature = "cli")]
 
 mod common;
 

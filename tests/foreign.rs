@@ -1,4 +1,5 @@
 //! SVGs of other programs: each file of `tests/data/foreign` is drawn as it looks, or what is not drawn is counted.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Time, marks and ink are told before the work is done, about right, and without doing it.
+#![cfg(feature = "cli")]
 
 mod common;
 

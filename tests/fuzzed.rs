@@ -1,5 +1,6 @@
 //! What the fuzzer starts from and what it has found goes through the very functions that it calls: `fuzz/seeds` and
 //! `tests/data/fuzz`, a folder for each target.
+#![cfg(feature = "cli")]
 
 #[path = "../fuzz/checks/mod.rs"]
 mod checks;

@@ -1,5 +1,6 @@
 //! Every machine's file does what was asked: read back to the same motion, inside sheet and machine, pen up first and last, and with no
 //! word that the machine does not know or that could ruin a sheet.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Pens, colours and speeds: what the machine has is used, and what became of the rest is said.
+#![cfg(feature = "cli")]
 
 use assert_cmd::Command;
 use drypoint::plot::{Language, Profile, built_in_names};

@@ -1,4 +1,5 @@
 //! All ink stays inside the box asked for by half a line's width too; and the tone at its border is kept.
+#![cfg(feature = "cli")]
 
 #[path = "common/any_style.rs"]
 mod any_style;

@@ -1,4 +1,5 @@
 //! Where a drawing lies on its sheet, and that the advice of a refusal works when it is followed.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -3,6 +3,7 @@
 //! What is left between the two on drawings, 0.1 to 0.2 %, is mostly the firmware's own rounding: a stop that falls on the end of a
 //! segment may make the last step up to 33 ms late (the column `late`). See
 //! `a_stop_on_the_end_of_a_segment_is_late`.
+#![cfg(feature = "cli")]
 
 mod common;
 mod grbl;

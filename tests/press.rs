@@ -1,4 +1,5 @@
 //! For the press: PDF as other programs read it, and ink that print changes on its way to the paper.
+#![cfg(feature = "cli")]
 
 mod common;
 

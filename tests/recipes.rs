@@ -1,4 +1,5 @@
 //! Every command of the README and of `docs/` does what it says, run as written.
+#![cfg(feature = "cli")]
 
 use rayon::prelude::*;
 use std::fs;

@@ -1,4 +1,5 @@
 //! What is said of a drawing is so: roles of masks, crops, warnings, names of files, plurals.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! The rest of a file and what was drawn before it are the whole drawing's ink, and nothing else, on every machine.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! `see`, `draw --sight` and `--background` on the command line.
+#![cfg(feature = "cli")]
 
 mod common;
 

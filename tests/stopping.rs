@@ -1,5 +1,6 @@
 //! Ctrl-C, SIGTERM and SIGHUP end the program soon, wherever it is, and leave nothing behind; nor does SIGKILL spoil a file; and
 //! nobody needs to listen to stderr.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Paths of many segments and many crossings are plotted, or refused before the work, within two gigabytes.
+#![cfg(feature = "cli")]
 #![cfg(target_os = "linux")]
 
 use std::fmt::Write;

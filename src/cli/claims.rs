@@ -4,6 +4,7 @@
 use super::failure::Failure;
 use super::output::follow_links;
 use std::fs::{self, Metadata};
+#[cfg(unix)]
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -14,21 +15,28 @@ static READ: Mutex<Vec<(String, Identity)>> = Mutex::new(Vec::new());
 #[derive(Clone, Debug, PartialEq)]
 enum Identity {
     /// Device and inode.
+    #[cfg(unix)]
     Inode(u64, u64),
-    /// Where it will be made.
+    /// Where it will be made; where the system knows no inodes, where it is.
     Place(PathBuf),
 }
 
 impl Identity {
     /// Of a file with bytes of its own: devices and pipes may be read and written as often as one likes.
-    fn of(found: &Metadata) -> Option<Self> {
+    #[cfg(unix)]
+    fn of(_: &Path, found: &Metadata) -> Option<Self> {
         found.is_file().then(|| Self::Inode(found.dev(), found.ino()))
+    }
+
+    #[cfg(not(unix))]
+    fn of(path: &Path, found: &Metadata) -> Option<Self> {
+        if found.is_file() { fs::canonicalize(path).ok().map(Self::Place) } else { None }
     }
 
     fn of_output(name: &str) -> Option<Self> {
         let path = if name == "-" { PathBuf::from("/dev/stdout") } else { follow_links(Path::new(name)) };
         match fs::metadata(&path) {
-            Ok(found) => Self::of(&found),
+            Ok(found) => Self::of(&path, &found),
             Err(_) if name == "-" => None,
             Err(_) => {
                 let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -39,9 +47,9 @@ impl Identity {
     }
 }
 
-/// Notes a file that is read.
-pub(super) fn reads(name: &str, found: &Metadata) {
-    let Some(identity) = Identity::of(found) else { return };
+/// Notes a file that is read: its name, and where it is.
+pub(super) fn reads(name: &str, path: &Path, found: &Metadata) {
+    let Some(identity) = Identity::of(path, found) else { return };
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     if !read.iter().any(|(_, known)| *known == identity) {
         read.push((name.to_owned(), identity));
@@ -50,8 +58,9 @@ pub(super) fn reads(name: &str, found: &Metadata) {
 
 /// Notes the file that stdin is, if it is one.
 pub(super) fn reads_stdin() {
-    if let Ok(found) = fs::metadata("/dev/stdin") {
-        reads("stdin", &found);
+    let path = Path::new("/dev/stdin");
+    if let Ok(found) = fs::metadata(path) {
+        reads("stdin", path, &found);
     }
 }
 

@@ -3,11 +3,20 @@
 use super::failure::Failure;
 use super::messages::say;
 use crate::interrupt::Interrupt;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+#[cfg(unix)]
+use signal_hook::consts::SIGHUP;
+use signal_hook::consts::{SIGINT, SIGTERM};
+#[cfg(unix)]
 use signal_hook::iterator::Signals;
 use std::fs::{self, File, Permissions};
 use std::io;
+#[cfg(unix)]
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+#[cfg(not(unix))]
+use std::sync::Arc;
+#[cfg(not(unix))]
+use std::sync::atomic::AtomicBool;
 use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -22,31 +31,55 @@ static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// The time that the work has to end by itself: with what follows, less than a second.
 const GRACE: Duration = Duration::from_millis(600);
+/// How often signals are looked at where they cannot be waited for.
+#[cfg(not(unix))]
+const LOOKING: Duration = Duration::from_millis(50);
 /// The time that a renaming under way is waited for.
 const RENAMING: Duration = Duration::from_millis(200);
 
 /// The first signal asks the work to end and ends the process if it goes on; the second ends the process at once.
+#[cfg(unix)]
 pub(super) fn catch() {
     let hang_up = Some(SIGHUP).filter(|signal| !is_ignored(*signal));
     let caught = [SIGINT, SIGTERM].into_iter().chain(hang_up);
     // Without a handler the process just ends, which is also right.
     let Ok(mut signals) = Signals::new(caught) else { return };
     std::thread::spawn(move || {
-        for signal in signals.forever() {
-            if STOPPED_BY.swap(signal, Ordering::SeqCst) != 0 {
-                end();
-            }
-            INTERRUPT.raise();
-            std::thread::spawn(|| {
-                std::thread::sleep(GRACE);
-                end();
-            });
+        signals.forever().for_each(stopped_by);
+    });
+}
+
+/// The same where signals cannot be waited for: they are looked at every now and then.
+#[cfg(not(unix))]
+pub(super) fn catch() {
+    let flag = |signal: i32| {
+        let flag = Arc::new(AtomicBool::new(false));
+        let is_caught = signal_hook::flag::register(signal, Arc::clone(&flag)).is_ok();
+        is_caught.then_some((signal, flag))
+    };
+    let flags: Vec<(i32, Arc<AtomicBool>)> = [SIGINT, SIGTERM].into_iter().filter_map(flag).collect();
+    std::thread::spawn(move || {
+        loop {
+            std::thread::sleep(LOOKING);
+            flags.iter().filter(|(_, flag)| flag.swap(false, Ordering::SeqCst)).for_each(|(signal, _)| stopped_by(*signal));
         }
+    });
+}
+
+fn stopped_by(signal: i32) {
+    if STOPPED_BY.swap(signal, Ordering::SeqCst) != 0 {
+        end();
+    }
+    INTERRUPT.raise();
+    std::thread::spawn(|| {
+        std::thread::sleep(GRACE);
+        end();
     });
 }
 
 /// Whether whoever started us wants a signal ignored, as `nohup` wants of SIGHUP. (Shells ignore SIGINT for all that they start in the
 /// background, where nobody meant it for us.)
+#[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -66,7 +99,7 @@ pub(super) fn is_interrupted() -> bool {
 
 /// 130 after Ctrl-C, 143 after SIGTERM or SIGHUP.
 pub(super) fn exit_status() -> u8 {
-    if matches!(STOPPED_BY.load(Ordering::SeqCst), SIGTERM | SIGHUP) { 143 } else { 130 }
+    if matches!(STOPPED_BY.load(Ordering::SeqCst), 0 | SIGINT) { 130 } else { 143 }
 }
 
 /// Ends the process, whatever its threads do.
@@ -90,10 +123,18 @@ fn end() -> ! {
 pub(super) struct Temporary(Option<NamedTempFile>);
 
 impl Temporary {
-    pub(super) fn beside(path: &Path, permissions: Permissions) -> io::Result<Self> {
+    /// With the permissions of the file that it replaces, else with those of any new file.
+    pub(super) fn beside(path: &Path, replaced: Option<Permissions>) -> io::Result<Self> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut known = known();
-        let file = tempfile::Builder::new().prefix(".drypoint-").permissions(permissions).tempfile_in(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".drypoint-");
+        #[cfg(unix)]
+        let replaced = replaced.or_else(|| Some(PermissionsExt::from_mode(0o666)));
+        if let Some(permissions) = replaced {
+            builder.permissions(permissions);
+        }
+        let file = builder.tempfile_in(folder)?;
         known.push(file.path().to_owned());
         Ok(Self(Some(file)))
     }

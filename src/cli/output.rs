@@ -5,7 +5,6 @@ use super::failure::Failure;
 use super::interruption::{Temporary, is_interrupted};
 use std::fs;
 use std::io::{self, Read, Write};
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a TOML file beyond which it is not read: 2000 keys, where a machine's profile has 50. Each key's line is found from the
@@ -46,7 +45,7 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
         if found.is_dir() {
             return Err(refuse("is a folder; give a file"));
         }
-        claims::reads(name, &found);
+        claims::reads(name, Path::new(name), &found);
     }
     Ok(Box::new(file))
 }
@@ -62,7 +61,7 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     let fail = Failure::writing(name);
     let followed = follow_links(Path::new(name));
     let path = followed.as_path();
-    let mut mode = 0o666;
+    let mut replaced = None;
     match fs::metadata(path) {
         Ok(found) if found.is_dir() => return Err(Failure::Work(format!("{name} is a folder; give a file name with -o"))),
         Ok(found) if !found.is_file() => {
@@ -72,11 +71,11 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
         }
         // A file that may not be written is not replaced behind its owner's back.
         Ok(found) if found.permissions().readonly() => return Err(fail(io::ErrorKind::PermissionDenied.into())),
-        Ok(found) => mode = found.permissions().mode() & 0o7777,
+        Ok(found) => replaced = Some(found.permissions()),
         Err(_) => {}
     }
-    let mut temporary = Temporary::beside(path, fs::Permissions::from_mode(mode))
-        .map_err(|error| Failure::writing(name)(io::Error::from(error.kind())))?;
+    let mut temporary =
+        Temporary::beside(path, replaced).map_err(|error| Failure::writing(name)(io::Error::from(error.kind())))?;
     {
         let mut out = io::BufWriter::new(temporary.file());
         fill(&mut out).and_then(|()| out.flush()).map_err(&fail)?;

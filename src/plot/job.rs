@@ -331,8 +331,9 @@ fn bounds_of(plot: &Plot) -> Option<Rect> {
     points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
 }
 
-/// Where the pen starts, on the page: machine zero, else the page's upper left corner.
-pub(crate) fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
+/// Where the pen starts, in millimetres on the page: machine zero, as near as the page comes to it; without a machine the page's upper
+/// left corner.
+pub fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
     let zero = mounting.map_or(Point::ORIGIN, |m| m.to_machine.inverse() * Point::ORIGIN);
     Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
 }

@@ -24,8 +24,7 @@ pub use calibration::{Calibration, CalibrationError, calibration_page, calibrati
 pub use coverage::{Coverage, coverage};
 pub use drying::let_dry;
 pub use errands::{add_registration, pause_every, rest_touches};
-pub(crate) use job::home_of;
-pub use job::{Beyond, Cut, Job, JobError, JobOptions, PlacingMarks, Wish};
+pub use job::{Beyond, Cut, Job, JobError, JobOptions, PlacingMarks, Wish, home_of};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Room, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded, occluded_where};
