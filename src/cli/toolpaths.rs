@@ -50,7 +50,10 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
     if let Some(speed) = options.speed {
         let key = if profile.motion.draw_speed_limit.is_some() { "draw_speed_limit" } else { "travel_speed" };
         check_speed(("--speed", speed), "draws", fastest[0], key, &profile)?;
-        profile.motion.draw_speed = told_speed(&profile, speed);
+        profile.motion.draw_speed = speed;
+        if profile.language == Language::Hpgl {
+            profile.motion.draw_speed = profile.told_speed(speed);
+        }
     }
     if let Some(speed) = options.travel_speed {
         let key = if profile.motion.travel_speed_limit.is_some() { "travel_speed_limit" } else { "travel_speed" };
@@ -79,11 +82,6 @@ fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str
         "{option} {speed}: {} {does} at {fastest} mm/s at most; for a faster machine --set-profile motion.{key}={speed}",
         profile.name
     )))
-}
-
-/// The speed that the machine can be told: HP-GL's in whole centimetres a second.
-fn told_speed(profile: &Profile, speed: f64) -> f64 {
-    if profile.language == Language::Hpgl { (speed / 10.0).floor().max(1.0) * 10.0 } else { speed }
 }
 
 /// Refuses a format that the profile's machine does not read.

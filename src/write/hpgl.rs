@@ -59,10 +59,9 @@ pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut
 /// A place in whole plotter units.
 type Unit = (i64, i64);
 
-/// Centimetres a second, whole, within what the machine takes.
+/// Whole centimetres a second.
 fn speed(profile: &Profile, wanted: f64) -> i64 {
-    let limit = profile.motion.draw_speed_limit.unwrap_or(profile.motion.draw_speed);
-    ((wanted.min(limit) / 10.0).floor() as i64).max(1)
+    (profile.told_speed(wanted) / 10.0).round() as i64
 }
 
 /// Whole plotter units inside the machine's limits (the check has forgiven less than a unit).

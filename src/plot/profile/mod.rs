@@ -122,6 +122,19 @@ impl Profile {
         swelling.chain([height.down]).min_by(|a, b| (a - height.up).abs().total_cmp(&(b - height.up).abs()))
     }
 
+    /// The drawing speed nearest to the one wanted that its language can say, in mm/s: HP-GL's `VS` takes whole centimetres a second and
+    /// no more than the machine's limit, G-code's `F` whole millimetres a minute.
+    pub fn told_speed(&self, wanted: f64) -> f64 {
+        match self.language {
+            Language::Gcode => (wanted * 60.0).round().max(1.0) / 60.0,
+            Language::Svg => wanted,
+            Language::Hpgl => {
+                let limit = self.motion.draw_speed_limit.unwrap_or(self.motion.draw_speed);
+                (wanted.min(limit) / 10.0).floor().max(1.0) * 10.0
+            }
+        }
+    }
+
     /// Metres that the pen in a slot draws, where that is known.
     pub fn life_of(&self, slot: u32) -> Option<f64> {
         self.pen.iter().find(|pen| pen.slot == slot).and_then(|pen| pen.pen_life).or(self.pens.pen_life)

@@ -146,13 +146,7 @@ impl<'a> Run<'a> {
 
     /// The rate that the file asks for, mm/s.
     fn draw_rate(&self, pen: &PenPaths) -> f64 {
-        let motion = &self.profile.motion;
-        let speed = pen.handling.speed(motion.draw_speed);
-        match self.profile.language {
-            Language::Gcode => (speed * 60.0).round().max(1.0) / 60.0,
-            Language::Svg => speed,
-            Language::Hpgl => (speed.min(motion.draw_speed_limit.unwrap_or(motion.draw_speed)) / 10.0).floor().max(1.0) * 10.0,
-        }
+        self.profile.told_speed(pen.handling.speed(self.profile.motion.draw_speed))
     }
 
     fn travel_rate(&self) -> f64 {
