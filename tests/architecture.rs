@@ -75,3 +75,18 @@ fn only_the_command_line_prints_or_opens_files() {
         }
     }
 }
+
+/// Options are the command line's: the library says what was wrong and what would be accepted, and `cli/remedies.rs` which option helps.
+#[test]
+fn the_library_names_no_options() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let is_option = |line: &str| {
+        let starts = line.match_indices("--").map(|(at, _)| &line[at + 2..]);
+        starts.filter_map(|rest| rest.chars().next()).any(|c| c.is_ascii_lowercase())
+    };
+    for file in rust_files(&source).into_iter().filter(|f| !f.components().any(|c| c.as_os_str() == "cli")) {
+        let text = fs::read_to_string(&file).unwrap();
+        let named = text.lines().filter(|line| !line.trim_start().starts_with("//")).find(|line| is_option(line));
+        assert_eq!(named, None, "{}", file.display());
+    }
+}

@@ -661,7 +661,7 @@ fn a_shaved_head_gets_no_wig_and_the_user_hears_of_it() {
         let drawing = Sitting { masks: &masks, set: QUICK, ..Sitting::new(&photo, (45.0, 60.0)) }.draw(&notes);
         let warnings = notes.warnings.lock().unwrap().join("\n");
         assert!(drawing.layers.iter().all(|layer| layer.name != "hair"), "{shade:?} {gleam}: a wig");
-        assert!(warnings.contains("--mask hair=FILE"), "{shade:?} {gleam}: {warnings}");
+        assert!(warnings.contains("a mask of the role hair"), "{shade:?} {gleam}: {warnings}");
     }
 }
 

@@ -33,6 +33,9 @@ fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Op
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
     command.current_dir(folder.path()).timeout(MOST).args(["draw", "face.jpg", "--size", "25x30mm", "--fit", "cover", "-q"]);
     command.args(["--style", style, "--set", &format!("{name}={value}"), "-o", "/dev/null", "--format", "svg", "--threads", "1"]);
+    if cfg!(feature = "see") {
+        command.args(["--sight", "sight"]);
+    }
     let output = command.output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     match output.status.code() {
@@ -46,6 +49,11 @@ fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Op
 fn both_ends_of_every_parameter_are_drawn() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("face.jpg"), sample("astronaut.jpg")).unwrap();
+    if cfg!(feature = "see") {
+        // Looked at once for all.
+        let mut see = Command::new(env!("CARGO_BIN_EXE_drypoint"));
+        see.current_dir(folder.path()).args(["see", "face.jpg", "-o", "sight", "-q"]).assert().success();
+    }
     let values = values();
     assert!(values.len() > 200, "{} values", values.len());
     let (next, faults, slowest) = (AtomicUsize::new(0), Mutex::new(Vec::new()), Mutex::new((Duration::ZERO, String::new())));

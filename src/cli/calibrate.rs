@@ -5,6 +5,7 @@ use super::arguments::{CalibrateOptions, Order, READING};
 use super::failure::Failure;
 use super::messages::say;
 use super::pens::PenSet;
+use super::remedies::advised;
 use super::{job, layout, toolpaths};
 use crate::drawing::Page;
 use crate::plot::{calibration_page, calibration_sheet, mount};
@@ -27,7 +28,7 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
     let drawable = mounting.drawable(&page);
     let count = options.pen_count.unwrap_or(profile.pens.count);
     let sheet = calibration_sheet(&profile, page, drawable, options.pen, count)
-        .map_err(|error| Failure::Work(format!("{}: {error}", profile.name)))?;
+        .map_err(|error| Failure::Work(format!("{}: {}", profile.name, advised(&error))))?;
     // In the order of the sheet: what a trial shows must not depend on what was drawn before it.
     let toolpath_options = super::arguments::ToolpathOptions { order: Order::None, ..options.toolpaths.clone() };
     let job = job::of_paths(sheet.plot, Some(&profile), &toolpath_options, &pens).map_err(advice::for_test_sheet)?;

@@ -19,6 +19,7 @@ use super::messages::{self, say};
 use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
+use super::remedies::advised;
 use super::seen_stages;
 use super::toolpaths;
 use super::words::counted;
@@ -337,7 +338,7 @@ impl<'a> Task<'a> {
             ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
         let about = |name: &str| {
             let name = name.to_owned();
-            move |error: crate::source::SourceError| Failure::about(&name)(&error)
+            move |error: crate::source::SourceError| Failure::about(&name)(&advised(&error))
         };
         let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
             .map_err(about(&self.options.photo))?;

@@ -1,5 +1,6 @@
 //! What went wrong, in the user's words, and the exit status it means.
 
+use super::remedies::advised;
 use std::io;
 use thiserror::Error;
 
@@ -62,7 +63,13 @@ macro_rules! usage_errors {
     })* };
 }
 
-usage_errors!(crate::style::ParameterError, crate::plot::ProfileError);
+usage_errors!(crate::style::ParameterError);
+
+impl From<crate::plot::ProfileError> for Failure {
+    fn from(error: crate::plot::ProfileError) -> Self {
+        Self::Usage(advised(&error))
+    }
+}
 
 impl From<crate::interrupt::Interrupted> for Failure {
     fn from(_: crate::interrupt::Interrupted) -> Self {

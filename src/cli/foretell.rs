@@ -19,6 +19,7 @@ use super::pens::PenSet;
 use crate::drawing::{Drawing, Mixing, Painted};
 use crate::geometry::{Point, Rect};
 use crate::plot::{InkModel, PenPaths, Plot, Profile, Toolpath, lower, mount};
+use crate::source::MaskRole;
 use crate::source::Placement;
 use crate::style::{Observer, Picture, Settings, Silent};
 use std::time::{Duration, Instant};
@@ -229,6 +230,7 @@ impl Observer for Unseen {
     fn progress(&self, _: f64) {}
     fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
     fn warn(&self, _: &str) {}
+    fn want_mask(&self, _: MaskRole, _: &str) {}
     fn is_interrupted(&self) -> bool {
         is_interrupted() || self.until.is_some_and(|until| Instant::now() > until)
     }

@@ -6,6 +6,7 @@ use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;
 use super::messages::{self, warning};
 use super::plot::MORE_WORK;
+use super::remedies::advised;
 use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
@@ -46,7 +47,8 @@ fn inspect_text(shown: &str, bytes: &[u8], profile: Option<Profile>, budget: &mu
     Ok(match kind_of(shown, text) {
         Kind::Svg => inspect_svg(shown, bytes, profile.as_ref(), budget)?,
         Kind::Hpgl => {
-            let motion = read_hpgl_within(text, budget).map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
+            let motion =
+                read_hpgl_within(text, budget).map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))?;
             let profile = profile.map_or_else(|| Profile::built_in("hp7475a"), Ok)?;
             if profile.language != Language::Hpgl {
                 return Err(Failure::Usage(format!("{shown} is HP-GL, which {} does not read", profile.name)));
@@ -113,11 +115,11 @@ fn gcode_motion(shown: &str, text: &str, profile: &Profile, budget: &mut Budget)
         (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: profile.lightest().unwrap_or(height.down) },
         _ => PenLift::Commands { up: dialect.pen_up.as_deref().unwrap_or(""), down: dialect.pen_down.as_deref().unwrap_or("") },
     };
-    read_gcode_within(text, &lift, budget).map_err(|error| Failure::Work(format!("{shown}: {error}")))
+    read_gcode_within(text, &lift, budget).map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))
 }
 
 fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut Budget) -> Result<Value, Failure> {
-    let mut imported = read_svg_within(bytes, budget).map_err(|error| Failure::about(name)(&error))?;
+    let mut imported = read_svg_within(bytes, budget).map_err(|error| Failure::about(name)(&advised(&error)))?;
     if let Some(profile) = profile {
         fit_to_machine(&mut imported, profile);
     }

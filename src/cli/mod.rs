@@ -32,6 +32,7 @@ mod pens;
 mod placing;
 mod plot;
 mod progress;
+mod remedies;
 mod resume;
 mod scale_to_time;
 mod see;

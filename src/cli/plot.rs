@@ -11,6 +11,7 @@ use super::messages::{self, say, warning};
 use super::pens::PenSet;
 use super::placing::{Turning, asked_move};
 use super::progress::Watcher;
+use super::remedies::advised;
 use super::scale_to_time::{Trials, scaled_to};
 use super::{advice, affordable, foretell_plot, job, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
@@ -43,7 +44,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let bytes = output::read(&options.drawing, budget.most_bytes(), MORE_WORK)?;
     let mut imported = read_svg_within(&bytes, &mut budget).map_err(|error| {
         let other = if image::guess_format(&bytes).is_ok() { "; a photograph is drawn with `drypoint draw`" } else { "" };
-        Failure::about(shown)(&format_args!("{error}{other}"))
+        Failure::about(shown)(&format_args!("{}{other}", advised(&error)))
     })?;
     drop(bytes);
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
@@ -148,7 +149,7 @@ fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
 fn too_much(shown: &str, error: &TooMuch) -> Failure {
     match error {
         TooMuch::Interrupted => Failure::Interrupted,
-        _ => Failure::Work(format!("{shown}: {error}")),
+        _ => Failure::Work(format!("{shown}: {}", advised(error))),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::interruption::is_interrupted;
 use super::messages;
+use crate::source::MaskRole;
 use crate::style::{Observer, Picture};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -71,6 +72,10 @@ impl Observer for Watcher {
 
     fn warn(&self, message: &str) {
         self.bar.suspend(|| messages::warning_line(message));
+    }
+
+    fn want_mask(&self, role: MaskRole, message: &str) {
+        self.warn(&format!("{message}; give --mask {}=FILE", role.name()));
     }
 
     fn is_interrupted(&self) -> bool {

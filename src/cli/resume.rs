@@ -4,6 +4,7 @@ use super::arguments::ResumeOptions;
 use super::failure::Failure;
 use super::messages::say;
 use super::output;
+use super::remedies::advised;
 use crate::drawing::Layer;
 use crate::read::read_svg;
 use crate::resume::{Stop, resume_gcode, resume_hpgl};
@@ -31,7 +32,7 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
     } else {
         resume_gcode(&text, stop, options.again)
     };
-    let rest = rest.map_err(|error| Failure::Work(format!("{shown}: {error}")))?;
+    let rest = rest.map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))?;
     output::write(&options.output, |out| out.write_all(rest.as_bytes()))?;
     if !options.quiet && options.output != "-" {
         say!("{}: {} of {} bytes are left to send", options.output, rest.len(), text.len());

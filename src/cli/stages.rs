@@ -9,6 +9,7 @@ use super::progress::Watcher;
 use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
+use crate::source::MaskRole;
 use crate::style::{Observer, Picture};
 use crate::write::{SvgHead, write_svg};
 use image::{GrayImage, ImageFormat, RgbImage};
@@ -89,6 +90,10 @@ impl Observer for Recorder {
 
     fn warn(&self, message: &str) {
         self.watcher.warn(message);
+    }
+
+    fn want_mask(&self, role: MaskRole, message: &str) {
+        self.watcher.want_mask(role, message);
     }
 
     fn is_interrupted(&self) -> bool {

@@ -26,10 +26,7 @@ const OFF: f64 = 0.1;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum TooMuch {
     /// Borders that cross, or wide lines that cover one another, more often than can be worked on.
-    #[error(
-        "its outlines cross or cover one another about {crossings:.0} times, and at most {most:.0} times can be worked on: draw the \
-         lines alone (--ink-model lines), leave out --occlude, or draw it in parts"
-    )]
+    #[error("its outlines cross or cover one another about {crossings:.0} times, and at most {most:.0} times can be worked on")]
     Crossings {
         /// How often, within a tenth.
         crossings: f64,
@@ -37,10 +34,7 @@ pub enum TooMuch {
         most: f64,
     },
     /// More line than a plotter draws in days.
-    #[error(
-        "its ink is about {metres:.0} m of line, and at most {most:.0} m can be worked on: take a wider pen (--pen), make it smaller \
-         (--scale), or draw it in parts (--layers)"
-    )]
+    #[error("its ink is about {metres:.0} m of line, and at most {most:.0} m can be worked on")]
     Length {
         /// Metres.
         metres: f64,
@@ -204,7 +198,6 @@ mod tests {
         let wild = path((0..20_000).map(|i| Point::new(place(i, 0.754_877), place(i, 0.569_840))));
         let refused = check(vec![Mark::Area(Area { outline: wild, colour: None })], None).unwrap_err();
         assert!(matches!(refused, TooMuch::Crossings { crossings, .. } if crossings > 1e7), "{refused}");
-        assert!(refused.to_string().contains("--ink-model lines"));
         let fine = path((0..200_000).map(|i| {
             let angle = f64::from(i) * std::f64::consts::TAU / 200_000.0;
             Point::new(100.0 + 90.0 * angle.cos(), 100.0 + 90.0 * angle.sin())

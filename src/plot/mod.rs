@@ -31,8 +31,8 @@ pub use occlude::{Hides, occluded, occluded_where};
 pub use order::{Direction, Effort, PathEnds, Stop, Visit, chain, drop_duplicates, order, order_stops, pen_up_length};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
 pub use profile::{
-    Area, Axes, Comment, Corner, GcodeDialect, Height, HpglDialect, Language, Lift, Limits, Motion, Paper, PenChange, PenSlot,
-    Pens, Planner, Profile, ProfileError, SvgDialect, Swell, Travel, Way, built_in, built_in_names,
+    Area, Axes, Comment, Corner, GcodeDialect, Height, HpglDialect, KeyPlace, Language, Lift, Limits, Motion, Paper, PenChange,
+    PenSlot, Pens, Planner, Profile, ProfileError, SvgDialect, Swell, Travel, Way, built_in, built_in_names,
 };
 pub use report::{PenReport, PlotReport, report};
 pub use seam::Seam;

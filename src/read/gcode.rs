@@ -41,6 +41,7 @@ pub enum GcodeError {
         /// Line, from 1.
         line: usize,
         /// How much.
+        #[source]
         work: TooMuchWork,
     },
 }

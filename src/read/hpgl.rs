@@ -34,6 +34,7 @@ pub enum HpglError {
         /// Where the instruction begins.
         at: usize,
         /// How much.
+        #[source]
         work: TooMuchWork,
     },
     /// An odd number of coordinates.

@@ -99,9 +99,7 @@ pub enum SourceError {
         height: u32,
     },
     /// The working raster would be too large.
-    #[error(
-        "would need {pixels} working pixels on this page at this pitch, beyond the limit of {limit}; use a larger --pitch or a smaller --size"
-    )]
+    #[error("would need {pixels} working pixels on this page at this pitch, beyond the limit of {limit}")]
     WorkTooLarge {
         /// Pixels needed.
         pixels: u64,

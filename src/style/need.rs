@@ -47,7 +47,7 @@ impl Need {
         }
     }
 
-    /// What would meet it, as it stands on the command line.
+    /// What would meet it.
     pub fn text(&self) -> String {
         match self {
             Self::Word(name, words) => format!("{name}={}", words.join(" or ")),
@@ -55,9 +55,9 @@ impl Need {
             Self::BelowPitches(name, most) => format!("{name} below {} pitches", (most * 100.0).round() / 100.0),
             Self::Nonzero(name) => format!("{name} other than 0"),
             Self::Zero(name) => format!("{name}=0"),
-            Self::With(role) => format!("--mask {}=FILE", role_name(*role)),
-            Self::Without(role) => format!("no --mask {}", role_name(*role)),
-            Self::WithoutDepth => "no --depth".to_owned(),
+            Self::With(role) => format!("a mask {}", role.name()),
+            Self::Without(role) => format!("no mask {}", role.name()),
+            Self::WithoutDepth => "no depth map".to_owned(),
             Self::AnyOf(lists) => lists.iter().map(|all| all_text(all)).collect::<Vec<_>>().join(", or "),
         }
     }
@@ -66,8 +66,4 @@ impl Need {
 /// All of a list, in words.
 pub(super) fn all_text(needs: &[Need]) -> String {
     needs.iter().map(Need::text).collect::<Vec<_>>().join(" and ")
-}
-
-fn role_name(role: MaskRole) -> &'static str {
-    MaskRole::ALL.iter().find(|(_, known)| *known == role).map_or("", |(name, _)| name)
 }

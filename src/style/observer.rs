@@ -2,6 +2,7 @@
 
 use crate::drawing::Drawing;
 use crate::raster::Raster;
+use crate::source::MaskRole;
 
 /// An intermediate result.
 #[derive(Clone, Debug)]
@@ -26,6 +27,10 @@ pub trait Observer: Sync {
     fn picture(&self, name: &str, make: &dyn Fn() -> Picture);
     /// Something the user should know although the drawing goes on.
     fn warn(&self, message: &str);
+    /// The same, where a mask of this role would mend it.
+    fn want_mask(&self, role: MaskRole, message: &str) {
+        self.warn(&format!("{message}; a mask of the role {} says where it is", role.name()));
+    }
     /// Whether the work should stop.
     fn is_interrupted(&self) -> bool;
 }

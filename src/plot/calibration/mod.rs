@@ -53,9 +53,7 @@ pub struct Calibration {
 #[derive(Debug, Error, PartialEq)]
 pub enum CalibrationError {
     /// The machine or sheet is too small.
-    #[error(
-        "the test sheet needs {needed:.0} x {needed:.0} mm, and {width:.1} x {height:.1} mm of this sheet can be drawn on; choose a larger --page"
-    )]
+    #[error("the test sheet needs {needed:.0} x {needed:.0} mm, and {width:.1} x {height:.1} mm of this sheet can be drawn on")]
     NoRoom {
         /// Side that it needs.
         needed: f64,
@@ -65,9 +63,7 @@ pub enum CalibrationError {
         height: f64,
     },
     /// The trials do not fit into the square.
-    #[error(
-        "with a nib of {nib} mm the trials need {needed:.0} mm of {side:.0} mm; choose a larger --page, a thinner --pen or fewer with --pen-count"
-    )]
+    #[error("with a nib of {nib} mm the trials need {needed:.0} mm of {side:.0} mm")]
     TooMuch {
         /// The nib.
         nib: f64,
@@ -187,7 +183,7 @@ fn left_out(bench: &Bench<'_>) -> Vec<&'static str> {
         why.push("no DWELL row: this machine has no word for a wait at each touch");
     }
     if bench.pens == 1 {
-        why.push("one cross only: --pen-count N draws one for each of N pens");
+        why.push("one cross only: a sheet for several pens has one for each");
     }
     why
 }

@@ -1,7 +1,7 @@
 //! A profile's text: one file over another, key by key, and where each key stands.
 //!
 //! ```text
-//! extends = "hp7475a"        the built-in file's keys first, then this file's, then --set-profile's
+//! extends = "hp7475a"        the built-in file's keys first, then this file's, then those that are set over it
 //! [motion]
 //! draw_speed = 200           replaces that one key
 //! [[paper]]
@@ -9,7 +9,7 @@
 //! zero = [10.5, 206]
 //! ```
 
-use super::error::ProfileError;
+use super::error::{KeyPlace, ProfileError};
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
 
@@ -27,23 +27,7 @@ struct Entry {
     /// The key's parts, such as `motion`, `draw_speed` or `paper`, `a4`, `zero`.
     path: Vec<String>,
     value: toml::Value,
-    place: Place,
-}
-
-/// Where a key stands.
-#[derive(Clone, Debug, PartialEq)]
-enum Place {
-    Line { file: String, line: usize },
-    Option,
-}
-
-impl Place {
-    fn text(&self) -> String {
-        match self {
-            Self::Line { file, line } => format!("{file}, line {line}"),
-            Self::Option => "--set-profile".to_owned(),
-        }
-    }
+    place: KeyPlace,
 }
 
 impl Document {
@@ -51,7 +35,7 @@ impl Document {
     pub(super) fn read(&mut self, file: &str, text: &str) -> Result<Option<String>, ProfileError> {
         let syntax = |span: Option<std::ops::Range<usize>>, message: String| {
             let line = span.map_or(1, |span| line_of(text, span.start));
-            ProfileError::Syntax { place: format!("{file}, line {line}"), message }
+            ProfileError::Syntax { place: KeyPlace::Line { file: file.to_owned(), line }, message }
         };
         let spans = DeTable::parse(text).map_err(|error| syntax(error.span(), error.message().to_owned()))?;
         let values: toml::Table =
@@ -78,9 +62,9 @@ impl Document {
             && let Some((_, name)) = NAMED_LISTS.iter().find(|(known, _)| known == list)
         {
             let told = member.parse().map_or_else(|_| toml::Value::String(member.clone()), toml::Value::Integer);
-            self.set(Entry { path: vec![list.clone(), member.clone(), (*name).to_owned()], value: told, place: Place::Option });
+            self.set(Entry { path: vec![list.clone(), member.clone(), (*name).to_owned()], value: told, place: KeyPlace::Set });
         }
-        self.set(Entry { path, value, place: Place::Option });
+        self.set(Entry { path, value, place: KeyPlace::Set });
     }
 
     /// A key replaces the same key and everything that stood below it, or that it now stands below.
@@ -95,10 +79,10 @@ impl Document {
     }
 
     /// Whether a key, or one below it, is given.
-    pub(super) fn place_of(&self, key: &str) -> Option<String> {
+    pub(super) fn place_of(&self, key: &str) -> Option<KeyPlace> {
         let parts: Vec<&str> = key.split('.').collect();
         let begins = |entry: &&Entry| entry.path.len() >= parts.len() && entry.path.iter().zip(&parts).all(|(a, b)| a == b);
-        self.entries.iter().rfind(begins).map(|entry| entry.place.text())
+        self.entries.iter().rfind(begins).map(|entry| entry.place.clone())
     }
 
     /// The whole as a value of its own; a fault is told by the place of the key that made it.
@@ -109,13 +93,13 @@ impl Document {
             match owners.get(line).and_then(|owner| self.entries.get(*owner)) {
                 Some(entry) if !error.message().starts_with("missing field") => {
                     let key = entry.path.join(".");
-                    ProfileError::Syntax { place: entry.place.text(), message: format!("{key}: {}", error.message()) }
+                    ProfileError::Syntax { place: entry.place.clone(), message: format!("{key}: {}", error.message()) }
                 }
                 Some(entry) => {
                     let within = entry.path[..entry.path.len() - 1].join(".");
-                    ProfileError::Syntax { place: entry.place.text(), message: format!("{within}: {}", error.message()) }
+                    ProfileError::Syntax { place: entry.place.clone(), message: format!("{within}: {}", error.message()) }
                 }
-                None => ProfileError::Syntax { place: name.to_owned(), message: error.message().to_owned() },
+                None => ProfileError::Syntax { place: KeyPlace::File(name.to_owned()), message: error.message().to_owned() },
             }
         })
     }
@@ -193,7 +177,7 @@ impl Reader<'_> {
                 }
                 _ => {
                     let line = line_of(self.text, key.span().start);
-                    let place = Place::Line { file: self.file.to_owned(), line };
+                    let place = KeyPlace::Line { file: self.file.to_owned(), line };
                     self.found.push(Entry { path: below, value: value.clone(), place });
                 }
             }

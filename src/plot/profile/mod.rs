@@ -9,7 +9,7 @@ mod motion;
 mod paper;
 mod pens;
 
-pub use error::ProfileError;
+pub use error::{KeyPlace, ProfileError};
 pub use gcode::{Comment, GcodeDialect, Height, Lift, Travel};
 pub use hpgl::{HpglDialect, SvgDialect};
 pub use motion::{Limits, Motion, Planner};
@@ -98,7 +98,7 @@ impl Profile {
         }
         let profile: Self = document.resolve(name)?;
         profile.check().map_err(|refusal| ProfileError::Value {
-            place: document.place_of(&refusal.key).unwrap_or_else(|| name.to_owned()),
+            place: document.place_of(&refusal.key).unwrap_or_else(|| KeyPlace::File(name.to_owned())),
             key: refusal.key,
             problem: refusal.problem,
         })?;
@@ -146,7 +146,7 @@ fn read_chain(document: &mut Document, name: &str, text: &str, depth: usize) -> 
     let mut own = Document::default();
     if let Some(base) = own.read(name, text)? {
         if depth == 0 {
-            return Err(ProfileError::Syntax { place: name.to_owned(), message: "extends itself".to_owned() });
+            return Err(ProfileError::Syntax { place: KeyPlace::File(name.to_owned()), message: "extends itself".to_owned() });
         }
         read_chain(document, &base, built_in(&base)?, depth - 1)?;
     }

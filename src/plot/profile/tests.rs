@@ -59,7 +59,7 @@ fn numbers_beyond_all_measure_are_refused() {
     ] {
         for value in ["1e300", "1e-300", "inf", "nan", "-1"] {
             let said = message(built_in(machine).unwrap(), &[(key, value)]);
-            assert!(said.starts_with(&format!("--set-profile: {key} must be ")), "{key} = {value}: {said}");
+            assert!(said.starts_with(&format!("a key set over the profile: {key} must be ")), "{key} = {value}: {said}");
         }
     }
     for (machine, key, value) in [
@@ -69,7 +69,10 @@ fn numbers_beyond_all_measure_are_refused() {
         ("hp7475a", "paper.a4.zero", "[-1e300, 0]"),
     ] {
         let said = message(built_in(machine).unwrap(), &[(key, value)]);
-        assert!(said.starts_with(&format!("--set-profile: {key}")) && said.contains("number"), "{key} = {value}: {said}");
+        assert!(
+            said.starts_with(&format!("a key set over the profile: {key}")) && said.contains("number"),
+            "{key} = {value}: {said}"
+        );
     }
 }
 
@@ -101,15 +104,18 @@ fn keys_are_set_from_outside_and_faults_name_the_option() {
     assert_eq!(profile.paper.iter().find(|paper| paper.name == "a3").unwrap().zero, [1.0, 2.0]);
     assert_eq!((profile.offset_of(4), profile.description.as_str()), ([0.5, 0.0], "my own"));
     let grbl = built_in("grbl-servo").unwrap();
-    assert_eq!(message(grbl, &[("motion.travel_speed", "-3")]), "--set-profile: motion.travel_speed must be above 0");
-    assert!(message(grbl, &[("motion.speedy", "3")]).starts_with("--set-profile: motion.speedy: unknown field"));
+    assert_eq!(
+        message(grbl, &[("motion.travel_speed", "-3")]),
+        "a key set over the profile: motion.travel_speed must be above 0"
+    );
+    assert!(message(grbl, &[("motion.speedy", "3")]).starts_with("a key set over the profile: motion.speedy: unknown field"));
 }
 
 #[test]
 fn a_dialect_writes_only_what_it_knows() {
     let grbl = built_in("grbl-servo").unwrap();
     let said = message(grbl, &[("gcode.pen_up", "M280 P0 S30")]);
-    assert_eq!(said, "--set-profile: gcode.pen_up holds M280, which is not in gcode.words");
+    assert_eq!(said, "a key set over the profile: gcode.pen_up holds M280, which is not in gcode.words");
     assert!(message(grbl, &[("gcode.pause", "M0 what?")]).contains("must be one ASCII line"));
     assert!(message(grbl, &[("gcode.pen_up", "M3 S700")]).contains("must differ"));
 }

@@ -53,8 +53,8 @@ const STRAND: f64 = 0.03;
 const ROUGH: f64 = 2.5;
 const LEAST_TEXTURE: f64 = 0.02;
 /// Why no hair is drawn.
-const NO_HAIR: &str = "no hair was found: it is drawn like the rest; give --mask hair=FILE to draw it in strokes";
-const LIKE_SKIN: &str = "what lies above the brow is too like the skin, in light or shade, to be called hair: it is drawn like the rest; give --mask hair=FILE to draw it in strokes";
+const NO_HAIR: &str = "no hair was found: it is drawn like the rest, not in strokes";
+const LIKE_SKIN: &str = "what lies above the brow is too like the skin, in light or shade, to be called hair: it is drawn like the rest, not in strokes";
 /// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
 const LOWEST_FRINGE: f64 = 0.75;
 const CROWN: f64 = -0.85;
@@ -89,7 +89,7 @@ impl Drawer<'_> {
         };
         let nothing = || subject.map(|_| 0.0);
         if let Err(why) = hair {
-            self.observer.warn(why);
+            self.observer.want_mask(MaskRole::Hair, why);
         }
         let hair = hair.unwrap_or_else(|_| nothing()).zip_map(&subject, f32::min);
         let face = given_face
@@ -121,9 +121,8 @@ impl Drawer<'_> {
             let soft = gaussian_blur(&background.map(f32::from), 1.0);
             return (soft.map(|b| 1.0 - b), true);
         }
-        self.observer.warn(
-            "the background is not plain enough to be told from the subject: all is drawn; give --mask subject=FILE or an alpha channel",
-        );
+        let why = "the background is not plain enough to be told from the subject, and there is no alpha channel: all is drawn";
+        self.observer.want_mask(MaskRole::Subject, why);
         (self.portrait.subject.clone(), false)
     }
 
@@ -169,7 +168,7 @@ impl Drawer<'_> {
         let frame = head.and_then(|head| find_face(lightness, &skin, &expected_in(head, &IN_HEAD)));
         let frame = frame.filter(|frame| frame.score >= LEAST_SCORE);
         if frame.is_none() {
-            self.observer.warn("no face was found: its features are not drawn; give --mask face=FILE");
+            self.observer.want_mask(MaskRole::Face, "no face was found: its features are not drawn");
         }
         frame
     }

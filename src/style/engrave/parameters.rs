@@ -79,7 +79,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "regions",
         kind: Kind::Choice(&["auto", "one", "superpixels"]),
-        meaning: "what has lines of its own direction: auto is the scribbles where --mask scribbles= is given, else one; superpixels are small regions of like colour",
+        meaning: "what has lines of its own direction: auto is the scribbles where a mask scribbles is given, else one; superpixels are small regions of like colour",
         source: "Galarza 3.3",
         needs: &[],
     },
@@ -124,7 +124,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "depth_from",
         kind: Kind::Choice(&["shape", "inflate", "luminance"]),
-        meaning: "without --depth: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
+        meaning: "without a depth map: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
         source: "Galarza 4.4 and 5.2",
         needs: &[Need::WithoutDepth, DEPTH_COUNTS],
     },

@@ -102,7 +102,7 @@ impl Drawer<'_> {
         };
         layers.retain(|layer| !layer.marks.is_empty());
         if layers.is_empty() {
-            let why = "the subject is smaller than one dot; use a smaller --pitch or a whiter mask";
+            let why = "the subject is smaller than one dot; a smaller pitch or a whiter mask would hold some";
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         if self.parameters.has_lines {

@@ -243,7 +243,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "detail",
         kind: Kind::Choice(&["auto", "off"]),
-        meaning: "dots and lines in detail regions, which are those of --mask detail=FILE, else the eyes, brows, noses and mouths that are found: auto sets them sqrt(3) as close, so that there are three times as many; off as everywhere",
+        meaning: "dots and lines in detail regions, which are those of a mask detail, else the eyes, brows, noses and mouths that are found: auto sets them sqrt(3) as close, so that there are three times as many; off as everywhere",
         source: "Son 5.2, scale factor of the window; Bruehl 4.3.2",
         needs: &[Need::With(MaskRole::Detail)],
     },

@@ -100,7 +100,7 @@ impl Drawer<'_> {
         };
         let dots = highlights::thin_out(self, dots, &features);
         if dots.is_empty() && reversed.is_empty() {
-            let why = "all of it is as light as the highlights, which stay bare; draw them with --set highlights=off";
+            let why = "all of it is as light as the highlights, which stay bare; highlights=off draws them";
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         let mut layer = self.dot_layer(&dots);

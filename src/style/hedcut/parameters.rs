@@ -202,7 +202,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "detail",
         kind: Kind::Choice(&["auto", "even", "thesis", "off"]),
-        meaning: "lanes in detail regions, which are those of --mask detail=FILE, else the eyes, brows, noses and mouths that are found: auto and even make them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times; off as everywhere",
+        meaning: "lanes in detail regions, which are those of a mask detail, else the eyes, brows, noses and mouths that are found: auto and even make them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times; off as everywhere",
         source: "Bruehl 4.3.2, corrected",
         needs: &[Need::With(MaskRole::Detail)],
     },

@@ -20,7 +20,7 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
     let mut sites = scatter(drawer, lanes, &density);
     if sites.is_empty() {
         return Err(StyleError::NothingToDraw(
-            "the subject is smaller than one dot, or its mask is nowhere more than half white; use a smaller --pitch or a whiter mask".to_owned(),
+            "the subject is smaller than one dot, or its mask is nowhere more than half white; a smaller pitch or a whiter mask would hold some".to_owned(),
         ));
     }
     drawer.observer.picture("seeds", &|| drawer.dot_picture(&sites));

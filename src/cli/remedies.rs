@@ -1,0 +1,39 @@
+//! An error of the library in the words of the command line: what was wrong, and the options that help.
+
+use crate::plot::{CalibrationError, KeyPlace, ProfileError, TooMuch};
+use crate::read::TooMuchWork;
+use crate::source::SourceError;
+use std::error::Error;
+
+/// The error, with what helps against it or against what caused it.
+pub(super) fn advised(error: &(dyn Error + 'static)) -> String {
+    if let Some(ProfileError::Syntax { place: KeyPlace::Set, .. } | ProfileError::Value { place: KeyPlace::Set, .. }) =
+        error.downcast_ref()
+    {
+        return error.to_string().replacen(&KeyPlace::Set.to_string(), "--set-profile", 1);
+    }
+    let remedy = std::iter::successors(Some(error), |error| (*error).source()).find_map(remedy);
+    format!("{error}{}", remedy.unwrap_or_default())
+}
+
+fn remedy(error: &(dyn Error + 'static)) -> Option<String> {
+    if let Some(work) = error.downcast_ref::<TooMuchWork>() {
+        let millions = work.lifted_by()?;
+        return Some(format!("; --most-work {millions:.0} or more lifts it, with memory to match"));
+    }
+    if let Some(SourceError::WorkTooLarge { .. }) = error.downcast_ref() {
+        return Some("; use a larger --pitch or a smaller --size".to_owned());
+    }
+    let fixed = match (error.downcast_ref(), error.downcast_ref()) {
+        (Some(TooMuch::Crossings { .. }), _) => {
+            ": draw the lines alone (--ink-model lines), leave out --occlude, or draw it in parts (--layers)"
+        }
+        (Some(TooMuch::Length { .. }), _) => {
+            ": take a wider pen (--pen), make it smaller (--scale), or draw it in parts (--layers)"
+        }
+        (_, Some(CalibrationError::NoRoom { .. })) => "; choose a larger --page",
+        (_, Some(CalibrationError::TooMuch { .. })) => "; choose a larger --page, a thinner --pen or fewer with --pen-count",
+        _ => return None,
+    };
+    Some(fixed.to_owned())
+}
