@@ -518,8 +518,8 @@ fn missing_masks_are_a_warning_and_a_drawing() {
     let drawing = Sitting { set: QUICK, ..Sitting::new(&photo, (40.0, 30.0)) }.draw(&notes);
     assert!(drawing.marks().count() > 50);
     let warnings = notes.warnings.lock().unwrap().join("\n");
-    for mask in ["--mask subject", "--mask hair", "--mask face"] {
-        assert!(warnings.contains(mask), "{warnings}");
+    for role in ["subject", "hair", "face"] {
+        assert!(warnings.contains(&format!("a mask of the role {role}")), "{warnings}");
     }
 }
 
