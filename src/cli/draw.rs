@@ -327,7 +327,7 @@ impl<'a> Task<'a> {
         let portrait = self.portrait(placement)?;
         let drawing = self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
             StyleError::Interrupted => Failure::Interrupted,
-            nothing @ StyleError::NothingToDraw(_) => Failure::Work(format!("{}: {nothing}", self.options.photo)),
+            nothing => Failure::Work(format!("{}: {}", self.options.photo, advised(&nothing))),
         })?;
         Ok(self.layout.turning.turned(drawing))
     }

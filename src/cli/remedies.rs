@@ -3,6 +3,7 @@
 use crate::plot::{CalibrationError, KeyPlace, ProfileError, TooMuch};
 use crate::read::TooMuchWork;
 use crate::source::SourceError;
+use crate::style::StyleError;
 use std::error::Error;
 
 /// The error, with what helps against it or against what caused it.
@@ -11,6 +12,9 @@ pub(super) fn advised(error: &(dyn Error + 'static)) -> String {
         error.downcast_ref()
     {
         return error.to_string().replacen(&KeyPlace::Set.to_string(), "--set-profile", 1);
+    }
+    if let Some(StyleError::NothingLeft { why, setting }) = error.downcast_ref() {
+        return format!("there is nothing to draw: {why}; draw it with --set {setting}");
     }
     let remedy = std::iter::successors(Some(error), |error| (*error).source()).find_map(remedy);
     format!("{error}{}", remedy.unwrap_or_default())

@@ -86,4 +86,12 @@ pub enum StyleError {
     /// Nothing calls for ink.
     #[error("there is nothing to draw: {0}")]
     NothingToDraw(String),
+    /// A setting keeps all of it away from ink.
+    #[error("there is nothing to draw: {why}; {setting} draws it")]
+    NothingLeft {
+        /// What keeps it away.
+        why: &'static str,
+        /// The parameter and the value that would draw it.
+        setting: &'static str,
+    },
 }

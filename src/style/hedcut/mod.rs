@@ -100,8 +100,8 @@ impl Drawer<'_> {
         };
         let dots = highlights::thin_out(self, dots, &features);
         if dots.is_empty() && reversed.is_empty() {
-            let why = "all of it is as light as the highlights, which stay bare; highlights=off draws them";
-            return Err(StyleError::NothingToDraw(why.to_owned()));
+            let why = "all of it is as light as the highlights, which stay bare";
+            return Err(StyleError::NothingLeft { why, setting: "highlights=off" });
         }
         let mut layer = self.dot_layer(&dots);
         layer.marks.extend(reversed);
