@@ -3,7 +3,7 @@
 use super::Colour;
 use crate::geometry::{
     Affine, BezPath, Ends, Point, Rect, clip_disc, clip_polygon, clip_polyline, curve_length, flatten, polygon_area,
-    sample_swelling, swelling_outline,
+    sample_swelling, segment_length, swelling_outline,
 };
 use kurbo::{PathEl, Shape};
 
@@ -232,13 +232,13 @@ impl Stroke {
 
     /// The centre line as points, and for each the place along the curve's nodes (segment plus fraction).
     fn flattened(&self) -> (Vec<Point>, Vec<f64>) {
-        use kurbo::{ParamCurve, ParamCurveArclen};
+        use kurbo::ParamCurve;
         let (mut points, mut position) = (Vec::new(), Vec::new());
         for (i, segment) in self.curve.segments().enumerate() {
             let steps = if matches!(segment, kurbo::PathSeg::Line(_)) {
                 1
             } else {
-                (segment.arclen(1e-3) / 0.05).ceil().clamp(4.0, 256.0) as usize
+                (segment_length(segment, 1e-3) / 0.05).ceil().clamp(4.0, 256.0) as usize
             };
             if points.is_empty() {
                 points.push(segment.start());

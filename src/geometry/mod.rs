@@ -44,7 +44,7 @@ pub use polyline::{
 };
 pub use region::{Region, Winding, untangled, untangled_polygons};
 pub use smooth::{catmull_rom, smooth_polyline};
-pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, stations, swelling_outline};
+pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, segment_length, stations, swelling_outline};
 pub use tangle::{Thread, tangles, tangles_among};
 pub use thinning::thinned;
 

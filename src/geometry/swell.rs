@@ -17,7 +17,13 @@ const MOST_HALVINGS: usize = 6;
 
 /// Length of a curve to 1e-6 mm.
 pub fn curve_length(path: &BezPath) -> f64 {
-    path.segments().map(|s| s.arclen(1e-6)).sum()
+    path.segments().map(|segment| segment_length(segment, 1e-6)).sum()
+}
+
+/// Length of a segment. Kurbo's own is not a number for a quadratic whose points are one.
+pub fn segment_length(segment: PathSeg, accuracy: f64) -> f64 {
+    let length = segment.arclen(accuracy);
+    if length.is_nan() { 0.0 } else { length }
 }
 
 /// The closed outline of a stroke along `curve`, whose full width at the i-th node (the start, then the end of each segment)
@@ -293,6 +299,15 @@ mod tests {
 
     fn area(outline: &BezPath) -> f64 {
         outline.area().abs()
+    }
+
+    #[test]
+    fn a_quadratic_whose_points_are_one_has_no_length() {
+        let place = Point::new(5.291_666_666_666_667, 2.645_833_333_333_333_5);
+        let mut path = BezPath::new();
+        path.move_to(place);
+        path.quad_to(place, place);
+        assert_eq!(curve_length(&path), 0.0);
     }
 
     #[test]
