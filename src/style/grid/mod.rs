@@ -23,6 +23,10 @@ use darks::Darks;
 use parameters::{Gridding, Primitive};
 use structure::StructureGrid;
 
+/// Working pixels above which detail regions are drawn at the resolution of the rest: an A1 face at the default pitch would take more than
+/// the 4 GB that a drawing may.
+const MOST_DETAILED_PIXELS: f64 = 25e6;
+
 /// The style.
 pub(super) struct Grid;
 
@@ -53,6 +57,12 @@ impl Style for Grid {
 
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
         Gridding::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
+    }
+
+    fn resolution(&self, settings: &Settings, masks: &[MaskRole], picture: Rect) -> f64 {
+        let detailed = self.pixels_per_mm(settings, masks);
+        let is_poster = picture.area() * detailed * detailed > MOST_DETAILED_PIXELS;
+        if is_poster { self.pixels_per_mm(settings, &[]) } else { detailed }
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
