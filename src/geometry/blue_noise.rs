@@ -35,8 +35,10 @@ fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<us
     };
     let slot_of: std::collections::HashMap<usize, usize> = from.iter().enumerate().map(|(slot, &i)| (i, slot)).collect();
     let crowding_at = |&i: &usize| {
-        let others = grid.around(points[i]).filter(|&j| j != i && !interrupt.is_raised());
-        others.map(|j| crowding_of(i, j)).sum()
+        if interrupt.is_raised() {
+            return 0.0;
+        }
+        grid.around(points[i]).filter(|&j| j != i).map(|j| crowding_of(i, j)).sum()
     };
     let mut crowding: Vec<f64> = from.iter().map(crowding_at).collect();
     let mut alive = vec![true; from.len()];

@@ -110,6 +110,9 @@ impl Lowering<'_> {
             InkModel::Ink => thin::keeps_tone(&layer.marks, self.nib, self.interrupt),
             InkModel::Lines => vec![true; layer.marks.len()],
         };
+        if self.interrupt.is_raised() {
+            return Vec::new();
+        }
         let united = match self.model {
             InkModel::Ink => unite::united(&layer.marks, 0.5 * self.tolerance, self.interrupt),
             InkModel::Lines => unite::United { is_part: vec![false; layer.marks.len()], shapes: Vec::new() },
