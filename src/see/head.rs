@@ -2,6 +2,7 @@
 
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, filled_polygon};
+use crate::source::LEAST_FACE_WIDTH;
 use crate::source::outlines::OVAL;
 
 /// A close-up: the face wider than this part of the picture, or the top of the head, so many heights of the face above the
@@ -11,8 +12,6 @@ const CROWN: f64 = 0.3;
 /// Reach of what is near the head, in widths of the face: to either side, and above the forehead.
 const NEAR_SIDE: f64 = 1.7;
 const NEAR_TOP: f64 = 1.0;
-/// A face turned to the side is narrower than its head: its width counts at least this part of its height.
-const LEAST_WIDTH: f64 = 0.6;
 /// Part of the oval, about its middle, that is person for sure: the oval of a turned face goes beyond its far cheek, by up to a
 /// twelfth of the face; at 1 a strip of what is behind stays there, at 0.7 lights on a forehead are lost.
 const SURE: f64 = 0.85;
@@ -58,7 +57,7 @@ impl Head {
         let at = |i: usize| Point::new(points[i][0], points[i][1]);
         let (nose, forehead, chin, right, left) = (at(1), at(10), at(152), at(234), at(454));
         let up = forehead - chin;
-        let width = (left - right).hypot().max(LEAST_WIDTH * up.hypot()).max(1.0);
+        let width = (left - right).hypot().max(LEAST_FACE_WIDTH * up.hypot()).max(1.0);
         let eyes = at(263) - at(33);
         let across = if eyes.hypot() > 0.0 { eyes.normalize() } else { Vec2::new(1.0, 0.0) };
         let (oval, centre) = (OVAL.map(at).to_vec(), right.midpoint(left));

@@ -24,7 +24,7 @@ pub struct Iris {
 }
 
 /// A face turned to the side is narrower than its head: its width counts at least this part of its height.
-const LEAST_WIDTH: f64 = 0.6;
+pub const LEAST_FACE_WIDTH: f64 = 0.6;
 
 impl Landmarks {
     /// A point of the mesh, seen from the front.
@@ -45,7 +45,7 @@ impl Landmarks {
     /// The width of the face from ear to ear, or of one turned to the side what it would be from the front, at least.
     pub fn width(&self) -> f64 {
         let across = (self.point(454) - self.point(234)).hypot();
-        across.max(LEAST_WIDTH * (self.point(10) - self.point(152)).hypot())
+        across.max(LEAST_FACE_WIDTH * (self.point(10) - self.point(152)).hypot())
     }
 
     /// The same face elsewhere and of another size: lengths grow by `scale`.

@@ -20,6 +20,6 @@ pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
 pub use decode::{Limits, Photograph, SourceInfo};
 pub use depth::DepthSense;
 pub use error::SourceError;
-pub use landmarks::{Iris, Landmarks, POINTS, outlines};
+pub use landmarks::{Iris, LEAST_FACE_WIDTH, Landmarks, POINTS, outlines};
 pub use portrait::{Crop, MaskRole, Placement, Portrait, ToneCurve, ToneTarget, fill_box};
 pub use scribbles::Scribbles;

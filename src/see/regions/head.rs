@@ -1,14 +1,12 @@
 //! A head's own coordinates: across it in widths of the face, up it in heights of the face.
 
 use crate::geometry::{Point, Vec2};
-use crate::source::Landmarks;
+use crate::source::{LEAST_FACE_WIDTH, Landmarks};
 
 /// The middle of the forehead's upper border, the chin, and the ends of the face's width before the ears.
 const FOREHEAD: usize = 10;
 const CHIN: usize = 152;
 const EARS: [usize; 2] = [234, 454];
-/// Faces are at least so wide, in their heights: on one turned to the side the points' own width is a guess.
-const LEAST_WIDTH: f64 = 0.6;
 /// How far behind the face's width the middle of the skull lies, in widths: on a turned head it shows beside the face.
 const BACK: f64 = 0.3;
 /// Least width and height in pixels, so that nothing is divided by nothing.
@@ -44,7 +42,7 @@ impl Head {
             chin,
             up,
             across,
-            width: width.max(LEAST_WIDTH * rise.hypot()).max(LEAST),
+            width: width.max(LEAST_FACE_WIDTH * rise.hypot()).max(LEAST),
             height: rise.hypot().max(LEAST),
         };
         (rise.hypot() > 0.0 && head.middle.is_finite() && head.width.is_finite() && head.height.is_finite()).then_some(head)
