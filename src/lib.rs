@@ -20,7 +20,6 @@
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
 //! | [`mod@write`] | a drawing or a plot | bytes |
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
-//! | [`resume`] | a plotter's file and where it stopped | the rest of it |
 //! | `cli` (cargo feature) | arguments | the only place with files, stdout and exit codes |
 //! | [`mod@interrupt`] | | a request to stop, which long loops everywhere look at |
 //!
@@ -58,7 +57,6 @@ pub mod plot;
 pub mod press;
 pub mod raster;
 pub mod read;
-pub mod resume;
 pub mod see;
 pub mod source;
 pub mod style;

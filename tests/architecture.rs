@@ -13,11 +13,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("tone", &["source", "raster", "geometry"]),
     ("field", &["raster", "geometry"]),
     ("style", &["field", "raster", "drawing", "geometry", "source"]),
-    ("press", &["drawing", "geometry"]),
-    ("plot", &["drawing", "geometry"]),
-    ("write", &["drawing", "geometry", "plot"]),
+    ("press", &["drawing", "geometry", "plot", "write"]),
+    ("plot", &["drawing", "geometry", "read", "write"]),
+    ("write", &["drawing", "geometry"]),
     ("read", &["drawing", "geometry"]),
-    ("resume", &["geometry", "read"]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

@@ -3,15 +3,15 @@
 #![cfg(feature = "cli")]
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use assert_cmd::Command;
 use common::png_of_light;
 use drypoint::geometry::Point;
-use drypoint::plot::{
-    Calibration, Language, Lift, Mounting, Plot, Profile, built_in_names, calibration_page, calibration_sheet, mount,
-};
-use drypoint::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl, read_svg};
-use drypoint::write::{SvgHead, write_gcode, write_hpgl, write_svg_plotter};
+use drypoint::plot::{Calibration, Language, Mounting, Profile, built_in_names, calibration_page, calibration_sheet, mount};
+use drypoint::read::read_svg;
+use machine_file::{read_back as motion, written};
 use std::fs;
 
 const NIB: f64 = 0.3;
@@ -25,27 +25,6 @@ fn sheet_of(profile: &Profile, nib: f64, pens: u32) -> (Mounting, Calibration) {
 
 fn profiles() -> impl Iterator<Item = Profile> {
     built_in_names().into_iter().map(|name| Profile::built_in(name).unwrap())
-}
-
-fn written(plot: &Plot, profile: &Profile, mounting: &Mounting) -> String {
-    let mut bytes = Vec::new();
-    match profile.language {
-        Language::Gcode => write_gcode(plot, profile, mounting, &mut bytes).unwrap(),
-        Language::Hpgl => write_hpgl(plot, profile, mounting, &mut bytes).unwrap(),
-        Language::Svg => write_svg_plotter(plot, profile, &SvgHead::default(), &mut bytes).unwrap(),
-    }
-    String::from_utf8(bytes).unwrap()
-}
-
-fn motion(text: &str, profile: &Profile) -> Strokes {
-    if profile.language == Language::Hpgl {
-        return read_hpgl(text).unwrap();
-    }
-    let gcode = profile.gcode.as_ref().unwrap();
-    match (gcode.lift, gcode.height) {
-        (Lift::Height, Some(height)) => read_gcode_heights(text, height.up, height.down).unwrap(),
-        _ => read_gcode(text, gcode.pen_up.as_deref().unwrap(), gcode.pen_down.as_deref().unwrap()).unwrap(),
-    }
 }
 
 fn ends(path: &[Point]) -> (Point, Point) {
@@ -93,11 +72,11 @@ fn rungs_of_the_ladder_have_the_spacings_that_their_labels_say() {
 fn every_machine_s_file_reads_back_as_it_was_asked() {
     for profile in profiles() {
         let (mounting, sheet) = sheet_of(&profile, NIB, profile.pens.count);
-        let text = written(&sheet.plot, &profile, &mounting);
-        assert_eq!(text, written(&sheet_of(&profile, NIB, profile.pens.count).1.plot, &profile, &mounting), "not the same bytes");
+        let text = written(&sheet.plot, &profile).unwrap();
+        assert_eq!(text, written(&sheet_of(&profile, NIB, profile.pens.count).1.plot, &profile).unwrap(), "not the same bytes");
         let asked: Vec<(u32, &Vec<Point>)> =
             sheet.plot.pens.iter().flat_map(|pen| pen.paths.iter().map(|path| (pen.number, &path.points))).collect();
-        if profile.language == Language::Svg {
+        if profile.language() == Language::Svg {
             let read = read_svg(text.as_bytes()).unwrap();
             let marks: usize = read.layers.iter().map(|layer| layer.layer.marks.len()).sum();
             assert_eq!(marks, asked.len(), "{}", profile.name);
@@ -127,7 +106,7 @@ fn machines_get_the_trials_that_they_can_make() {
     assert!(heights(&of("marlin-z")) >= 4 && heights(&of("grbl-servo")) == 0 && heights(&of("hp7475a")) == 0);
     assert_eq!((touches(&of("grbl-servo")), touches(&of("hp7475a")), touches(&of("axidraw-v3"))), (28, 0, 0));
     let profile = Profile::built_in("marlin-z").unwrap();
-    let height = profile.gcode.as_ref().unwrap().height.unwrap();
+    let height = profile.height().unwrap();
     // Never lower than the profile lets the pen down, which could bend it.
     for z in of("marlin-z").plot.pens.iter().flat_map(|pen| &pen.paths).filter_map(|path| path.heights.as_ref()).flatten() {
         assert!(*z >= height.down - 1e-9 && *z < height.up, "{z}");

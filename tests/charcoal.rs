@@ -6,10 +6,10 @@ use common::{mean_in, png_of_light, rendered, sample, svg_of, wedge, wedge_patch
 use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
 use drypoint::field::{FacialFeature, HoughFilter, HoughForm, histogram_modes};
 use drypoint::geometry::{BezPath, Point, Rect};
+use drypoint::plot::write_inkml;
 use drypoint::raster::Raster;
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use drypoint::style::{Observer, Picture, Settings, Silent, find};
-use drypoint::write::write_inkml;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};

@@ -2,6 +2,8 @@
 #![cfg(feature = "cli")]
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use assert_cmd::Command;
 use common::rendered;
@@ -11,7 +13,7 @@ use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Hides, InkModel, Nibs, Plot, lower, occluded};
 use drypoint::raster::Raster;
 use drypoint::read::{Imported, read_svg};
-use drypoint::write::{SvgHead, write_svg_plot};
+use machine_file::picture;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -185,11 +187,10 @@ fn the_tool_paths_look_like_the_file() {
         "byte-order-mark",
     ] {
         let svg = std::fs::read_to_string(path(&format!("{name}.svg"))).unwrap();
-        let mut ours = Vec::new();
         let lines = plot(&read(&format!("{name}.svg")).drawing(), InkModel::Lines);
-        write_svg_plot(&lines, &SvgHead::default(), &mut ours).unwrap();
+        let ours = picture(&lines);
         let ink = |svg: &str| rendered(svg, PIXELS_PER_MM).map(|white| u8::from(white < 0.5));
-        let (theirs, ours) = (ink(svg.trim_start_matches('\u{feff}')), ink(&String::from_utf8(ours).unwrap()));
+        let (theirs, ours) = (ink(svg.trim_start_matches('\u{feff}')), ink(&ours));
         let (drawn, added) = (near(&theirs, &ours), near(&ours, &theirs));
         println!("{name}: {drawn:.4} of its ink is drawn, {added:.4} of ours is its");
         assert!(drawn >= 0.99, "{name}: {drawn}");

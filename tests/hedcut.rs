@@ -1,6 +1,8 @@
 //! The hedcut's promises, measured on what resvg prints.
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use common::{Sheet, WEDGE_MM, dots, mean_in, png_of_light, rendered, sample, svg_of, wedge, wedge_patches};
 use drypoint::field::{Sites, cell_polygon};
@@ -175,13 +177,10 @@ fn seeds_differ_and_repeat() {
 fn the_lowered_wedge_has_its_tone() {
     use drypoint::interrupt::Interrupt;
     use drypoint::plot::{InkModel, Nibs, lower};
-    use drypoint::write::{SvgHead, write_svg_plot};
     let photo = wedge();
     let sheet = Sheet { tone: ToneTarget::Linear, set: EXACT, ..Sheet::new(&photo, (WEDGE_MM, WEDGE_MM)) };
     let plot = lower(&sheet.draw(), InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
-    let mut svg = Vec::new();
-    write_svg_plot(&plot, &SvgHead::default(), &mut svg).unwrap();
-    let white = rendered(std::str::from_utf8(&svg).unwrap(), FINE);
+    let white = rendered(&machine_file::picture(&plot), FINE);
     for (patch, tone) in wedge_patches() {
         let error = mean_in(&white, patch, FINE) - tone;
         println!("tone {tone:.1} with a 0.3 mm nib: {error:+.4}");

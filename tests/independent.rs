@@ -1,12 +1,14 @@
 //! Programs that others wrote read what drypoint writes, and draw the same.
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use common::{Sheet, sample, skip};
 use drypoint::geometry::{BezPath, Point, flatten, flatten_arc};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Direction, Effort, InkModel, Language, Lift, Nibs, Plot, Profile, built_in_names, lower, mount};
-use drypoint::write::{write_gcode, write_hpgl};
+use drypoint::plot::{Dialect, Direction, Effort, InkModel, Language, Lift, Nibs, Plot, Profile, built_in_names, lower, mount};
+use machine_file::written;
 use std::collections::HashMap;
 use std::process::Command;
 
@@ -96,12 +98,10 @@ fn hp2xx_takes_every_hpgl_file_and_draws_the_same() {
     let (hpgl, svg) = (folder.path().join("a.hpgl"), folder.path().join("a.svg"));
     for name in built_in_names() {
         let profile = Profile::built_in(name).unwrap();
-        if profile.language != Language::Hpgl {
+        if profile.language() != Language::Hpgl {
             continue;
         }
-        let mut bytes = Vec::new();
-        write_hpgl(&plot, &profile, &mount(&profile, &plot.page).unwrap(), &mut bytes).unwrap();
-        std::fs::write(&hpgl, bytes).unwrap();
+        std::fs::write(&hpgl, written(&plot, &profile).unwrap()).unwrap();
         let arguments = ["-t", "-c", "1", "-m", "svg", "-f", svg.to_str().unwrap(), hpgl.to_str().unwrap()];
         let Some((_, words)) = run("hp2xx", &arguments) else { return };
         assert!(words.contains("HPGL command(s) ignored: 0"), "{name}: {words}");
@@ -117,7 +117,7 @@ fn hp2xx_takes_every_hpgl_file_and_draws_the_same() {
 
 /// The file as `LinuxCNC`'s interpreter takes it: between percent signs, and named commands of other controllers as words that it knows.
 fn for_rs274(text: &str, profile: &Profile) -> String {
-    let gcode = profile.gcode.as_ref().unwrap();
+    let Dialect::Gcode(gcode) = &profile.dialect else { panic!("{} is no G-code", profile.name) };
     let line = |line: &str| match line {
         _ if gcode.lift == Lift::Command && Some(line) == gcode.pen_up.as_deref() => "G0 Z1".to_owned(),
         _ if gcode.lift == Lift::Command && Some(line) == gcode.pen_down.as_deref() => "G0 Z-1".to_owned(),
@@ -167,16 +167,11 @@ fn linuxcnc_takes_every_gcode_file_and_draws_the_same() {
     let file = folder.path().join("a.ngc");
     for name in built_in_names() {
         let profile = Profile::built_in(name).unwrap();
-        let Some(gcode) = &profile.gcode else { continue };
-        let mut bytes = Vec::new();
-        write_gcode(&plot, &profile, &mount(&profile, &plot.page).unwrap(), &mut bytes).unwrap();
-        std::fs::write(&file, for_rs274(std::str::from_utf8(&bytes).unwrap(), &profile)).unwrap();
+        let Dialect::Gcode(_) = &profile.dialect else { continue };
+        std::fs::write(&file, for_rs274(&written(&plot, &profile).unwrap(), &profile)).unwrap();
         let Some((status, words)) = run("rs274", &["-g", file.to_str().unwrap()]) else { return };
         assert_eq!(status, 0, "{name}: {}", words.lines().last().unwrap_or(""));
-        let (up, down) = match (gcode.lift, gcode.height) {
-            (Lift::Height, Some(height)) => (height.up, height.down),
-            _ => (1.0, -1.0),
-        };
+        let (up, down) = profile.height().map_or((1.0, -1.0), |height| (height.up, height.down));
         let theirs = of_rs274(&words, |z| (z - down).abs() < (z - up).abs());
         assert_same_ink(name, &asked(&plot, &profile), &theirs);
     }

@@ -1,11 +1,14 @@
 //! Every curve stays in the box of its mark, in what every writer writes: the box of its centre line, grown by half its greatest width.
 
+#[path = "common/machine_file.rs"]
+mod machine_file;
+
 use drypoint::drawing::{Drawing, Ends, Layer, Mark, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point, Rect, blob, catmull_rom};
-use drypoint::plot::{Direction, Effort, InkModel, Nibs, Profile, lower, mount};
-use drypoint::read::{Strokes, read_gcode, read_hpgl};
-use drypoint::write::{SvgHead, write_gcode, write_hpgl, write_inkml, write_pdf, write_svg};
+use drypoint::plot::{Direction, Effort, InkModel, Nibs, Profile, lower, mount, write_inkml};
+use drypoint::write::{SvgHead, write_pdf, write_svg};
 use kurbo::{PathEl, PathSeg, Shape};
+use machine_file::{read_back, written};
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
@@ -200,16 +203,7 @@ fn toolpath_boxes(drawing: &Drawing) -> Vec<Rect> {
     for machine in ["grbl-servo", "hp7475a"] {
         let profile = Profile::built_in(machine).unwrap();
         let mounting = mount(&profile, &plot.page).unwrap();
-        let mut bytes = Vec::new();
-        let drawn: Strokes = if machine == "grbl-servo" {
-            write_gcode(&plot, &profile, &mounting, &mut bytes).unwrap();
-            let dialect = profile.gcode.as_ref().unwrap();
-            let [up, down] = [&dialect.pen_up, &dialect.pen_down].map(|command| command.as_deref().unwrap());
-            read_gcode(std::str::from_utf8(&bytes).unwrap(), up, down).unwrap()
-        } else {
-            write_hpgl(&plot, &profile, &mounting, &mut bytes).unwrap();
-            read_hpgl(std::str::from_utf8(&bytes).unwrap()).unwrap()
-        };
+        let drawn = read_back(&written(&plot, &profile).unwrap(), &profile);
         let to_page = mounting.to_machine.inverse();
         boxes.extend(path_box(drawn.paths.iter().flat_map(|(_, path)| path).map(|p| to_page * *p)));
     }

@@ -10,7 +10,7 @@ use any_style::Order;
 use common::sample;
 use drypoint::drawing::{Area, Colour, Dot, Drawing, Ink, Layer, Mark, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point};
-use drypoint::write::write_inkml;
+use drypoint::plot::write_inkml;
 use rasterised::{Pixels, rasterised};
 use std::collections::BTreeMap;
 

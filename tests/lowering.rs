@@ -1,16 +1,18 @@
 //! One nib lays down the ink that was asked for, and no more.
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use common::{Sheet, mean_in, rendered, sample, svg_of, wedge, wedge_patches};
 use drypoint::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
 use drypoint::field::nearest_seed;
 use drypoint::geometry::{BezPath, Point, Rect};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{InkModel, Nibs, Plot, coverage, lower};
+use drypoint::plot::{InkModel, Nibs, coverage, lower};
 use drypoint::raster::Raster;
 use drypoint::source::{MaskRole, ToneTarget};
-use drypoint::write::{SvgHead, write_svg_plot};
+use machine_file::picture as plot_svg;
 use proptest::prelude::*;
 
 const PIXELS_PER_MM: f64 = 40.0;
@@ -49,12 +51,6 @@ fn drawn(name: &str, mm: (f64, f64), set: &[(&str, &str)]) -> Drawing {
     let mask = sample("grace-hopper-subject.png");
     let masks: &[(MaskRole, &[u8])] = if name.starts_with("grace") { &[(MaskRole::Subject, &mask)] } else { &[] };
     Sheet { set, masks, ..Sheet::new(&photo, mm) }.draw()
-}
-
-fn plot_svg(plot: &Plot) -> String {
-    let mut bytes = Vec::new();
-    write_svg_plot(plot, &SvgHead::default(), &mut bytes).unwrap();
-    String::from_utf8(bytes).unwrap()
 }
 
 /// Marked pixels of what resvg prints.

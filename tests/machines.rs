@@ -3,6 +3,8 @@
 #![cfg(feature = "cli")]
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use assert_cmd::Command;
 use common::{Sheet, sample};
@@ -10,11 +12,11 @@ use drypoint::drawing::{Colour, Drawing, Handling, Mark, Page};
 use drypoint::geometry::{BezPath, Point, Rect, Vec2, distance_to_segment, flatten};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    Direction, Effort, InkModel, Language, Lift, Mounting, MountingError, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath,
-    built_in_names, clip_to, lower, mount,
+    Dialect, Direction, Effort, InkModel, Language, Lift, Mounting, MountingError, Nibs, PenChange, PenPaths, Plot, Profile,
+    Strokes, Toolpath, built_in_names, clip_to, lower, mount,
 };
-use drypoint::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl, read_svg};
-use drypoint::write::{SvgHead, write_gcode, write_hpgl, write_svg_plotter};
+use drypoint::read::read_svg;
+use machine_file::{read_back, written};
 use rayon::prelude::*;
 use std::fs;
 
@@ -54,30 +56,6 @@ fn three_layers() -> Plot {
     Plot { page: Page::new(60.0, 40.0), pens }
 }
 
-fn written(plot: &Plot, profile: &Profile, mounting: &Mounting) -> std::io::Result<String> {
-    let mut bytes = Vec::new();
-    match profile.language {
-        Language::Gcode => write_gcode(plot, profile, mounting, &mut bytes)?,
-        Language::Hpgl => write_hpgl(plot, profile, mounting, &mut bytes)?,
-        Language::Svg => {
-            let head = SvgHead { recipe: "{}".into(), ..SvgHead::default() };
-            write_svg_plotter(plot, profile, &head, &mut bytes)?;
-        }
-    }
-    Ok(String::from_utf8(bytes).unwrap())
-}
-
-fn read_back(text: &str, profile: &Profile) -> Strokes {
-    if profile.language == Language::Hpgl {
-        return read_hpgl(text).unwrap();
-    }
-    let gcode = profile.gcode.as_ref().unwrap();
-    match (gcode.lift, gcode.height) {
-        (Lift::Height, Some(height)) => read_gcode_heights(text, height.up, height.down).unwrap(),
-        _ => read_gcode(text, gcode.pen_up.as_deref().unwrap(), gcode.pen_down.as_deref().unwrap()).unwrap(),
-    }
-}
-
 fn distance(p: Point, path: &[Point]) -> f64 {
     let of_legs = path.windows(2).map(|w| distance_to_segment(p, w[0], w[1]));
     of_legs.fold(path.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min), f64::min)
@@ -112,16 +90,17 @@ fn assert_safe(text: &str, motion: &Strokes, profile: &Profile, mounting: &Mount
     assert!(motion.ends_up, "{name}");
     let last = motion.visited[motion.visited.len() - 1];
     assert!(last.distance(mounting.park) < 0.01 * profile.units_per_mm, "{name}: {last:?}");
-    if profile.language == Language::Hpgl {
+    if let Dialect::Hpgl(hpgl) = &profile.dialect {
         assert!(text.starts_with("IN;PU;") && text.trim_end().ends_with("SP0;"), "{name}");
-        assert!(text.split(';').all(|instruction| instruction.len() <= profile.hpgl.as_ref().unwrap().chunk), "{name}");
+        assert!(text.split(';').all(|instruction| instruction.len() <= hpgl.chunk), "{name}");
     } else {
         assert_safe_gcode(text, profile);
     }
 }
 
 fn assert_safe_gcode(text: &str, profile: &Profile) {
-    let (name, gcode) = (&profile.name, profile.gcode.as_ref().unwrap());
+    let name = &profile.name;
+    let Dialect::Gcode(gcode) = &profile.dialect else { panic!("{name} is no G-code") };
     let code = |line: &str| line.split(['(', ';']).next().unwrap().trim().to_owned();
     let up = gcode.pen_up.clone().filter(|_| gcode.lift == Lift::Command).unwrap_or_else(|| "G0 Z".to_owned());
     let first = |wanted: &dyn Fn(&str) -> bool| text.lines().position(|line| wanted(&code(line))).unwrap_or(usize::MAX);
@@ -176,14 +155,14 @@ fn assert_holds(plot: &Plot, profile: &Profile) {
     let mounting = mount(profile, &plot.page).unwrap();
     mounting.check(profile, plot).unwrap_or_else(|error| panic!("{name}: {error}"));
     let changes = plot.pens.windows(2).filter(|pair| pair[0].number != pair[1].number).count();
-    let cannot_wait = profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_none());
-    let text = match written(plot, profile, &mounting) {
+    let cannot_wait = profile.language() == Language::Gcode && !profile.can_pause();
+    let text = match written(plot, profile) {
         Ok(text) => text,
         Err(_) if cannot_wait && changes > 0 => return,
         Err(error) => panic!("{name}: {error}"),
     };
     assert!(!cannot_wait || changes == 0, "{name} cannot wait");
-    if profile.language == Language::Svg {
+    if profile.language() == Language::Svg {
         assert_same_strokes(&text, plot, profile, &mounting);
         assert_eq!(text.matches("inkscape:label=\"!").count(), changes, "{name}");
         return;

@@ -1,8 +1,8 @@
 //! Files that something went wrong with: pieces lost, doubled or swapped, numbers without end. Readers tell what is wrong or read
 //! what is left; they never panic.
 
-use drypoint::read::{Budget, PenLift, read_gcode_within, read_hpgl_within, read_svg_within};
-use drypoint::resume::{Stop, resume_gcode, resume_hpgl};
+use drypoint::plot::{Language, Profile, StopPlace};
+use drypoint::read::{Budget, read_svg_within};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -150,13 +150,13 @@ proptest! {
     #[test]
     fn programs(changes in prop::collection::vec(change(), 1..8), stop in 1_usize..40) {
         let text = changed(GCODE, &changes);
-        for lift in [PenLift::Commands { up: "M3 S300", down: "M3 S700" }, PenLift::Heights { up: 2.0, down: -1.0 }] {
-            if let Ok(motion) = read_gcode_within(&text, &lift, &mut budget()) {
+        for machine in ["grbl-servo", "grbl-z"] {
+            if let Ok(motion) = Profile::built_in(machine).unwrap().read(&text, &mut budget()) {
                 prop_assert!(motion.visited.iter().all(|p| p.is_finite()));
             }
         }
-        for stop in [Stop::Line(stop), Stop::Byte(10 * stop), Stop::Path(stop % 4)] {
-            if let Ok(rest) = resume_gcode(&text, stop, 3.0) {
+        for stop in [StopPlace::Line(stop), StopPlace::Byte(10 * stop), StopPlace::Path(stop % 4)] {
+            if let Ok(rest) = Language::Gcode.resume(&text, stop, 3.0) {
                 let code = rest.lines().map(|line| line.split(['(', ';', '%']).next().unwrap_or(""));
                 prop_assert!(!code.filter(|code| code.starts_with('G')).any(|code| code.to_ascii_lowercase().contains("nan")), "{rest}");
             }
@@ -166,11 +166,11 @@ proptest! {
     #[test]
     fn instructions(changes in prop::collection::vec(change(), 1..8), stop in 1_usize..200) {
         let text = changed(HPGL, &changes);
-        if let Ok(motion) = read_hpgl_within(&text, &mut budget()) {
+        if let Ok(motion) = Profile::built_in("hp7475a").unwrap().read(&text, &mut budget()) {
             prop_assert!(motion.visited.iter().all(|p| p.is_finite()));
         }
-        for stop in [Stop::Line(stop % 3), Stop::Byte(stop), Stop::Path(stop % 4)] {
-            let _ = resume_hpgl(&text, stop, 120.0);
+        for stop in [StopPlace::Line(stop % 3), StopPlace::Byte(stop), StopPlace::Path(stop % 4)] {
+            let _ = Language::Hpgl.resume(&text, stop, 3.0);
         }
     }
 }

@@ -147,10 +147,10 @@ fn a_speed_above_the_machine_s_greatest_is_refused_with_it() {
     fs::write(folder.path().join("a.svg"), THREE).unwrap();
     for name in built_in_names() {
         let profile = Profile::built_in(name).unwrap();
-        let out = match profile.language {
+        let out = match profile.language() {
             Language::Hpgl => "x.hpgl",
             Language::Gcode => "x.gcode",
-            Language::Svg => "x.svg",
+            _ => "x.svg",
         };
         let run = |option: &str, speed: f64| {
             let speed = speed.to_string();
@@ -181,10 +181,10 @@ fn the_example_of_pens_works_as_it_is() {
     fs::write(folder.path().join("a.svg"), THREE.replace("</g></svg>", red)).unwrap();
     for name in built_in_names() {
         let profile = Profile::built_in(name).unwrap();
-        let (out, is_mute) = match profile.language {
+        let (out, is_mute) = match profile.language() {
             Language::Hpgl => ("x-{layer}.hpgl", false),
-            Language::Gcode => ("x-{layer}.gcode", profile.gcode.is_some_and(|gcode| gcode.pause.is_none())),
-            Language::Svg => ("x-{layer}.svg", false),
+            Language::Gcode => ("x-{layer}.gcode", !profile.can_pause()),
+            _ => ("x-{layer}.svg", false),
         };
         // A machine that cannot wait draws layer by layer.
         let out = if is_mute { out.to_owned() } else { out.replace("-{layer}", "") };

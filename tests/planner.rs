@@ -7,16 +7,18 @@
 
 mod common;
 mod grbl;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use common::{Sheet, sample};
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    Clock, Direction, Effort, InkModel, Mounting, Nibs, PenPaths, Plot, Profile, Toolpath, built_in, clock, lower, mount,
+    Clock, Direction, Effort, InkModel, Nibs, PenPaths, Plot, Profile, Toolpath, built_in, clock, lower, mount,
 };
-use drypoint::write::write_gcode;
 use grbl::{Elapsed, Laser, Settings, run};
+use machine_file::written;
 use std::f64::consts::TAU;
 use std::process::Command;
 
@@ -39,19 +41,13 @@ fn profile(changes: &[(&str, &str)]) -> Profile {
     Profile::parse("grbl-servo", &text).unwrap()
 }
 
-fn gcode(plot: &Plot, profile: &Profile, mounting: &Mounting) -> String {
-    let mut bytes = Vec::new();
-    write_gcode(plot, profile, mounting, &mut bytes).unwrap();
-    String::from_utf8(bytes).unwrap()
-}
-
 /// Told and simulated seconds of a plot: motion without waits, and the total.
 fn compare(name: &str, plot: &Plot, profile: &Profile, settings: &Settings) -> [f64; 2] {
     let mounting = mount(profile, &plot.page).unwrap();
     let clocks = clock(plot, profile, &mounting, &Interrupt::never()).unwrap();
     let motion: f64 = clocks.iter().map(Clock::motion).sum();
     let total: f64 = clocks.iter().map(Clock::total).sum();
-    let machine: Elapsed = run(&gcode(plot, profile, &mounting), settings);
+    let machine: Elapsed = run(&written(plot, profile).unwrap(), settings);
     let waiting: f64 = clocks.iter().map(|c| c.waiting).sum();
     assert!((waiting - machine.dwell).abs() < 1e-3 * (1.0 + machine.dwell), "{name}: waits {waiting} s for {} s", machine.dwell);
     let error = |told: f64, true_one: f64| 100.0 * (told / true_one - 1.0);
@@ -331,7 +327,7 @@ fn a_stop_on_the_end_of_a_segment_is_late() {
     let servo = profile(&[]);
     let plot = one_pen(vec![circle_from(0.0, 2.0, 0.2); 10]);
     let mounting = mount(&servo, &plot.page).unwrap();
-    let machine = run(&gcode(&plot, &servo, &mounting), &SERVO);
+    let machine = run(&written(&plot, &servo).unwrap(), &SERVO);
     let told = clock(&plot, &servo, &mounting, &Interrupt::never()).unwrap()[0];
     let told = told.drawing + told.travelling;
     println!("motion {:.3} s, late {:.3} s, told {told:.3} s", machine.motion, machine.late);

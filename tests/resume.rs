@@ -2,6 +2,8 @@
 #![cfg(feature = "cli")]
 
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 
 use assert_cmd::Command;
 use common::{Sheet, sample};
@@ -9,11 +11,10 @@ use drypoint::drawing::{Colour, Drawing, Handling, Layer, Page};
 use drypoint::geometry::{Point, Vec2, polyline_length};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    Direction, Effort, InkModel, Language, Lift, Nibs, PenChange, PenPaths, Plot, Profile, Toolpath, built_in_names, lower, mount,
+    Direction, Effort, InkModel, Language, Nibs, PenChange, PenPaths, Plot, Profile, StopPlace, Strokes, Toolpath,
+    built_in_names, lower,
 };
-use drypoint::read::{Strokes, read_gcode, read_gcode_heights, read_hpgl};
-use drypoint::resume::{Stop, resume_gcode, resume_hpgl};
-use drypoint::write::{SvgHead, write_gcode, write_hpgl, write_svg_plotter};
+use machine_file::read_back;
 use std::collections::{BTreeSet, HashSet};
 
 /// A small portrait with three pens, ordered.
@@ -74,22 +75,15 @@ fn g_code_goes_on_at_any_line() {
     let plot = plot();
     for name in ["grbl-servo", "grbl-z"] {
         let profile = Profile::built_in(name).unwrap();
-        let dialect = profile.gcode.clone().unwrap();
-        let mut bytes = Vec::new();
-        write_gcode(&plot, &profile, &mount(&profile, &plot.page).unwrap(), &mut bytes).unwrap();
-        let text = String::from_utf8(bytes).unwrap();
-        let read = |text: &str| match dialect.height {
-            Some(height) => read_gcode_heights(text, height.up, height.down).unwrap(),
-            None => read_gcode(text, dialect.pen_up.as_deref().unwrap(), dialect.pen_down.as_deref().unwrap()).unwrap(),
-        };
+        let text = machine_file::written(&plot, &profile).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         for i in 1..=50 {
             let line = 1 + spread(i, lines.len());
-            let rest = resume_gcode(&text, Stop::Line(line), 3.0).unwrap();
+            let rest = Language::Gcode.resume(&text, StopPlace::Line(line), 3.0).unwrap();
             let before = lines[..line - 1].join("\n") + "\n";
             // A pen number is told by its comment, which both parts hold.
             let [whole, before, rest] = [&text, &before, &rest].map(|text| {
-                let mut strokes = read(text);
+                let mut strokes = read_back(text, &profile);
                 strokes.paths.iter_mut().for_each(|(pen, _)| *pen = 0);
                 strokes
             });
@@ -103,13 +97,11 @@ fn g_code_goes_on_at_any_line() {
 fn hp_gl_goes_on_at_any_byte() {
     let plot = plot();
     let profile = Profile::built_in("hp7475a").unwrap();
-    let mut bytes = Vec::new();
-    write_hpgl(&plot, &profile, &mount(&profile, &plot.page).unwrap(), &mut bytes).unwrap();
-    let text = String::from_utf8(bytes).unwrap();
+    let text = machine_file::written(&plot, &profile).unwrap();
     for i in 1..=50 {
         let byte = spread(i, text.len());
-        let rest = resume_hpgl(&text, Stop::Byte(byte), 120.0).unwrap();
-        let [whole, before, rest] = [&text, &taken(&text[..byte]), &rest].map(|text| read_hpgl(text).unwrap());
+        let rest = Language::Hpgl.resume(&text, StopPlace::Byte(byte), 3.0).unwrap();
+        let [whole, before, rest] = [&text, &taken(&text[..byte]), &rest].map(|text| read_back(text, &profile));
         assert!(rest.ends_up, "byte {byte}");
         check(&format!("byte {byte}"), &whole, &before, &rest, profile.units_per_mm);
     }
@@ -133,12 +125,10 @@ fn taken(text: &str) -> String {
 fn nothing_is_drawn_before_the_place_to_go_on_from() {
     let plot = plot();
     let profile = Profile::built_in("grbl-servo").unwrap();
-    let mut bytes = Vec::new();
-    write_gcode(&plot, &profile, &mount(&profile, &plot.page).unwrap(), &mut bytes).unwrap();
-    let text = String::from_utf8(bytes).unwrap();
+    let text = machine_file::written(&plot, &profile).unwrap();
     for i in 1..=50 {
         let line = 20 + spread(i, text.lines().count() - 20);
-        let rest = resume_gcode(&text, Stop::Line(line), 3.0).unwrap();
+        let rest = Language::Gcode.resume(&text, StopPlace::Line(line), 3.0).unwrap();
         let up = rest.lines().position(|line| line == "M3 S300").unwrap();
         let first_down = rest.lines().position(|line| line == "M3 S700").unwrap_or(usize::MAX);
         let first_move = rest.lines().position(|line| line.starts_with("G0 X")).unwrap();
@@ -152,7 +142,7 @@ fn nothing_is_drawn_before_the_place_to_go_on_from() {
 
 /// Three pens with two lines and a touch each, so that a machine with one holder pauses twice; one pen where it cannot.
 fn three_layers(profile: &Profile) -> Plot {
-    let cannot_wait = profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_none());
+    let cannot_wait = profile.language() == Language::Gcode && !profile.can_pause();
     let pen = |number: u32| {
         let (y, turn) = (8.0 * f64::from(number), 0.2 * f64::from(number));
         let arc = (0..30).map(|i| Point::new(40.0, y) + Vec2::from_angle(turn + 0.1 * f64::from(i)) * 5.0).collect();
@@ -162,7 +152,7 @@ fn three_layers(profile: &Profile) -> Plot {
             paths[0].heights = Some(vec![-0.1, -1.1, -0.5, -0.3]);
         }
         let handling = Handling { delay_seconds: if number == 3 { 0.4 } else { 0.0 }, ..Handling::default() };
-        let handling = if profile.language == Language::Gcode { handling } else { Handling::default() };
+        let handling = if profile.language() == Language::Gcode { handling } else { Handling::default() };
         PenPaths { number, name: format!("layer {number}; is M0"), colour: Colour::BLACK, nib: 0.3, handling, paths }
     };
     let pens = if cannot_wait { vec![pen(1)] } else { (1..=3).map(pen).collect() };
@@ -170,25 +160,7 @@ fn three_layers(profile: &Profile) -> Plot {
 }
 
 fn written(profile: &Profile) -> String {
-    let plot = three_layers(profile);
-    let mounting = mount(profile, &plot.page).unwrap();
-    let mut bytes = Vec::new();
-    match profile.language {
-        Language::Gcode => write_gcode(&plot, profile, &mounting, &mut bytes).unwrap(),
-        Language::Hpgl => write_hpgl(&plot, profile, &mounting, &mut bytes).unwrap(),
-        Language::Svg => write_svg_plotter(&plot, profile, &SvgHead::default(), &mut bytes).unwrap(),
-    }
-    String::from_utf8(bytes).unwrap()
-}
-
-fn read_back(text: &str, profile: &Profile) -> Strokes {
-    let Some(gcode) = profile.gcode.as_ref().filter(|_| profile.language == Language::Gcode) else {
-        return read_hpgl(text).unwrap();
-    };
-    match (gcode.lift, gcode.height) {
-        (Lift::Height, Some(height)) => read_gcode_heights(text, height.up, height.down).unwrap(),
-        _ => read_gcode(text, gcode.pen_up.as_deref().unwrap(), gcode.pen_down.as_deref().unwrap()).unwrap(),
-    }
+    machine_file::written(&three_layers(profile), profile).unwrap()
 }
 
 /// Pens, pauses, position and pen of what is left are those of the whole.
@@ -207,13 +179,12 @@ fn every_machine_goes_on_with_its_pens_pauses_and_place() {
     for name in built_in_names() {
         let profile = Profile::built_in(name).unwrap();
         let text = written(&profile);
-        match profile.language {
-            Language::Svg => {}
+        match profile.language() {
             Language::Gcode => {
                 let lines: Vec<&str> = text.lines().collect();
                 let whole = read_back(&text, &profile);
                 for line in 1..=lines.len() {
-                    let rest = resume_gcode(&text, Stop::Line(line), 3.0).unwrap();
+                    let rest = Language::Gcode.resume(&text, StopPlace::Line(line), 3.0).unwrap();
                     let before = read_back(&(lines[..line - 1].join("\n") + "\n"), &profile);
                     assert_rest(&format!("{name}, line {line}"), &whole, &before, &read_back(&rest, &profile), &profile);
                 }
@@ -221,11 +192,12 @@ fn every_machine_goes_on_with_its_pens_pauses_and_place() {
             Language::Hpgl => {
                 let whole = read_back(&text, &profile);
                 for byte in 0..text.len() {
-                    let rest = resume_hpgl(&text, Stop::Byte(byte), 3.0 * profile.units_per_mm).unwrap();
+                    let rest = Language::Hpgl.resume(&text, StopPlace::Byte(byte), 3.0).unwrap();
                     let before = read_back(&taken(&text[..byte]), &profile);
                     assert_rest(&format!("{name}, byte {byte}"), &whole, &before, &read_back(&rest, &profile), &profile);
                 }
             }
+            _ => {}
         }
     }
 }
@@ -240,7 +212,7 @@ fn drypoint(arguments: &[&str], file: &str) -> (i32, String, String) {
 
 fn inspected(name: &str, profile: &Profile, file: &str) -> serde_json::Value {
     // HP-GL does not say for which machine it is.
-    let more: &[&str] = if profile.language == Language::Gcode { &[] } else { &["--profile", name] };
+    let more: &[&str] = if profile.language() == Language::Gcode { &[] } else { &["--profile", name] };
     let (status, json, said) = drypoint(&[&["inspect", "-", "--json"], more].concat(), file);
     assert_eq!(status, 0, "{name}: {said}");
     serde_json::from_str(&json).unwrap()
@@ -253,7 +225,7 @@ fn every_machine_s_file_is_inspected_and_resumed_by_its_text_alone() {
         let text = written(&profile);
         let pens = three_layers(&profile).pens.len();
         let told = inspected(name, &profile, &text);
-        if profile.language == Language::Svg {
+        if profile.language() == Language::Svg {
             assert_eq!(told["layers"].as_array().unwrap().len(), 3, "{name}");
             continue;
         }

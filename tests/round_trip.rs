@@ -3,6 +3,8 @@
 #[path = "common/any_style.rs"]
 mod any_style;
 mod common;
+#[path = "common/machine_file.rs"]
+mod machine_file;
 #[path = "common/rasterised.rs"]
 mod rasterised;
 
@@ -11,9 +13,9 @@ use common::{Sheet, sample, svg_of};
 use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point, Rect, distance_to_segment};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Toolpath, lower, mount};
-use drypoint::read::{Strokes, read_gcode, read_hpgl, read_svg};
-use drypoint::write::{write_gcode, write_hpgl};
+use drypoint::plot::{Direction, Effort, InkModel, MountingError, Nibs, Plot, Profile, Strokes, Toolpath, lower, mount};
+use drypoint::read::read_svg;
+use machine_file::{read_back, written};
 use rasterised::{Pixels, rasterised};
 
 /// Every photograph in `samples/`, its sheet, and parameters that make each kind of mark.
@@ -187,16 +189,7 @@ fn gcode_and_hpgl_draw_what_was_asked_inside_the_machine() {
             let profile = profile(machine);
             let mounting = mount(&profile, &plot.page).unwrap();
             mounting.check(&profile, &plot).unwrap();
-            let mut bytes = Vec::new();
-            let motion = if machine == "grbl-servo" {
-                write_gcode(&plot, &profile, &mounting, &mut bytes).unwrap();
-                let dialect = profile.gcode.as_ref().unwrap();
-                let [up, down] = [&dialect.pen_up, &dialect.pen_down].map(|command| command.as_deref().unwrap());
-                read_gcode(std::str::from_utf8(&bytes).unwrap(), up, down).unwrap()
-            } else {
-                write_hpgl(&plot, &profile, &mounting, &mut bytes).unwrap();
-                read_hpgl(std::str::from_utf8(&bytes).unwrap()).unwrap()
-            };
+            let motion = read_back(&written(&plot, &profile).unwrap(), &profile);
             let to_page = mounting.to_machine.inverse();
             assert_drawn(name, &plot, &motion, |p| to_page * p, 0.05);
             assert_inside(name, &motion, mounting.limits);

@@ -2,19 +2,19 @@
 //! numbers stay finite, nothing is lost by the order, a machine's file stays within its reach, and what is written can be read.
 
 use super::invented::{drawing, length, window};
-use super::machine::{Written, is_sound, lift_of, written};
+use super::machine::{Written, is_sound, written};
 use super::svg::is_finite;
 use arbitrary::{Result, Unstructured};
 use drypoint::drawing::{Colour, Drawing, Painted};
 use drypoint::geometry::{Point, Rect};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    Course, Direction, DrawingCorner, Duplicates, Effort, Hides, InkModel, Nibs, Plot, Profile, Seam, Sequence, Swell,
-    built_in_names, clip_to, coverage, lower, mount, occluded,
+    Course, Dialect, Direction, DrawingCorner, Duplicates, Effort, Hides, InkModel, Job, JobOptions, Language, Nibs, Plot,
+    Profile, Seam, Sequence, Swell, built_in_names, clip_to, coverage, lower, mount, occluded, write_inkml,
 };
 use drypoint::press::Press;
-use drypoint::read::{Budget, read_gcode_within, read_hpgl, read_svg};
-use drypoint::write::{SvgHead, write_inkml, write_pdf, write_svg, write_svg_plot};
+use drypoint::read::{Budget, read_svg};
+use drypoint::write::{SvgHead, write_pdf, write_svg};
 use std::io::Read;
 
 pub fn check(bytes: &[u8]) {
@@ -83,7 +83,7 @@ impl Options {
 
 /// A brush that touches the paper above where the pen is lowered, and swells below it.
 fn swell(profile: &Profile) -> Swell {
-    let (up, down) = profile.gcode.as_ref().and_then(|gcode| gcode.height).map_or((2.0, 0.0), |height| (height.up, height.down));
+    let (up, down) = profile.height().map_or((2.0, 0.0), |height| (height.up, height.down));
     let at = |share: f64| down + share * (up - down);
     Swell { table: vec![[0.2, at(0.7)], [0.4, down], [1.0, at(-1.5)]] }
 }
@@ -201,7 +201,12 @@ fn on_machine(mut plot: Plot, options: &Options) {
         clip_to(&mut plot, drawable);
     }
     plot.pens.retain(|pen| !pen.paths.is_empty());
-    are_read_back(&text(|out| write_svg_plot(&plot, &SvgHead::default(), out)), &plot);
+    let as_it_stands = JobOptions {
+        sequence: Sequence { effort: Effort::None, duplicates: Duplicates::Keep, ..Sequence::default() },
+        ..JobOptions::default()
+    };
+    let job = Job::of_paths(plot.clone(), None, &as_it_stands, &Interrupt::never()).expect("paper refuses nothing");
+    are_read_back(&text(|out| job.write(&SvgHead::default(), out)), &plot);
     let Some(Written { text, plot, mounting }) = written(profile, plot) else {
         assert!(!options.does_clip, "what is cut to the machine's reach is refused");
         return;
@@ -213,16 +218,12 @@ fn on_machine(mut plot: Plot, options: &Options) {
         .union(Rect::from_points(mounting.park, mounting.park))
         .union(Rect::from_points(Point::ORIGIN, Point::ORIGIN));
     let reach = reach.inflate(0.01 + 0.02 * profile.units_per_mm, 0.01 + 0.02 * profile.units_per_mm);
-    if profile.hpgl.is_some() {
-        let motion = read_hpgl(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    if profile.language() != Language::Svg {
+        let motion = profile.read(&text, &mut Budget::default()).unwrap_or_else(|error| panic!("{error}: {text}"));
         is_sound(&motion, Some(reach));
         assert!(motion.ends_up && motion.paths.len() == count, "{} of {count} paths: {text}", motion.paths.len());
     }
-    if let Some(dialect) = &profile.gcode {
-        let motion = read_gcode_within(&text, &lift_of(profile, dialect), &mut Budget::default())
-            .unwrap_or_else(|error| panic!("{error}: {text}"));
-        is_sound(&motion, Some(reach));
-        assert!(motion.ends_up && motion.paths.len() == count, "{} of {count} paths: {text}", motion.paths.len());
+    if let Dialect::Gcode(dialect) = &profile.dialect {
         assert!(text.lines().all(|line| line.len() <= dialect.line_length && line.is_ascii()), "{text}");
     }
 }

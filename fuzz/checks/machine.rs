@@ -5,10 +5,10 @@ use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::{Point, Rect};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    GcodeDialect, Language, Lift, Mounting, PenPaths, Plot, Profile, Toolpath, let_dry, mount, report, rest_touches,
+    Duplicates, Effort, Job, JobOptions, Language, Mounting, PenPaths, Plot, Profile, Sequence, ShownTravel, Strokes, Toolpath,
+    mount,
 };
-use drypoint::read::{PenLift, Strokes};
-use drypoint::write::{ShownTravel, SvgHead, write_gcode, write_hpgl, write_preview, write_svg_plotter};
+use drypoint::write::SvgHead;
 
 /// An arc, a touch, a closed path and a swelling one; the second pen of the same number waits first.
 pub(crate) fn small_plot(page: Page) -> Plot {
@@ -37,28 +37,25 @@ pub(crate) struct Written {
     pub(crate) mounting: Mounting,
 }
 
-/// Lays a plot on a machine, takes its time, and writes it and its preview; nothing where the machine refuses it.
+/// Takes a plot through a machine's job, and writes it and its preview; nothing where the machine refuses it.
 pub(crate) fn written(profile: &Profile, mut plot: Plot) -> Option<Written> {
     let mounting = told(mount(profile, &plot.page))?;
     let reach = mounting.reach_on_page();
     assert!(reach.is_finite() && mounting.drawable(&plot.page).is_finite(), "reach {reach:?}");
-    told(mounting.check(profile, &plot))?;
-    if profile.gcode.as_ref().is_none_or(|gcode| gcode.pause.is_none()) {
+    if !profile.can_pause() {
         plot.pens.iter_mut().for_each(|pen| pen.handling.pauses = false);
     }
-    let never = Interrupt::never();
-    rest_touches(&mut plot, |_| profile.motion.touch_seconds);
-    let waited = let_dry(&mut plot, 2.0, Point::ORIGIN, &profile.motion, &never).expect("nobody interrupts");
-    let times = report(&plot, Point::ORIGIN, Some((profile, &mounting)), None, &never).expect("nobody interrupts");
-    let seconds = times.total.seconds.expect("the machine is known");
-    assert!(seconds.is_finite() && seconds >= 0.0 && waited.is_finite(), "{seconds} s, waiting {waited} s");
-    let text = ascii(|out| match profile.language {
-        Language::Hpgl => write_hpgl(&plot, profile, &mounting, out),
-        Language::Gcode => write_gcode(&plot, profile, &mounting, out),
-        Language::Svg => write_svg_plotter(&plot, profile, &SvgHead::default(), out),
-    });
-    ascii(|out| write_preview(&plot, Some(&mounting), Point::ORIGIN, ShownTravel::Faint, out));
-    Some(Written { text, plot, mounting })
+    if profile.language() == Language::Hpgl {
+        plot.pens.iter_mut().for_each(|pen| pen.handling.delay_seconds = 0.0);
+    }
+    let sequence = Sequence { effort: Effort::None, duplicates: Duplicates::Keep, ..Sequence::default() };
+    let options = JobOptions { sequence, dry_seconds: profile.can_dwell().then_some(2.0), ..JobOptions::default() };
+    let job = told(Job::of_paths(plot, Some(profile), &options, &Interrupt::never()))?;
+    let seconds = job.report().total.seconds.expect("the machine is known");
+    assert!(seconds.is_finite() && seconds >= 0.0, "{seconds} s");
+    let text = ascii(|out| job.write(&SvgHead::default(), out));
+    ascii(|out| job.write_preview(ShownTravel::Faint, out));
+    Some(Written { text, plot: job.plot().clone(), mounting })
 }
 
 fn told<T, E: std::fmt::Display>(result: Result<T, E>) -> Option<T> {
@@ -69,17 +66,6 @@ fn ascii(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>) -> String {
     let mut bytes = Vec::new();
     write(&mut bytes).expect("memory takes all that is written");
     String::from_utf8(bytes).expect("what is written is text")
-}
-
-/// How a profile's machine moves its pen.
-pub(crate) fn lift_of<'a>(profile: &Profile, dialect: &'a GcodeDialect) -> PenLift<'a> {
-    match (dialect.lift, dialect.height) {
-        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: profile.lightest().unwrap_or(height.down) },
-        _ => PenLift::Commands {
-            up: dialect.pen_up.as_deref().unwrap_or_default(),
-            down: dialect.pen_down.as_deref().unwrap_or_default(),
-        },
-    }
 }
 
 /// Everything that a file makes a machine do is finite, and within `reach` if there is one.

@@ -14,7 +14,7 @@ pub mod profile;
 mod refusal;
 pub mod svg;
 
-use drypoint::resume::Stop;
+use drypoint::plot::StopPlace as Stop;
 
 /// Millions of steps that a file may take to be read here: a sixth of the usual, so that many files go through.
 const STEPS: f64 = 2.0;

@@ -11,10 +11,10 @@ use super::{output, toolpaths};
 use crate::drawing::{Colour, Handling, Mark, Page};
 use crate::geometry::{Affine, Point, Rect, Vec2};
 use crate::plot::{
-    InkModel, Language, Lift, Mounting, Nibs, PenPaths, Plot, PlotReport, Profile, Toolpath, built_in_names, home_of, lower,
-    mount, report,
+    Dialect, InkModel, Language, Mounting, Nibs, PenPaths, Plot, PlotReport, Profile, Strokes, Toolpath, built_in_names, home_of,
+    lower, mount, report,
 };
-use crate::read::{Budget, PenLift, Strokes, read_gcode_within, read_hpgl_within, read_svg_within};
+use crate::read::{Budget, read_svg_within};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -44,47 +44,34 @@ fn is_encoded(bytes: &[u8]) -> bool {
 fn inspect_text(shown: &str, bytes: &[u8], profile: Option<Profile>, budget: &mut Budget) -> Result<Value, Failure> {
     let text = std::str::from_utf8(bytes)
         .map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
-    Ok(match kind_of(shown, text) {
-        Kind::Svg => inspect_svg(shown, bytes, profile.as_ref(), budget)?,
-        Kind::Hpgl => {
-            let motion =
-                read_hpgl_within(text, budget).map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))?;
-            let profile = profile.map_or_else(|| Profile::built_in("hp7475a"), Ok)?;
-            if profile.language != Language::Hpgl {
-                return Err(Failure::Usage(format!("{shown} is HP-GL, which {} does not read", profile.name)));
+    Ok(match language_of(shown, text) {
+        Some(Language::Svg) => inspect_svg(shown, bytes, profile.as_ref(), budget)?,
+        Some(language) => {
+            let profile = profile.map_or_else(|| usual_profile(language, text), Ok)?;
+            if profile.language() != language {
+                return Err(Failure::Usage(format!("{shown} is {}, which {} does not read", language.title(), profile.name)));
             }
-            inspect_motion("hpgl", &motion, &profile)?
+            let motion = profile.read(text, budget).map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))?;
+            inspect_motion(language.key(), &motion, &profile)?
         }
-        Kind::Gcode => {
-            let profile = profile.map_or_else(|| gcode_profile(text), Ok)?;
-            let motion = gcode_motion(shown, text, &profile, budget)?;
-            inspect_motion("gcode", &motion, &profile)?
-        }
-        Kind::Unknown => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
+        None => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
     })
 }
 
-enum Kind {
-    Svg,
-    Hpgl,
-    Gcode,
-    Unknown,
+/// The language of a file: as its text begins, an SVG's whatever its name, else as its name ends.
+fn language_of(name: &str, text: &str) -> Option<Language> {
+    let begins = Language::of_text(text);
+    let name = name.to_ascii_lowercase();
+    let ends = |language: &Language| language.extensions().iter().any(|extension| name.ends_with(&format!(".{extension}")));
+    let by_name = Language::ALL.into_iter().filter(|language| *language != Language::Svg).find(ends);
+    begins.filter(|language| *language == Language::Svg).or(by_name).or(begins)
 }
 
-fn kind_of(name: &str, text: &str) -> Kind {
-    let start = text.trim_start_matches(['\u{feff}', ' ', '\n', '\r', '\t']);
-    let has = |extensions: &[&str]| extensions.iter().any(|e| name.to_ascii_lowercase().ends_with(e));
-    let is_hpgl = |text: &str| text.starts_with("IN") || text.starts_with('\u{1b}');
-    if start.starts_with('<') {
-        Kind::Svg
-    } else if has(&[".gcode", ".nc", ".ngc"]) {
-        Kind::Gcode
-    } else if has(&[".hpgl", ".plt"]) || is_hpgl(start.trim_start_matches(';')) {
-        Kind::Hpgl
-    } else if start.starts_with(['G', 'M', '(', '%', ';']) {
-        Kind::Gcode
-    } else {
-        Kind::Unknown
+/// The profile by which a file is read when none was given.
+fn usual_profile(language: Language, text: &str) -> Result<Profile, Failure> {
+    match language {
+        Language::Hpgl => Ok(Profile::built_in("hp7475a")?),
+        _ => gcode_profile(text),
     }
 }
 
@@ -97,25 +84,13 @@ fn gcode_profile(text: &str) -> Result<Profile, Failure> {
     }
     for name in built_in_names() {
         let profile = Profile::built_in(name)?;
-        let down = profile.gcode.as_ref().filter(|gcode| gcode.lift == Lift::Command).and_then(|gcode| gcode.pen_down.as_deref());
+        let Dialect::Gcode(gcode) = &profile.dialect else { continue };
+        let down = gcode.pen_down.as_deref().filter(|_| profile.height().is_none());
         if down.is_some_and(|down| text.lines().any(|line| line.trim() == down)) {
             return Ok(profile);
         }
     }
     Err(Failure::Work("this G-code moves its pen in no way that a built-in profile does; name yours with --profile".to_owned()))
-}
-
-/// What the pen does, told by the profile's commands or heights.
-fn gcode_motion(shown: &str, text: &str, profile: &Profile, budget: &mut Budget) -> Result<Strokes, Failure> {
-    let dialect = profile
-        .gcode
-        .as_ref()
-        .ok_or_else(|| Failure::Usage(format!("{shown} is G-code, which {} does not read", profile.name)))?;
-    let lift = match (dialect.lift, dialect.height) {
-        (Lift::Height, Some(height)) => PenLift::Heights { up: height.up, down: profile.lightest().unwrap_or(height.down) },
-        _ => PenLift::Commands { up: dialect.pen_up.as_deref().unwrap_or(""), down: dialect.pen_down.as_deref().unwrap_or("") },
-    };
-    read_gcode_within(text, &lift, budget).map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))
 }
 
 fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut Budget) -> Result<Value, Failure> {

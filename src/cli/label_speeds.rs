@@ -16,13 +16,13 @@ pub(super) fn fit_to_machine(imported: &mut Imported, profile: &Profile) {
     let written = imported.speeds.clone();
     for layer in &mut imported.layers {
         let Some(percent) = layer.layer.handling.speed_percent else { continue };
-        let asked = match (&written, profile.svg) {
+        let asked = match (&written, profile.speed_of_percent()) {
             (Some(speeds), _) if is_usual(speeds, percent, profile) => {
                 layer.layer.handling.speed_percent = None;
                 continue;
             }
             (Some(speeds), _) => percent * speeds.percent_mm_s,
-            (None, Some(svg)) => percent * svg.speed_of_percent,
+            (None, Some(speed)) => percent * speed,
             (None, None) => profile.motion.draw_speed * percent.clamp(1.0, MOST_PERCENT) / 100.0,
         };
         let fastest = profile.motion.fastest_drawing();

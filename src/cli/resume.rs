@@ -6,11 +6,9 @@ use super::messages::say;
 use super::output;
 use super::remedies::advised;
 use crate::drawing::Layer;
+use crate::plot::{Language, ResumeError, StopPlace as Stop};
 use crate::read::read_svg;
-use crate::resume::{Stop, resume_gcode, resume_hpgl};
 
-/// Plotter units a millimetre, near enough for how much is drawn again.
-const HPGL_UNITS_PER_MM: f64 = 40.0;
 /// A file of many days' drawing, in bytes. Short instructions take thirty times their length in memory.
 const MOST_BYTES: u64 = 1 << 26;
 
@@ -24,24 +22,16 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
     let shown = if options.file == "-" { "stdin" } else { &options.file };
     let text = String::from_utf8(output::read(&options.file, MOST_BYTES, "")?)
         .map_err(|_| Failure::Work(format!("{shown} is neither HP-GL nor G-code: it is not plain text")))?;
-    if is_svg(&text) {
-        return Err(Failure::Work(svg_advice(shown, &text)));
-    }
-    let rest = if is_hpgl(&text) {
-        resume_hpgl(&text, stop, options.again * HPGL_UNITS_PER_MM)
-    } else {
-        resume_gcode(&text, stop, options.again)
-    };
-    let rest = rest.map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))?;
+    let language = Language::of_text(&text).unwrap_or(Language::Gcode);
+    let rest = language.resume(&text, stop, options.again).map_err(|error| match error {
+        ResumeError::OwnProgram => Failure::Work(svg_advice(shown, &text)),
+        error => Failure::Work(format!("{shown}: {}", advised(&error))),
+    })?;
     output::write(&options.output, |out| out.write_all(rest.as_bytes()))?;
     if !options.quiet && options.output != "-" {
         say!("{}: {} of {} bytes are left to send", options.output, rest.len(), text.len());
     }
     Ok(())
-}
-
-fn is_svg(text: &str) -> bool {
-    text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
 }
 
 /// An SVG is no machine's file: whoever drives the machine with it knows where it stopped.
@@ -65,9 +55,4 @@ fn svg_advice(shown: &str, text: &str) -> String {
         "{shown} is an SVG: the machine is driven by a program of its own, which alone knows where it stopped. Resume there: the AxiDraw's \
          extension of Inkscape has a tab Resume, and axicli --mode res_plot goes on with the file that it wrote when it was paused{from_layer}"
     )
-}
-
-/// HP-GL begins with `IN;`, after escape sequences for the interface at most.
-fn is_hpgl(text: &str) -> bool {
-    text.trim_start().starts_with('\u{1b}') || text.trim_start().starts_with("IN")
 }

@@ -7,9 +7,8 @@ use super::layer_files::LayerFile;
 use super::messages::{say, warning};
 use super::output;
 use super::words::counted;
-use crate::geometry::Point;
-use crate::plot::{Cut, Job, Language, PenChange, PenReport, PlotReport, Profile, Travel, built_in};
-use crate::write::{ShownTravel, SvgHead, write_job, write_preview, write_svg_plot};
+use crate::plot::{Cut, Job, Language, PenChange, PenReport, PlotReport, Profile, ShownTravel, built_in};
+use crate::write::SvgHead;
 use std::collections::BTreeSet;
 
 /// Plotting time above which the user is warned.
@@ -51,21 +50,16 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
         let key = if profile.motion.draw_speed_limit.is_some() { "draw_speed_limit" } else { "travel_speed" };
         check_speed(("--speed", speed), "draws", fastest[0], key, &profile)?;
         profile.motion.draw_speed = speed;
-        if profile.language == Language::Hpgl {
-            profile.motion.draw_speed = profile.told_speed(speed);
-        }
+        profile.motion.draw_speed = profile.nearest_speed(speed);
     }
     if let Some(speed) = options.travel_speed {
         let key = if profile.motion.travel_speed_limit.is_some() { "travel_speed_limit" } else { "travel_speed" };
         check_speed(("--travel-speed", speed), "travels", fastest[1], key, &profile)?;
         profile.motion.travel_speed = speed;
-        // G0 runs at the machine's own rate; a speed that was asked for needs a feed.
-        if let Some(gcode) = profile.gcode.as_mut().filter(|gcode| gcode.travel == Travel::Rapid) {
-            gcode.travel = Travel::Feed;
-        }
+        profile.feed_travel();
     }
     if let Some(seconds) = options.dwell {
-        if profile.language != Language::Gcode && seconds > 0.0 {
+        if !profile.can_dwell() && seconds > 0.0 {
             return Err(Failure::Usage(format!("--dwell: {} has no word for a wait at each touch", profile.name)));
         }
         profile.motion.touch_seconds = seconds;
@@ -82,6 +76,15 @@ fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str
         "{option} {speed}: {} {does} at {fastest} mm/s at most; for a faster machine --set-profile motion.{key}={speed}",
         profile.name
     )))
+}
+
+/// Endings of a language's files, such as `.hpgl or .plt`.
+fn extensions(language: Language) -> String {
+    let dotted: Vec<String> = language.extensions().iter().map(|extension| format!(".{extension}")).collect();
+    match &dotted[..] {
+        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
+        _ => dotted.concat(),
+    }
 }
 
 /// Refuses a format that the profile's machine does not read.
@@ -103,12 +106,8 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
     };
     match profile {
         None => Err(Failure::Usage("HP-GL and G-code need --profile; `drypoint profiles` lists the plotters".to_owned())),
-        Some(profile) if profile.language != needed => {
-            let right = match profile.language {
-                Language::Hpgl => ".hpgl or .plt",
-                Language::Gcode => ".gcode, .nc or .ngc",
-                Language::Svg => ".svg",
-            };
+        Some(profile) if profile.language() != needed => {
+            let right = extensions(profile.language());
             Err(Failure::Usage(format!("{} reads another language than this file's format; write {right}", profile.name)))
         }
         Some(_) => Ok(()),
@@ -117,10 +116,10 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
 
 /// Writes a job in its machine's language, or as a picture of its tool paths.
 pub(super) fn write(name: &str, format: Format, job: &Job<'_>, head: &SvgHead) -> Result<(), Failure> {
-    output::write(name, |mut out| match format {
-        Format::Hpgl | Format::Gcode => write_job(job, head, &mut out),
-        _ if job.machine().is_some_and(|machine| machine.language == Language::Svg) => write_job(job, head, &mut out),
-        _ => write_svg_plot(job.plot(), head, &mut out),
+    output::write(name, |out| match format {
+        Format::Hpgl | Format::Gcode => job.write(head, out),
+        _ if job.machine().is_some_and(|machine| machine.language() == Language::Svg) => job.write(head, out),
+        _ => job.write_picture(head, out),
     })
 }
 
@@ -152,13 +151,12 @@ fn preview_name(name: &str, layer: Option<&str>) -> String {
 pub(super) fn write_preview_of(job: &Job<'_>, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
     let Some(name) = &options.preview else { return Ok(()) };
     let name = preview_name(name, layer);
-    let start = job.mounting().map_or(job.home(), |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
     let travel = match options.preview_travel {
         PreviewTravel::Off => ShownTravel::Off,
         PreviewTravel::Faint => ShownTravel::Faint,
         PreviewTravel::Full => ShownTravel::Full,
     };
-    output::write(&name, |mut out| write_preview(job.plot(), job.mounting(), start, travel, &mut out))
+    output::write(&name, |out| job.write_preview(travel, out))
 }
 
 /// Warnings about the machine, shown whatever was asked for; `shorter` says what makes a long plot shorter, unless that was said

@@ -7,15 +7,19 @@
 //! A [`Job`] can only be had by way of these checks, and only a job is written for a machine.
 
 use super::errands::{add_registration, pause_every, rest_touches};
+use super::language::{Orders, write_picture};
+use super::preview::{ShownTravel, write_preview};
 use super::{
-    InkModel, Language, Mounting, MountingError, Nibs, PenChange, Plot, PlotReport, Profile, Sequence, clip_to, coverage,
-    let_dry, lower, mount, report,
+    InkModel, Mounting, MountingError, Nibs, PenChange, Plot, PlotReport, Profile, Sequence, clip_to, coverage, let_dry, lower,
+    mount, report,
 };
 use crate::drawing::Drawing;
 use crate::geometry::{Point, Rect};
 use crate::interrupt::{Interrupt, Interrupted};
+use crate::write::SvgHead;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::io;
 use thiserror::Error;
 
 /// What is asked of a job beyond its drawing and its machine.
@@ -254,6 +258,23 @@ impl<'a> Job<'a> {
         Ok(Self { plot, machine, report, unordered, cut, home, duplicates })
     }
 
+    /// Writes it in its machine's language or, without a machine, its tool paths as SVG. `head` stands in SVG only.
+    pub fn write(&self, head: &SvgHead, mut out: impl io::Write) -> io::Result<()> {
+        let Some((profile, mounting)) = &self.machine else { return write_picture(&self.plot, head, &mut out) };
+        profile.speech().write(&Orders { plot: &self.plot, profile, mounting, head }, &mut out)
+    }
+
+    /// Writes its tool paths as SVG, lines as wide as each pen's nib, whatever its machine reads.
+    pub fn write_picture(&self, head: &SvgHead, mut out: impl io::Write) -> io::Result<()> {
+        write_picture(&self.plot, head, &mut out)
+    }
+
+    /// Writes what the machine will do as an SVG to look at: sheet, reach, ink, start, park and the ways of the raised pen.
+    pub fn write_preview(&self, travel: ShownTravel, mut out: impl io::Write) -> io::Result<()> {
+        let start = self.mounting().map_or(self.home, |mounting| mounting.to_machine.inverse() * Point::ORIGIN);
+        write_preview(&self.plot, self.mounting(), start, travel, &mut out)
+    }
+
     /// Its tool paths in drawing order.
     pub const fn plot(&self) -> &Plot {
         &self.plot
@@ -320,7 +341,7 @@ fn rest_and_dry(
     rest_touches(plot, |pen| options.dwell.get(&pen).copied().unwrap_or(usual));
     let (Some(seconds), Some(profile)) = (options.dry_seconds, machine) else { return Ok(()) };
     let waited = let_dry(plot, seconds, home, &profile.motion, interrupt)?;
-    if waited > 0.0 && profile.language != Language::Gcode {
+    if waited > 0.0 && !profile.speech().can_dwell() {
         return Err(JobError::NoWait { seconds: waited });
     }
     Ok(())
@@ -338,19 +359,10 @@ pub fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
     Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
 }
 
-/// Whether a file can make the machine wait for its user.
-fn can_wait(profile: &Profile) -> bool {
-    match profile.language {
-        Language::Gcode => profile.gcode.as_ref().is_some_and(|gcode| gcode.pause.is_some()),
-        Language::Hpgl => false,
-        Language::Svg => true,
-    }
-}
-
 /// Every pen is there, or the machine can wait until it is; what asks for a wait gets it.
 fn check_pens(plot: &Plot, profile: &Profile, options: &JobOptions) -> Result<(), JobError> {
     let machine = || profile.name.clone();
-    if profile.language == Language::Hpgl
+    if !profile.speech().has_layer_handling()
         && let Some(pen) = plot.pens.iter().find(|pen| pen.handling.pauses || pen.handling.delay_seconds > 0.0)
     {
         return Err(JobError::NoHandling { layer: pen.name.clone() });
@@ -361,10 +373,10 @@ fn check_pens(plot: &Plot, profile: &Profile, options: &JobOptions) -> Result<()
         let (layer, holds) = (pen.name.clone(), profile.pens.count);
         return Err(JobError::NoSuchPen { layer, pen: pen.number, machine: machine(), holds });
     }
-    if options.marks.has_frame && profile.language == Language::Svg {
+    if options.marks.has_frame && !profile.speech().traces_frame() {
         return Err(JobError::OwnFrame { machine: machine() });
     }
-    if can_wait(profile) {
+    if profile.speech().can_pause() {
         return Ok(());
     }
     let changes = plot.pens.windows(2).any(|pair| pair[0].number != pair[1].number);

@@ -8,12 +8,15 @@ mod calibration;
 mod coverage;
 mod drying;
 mod errands;
+mod inkml;
 mod job;
+mod language;
 mod lower;
 mod mounting;
 mod occlude;
 mod order;
 mod ordering;
+mod preview;
 mod profile;
 mod report;
 mod seam;
@@ -24,15 +27,21 @@ pub use calibration::{Calibration, CalibrationError, calibration_page, calibrati
 pub use coverage::{Coverage, coverage};
 pub use drying::let_dry;
 pub use errands::{add_registration, pause_every, rest_touches};
+pub use inkml::write_inkml;
 pub use job::{Beyond, Cut, Job, JobError, JobOptions, PlacingMarks, Wish, home_of};
+pub use language::{
+    Comment, Dialect, GcodeDialect, GcodeError, Height, HpglDialect, HpglError, Language, Lift, MotionError, ResumeError,
+    Stop as StopPlace, Strokes, SvgDialect, Travel,
+};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Room, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded, occluded_where};
 pub use order::{Direction, Effort, PathEnds, Stop, Visit, chain, drop_duplicates, order, order_stops, pen_up_length};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
+pub use preview::ShownTravel;
 pub use profile::{
-    Area, Axes, Comment, Corner, GcodeDialect, Height, HpglDialect, KeyPlace, Language, Lift, Limits, Motion, Paper, PenChange,
-    PenSlot, Pens, Planner, Profile, ProfileError, SvgDialect, Swell, Travel, Way, built_in, built_in_names,
+    Area, Axes, Corner, KeyPlace, Limits, Motion, Paper, PenChange, PenSlot, Pens, Planner, Profile, ProfileError, Swell, Way,
+    built_in, built_in_names,
 };
 pub use report::{PenReport, PlotReport, report};
 pub use seam::Seam;

@@ -138,7 +138,7 @@ pub fn mount(profile: &Profile, page: &Page) -> Result<Mounting, MountingError> 
         return Ok(on_paper(profile, page, paper, turn));
     }
     if let Some(area) = &profile.area {
-        let turns = profile.svg.is_some_and(|svg| svg.turns_portrait) && page.height > page.width;
+        let turns = profile.speech().turns_portrait() && page.height > page.width;
         let turn = if turns { Turn::QuarterBack } else { Turn::Upright };
         let (width, height) = turned_size(page, turn);
         let limits = Rect::new(area.x[0], area.y[0], area.x[1], area.y[1]);
@@ -213,8 +213,7 @@ fn paper_that_holds<'a>(profile: &'a Profile, page: &Page) -> Result<(&'a Paper,
 impl Mounting {
     /// A machine's reach and where the page lies in it, without a sheet.
     pub fn new(profile: &Profile, to_machine: Affine, limits: Rect) -> Self {
-        let park =
-            profile.gcode.as_ref().map_or(Point::new(limits.x1, limits.y1), |gcode| Point::new(gcode.park[0], gcode.park[1]));
+        let park = profile.speech().park().map_or(Point::new(limits.x1, limits.y1), |[x, y]| Point::new(x, y));
         let offset = |[x, y]: [f64; 2]| -Vec2::new(x * profile.scale_x, y * profile.scale_y) * profile.units_per_mm;
         let offsets = profile.pen.iter().map(|pen| (pen.slot, offset(pen.offset))).collect();
         Self { to_machine, limits, paper: None, turn: Turn::Upright, park, frame: None, tolerance: ARC_TOLERANCE, offsets }

@@ -11,9 +11,12 @@
 //! blue-noise order with the smallest mark that print may use, so that the mean ink stays.
 
 mod area;
+mod job;
 mod line;
 mod spread;
 mod thin;
+
+pub use job::{PrintError, PrintFormat, PrintJob};
 
 use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::Affine;

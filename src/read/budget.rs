@@ -24,9 +24,9 @@ pub(super) const ATTRIBUTE: f64 = 0.25;
 /// A segment of a path as it stands in the file.
 pub(super) const SEGMENT: f64 = 2.0;
 /// A path of its own in the plot: a subpath, a dash, a stroke of a machine's file.
-pub(super) const PATH: f64 = 8.0;
+pub(crate) const PATH: f64 = 8.0;
 /// A point of a flattened curve or arc that is kept.
-pub(super) const POINT: f64 = 0.5;
+pub(crate) const POINT: f64 = 0.5;
 /// A crossing of two borders in an overlay: `i_overlay` took 480 bytes and 2 to 5 microseconds for each.
 const CROSSING: f64 = 6.0;
 /// Two edges that are looked at.
@@ -89,7 +89,7 @@ impl Budget {
     }
 
     /// Takes steps, before they are done.
-    pub(super) fn spend(&mut self, steps: f64, what: &'static str) -> Result<(), TooMuchWork> {
+    pub(crate) fn spend(&mut self, steps: f64, what: &'static str) -> Result<(), TooMuchWork> {
         self.spent += steps;
         // A count that is no number is refused too.
         if self.spent <= self.most { Ok(()) } else { Err(TooMuchWork { steps: self.spent, most: self.most, what }) }
@@ -119,7 +119,7 @@ impl Budget {
     }
 
     /// Takes the work of going through a text.
-    pub(super) fn text(&mut self, bytes: f64) -> Result<(), TooMuchWork> {
+    pub(crate) fn text(&mut self, bytes: f64) -> Result<(), TooMuchWork> {
         self.spend(Self::steps_of_text(bytes), "text")
     }
 }

@@ -1,7 +1,6 @@
-//! Reading back: SVG as a drawing, HP-GL and G-code as the motion that they order.
+//! Reading SVG as a drawing. Machines' files are read by [`Profile::read`](crate::plot::Profile::read).
 //!
-//! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) and a count of what could
-//! not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
+//! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) and a count of what could not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
 
 mod budget;
 mod census;
@@ -10,8 +9,6 @@ mod colour_names;
 mod curves;
 mod dropped;
 mod expansion;
-mod gcode;
-mod hpgl;
 mod importer;
 mod layers;
 mod paint;
@@ -20,43 +17,7 @@ mod svg;
 mod text;
 
 pub use budget::{Budget, MOST_WORK, TooMuchWork};
+pub(crate) use budget::{PATH, POINT};
 pub use dropped::Dropped;
-pub use gcode::{GcodeError, GcodeMotion, read_gcode, read_gcode_heights, read_gcode_within};
-pub(crate) use hpgl::instructions as hpgl_instructions;
-pub use hpgl::{HpglError, HpglMotion, read_hpgl, read_hpgl_within};
 pub use layers::LabelSpeeds;
 pub use svg::{Imported, ImportedLayer, SvgError, read_svg, read_svg_within};
-
-use crate::geometry::Point;
-
-/// How a G-code file moves its pen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PenLift<'a> {
-    /// By lines of their own.
-    Commands {
-        /// Lifts it.
-        up: &'a str,
-        /// Lowers it.
-        down: &'a str,
-    },
-    /// By the z axis: it is down beyond the middle between two heights.
-    Heights {
-        /// Above the paper.
-        up: f64,
-        /// On it.
-        down: f64,
-    },
-}
-
-/// What a plotter file makes the pen do, in machine units.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Strokes {
-    /// Each pen-down path with its pen's number; a single point is a touch.
-    pub paths: Vec<(u32, Vec<Point>)>,
-    /// Every place that the carriage visits, pen up or down, in order.
-    pub visited: Vec<Point>,
-    /// Pauses for the user.
-    pub pauses: usize,
-    /// Whether the pen is up at the end.
-    pub ends_up: bool,
-}

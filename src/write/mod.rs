@@ -1,22 +1,14 @@
-//! Writing: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) as the bytes of a file.
+//! Writing: a [`Drawing`](crate::drawing::Drawing) as the bytes of a file for print, for the screen or for a painting program. Files for
+//! machines are written by a [`Job`](crate::plot::Job).
 //!
 //! Nothing here knows of styles or file names; numbers are snapped to the format's grid before they are differenced, so that
 //! rounding never drifts.
 
-mod gcode;
-mod hpgl;
-mod inkml;
-mod job;
 mod number;
 mod pdf;
-mod preview;
 mod svg;
 
-pub use gcode::write_gcode;
-pub use hpgl::write_hpgl;
-pub use inkml::write_inkml;
-pub use job::write_job;
-pub use number::{decimal, thousandths};
+pub(crate) use number::{decimal, thousandths};
 pub use pdf::write_pdf;
-pub use preview::{ShownTravel, write_preview};
-pub use svg::{SvgHead, write_svg, write_svg_plot, write_svg_plotter};
+pub use svg::{SvgHead, write_svg};
+pub(crate) use svg::{document, finish, layer_group, lines_group, path_data};

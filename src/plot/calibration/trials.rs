@@ -3,7 +3,8 @@
 use super::cell::{Cell, Drawn, square};
 use crate::geometry::{Point, Vec2};
 use crate::plot::Toolpath;
-use crate::plot::profile::{Height, Language, Lift, Profile};
+use crate::plot::language::Height;
+use crate::plot::profile::Profile;
 
 /// Spacings of the ladder in tenths of the nib's stated width: a nib that is half or one and a half times as wide still shows.
 pub(super) const LADDER_TENTHS: std::ops::RangeInclusive<u32> = 5..=16;
@@ -68,12 +69,12 @@ impl Bench<'_> {
 
     /// The pen's heights, where its z axis lifts it.
     pub(super) fn z_height(&self) -> Option<Height> {
-        self.profile.gcode.as_ref().filter(|gcode| gcode.lift == Lift::Height)?.height
+        self.profile.height()
     }
 
     /// Rows of touches that rest longer and longer, where the machine can be told to wait.
     pub(super) fn dwells(&self) -> Vec<Cell> {
-        if self.profile.language != Language::Gcode {
+        if !self.profile.speech().can_dwell() {
             return Vec::new();
         }
         let row = |seconds: f64| {

@@ -1,27 +1,15 @@
 //! A profile's values are checked before anything is drawn with them.
 
-use super::{Language, Profile};
+use super::Profile;
+use crate::plot::language::Refusal;
 
 /// The least and the greatest that a scale, a speed or the like may be, and the farthest place: beyond any machine by a factor of a
 /// thousand, and near enough that all that is reckoned with them is finite and fits on the grid of a file.
 const LEAST: f64 = 1e-6;
 const MOST: f64 = 1e7;
 
-/// A key and what is wrong with its value.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Refusal {
-    pub key: String,
-    pub problem: String,
-}
-
-impl Refusal {
-    pub(super) fn new(key: &str, problem: &str) -> Self {
-        Self { key: key.to_owned(), problem: problem.to_owned() }
-    }
-}
-
 /// Refuses what is not above 0, or beyond all measure.
-pub(super) fn above_zero(key: &str, value: f64) -> Result<(), Refusal> {
+pub(in crate::plot) fn above_zero(key: &str, value: f64) -> Result<(), Refusal> {
     if (LEAST..=MOST).contains(&value) {
         return Ok(());
     }
@@ -30,7 +18,7 @@ pub(super) fn above_zero(key: &str, value: f64) -> Result<(), Refusal> {
 }
 
 /// Whether places and heights are near enough to be reckoned with.
-pub(super) fn are_near(places: &[f64]) -> bool {
+pub(in crate::plot) fn are_near(places: &[f64]) -> bool {
     places.iter().all(|place| place.abs() <= MOST)
 }
 
@@ -58,12 +46,13 @@ impl Profile {
         self.axes.check()?;
         self.pens.check()?;
         self.motion.check()?;
-        self.check_language()
+        self.speech().check()?;
+        self.check_park()
     }
 
     /// A pen that swells touches the paper at every height of its table.
     fn check_heights(&self) -> Result<(), Refusal> {
-        let (Some(swell), Some(height)) = (&self.swell, self.gcode.as_ref().and_then(|gcode| gcode.height)) else {
+        let (Some(swell), Some(height)) = (&self.swell, self.height()) else {
             return Ok(());
         };
         let touches = |row: &[f64; 2]| (row[1] - height.up) * (height.down - height.up) > 0.0;
@@ -73,21 +62,8 @@ impl Profile {
         Err(Refusal::new("swell.table", "must hold heights on the paper's side of gcode.height.up"))
     }
 
-    fn check_language(&self) -> Result<(), Refusal> {
-        match (self.language, &self.gcode, &self.hpgl, &self.svg) {
-            (Language::Gcode, Some(gcode), ..) => {
-                gcode.check()?;
-                self.check_park(gcode.park)
-            }
-            (Language::Hpgl, _, Some(hpgl), _) => hpgl.check(),
-            (Language::Svg, _, _, Some(svg)) => svg.check(),
-            (Language::Gcode, ..) => Err(Refusal::new("gcode", "is missing, and the language is gcode")),
-            (Language::Hpgl, ..) => Err(Refusal::new("hpgl", "is missing, and the language is hpgl")),
-            (Language::Svg, ..) => Err(Refusal::new("svg", "is missing, and the language is svg")),
-        }
-    }
-
-    fn check_park(&self, [x, y]: [f64; 2]) -> Result<(), Refusal> {
+    fn check_park(&self) -> Result<(), Refusal> {
+        let Some([x, y]) = self.speech().park() else { return Ok(()) };
         if !are_near(&[x, y]) {
             return Err(Refusal::new("gcode.park", "must be two numbers up to 10000000"));
         }

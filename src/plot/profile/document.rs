@@ -10,6 +10,7 @@
 //! ```
 
 use super::error::{KeyPlace, ProfileError};
+use crate::plot::language::Language;
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
 
@@ -20,6 +21,8 @@ const NAMED_LISTS: [(&str, &str); 2] = [("paper", "name"), ("pen", "slot")];
 #[derive(Debug, Default)]
 pub(super) struct Document {
     entries: Vec<Entry>,
+    /// The language that was chosen, whose table is the profile's dialect.
+    language: Option<Language>,
 }
 
 #[derive(Clone, Debug)]
@@ -65,6 +68,28 @@ impl Document {
             self.set(Entry { path: vec![list.clone(), member.clone(), (*name).to_owned()], value: told, place: KeyPlace::Set });
         }
         self.set(Entry { path, value, place: KeyPlace::Set });
+    }
+
+    /// Keeps the table of the profile's language alone: a profile may extend one that speaks another.
+    pub(super) fn choose_language(&mut self, name: &str) -> Result<(), ProfileError> {
+        let names = || Language::ALL.map(Language::key);
+        let Some(i) = self.entries.iter().position(|entry| entry.path == ["language"]) else {
+            let message = format!("language is missing; it is one of {}", names().join(", "));
+            return Err(ProfileError::Syntax { place: KeyPlace::File(name.to_owned()), message });
+        };
+        let entry = self.entries.remove(i);
+        let wanted = entry.value.as_str().unwrap_or_default();
+        let Some(language) = Language::ALL.into_iter().find(|language| language.key() == wanted) else {
+            let message = format!("language: {} is none of {}", entry.value, names().join(", "));
+            return Err(ProfileError::Syntax { place: entry.place, message });
+        };
+        self.entries.retain(|entry| entry.path[0] == language.key() || !names().contains(&entry.path[0].as_str()));
+        if !self.entries.iter().any(|entry| entry.path[0] == language.key()) {
+            let (key, place) = (language.key().to_owned(), KeyPlace::File(name.to_owned()));
+            return Err(ProfileError::Value { place, problem: format!("is missing, and the language is {key}"), key });
+        }
+        self.language = Some(language);
+        Ok(())
     }
 
     /// A key replaces the same key and everything that stood below it, or that it now stands below.
@@ -124,7 +149,9 @@ impl Document {
                     let _ = writeln!(text, "[[{list}]]");
                 }
                 parts => {
-                    let _ = writeln!(text, "[{}]", parts.iter().map(|part| quoted(part)).collect::<Vec<_>>().join("."));
+                    let is_dialect = self.language.is_some_and(|language| language.key() == parts[0]);
+                    let path = is_dialect.then(|| "dialect".to_owned()).into_iter().chain(parts.iter().map(|part| quoted(part)));
+                    let _ = writeln!(text, "[{}]", path.collect::<Vec<_>>().join("."));
                 }
             }
             let mut owe = |text: &str, owner: usize, begin: &mut usize| {

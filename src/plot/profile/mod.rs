@@ -3,19 +3,18 @@
 mod check;
 mod document;
 mod error;
-mod gcode;
-mod hpgl;
 mod motion;
 mod paper;
 mod pens;
 
+pub(super) use check::{above_zero, are_near};
 pub use error::{KeyPlace, ProfileError};
-pub use gcode::{Comment, GcodeDialect, Height, Lift, Travel};
-pub use hpgl::{HpglDialect, SvgDialect};
 pub use motion::{Limits, Motion, Planner};
 pub use paper::{Area, Axes, Corner, Paper, Way};
 pub use pens::{PenChange, PenSlot, Pens, Swell};
 
+use super::language::{Dialect, Height, Language, MotionError, Speech, Strokes};
+use crate::read::Budget;
 use document::Document;
 use include_dir::{Dir, include_dir};
 use serde::Deserialize;
@@ -32,8 +31,6 @@ pub struct Profile {
     pub name: String,
     /// One line for a list.
     pub description: String,
-    /// What it understands.
-    pub language: Language,
     /// Machine units a millimetre.
     pub units_per_mm: f64,
     /// What a measured length along x must be multiplied with to be right, from calibration.
@@ -59,28 +56,12 @@ pub struct Profile {
     pub motion: Motion,
     /// The pen's height for each width of line.
     pub swell: Option<Swell>,
-    /// How G-code is written for it.
-    pub gcode: Option<GcodeDialect>,
-    /// How HP-GL is written for it.
-    pub hpgl: Option<HpglDialect>,
-    /// How SVG is written for it.
-    pub svg: Option<SvgDialect>,
+    /// What it understands, and how: the table named after the file's `language`.
+    pub dialect: Dialect,
 }
 
 const fn one() -> f64 {
     1.0
-}
-
-/// A plotter's language.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "lowercase")]
-pub enum Language {
-    /// HP-GL.
-    Hpgl,
-    /// G-code.
-    Gcode,
-    /// SVG, for the plotter's own program.
-    Svg,
 }
 
 impl Profile {
@@ -96,6 +77,7 @@ impl Profile {
         for (key, value) in set {
             document.set_option(key, value);
         }
+        document.choose_language(name)?;
         let profile: Self = document.resolve(name)?;
         profile.check().map_err(|refusal| ProfileError::Value {
             place: document.place_of(&refusal.key).unwrap_or_else(|| KeyPlace::File(name.to_owned())),
@@ -115,24 +97,56 @@ impl Profile {
         self.pen.iter().find(|pen| pen.slot == slot).map_or([0.0; 2], |pen| pen.offset)
     }
 
+    /// The language that its machine understands.
+    pub fn language(&self) -> Language {
+        self.speech().language()
+    }
+
+    /// Reads one of its machine's files as the motion that it orders.
+    pub fn read(&self, text: &str, budget: &mut Budget) -> Result<Strokes, MotionError> {
+        self.speech().read(text, self.lightest(), budget)
+    }
+
+    /// What its machine can be told.
+    pub(crate) fn speech(&self) -> &dyn Speech {
+        self.dialect.speech()
+    }
+
+    /// The pen's heights in machine units, where the z axis lifts it.
+    pub fn height(&self) -> Option<Height> {
+        self.speech().height()
+    }
+
     /// The z, in machine units, of the lightest touch of a pen on the z axis: lowered, or at the least width that it swells from.
     pub fn lightest(&self) -> Option<f64> {
-        let height = self.gcode.as_ref()?.height?;
+        let height = self.height()?;
         let swelling = self.swell.iter().flat_map(|swell| &swell.table).map(|row| row[1]);
         swelling.chain([height.down]).min_by(|a, b| (a - height.up).abs().total_cmp(&(b - height.up).abs()))
     }
 
-    /// The drawing speed nearest to the one wanted that its language can say, in mm/s: HP-GL's `VS` takes whole centimetres a second and
-    /// no more than the machine's limit, G-code's `F` whole millimetres a minute.
-    pub fn told_speed(&self, wanted: f64) -> f64 {
-        match self.language {
-            Language::Gcode => (wanted * 60.0).round().max(1.0) / 60.0,
-            Language::Svg => wanted,
-            Language::Hpgl => {
-                let limit = self.motion.draw_speed_limit.unwrap_or(self.motion.draw_speed);
-                (wanted.min(limit) / 10.0).floor().max(1.0) * 10.0
-            }
-        }
+    /// The drawing speed in mm/s nearest to the one wanted that its language can say.
+    pub fn nearest_speed(&self, wanted: f64) -> f64 {
+        self.speech().nearest_speed(wanted, self.motion.draw_speed_limit.unwrap_or(self.motion.draw_speed))
+    }
+
+    /// True if a file can make its machine wait for its user.
+    pub fn can_pause(&self) -> bool {
+        self.speech().can_pause()
+    }
+
+    /// True if its machine can wait for a time.
+    pub fn can_dwell(&self) -> bool {
+        self.speech().can_dwell()
+    }
+
+    /// Millimetres per second of one percent in a layer's label, where the plotter's own program reads it.
+    pub fn speed_of_percent(&self) -> Option<f64> {
+        self.speech().speed_of_percent()
+    }
+
+    /// Makes moves with the pen up run at `motion.travel_speed`, not at the machine's own greatest.
+    pub fn feed_travel(&mut self) {
+        self.dialect.speech_mut().feed_travel();
     }
 
     /// Metres that the pen in a slot draws, where that is known.

@@ -1,6 +1,7 @@
 //! How fast a machine moves, and how it plans.
 
-use super::check::{Refusal, above_zero};
+use super::check::above_zero;
+use crate::plot::language::Refusal;
 use serde::Deserialize;
 
 /// Speeds and times.

@@ -1,7 +1,8 @@
 //! Where a sheet lies: papers, the machine's reach, its axes.
 
-use super::check::{Refusal, above_zero, are_near};
+use super::check::{above_zero, are_near};
 use crate::geometry::{Point, Vec2};
+use crate::plot::language::Refusal;
 use serde::Deserialize;
 
 /// A sheet with its own hard clip.

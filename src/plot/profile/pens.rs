@@ -1,6 +1,7 @@
 //! Pens, how they are changed, and how high each width of line needs them.
 
-use super::check::{Refusal, above_zero, are_near};
+use super::check::{above_zero, are_near};
+use crate::plot::language::Refusal;
 use serde::Deserialize;
 
 /// Pens and how they are changed.

@@ -9,18 +9,14 @@
 //! digits, waits to whole ticks.
 
 mod look_ahead;
-mod pen_action;
 
-use super::profile::{GcodeDialect, Language, Lift, Limits, Profile, Travel};
+use super::language::{PenAction, PenMove, Rate};
+use super::profile::{Limits, Profile};
 use super::{Mounting, PenPaths, Plot, Toolpath};
 use crate::geometry::{Point, Step, Vec2, fit_arcs};
 use crate::interrupt::{Interrupt, Interrupted};
 use look_ahead::{LookAhead, Place, whole};
-use pen_action::{PenAction, Rate, pen_actions};
 use std::f64::consts::PI;
-
-/// Decimals of a place in a G-code file.
-const GCODE_GRID: f64 = 1000.0;
 
 /// Times in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,7 +50,7 @@ pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &In
     if plot.pens.is_empty() {
         return Ok(Vec::new());
     }
-    if profile.language == Language::Gcode {
+    if profile.speech().parks_for_pens() {
         run.act(PenMove::Up, if run.waits_for_pen() { profile.motion.pen_up_seconds } else { 0.0 });
     }
     for (i, pen) in plot.pens.iter().enumerate() {
@@ -106,13 +102,12 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(profile: &'a Profile, mounting: &'a Mounting, pens: usize) -> Self {
-        let actions = |pen| profile.gcode.as_ref().map_or(vec![PenAction::Rest], |gcode| pen_actions_of(gcode, pen));
         Self {
             profile,
             mounting,
             planner: LookAhead::new(&profile.motion, SHARES * pens),
-            up: actions(PenMove::Up),
-            down: actions(PenMove::Down),
+            up: profile.speech().pen_actions(PenMove::Up),
+            down: profile.speech().pen_actions(PenMove::Down),
             at: [0.0; 3],
             pen: 0,
         }
@@ -124,29 +119,26 @@ impl<'a> Run<'a> {
 
     fn change_pen(&mut self, next: usize, is_other_pen: bool, pen: &PenPaths) {
         let machine = self.profile.pens;
-        match self.profile.language {
-            Language::Gcode => {
-                if is_other_pen {
-                    self.park();
-                }
-                self.pen = next;
-                if is_other_pen || pen.handling.pauses {
-                    self.planner.rest();
-                }
-                self.wait(pen.handling.delay_seconds);
+        if !self.profile.speech().parks_for_pens() {
+            self.pen = next;
+            if is_other_pen || next == 0 {
+                self.wait(machine.change_seconds);
             }
-            Language::Hpgl | Language::Svg => {
-                self.pen = next;
-                if is_other_pen || next == 0 {
-                    self.wait(machine.change_seconds);
-                }
-            }
+            return;
         }
+        if is_other_pen {
+            self.park();
+        }
+        self.pen = next;
+        if is_other_pen || pen.handling.pauses {
+            self.planner.rest();
+        }
+        self.wait(pen.handling.delay_seconds);
     }
 
     /// The rate that the file asks for, mm/s.
     fn draw_rate(&self, pen: &PenPaths) -> f64 {
-        self.profile.told_speed(pen.handling.speed(self.profile.motion.draw_speed))
+        self.profile.nearest_speed(pen.handling.speed(self.profile.motion.draw_speed))
     }
 
     fn travel_rate(&self) -> f64 {
@@ -186,8 +178,8 @@ impl<'a> Run<'a> {
 
     /// Where the controller goes after the first place: where arcs are written, the chords that it cuts them into.
     fn legs(&self, places: &[[f64; 2]]) -> Vec<Leg> {
-        let gcode = self.profile.gcode.as_ref().filter(|gcode| gcode.arcs);
-        let (Some(_), Some(tolerance)) = (gcode, self.profile.motion.planner.arc_tolerance) else {
+        let sent = self.profile.motion.planner.arc_tolerance.filter(|_| self.profile.speech().sends_arcs());
+        let Some(tolerance) = sent else {
             return places[1..].iter().map(|place| Leg::Line(*place)).collect();
         };
         let points: Vec<Point> = places.iter().map(|&[x, y]| Point::new(x, y)).collect();
@@ -196,7 +188,7 @@ impl<'a> Run<'a> {
         for step in fit_arcs(&points, self.mounting.tolerance) {
             if let Step::Arc { centre, sweep, to } = step {
                 // The file gives the centre rounded, and the controller reckons the angle from it.
-                let per_mm = GCODE_GRID * self.profile.units_per_mm;
+                let per_mm = self.profile.speech().places_per_unit() * self.profile.units_per_mm;
                 let centre = from + ((centre - from) * per_mm).round() / per_mm;
                 let (a, b) = (from - centre, to - centre);
                 let sweep = sweep + (a.cross(b).atan2(a.dot(b)) - sweep + PI).rem_euclid(2.0 * PI) - PI;
@@ -215,7 +207,7 @@ impl<'a> Run<'a> {
     }
 
     fn lifts_by_height(&self) -> bool {
-        self.profile.gcode.as_ref().is_some_and(|gcode| gcode.lift == Lift::Height)
+        self.profile.height().is_some()
     }
 
     /// Whether the file waits for the pen: a z axis is there when its move is over.
@@ -225,8 +217,8 @@ impl<'a> Run<'a> {
 
     /// Lowers the pen, straight to a height of its own if the path has one.
     fn lower(&mut self, height: Option<f64>) {
-        match (height, self.profile.gcode.as_ref().and_then(|gcode| gcode.height)) {
-            (Some(z), Some(usual)) if self.lifts_by_height() => {
+        match (height, self.profile.height()) {
+            (Some(z), Some(usual)) => {
                 self.at[2] = self.height(z);
                 self.planner.travel(self.at, usual.plunge_speed, self.slot(Share::Lifting));
             }
@@ -236,7 +228,8 @@ impl<'a> Run<'a> {
 
     /// A height of the page as the file gives it, in the machine's millimetres.
     fn height(&self, z: f64) -> f64 {
-        whole(z * GCODE_GRID) as f64 / (GCODE_GRID * self.profile.units_per_mm)
+        let grid = self.profile.speech().places_per_unit();
+        whole(z * grid) as f64 / (grid * self.profile.units_per_mm)
     }
 
     fn travel(&mut self, [x, y]: [f64; 2]) {
@@ -297,7 +290,7 @@ impl<'a> Run<'a> {
     fn on_machine(&self, pen: u32, p: Point) -> [f64; 2] {
         let m = self.mounting.place(pen, p);
         let limits = self.mounting.limits;
-        let grid = if self.profile.language == Language::Gcode { GCODE_GRID } else { 1.0 };
+        let grid = self.profile.speech().places_per_unit();
         let per_mm = grid * self.profile.units_per_mm;
         let snap = |v: f64, low: f64, high: f64| whole(v.clamp(low, high) * grid) as f64 / per_mm;
         [snap(m.x, limits.x0, limits.x1), snap(m.y, limits.y0, limits.y1)]
@@ -326,26 +319,4 @@ fn turned(start: Vec2, angle: f64, count: usize) -> impl Iterator<Item = Vec2> {
         arm = Vec2::new(from.x * cos - from.y * sin, from.x * sin + from.y * cos);
         arm
     })
-}
-
-/// What a dialect makes the machine do to lift or lower the pen.
-fn pen_actions_of(gcode: &GcodeDialect, pen: PenMove) -> Vec<PenAction> {
-    match (gcode.lift, gcode.height, pen) {
-        (Lift::Height, Some(height), PenMove::Up) => {
-            let rate = if gcode.travel == Travel::Rapid { Rate::Greatest } else { Rate::Given(height.plunge_speed) };
-            vec![PenAction::Move { target: [None, None, Some(height.up)], rate }]
-        }
-        (Lift::Height, Some(height), PenMove::Down) => {
-            vec![PenAction::Move { target: [None, None, Some(height.down)], rate: Rate::Given(height.plunge_speed) }]
-        }
-        (_, _, PenMove::Up) => pen_actions(gcode.pen_up.as_deref().unwrap_or(""), &gcode.dwell),
-        (_, _, PenMove::Down) => pen_actions(gcode.pen_down.as_deref().unwrap_or(""), &gcode.dwell),
-    }
-}
-
-/// Which way the pen goes.
-#[derive(Clone, Copy)]
-enum PenMove {
-    Up,
-    Down,
 }

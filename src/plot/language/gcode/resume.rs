@@ -1,11 +1,11 @@
 //! G-code: one command a line; the header says which commands lift and lower the pen.
 
 use super::numbers::check_gcode;
-use super::{ResumeError, Stop};
+use crate::plot::language::{ResumeError, Stop};
 use std::fmt::Write as _;
 
 /// The rest of a G-code file from the line that was not finished; `again` is how many machine units are drawn again.
-pub fn resume_gcode(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+pub(in crate::plot::language) fn resume(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
     check_gcode(text)?;
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     let pen = Pen::of(&lines).ok_or(ResumeError::NoPen)?;
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn in_a_path_it_goes_back_a_little_with_the_feed() {
-        let rest = resume_gcode(FILE, Stop::Line(13), 3.0).unwrap();
+        let rest = resume(FILE, Stop::Line(13), 3.0).unwrap();
         let expected = "(drypoint)\n(pen up is M3 S300)\n(pen down is M3 S700)\nG21\nM3 S300\nG4 P0.15\n(pen 1: dots 0.3)\n\
                         G0 X5 Y1\nM3 S700\nG4 P0.2\nG1 X10 Y1 F3000\nG1 X10 Y9\nM3 S300\n";
         assert!(rest.starts_with(expected), "{rest}");
@@ -238,21 +238,21 @@ mod tests {
 
     #[test]
     fn between_paths_it_says_the_pen_and_waits() {
-        let rest = resume_gcode(FILE, Stop::Line(19), 3.0).unwrap();
+        let rest = resume(FILE, Stop::Line(19), 3.0).unwrap();
         assert_eq!(rest.matches("(pen 2: red 0.5)\nM0\n").count(), 1, "{rest}");
         assert_eq!(rest.matches("\nM3 S700").count(), 1);
-        assert_eq!(resume_gcode(FILE, Stop::Line(2), 3.0).unwrap(), FILE);
-        assert_eq!(resume_gcode(FILE, Stop::Path(2), 3.0).unwrap().matches("\nM3 S700").count(), 1);
+        assert_eq!(resume(FILE, Stop::Line(2), 3.0).unwrap(), FILE);
+        assert_eq!(resume(FILE, Stop::Path(2), 3.0).unwrap().matches("\nM3 S700").count(), 1);
     }
 
     #[test]
     fn faults_are_named() {
         let infinite = FILE.replace("X5 Y1", "X5 Ynan");
         assert!(
-            matches!(resume_gcode(&infinite, Stop::Line(13), 3.0), Err(ResumeError::NotFinite { place, .. }) if place == "line 11")
+            matches!(resume(&infinite, Stop::Line(13), 3.0), Err(ResumeError::NotFinite { place, .. }) if place == "line 11")
         );
-        assert!(matches!(resume_gcode(FILE, Stop::Line(900), 3.0), Err(ResumeError::Beyond { .. })));
-        assert!(matches!(resume_gcode(FILE, Stop::Path(3), 3.0), Err(ResumeError::Beyond { .. })));
-        assert_eq!(resume_gcode("G21\nG0 X1\n", Stop::Line(1), 3.0), Err(ResumeError::NoPen));
+        assert!(matches!(resume(FILE, Stop::Line(900), 3.0), Err(ResumeError::Beyond { .. })));
+        assert!(matches!(resume(FILE, Stop::Path(3), 3.0), Err(ResumeError::Beyond { .. })));
+        assert_eq!(resume("G21\nG0 X1\n", Stop::Line(1), 3.0), Err(ResumeError::NoPen));
     }
 }

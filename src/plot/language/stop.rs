@@ -1,14 +1,4 @@
-//! The rest of a machine's file, made safe to start in the middle: state, pen and position restored, the last few millimetres drawn
-//! again.
-//!
-//! In: the text of an HP-GL or G-code file that drypoint wrote, and the place where the machine stopped. Out: the text to send instead.
-
-mod gcode;
-mod hpgl;
-mod numbers;
-
-pub use gcode::resume_gcode;
-pub use hpgl::resume_hpgl;
+//! Where a machine stopped, and why the rest of its file cannot be had.
 
 use thiserror::Error;
 
@@ -47,4 +37,7 @@ pub enum ResumeError {
         "the file does not say how the pen is lifted: its header needs the comments 'pen up is ...' and 'pen down is ...', as in files that drypoint writes"
     )]
     NoPen,
+    /// The machine is driven by a program of its own, which alone knows where it stopped.
+    #[error("the machine is driven by its own program, which alone knows where it stopped")]
+    OwnProgram,
 }

@@ -1,13 +1,10 @@
 //! HP-GL as motion: the subset that plotter programs write.
 
 use super::Strokes;
-use super::budget::{Budget, PATH, POINT, TooMuchWork};
 use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
+use crate::read::{Budget, PATH, POINT, TooMuchWork};
 use std::ops::Range;
 use thiserror::Error;
-
-/// Motion in plotter units.
-pub type HpglMotion = Strokes;
 
 /// Why a file could not be read.
 #[derive(Debug, Error, PartialEq)]
@@ -54,12 +51,7 @@ const ARC_TOLERANCE: f64 = 0.1;
 const ESCAPE: char = '\u{1b}';
 
 /// Reads `IN SP VS FS PU PD PA PR PE AA AR PS` and skips other instructions' effects; escape sequences are passed over.
-pub fn read_hpgl(text: &str) -> Result<HpglMotion, HpglError> {
-    read_hpgl_within(text, &mut Budget::default())
-}
-
-/// The same with a limit of its own on the work.
-pub fn read_hpgl_within(text: &str, budget: &mut Budget) -> Result<HpglMotion, HpglError> {
+pub(super) fn read(text: &str, budget: &mut Budget) -> Result<Strokes, HpglError> {
     budget.text(text.len() as f64).map_err(|work| HpglError::Work { at: 0, work })?;
     let mut reader = Reader {
         budget,
@@ -77,7 +69,7 @@ pub fn read_hpgl_within(text: &str, budget: &mut Budget) -> Result<HpglMotion, H
 }
 
 /// The instructions of a file, each with its bytes and whatever ends it; escape sequences are passed over.
-pub(crate) fn instructions(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
+pub(super) fn instructions(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
     let separates = |c: char| c == ';' || c.is_whitespace();
     let mut left = text.trim_start_matches(separates);
     std::iter::from_fn(move || {
@@ -243,8 +235,12 @@ impl Reader<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    pub(in super::super) fn read_hpgl(text: &str) -> Result<Strokes, HpglError> {
+        read(text, &mut Budget::default())
+    }
 
     #[test]
     fn paths_touches_and_pens() {

@@ -1,12 +1,9 @@
 //! G-code as motion: modal absolute moves, and the pen by the profile's own commands.
 
-use super::budget::{Budget, PATH, POINT, TooMuchWork};
-use super::{PenLift, Strokes};
+use super::Strokes;
 use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
+use crate::read::{Budget, PATH, POINT, TooMuchWork};
 use thiserror::Error;
-
-/// Motion in machine units (millimetres).
-pub type GcodeMotion = Strokes;
 
 /// Why a file could not be read.
 #[derive(Debug, Error, PartialEq)]
@@ -46,15 +43,23 @@ pub enum GcodeError {
     },
 }
 
-/// Reads absolute moves and arcs in millimetres; a line equal to `pen_up` or `pen_down` moves the pen, `M0` and `PAUSE` pause, a
-/// comment `pen N:` tells which pen is in the holder.
-pub fn read_gcode(text: &str, pen_up: &str, pen_down: &str) -> Result<GcodeMotion, GcodeError> {
-    read_gcode_within(text, &PenLift::Commands { up: pen_up, down: pen_down }, &mut Budget::default())
-}
-
-/// The same for a machine whose pen is lifted by its z axis: it is down beyond the middle between `up` and `down`.
-pub fn read_gcode_heights(text: &str, up: f64, down: f64) -> Result<GcodeMotion, GcodeError> {
-    read_gcode_within(text, &PenLift::Heights { up, down }, &mut Budget::default())
+/// How a file moves its pen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PenLift<'a> {
+    /// By lines of their own.
+    Commands {
+        /// Lifts it.
+        up: &'a str,
+        /// Lowers it.
+        down: &'a str,
+    },
+    /// By the z axis: it is down beyond the middle between two heights.
+    Heights {
+        /// Above the paper.
+        up: f64,
+        /// On it.
+        down: f64,
+    },
 }
 
 /// Distance from an arc at which it is followed, in millimetres.
@@ -70,8 +75,9 @@ struct Reader<'a> {
     mode: u32,
 }
 
-/// The same with a limit of its own on the work.
-pub fn read_gcode_within(text: &str, lift: &PenLift<'_>, budget: &mut Budget) -> Result<GcodeMotion, GcodeError> {
+/// Reads absolute moves and arcs in millimetres: lines that equal the pen's commands move it, `M0` and `PAUSE` pause, a comment `pen N:`
+/// names the pen in the holder.
+pub(super) fn read(text: &str, lift: &PenLift<'_>, budget: &mut Budget) -> Result<Strokes, GcodeError> {
     budget.text(text.len() as f64).map_err(|work| GcodeError::Work { line: 1, work })?;
     let motion = Strokes { ends_up: true, ..Strokes::default() };
     let mut reader = Reader { motion, budget, at: Point::ORIGIN, pen: 1, is_down: false, mode: 0 };
@@ -196,6 +202,14 @@ impl Reader<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn read_gcode(text: &str, up: &str, down: &str) -> Result<Strokes, GcodeError> {
+        read(text, &PenLift::Commands { up, down }, &mut Budget::default())
+    }
+
+    fn read_gcode_heights(text: &str, up: f64, down: f64) -> Result<Strokes, GcodeError> {
+        read(text, &PenLift::Heights { up, down }, &mut Budget::default())
+    }
 
     #[test]
     fn moves_touches_and_pauses() {

@@ -1,6 +1,6 @@
-//! How HP-GL is written for one machine, and SVG for a machine whose own program reads it.
+//! How HP-GL is written for one machine.
 
-use super::check::{Refusal, above_zero};
+use crate::plot::language::Refusal;
 use serde::Deserialize;
 
 /// HP-GL for one machine.
@@ -41,22 +41,5 @@ impl HpglDialect {
             return Err(Refusal::new("hpgl.force", "must be from 1 to 127, and hpgl.acceleration from 1 to 10"));
         }
         Ok(())
-    }
-}
-
-/// SVG in the layer conventions of a plotter's own program.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct SvgDialect {
-    /// Millimetres a second of one percent in a label's `+S`.
-    pub speed_of_percent: f64,
-    /// Whether the program turns a portrait page onto the machine's long side.
-    #[serde(default)]
-    pub turns_portrait: bool,
-}
-
-impl SvgDialect {
-    pub(super) fn check(self) -> Result<(), Refusal> {
-        above_zero("svg.speed_of_percent", self.speed_of_percent)
     }
 }

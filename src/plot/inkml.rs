@@ -12,11 +12,11 @@
 //!
 //! Digital ink knows lines only: what is filled becomes the lines that fill it.
 
-use super::number::thousandths;
+use super::{InkModel, Nibs, lower};
 use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, flatten};
 use crate::interrupt::Interrupt;
-use crate::plot::{InkModel, Nibs, lower};
+use crate::write::thousandths;
 use kurbo::Shape;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -1,31 +1,6 @@
 //! What a profile's command for the pen makes the machine do.
 
-/// One part of a pen command.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum PenAction {
-    /// The motion comes to rest: a servo, a spindle, whatever is not a move.
-    Rest,
-    /// A wait of its own, in seconds.
-    Wait(f64),
-    /// A move, such as a Z axis's.
-    Move {
-        /// Where to, in machine units; an axis without a word stays.
-        target: [Option<f64>; 3],
-        /// How fast.
-        rate: Rate,
-    },
-}
-
-/// How fast a pen command moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Rate {
-    /// As fast as the axes go.
-    Greatest,
-    /// Machine units a second.
-    Given(f64),
-    /// As the last drawn line.
-    Last,
-}
+use super::{PenAction, Rate};
 
 /// The parts of a command of one or more lines; `dwell` is the profile's own command for a wait, which shows its unit.
 pub(super) fn pen_actions(command: &str, dwell: &str) -> Vec<PenAction> {

@@ -1,7 +1,7 @@
 //! No number gets to a machine that is not one.
 
-use super::ResumeError;
 use crate::geometry::parse_finite;
+use crate::plot::language::ResumeError;
 
 /// Refuses G-code with a word such as `Xnan` or `Y1e999`. Comments and a controller's own commands are not numbers.
 pub(super) fn check_gcode(text: &str) -> Result<(), ResumeError> {

@@ -1,6 +1,7 @@
 //! How G-code is written for one machine.
 
-use super::check::{Refusal, above_zero, are_near};
+use crate::plot::language::Refusal;
+use crate::plot::profile::{above_zero, are_near};
 use serde::Deserialize;
 
 /// G-code for one machine.

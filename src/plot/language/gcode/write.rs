@@ -1,18 +1,15 @@
 //! G-code: absolute machine units, the pen's own commands or heights from the profile, arcs where the machine knows them.
 
-use super::number::{decimal, thousandths};
+use super::{Comment, GcodeDialect, Lift, Orders, Travel};
 use crate::geometry::{Point, Step, fit_arcs};
-use crate::plot::{Comment, GcodeDialect, Lift, Mounting, PenPaths, Plot, Profile, Toolpath, Travel};
+use crate::plot::{Mounting, PenPaths, Profile, Toolpath};
+use crate::write::{decimal, thousandths};
 use std::fmt::Write as _;
 use std::io;
 
-/// Writes a plot for a machine; the mounting says where the page lies. The caller has checked that all of it is within reach, and
-/// that the machine can wait where a pen is changed.
-///
-/// # Panics
-/// If the profile's language is not G-code.
-pub fn write_gcode(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut impl io::Write) -> io::Result<()> {
-    let dialect = profile.gcode.as_ref().expect("a G-code profile has a dialect");
+/// Writes a plot of which all lies within reach, and for whose changes of pen the machine can wait.
+pub(super) fn write(dialect: &GcodeDialect, orders: &Orders<'_>, out: &mut dyn io::Write) -> io::Result<()> {
+    let Orders { plot, profile, mounting, .. } = *orders;
     let mut writer = Gcode { out, profile, dialect, mounting, line: String::new(), at: None };
     writer.begin()?;
     for (i, pen) in plot.pens.iter().enumerate() {
@@ -36,8 +33,8 @@ pub fn write_gcode(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mu
 /// A place in thousandths of a machine unit.
 type Grid = (i64, i64);
 
-struct Gcode<'a, W: io::Write> {
-    out: &'a mut W,
+struct Gcode<'a> {
+    out: &'a mut dyn io::Write,
     profile: &'a Profile,
     dialect: &'a GcodeDialect,
     mounting: &'a Mounting,
@@ -45,7 +42,7 @@ struct Gcode<'a, W: io::Write> {
     at: Option<Grid>,
 }
 
-impl<W: io::Write> Gcode<'_, W> {
+impl Gcode<'_> {
     /// Modes, then the pen goes up before anything else; then the outline, if it is asked for.
     fn begin(&mut self) -> io::Result<()> {
         let dialect = self.dialect;
@@ -279,7 +276,14 @@ fn feed(speed: f64) -> i64 {
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
-    use crate::plot::mount;
+    use crate::plot::{Plot, mount};
+
+    fn written(plot: &Plot, profile: &Profile) -> String {
+        let (mounting, head) = (mount(profile, &plot.page).unwrap(), crate::write::SvgHead::default());
+        let mut bytes = Vec::new();
+        profile.speech().write(&Orders { plot, profile, mounting: &mounting, head: &head }, &mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
 
     #[test]
     fn a_layer_s_own_pause_speed_and_delay() {
@@ -288,9 +292,7 @@ mod tests {
         let handling = crate::drawing::Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
         let paths = vec![Toolpath::new(vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)])];
         let pen = PenPaths { number: 1, name: "slow".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };
-        let mut bytes = Vec::new();
-        write_gcode(&Plot { page, pens: vec![pen] }, &profile, &mount(&profile, &page).unwrap(), &mut bytes).unwrap();
-        let text = String::from_utf8(bytes).unwrap();
+        let text = written(&Plot { page, pens: vec![pen] }, &profile);
         assert!(text.contains("(pen 1: slow 0.3)\nM0\nG4 P.5\n") && text.contains("F1500"), "{text}");
     }
 
@@ -311,9 +313,7 @@ mod tests {
             page,
             pens: vec![pen(1, "dots", vec![path(&[(0.0, 0.0), (10.0, 0.0)])]), pen(2, "what?! (ééé)", vec![path(&[(5.0, 5.0)])])],
         };
-        let mut bytes = Vec::new();
-        write_gcode(&plot, &profile, &mount(&profile, &page).unwrap(), &mut bytes).unwrap();
-        let text = String::from_utf8(bytes).unwrap();
+        let text = written(&plot, &profile);
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines.iter().all(|l| l.len() <= 78 && l.is_ascii() && !l.contains(['?', '!', '~'])), "{text}");
         assert!(!text.contains("M5") && !text.contains("M2") && !text.contains("M30"));

@@ -1,15 +1,19 @@
 //! HP-GL: instructions that end with a semicolon, absolute after each pen-up move.
 
-use super::{ResumeError, Stop};
+use super::read::instructions as instructions_of;
 use crate::geometry::parse_finite;
-use crate::read::hpgl_instructions;
+use crate::plot::language::{ResumeError, Stop};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::Range;
 
-/// The rest of an HP-GL file from the place that was not taken; `again` is how many plotter units are drawn again. A path packed with
+/// Plotter units per millimetre, near enough for how much is drawn again.
+const UNITS_PER_MM: f64 = 40.0;
+
+/// The rest of an HP-GL file from the place that was not taken; `again` is how many millimetres are drawn again. A path packed with
 /// `PE` is drawn again from its start.
-pub fn resume_hpgl(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+pub(in crate::plot::language) fn resume(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+    let again = again * UNITS_PER_MM;
     let instructions = instructions(text);
     check(&instructions)?;
     let byte = byte_of(text, &instructions, stop)?;
@@ -89,7 +93,7 @@ fn instructions(text: &str) -> Vec<Instruction<'_>> {
         let numbers = if name == "PE" { Vec::new() } else { self::numbers(numbers, bytes.start + 2, bytes.end) };
         Some(Instruction { name, text: body, start: bytes.start, end: bytes.end, numbers })
     };
-    hpgl_instructions(text).filter_map(instruction).collect()
+    instructions_of(text).filter_map(instruction).collect()
 }
 
 /// Refuses what is no number, or none that a machine may get, wherever an instruction takes numbers.
@@ -225,24 +229,24 @@ mod tests {
 
     #[test]
     fn in_a_path_it_goes_back_a_little() {
-        let rest = resume_hpgl(FILE, Stop::Byte(at("300,300;PU500")), 120.0).unwrap();
+        let rest = resume(FILE, Stop::Byte(at("300,300;PU500")), 3.0).unwrap();
         assert!(rest.starts_with("IN;PU;PS4;PU;SP1;FS2;VS30;PU200,100;PD300,100;PD300,200,300,300;PU500,500;"), "{rest}");
-        let start = resume_hpgl(FILE, Stop::Byte(at("200,100")), 120.0).unwrap();
+        let start = resume(FILE, Stop::Byte(at("200,100")), 3.0).unwrap();
         assert!(start.contains("VS30;PU100,100;PD200,100,300,100;"), "{start}");
     }
 
     #[test]
     fn the_pen_in_use_is_fetched() {
-        let rest = resume_hpgl(FILE, Stop::Path(3), 120.0).unwrap();
+        let rest = resume(FILE, Stop::Path(3), 3.0).unwrap();
         assert!(rest.starts_with("IN;PU;PS4;PU;SP2;FS2;VS10;PU600,600;PD700,700;"), "{rest}");
-        assert_eq!(resume_hpgl(FILE, Stop::Byte(3), 120.0).unwrap(), FILE);
-        assert!(resume_hpgl(FILE, Stop::Path(2), 120.0).unwrap().contains("VS30;PU500,500;PD;PU;SP2;"));
+        assert_eq!(resume(FILE, Stop::Byte(3), 3.0).unwrap(), FILE);
+        assert!(resume(FILE, Stop::Path(2), 3.0).unwrap().contains("VS30;PU500,500;PD;PU;SP2;"));
     }
 
     #[test]
     fn what_is_no_finite_number_is_a_fault() {
         for number in ["nan", "1e999", "inf5", "2x"] {
-            let refused = resume_hpgl(&FILE.replace("PD200", &format!("PD{number}")), Stop::Path(2), 120.0);
+            let refused = resume(&FILE.replace("PD200", &format!("PD{number}")), Stop::Path(2), 3.0);
             let place = format!("byte {}", at("PD200,100"));
             assert_eq!(refused, Err(ResumeError::NotFinite { place, number: number.into() }));
         }
@@ -251,7 +255,7 @@ mod tests {
     /// Semicolons, ends of lines and the next escape sequence all end an instruction, and letters may be small.
     #[test]
     fn instructions_are_told_apart_as_they_are_read() {
-        let stop = |text: &str, byte| resume_hpgl(text, Stop::Byte(byte), 120.0).unwrap();
+        let stop = |text: &str, byte| resume(text, Stop::Byte(byte), 3.0).unwrap();
         let expected = stop(FILE, at("300,300;PU500"));
         let lines = FILE.replace(';', "\n");
         assert_eq!(stop(&lines, at("300,300;PU500")).replace('\n', ";"), expected.replace('\n', ";"));
@@ -265,7 +269,7 @@ mod tests {
     #[test]
     fn beyond_the_end_is_refused() {
         for stop in [Stop::Byte(4000), Stop::Line(9), Stop::Path(4)] {
-            assert!(matches!(resume_hpgl(FILE, stop, 120.0), Err(ResumeError::Beyond { .. })), "{stop:?}");
+            assert!(matches!(resume(FILE, stop, 3.0), Err(ResumeError::Beyond { .. })), "{stop:?}");
         }
     }
 }

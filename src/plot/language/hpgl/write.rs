@@ -11,18 +11,15 @@
 //!
 //! Points are rounded before they are differenced, and what follows an arc is absolute again, so rounding never adds up.
 
+use super::{HpglDialect, Orders, SPEED_STEP};
 use crate::geometry::{Point, Rect, Step, Vec2, fit_arcs};
-use crate::plot::{HpglDialect, Mounting, PenChange, Plot, Profile};
+use crate::plot::{Mounting, PenChange, Profile};
 use std::fmt::Write as _;
 use std::io;
 
-/// Writes a plot for a machine; the mounting says where the page lies. The caller has checked that all of it is within reach and
-/// that the machine has the pens.
-///
-/// # Panics
-/// If the profile's language is not HP-GL.
-pub fn write_hpgl(plot: &Plot, profile: &Profile, mounting: &Mounting, out: &mut impl io::Write) -> io::Result<()> {
-    let dialect = profile.hpgl.as_ref().expect("an HP-GL profile has a dialect");
+/// Writes a plot of which all lies within reach, and whose pens the machine has.
+pub(super) fn write(dialect: &HpglDialect, orders: &Orders<'_>, out: &mut dyn io::Write) -> io::Result<()> {
+    let Orders { plot, profile, mounting, .. } = *orders;
     let mut text = format!("{}IN;PU;", dialect.preamble);
     if let Some(paper) = &mounting.paper {
         text.push_str(&paper.setup);
@@ -61,7 +58,7 @@ type Unit = (i64, i64);
 
 /// Whole centimetres a second.
 fn speed(profile: &Profile, wanted: f64) -> i64 {
-    (profile.told_speed(wanted) / 10.0).round() as i64
+    (profile.nearest_speed(wanted) / SPEED_STEP).round() as i64
 }
 
 /// Whole plotter units inside the machine's limits (the check has forgiven less than a unit).
@@ -195,7 +192,14 @@ fn packed_number(text: &mut String, value: i64) {
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
-    use crate::plot::{PenPaths, Toolpath, mount};
+    use crate::plot::{PenPaths, Plot, Toolpath, mount};
+
+    fn written(plot: &Plot, profile: &Profile) -> String {
+        let (mounting, head) = (mount(profile, &plot.page).unwrap(), crate::write::SvgHead::default());
+        let mut bytes = Vec::new();
+        profile.speech().write(&Orders { plot, profile, mounting: &mounting, head: &head }, &mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
 
     fn dialect(arcs: bool, packed: bool) -> HpglDialect {
         let (preamble, postamble) = (String::new(), String::new());
@@ -221,7 +225,7 @@ mod tests {
         path_instructions(&mut text, &circle, &dialect(true, false), Rect::new(0.0, 0.0, 1e4, 1e4), 1.6);
         let of_degrees = |instruction: &&str| instruction.starts_with("AA");
         assert!(text.split(';').filter(of_degrees).count() <= 5 && text.len() < 200, "{text}");
-        let drawn = &crate::read::read_hpgl(&text).unwrap().paths[0].1;
+        let drawn = &super::super::read::tests::read_hpgl(&text).unwrap().paths[0].1;
         let radius = |p: &Point| p.distance(Point::new(5000.0, 5000.0));
         assert!(drawn.iter().all(|p| (radius(p) - 1000.0).abs() < 2.0 * 1.6), "{drawn:?}");
         assert!(drawn.first() == drawn.last() && drawn.len() > 60, "{drawn:?}");
@@ -250,10 +254,7 @@ mod tests {
             paths,
         };
         let plot = Plot { page, pens: vec![pen(1, vec![path(&[(0.0, 0.0), (10.0, 0.0)])]), pen(3, vec![path(&[(50.0, 50.0)])])] };
-        let mounting = mount(&profile, &page).unwrap();
-        let mut bytes = Vec::new();
-        write_hpgl(&plot, &profile, &mounting, &mut bytes).unwrap();
-        let text = String::from_utf8(bytes).unwrap();
+        let text = written(&plot, &profile);
         assert!(text.starts_with("IN;PU;PS4;SP1;VS30;PU"), "{text}");
         assert!(text.contains(";PU;SP3;VS30;"), "{text}");
         assert!(text.contains(";PD;PU;PU"), "a touch: {text}");

@@ -1,9 +1,9 @@
 //! What a machine will do, as a picture: sheet, reach, ink at nib width, pen-up travel, start and park.
 
-use super::number::{decimal, thousandths};
 use crate::drawing::Colour;
 use crate::geometry::{Point, Rect};
 use crate::plot::{Mounting, PenPaths, Plot};
+use crate::write::{decimal, thousandths};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
@@ -34,12 +34,12 @@ impl ShownTravel {
 /// Writes the preview of a plot that starts at `home` on the page. Travel lies under the ink, and each pen has a colour that can be
 /// told from the others'. Everything but the ink stands in layers whose names begin with `%`, which plotters' programs and `inspect`
 /// pass over.
-pub fn write_preview(
+pub(super) fn write_preview(
     plot: &Plot,
     mounting: Option<&Mounting>,
     home: Point,
     travel: ShownTravel,
-    out: &mut impl io::Write,
+    out: &mut dyn io::Write,
 ) -> io::Result<()> {
     let sheet = plot.page.rect();
     let reach = mounting.map_or(sheet, Mounting::reach_on_page);

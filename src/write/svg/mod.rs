@@ -1,4 +1,4 @@
-//! SVG in millimetres: a drawing with its ink, or a plot's tool paths, in the layers that Inkscape and plotter programs know.
+//! SVG in millimetres: a drawing with its ink, in the layers that Inkscape and plotter programs know.
 //!
 //! ```text
 //! svg  width="90mm" height="120mm" viewBox="0 0 90 120"
@@ -13,11 +13,13 @@
 //! The group's id tells what its paths are, since readers turn circles into paths; marks stay in painting order, so a kind that
 //! comes again gets a new group (`layer1-dots.2`).
 
+mod path_data;
+
+pub(crate) use path_data::path_data;
+
 use super::number::{decimal, thousandths};
 use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
-use crate::geometry::{BezPath, Point};
-use crate::plot::{PenPaths, Plot, Profile};
-use kurbo::PathEl;
+use crate::geometry::Point;
 use std::fmt::Write as _;
 use std::io;
 use svg::Node;
@@ -55,73 +57,17 @@ pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) ->
         }
         document.append(group);
     }
-    svg::write(&mut *out, &document)?;
+    finish(&document, out)
+}
+
+/// Writes a document and ends its last line.
+pub(crate) fn finish(document: &SVG, out: &mut dyn io::Write) -> io::Result<()> {
+    svg::write(&mut *out, document)?;
     out.write_all(b"\n")
 }
 
-/// Writes the tool paths of a plot as lines of the pen's width.
-pub fn write_svg_plot(plot: &Plot, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
-    write_toolpaths(plot, head, None, out, |_, pen| format!("{} {}", pen.number, pen.name))
-}
-
-/// The same for a plotter's own program, which takes orders from the layers' names: `!` waits, the number is the pen's, `+S` sets the
-/// speed in percent and `+D` waits for milliseconds. The metadata say which machine's percent these are.
-///
-/// # Panics
-/// If the profile's language is not SVG.
-pub fn write_svg_plotter(plot: &Plot, profile: &Profile, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
-    let dialect = profile.svg.as_ref().expect("an SVG profile has a dialect");
-    let percent = |speed: f64| ((speed / dialect.speed_of_percent).round() as i64).clamp(1, 110);
-    let machine = serde_json::json!({
-        "profile": profile.name,
-        "mm_s_of_percent": dialect.speed_of_percent,
-        "usual_percent": percent(profile.motion.draw_speed),
-    });
-    write_toolpaths(plot, head, Some(&machine.to_string()), out, |i, pen| {
-        let waits = pen.handling.pauses || (i > 0 && plot.pens[i - 1].number != pen.number);
-        let mut label = format!("{}{} {}", if waits { "!" } else { "" }, pen.number, pen.name.replace(['+', '!', '%'], " "));
-        let _ = write!(label, " +S{}", percent(pen.handling.speed(profile.motion.draw_speed)));
-        if pen.handling.delay_seconds > 0.0 {
-            let _ = write!(label, " +D{}", (pen.handling.delay_seconds * 1000.0).round());
-        }
-        label
-    })
-}
-
-fn write_toolpaths(
-    plot: &Plot,
-    head: &SvgHead,
-    machine: Option<&str>,
-    out: &mut impl io::Write,
-    label: impl Fn(usize, &PenPaths) -> String,
-) -> io::Result<()> {
-    let mut document = document(&plot.page, head, machine);
-    for (i, pen) in plot.pens.iter().enumerate() {
-        let name = format!("layer{}", i + 1);
-        let mut group = layer_group(&name, &label(i, pen), pen.colour);
-        let mut lines = String::new();
-        for path in &pen.paths {
-            let mut curve = BezPath::new();
-            curve.move_to(path.points[0]);
-            // A touch is a line of no length: with round ends it shows as the nib's dot.
-            path.points[1..].iter().for_each(|p| curve.line_to(*p));
-            if path.points.len() == 1 {
-                curve.line_to(path.points[0]);
-            }
-            lines.push_str("<path d=\"");
-            path_data(&mut lines, &curve);
-            lines.push_str("\"/>\n");
-        }
-        let mut width = String::new();
-        decimal(&mut width, thousandths(pen.nib), 3);
-        group.append(lines_group(&format!("{name}-toolpaths"), &width, pen.colour).add(Blob::new(lines)));
-        document.append(group);
-    }
-    svg::write(&mut *out, &document)?;
-    out.write_all(b"\n")
-}
-
-fn document(page: &Page, head: &SvgHead, machine: Option<&str>) -> SVG {
+/// A document of a page's size with its head; `machine` goes into the metadata.
+pub(crate) fn document(page: &Page, head: &SvgHead, machine: Option<&str>) -> SVG {
     let (mut width, mut height) = (String::new(), String::new());
     decimal(&mut width, thousandths(page.width), 3);
     decimal(&mut height, thousandths(page.height), 3);
@@ -159,7 +105,7 @@ fn document(page: &Page, head: &SvgHead, machine: Option<&str>) -> SVG {
     document
 }
 
-fn layer_group(id: &str, label: &str, colour: Colour) -> Group {
+pub(crate) fn layer_group(id: &str, label: &str, colour: Colour) -> Group {
     Group::new()
         .set("id", id)
         .set("inkscape:groupmode", "layer")
@@ -168,7 +114,7 @@ fn layer_group(id: &str, label: &str, colour: Colour) -> Group {
         .set("stroke", "none")
 }
 
-fn lines_group(id: &str, width: &str, colour: Colour) -> Group {
+pub(crate) fn lines_group(id: &str, width: &str, colour: Colour) -> Group {
     Group::new()
         .set("id", id)
         .set("fill", "none")
@@ -338,70 +284,10 @@ fn disc_data(text: &mut String, centre: Point, radius: f64) {
     text.push('z');
 }
 
-/// Path data in relative coordinates on the grid of 0.001 mm.
-fn path_data(text: &mut String, path: &BezPath) {
-    let mut writer = PathData { text, at: (0, 0), start: (0, 0), last: ' ' };
-    for element in path.elements() {
-        match *element {
-            PathEl::MoveTo(p) => writer.move_to(p),
-            PathEl::LineTo(p) => writer.relative('l', &[p]),
-            PathEl::QuadTo(a, p) => writer.relative('q', &[a, p]),
-            PathEl::CurveTo(a, b, p) => writer.relative('c', &[a, b, p]),
-            PathEl::ClosePath => writer.close(),
-        }
-    }
-}
-
-struct PathData<'a> {
-    text: &'a mut String,
-    at: (i64, i64),
-    start: (i64, i64),
-    last: char,
-}
-
-impl PathData<'_> {
-    fn move_to(&mut self, p: Point) {
-        let (x, y) = (thousandths(p.x), thousandths(p.y));
-        self.text.push('M');
-        decimal(self.text, x, 3);
-        self.text.push(' ');
-        decimal(self.text, y, 3);
-        self.at = (x, y);
-        self.start = (x, y);
-        self.last = 'M';
-    }
-
-    /// A command whose points are relative to where the pen is; the letter is left out when it repeats.
-    fn relative(&mut self, command: char, points: &[Point]) {
-        let mut separated = self.last != command;
-        if separated {
-            self.text.push(command);
-            self.last = command;
-        }
-        let mut end = self.at;
-        for p in points {
-            end = (thousandths(p.x), thousandths(p.y));
-            for value in [end.0 - self.at.0, end.1 - self.at.1] {
-                if !separated && value >= 0 {
-                    self.text.push(' ');
-                }
-                decimal(self.text, value, 3);
-                separated = false;
-            }
-        }
-        self.at = end;
-    }
-
-    fn close(&mut self) {
-        self.text.push('z');
-        self.at = self.start;
-        self.last = 'z';
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::BezPath;
 
     fn written(drawing: &Drawing) -> String {
         let mut bytes = Vec::new();

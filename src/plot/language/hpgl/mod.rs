@@ -1,0 +1,50 @@
+//! HP-GL.
+
+mod dialect;
+mod read;
+mod resume;
+mod write;
+
+pub use dialect::HpglDialect;
+pub use read::HpglError;
+pub(super) use resume::resume;
+
+use super::{Language, MotionError, Orders, Refusal, Speech, Strokes};
+use crate::read::Budget;
+use std::io;
+
+/// Millimetres per second of one step of `VS`.
+const SPEED_STEP: f64 = 10.0;
+
+/// True if a text without leading blanks begins as HP-GL: with `IN`, after escape sequences for the interface at most.
+pub(super) fn begins(text: &str) -> bool {
+    let text = text.trim_start_matches(';');
+    text.starts_with("IN") || text.starts_with('\u{1b}')
+}
+
+impl Speech for HpglDialect {
+    fn language(&self) -> Language {
+        Language::Hpgl
+    }
+
+    fn check(&self) -> Result<(), Refusal> {
+        self.check()
+    }
+
+    /// `VS` takes whole centimetres per second, up to the machine's limit.
+    fn nearest_speed(&self, wanted: f64, limit: f64) -> f64 {
+        (wanted.min(limit) / SPEED_STEP).floor().max(1.0) * SPEED_STEP
+    }
+
+    fn has_layer_handling(&self) -> bool {
+        false
+    }
+
+    fn write(&self, orders: &Orders<'_>, out: &mut dyn io::Write) -> io::Result<()> {
+        write::write(self, orders, out)
+    }
+
+    fn read(&self, text: &str, _lightest: Option<f64>, budget: &mut Budget) -> Result<Strokes, MotionError> {
+        Ok(read::read(text, budget)?)
+    }
+}

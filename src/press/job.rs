@@ -1,0 +1,96 @@
+//! The print job: a drawing, what the press does to it, and the format in which it leaves.
+
+use super::Press;
+use crate::drawing::Drawing;
+use crate::interrupt::{Interrupt, Interrupted};
+use crate::plot::write_inkml;
+use crate::write::{SvgHead, write_pdf, write_svg};
+use std::io;
+use thiserror::Error;
+
+/// A format for print, for the screen or for a painting program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PrintFormat {
+    /// SVG in millimetres.
+    Svg,
+    /// PDF with its boxes and its ink in separations.
+    Pdf {
+        /// When it was made, in seconds since 1970; none leaves the date out.
+        seconds: Option<u64>,
+    },
+    /// InkML: strokes with pressure, without dots' outlines.
+    Inkml,
+}
+
+/// Why there is no print job.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PrintError {
+    /// The drawing has no mark.
+    #[error("there is nothing to print: the drawing has no mark")]
+    Empty,
+    /// It was stopped.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl From<Interrupted> for PrintError {
+    fn from(_: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
+/// A drawing as it goes onto the plate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrintJob {
+    drawing: Drawing,
+}
+
+impl PrintJob {
+    /// The job of a drawing; without a press its marks are printed as they are.
+    ///
+    /// ```
+    /// use drypoint::drawing::{Dot, Drawing, Layer, Mark, Page};
+    /// use drypoint::geometry::Point;
+    /// use drypoint::interrupt::Interrupt;
+    /// use drypoint::press::{Press, PrintFormat, PrintJob};
+    /// use drypoint::write::SvgHead;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut layer = Layer::new("dots", 1);
+    /// layer.marks.push(Mark::Dot(Dot::circle(Point::new(20.0, 20.0), 1.5)));
+    /// let drawing = Drawing { page: Page::new(40.0, 40.0), layers: vec![layer] };
+    /// let newsprint = Press::new(0.25, 40.0, 0.1);
+    /// let job = PrintJob::new(drawing, Some(&newsprint), &Interrupt::never())?;
+    /// let mut svg = Vec::new();
+    /// job.write(PrintFormat::Svg, &SvgHead::default(), &mut svg)?;
+    /// assert!(svg.starts_with(b"<svg"));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn new(drawing: Drawing, press: Option<&Press>, interrupt: &Interrupt) -> Result<Self, PrintError> {
+        if drawing.marks().next().is_none() {
+            return Err(PrintError::Empty);
+        }
+        let drawing = match press {
+            Some(press) => press.compensated_until(&drawing, interrupt)?,
+            None => drawing,
+        };
+        Ok(Self { drawing })
+    }
+
+    /// What is printed.
+    pub const fn drawing(&self) -> &Drawing {
+        &self.drawing
+    }
+
+    /// Writes it.
+    pub fn write(&self, format: PrintFormat, head: &SvgHead, mut out: impl io::Write) -> io::Result<()> {
+        match format {
+            PrintFormat::Svg => write_svg(&self.drawing, head, &mut out),
+            PrintFormat::Pdf { seconds } => write_pdf(&self.drawing, head, seconds, &mut out),
+            PrintFormat::Inkml => write_inkml(&self.drawing, &head.title, &mut out),
+        }
+    }
+}
