@@ -1,4 +1,4 @@
-//! G-code as motion: modal absolute moves, and the pen by the profile's own commands.
+//! G-code as motion: modal absolute moves; the pen moves by the profile's own commands.
 
 use super::budget::{Budget, PATH, POINT, TooMuchWork};
 use super::{PenLift, Strokes};
@@ -8,18 +8,18 @@ use thiserror::Error;
 /// Motion in machine units (millimetres).
 pub type GcodeMotion = Strokes;
 
-/// Why a file could not be read.
+/// Error of reading G-code.
 #[derive(Debug, Error, PartialEq)]
 pub enum GcodeError {
     /// A word that is not a letter and a number.
-    #[error("line {line}: '{word}' is not a G-code word")]
+    #[error("line {line}: '{word}' is not a G-code word (a letter and a number)")]
     Word {
         /// Line, from 1.
         line: usize,
         /// The word.
         word: String,
     },
-    /// A number that is none, infinite, or too large for any machine.
+    /// A number that is NaN, infinite, or too large for any machine.
     #[error("line {line}: '{word}' is not a finite number; write a number up to 1e30")]
     NotFinite {
         /// Line, from 1.
@@ -27,8 +27,8 @@ pub enum GcodeError {
         /// The word.
         word: String,
     },
-    /// A mode that is not read.
-    #[error("line {line}: {word} is not understood here; drypoint reads absolute moves in millimetres")]
+    /// A mode that is not supported.
+    #[error("line {line}: {word} is not supported; drypoint reads absolute moves in millimetres")]
     Mode {
         /// Line, from 1.
         line: usize,
@@ -40,24 +40,24 @@ pub enum GcodeError {
     Work {
         /// Line, from 1.
         line: usize,
-        /// How much.
+        /// The work counted and the limit.
         #[source]
         work: TooMuchWork,
     },
 }
 
-/// Reads absolute moves and arcs in millimetres; a line equal to `pen_up` or `pen_down` moves the pen, `M0` and `PAUSE` pause, a
-/// comment `pen N:` tells which pen is in the holder.
+/// Reads absolute moves and arcs in millimetres. A line equal to `pen_up` or `pen_down` moves the pen, `M0` and `PAUSE` pause,
+/// and a comment `pen N:` names the pen in the holder.
 pub fn read_gcode(text: &str, pen_up: &str, pen_down: &str) -> Result<GcodeMotion, GcodeError> {
     read_gcode_within(text, &PenLift::Commands { up: pen_up, down: pen_down }, &mut Budget::default())
 }
 
-/// The same for a machine whose pen is lifted by its z axis: it is down beyond the middle between `up` and `down`.
+/// [`read_gcode`] for a machine that lifts its pen by the z axis: the pen is down past the midpoint between `up` and `down`.
 pub fn read_gcode_heights(text: &str, up: f64, down: f64) -> Result<GcodeMotion, GcodeError> {
     read_gcode_within(text, &PenLift::Heights { up, down }, &mut Budget::default())
 }
 
-/// Distance from an arc at which it is followed, in millimetres.
+/// Flattening tolerance of arcs, in millimetres.
 const ARC_TOLERANCE: f64 = 0.002;
 
 struct Reader<'a> {
@@ -70,7 +70,7 @@ struct Reader<'a> {
     mode: u32,
 }
 
-/// The same with a limit of its own on the work.
+/// [`read_gcode`] for either kind of pen lift, with a given work limit.
 pub fn read_gcode_within(text: &str, lift: &PenLift<'_>, budget: &mut Budget) -> Result<GcodeMotion, GcodeError> {
     budget.text(text.len() as f64).map_err(|work| GcodeError::Work { line: 1, work })?;
     let motion = Strokes { ends_up: true, ..Strokes::default() };
@@ -95,12 +95,12 @@ pub fn read_gcode_within(text: &str, lift: &PenLift<'_>, budget: &mut Budget) ->
     Ok(reader.motion)
 }
 
-/// Whether a word is a controller's named command, such as `SET_SERVO`.
+/// True if a word is a controller's named command, such as `SET_SERVO`.
 fn is_named(word: &str) -> bool {
     word.len() > 2 && word.bytes().take(2).all(|b| b.is_ascii_alphabetic())
 }
 
-/// The values that a line gives to the axes and an arc's centre.
+/// A line's values for the axes and an arc's centre.
 #[derive(Default)]
 struct Words {
     x: Option<f64>,

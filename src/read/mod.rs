@@ -1,7 +1,8 @@
-//! Reading back: SVG as a drawing, HP-GL and G-code as the motion that they order.
+//! Readers: SVG as a drawing, HP-GL and G-code as pen motion.
 //!
-//! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) and a count of what could
-//! not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
+//! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot), and a count of what
+//! could not be read. `plot` draws the result; `inspect` and the round-trip tests measure it. The readers share no code with the
+//! writers.
 
 mod budget;
 mod census;
@@ -32,31 +33,31 @@ use crate::geometry::Point;
 /// How a G-code file moves its pen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PenLift<'a> {
-    /// By lines of their own.
+    /// By separate command lines.
     Commands {
-        /// Lifts it.
+        /// The line that lifts the pen.
         up: &'a str,
-        /// Lowers it.
+        /// The line that lowers the pen.
         down: &'a str,
     },
-    /// By the z axis: it is down beyond the middle between two heights.
+    /// By the z axis: the pen is down past the midpoint between two heights.
     Heights {
-        /// Above the paper.
+        /// Z height above the paper, in millimetres.
         up: f64,
-        /// On it.
+        /// Z height on the paper, in millimetres.
         down: f64,
     },
 }
 
-/// What a plotter file makes the pen do, in machine units.
+/// The pen motion of a plotter file, in machine units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
-    /// Each pen-down path with its pen's number; a single point is a touch.
+    /// Each pen-down path with its pen number; a single point is a touch.
     pub paths: Vec<(u32, Vec<Point>)>,
-    /// Every place that the carriage visits, pen up or down, in order.
+    /// Every point the carriage visits, pen up or down, in order.
     pub visited: Vec<Point>,
     /// Pauses for the user.
     pub pauses: usize,
-    /// Whether the pen is up at the end.
+    /// True if the pen is up at the end.
     pub ends_up: bool,
 }
