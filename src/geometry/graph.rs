@@ -62,8 +62,7 @@ impl Graph<'_> {
 
     /// The nodes of a stroke over `places` (ascending, at least two) and as many more as the tolerance requires, with `width` as
     /// a function of position: the smooth piecewise cubic nearest to the curve, with pieces halved where it is outside the
-    /// tolerance. Where even the shortest pieces exceed it because of noise, the
-    /// stroke follows the curve in straight lines.
+    /// tolerance. Where even the shortest pieces exceed it because of noise, the stroke follows the curve in straight lines.
     pub fn fit(&self, places: &[f64], width: impl Fn(f64) -> f64, tolerance: FitTolerance) -> Vec<GraphNode> {
         let mut at = Vec::with_capacity(4 * places.len());
         at.push(places[0]);
