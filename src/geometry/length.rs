@@ -13,7 +13,7 @@ pub enum LengthError {
     #[error("'{0}' is in pixels, which have no fixed size here; write mm, cm, in or pt (px only where an SVG is read)")]
     Pixels(String),
     /// The number is NaN or infinite.
-    #[error("'{0}' is not a finite length; write a finite number")]
+    #[error("'{0}' is not a finite length")]
     NotFinite(String),
     /// A size without an `x`.
     #[error("'{0}' is not a size; write width x height with a unit, such as 90x120mm")]

@@ -135,7 +135,7 @@ mod tests {
         let refused = budget.spend(9e6, "arcs").unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "takes at least 20 million steps of work to read, counted up to its arcs, and the limit is 12 million"
+            "takes at least 20 million steps of work to read, counted up to its arcs; the limit is 12 million"
         );
         assert_eq!(refused.lifted_by(), Some(25.0));
         for endless in [1e12, 1e300, f64::INFINITY, f64::NAN] {
