@@ -1,22 +1,21 @@
-//! Curves over one axis that keep their order and a least distance.
+//! Curves over one axis that keep their order and a minimum distance.
 //!
-//! A curve is given by its heights at even steps and runs straight between them. That a curve lies above another by at least a
-//! gap, measured in any direction, is a set of linear conditions on the heights, so the mean of two families that keep the gap
-//! keeps it too.
+//! A curve is given by its heights at even steps, with straight lines between them. "Above another by at least a gap, measured in
+//! any direction" is a set of linear conditions on the heights, so the mean of two families that keep the gap keeps it too.
 
-/// Steps in a gap.
+/// Steps per gap.
 const STEPS: usize = 4;
-/// Radius of the disc whose polygon through the steps still holds the disc of the gap.
+/// Radius, in gaps, of the disc whose polygon through the steps still contains the disc of the gap.
 const HOOD: f64 = 1.05;
 
-/// A least distance between curves, and the step at which they must be sampled to keep it exactly.
+/// A minimum distance between curves, and the step at which they must be sampled to keep it exactly.
 #[derive(Clone, Debug)]
 pub struct Gap {
-    /// The least distance.
+    /// The minimum distance.
     pub distance: f64,
     /// The step between heights: a quarter of the distance.
     pub step: f64,
-    /// How far above a height the next curve must pass, by steps aside.
+    /// Minimum rise of the next curve above a height, by the number of steps to the side.
     hood: [f64; STEPS + 2],
 }
 
@@ -31,7 +30,7 @@ impl Gap {
         Self { distance, step, hood }
     }
 
-    /// How many steps aside another curve can come nearer than the distance.
+    /// Number of steps to the side within which another curve can come closer than the distance.
     pub const fn reach(&self) -> usize {
         self.hood.len() - 1
     }
@@ -54,8 +53,8 @@ impl Gap {
         }
     }
 
-    /// The curves, lowest first, moved so that each keeps the gap to the next, whatever they were: the mean of pushing all up
-    /// from the lowest and all down from the highest, so that a curve moves only where something is in its way.
+    /// Moves the curves (lowest first) so that each keeps the gap to the next. The result is the mean of pushing all up from the
+    /// lowest and all down from the highest, so a curve moves only where another is too close.
     #[must_use]
     pub fn keep(&self, wanted: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let (raised, sunk) = rayon::join(
@@ -89,7 +88,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Point, distance_to_segment};
 
-    /// Least distance of two polylines that do not cross.
+    /// Minimum distance of two polylines that do not cross.
     fn distance(a: &[Point], b: &[Point]) -> f64 {
         let one = |a: &[Point], b: &[Point]| {
             let to_line = |p: &Point| b.windows(2).map(|s| distance_to_segment(*p, s[0], s[1])).fold(f64::INFINITY, f64::min);

@@ -1,26 +1,26 @@
-//! Arcs of circles fitted to polylines.
+//! Circular arcs fitted to polylines.
 
 use kurbo::{Point, Vec2};
 use std::f64::consts::PI;
 
-/// Fewest legs that an arc replaces: three points lie on a circle whatever they mean.
+/// Minimum number of segments that an arc replaces: any three points lie on a circle.
 const LEAST_LEGS: usize = 3;
-/// Most legs that one arc replaces, which bounds the work.
+/// Maximum number of segments that one arc replaces, to bound the work.
 const MOST_LEGS: usize = 256;
-/// Greatest radius; beyond it a line is as good, and a controller's rounding of the centre shows.
+/// Maximum radius. Beyond it a line is as good, and a controller's rounding of the centre becomes visible.
 const GREATEST_RADIUS: f64 = 2000.0;
 
-/// A step along a path, from where the one before it ended.
+/// A step along a path, from the end of the one before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// Straight.
+    /// A straight line.
     Line {
-        /// Where to.
+        /// End point.
         to: Point,
     },
-    /// Along a circle.
+    /// A circular arc.
     Arc {
-        /// Where to.
+        /// End point.
         to: Point,
         /// The circle's centre.
         centre: Point,
@@ -30,7 +30,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// Where it ends.
+    /// The end point.
     pub const fn to(&self) -> Point {
         match self {
             Self::Line { to } | Self::Arc { to, .. } => *to,
@@ -38,10 +38,11 @@ impl Step {
     }
 }
 
-/// A polyline as lines and arcs; the first point is where it starts. The polyline's points lie within half of `tolerance` of an
-/// arc, and an arc within 1.25 of it of the polyline: chords of a flattened curve already lie a tolerance inside it.
+/// Converts a polyline to lines and arcs, starting at its first point. The polyline's points lie within `0.5 * tolerance` of an
+/// arc, and an arc within `1.25 * tolerance` of the polyline, because the chords of a flattened curve already lie a tolerance
+/// inside it.
 ///
-/// Every arc starts and ends in points of the polyline, as far along as it fits, and sweeps at most half a turn.
+/// Every arc starts and ends at points of the polyline, reaches as far as it fits, and sweeps at most half a turn.
 pub fn fit_arcs(points: &[Point], tolerance: f64) -> Vec<Step> {
     let mut steps = Vec::with_capacity(points.len());
     let mut at = 0;
@@ -61,8 +62,8 @@ pub fn fit_arcs(points: &[Point], tolerance: f64) -> Vec<Step> {
     steps
 }
 
-/// The arc from the first point to the last, if all lie on it. Its centre is on the perpendicular bisector of the two, at the height
-/// of least squares: with q relative to their middle, `|q|^2 - L^2/4 = 2 h q.n` on the circle of height h.
+/// The arc from the first point to the last, if all lie on it. Its centre is on the perpendicular bisector of the two, at a
+/// height h fitted by least squares: with q relative to their midpoint, `|q|^2 - L^2/4 = 2 h q.n` on the circle.
 fn arc_through(points: &[Point], tolerance: f64) -> Option<Step> {
     let (first, last) = (points[0], points[points.len() - 1]);
     let (middle, chord) = (first.midpoint(last), last - first);
@@ -89,7 +90,7 @@ fn arc_through(points: &[Point], tolerance: f64) -> Option<Step> {
     (points.iter().all(lies_on) && !points.windows(2).any(bulges)).then_some(Step::Arc { to: last, centre, sweep })
 }
 
-/// The angle that points sweep around a centre, if they all go the same way and no more than half a turn.
+/// The angle that points sweep around a centre, if all turn the same way and by at most half a turn in total.
 fn swept(points: &[Point], centre: Point) -> Option<f64> {
     let mut sum: f64 = 0.0;
     for pair in points.windows(2) {
@@ -103,20 +104,20 @@ fn swept(points: &[Point], centre: Point) -> Option<f64> {
     (sum.abs() <= PI).then_some(sum)
 }
 
-/// How many points [`flatten_arc`] gives for an arc; not finite where the radius or the sweep is not.
+/// Number of points that [`flatten_arc`] gives for an arc; not finite if the radius or the sweep is not.
 pub fn arc_points(radius: f64, sweep: f64, tolerance: f64) -> f64 {
-    // The sine of a quarter of a step keeps its digits where the cosine of a half is 1.
+    // The sine of a quarter step keeps its precision where the cosine of a half step rounds to 1.
     let step = if radius > tolerance { 4.0 * (0.5 * tolerance / radius).sqrt().asin() } else { PI };
     (sweep.abs() / step).ceil().max(1.0)
 }
 
-/// Points along an arc after its start, its end included, no farther than `tolerance` from it. [`arc_points`] tells their number
-/// beforehand; beyond ten million they lie farther apart.
+/// Points along an arc after its start, including its end, with chords no farther than `tolerance` from it. [`arc_points`] gives
+/// their number beforehand. It is capped at ten million, with wider spacing then.
 pub fn flatten_arc(from: Point, to: Point, centre: Point, sweep: f64, tolerance: f64) -> Vec<Point> {
     let radius = from.distance(centre);
     let count = arc_points(radius, sweep, tolerance).min(1e7);
     let start = from - centre;
-    // The end's radius may differ by what was rounded away.
+    // The end's radius may differ by rounding.
     let end_radius = to.distance(centre);
     let mut points: Vec<Point> = (1..count as usize)
         .map(|i| {
@@ -203,7 +204,7 @@ mod tests {
             prop_assert!(farthest(&points, &arcs) <= limit);
             prop_assert!(farthest(&middles(&points), &arcs) <= limit);
             prop_assert!(farthest(&arcs, &points) <= limit);
-            // Each vertex is met in the polyline's own order: the steps' ends are a subsequence of it.
+            // The steps' ends are a subsequence of the polyline.
             let mut rest = points.iter();
             prop_assert!(steps.iter().all(|step| rest.any(|p| *p == step.to())));
         }

@@ -4,7 +4,7 @@ use kurbo::{BezPath, Point, Shape, Vec2};
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 
-/// Lobes of a blob's outline. Six keep the path under 250 bytes; fewer look like bent ellipses, more are lost in print.
+/// Number of lobes of a blob's outline. Six keep the path under 250 bytes; fewer look like bent ellipses, more are lost in print.
 const NODES: usize = 6;
 
 /// An irregular outline around `centre` with exactly the area of a disc of `radius`.
@@ -21,7 +21,7 @@ pub fn blob(centre: Point, radius: f64, irregularity: f64, random: &mut impl Rng
     }
     let unit = closed_spline(&nodes);
     let scale = radius * (std::f64::consts::PI / unit.area().abs()).sqrt();
-    // Centred on its own weight, so that a lopsided blob does not pull its row out of line.
+    // Centred on its centroid, so that a lopsided blob stays in line with its row.
     let weight = centroid(&unit);
     let place = kurbo::Affine::translate(centre.to_vec2()) * kurbo::Affine::scale(scale) * kurbo::Affine::translate(-weight);
     place * unit
@@ -44,7 +44,7 @@ fn closed_spline(nodes: &[Vec2; NODES]) -> BezPath {
     path
 }
 
-/// Centre of weight of a closed path, from a fine polygon.
+/// Centroid of a closed path, from a fine polygon.
 fn centroid(path: &BezPath) -> Vec2 {
     let polygon = super::flatten(path, 0.002).swap_remove(0).0;
     let (mut sum, mut area) = (Vec2::ZERO, 0.0);

@@ -1,18 +1,18 @@
-//! An order of points in which every beginning is evenly spread, by sample elimination (Yuksel 2015).
+//! Progressive order of points: every prefix is evenly spread. By sample elimination (Yuksel 2015).
 
 use crate::interrupt::Interrupt;
 use kurbo::Point;
 use std::collections::BinaryHeap;
 
-/// Ranks points so that the first `k` of the order are well spread for every `k`; returns indices, best kept first.
+/// Ranks points so that the first `k` of the order are well spread for every `k`. Returns indices, the last eliminated first.
 ///
-/// In rounds, half of the points that are left are eliminated, the most crowded first; each round looks twice the area
-/// around. Time n log n. Equal crowding is decided by the index, so that the order is always the same.
+/// Each round eliminates half of the remaining points, the most crowded first, and doubles the search area. Time O(n log n). Ties
+/// are broken by index, so the order is deterministic.
 pub fn blue_noise_order(points: &[Point]) -> Vec<usize> {
     blue_noise_order_until(points, &Interrupt::never())
 }
 
-/// The same; once the interrupt is raised, the order is any.
+/// [`blue_noise_order`] with an interrupt; once it is raised, the order is arbitrary.
 pub(super) fn blue_noise_order_until(points: &[Point], interrupt: &Interrupt) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..points.len()).collect();
     let mut eliminated = Vec::with_capacity(points.len());
@@ -25,7 +25,7 @@ pub(super) fn blue_noise_order_until(points: &[Point], interrupt: &Interrupt) ->
     eliminated
 }
 
-/// Removes the most crowded of `from` until `goal` are left; appends those removed, in order.
+/// Removes the most crowded of `from` until `goal` are left, and returns those. Appends the removed ones to `removed`, in order.
 fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<usize>, interrupt: &Interrupt) -> Vec<usize> {
     let reach = crowding_radius(points, from, goal);
     let grid = Grid::new(points, from, reach);
@@ -66,8 +66,8 @@ fn eliminate(points: &[Point], from: &[usize], goal: usize, removed: &mut Vec<us
     from.iter().zip(alive).filter(|(_, alive)| *alive).map(|(&i, _)| i).collect()
 }
 
-/// The distance under which two of the kept points count as crowded: that of `goal` points in a hexagonal packing of the
-/// area the points cover, times two as in the paper (section 3.3).
+/// The distance below which two kept points count as crowded: twice (as in the paper, section 3.3) the distance of `goal` points
+/// in a hexagonal packing of the area that the points cover.
 fn crowding_radius(points: &[Point], from: &[usize], goal: usize) -> f64 {
     let bounds = from.iter().fold(None::<kurbo::Rect>, |bounds, &i| {
         let r = kurbo::Rect::from_points(points[i], points[i]);
@@ -77,7 +77,7 @@ fn crowding_radius(points: &[Point], from: &[usize], goal: usize) -> f64 {
     2.0 * (area / (2.0 * 3.0_f64.sqrt() * goal.max(1) as f64)).sqrt()
 }
 
-/// A candidate for elimination; the greatest crowding first, the highest index first among equals.
+/// A candidate for elimination, ordered by crowding, then by index.
 struct Crowded {
     crowding: f64,
     slot: usize,
@@ -103,7 +103,7 @@ impl PartialEq for Crowded {
 
 impl Eq for Crowded {}
 
-/// Points by square cells of one side, in one flat array.
+/// Points sorted into square cells, in one flat array.
 struct Grid<'a> {
     points: &'a [Point],
     cell: f64,
@@ -123,7 +123,7 @@ impl<'a> Grid<'a> {
             Point::new(from.iter().map(x).fold(f64::INFINITY, f64::min), from.iter().map(y).fold(f64::INFINITY, f64::min));
         let span = |of: &dyn Fn(&usize) -> f64, low: f64| from.iter().map(of).fold(low, f64::max) - low;
         let (width, height) = (span(&x, origin.x), span(&y, origin.y));
-        // No more cells than points, however small the reach.
+        // At most about as many cells as points, however small the reach.
         let cell = reach.max((width * height / from.len() as f64).sqrt()).max((width + height) / from.len() as f64).max(1e-12);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut grid =
@@ -150,7 +150,7 @@ impl<'a> Grid<'a> {
         (cx.min(self.columns - 1), cy.min(self.rows - 1))
     }
 
-    /// Members closer than the reach, itself included.
+    /// Members closer than the reach, including the point itself.
     fn around(&self, p: Point) -> impl Iterator<Item = usize> + '_ {
         let (cx, cy) = self.cell_of(p);
         let columns = cx.saturating_sub(1)..=(cx + 1).min(self.columns - 1);

@@ -1,12 +1,12 @@
-//! Outlines of any size, cut to a frame before they are flattened: what lies beyond it costs nothing, and the inside stays exact.
+//! Cuts outlines of any size to a frame before they are flattened. What lies outside costs nothing, and the inside stays exact.
 
 use super::polyline::flatten;
 use kurbo::{BezPath, CubicBez, ParamCurve, PathEl, Point, QuadBez, Rect};
 
-/// An outline with straight lines in place of what is of no use to a frame. Winding numbers inside the frame stay. None when a
-/// coordinate is no finite number.
+/// Replaces the curves of an outline that lie outside a frame by straight lines. Winding numbers inside the frame do not change.
+/// `None` if a coordinate is not finite.
 ///
-/// A piece of a curve whose control points all lie beyond one side of the frame is as good as its chord, which lies there too.
+/// A piece of a curve whose control points all lie beyond one side of the frame is replaced by its chord, which lies there too.
 pub fn tamed(outline: &BezPath, frame: Rect) -> Option<BezPath> {
     let mut tame = Tame { path: BezPath::new(), frame, near: frame.inflate(frame.width(), frame.height()) };
     let mut at = Point::ORIGIN;
@@ -31,19 +31,20 @@ pub fn tamed(outline: &BezPath, frame: Rect) -> Option<BezPath> {
     Some(tame.path)
 }
 
-/// The subpaths of an outline that was tamed, as polygons within its frame; an open one is closed.
+/// The subpaths of a result of [`tamed`] as polygons within its frame; open ones are closed.
 pub fn polygons_within(tamed: &BezPath, frame: Rect, tolerance: f64) -> Vec<Vec<Point>> {
     let polygons = flatten(tamed, tolerance).into_iter().map(|(points, _)| cut(points, frame));
     polygons.filter(|polygon| polygon.len() > 2).collect()
 }
 
-/// Halvings of a curve beyond which its chord is taken: 1e38, the greatest of single precision, is then as short as the frame.
+/// Maximum halvings of a curve before its chord is taken: a curve of 1e38, the maximum of single precision, is then as short as
+/// the frame.
 const DEEPEST: usize = 120;
 
 struct Tame {
     path: BezPath,
     frame: Rect,
-    /// Curves within it are flattened as they are.
+    /// Curves within this rectangle are kept.
     near: Rect,
 }
 
@@ -64,10 +65,11 @@ impl Tame {
     }
 }
 
-/// A polygon within a frame (Sutherland and Hodgman 1974), with coordinates on the border that are exactly the border's however far
-/// What reads a point along and across a side, where the side lies, and which way is out.
+/// One side of a frame: a function that splits a point into its coordinate along the side's axis and the other one, the side's
+/// position on that axis, and the sign of the outward direction.
 type Side = (fn(Point) -> (f64, f64), f64, f64);
 
+/// Clips a polygon to a frame (Sutherland and Hodgman 1974). Coordinates on the border equal the border's exactly, however far
 /// away the corners were.
 fn cut(polygon: Vec<Point>, frame: Rect) -> Vec<Point> {
     let horizontal = |p: Point| (p.x, p.y);

@@ -1,10 +1,10 @@
-//! Clipping by straight borders: convex polygons by a half plane, polygons and polylines by a rectangle.
+//! Clipping by straight lines: convex polygons by a half plane, polygons, discs and polylines by a rectangle.
 
 use kurbo::{BezPath, Point, Rect, Vec2};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The part of a polygon on the side of `origin` that `normal` points away from: `(p - origin) . normal <= 0`.
-/// The result is written to `out`, so that callers in a loop allocate nothing.
+/// Written to `out`, so that callers in a loop need not allocate.
 pub fn half_plane(polygon: &[Point], origin: Point, normal: Vec2, out: &mut Vec<Point>) {
     out.clear();
     let height = |p: Point| (p - origin).dot(normal);
@@ -20,8 +20,8 @@ pub fn half_plane(polygon: &[Point], origin: Point, normal: Vec2, out: &mut Vec<
     }
 }
 
-/// The part of a polygon inside a rectangle (Sutherland and Hodgman 1974). A concave polygon that falls into several pieces
-/// keeps them joined along the rectangle's border, with the right area.
+/// The part of a polygon inside a rectangle (Sutherland and Hodgman 1974). If a concave polygon falls into several pieces, they
+/// stay joined along the rectangle's border; the area is correct.
 pub fn clip_polygon(polygon: &[Point], rect: Rect) -> Vec<Point> {
     let sides = [
         (Point::new(rect.x0, 0.0), Vec2::new(-1.0, 0.0)),
@@ -38,11 +38,11 @@ pub fn clip_polygon(polygon: &[Point], rect: Rect) -> Vec<Point> {
     current
 }
 
-/// The part of a disc inside a rectangle, as arcs (cubics, 3e-4 of the radius off at most) and straight borders; empty when
-/// nothing is inside.
+/// The part of a disc inside a rectangle, as arcs (cubics, with an error of at most 3e-4 of the radius) and straight borders;
+/// empty if nothing is inside.
 ///
 /// ```text
-///   +-----------+      arcs run with growing angle; where the circle leaves over one side and returns over
+///   +-----------+      arcs run with increasing angle; where the circle leaves over one side and returns over
 ///   |      .--. |      another, the border turns at the corner between them
 ///   |     (    )|
 ///   +------`--'-+
@@ -83,7 +83,7 @@ pub fn clip_disc(centre: Point, radius: f64, rect: Rect) -> BezPath {
     path
 }
 
-/// Angles at which a circle meets the sides of a rectangle.
+/// Angles at which a circle crosses the sides of a rectangle.
 fn crossings(centre: Point, radius: f64, rect: Rect) -> Vec<f64> {
     let mut angles = Vec::new();
     for x in [rect.x0, rect.x1] {
@@ -104,7 +104,7 @@ fn crossings(centre: Point, radius: f64, rect: Rect) -> Vec<f64> {
     angles.into_iter().map(|a| a.rem_euclid(TAU)).collect()
 }
 
-/// The corner at which the border turns between a point on one side and a point on the next.
+/// The corner between a point on one side and a point on an adjacent side.
 fn corner_between(a: Point, b: Point, rect: Rect) -> Option<Point> {
     let side_x = |p: Point| [rect.x0, rect.x1].into_iter().find(|x| (p.x - x).abs() < 1e-9);
     let side_y = |p: Point| [rect.y0, rect.y1].into_iter().find(|y| (p.y - y).abs() < 1e-9);
@@ -114,7 +114,7 @@ fn corner_between(a: Point, b: Point, rect: Rect) -> Option<Point> {
     }
 }
 
-/// An arc as cubics of at most a quarter turn; starts the path if it is empty.
+/// Appends an arc as cubics of at most a quarter turn; starts the path if it is empty.
 fn append_arc(path: &mut BezPath, centre: Point, radius: f64, from: f64, to: f64) {
     let count = ((to - from) / FRAC_PI_2 - 1e-9).ceil().max(1.0);
     let step = (to - from) / count;
@@ -132,8 +132,8 @@ fn append_arc(path: &mut BezPath, centre: Point, radius: f64, from: f64, to: f64
     }
 }
 
-/// The pieces of a polyline inside a rectangle, in order and direction, each with the position along the line
-/// (vertex index plus fraction) of each of its points, so that widths and pressure can follow.
+/// The pieces of a polyline inside a rectangle, in order and direction. Each point has its position along the line (vertex index
+/// plus fraction), for interpolating widths and pressure.
 pub fn clip_polyline(points: &[Point], rect: Rect) -> Vec<Vec<(Point, f64)>> {
     let mut pieces: Vec<Vec<(Point, f64)>> = Vec::new();
     let mut open = false;
@@ -157,7 +157,7 @@ pub fn clip_polyline(points: &[Point], rect: Rect) -> Vec<Vec<(Point, f64)>> {
     pieces
 }
 
-/// The parameters between which a segment lies in a rectangle (Liang and Barsky 1984).
+/// The parameter range of a segment inside a rectangle (Liang and Barsky 1984).
 fn segment_in_rect(a: Point, b: Point, rect: Rect) -> Option<(f64, f64)> {
     let d = b - a;
     let (mut t0, mut t1) = (0.0_f64, 1.0_f64);

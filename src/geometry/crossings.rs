@@ -1,13 +1,13 @@
-//! How often the borders of an outline cross: the work of untangling it, told before it is done.
+//! Counts the crossings of an outline's borders, to estimate the work of untangling it beforehand.
 
 use kurbo::Point;
 
-/// What was counted, as far as the count went.
+/// The counts, up to where counting stopped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Crossings {
-    /// Pairs of edges that cross, ends that only touch left out.
+    /// Pairs of edges that cross; touching ends do not count.
     pub crossings: usize,
-    /// Pairs of edges that were looked at.
+    /// Pairs of edges that were compared.
     pub pairs: usize,
 }
 
@@ -36,7 +36,7 @@ impl Edge {
     }
 }
 
-/// Counts the crossings of closed polygons, in a sweep along x; stops once there are more than `most`, or 500 times as many pairs.
+/// Counts the crossings of closed polygons, in a sweep along x. Stops after more than `most` crossings or `500 * most` pairs.
 pub fn crossings<'a>(polygons: impl IntoIterator<Item = &'a Vec<Point>>, most: usize) -> Crossings {
     let sides = |polygon: &'a Vec<Point>| (0..polygon.len()).map(|i| Edge { a: polygon[i], b: polygon[(i + 1) % polygon.len()] });
     let mut edges: Vec<Edge> = polygons.into_iter().flat_map(sides).collect();
@@ -66,7 +66,7 @@ mod tests {
         let square = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)].map(Point::from).to_vec();
         assert_eq!(crossings([&star], 1000).crossings, 5);
         assert_eq!(crossings([&square], 1000).crossings, 0);
-        // Only its lower left corner lies over the square, whose two near sides pass through it.
+        // Only its lower left corner overlaps the square, so two sides of the square pass through it.
         assert!(crossings([&star, &square], 1000).crossings > 5);
         assert!(crossings([&star, &star, &square], 3).crossings <= 10, "the count stops");
     }

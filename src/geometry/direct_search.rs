@@ -1,24 +1,24 @@
-//! Direct binary search (Analoui and Allebach 1992) over scattered places: which of them get a whole touch when each asks for a share
-//! of one.
+//! Direct binary search (Analoui and Allebach 1992) over scattered points: chooses which of them get a whole dot when each should
+//! get a share of one.
 
 use crate::interrupt::Interrupt;
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// The eye's two blurs, in mean spacings of the dots: the inner one keeps neighbours apart, the outer one keeps the tone of a whole
-/// passage. Tuned on wedges of dots with 2 to 60 % of a nib's ink: with the inner one alone, passages of few dots drift by 0.02 in
-/// tone; with an outer one of 6, the work doubles and nothing is gained.
+/// Standard deviations of the two Gaussian blurs that model the eye, in mean dot spacings. The inner one keeps neighbours apart,
+/// the outer one keeps the tone of larger areas. Tuned on wedges of dots with 2 to 60 % of a nib's ink: with the inner one alone,
+/// areas of few dots drift by 0.02 in tone; with an outer one of 6, the work doubles and nothing is gained.
 const BLURS: [f64; 2] = [1.2, 3.0];
-/// Where a blur ends, in its own widths.
+/// Cut-off radius of a blur, in its standard deviations.
 const REACH: f64 = 2.6;
-/// How far apart, in spacings, two places may exchange their touches.
+/// Maximum distance, in spacings, of two points that are swapped.
 const NEAR: f64 = 1.8;
-/// Rounds of exchanges; on sample drawings fewer than one in a thousand dots still changes in the sixth.
+/// Maximum number of rounds; on sample drawings fewer than one in a thousand dots still changes in the sixth.
 const ROUNDS: usize = 8;
 
-/// Improves a choice: a place is taken in, left out or exchanged with a near one when that brings the blurred sum of the chosen nearer
-/// to that of the shares (each from 0 to 1). Places must be finite. It ends early once the interrupt is raised.
+/// Improves a choice of points: toggles a point, or swaps it with a near one, if that brings the blurred sum of the chosen points
+/// closer to that of the shares (each from 0 to 1). Points must be finite. Ends early once the interrupt is raised.
 pub(super) fn improved(places: &[Point], shares: &[f64], chosen: Vec<bool>, interrupt: &Interrupt) -> Vec<bool> {
     let Some(spacing) = usual_spacing(places) else { return chosen };
     let mut search = Search::new(places, shares, chosen, spacing, interrupt);
@@ -30,7 +30,7 @@ pub(super) fn improved(places: &[Point], shares: &[f64], chosen: Vec<bool>, inte
     search.chosen
 }
 
-/// Places sorted into square cells, so that all within a cell's width of a place are in 3 x 3 cells.
+/// Points sorted into square cells, so that all within a cell's width of a point are in 3 x 3 cells.
 struct Buckets {
     cell: f64,
     corner: Point,
@@ -65,7 +65,7 @@ impl Buckets {
         at(p.y - self.corner.y, self.rows) * self.columns + at(p.x - self.corner.x, self.columns)
     }
 
-    /// The members of the 3 x 3 cells around a place.
+    /// The members of the 3 x 3 cells around a point.
     fn around(&self, p: Point) -> impl Iterator<Item = usize> + '_ {
         let cell = self.cell_of(p);
         let (column, row) = (cell % self.columns, cell / self.columns);
@@ -81,7 +81,8 @@ fn bounds(places: &[Point]) -> Rect {
     places.iter().map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)).unwrap_or_default()
 }
 
-/// The side of the square that a place has to itself in the sparser parts: the page's empty ones do not count. None for too few.
+/// The side of the square per point in the sparser parts; empty parts of the page do not count. `None` for fewer than 3 points or
+/// no extent.
 fn usual_spacing(places: &[Point]) -> Option<f64> {
     let bounds = bounds(places);
     let extent = bounds.width().max(bounds.height());
@@ -94,13 +95,13 @@ fn usual_spacing(places: &[Point]) -> Option<f64> {
     for p in places {
         *cells.entry(((p.x / coarse) as i64, (p.y / coarse) as i64)).or_default() += 1;
     }
-    // Three quarters of the inked paper are at least as dense as this: where it is denser, the blurs take in more dots.
+    // The lower quartile: three quarters of the inked cells are at least this dense. In denser ones the blurs cover more dots.
     let mut counts: Vec<usize> = cells.into_values().collect();
     counts.sort_unstable();
     Some(coarse / (counts[counts.len() / 4] as f64).sqrt())
 }
 
-/// The search's state: what is chosen, and the blurred surplus of ink at each place.
+/// The search's state: the choice, and the blurred surplus of ink at each point.
 struct Search<'a> {
     places: &'a [Point],
     shares: &'a [f64],
@@ -130,17 +131,17 @@ impl<'a> Search<'a> {
         Self { places, shares, chosen, surplus, felt, near, spacing, eye, interrupt }
     }
 
-    /// Tries every place once; returns how many changed.
+    /// Tries every point once; returns how many changed.
     fn round(&mut self) -> usize {
         (0..self.places.len()).filter(|&i| !self.interrupt.is_raised() && self.is_open(i) && self.improve(i)).count()
     }
 
-    /// Whether there is a choice: what asks for nothing gets nothing.
+    /// True if the point may change: a share of 0 or 1 is fixed.
     fn is_open(&self, i: usize) -> bool {
         self.shares[i] > 0.0 && self.shares[i] < 1.0
     }
 
-    /// Turns a place over, or exchanges it with a near one in the other state, whichever gains more.
+    /// Toggles a point, or swaps it with a near one in the other state, whichever gains more. True if something changed.
     fn improve(&mut self, i: usize) -> bool {
         let own = self.eye.at(0.0);
         let delta = if self.chosen[i] { -1.0 } else { 1.0 };
@@ -154,7 +155,7 @@ impl<'a> Search<'a> {
                 best = (change, Some(j));
             }
         }
-        // Rounding must not turn a place over for ever.
+        // A margin, so that rounding cannot toggle a point forever.
         if best.0 > -1e-6 * own {
             return false;
         }
@@ -173,7 +174,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The two blurs by squared distance: Gaussians of equal volume, faded out where the outer one ends.
+/// Table of the two blurs by squared distance: Gaussians of equal volume, faded to 0 at the outer one's cut-off.
 struct Eye {
     table: Vec<f64>,
     per_square: f64,

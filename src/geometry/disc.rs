@@ -1,18 +1,18 @@
-//! The area of a disc inside a convex cell, and its inverse: the radius that puts a wanted area of ink into the cell.
+//! The area of a disc inside a convex cell, and its inverse: the radius that gives a wanted area of ink in the cell.
 //!
-//! This is what makes the dots' tone exact (Bruehl 2023, section 4.4 asks for it; Son et al. 2011, appendix B approximates it
-//! for the square cell).
+//! This makes the dots' tone exact (Bruehl 2023, section 4.4 asks for it; Son et al. 2011, appendix B approximates it for the
+//! square cell).
 
 use kurbo::Point;
 
 /// Area of the disc around `centre` that lies inside the polygon (any simple polygon, either orientation).
 ///
-/// Sum over the edges of the signed area between the centre, the edge and the circle; exact up to rounding.
+/// Sums over the edges the signed area between the centre, the edge and the circle; exact up to rounding.
 pub fn disc_area_in(polygon: &[Point], centre: Point, radius: f64) -> f64 {
     disc_in(polygon, centre, radius).0
 }
 
-/// Area of the disc inside the polygon, and the angle of its arcs inside, by which the area grows: `dA/dr = r * angle`.
+/// Area of the disc inside the polygon, and the total angle of its arcs inside, which gives the derivative: `dA/dr = r * angle`.
 fn disc_in(polygon: &[Point], centre: Point, radius: f64) -> (f64, f64) {
     let (mut area, mut angle) = (0.0, 0.0);
     for (i, &a) in polygon.iter().enumerate() {
@@ -24,8 +24,8 @@ fn disc_in(polygon: &[Point], centre: Point, radius: f64) -> (f64, f64) {
     (area.abs(), angle.abs())
 }
 
-/// The part of the triangle (origin, a, b) within the circle of `radius` around the origin, both signed: the area of its
-/// straight-sided middle, and the angle of its sectors.
+/// The part of the triangle (origin, a, b) within the circle of `radius` around the origin: the area of its straight-sided middle
+/// and the angle of its sectors, both signed.
 fn wedge(a: (f64, f64), b: (f64, f64), radius: f64) -> (f64, f64) {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length_squared = dx * dx + dy * dy;
@@ -48,8 +48,8 @@ fn wedge(a: (f64, f64), b: (f64, f64), radius: f64) -> (f64, f64) {
     (0.5 * cross * (t1 - t0), before + after)
 }
 
-/// The radius whose disc around `centre` covers `wanted` area of the polygon; the farthest corner's distance when `wanted` is
-/// the whole polygon or more, 0 when it is nothing. Accurate to 1e-9 of the radius.
+/// The radius of the disc around `centre` that covers `wanted` area of the polygon: 0 if `wanted` is 0 or less, the farthest
+/// corner's distance if it is the whole polygon or more. Accurate to 1e-9 of the farthest corner's distance.
 pub fn radius_for_area(polygon: &[Point], centre: Point, wanted: f64) -> f64 {
     let farthest = polygon.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
     if wanted <= 0.0 || polygon.len() < 3 {
@@ -68,7 +68,7 @@ pub fn radius_for_area(polygon: &[Point], centre: Point, wanted: f64) -> f64 {
         } else {
             low = radius;
         }
-        // Newton where it stays between the bounds, else halve.
+        // Newton's step if it stays between the bounds, else bisection.
         let step = radius - error / (angle * radius);
         let next = if step > low && step < high { step } else { 0.5 * (low + high) };
         if (next - radius).abs() <= 1e-9 * farthest {

@@ -1,27 +1,27 @@
-//! A swelling stroke along a curve over one axis, with few cubics within a tolerance.
+//! Fits a swelling stroke to a curve over one axis: few cubics, within a tolerance.
 
 use super::spline::{Knot, least_squares};
 
-/// Rounds of halving: enough for pieces of a few millimetres to come down to the steps.
+/// Rounds of halving: enough to reduce pieces of a few millimetres to single steps.
 const ROUNDS: usize = 9;
-/// Where in a piece its width is looked at.
+/// Positions in a piece at which its width is checked.
 const WIDTH_PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 
-/// A curve over one axis, given by heights at even steps and straight between them.
+/// A curve over one axis, given by heights at even steps with straight lines between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Graph<'a> {
-    /// Where the first height stands.
+    /// Position of the first height.
     pub first: f64,
-    /// Distance of heights.
+    /// Distance between heights.
     pub step: f64,
     /// The heights.
     pub heights: &'a [f64],
 }
 
-/// The end of a cubic piece: place, height, slope of the curve before and after it, width.
+/// An end of a cubic piece: position, height, slopes before and after, width.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GraphNode {
-    /// Place along the axis.
+    /// Position along the axis.
     pub at: f64,
     /// Height of the curve.
     pub height: f64,
@@ -33,19 +33,19 @@ pub struct GraphNode {
     pub width: f64,
 }
 
-/// How exactly a stroke is fitted, in the curve's own unit.
+/// Tolerances of a fit, in the curve's own unit.
 #[derive(Clone, Copy, Debug)]
 pub struct FitTolerance {
-    /// Greatest distance in height.
+    /// Maximum difference in height.
     pub height: f64,
-    /// Greatest difference in width.
+    /// Maximum difference in width.
     pub width: f64,
-    /// Greatest length of a piece.
+    /// Maximum length of a piece.
     pub piece: f64,
 }
 
 impl Graph<'_> {
-    /// The height at a place; beyond the ends that of the end.
+    /// The height at a position; beyond the ends, that of the end.
     pub fn height(&self, at: f64) -> f64 {
         let x = ((at - self.first) / self.step).clamp(0.0, (self.heights.len() - 1) as f64);
         let i = (x as usize).min(self.heights.len().saturating_sub(2));
@@ -53,16 +53,16 @@ impl Graph<'_> {
         self.heights[i] * (1.0 - t) + self.heights[(i + 1).min(self.heights.len() - 1)] * t
     }
 
-    /// The slope at a place, over a step on either side.
+    /// The slope at a position, over one step on either side.
     pub fn slope(&self, at: f64) -> f64 {
         let end = self.first + (self.heights.len() - 1) as f64 * self.step;
         let (a, b) = ((at - self.step).max(self.first), (at + self.step).min(end));
         if b > a { (self.height(b) - self.height(a)) / (b - a) } else { 0.0 }
     }
 
-    /// The nodes of a stroke over `places` (ascending, at least two) and as many more as the tolerance asks for, its width given
-    /// at every place: the smooth piecewise cubic nearest to the curve, its pieces halved where it is not near enough. What
-    /// noise makes of the curve's last steps is followed straight.
+    /// The nodes of a stroke over `places` (ascending, at least two) and as many more as the tolerance requires, with `width` as
+    /// a function of position: the smooth piecewise cubic nearest to the curve, with pieces halved where it is outside the
+    /// tolerance. Where even the shortest pieces exceed it because of noise, the stroke follows the curve in straight lines.
     pub fn fit(&self, places: &[f64], width: impl Fn(f64) -> f64, tolerance: FitTolerance) -> Vec<GraphNode> {
         let mut at = Vec::with_capacity(4 * places.len());
         at.push(places[0]);
@@ -81,13 +81,13 @@ impl Graph<'_> {
         self.nodes(&knots, &width, tolerance.height)
     }
 
-    /// The nearest smooth curve with knots at these places.
+    /// The nearest smooth curve with knots at these positions.
     fn knots(&self, at: &[f64]) -> Vec<Knot> {
         let knots: Vec<Knot> = at.iter().map(|&at| Knot { at, height: self.height(at), slope: self.slope(at) }).collect();
         least_squares(&knots, |place| self.height(place), self.step)
     }
 
-    /// The places of the knots, and one more in each piece that is not near to the curve or to the width.
+    /// The positions of the knots, and one more in each piece that is outside the tolerance of height or width.
     fn refined(&self, knots: &[Knot], width: &impl Fn(f64) -> f64, tolerance: FitTolerance) -> Vec<f64> {
         let at: Vec<f64> = knots.iter().map(|knot| knot.at).collect();
         let widths: Vec<f64> = at.iter().map(|&u| width(u)).collect();
@@ -101,7 +101,7 @@ impl Graph<'_> {
                 refined.extend(self.corner_between(at[i], at[i + 1]));
             } else if length > 2.0 * self.step {
                 let cubic = Cubic::new(swelling(i), swelling(i + 1));
-                // The outline interpolates widths as this does.
+                // The outline interpolates widths the same way.
                 let is_near = |t: f64| (cubic.at(t * length) - width(at[i] + t * length)).abs() <= tolerance.width;
                 refined.extend((!WIDTH_PLACES.into_iter().all(is_near)).then_some(at[i] + 0.5 * length));
             }
@@ -110,7 +110,7 @@ impl Graph<'_> {
         refined
     }
 
-    /// The given height nearest to the middle of a piece, if one lies inside.
+    /// The position of the given height nearest to the middle of a piece, if one lies inside.
     fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
         let margin = 1e-6 * self.step;
         let index = ((0.5 * (from + to) - self.first) / self.step).round();
@@ -120,7 +120,7 @@ impl Graph<'_> {
             .find(|place| *place > from + margin && *place < to - margin)
     }
 
-    /// Whether a cubic piece lies within the tolerance of the curve everywhere, in height.
+    /// True if a cubic piece lies within the tolerance of the curve everywhere, in height.
     fn is_near(&self, from: Knot, to: Knot, tolerance: f64) -> bool {
         let cubic = Cubic::new(from, to);
         let length = to.at - from.at;
@@ -128,7 +128,7 @@ impl Graph<'_> {
         if [0.5, 0.2, 0.8].into_iter().any(is_far) {
             return false;
         }
-        // Where the curve is straight the cubic leaves the chord by an eighth of its bend times the step's square.
+        // Over a straight step of the curve, the cubic leaves its chord by at most an eighth of its bend times the step squared.
         let slack = 0.125 * self.step * self.step;
         let mut before: (f64, f64) = (0.0, 0.0);
         self.corners(from.at, to.at).all(|(place, height)| {
@@ -140,7 +140,7 @@ impl Graph<'_> {
         })
     }
 
-    /// The curve's corners from one place to another, those two included, each with its height.
+    /// The curve's corners from one position to another, both included, each with its height.
     fn corners(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
         let margin = 1e-6 * self.step;
         let first = ((from + margin - self.first) / self.step).ceil().max(0.0) as usize;
@@ -149,10 +149,10 @@ impl Graph<'_> {
         std::iter::once((from, self.height(from))).chain(inner).chain(std::iter::once((to, self.height(to))))
     }
 
-    /// The nodes; pieces that are not near to the curve run straight from corner to corner.
+    /// The nodes; pieces outside the tolerance run straight from corner to corner.
     fn nodes(&self, knots: &[Knot], width: &impl Fn(f64) -> f64, tolerance: f64) -> Vec<GraphNode> {
         let near: Vec<bool> = knots.windows(2).map(|pair| self.is_near(pair[0], pair[1], tolerance)).collect();
-        // A knot with no good piece beside it may lie anywhere.
+        // A knot with no good piece beside it may be far off, so it gets the curve's height.
         let is_sound = |i: usize| near[i.saturating_sub(1)] || near[i.min(near.len() - 1)];
         let sound = |i: usize| if is_sound(i) { knots[i] } else { Knot { height: self.height(knots[i].at), ..knots[i] } };
         let node =
@@ -177,7 +177,7 @@ impl Graph<'_> {
     }
 }
 
-/// The cubic between two knots, by the distance from the first.
+/// Coefficients of the cubic between two knots, by powers of the distance from the first.
 struct Cubic([f64; 4]);
 
 impl Cubic {
@@ -200,7 +200,7 @@ impl Cubic {
     }
 }
 
-/// Slopes by the harmonic mean of the neighbours' secants, 0 at a peak (Fritsch and Butland 1984), as outlines use them.
+/// Slopes by the harmonic mean of the neighbouring secants, 0 at a peak (Fritsch and Butland 1984), the same as in outlines.
 fn monotone_slopes(at: &[f64], values: &[f64]) -> Vec<f64> {
     let secant = |i: usize| (values[i + 1] - values[i]) / (at[i + 1] - at[i]);
     let last = at.len() - 1;

@@ -1,15 +1,15 @@
-//! Hand shading: a chain of arcs drawn back and forth, as a hand swings round the wrist (Wong 1999, section 6.2).
+//! Hand shading: a chain of arcs drawn back and forth, as a hand swings about the wrist (Wong 1999, section 6.2).
 //!
 //! ```text
-//!   start 1 ----------------> end 1       each arc begins where the last one ended, turned about that
+//!   start 1 ----------------> end 1       each arc begins at the end of the last one, turned about that
 //!          <---------------- /            point by atan(2 spacing / chord); midpoints lie one spacing
-//!   start 3 ----------------> end 3       apart on the mean
+//!   start 3 ----------------> end 3       apart on average
 //! ```
 
 use kurbo::{Point, Vec2};
 use rand::{Rng, RngExt};
 
-/// A chain of arcs; lengths in any one unit, angles in radians.
+/// A chain of arcs. Lengths are in any one unit, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HandShading {
     /// The middle of the first arc (`arc_center`).
@@ -20,33 +20,33 @@ pub struct HandShading {
     pub radius: f64,
     /// Direction of the arcs' chords (`arc_orient`); the chain moves on towards this plus 90 degrees.
     pub orientation: f64,
-    /// Mean distance of neighbouring arcs' midpoints (`arc_dist`), above 0.
+    /// Mean distance between the midpoints of neighbouring arcs (`arc_dist`), above 0.
     pub spacing: f64,
-    /// How many arcs (`arc_number`).
+    /// Number of arcs (`arc_number`).
     pub count: usize,
-    /// How far length and turn vary, as a fraction: 0 for a machine's regularity, 0.15 for a hand's.
+    /// Random variation of length and turn, as a fraction: 0 for a machine's regularity, 0.15 for a hand's.
     pub skew: f64,
 }
 
-/// Points on one arc, ends included; enough that the chord's error is below a thousandth of the radius.
+/// Segments per arc: enough that the chord error is below a thousandth of the radius.
 const POINTS_AN_ARC: usize = 12;
 
 impl HandShading {
-    /// The arcs in drawing order, each from its start to its end, which is the next one's start.
+    /// The arcs in drawing order, each from its start to its end, which is the start of the next.
     ///
-    /// The thesis lets the random skews add up; a chain of a hundred arcs then wanders off by its own length. Here each end is
-    /// drawn about its place on the chain's border, so that skews stay local and the mean spacing is the asked one.
+    /// In the thesis the random skews add up, so a chain of a hundred arcs drifts by its own length. Here each end varies about
+    /// its nominal position on the chain's border, so skews stay local and the mean spacing is exact.
     pub fn arcs(&self, random: &mut impl Rng) -> Vec<Vec<Point>> {
         let radius = self.radius.max(self.length / 3.0);
         let chord = 2.0 * radius * (0.5 * self.length / radius).sin();
         let along = Vec2::from_angle(self.orientation);
         let across = Vec2::new(-along.y, along.x);
-        // The turn of the thesis moves an end by chord * sin(turn), two spacings to first order.
+        // The thesis's turn moves an end by chord * sin(turn), two spacings to first order.
         let turn = (2.0 * self.spacing / chord).atan();
         let step = chord * turn.tan();
         let mut vary = |size: f64| if self.skew > 0.0 { random.random_range(-self.skew..self.skew) * size } else { 0.0 };
         let mut from = self.centre - along * (0.5 * chord);
-        // How far the ends on either border have come, the start's first.
+        // Distance of the ends along either border so far, the start's border first.
         let mut moved = [0.0, 0.0];
         (0..self.count)
             .map(|i| {
@@ -64,7 +64,7 @@ impl HandShading {
     }
 }
 
-/// The flat arc of a radius between two points that bulges towards `side`.
+/// The minor arc of a radius between two points that bulges towards `side`.
 fn arc(from: Point, to: Point, radius: f64, side: Vec2) -> Vec<Point> {
     let chord = to - from;
     let half = 0.5 * chord.hypot();

@@ -10,20 +10,19 @@ use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 use kurbo::{BezPath, Point};
 
-/// A filled outline made ready to be shrunk again and again, or grown.
+/// A filled outline, prepared for repeated offsetting.
 #[derive(Clone, Debug)]
 pub struct Insets {
     shapes: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
 impl Insets {
-    /// From closed subpaths by the nonzero rule, curves flattened to `tolerance`; vertices that lie within a quarter of it of the line
-    /// without them are left out.
+    /// From closed subpaths by the nonzero rule, with curves flattened to `tolerance` and simplified to a quarter of it.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
         Self::of(flatten(outline, tolerance).into_iter().map(|(points, _)| ring_of(points, 0.25 * tolerance)).collect())
     }
 
-    /// The connected shapes of what several outlines cover together.
+    /// The connected shapes of the union of several outlines.
     pub fn united(outlines: &[Self]) -> Vec<Self> {
         let all = outlines.iter().flat_map(|outline| outline.shapes.iter().flatten()).cloned().collect();
         Self::of(all).shapes.into_iter().map(|shape| Self { shapes: vec![shape] }).collect()
@@ -35,7 +34,7 @@ impl Insets {
         Self { shapes: contours.overlay(&nothing, OverlayRule::Subject, FillRule::NonZero) }
     }
 
-    /// Its borders, holes' too.
+    /// All borders, including those of holes.
     pub fn borders(&self) -> Vec<Vec<Point>> {
         self.shapes.iter().flatten().map(|ring| points(ring)).collect()
     }
@@ -45,7 +44,7 @@ impl Insets {
         self.shapes.iter().flatten().map(Vec::len).sum()
     }
 
-    /// Its borders' sides.
+    /// The sides of all borders, with zero width.
     pub fn threads(&self) -> impl Iterator<Item = Thread> + '_ {
         let side = |ring: &[[f64; 2]], i: usize| {
             let at = |i: usize| Point::new(ring[i % ring.len()][0], ring[i % ring.len()][1]);
@@ -54,24 +53,24 @@ impl Insets {
         self.shapes.iter().flatten().flat_map(move |ring| (0..ring.len()).map(move |i| side(ring, i)))
     }
 
-    /// Whether nothing is inside.
+    /// True if nothing is inside.
     pub fn is_empty(&self) -> bool {
         self.shapes.is_empty()
     }
 
-    /// The rings that lie `distance` inside the border, holes' rings too; empty where nothing is that far inside.
+    /// The rings `distance` inside the border, including those around holes; empty if nothing is that far inside.
     pub fn rings(&self, distance: f64) -> Vec<Vec<Point>> {
         self.grown(-distance).borders()
     }
 
-    /// The outline with its border moved outwards by `distance` (inwards when it is negative), round at corners.
+    /// The outline with its border moved outwards by `distance` (inwards if negative), round at corners.
     #[must_use]
     pub fn grown(&self, distance: f64) -> Self {
         let style = OutlineStyle::new(distance).line_join(LineJoin::Round(0.3));
         Self { shapes: self.shapes.outline(&style) }
     }
 
-    /// With fewer vertices: those go that lie within `tolerance` of the border without them.
+    /// The outline with fewer vertices, within `tolerance`.
     #[must_use]
     pub fn simplified(&self, tolerance: f64) -> Self {
         let ring = |ring: &Vec<[f64; 2]>| ring_of(points(ring), tolerance);
@@ -79,18 +78,18 @@ impl Insets {
         Self { shapes: self.shapes.iter().map(rings).filter(|shape| !shape.is_empty()).collect() }
     }
 
-    /// What of this lies outside `other`.
+    /// The part of this outside `other`.
     #[must_use]
     pub fn without(&self, other: &Self) -> Self {
         Self { shapes: self.shapes.overlay(&other.shapes, OverlayRule::Difference, FillRule::NonZero) }
     }
 
-    /// Each connected shape as its rings: the border and, turning the other way, its holes.
+    /// Each connected shape as its rings: the border and, in the other direction, its holes.
     pub fn shapes(&self) -> impl Iterator<Item = Vec<Vec<Point>>> + '_ {
         self.shapes.iter().map(|shape| shape.iter().map(|ring| points(ring)).collect())
     }
 
-    /// As closed subpaths, to be filled by the nonzero rule.
+    /// The outline as closed subpaths, to be filled by the nonzero rule.
     pub fn path(&self) -> BezPath {
         let mut path = BezPath::new();
         for ring in self.shapes.iter().flatten() {
@@ -107,7 +106,7 @@ impl Insets {
     }
 }
 
-/// A closed ring's finite places.
+/// A closed ring's finite points, simplified to `tolerance`.
 fn ring_of(mut points: Vec<Point>, tolerance: f64) -> Vec<[f64; 2]> {
     points.retain(|p| p.is_finite());
     if points.len() > 3 {
@@ -123,11 +122,11 @@ fn points(ring: &[[f64; 2]]) -> Vec<Point> {
 }
 
 impl Insets {
-    /// What is narrower than `2 distance`: the parts that a disc of that radius cannot reach from inside, each as its rings, the border
-    /// first and holes turning the other way. `core` is this moved inwards by `distance`, which is where the disc's middle can be.
-    /// Nothing once the interrupt is raised.
+    /// The parts narrower than `2 * distance`: those that a disc of radius `distance` inside the outline cannot reach. Each is
+    /// given as its rings, the border first and holes in the other direction. `core` is this outline moved inwards by `distance`:
+    /// the possible positions of the disc's centre. Empty once the interrupt is raised.
     pub fn narrow_parts(&self, core: &Self, distance: f64, interrupt: &Interrupt) -> Vec<Vec<Vec<Point>>> {
-        // A little more, so that flattened corners leave no crumbs.
+        // Slightly more, so that flattened corners leave no slivers.
         let reached = core.grown(1.04 * distance);
         if interrupt.is_raised() { Vec::new() } else { self.without(&reached).shapes().collect() }
     }

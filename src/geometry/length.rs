@@ -1,21 +1,21 @@
-//! Lengths as a user writes them: `12`, `12mm`, `1.2cm`, `0.5in`, `36pt`; sizes as `90x120mm`. Where a drawing is read, its own
+//! Parses lengths as a user writes them: `12`, `12mm`, `1.2cm`, `0.5in`, `36pt`; sizes as `90x120mm`. For a drawing that is read,
 //! pixels are a unit too: `48px`, 96 to the inch as in CSS.
 
 use thiserror::Error;
 
-/// Why a text is not a length.
+/// Error of parsing a length or size.
 #[derive(Debug, Error, PartialEq)]
 pub enum LengthError {
-    /// No number stands at the start.
-    #[error("'{0}' is not a length; write a number with mm, cm, in or pt, such as 0.6mm (mm when there is no unit)")]
+    /// The text does not start with a number.
+    #[error("'{0}' is not a length; write a number with mm, cm, in or pt, such as 0.6mm (without a unit it is mm)")]
     NotALength(String),
-    /// Pixels, where there is no drawing that has any.
-    #[error("'{0}' is in pixels, which have no size here; write mm, cm, in or pt (px is a unit where an SVG is read)")]
+    /// Pixels where no drawing is read.
+    #[error("'{0}' is in pixels, which have no fixed size here; write mm, cm, in or pt (px only where an SVG is read)")]
     Pixels(String),
     /// The number is NaN or infinite.
     #[error("'{0}' is not a finite length")]
     NotFinite(String),
-    /// A size without its `x`.
+    /// A size without an `x`.
     #[error("'{0}' is not a size; write width x height with a unit, such as 90x120mm")]
     NotASize(String),
 }
@@ -23,13 +23,13 @@ pub enum LengthError {
 /// Units and their length in millimetres.
 const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0), ("px", 25.4 / 96.0)];
 
-/// A length in millimetres; without a unit it is millimetres. May be negative. Pixels are refused.
+/// Parses a length, in millimetres; the default unit is mm. May be negative. Pixels are refused.
 pub fn parse_length(text: &str) -> Result<f64, LengthError> {
     let value = parse_drawn_length(text)?;
     if text.trim().ends_with("px") { Err(LengthError::Pixels(text.to_owned())) } else { Ok(value) }
 }
 
-/// The same of a drawing that is read, where a pixel is 1/96 inch.
+/// [`parse_length`] for a drawing that is read, where a pixel is 1/96 inch.
 pub fn parse_drawn_length(text: &str) -> Result<f64, LengthError> {
     let trimmed = text.trim();
     let (number, scale) = split_unit(trimmed);
@@ -37,13 +37,14 @@ pub fn parse_drawn_length(text: &str) -> Result<f64, LengthError> {
     if value.is_finite() { Ok(value * scale) } else { Err(LengthError::NotFinite(text.to_owned())) }
 }
 
-/// Width and height in millimetres; a unit at the end holds for both: `90x120`, `9x12cm`, `100mm x 4in`. Pixels are refused.
+/// Parses width and height, in millimetres; a unit at the end applies to both: `90x120`, `9x12cm`, `100mm x 4in`. Pixels are
+/// refused.
 pub fn parse_size(text: &str) -> Result<(f64, f64), LengthError> {
     let size = parse_drawn_size(text)?;
     if text.contains("px") { Err(LengthError::Pixels(text.to_owned())) } else { Ok(size) }
 }
 
-/// The same of a sheet or of a drawing that is read, where a pixel is 1/96 inch: `794x1123px`.
+/// [`parse_size`] for a sheet or a drawing that is read, where a pixel is 1/96 inch: `794x1123px`.
 pub fn parse_drawn_size(text: &str) -> Result<(f64, f64), LengthError> {
     let (width, height) = halves(text.trim()).ok_or_else(|| LengthError::NotASize(text.to_owned()))?;
     let (_, scale) = split_unit(height.trim());
@@ -52,7 +53,7 @@ pub fn parse_drawn_size(text: &str) -> Result<(f64, f64), LengthError> {
     Ok((width, parse_drawn_length(height)?))
 }
 
-/// The texts around the `x` of a size, which is not that of `px`.
+/// The texts around the `x` of a size; the `x` of `px` does not count.
 fn halves(text: &str) -> Option<(&str, &str)> {
     let (at, sign) = text.char_indices().find(|&(at, c)| matches!(c, 'x' | 'X' | '\u{d7}') && !text[..at].ends_with('p'))?;
     Some((&text[..at], &text[at + sign.len_utf8()..]))

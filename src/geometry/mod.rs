@@ -1,6 +1,6 @@
-//! Geometry on the page: curves, clipping, areas, lengths. Millimetres, x right, y down.
+//! Geometry on the page: curves, clipping, areas, lengths. Units are millimetres, x right, y down.
 //!
-//! In and out: points, polygons and `kurbo` curves. Nothing here knows of photographs, styles or machines.
+//! In and out: points, polygons and `kurbo` curves. This module does not depend on photographs, styles or machines.
 
 mod apart;
 mod arc;

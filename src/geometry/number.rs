@@ -1,9 +1,9 @@
-//! Numbers as files for machines hold them: finite, and no larger than a controller can tell apart from infinity.
+//! Numbers in files for machines: finite, and small enough for a controller.
 
-/// Beyond it a controller's single precision is near its end, and squares of lengths are no longer numbers.
+/// Maximum absolute value. Beyond it a controller's single precision is near overflow, and squared lengths overflow.
 const GREATEST: f64 = 1e30;
 
-/// The number that a text is, unless it is none, not finite or beyond 1e30.
+/// Parses a number. `None` if the text is not a number, not finite or beyond 1e30.
 pub fn parse_finite(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.abs() <= GREATEST)
 }

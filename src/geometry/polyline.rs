@@ -8,15 +8,15 @@ pub fn polyline_length(points: &[Point]) -> f64 {
     points.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
 
-/// Signed area of a closed polygon; positive when it runs from x towards y (clockwise on a page with y down).
+/// Signed area of a closed polygon; positive if it turns from x towards y (clockwise on a page with y down).
 pub fn polygon_area(points: &[Point]) -> f64 {
     let Some(&origin) = points.first() else { return 0.0 };
-    // Relative to a corner, so that a small polygon far from the page's corner keeps its digits.
+    // Relative to a vertex, so that a small polygon far from the origin keeps its precision.
     let twice: f64 = (0..points.len()).map(|i| (points[i] - origin).cross(points[(i + 1) % points.len()] - origin)).sum();
     0.5 * twice
 }
 
-/// Points at even arc length along a polyline, about `spacing` apart, with both ends kept.
+/// Resamples a polyline at even arc length, with points about `spacing` apart and both ends kept.
 pub fn resample(points: &[Point], spacing: f64) -> Vec<Point> {
     let length = polyline_length(points);
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return Vec::new() };
@@ -40,16 +40,16 @@ pub fn resample(points: &[Point], spacing: f64) -> Vec<Point> {
     out
 }
 
-/// Points of a line that are simplified together: the time grows with their square where every point is a corner, as in a zigzag.
+/// Maximum number of points simplified together: the time is quadratic if every point is a corner, as in a zigzag.
 const TOGETHER: usize = 4096;
 
-/// Drops vertices that lie within `tolerance` of the line left without them (Douglas and Peucker 1973). Ends are kept, and of a very
-/// long line some vertices on the way.
+/// Removes vertices within `tolerance` of the simplified line (Douglas and Peucker 1973). Ends are kept, and in lines of more
+/// than 4096 points some vertices between them.
 pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     simplify_until(points, tolerance, &Interrupt::never())
 }
 
-/// The same; too few vertices once the interrupt is raised.
+/// [`simplify`] with an interrupt; once it is raised, too many vertices are removed.
 pub fn simplify_until(points: &[Point], tolerance: f64, interrupt: &Interrupt) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
@@ -79,8 +79,8 @@ pub fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     p.distance(a + d * t)
 }
 
-/// Each subpath as points no farther than `tolerance` from it; the flag says whether it is closed (the first point is then
-/// not repeated). A bare move gives one point.
+/// Each subpath as a polyline within `tolerance`; the flag is true if it is closed (the first point is then not repeated). A bare
+/// move gives one point.
 pub fn flatten(path: &BezPath, tolerance: f64) -> Vec<(Vec<Point>, bool)> {
     let mut out: Vec<(Vec<Point>, bool)> = Vec::new();
     kurbo::flatten(path.elements().iter().copied(), tolerance, |element| match element {
@@ -103,7 +103,7 @@ pub fn flatten(path: &BezPath, tolerance: f64) -> Vec<(Vec<Point>, bool)> {
     out
 }
 
-/// About how many points [`flatten`] gives, without flattening: a curve's chords are as many as its second differences ask for.
+/// Estimates the number of points that [`flatten`] gives, from the second differences of the control points.
 pub fn flattened_points(path: &BezPath, tolerance: f64) -> f64 {
     let mut at = Point::ORIGIN;
     let mut points = 0.0;

@@ -1,4 +1,4 @@
-//! Clipping by any outline: lines parametrically, so that they keep their order and direction; areas by boolean intersection.
+//! Clipping by any outline: lines parametrically, which keeps their order and direction; areas by boolean operations.
 
 use super::crossings::{Crossings, crossings};
 use super::polyline::{distance_to_segment, flatten};
@@ -16,17 +16,17 @@ pub struct Region {
     rows: Rows,
 }
 
-/// The edges of a region by the rows of the page that they lie in, so that only those near a place are looked at.
+/// The edges of a region by horizontal rows of the page, so that only those near a point are tested.
 #[derive(Clone, Debug)]
 struct Rows {
     top: f64,
     height: f64,
-    /// Where each row's edges begin in `edges`, and where the last one's end.
+    /// Start of each row's edges in `edges`, and the end of the last row's.
     first: Vec<u32>,
     edges: Vec<[Point; 2]>,
 }
 
-/// Edges in a row on average, and how often an edge may stand in rows on average: the rows are as low as that allows.
+/// Mean number of edges per row, and maximum mean number of rows per edge: rows are as low as these allow.
 const EDGES_A_ROW: usize = 4;
 const ROWS_AN_EDGE: f64 = 6.0;
 
@@ -54,7 +54,7 @@ impl Rows {
         rows
     }
 
-    /// The rows between two heights; what lies beyond the first or the last belongs to it.
+    /// The rows between two heights, clamped to the first and the last.
     fn of(&self, a: f64, b: f64) -> std::ops::RangeInclusive<usize> {
         let row = |y: f64| (((y - self.top) / self.height).max(0.0) as usize).min(self.first.len() - 2);
         row(a.min(b))..=row(a.max(b))
@@ -66,7 +66,7 @@ impl Rows {
 }
 
 impl Region {
-    /// The inside of closed subpaths, curves flattened to `tolerance`.
+    /// The inside of closed subpaths, with curves flattened to `tolerance`.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
         let polygons: Vec<Vec<Point>> =
             flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
@@ -85,22 +85,22 @@ impl Region {
         Self::within(polygons, bounds)
     }
 
-    /// The box that it lies in.
+    /// The bounding box.
     pub const fn bounds(&self) -> Rect {
         self.bounds
     }
 
-    /// How many edges its border has.
+    /// Number of edges of its border.
     pub fn edge_count(&self) -> usize {
         self.polygons.iter().map(Vec::len).sum()
     }
 
-    /// How often its border and that of another cross themselves and each other, counted up to `most`: the work of an overlay.
+    /// Crossings of its border and another's, with themselves and each other, counted up to `most`: the work of an overlay.
     pub fn crossings_with(&self, other: &Self, most: usize) -> Crossings {
         crossings(self.polygons.iter().chain(&other.polygons), most)
     }
 
-    /// Whether a point lies inside (winding number not 0).
+    /// True if a point lies inside (winding number not 0).
     pub fn contains(&self, p: Point) -> bool {
         let mut winding = 0;
         for &[a, b] in self.rows.edges(*self.rows.of(p.y, p.y).start()) {
@@ -116,21 +116,21 @@ impl Region {
         winding != 0
     }
 
-    /// Whether a point lies no farther than `slack` from the border.
+    /// True if a point lies within `slack` of the border.
     fn is_near_border(&self, p: Point, slack: f64) -> bool {
         let rows = || self.rows.of(p.y - slack, p.y + slack).flat_map(|row| self.rows.edges(row));
         self.bounds.inflate(slack, slack).contains(p) && rows().any(|&[a, b]| distance_to_segment(p, a, b) <= slack)
     }
 
-    /// The pieces of a polyline inside, in order and direction. A single point stays when it is inside. What lies within `slack` of
-    /// the border counts as inside: a line on the border would else be kept or lost by rounding.
+    /// The pieces of a polyline inside, in order and direction. A single point is kept if it is inside. Anything within `slack`
+    /// of the border counts as inside; otherwise rounding would decide about lines on the border.
     pub fn clip_line(&self, points: &[Point], slack: f64) -> Vec<Vec<Point>> {
         let pieces = self.pieces(points, |p| self.contains(p) || self.is_near_border(p, slack), &Interrupt::never());
         pieces.into_iter().map(|piece| piece.into_iter().map(|(p, _)| p).collect()).collect()
     }
 
-    /// The pieces of a polyline outside, each point with its place along the line (vertex index plus fraction); some of them once the
-    /// interrupt is raised.
+    /// The pieces of a polyline outside, each point with its position along the line (vertex index plus fraction). Incomplete
+    /// once the interrupt is raised.
     pub fn outside_of_line(&self, points: &[Point], interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
         self.pieces(points, |p| !self.contains(p), interrupt)
     }
@@ -154,7 +154,7 @@ impl Region {
                     pieces.push(vec![(at(span[0]), i as f64 + span[0])]);
                 }
                 if let Some(piece) = pieces.last_mut() {
-                    // A place where an outline is met but not crossed needs no vertex.
+                    // A point where the line touches the outline without crossing it needs no vertex.
                     if is_open && span[0] > 0.0 {
                         piece.pop();
                     }
@@ -166,12 +166,12 @@ impl Region {
         pieces
     }
 
-    /// How often a polyline meets the outline.
+    /// Number of points at which a polyline meets the outline.
     pub fn cut_count(&self, points: &[Point]) -> usize {
         points.windows(2).map(|pair| self.cuts(pair[0], pair[1]).len() - 2).sum()
     }
 
-    /// Parameters at which a segment meets the outline, its own ends included.
+    /// Parameters at which a segment meets the outline, and those of its own ends (0 and 1).
     fn cuts(&self, a: Point, b: Point) -> Vec<f64> {
         let mut cuts = vec![0.0, 1.0];
         if !Rect::from_points(a, b).inflate(1e-9, 1e-9).overlaps(self.bounds) {
@@ -191,12 +191,12 @@ impl Region {
         cuts
     }
 
-    /// What of another region lies in this one.
+    /// The part of another region inside this one.
     pub fn clip_area(&self, area: &Self) -> BezPath {
         self.overlay(area, OverlayRule::Intersect)
     }
 
-    /// What of another region lies outside this one.
+    /// The part of another region outside this one.
     pub fn outside_of_area(&self, area: &Self) -> BezPath {
         self.overlay(area, OverlayRule::Difference)
     }
@@ -214,22 +214,22 @@ fn edges_of(polygon: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
     (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
 }
 
-/// How the inside of an outline is told.
+/// The fill rule of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Winding {
-    /// Where it winds round at all.
+    /// Inside where the winding number is not 0.
     NonZero,
-    /// Where a ray out crosses it an odd number of times.
+    /// Inside where a ray outwards crosses it an odd number of times.
     EvenOdd,
 }
 
-/// An outline with the same inside, whose borders run one way and its holes the other: the nonzero rule fills it, also together with
-/// others of its kind. Curves are flattened to `tolerance`.
+/// An outline with the same inside, with borders in one direction and holes in the other: the nonzero rule fills it, also
+/// together with other such outlines. Curves are flattened to `tolerance`.
 pub fn untangled(outline: &BezPath, winding: Winding, tolerance: f64) -> BezPath {
     untangled_polygons(&flatten(outline, tolerance).into_iter().map(|(points, _)| points).collect::<Vec<_>>(), winding)
 }
 
-/// The same of polygons.
+/// [`untangled`] for polygons.
 pub fn untangled_polygons(polygons: &[Vec<Point>], winding: Winding) -> BezPath {
     let contours: Vec<Vec<[f64; 2]>> = polygons.iter().map(|points| points.iter().map(|p| [p.x, p.y]).collect()).collect();
     let rule = if winding == Winding::EvenOdd { FillRule::EvenOdd } else { FillRule::NonZero };

@@ -1,10 +1,10 @@
-//! From traced polylines to smooth curves.
+//! Smooths traced polylines into curves.
 
 use super::polyline::resample;
 use kurbo::{BezPath, Point, Vec2};
 
 /// Smooths a polyline by a Gaussian of standard deviation `sigma` along its length, on points `spacing` apart.
-/// Open ends stay where they are; a closed line (last point joined to the first) is smoothed all the way round.
+/// Open ends stay fixed; a closed line (last point joined to the first) is smoothed all the way round.
 pub fn smooth_polyline(points: &[Point], closed: bool, sigma: f64, spacing: f64) -> Vec<Point> {
     let mut line = points.to_vec();
     if closed && let Some(&first) = points.first() {
@@ -33,7 +33,8 @@ pub fn smooth_polyline(points: &[Point], closed: bool, sigma: f64, spacing: f64)
         .collect()
 }
 
-/// A polyline continued beyond its ends by point reflection, which keeps the end and its direction fixed under smoothing.
+/// The i-th point of a polyline extended beyond its ends by point reflection, which keeps the end and its direction under
+/// smoothing.
 fn reflected(points: &[Point], i: isize) -> Point {
     let last = points.len() as isize - 1;
     let mirror = |end: Point, inner: isize| end + (end - points[inner.clamp(0, last) as usize]);
@@ -46,11 +47,11 @@ fn reflected(points: &[Point], i: isize) -> Point {
     }
 }
 
-/// Longest handle as a share of its chord. Evenly spaced points have a third and never come near it; where a short leg follows a long
-/// one, the spline's own handle is many times the chord, and the curve a loop.
+/// Maximum handle as a share of its chord. Evenly spaced points have a third and never come near it; where a short segment
+/// follows a long one, the spline's own handle is many times the chord, and the curve becomes a loop.
 const LONGEST_HANDLE: f64 = 0.5;
 
-/// The Catmull-Rom spline through the points as cubic Beziers, its handles no longer than half their chords.
+/// The Catmull-Rom spline through the points as cubic Beziers, with handles of at most half their chords.
 pub fn catmull_rom(points: &[Point], closed: bool) -> BezPath {
     let mut path = BezPath::new();
     let n = points.len() as isize;

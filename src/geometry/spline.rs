@@ -1,6 +1,6 @@
-//! The smooth piecewise cubic that comes nearest to a curve over one axis, by least squares.
+//! Least-squares fit of a smooth piecewise cubic to a curve over one axis.
 
-/// A knot of a piecewise cubic over one axis: place, height and slope there.
+/// A knot of a piecewise cubic over one axis: position, height and slope.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Knot {
     pub at: f64,
@@ -8,18 +8,19 @@ pub(crate) struct Knot {
     pub slope: f64,
 }
 
-/// Greatest number of places at which a piece is fitted, evenly spread: more cost time and change nothing to be seen.
+/// Maximum number of sample positions per piece, evenly spread: more cost time and make no visible difference.
 const PLACES: usize = 12;
-/// Weight of what a knot is before the fit; it only decides where there are too few places.
+/// Weight of a knot's values before the fit; it only matters where there are too few samples.
 const PRIOR: f64 = 1e-3;
-/// Weight that holds the two ends where they are.
+/// Weight that pins the heights of the two ends.
 const PINNED: f64 = 1e6;
 
-/// A symmetric two by two matrix, or a general one row by row.
+/// A 2 x 2 matrix, row by row.
 type Block = [f64; 4];
 
-/// The cubics between `knots` (ascending, at least two), with one slope at each, that are nearest to `height` at a few places in
-/// each piece; `resolved` is the distance within which `height` runs straight. The ends keep their heights. Linear in the knots.
+/// The cubics between `knots` (ascending, at least two), with one slope at each, that are nearest to `height` at a few positions
+/// in each piece. `resolved` is the distance over which `height` is straight. The ends keep their heights. Time is linear in the
+/// knots.
 pub(crate) fn least_squares(knots: &[Knot], height: impl Fn(f64) -> f64, resolved: f64) -> Vec<Knot> {
     let last = knots.len() - 1;
     let length = |i: usize| knots[i + 1].at - knots[i].at;
@@ -50,7 +51,7 @@ pub(crate) fn least_squares(knots: &[Knot], height: impl Fn(f64) -> f64, resolve
     knots.iter().zip(solved).map(|(knot, [height, slope])| Knot { at: knot.at, height, slope }).collect()
 }
 
-/// The Hermite basis at `t` of a piece: of height and slope at its start, and at its end.
+/// The Hermite basis at `t` of a piece: for height and slope at its start, then at its end.
 fn basis(t: f64, length: f64) -> ([f64; 2], [f64; 2]) {
     let (t2, t3) = (t * t, t * t * t);
     ([2.0 * t3 - 3.0 * t2 + 1.0, (t3 - 2.0 * t2 + t) * length], [3.0 * t2 - 2.0 * t3, (t3 - t2) * length])
@@ -60,12 +61,12 @@ fn add(block: &mut Block, a: [f64; 2], b: [f64; 2]) {
     block.iter_mut().zip([a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]]).for_each(|(v, w)| *v += w);
 }
 
-/// Solves a symmetric system of blocks on the diagonal and `beside` it (row i, column i + 1).
+/// Solves a symmetric block-tridiagonal system with blocks on the `diagonal` and `beside` it (row i, column i + 1).
 fn solve(mut diagonal: Vec<Block>, beside: &[Block], mut right: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     for i in 1..diagonal.len() {
         let [a, b, c, d] = beside[i - 1];
         let inverse = inverse(diagonal[i - 1]);
-        // The transpose of the block beside, times the inverse.
+        // The transpose of the block beside the diagonal, times the inverse.
         let lower = product([a, c, b, d], inverse);
         let taken = product(lower, beside[i - 1]);
         diagonal[i].iter_mut().zip(taken).for_each(|(v, w)| *v -= w);

@@ -2,7 +2,7 @@
 
 use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, PathSeg, Point, Rect, Shape, Vec2};
 
-/// The shape of a stroke's two ends, where its width there is not 0.
+/// The shape of a stroke's two ends, if its width there is not 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ends {
     /// Half a disc beyond the curve's end.
@@ -12,7 +12,7 @@ pub enum Ends {
     Flat,
 }
 
-/// How often a segment is halved to follow its side; what is left then is a cusp, of a 64th of the segment.
+/// Maximum number of halvings of a segment to follow its side; what remains is a cusp, a 64th of the segment long.
 const MOST_HALVINGS: usize = 6;
 
 /// Length of a curve to 1e-6 mm.
@@ -20,22 +20,22 @@ pub fn curve_length(path: &BezPath) -> f64 {
     path.segments().map(|segment| segment_length(segment, 1e-6)).sum()
 }
 
-/// Length of a segment. Kurbo's own is not a number for a quadratic whose points are one.
+/// Length of a segment. Kurbo gives NaN for a quadratic whose points coincide; this gives 0.
 pub fn segment_length(segment: PathSeg, accuracy: f64) -> f64 {
     let length = segment.arclen(accuracy);
     if length.is_nan() { 0.0 } else { length }
 }
 
-/// The closed outline of a stroke along `curve`, whose full width at the i-th node (the start, then the end of each segment)
-/// is `widths[i]`; between nodes it changes smoothly, without overshoot.
+/// The closed outline of a stroke along `curve`, with full width `widths[i]` at the i-th node (the start, then the end of each
+/// segment). Between nodes the width changes smoothly, without overshoot.
 ///
-/// Each side is a chain of cubics whose ends and end tangents are those of the true offset curve; a segment is halved until its
-/// quarters are within `tolerance` of the true one. No handle is longer than its chord (a half circle's is two thirds of it): where the
-/// line turns on less than its half width, the offset curve's own run far beyond. Ends are half discs or, with [`Ends::Flat`], square.
-/// Only the first subpath is used.
+/// Each side is a chain of cubics with the ends and end tangents of the true offset curve; a segment is halved until its quarter
+/// points are within `tolerance` of it. No handle is longer than its chord (a half circle's is two thirds of it): where the line
+/// turns tighter than its half width, the offset curve's own handles are far too long. Ends are half discs or, with
+/// [`Ends::Flat`], square. Only the first subpath is used.
 ///
 /// # Panics
-/// If `widths` does not have one entry a node.
+/// If `widths` does not have one entry per node.
 pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: f64) -> BezPath {
     let pieces = pieces(curve, widths);
     let mut outline = BezPath::new();
@@ -63,17 +63,17 @@ pub fn swelling_outline(curve: &BezPath, widths: &[f64], ends: Ends, tolerance: 
     outline
 }
 
-/// Straight on to where the next piece's side begins, which at a corner of the line is elsewhere.
+/// Appends a straight line to the start of the next piece's side, if it is not there already (at a corner of the line).
 fn meet(outline: &mut BezPath, side: Point) {
     if outline.elements().last().and_then(PathEl::end_point).is_some_and(|end| end.distance(side) > 1e-6) {
         outline.line_to(side);
     }
 }
 
-/// Points along a swelling stroke at most `spacing` apart, with the full width that its outline has there.
+/// Points along a swelling stroke at most `spacing` apart, with the full width of its outline there.
 ///
 /// # Panics
-/// If `widths` does not have one entry a node.
+/// If `widths` does not have one entry per node.
 pub fn sample_swelling(curve: &BezPath, widths: &[f64], spacing: f64) -> Vec<(Point, f64)> {
     let mut samples = Vec::new();
     for piece in pieces(curve, widths) {
@@ -86,33 +86,33 @@ pub fn sample_swelling(curve: &BezPath, widths: &[f64], spacing: f64) -> Vec<(Po
     samples
 }
 
-/// A place on a swelling stroke.
+/// A point on a swelling stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
-    /// On the centre line.
+    /// Point on the centre line.
     pub at: Point,
-    /// Unit vector along it.
+    /// Unit tangent of the centre line.
     pub along: Vec2,
     /// Full width.
     pub width: f64,
-    /// Place by nodes: the segment's number and the share of its parameter.
+    /// Position by nodes: the segment's index plus its parameter.
     pub node: f64,
 }
 
-/// Part of a swelling stroke, as it goes on from the one before.
+/// A part of a swelling stroke, from one station to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stretch {
-    /// Along this curve, which is as it was.
+    /// Along this curve, an exact part of the stroke's.
     Curve(CubicBez),
-    /// So short that it is straight.
+    /// A straight line, for a short part.
     Straight,
 }
 
-/// A swelling stroke as stations, each with how it is reached from the one before; where `is_clear` says so of a box around the ink
-/// of a stretch, that stretch is kept as a curve, else it is cut into pieces of at most `spacing`.
+/// A swelling stroke as stations, each with the stretch that leads to it from the one before. If `is_clear` is true for the
+/// bounding box of a stretch's ink, the stretch is kept as a curve; else it is cut into pieces of at most `spacing`.
 ///
 /// # Panics
-/// If `widths` does not have one entry a node.
+/// If `widths` does not have one entry per node.
 pub fn stations(curve: &BezPath, widths: &[f64], spacing: f64, is_clear: impl Fn(Rect) -> bool) -> Vec<(Station, Stretch)> {
     let kept = curve.segments().enumerate().filter(|(_, s)| s.arclen(1e-3) > 1e-9).map(|(i, _)| i as f64);
     let mut stations = Vec::new();
@@ -125,7 +125,7 @@ pub fn stations(curve: &BezPath, widths: &[f64], spacing: f64, is_clear: impl Fn
     stations
 }
 
-/// The stroke segment by segment, with the width and its slope at both ends of each.
+/// The stroke's segments, each with the width and its slope at both ends.
 fn pieces(curve: &BezPath, widths: &[f64]) -> Vec<Swelling> {
     assert_eq!(widths.len(), curve.segments().count() + 1, "a width for each node");
     let segments: Vec<CubicBez> = curve.segments().filter(|s| s.arclen(1e-3) > 1e-9).map(to_cubic).collect();
@@ -149,7 +149,7 @@ fn to_cubic(segment: PathSeg) -> CubicBez {
     }
 }
 
-/// Widths at the nodes that are left when segments without length are dropped.
+/// Widths at the nodes that remain when segments of zero length are dropped.
 fn kept_widths(curve: &BezPath, widths: &[f64]) -> Vec<f64> {
     let mut kept = vec![widths[0].max(0.0)];
     for (segment, &width) in curve.segments().zip(&widths[1..]) {
@@ -160,8 +160,8 @@ fn kept_widths(curve: &BezPath, widths: &[f64]) -> Vec<f64> {
     kept
 }
 
-/// Slope of the width per millimetre at each node: the harmonic mean of the neighbours' (Fritsch and Butland 1984), 0 at a
-/// peak, so that the width never swings beyond its nodes.
+/// Slope of the width per millimetre at each node: the harmonic mean of the neighbouring secants (Fritsch and Butland 1984), 0 at
+/// a peak, so that the width never overshoots its nodes.
 fn width_slopes(segments: &[CubicBez], widths: &[f64]) -> Vec<f64> {
     let secants: Vec<f64> =
         segments.iter().enumerate().map(|(i, s)| (widths[i + 1] - widths[i]) / s.arclen(1e-4).max(1e-9)).collect();
@@ -180,14 +180,14 @@ fn tangent(curve: &CubicBez, t: f64) -> Vec2 {
     if d.hypot() > 1e-9 {
         return d.normalize();
     }
-    // A handle of no length: the direction is that of the nearest point that differs.
+    // A handle of zero length: take the direction to the nearest control point that differs.
     let (near, far) =
         if t < 0.5 { (curve.p0, [curve.p1, curve.p2, curve.p3]) } else { (curve.p3, [curve.p2, curve.p1, curve.p0]) };
     let away = far.iter().map(|p| *p - near).find(|v| v.hypot() > 1e-9).unwrap_or(Vec2::new(1.0, 0.0));
     away.normalize() * if t < 0.5 { 1.0 } else { -1.0 }
 }
 
-/// From the left side to the right around the end of a stroke, as a half circle or straight; `forward` points out of the stroke.
+/// Appends the cap from the left side to the right, as a half circle or a straight line; `forward` points out of the stroke.
 fn append_cap(outline: &mut BezPath, end: Point, forward: Vec2, width: f64, ends: Ends) {
     let radius = 0.5 * width;
     if radius < 1e-6 {
@@ -207,7 +207,7 @@ fn append_cap(outline: &mut BezPath, end: Point, forward: Vec2, width: f64, ends
 /// One cubic of the centre line with the width and its slope (per millimetre) at both ends.
 struct Swelling {
     curve: CubicBez,
-    /// The curve's length, measured once: each of its sides' points needs it.
+    /// The curve's length, cached for the points of its sides.
     length: f64,
     from: (f64, f64),
     to: (f64, f64),
@@ -228,7 +228,7 @@ impl Swelling {
         is_clear: &impl Fn(Rect) -> bool,
     ) {
         let part = self.curve.subsegment(t0..t1);
-        // The width never swings beyond its ends.
+        // The width never overshoots its ends.
         let half = 0.5 * self.width(t0).0.max(self.width(t1).0);
         if is_clear(part.bounding_box().inflate(half, half)) {
             stations.push((self.station(t1, first), Stretch::Curve(part)));
@@ -241,7 +241,7 @@ impl Swelling {
         }
     }
 
-    /// Width and its derivative by the curve's parameter (cubic Hermite).
+    /// Width and its derivative with respect to the curve's parameter (cubic Hermite).
     fn width(&self, t: f64) -> (f64, f64) {
         let (w0, w1, m0, m1) = (self.from.0, self.to.0, self.from.1 * self.length, self.to.1 * self.length);
         let (t2, t3) = (t * t, t * t * t);
@@ -251,7 +251,7 @@ impl Swelling {
         (value.max(0.0), slope)
     }
 
-    /// The point of the left (+1) or right (-1) side at `t` and its derivative by `t`.
+    /// The point of the left (+1) or right (-1) side at `t`, and its derivative with respect to `t`.
     ///
     /// With `p` the centre, `n` the unit normal: `p + side n w/2`, and `n' = k x p'` from the curvature.
     fn side(&self, t: f64, side: f64) -> (Point, Vec2) {
@@ -267,7 +267,7 @@ impl Swelling {
         (point + normal * (half * width), velocity + normal * (half * slope) - along * (half * width * turning))
     }
 
-    /// Appends the side from parameter `t0` to `t1` (either way round) as cubics.
+    /// Appends the side from parameter `t0` to `t1` (in either direction) as cubics.
     fn append_side(&self, outline: &mut BezPath, t0: f64, t1: f64, side: f64, tolerance: f64, depth: usize) {
         let ((a, da), (b, db)) = (self.side(t0, side), self.side(t1, side));
         let step = (t1 - t0) / 3.0;
@@ -281,7 +281,7 @@ impl Swelling {
             self.append_side(outline, t0, half, side, tolerance, depth + 1);
             self.append_side(outline, half, t1, side, tolerance, depth + 1);
         } else {
-            // A cusp: its tangents say nothing, and no way between two places of the side is shorter.
+            // A cusp: its tangents are meaningless, so take a straight line.
             outline.line_to(b);
         }
     }
@@ -338,7 +338,7 @@ mod tests {
         assert!((area(&outline) - expected).abs() < 0.02, "{} {expected}", area(&outline));
     }
 
-    /// A turn on much less than half the width: the inner side's own tangents would run 90 times its chord away.
+    /// A turn much tighter than half the width: the inner side's own tangents would be 90 times its chord.
     #[test]
     fn a_tight_turn_throws_no_spike() {
         let line = BezPath::from_svg("M0,0 C0.02,0 0.02,0 0.02,0.01 C0.02,0.02 0.02,0.02 0,0.02 L-3,0.02").unwrap();

@@ -1,17 +1,18 @@
-//! How often lines cross or cover one another, told before anything is cut there: from pairs drawn evenly from all pairs, so that it
-//! costs the same however tangled they are.
+//! Estimates how often lines cross or cover one another, before anything is cut there. It samples all pairs evenly, so the cost
+//! does not depend on how tangled they are.
 
 use super::polyline::distance_to_segment;
 use kurbo::Point;
 
-/// Lines up to which every pair is looked at: half a million pairs.
+/// Maximum number of lines for which every pair is tested: half a million pairs.
 const FEW: usize = 1000;
-/// Pairs that are looked at of more lines: some 50 ms. Of half a million lines, a pair found then stands for 30,000.
+/// Pairs sampled of more lines: some 50 ms. With half a million lines, a pair found stands for 30,000.
 const SAMPLES: usize = 1 << 22;
-/// Steps by which places in the unit square fill it evenly: the powers of the root of x^3 = x + 1 (Roberts 2018, his R2 sequence).
+/// Steps of a sequence that fills the unit square evenly: inverse powers of the root of x^3 = x + 1 (Roberts 2018, the R2
+/// sequence).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
 
-/// A straight line and the half of its width, 0 for a border without a width.
+/// A straight line with half its width, which is 0 for a border.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thread {
     /// Its start.
@@ -22,13 +23,13 @@ pub struct Thread {
     pub half_width: f64,
 }
 
-/// About how many pairs of lines cross, or lie on one another where they have widths; lines that follow one another do not count.
-/// Exact for up to a thousand lines; for more it is off by a tenth or so where there are a hundred pairs or more among four million.
+/// Estimates how many pairs of lines cross or, if they have widths, overlap. Consecutive lines do not count. Exact for up to a
+/// thousand lines; for more, the error is about a tenth if there are a hundred pairs or more among the four million sampled.
 pub fn tangles(threads: &[Thread]) -> f64 {
     tangles_among(threads, |i, j| i.abs_diff(j) > 1)
 }
 
-/// The same of the pairs that count.
+/// [`tangles`] of the pairs of indices for which `counts` is true.
 pub fn tangles_among(threads: &[Thread], counts: impl Fn(usize, usize) -> bool) -> f64 {
     let count = threads.len();
     let meets = |i: usize, j: usize| counts(i, j) && do_meet(&threads[i], &threads[j]);
@@ -59,7 +60,7 @@ fn do_meet(a: &Thread, b: &Thread) -> bool {
             .any(|distance| distance < reach))
 }
 
-/// Whether each has its ends on either side of the other.
+/// True if each has its ends on opposite sides of the other.
 fn do_cross(a: &Thread, b: &Thread) -> bool {
     let side = |line: &Thread, p: Point| (line.to - line.from).cross(p - line.from);
     side(a, b.from) * side(a, b.to) < 0.0 && side(b, a.from) * side(b, a.to) < 0.0
@@ -73,7 +74,7 @@ mod tests {
         points.windows(2).map(|pair| Thread { from: pair[0], to: pair[1], half_width }).collect()
     }
 
-    /// Places without a pattern on a square of 200 mm.
+    /// Pseudo-random points on a square of 200 mm.
     fn scattered(count: u32) -> Vec<Point> {
         let mut state = 1_u64;
         let mut share = || {

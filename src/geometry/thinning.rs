@@ -1,4 +1,4 @@
-//! Which of many points stay when each stands for less than a whole one.
+//! Thins points: chooses which stay when each should stay with a given share.
 
 use super::blue_noise::blue_noise_order_until;
 #[cfg(test)]
@@ -7,22 +7,21 @@ use super::direct_search::improved;
 use crate::interrupt::Interrupt;
 use kurbo::{Point, Rect};
 
-/// Points whose number is settled together; below it only their blue-noise rank counts. With 32 the count of a patch is off by a
-/// sixtieth at most; with 4 the cells show as a grid.
+/// Maximum number of points in a part that is not split further; within it the blue-noise rank decides. With 32 the count of a
+/// patch is off by a sixtieth at most; with 4 the cells show as a grid.
 const TOGETHER: usize = 32;
 
-/// Chooses points so that everywhere about as many stay as the sum of their shares (each from 0 to 1), evenly spread.
+/// Chooses points, evenly spread, so that the number that stay is everywhere close to the sum of their shares (each from 0 to 1).
 ///
-/// The points are halved again and again by their place, each half getting a whole number that is within 1 of its shares' sum; in
-/// the smallest parts those stay that come first in blue-noise order, measured by their share (ranks alone would spare sparse
-/// places and borders, where points are less crowded, and leave dense ones too light). Then points are exchanged as long as that
-/// makes the tone more even. Points must be finite. Time n log n. Once the interrupt is raised, the choice is
-/// whatever it was by then.
+/// The points are halved repeatedly by position; each half gets a whole number within 1 of the sum of its shares. In the smallest
+/// parts, those first in blue-noise order stay, with ranks divided by share (ranks alone would keep points in sparse areas and at
+/// borders, where they are less crowded, and leave dense areas too light). Then points are toggled and swapped as long as that
+/// makes the tone more even. Points must be finite. Time O(n log n). Once the interrupt is raised, the choice is incomplete.
 pub fn thinned(points: &[Point], shares: &[f64], interrupt: &Interrupt) -> Vec<bool> {
     improved(points, shares, counted(points, shares, interrupt), interrupt)
 }
 
-/// The choice by counts and ranks.
+/// The initial choice, by counts and ranks.
 fn counted(points: &[Point], shares: &[f64], interrupt: &Interrupt) -> Vec<bool> {
     let mut order = vec![0.0; points.len()];
     for (rank, i) in blue_noise_order_until(points, interrupt).into_iter().enumerate() {
@@ -90,7 +89,7 @@ mod tests {
         let stays = thinned(&points, &vec![0.4; 4000], &Interrupt::never());
         let kept = stays[..400].iter().filter(|stays| **stays).count();
         assert!((155..=165).contains(&kept), "{kept} of 160");
-        // By their ranks alone nearly all of the sparse ones would stay.
+        // By ranks alone nearly all of the sparse ones would stay.
         let by_rank = blue_noise_order(&points)[..1600].iter().filter(|&&i| i < 400).count();
         assert!(by_rank > 200, "{by_rank}");
     }

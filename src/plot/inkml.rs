@@ -1,16 +1,16 @@
-//! `InkML` (W3C Recommendation, 20 September 2011): the strokes of a drawing as a pen would have recorded them, for painting
-//! programs and everything else that knows digital ink.
+//! `InkML` (W3C Recommendation, 20 September 2011): the strokes of a drawing as a digital pen would record them, for painting
+//! programs and other readers of digital ink.
 //!
 //! ```text
 //! ink
 //!   definitions
 //!     context      inkSource/traceFormat: X and Y in mm, F (force) from 0 to 1000, T in ms from the timestamp
-//!     brush        one for each layer, and one for each other colour or width: width, height, color, tip
-//!   traceGroup     one for each layer, with its context and brush
-//!     trace        one for each stroke and round dot, some for each area: X Y F T at each vertex; its brush where that is another
+//!     brush        one per layer, and one per other colour or width: width, height, color, tip
+//!   traceGroup     one per layer, with its context and brush
+//!     trace        one per stroke and round dot, some per area: X Y F T at each vertex; its brush if not the layer's
 //! ```
 //!
-//! Digital ink knows lines only: what is filled becomes the lines that fill it.
+//! Digital ink has lines only, so filled areas become hatch lines.
 
 use super::{InkModel, Nibs, lower};
 use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
@@ -23,25 +23,26 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
 
-/// How far a trace may lie from its curve, in millimetres: a tenth of a fine nib.
+/// Maximum distance of a trace from its curve, in millimetres: a tenth of a fine nib.
 const TOLERANCE: f64 = 0.02;
-/// Millimetres a second that are assumed where a style says nothing.
+/// Default pen speed in mm/s, for strokes without times.
 const USUAL_SPEED: f64 = 80.0;
-/// The force of full pressure, in the device's steps.
+/// The force of full pressure, in device steps.
 const FULL_FORCE: f64 = 1000.0;
-/// Seconds between two strokes where a style says nothing.
+/// Default pause between two strokes, in seconds.
 const USUAL_PAUSE: f64 = 0.2;
-/// The brush that fills an area, as a share of the root of the area, and its greatest width in millimetres: wider ones leave the corners
-/// and holes of grains, narrower ones make many lines of them.
+/// Width of the brush that fills an area, as a share of the square root of the area, and its maximum width in millimetres. Wider
+/// brushes miss the corners and holes of grains, narrower ones need many lines.
 const FILLING: f64 = 0.4;
 const FILLING_WIDTH: f64 = 0.1;
 
-/// Areas up to this many square millimetres are one touch: their form is not seen, and a smudged tone has tens of thousands.
+/// Areas up to this size, in square millimetres, become one touch: their shape is not visible, and a smudged tone has tens of
+/// thousands of them.
 const LEAST_FILLED: f64 = 0.01;
 
-/// Writes a drawing as `InkML`. Strokes become one trace each with their pressure as force (their width's share of the layer's
-/// widest where they have none); a round dot is one vertex of a brush as wide as itself; other dots and areas are filled with traces.
-/// Each has its mark's colour. `title` is kept as an annotation.
+/// Writes a drawing as `InkML`. Each stroke becomes one trace with its pressure as force (without pressure, its width as a share
+/// of the layer's widest). A round dot is one vertex of a brush of its diameter. Other dots and areas are filled with traces.
+/// Each trace has its mark's colour. `title` is written as an annotation.
 pub fn write_inkml(drawing: &Drawing, title: &str, out: &mut impl io::Write) -> io::Result<()> {
     let layers: Vec<Vec<Drawn>> = drawing.layers.iter().map(drawn).collect();
     let brushes = Brushes::new(drawing, &layers);
@@ -91,7 +92,7 @@ fn definitions(text: &mut String, drawing: &Drawing, brushes: &Brushes) {
     text.push_str("<context xml:id=\"page\" inkSourceRef=\"#hand\" traceFormatRef=\"#force-and-time\" timestampRef=\"#start\"/>\n</definitions>\n");
 }
 
-/// What a trace is drawn with at full force.
+/// The brush of a trace at full force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Brush {
     colour: [u8; 3],
@@ -104,7 +105,7 @@ impl Brush {
         Self { colour: [colour.r, colour.g, colour.b], thousandths: thousandths(width).max(1) }
     }
 
-    /// A layer's: its colour, as wide as its widest stroke.
+    /// A layer's brush: its colour, and the width of its widest stroke.
     fn of(layer: &Layer) -> Self {
         let width = |mark: &Mark| if let Mark::Stroke(stroke) = mark { stroke.widest() } else { 0.0 };
         let widest = layer.marks.iter().map(width).fold(0.0, f64::max);
@@ -119,7 +120,7 @@ impl Brush {
 /// All brushes of a file, those of the layers first.
 struct Brushes {
     all: Vec<Brush>,
-    /// The number of each, from 1.
+    /// The number of each brush, from 1.
     numbers: BTreeMap<Brush, usize>,
 }
 
@@ -141,16 +142,16 @@ impl Brushes {
     }
 }
 
-/// A mark as what a brush does.
+/// A mark as brush lines.
 struct Drawn<'a> {
     brush: Brush,
     way: Way<'a>,
 }
 
 enum Way<'a> {
-    /// Along a stroke, its width as force.
+    /// Along a stroke, with its width as force.
     Stroke(&'a Stroke),
-    /// Along lines at full force; one of one point is a touch.
+    /// Along lines at full force; a line of one point is a touch.
     Lines(Vec<Vec<Point>>),
 }
 
@@ -172,7 +173,7 @@ fn touch(centre: Point, radius: f64, colour: Colour) -> Drawn<'static> {
     Drawn { brush: Brush::new(colour, 2.0 * radius), way: Way::Lines(vec![vec![centre]]) }
 }
 
-/// The lines that fill an outline, as a fine pen would; of what is too small for one, a touch.
+/// The lines that fill an outline with a fine pen, or a touch if it is too small for lines.
 fn filled(outline: &BezPath, colour: Colour) -> Drawn<'static> {
     let area = outline.area().abs();
     let one_touch = || touch(outline.bounding_box().center(), (area / std::f64::consts::PI).sqrt(), colour);
@@ -191,7 +192,7 @@ fn filled(outline: &BezPath, colour: Colour) -> Drawn<'static> {
 }
 
 impl Drawn<'_> {
-    /// The traces, begun at a time.
+    /// The traces, starting at time `now` in seconds.
     fn traces(&self, widest: f64, now: f64) -> Vec<Vec<Vertex>> {
         match &self.way {
             Way::Stroke(stroke) => vec![stroke_trace(stroke, widest, now)],
@@ -208,7 +209,7 @@ impl Drawn<'_> {
     }
 }
 
-/// A place of a trace: millimetres, force 0 to 1, seconds.
+/// A vertex of a trace: position in millimetres, force 0 to 1, time in seconds.
 #[derive(Clone, Copy)]
 struct Vertex {
     at: Point,
@@ -216,7 +217,7 @@ struct Vertex {
     time: f64,
 }
 
-/// Vertices at full force and the usual speed.
+/// Vertices at full force and the default speed.
 fn timed(points: &[Point], now: f64) -> Vec<Vertex> {
     let mut time = now;
     let mut before = points.first().copied();
@@ -228,7 +229,7 @@ fn timed(points: &[Point], now: f64) -> Vec<Vertex> {
     points.iter().map(vertex).collect()
 }
 
-/// A stroke's nodes with their force and time, and between them what its curves need.
+/// A stroke's nodes with their force and time, and the points between them that flatten its curves.
 fn stroke_trace(stroke: &Stroke, widest: f64, now: f64) -> Vec<Vertex> {
     let force = |node: usize| match (&stroke.pressure, &stroke.width) {
         (Some(pressure), _) => pressure[node],
@@ -251,7 +252,7 @@ fn stroke_trace(stroke: &Stroke, widest: f64, now: f64) -> Vec<Vertex> {
         for (k, &at) in points.iter().enumerate() {
             travelled += if k > 0 { points[k - 1].distance(at) } else { 0.0 };
             let t = if length > 0.0 { travelled / length } else { 1.0 };
-            // The start of a segment is the end of the one before.
+            // Skip the start of a segment: it is the end of the one before.
             if k > 0 || i == 0 {
                 trace.push(Vertex { at, force: force(i) * (1.0 - t) + force(i + 1) * t, time: from + (to - from) * t });
             }
@@ -260,7 +261,8 @@ fn stroke_trace(stroke: &Stroke, widest: f64, now: f64) -> Vec<Vertex> {
     trace
 }
 
-/// `X Y F T, X Y F T, ...`: millimetres to 0.001, force in steps, whole milliseconds; with the number of a brush that is not the layer's.
+/// Writes `X Y F T, X Y F T, ...`: millimetres to 0.001, force in steps, whole milliseconds. `brush` is the number of a brush
+/// other than the layer's.
 fn write_trace(text: &mut String, trace: &[Vertex], brush: Option<usize>) {
     if trace.is_empty() {
         return;
@@ -284,7 +286,7 @@ fn write_trace(text: &mut String, trace: &[Vertex], brush: Option<usize>) {
     text.push_str("</trace>\n");
 }
 
-/// Thousandths as a decimal with a digit before its point, which `InkML`'s grammar asks for.
+/// Appends thousandths as a decimal with a digit before the point, which `InkML`'s grammar requires.
 fn plain_decimal(text: &mut String, value: i64) {
     let (sign, size) = (if value < 0 { "-" } else { "" }, value.unsigned_abs());
     let _ = write!(text, "{sign}{}", size / 1000);

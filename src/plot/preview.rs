@@ -1,4 +1,4 @@
-//! What a machine will do, as a picture: sheet, reach, ink at nib width, pen-up travel, start and park.
+//! Preview of a plot as SVG: sheet, machine reach, ink at nib width, pen-up travel, start and park.
 
 use crate::drawing::Colour;
 use crate::geometry::{Point, Rect};
@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
 
-/// How the ways of the raised pen are shown.
+/// How pen-up travel is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShownTravel {
     /// Not at all.
     Off,
-    /// As a pale web under the ink, which does not hide a drawing of tens of thousands of paths.
+    /// As pale lines under the ink, which do not hide a drawing of tens of thousands of paths.
     #[default]
     Faint,
     /// As clear lines under the ink.
@@ -21,7 +21,7 @@ pub enum ShownTravel {
 }
 
 impl ShownTravel {
-    /// How its lines are stroked. The faint ones are a single path of the whole plot, so that they stay as pale where many cross.
+    /// SVG stroke attributes. All travel is a single path, so that faint lines stay pale where many cross.
     const fn style(self) -> &'static str {
         match self {
             Self::Off => "",
@@ -31,9 +31,8 @@ impl ShownTravel {
     }
 }
 
-/// Writes the preview of a plot that starts at `home` on the page. Travel lies under the ink, and each pen has a colour that can be
-/// told from the others'. Everything but the ink stands in layers whose names begin with `%`, which plotters' programs and `inspect`
-/// pass over.
+/// Writes the preview of a plot that starts at `home` on the page. Travel lies under the ink, and each pen has a distinct colour.
+/// Everything but the ink is in layers whose names begin with `%`, which plotter programs and `inspect` skip.
 pub(super) fn write_preview(
     plot: &Plot,
     mounting: Option<&Mounting>,
@@ -75,11 +74,11 @@ pub(super) fn write_preview(
     out.write_all(text.as_bytes())
 }
 
-/// Colours that look further apart than this are told apart at a glance in lines of a nib's width (CIE L*a*b*): black and navy are 81
-/// apart, black and a grey of 20 % 21.
+/// Minimum colour difference (CIE L*a*b*) at which lines of a nib's width are distinct at a glance: black and navy are 81 apart,
+/// black and a grey of 20 % 21.
 const TOLD_APART: f64 = 25.0;
-/// Hues for pens whose own colours cannot be told apart: Okabe and Ito, Color Universal Design (2008), which colour-blind readers
-/// tell apart too; without its yellow and black, which are paper and ink.
+/// Hues for pens whose own colours are too similar: Okabe and Ito, Color Universal Design (2008), which colour-blind readers can
+/// distinguish too; without its yellow and black, which are paper and ink.
 const HUES: [Colour; 6] = [
     Colour { r: 0, g: 114, b: 178 },
     Colour { r: 213, g: 94, b: 0 },
@@ -89,7 +88,7 @@ const HUES: [Colour; 6] = [
     Colour { r: 86, g: 180, b: 233 },
 ];
 
-/// Each pen's colour by its number: its own, or another hue where its own is the paper's or an earlier pen's.
+/// Each pen's shown colour by pen number: its own, or another hue if its own is close to the paper's or an earlier pen's.
 fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
     let nearest =
         |colour: Colour, others: &[Colour]| others.iter().map(|other| colour.difference(*other)).fold(f64::INFINITY, f64::min);
@@ -103,7 +102,7 @@ fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
         }
         let mut colour = pen.colour;
         if nearest(colour, &taken) < TOLD_APART {
-            // Far from what is shown already and from what other pens will show.
+            // Far from the colours shown already and from the other pens' own colours.
             let all = [&taken[..], &own].concat();
             let free = HUES.into_iter().chain(dark).max_by(|a, b| nearest(*a, &all).total_cmp(&nearest(*b, &all)));
             colour = free.unwrap_or(colour);
@@ -114,7 +113,7 @@ fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
     shown
 }
 
-/// What one pen draws, as wide as its nib.
+/// The lines of one pen, at nib width.
 fn ink(pen: &PenPaths, colour: Colour) -> String {
     let told = if colour == pen.colour { String::new() } else { format!("<desc>its own colour is {}</desc>\n", pen.colour) };
     let lines = pen.paths.iter().fold(String::new(), |mut lines, path| {
@@ -125,7 +124,7 @@ fn ink(pen: &PenPaths, colour: Colour) -> String {
     format!("<g fill=\"none\" {style} stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{told}{lines}</g>\n")
 }
 
-/// A ring; those of start and park differ in size, since they often lie in one place.
+/// A ring marker. Those of start and park differ in size, since they often coincide.
 fn mark(p: Point, radius: f64, colour: &str, id: &str) -> String {
     let [x, y, r] = [p.x, p.y, radius].map(number);
     format!("<circle id=\"{id}\" cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\".5\"/>\n")
@@ -143,7 +142,7 @@ fn rectangle(rect: Rect, style: &str) -> String {
 /// Path data of one line.
 fn polyline(points: &[Point]) -> String {
     let mut text = format!("M{} {}", number(points[0].x), number(points[0].y));
-    // A touch is a line of no length, which round ends show.
+    // A touch is a line of zero length, which round ends make visible.
     let again = if points.len() == 1 { points } else { &points[1..] };
     for p in again {
         let _ = write!(text, "L{} {}", number(p.x), number(p.y));
@@ -151,7 +150,7 @@ fn polyline(points: &[Point]) -> String {
     text
 }
 
-/// Every way that the pen goes in the air, as path data.
+/// All pen-up travel, as path data.
 fn ways(plot: &Plot, home: Point, park: Point) -> String {
     let mut at = home;
     let mut text = String::new();

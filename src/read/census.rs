@@ -1,15 +1,15 @@
-//! What an XML text holds once its entities are written out, counted before any of it is.
+//! Counts what an XML text holds once its entities are expanded, before any is expanded.
 
 use super::budget::{ATTRIBUTE, Budget, TAG};
 use super::svg::SvgError;
 use std::collections::{HashMap, HashSet};
 
-/// Entities within entities beyond which a file is not read, as in the parser.
+/// Maximum nesting of entities, the same as the parser's.
 const DEEPEST: usize = 10;
-/// Names are compared with each other: for namespaces in scope, for an element's attributes, for entities.
+/// Steps per comparison of two names: of namespaces in scope, of an element's attributes, of entities.
 const COMPARISON: f64 = 0.003;
 
-/// Spends the work of parsing a text.
+/// Spends the steps of parsing a text.
 pub(super) fn take_text(text: &str, budget: &mut Budget) -> Result<(), SvgError> {
     let mut entities = Entities::of(text);
     let census = entities.census(text, 0)?;
@@ -17,19 +17,19 @@ pub(super) fn take_text(text: &str, budget: &mut Budget) -> Result<(), SvgError>
     budget.text(census.bytes)?;
     budget.spend(TAG * census.tags, "elements")?;
     budget.spend(ATTRIBUTE * census.attributes + COMPARISON * census.pairs, "attributes")?;
-    // An element that declares a namespace takes over all that are in scope.
+    // An element that declares a namespace copies all that are in scope.
     budget.spend(COMPARISON * prefixes * (census.tags + 4.0 * census.namespaces), "namespaces")?;
     budget.spend(COMPARISON * entities.values.len() as f64 * census.references, "entities")?;
     Ok(())
 }
 
-/// Sums over a text. What looks like an element or an attribute and is none (in a comment or a script) counts too.
+/// Sums over a text. Text that only looks like an element or attribute (in a comment or a script) counts too.
 #[derive(Clone, Copy, Default)]
 struct Census {
     bytes: f64,
     tags: f64,
     attributes: f64,
-    /// Squares of the numbers of attributes.
+    /// Sum of the squares of the attribute counts.
     pairs: f64,
     namespaces: f64,
     references: f64,
@@ -52,7 +52,7 @@ impl Census {
 }
 
 struct Entities<'a> {
-    /// All values of a name, wherever one is declared.
+    /// All declared values by name.
     values: HashMap<&'a str, Vec<&'a str>>,
     counted: HashMap<&'a str, Census>,
     prefixes: HashSet<&'a str>,
@@ -98,7 +98,7 @@ impl<'a> Entities<'a> {
         Ok(census)
     }
 
-    /// What an entity holds; of several of a name, all.
+    /// Counts an entity's content; if its name is declared several times, the sum of all.
     fn entity(&mut self, name: &'a str, depth: usize) -> Result<Census, SvgError> {
         if let Some(census) = self.counted.get(name) {
             return Ok(*census);
@@ -126,12 +126,12 @@ fn declared(text: &str) -> Option<(&str, &str)> {
     Some((name, rest[1..].split(quote).next().unwrap_or_default()))
 }
 
-/// Whether a quoted value begins.
+/// True if a quoted value begins here.
 fn is_value(bytes: &[u8]) -> bool {
     matches!(bytes.iter().find(|byte| !byte.is_ascii_whitespace()), Some(b'"' | b'\''))
 }
 
-/// The prefix that an attribute before its `=` declares.
+/// The namespace prefix that an attribute declares, given the text up to its `=`.
 fn namespace(text: &str) -> Option<&str> {
     let name = text.trim_end().rsplit(|c: char| c.is_whitespace() || c == '"' || c == '\'').next()?;
     name.strip_prefix("xmlns").map(|rest| rest.trim_start_matches(':'))

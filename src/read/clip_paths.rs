@@ -1,4 +1,4 @@
-//! Clip paths, honoured as geometry.
+//! Clip paths, applied as geometry.
 
 use super::budget::{Budget, POINT, TooMuchWork};
 use super::curves::{affine, bez_path, with_closed_subpaths};
@@ -7,22 +7,23 @@ use crate::geometry::{
     untangled_polygons,
 };
 
-/// Flattening where a path must be clipped or dashed, in millimetres.
+/// Flattening tolerance of paths that are clipped or dashed, in millimetres.
 pub(super) const CLIP_TOLERANCE: f64 = 0.005;
-/// Coordinates beyond which nothing is drawn, and what a clip path covers there is of no use, in millimetres.
+/// Largest absolute coordinate that is drawn, in millimetres. Clip paths are cut to it too.
 pub(super) const FARTHEST: f64 = 100_000.0;
 const FRAME: Rect = Rect::new(-FARTHEST, -FARTHEST, FARTHEST, FARTHEST);
 
-/// A line this near to the border of its clip path is on it: both were flattened, and came as single precision.
+/// Distance within which a line counts as on the border of its clip path, in millimetres: both were flattened, and come in single
+/// precision.
 const ON_THE_BORDER: f64 = 2.0 * CLIP_TOLERANCE;
-/// Single precision's part of a coordinate, with room for the transforms that it went through.
+/// Relative rounding error of a single-precision coordinate, with a margin for its transforms.
 const ROUNDING: f64 = 1e-6;
 
 /// A clip path on the page.
 #[derive(Clone)]
 pub(super) struct Clip {
     region: Region,
-    /// How far outside a line still lies on its border.
+    /// Maximum distance outside at which a line still counts as on the border, in millimetres.
     slack: f64,
 }
 
@@ -34,11 +35,11 @@ impl Clip {
     }
 }
 
-/// Why a clip path gives no region.
+/// Reason that a clip path gives no region.
 pub(super) enum NoClip {
-    /// Its coordinates are beyond all numbers.
+    /// Its coordinates are not finite.
     Endless,
-    /// There is no work left for it.
+    /// The work limit is reached.
     Work(TooMuchWork),
 }
 
@@ -64,7 +65,7 @@ fn overlaid(clip: &Region, area: &Region, budget: &mut Budget) -> Result<BezPath
     Ok(clip.clip_area(area))
 }
 
-/// An outline whose inside is that of the even-odd rule, by the nonzero rule.
+/// Converts an even-odd outline to one with the same inside by the nonzero rule.
 pub(super) fn untangled_fill(curve: &BezPath, budget: &mut Budget) -> Result<BezPath, TooMuchWork> {
     budget.spend(POINT * flattened_points(curve, CLIP_TOLERANCE), "outlines")?;
     untangled(&flatten(curve, CLIP_TOLERANCE).into_iter().map(|(points, _)| points).collect::<Vec<_>>(), Winding::EvenOdd, budget)
@@ -75,7 +76,7 @@ fn untangled(polygons: &[Vec<Point>], winding: Winding, budget: &mut Budget) -> 
     Ok(untangled_polygons(polygons, winding))
 }
 
-/// The union of a clip path's shapes on the page, as far as anything is drawn there.
+/// The union of a clip path's shapes on the page, up to [`FARTHEST`].
 pub(super) fn clip_region(clip: &usvg::ClipPath, user: Affine, budget: &mut Budget) -> Result<Clip, NoClip> {
     let own = user * affine(clip.transform());
     let mut shapes = Vec::new();
@@ -83,7 +84,7 @@ pub(super) fn clip_region(clip: &usvg::ClipPath, user: Affine, budget: &mut Budg
     Ok(Clip::new(Region::new(&shapes.into_iter().flatten().collect(), CLIP_TOLERANCE)))
 }
 
-/// The outlines of a clip path's shapes, each within its own clip paths, all running the same way.
+/// Collects the outlines of a clip path's shapes, each cut to its own clip paths, all in the same direction.
 fn gather(group: &usvg::Group, own: Affine, shapes: &mut Vec<BezPath>, budget: &mut Budget) -> Result<(), NoClip> {
     let first = shapes.len();
     for node in group.children() {
@@ -124,7 +125,7 @@ pub(super) fn clip_curve(curve: &BezPath, clip: &Clip, budget: &mut Budget) -> R
         if closed {
             points.push(points[0]);
         }
-        // Each piece between two cuts is looked for inside.
+        // Each piece between two cuts is tested for being inside.
         budget.cuts(clip.region.cut_count(&points) as f64, clip.region.edge_count())?;
         for piece in clip.region.clip_line(&points, clip.slack) {
             clipped.move_to(piece[0]);

@@ -1,14 +1,14 @@
-//! Colour words of CSS that usvg does not know, written as it knows them.
+//! Replaces CSS colour words that usvg does not know.
 
 use std::borrow::Cow;
 
-/// CSS Color 4's name, and a keyword that CSS writes in letters of either case.
+/// A colour name of CSS Color 4, and a keyword that is case-insensitive in CSS; each with its replacement.
 const WORDS: [(&str, &str); 2] = [("rebeccapurple", "#663399"), ("currentcolor", "currentColor")];
 /// Attributes whose value is a colour.
 const PROPERTIES: [&str; 6] = ["fill", "stroke", "color", "stop-color", "flood-color", "lighting-color"];
 
-/// The text with these words replaced where they are values: after the colon of a declaration, as an attribute's value, as an
-/// entity's, or behind the reference that they stand in for.
+/// The text with these words replaced where they are values: after the colon of a declaration, as the value of an attribute or
+/// entity, or as the fallback after a reference.
 pub(super) fn with_known_colours(text: &str) -> Cow<'_, str> {
     let mut out = String::new();
     let mut at = 0;
@@ -25,7 +25,7 @@ pub(super) fn with_known_colours(text: &str) -> Cow<'_, str> {
     if at == 0 { Cow::Borrowed(text) } else { Cow::Owned(out + &text[at..]) }
 }
 
-/// Where the words stand, in letters of either case.
+/// The positions of the words, case-insensitive, with each word and its replacement.
 fn found(text: &str) -> impl Iterator<Item = (usize, &'static str, &'static str)> + '_ {
     let bytes = text.as_bytes();
     let at = move |start: usize| {

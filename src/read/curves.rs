@@ -1,11 +1,11 @@
-//! usvg's paths as curves in millimetres, and what they are: flat, crossing themselves, circles.
+//! usvg's paths as curves in millimetres, and tests on them: flat, self-crossing, circular.
 
 use crate::drawing::{Colour, Dot};
 use crate::geometry::{Affine, BezPath, Point};
 use kurbo::{PathEl, Shape};
 use usvg::tiny_skia_path::PathSegment;
 
-/// usvg works in CSS pixels.
+/// Millimetres per CSS pixel, the unit of usvg.
 pub(super) const MM_PER_PX: f64 = 25.4 / 96.0;
 
 pub(super) fn to_mm(t: usvg::Transform) -> Affine {
@@ -29,7 +29,7 @@ pub(super) fn bez_path(path: &usvg::tiny_skia_path::Path) -> BezPath {
         .collect()
 }
 
-/// Whether an outline holds nothing: its points lie on one line.
+/// True if an outline encloses no area: its points lie on one line.
 pub(super) fn is_flat(curve: &BezPath) -> bool {
     let mut area = 0.0;
     let (mut start, mut last) = (Point::ORIGIN, Point::ORIGIN);
@@ -52,14 +52,14 @@ pub(super) fn is_flat(curve: &BezPath) -> bool {
     area < 2e-5
 }
 
-/// Whether the two rules of filling could differ: not within one contour of four sides or fewer that is not crossed.
+/// True if the even-odd and nonzero fill rules could differ. They cannot for a path of straight lines with at most two `LineTo`s.
 pub(super) fn has_crossings(curve: &BezPath) -> bool {
     let lines = curve.elements().iter().filter(|element| matches!(element, PathEl::LineTo(_))).count();
     let others = curve.elements().iter().filter(|element| matches!(element, PathEl::QuadTo(..) | PathEl::CurveTo(..))).count();
     lines > 2 || others > 0
 }
 
-/// A fill closes every subpath.
+/// The curve with every subpath closed, as a fill does.
 pub(super) fn with_closed_subpaths(curve: &BezPath) -> BezPath {
     let mut closed = BezPath::new();
     for mut piece in subpaths(curve) {
@@ -71,7 +71,7 @@ pub(super) fn with_closed_subpaths(curve: &BezPath) -> BezPath {
     closed
 }
 
-/// Each subpath by itself; a bare move is none.
+/// The subpaths of a curve; a bare move is not one.
 pub(super) fn subpaths(curve: &BezPath) -> Vec<BezPath> {
     let mut pieces: Vec<BezPath> = Vec::new();
     for element in curve.elements() {
@@ -86,7 +86,7 @@ pub(super) fn subpaths(curve: &BezPath) -> Vec<BezPath> {
     pieces
 }
 
-/// A path of a `dots` group: a circle by its box when it fills it like one, else a blob.
+/// A path of a `dots` group as a dot: a circle if it fills its bounding box like one, else a blob.
 pub(super) fn dot(outline: BezPath, colour: Option<Colour>) -> Dot {
     let bounds = outline.bounding_box();
     let area = outline.area().abs();

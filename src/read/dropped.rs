@@ -1,4 +1,4 @@
-//! What a file held and was not drawn.
+//! Counts of what a file holds that was not drawn.
 
 use std::collections::BTreeMap;
 
@@ -22,24 +22,24 @@ impl Dropped {
         }
     }
 
-    /// Counts all that another has counted.
+    /// Adds all counts of another.
     pub fn add_all(&mut self, other: &Self) {
         other.counts.iter().for_each(|(kind, number)| self.add(kind, *number));
     }
 
-    /// How many of a kind.
+    /// The count of one kind.
     pub fn of(&self, kind: &str) -> usize {
         self.counts.get(kind).copied().unwrap_or(0)
     }
 
-    /// Whether nothing was dropped.
+    /// True if nothing was dropped.
     pub fn is_empty(&self) -> bool {
         self.counts.is_empty()
     }
 
-    /// Such as `3 text, 1 image`.
+    /// All counts as text, such as `3 text, 1 image`.
     pub fn summary(&self) -> String {
-        // Kinds are named as one of them is, but for fills.
+        // Kinds are named in the singular, except fills.
         let named = |kind: &str, n: usize| format!("{n} {}", if (kind, n) == ("fills", 1) { "fill" } else { kind });
         self.counts.iter().map(|(kind, n)| named(kind, *n)).collect::<Vec<_>>().join(", ")
     }

@@ -1,14 +1,15 @@
-//! What an SVG becomes when every use, marker, pattern, mask and clip path is written out: counted on the XML, before any of it is.
+//! Counts what an SVG becomes when every use, marker, pattern, mask and clip path is expanded. Works on the XML, before
+//! expansion.
 //!
 //! ```text
 //!   13 markers, each drawn at 3 places of the one before: 3^13 paths from 1.5 KB
 //!
 //!   load(element) = its own + its children's + those of what it uses
-//!   A shape inherits fill, stroke and markers, from wherever it is used: its load leaves them open, as numbers of fills, strokes
-//!   and vertices, and the next element outwards that sets one of them multiplies what is drawn there.
+//!   A shape inherits fill, stroke and markers from where it is used. Its load leaves them open, as numbers of fills, strokes
+//!   and vertices; the next element outwards that sets one multiplies the load of what it refers to by that number.
 //! ```
 //!
-//! Each element is counted once, whatever it is used for, in numbers that may grow beyond all bounds without harm.
+//! Each element is counted once, however often it is used. Counts are floats, so they cannot overflow.
 
 use super::budget::{ATTRIBUTE, Budget, ELEMENT, PATH, SEGMENT};
 use super::styles::{FILL, MARKERS, OWN, STROKE, Style, Styles, references, style_steps};
@@ -18,33 +19,33 @@ use std::collections::{HashMap, HashSet};
 
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 
-/// Elements within elements, uses and references followed, beyond which a file is not read: every level takes room on the stack.
+/// Maximum nesting of elements, with uses and references followed. Every level takes room on the stack.
 const DEEPEST: usize = 512;
-/// Finding out what a shape inherits, for each attribute of an element around it.
+/// Steps of resolving what a shape inherits, per attribute of an enclosing element.
 const INHERITED: f64 = 0.015;
-/// What is referred to is looked up among all others of its kind.
+/// Steps per comparison when the target of a reference is looked up among all others of its kind.
 const LOOKED_UP: f64 = 5e-4;
-/// An element that is passed in the search for references that lead back.
+/// Steps per element visited in the search for circular references.
 const PASSED: f64 = 0.02;
 
-/// What an element comes to.
+/// The work of an element.
 #[derive(Clone, Copy, Default)]
 struct Load {
-    /// Elements once uses are expanded.
+    /// Number of elements with uses expanded.
     elements: f64,
     /// Steps of reading them with their styles.
     parsing: f64,
-    /// Steps of drawing them with all that they refer to.
+    /// Steps of drawing them with everything they refer to.
     drawing: f64,
-    /// References, and how many of them lead to something made for one shape alone.
+    /// Number of references, and of those whose target is instantiated for one shape alone.
     links: f64,
     single: f64,
-    /// References to elements of another kind than is meant.
+    /// Number of references to elements of the wrong kind.
     astray: f64,
     shapes: f64,
-    /// Fills and strokes that take the paint of what is around the reference.
+    /// Number of fills and strokes that take their paint from the context (`context-fill`, `context-stroke`).
     context: f64,
-    /// Fills, strokes, first vertices, vertices and last vertices that are inherited from outside.
+    /// Numbers of fills, strokes, first vertices, vertices and last vertices whose style is inherited from outside.
     open: [f64; 5],
     depth: usize,
 }
@@ -60,7 +61,7 @@ impl Load {
         self.open.iter_mut().zip(other.open).for_each(|(sum, open)| *sum += open);
     }
 
-    /// Adds what stands there and is drawn only where it is referred to.
+    /// Adds a definition, which is drawn only where it is referred to.
     fn add_definition(&mut self, other: &Self) {
         self.elements += other.elements;
         self.parsing += other.parsing;
@@ -68,7 +69,7 @@ impl Load {
         self.depth = self.depth.max(other.depth + 1);
     }
 
-    /// Adds something that is drawn so many times.
+    /// Adds something that is drawn `times` times.
     fn add_drawn(&mut self, other: &Self, times: f64) {
         self.drawing += times * (ELEMENT + other.drawing);
         self.links += times * other.links;
@@ -78,7 +79,7 @@ impl Load {
     }
 }
 
-/// Spends the work of expanding a document; refuses what refers to itself.
+/// Spends the steps of expanding a document and returns its number of elements. An error if something refers to itself.
 pub(super) fn take_expansion(document: &Document<'_>, budget: &mut Budget) -> Result<f64, SvgError> {
     let styles = Styles::of(document, budget)?;
     take_matching(document, &styles, budget)?;
@@ -92,7 +93,7 @@ pub(super) fn take_expansion(document: &Document<'_>, budget: &mut Budget) -> Re
     Ok(root.elements)
 }
 
-/// Spends the work of trying every rule on every element once.
+/// Spends the steps of trying every style rule on every element once.
 fn take_matching(document: &Document<'_>, styles: &Styles<'_>, budget: &mut Budget) -> Result<(), SvgError> {
     let mut by_depth: Vec<f64> = Vec::new();
     let mut open: Vec<NodeId> = Vec::new();
@@ -113,7 +114,7 @@ fn take_matching(document: &Document<'_>, styles: &Styles<'_>, budget: &mut Budg
 
 /// Elements that are drawn only where something refers to them.
 const REFERRED: [&str; 7] = ["marker", "pattern", "mask", "clipPath", "filter", "linearGradient", "radialGradient"];
-/// What a property may refer to.
+/// What paint may refer to.
 const PAINTS: &[&str] = &["pattern", "linearGradient", "radialGradient"];
 const KINDS: [&[&str]; 8] = [PAINTS, PAINTS, &["marker"], &["marker"], &["marker"], &["mask"], &["clipPath"], &["filter"]];
 
@@ -121,17 +122,17 @@ struct Expansion<'a, 'd, 'b> {
     styles: &'b Styles<'a>,
     budget: &'b mut Budget,
     by_id: HashMap<&'a str, Vec<Node<'a, 'd>>>,
-    /// Every `use` in document order with what it uses.
+    /// Every `use` in document order with its target.
     uses: Vec<(NodeId, NodeId)>,
     /// Bytes of all text between tags.
     texts: f64,
     styles_around: HashMap<NodeId, Style<'a>>,
-    /// Loads of elements with an id: only those are come to twice.
+    /// Loads of elements with an id: only those can be visited twice.
     loads: HashMap<NodeId, Load>,
     drawn: HashMap<NodeId, Load>,
     open: HashSet<NodeId>,
     open_drawn: HashSet<NodeId>,
-    /// Markers that were met within themselves, where they are not drawn again: what was counted there holds only there.
+    /// Markers found within themselves, where they are not drawn again. Loads counted there are not cached.
     met: Vec<NodeId>,
     largest_pattern: f64,
 }
@@ -164,7 +165,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         }
     }
 
-    /// An element where it stands, what it inherits left open.
+    /// The load of an element in place, with what it inherits left open.
     fn element(&mut self, node: Node<'a, 'd>, depth: usize) -> Result<Load, SvgError> {
         if let Some(load) = self.loads.get(&node.id()) {
             return Ok(*load);
@@ -224,7 +225,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         Ok(())
     }
 
-    /// Adds what an element's `href` leads to.
+    /// Adds the target of an element's `href`.
     fn linked(&mut self, node: Node<'a, 'd>, style: &Style<'a>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
         let targets = href(node).and_then(|id| self.by_id.get(id)).cloned().unwrap_or_default();
         match node.tag_name().name() {
@@ -234,7 +235,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
                 if self.leads_back(node, target)? {
                     return Ok(());
                 }
-                // What inherits a mask from its parent inherits it from the use.
+                // A used element with `inherit` takes the mask, clip path or filter of the use.
                 let inherits = self.styles.style(target);
                 for place in OWN.filter(|place| inherits.values[*place].is_some_and(|value| value.trim() == "inherit")) {
                     self.refer(place, style.values[place].unwrap_or_default(), load, depth)?;
@@ -257,7 +258,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         Ok(())
     }
 
-    /// Whether a use is passed over: it uses itself, what it stands in, or something that uses it.
+    /// True if a `use` is skipped because it is circular: it uses itself, an ancestor, or something that uses it.
     fn leads_back(&mut self, node: Node<'a, 'd>, target: Node<'a, 'd>) -> Result<bool, SvgError> {
         let first = self.uses.partition_point(|(id, _)| id.get() <= target.id().get());
         let last = self.uses.partition_point(|(id, _)| id.get() <= last_within(target).get());
@@ -283,7 +284,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         self.multiply(place, value, 1.0, load, depth)
     }
 
-    /// Adds so many times what a property's value refers to.
+    /// Adds the target of a property's value `times` times.
     fn multiply(&mut self, place: usize, value: &'a str, times: f64, load: &mut Load, depth: usize) -> Result<(), SvgError> {
         for id in references(value) {
             let targets = self.by_id.get(id).cloned().unwrap_or_default();
@@ -302,7 +303,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         Ok(())
     }
 
-    /// Multiplies what an element sets by the numbers of those that inherit it.
+    /// Multiplies what an element sets by the number of shapes that inherit it.
     fn close(&mut self, node: Node<'a, 'd>, style: &Style<'a>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
         for place in FILL..MARKERS.end {
             let Some(value) = style.values[place].map(str::trim).filter(|value| *value != "inherit") else { continue };
@@ -322,14 +323,14 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         *self.styles_around.entry(node.id()).or_insert_with(|| styles.style(node))
     }
 
-    /// What is drawn of an element that is referred to, which inherits from where it stands.
+    /// The load of a referenced element, which inherits from its own ancestors.
     fn drawn(&mut self, node: Node<'a, 'd>, depth: usize) -> Result<Load, SvgError> {
         if let Some(load) = self.drawn.get(&node.id()) {
             return Ok(*load);
         }
         let is_marker = node.tag_name().name() == "marker";
         if !self.open_drawn.insert(node.id()) {
-            // A marker within itself is not drawn; all else would be drawn without end.
+            // A marker within itself is not drawn; anything else would recurse forever.
             self.met.push(node.id());
             return if is_marker { Ok(Load::default()) } else { Err(circle(node)) };
         }
@@ -357,7 +358,7 @@ fn circle(node: Node<'_, '_>) -> SvgError {
     SvgError::Circle(node.attribute("id").unwrap_or_else(|| node.tag_name().name()).to_owned())
 }
 
-/// The id that an element links to, by SVG 2's attribute before that of `XLink`.
+/// The id that an element links to: SVG 2's `href`, else `XLink`'s.
 fn href<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     let found = |namespace: Option<&str>| {
         node.attributes().find(|attribute| attribute.name() == "href" && attribute.namespace() == namespace)
@@ -373,7 +374,7 @@ fn last_within(node: Node<'_, '_>) -> NodeId {
     last.id()
 }
 
-/// 1 where each shape has a copy of its own, in the units of its box; else 0.
+/// 1 if each shape gets its own copy, in units of its bounding box; else 0.
 fn single(node: Node<'_, '_>) -> f64 {
     let is_of_box = |attribute: &str| node.attribute(attribute) == Some("objectBoundingBox");
     let is_of_page = |attribute: &str| node.attribute(attribute) == Some("userSpaceOnUse");
@@ -387,7 +388,7 @@ fn single(node: Node<'_, '_>) -> f64 {
     f64::from(u8::from(!is_shared))
 }
 
-/// How many segments and subpaths a shape has; none for an element that is no shape.
+/// A shape's numbers of segments and subpaths. `None` for an element that is not a shape.
 fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
     let longest = |names: [&str; 2]| names.into_iter().filter_map(|name| pixels(node.attribute(name)?)).fold(0.0, f64::max);
     match node.tag_name().name() {
@@ -404,11 +405,11 @@ fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
     }
 }
 
-/// Segments that an arc's curves cost once more, by the square of their number: svgtypes takes each from the front of a list of them all,
-/// three seconds for the 40,000 that are counted here of an arc of 1e30 pixels. Arcs of any sheet have ten.
+/// Extra segments per squared number of an arc's curves: svgtypes removes each curve from the front of a list of them all. An arc
+/// of 1e30 pixels counts as 40,000 curves here and takes three seconds. Arcs on any real sheet have ten.
 const SHIFTED: f64 = 1e-3;
 
-/// How many curves a whole ellipse becomes, at the tenth of a pixel that usvg asks of kurbo.
+/// Number of curves that a whole ellipse becomes, at the tolerance of 0.1 pixel that usvg gives kurbo.
 fn curves(radius: f64) -> f64 {
     match (1.1163 * radius.abs() / 0.1).powf(1.0 / 6.0) {
         number if number <= 4.0 => 4.0,
@@ -417,7 +418,7 @@ fn curves(radius: f64) -> f64 {
     }
 }
 
-/// A length in pixels, or more where that depends on other elements.
+/// A length in pixels; an upper estimate where it depends on other elements.
 fn pixels(text: &str) -> Option<f64> {
     use svgtypes::LengthUnit as Unit;
     let length: svgtypes::Length = text.parse().ok()?;
@@ -432,7 +433,7 @@ fn pixels(text: &str) -> Option<f64> {
 /// Segments and subpaths of path data, its arcs as curves.
 fn segments(data: &str) -> (f64, f64) {
     let (mut segments, mut subpaths) = (0.0, 0.0);
-    // No point so far lies farther out.
+    // Upper bound of the distance of all points so far from the origin.
     let mut reach: f64 = 0.0;
     for segment in svgtypes::PathParser::from(data).map_while(Result::ok) {
         let (x, y) = match segment {
@@ -442,9 +443,9 @@ fn segments(data: &str) -> (f64, f64) {
             }
             svgtypes::PathSegment::EllipticalArc { abs, rx, ry, large_arc, x, y, .. } => {
                 let chord = x.hypot(y) + if abs { reach } else { 0.0 };
-                // Radii that do not reach are stretched until they do.
+                // Radii too small for the chord are scaled up until they fit.
                 let radius = rx.abs().max(ry.abs()) * (chord / rx.abs().min(ry.abs())).max(1.0);
-                // How far round it goes is told by the smaller radius: a tall ellipse is half round within a short chord.
+                // The smaller radius bounds the sweep: a tall ellipse goes half round within a short chord.
                 let part = if large_arc { 1.0 } else { (chord / (4.0 * rx.abs().min(ry.abs()).max(chord))).min(0.5) };
                 let curves = (curves(radius) * part).max(0.0);
                 segments += 1.0 + curves + SHIFTED * curves * curves;
@@ -487,7 +488,7 @@ mod tests {
         Ok(budget.spent())
     }
 
-    /// Definitions of a chain, in which each member draws the next one some times.
+    /// Definitions in a chain: each member draws the next one several times.
     fn chain(length: usize, member: impl Fn(usize, Option<usize>) -> String) -> String {
         (0..length).map(|i| member(i, (i + 1 < length).then_some(i + 1))).collect()
     }

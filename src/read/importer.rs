@@ -12,12 +12,12 @@ use crate::geometry::{BezPath, flattened_points};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-/// The usual tolerance of lowering, in millimetres: what curves will cost there.
+/// The default flattening tolerance of lowering, in millimetres. Used to estimate the cost of curves there.
 const TO_COME: f64 = 0.02;
-/// Dashes in one path beyond which the pattern is not taken.
+/// Maximum number of dash periods in one path; a finer pattern is ignored.
 const MOST_DASHES: f64 = 20_000.0;
 
-/// What drypoint's own group ids say of the paths below them.
+/// The kind of paths in a group, from drypoint's own group ids.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Foreign,
@@ -26,12 +26,12 @@ enum Kind {
     Paper,
 }
 
-/// Where in the tree a path lies.
+/// The context of a path in the tree.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     layer: Option<usize>,
     kind: Kind,
-    /// Of all groups around.
+    /// Product of the opacities of all enclosing groups.
     opacity: f32,
 }
 
@@ -40,11 +40,11 @@ impl Place {
     pub const TOP: Self = Self { layer: None, kind: Kind::Foreign, opacity: 1.0 };
 }
 
-/// The walk over usvg's tree: each path becomes marks of a layer, and what cannot is counted.
+/// The walk over usvg's tree: each path becomes marks of a layer; what cannot be drawn is counted.
 pub(super) struct Importer<'a> {
     outline: &'a Outline,
     budget: &'a mut Budget,
-    /// One for each label, then one for each colour met outside all labels.
+    /// One for each label, then one for each colour found outside all labels.
     layers: Vec<ImportedLayer>,
     by_colour: HashMap<[u8; 3], usize>,
     painting: Vec<Painted>,
@@ -159,7 +159,7 @@ impl<'a> Importer<'a> {
         place: Place,
         clips: &[Clip],
     ) -> Result<(), TooMuchWork> {
-        // A straight line is filled by default in SVG, with nothing.
+        // SVG fills straight lines by default, but they enclose no area.
         if is_flat(curve) {
             return Ok(());
         }
@@ -184,7 +184,7 @@ impl<'a> Importer<'a> {
         let own_colour = (layer.layer.ink.colour() != colour).then_some(colour);
         layer.swells += usize::from(place.kind == Kind::Swells);
         if place.kind == Kind::Dots {
-            // Very large drawings hold many dots in one path.
+            // Very large drawings put many dots in one path.
             self.paint(index, subpaths(&outline).into_iter().map(|piece| Mark::Dot(dot(piece, own_colour))));
         } else {
             self.paint(index, [Mark::Area(Area { outline, colour: own_colour })]);
@@ -207,7 +207,7 @@ impl<'a> Importer<'a> {
         let transform = to_mm(path.abs_transform());
         let scale = transform.determinant().abs().sqrt();
         let ends = if stroke.linecap() == usvg::LineCap::Butt { Ends::Flat } else { Ends::Round };
-        // A width that stays is in pixels of the whole drawing, and so are its dashes.
+        // A non-scaling stroke's width and dashes are in pixels of the whole drawing.
         let is_fixed = self.outline.fixed_widths.contains(path.id());
         let width = f64::from(stroke.width().get()) * if is_fixed { MM_PER_PX } else { scale };
         if width > FARTHEST {
@@ -230,25 +230,25 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// A curve's dashes, in its own units; `unit` is the length there of the pattern's.
+    /// A curve's dashes, in the curve's units; `unit` is the length of one unit of the dash pattern.
     fn dashed(&mut self, curve: BezPath, stroke: &usvg::Stroke, unit: f64, ends: Ends) -> Result<BezPath, TooMuchWork> {
         let Some(pattern) = stroke.dasharray() else { return Ok(curve) };
         let period = unit * pattern.iter().map(|dash| f64::from(*dash)).sum::<f64>();
         let periods = crate::geometry::curve_length(&curve) / period;
-        // What is no number is too fine too.
+        // A NaN is also rejected as too fine.
         if !(0.0..=MOST_DASHES).contains(&periods) || !period.is_finite() {
             self.dropped.count("dash pattern too fine (its line is drawn whole)");
             return Ok(curve);
         }
         let dashes = 0.5 * periods * pattern.len() as f64;
         self.budget.spend((PATH + SEGMENT) * dashes + SEGMENT * pattern.len() as f64, "dashes")?;
-        // Dashes without length are dots where ends are round, and nothing where they are flat.
+        // Dashes of zero length are dots with round ends, and nothing with flat ends.
         let least = 1e-5 * period;
         let dashes: Vec<f64> = pattern.iter().map(|dash| (unit * f64::from(*dash)).max(least)).collect();
-        // An offset of many periods is that of its rest.
+        // Reduce an offset of many periods to less than one.
         let offset = (f64::from(stroke.dashoffset()) * unit).rem_euclid(dashes.iter().sum());
         let offset = if offset.is_finite() { offset } else { 0.0 };
-        // A subpath without length is a dot.
+        // A subpath of zero length is a dot.
         let dashed = subpaths(&curve).into_iter().flat_map(|piece| {
             let has_length = crate::geometry::curve_length(&piece) > 0.0;
             if has_length { kurbo::dash(piece.iter(), offset, &dashes).collect() } else { piece }
@@ -269,7 +269,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The layer of a mark: its labelled group, else that of its colour.
+    /// The index of a mark's layer: its labelled group's, else that of its colour.
     fn layer_for(&mut self, place: Place, colour: Colour) -> usize {
         let index = if let Some(layer) = place.layer {
             layer
@@ -291,7 +291,7 @@ impl<'a> Importer<'a> {
         index
     }
 
-    /// Gives the layers that hold something and name no pen the lowest numbers that no label names, in order.
+    /// Numbers the non-empty layers that name no pen, in order, with the lowest pen numbers that no label names.
     fn number_pens(&mut self) {
         let named = |index: usize| self.outline.layers.get(index).and_then(|label| label.pen);
         let taken: HashSet<u32> = (0..self.outline.layers.len()).filter_map(named).collect();
@@ -303,7 +303,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Layers that hold something; those without a number of their own take the free ones in order.
+    /// The non-empty layers, the painting order and what was dropped. Layers without a pen number take the free ones in order.
     pub fn finish(mut self) -> (Vec<ImportedLayer>, Vec<Painted>, Dropped) {
         self.number_pens();
         let mut held = 0;

@@ -1,4 +1,4 @@
-//! Layers, labels and the recipe: what usvg's tree does not keep, from one pass over the XML.
+//! Layers, labels and the recipe: what usvg's tree does not keep, read in one pass over the XML.
 
 use super::Dropped;
 use roxmltree::{Document, Node, NodeId};
@@ -11,36 +11,36 @@ const SVG: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 const DRYPOINT: &str = "urn:drypoint";
 
-/// What the XML says beside the geometry.
+/// What the XML holds besides geometry.
 #[derive(Debug, Default)]
 pub(super) struct Outline {
     /// Layers in document order.
     pub layers: Vec<Label>,
-    /// Which layer a group's id stands for.
+    /// Layer index by group id.
     pub by_id: HashMap<String, usize>,
-    /// Ids of paths whose strokes keep their width whatever the drawing is scaled by.
+    /// Ids of paths with non-scaling strokes.
     pub fixed_widths: HashSet<String>,
     /// The recipe of a file that drypoint wrote.
     pub recipe: Option<String>,
-    /// For which machine drypoint wrote the labels' speeds.
+    /// The machine that drypoint wrote the labels' speeds for.
     pub speeds: Option<LabelSpeeds>,
-    /// Elements that usvg passes over in silence.
+    /// Elements that usvg silently skips.
     pub dropped: Dropped,
 }
 
-/// What `+S` in the labels of a file means that drypoint wrote for a plotter.
+/// The meaning of `+S` in the labels of a file that drypoint wrote for a plotter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelSpeeds {
     /// The plotter's profile.
     pub machine: String,
-    /// Millimetres a second of one percent.
+    /// Speed of one percent, in mm/s.
     pub percent_mm_s: f64,
-    /// The percentage of a layer that asked for no speed of its own.
+    /// The percentage of a layer without a speed of its own.
     pub usual_percent: f64,
 }
 
 impl LabelSpeeds {
-    /// From the file's metadata; none where it is not as drypoint writes it.
+    /// Parses the file's metadata. `None` if it is not as drypoint writes it.
     fn parse(text: &str) -> Option<Self> {
         let value: serde_json::Value = serde_json::from_str(text).ok()?;
         let number = |key: &str| value[key].as_f64().filter(|number| number.is_finite() && *number > 0.0);
@@ -52,8 +52,8 @@ impl LabelSpeeds {
     }
 }
 
-/// A layer's label by the plotters' conventions: `%` skips it, `!` asks for a pause, a number names the pen, `+S`, `+H`, `+D` with
-/// a number set speed, height and delay.
+/// A layer's label by the plotters' conventions: `%` skips the layer, `!` pauses before it, a number names the pen, and `+S`,
+/// `+H`, `+D` with a number set speed, height and delay.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
     pub name: String,
@@ -96,10 +96,10 @@ impl Label {
     }
 }
 
-/// Groups within groups beyond which a file is not read: every level takes room on the stack.
+/// Maximum nesting of groups. Every level takes room on the stack.
 pub(super) const DEEPEST: usize = 256;
 
-/// What the XML says; none when it is nested too deep.
+/// Collects the outline of a document. `None` if it is nested deeper than [`DEEPEST`].
 pub(super) fn outline(document: &Document<'_>) -> Option<Outline> {
     let is_shallow = document.descendants().try_fold(Vec::new(), nested).is_some();
     is_shallow.then(|| {
@@ -112,7 +112,7 @@ pub(super) fn outline(document: &Document<'_>) -> Option<Outline> {
     })
 }
 
-/// Keeps the ends of the elements that are open at a node; none where they are too many.
+/// Updates the stack of open elements at a node. `None` if it is deeper than [`DEEPEST`].
 fn nested(mut open: Vec<NodeId>, node: Node<'_, '_>) -> Option<Vec<NodeId>> {
     let parent = node.parent().map(|parent| parent.id());
     while !open.is_empty() && open.last().copied() != parent {
@@ -122,8 +122,8 @@ fn nested(mut open: Vec<NodeId>, node: Node<'_, '_>) -> Option<Vec<NodeId>> {
     (open.len() <= DEEPEST).then_some(open)
 }
 
-/// The text with an id in every layer's group, and on every stroke whose width stays, that has none: usvg's tree keeps nothing else
-/// to know them by.
+/// The text with an id added to every layer group and non-scaling stroke that has none: usvg's tree keeps nothing else to
+/// identify them.
 pub(super) fn with_ids<'a>(text: &'a str, document: &Document<'_>) -> Cow<'a, str> {
     let fixed = FixedWidth::of(document);
     let nameless = document.descendants().filter(|node| {
@@ -134,7 +134,7 @@ pub(super) fn with_ids<'a>(text: &'a str, document: &Document<'_>) -> Cow<'a, st
     for (i, node) in nameless.enumerate() {
         let start = node.range().start;
         let name_end = start + text[start..].find(|c: char| c.is_whitespace() || c == '>' || c == '/').unwrap_or(0);
-        // What an entity holds lies where it was declared, and has no place of its own.
+        // The content of an entity has the range of its declaration, so it cannot get an id here.
         if start < at {
             continue;
         }
@@ -149,7 +149,7 @@ fn is_layer(node: Node<'_, '_>) -> bool {
     node.tag_name().name() == "g" && node.attribute((INKSCAPE, "groupmode")) == Some("layer")
 }
 
-/// Which strokes keep their width whatever the drawing is scaled by.
+/// Finds the non-scaling strokes.
 struct FixedWidth<'a> {
     rules: Rules<'a>,
     is_anywhere: bool,
@@ -176,7 +176,7 @@ struct Collector<'a, 'd> {
     outline: Outline,
     hidden: Rules<'a>,
     named: HashMap<&'a str, Node<'a, 'd>>,
-    /// What is dropped in each element that is used elsewhere.
+    /// What is dropped in each element that a `use` refers to.
     used: HashMap<NodeId, Dropped>,
 }
 
@@ -218,12 +218,12 @@ impl<'a, 'd> Collector<'a, 'd> {
         }
     }
 
-    /// What an element that is used elsewhere holds and is not drawn.
+    /// Counts what is not drawn inside an element that a `use` refers to.
     fn dropped_in(&mut self, target: Node<'a, 'd>, depth: usize) -> Dropped {
         if let Some(dropped) = self.used.get(&target.id()) {
             return dropped.clone();
         }
-        // An element that uses itself holds nothing of itself.
+        // An element that uses itself adds nothing the second time.
         self.used.insert(target.id(), Dropped::default());
         let outline = std::mem::take(&mut self.outline);
         if target.tag_name().name() == "symbol" {
@@ -241,12 +241,12 @@ fn href<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).map(str::trim)
 }
 
-/// Whether a `switch` offers something else to readers that do not know its first choice.
+/// True if the node is in a `switch` that has another choice after it.
 fn has_substitute(node: Node<'_, '_>) -> bool {
     node.parent().is_some_and(|parent| parent.has_tag_name((SVG, "switch"))) && node.next_sibling_element().is_some()
 }
 
-/// The number of a group's layer. A layer within a layer is its own only when its label says something of pens.
+/// Adds a group's layer and returns its index. A layer within a layer is separate only if its label names a pen or skips it.
 fn add_layer(group: Node<'_, '_>, around: Option<usize>, outline: &mut Outline) -> usize {
     let id = group.attribute("id").unwrap_or_default();
     let mut label = Label::parse(group.attribute((INKSCAPE, "label")).unwrap_or(id));
@@ -268,7 +268,7 @@ fn is_hidden(node: Node<'_, '_>) -> bool {
     node.attribute("display") == Some("none") || matches!(node.attribute("visibility"), Some("hidden" | "collapse"))
 }
 
-/// Simple selectors (`.class`, `#id`, an element's name) of the style sheets' rules that declare one of some things.
+/// Simple selectors (`.class`, `#id`, an element's name) of the style rules that contain one of the given declarations.
 struct Rules<'a> {
     selectors: HashSet<&'a str>,
     declarations: &'static [&'static str],

@@ -1,6 +1,8 @@
-//! Reading SVG as a drawing. Machines' files are read by [`Profile::read`](crate::plot::Profile::read).
+//! Readers: SVG as a drawing, HP-GL and G-code as pen motion.
 //!
-//! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) and a count of what could not be taken. This is what `plot` draws and what `inspect` and the round-trip tests measure; it shares no code with the writers.
+//! In: the bytes of a file. Out: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot), and a count of what
+//! could not be read. `plot` draws the result; `inspect` and the round-trip tests measure it. The readers share no code with the
+//! writers.
 
 mod budget;
 mod census;

@@ -1,11 +1,11 @@
-//! What an SVG's paint means for a pen: ink, paper, or what no pen can do.
+//! What an SVG's paint means for a pen: ink, paper, or paint that no pen can draw.
 
 use crate::drawing::Colour;
 
-/// The least red, green and blue of paint that is taken for paper: no pen's ink is as light.
+/// Minimum red, green and blue of paint that counts as paper: no pen's ink is that light.
 const WHITE: u8 = 250;
 
-/// What paint is, and how much of it.
+/// A paint's source and opacity.
 #[derive(Clone, Copy)]
 pub(super) struct Paint {
     pub ink: Source,
@@ -33,7 +33,7 @@ impl Paint {
         Self { ink, opacity }
     }
 
-    /// Whether nothing below it is seen.
+    /// True if it hides everything below it.
     pub fn hides(self) -> bool {
         self.opacity >= 1.0 && !matches!(self.ink, Source::Pattern | Source::Gradient { is_opaque: false })
     }

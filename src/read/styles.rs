@@ -1,5 +1,5 @@
-//! Which elements an SVG's element draws by reference (patterns, markers, masks), as attributes and CSS say it, and what it costs
-//! to find that out.
+//! The elements that an SVG element draws by reference (patterns, markers, masks), from attributes and CSS, and the cost of
+//! finding them.
 //!
 //! The cascade is usvg's own: attributes first, then the style sheets' rules, then the `style` attribute.
 
@@ -12,24 +12,24 @@ const SVG: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 const XML: &str = "http://www.w3.org/XML/1998/namespace";
 
-/// A declaration costs the way to it once more: where a value ends, the parser tells its line and column.
+/// Steps per declaration and byte of text: at the end of each value, the parser counts line and column from the start.
 const WAY: f64 = 1.0 / 1600.0;
-/// A declaration that is set.
+/// Steps per declaration that is set.
 const DECLARATION: f64 = 0.125;
-/// A selector's part that is tried on an element, both here and in usvg.
+/// Steps per part of a selector tried on an element, both here and in usvg.
 const TRIAL: f64 = 0.1;
 
 /// The properties that draw other elements.
 pub(super) const PROPERTIES: [&str; 8] =
     ["fill", "stroke", "marker-start", "marker-mid", "marker-end", "mask", "clip-path", "filter"];
-/// Their places.
+/// Their indices in [`PROPERTIES`].
 pub(super) const FILL: usize = 0;
 pub(super) const STROKE: usize = 1;
 pub(super) const MARKERS: std::ops::Range<usize> = 2..5;
-/// Those of the element itself; the ones before are inherited.
+/// The properties of the element itself; the ones before are inherited.
 pub(super) const OWN: std::ops::Range<usize> = 5..8;
 
-/// An element's values, and the steps of setting them.
+/// An element's values of [`PROPERTIES`], and the steps of setting them.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Style<'a> {
     pub values: [Option<&'a str>; 8],
@@ -56,7 +56,7 @@ impl<'a> Style<'a> {
 /// A document's style sheets.
 pub(super) struct Styles<'a> {
     sheet: StyleSheet<'a>,
-    /// Selectors by how many ancestors they look for at any distance.
+    /// Number of selectors by the number of ancestors they search for at any distance.
     selectors: BTreeMap<usize, f64>,
 }
 
@@ -70,7 +70,7 @@ impl<'a> Styles<'a> {
         {
             budget.spend(sheet_steps(text), "style sheets")?;
             rules += text.matches(['{', ',']).count() as f64;
-            // All are sorted anew for each sheet.
+            // All rules are sorted again for each sheet.
             budget.spend(TRIAL * rules, "style sheets")?;
             sheet.parse_more(text);
         }
@@ -82,12 +82,13 @@ impl<'a> Styles<'a> {
         Ok(Self { sheet, selectors })
     }
 
-    /// Whether there are no rules.
+    /// True if there are no rules.
     pub fn is_empty(&self) -> bool {
         self.selectors.is_empty()
     }
 
-    /// The steps of trying all selectors on an element so deep in the tree: of each part that looks for any ancestor, all choices.
+    /// The steps of trying all selectors on an element at a given depth: all choices of ancestor for each part that searches for
+    /// one.
     pub fn trials(&self, depth: usize) -> f64 {
         let choices = |parts: usize| (1..=parts).map(|i| (depth + i) as f64 / i as f64).product::<f64>();
         self.selectors.iter().map(|(parts, number)| TRIAL * number * (*parts as f64 + choices(*parts))).sum()
@@ -128,7 +129,7 @@ fn sheet_steps(text: &str) -> f64 {
     DECLARATION * copies.sum::<f64>() + WAY * text.matches([';', '}']).count() as f64 * text.len() as f64
 }
 
-/// The id that a value such as `url(#id)` refers to; a filter may name several.
+/// The ids that a value such as `url(#id)` refers to; a filter may name several.
 pub(super) fn references(value: &str) -> impl Iterator<Item = &str> {
     value.split("url(").skip(1).filter_map(|rest| {
         let target =

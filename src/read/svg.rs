@@ -1,4 +1,4 @@
-//! SVG as a drawing: usvg resolves the geometry, one pass over the XML the layers and kinds of marks.
+//! SVG as a drawing: usvg resolves the geometry; one pass over the XML finds the layers and kinds of marks.
 
 use super::Dropped;
 use super::budget::{Budget, TooMuchWork};
@@ -14,30 +14,30 @@ use crate::drawing::{Drawing, Layer, Page, Painted};
 use std::borrow::Cow;
 use thiserror::Error;
 
-/// A sheet's least side, in millimetres: files are written in thousandths, and a narrower one would have none there.
+/// Minimum side of a sheet, in millimetres: files are written in thousandths, and a narrower sheet would be written as zero.
 const NARROWEST: f64 = 0.0006;
 
-/// Why an SVG could not be read.
+/// Error of reading an SVG.
 #[derive(Debug, Error)]
 pub enum SvgError {
     /// Not text.
     #[error("is not an SVG: it is neither UTF-8 nor UTF-16 text")]
     NotText,
     /// Broken gzip.
-    #[error("is not an SVG: it begins as gzip (.svgz) and cannot be unpacked")]
+    #[error("is not an SVG: it begins as gzip (.svgz) but cannot be decompressed")]
     Packed,
-    /// Groups within groups without end; the number is how deep they may be.
-    #[error("cannot be used as an SVG: its groups are nested more than {0} deep, with what they use and refer to")]
+    /// Groups nested too deep; holds the limit.
+    #[error("cannot be used as an SVG: its groups are nested more than {0} deep, uses and references included")]
     TooDeep(usize),
-    /// Entities within entities without end.
+    /// Entities nested too deep.
     #[error("cannot be used as an SVG: its entities are nested more than 10 deep")]
     Entities,
     /// An element that is drawn within itself.
-    #[error("cannot be used as an SVG: '{0}' refers back to itself, by its own parts or by what they refer to")]
+    #[error("cannot be used as an SVG: '{0}' refers back to itself, directly or through other elements")]
     Circle(String),
-    /// More elements than usvg takes.
+    /// More elements than usvg accepts.
     #[error(
-        "cannot be used as an SVG: it has {0} elements with all uses written out, and at most 1000000 can be read; join paths into one"
+        "cannot be used as an SVG: it has {0} elements with all uses expanded, and at most 1000000 can be read; join paths into one"
     )]
     Elements(f64),
     /// Broken XML.
@@ -46,32 +46,32 @@ pub enum SvgError {
     /// Not SVG, or beyond usvg's limits.
     #[error("cannot be used as an SVG: {0}")]
     Svg(#[from] usvg::Error),
-    /// A sheet that no machine has.
+    /// Page size out of range; holds width and height in millimetres.
     #[error(
-        "cannot be used as an SVG: its page is {0} x {1} mm, and sides from 0.001 mm to 100 m can be read; give it another width and height"
+        "cannot be used as an SVG: its page is {0} x {1} mm, and sides must be from 0.001 mm to 100 m; change its width and height"
     )]
     Page(f64, f64),
-    /// More than may be read at once.
+    /// More work than the limit.
     #[error("cannot be used as an SVG: it {0}")]
     Work(#[from] TooMuchWork),
 }
 
-/// An SVG as a drawing, and what was not taken.
+/// An SVG as a drawing, and what was not read.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// Its sheet.
     pub page: Page,
     /// Layers in painting order.
     pub layers: Vec<ImportedLayer>,
-    /// Its marks from the lowest to the uppermost, with the white between them.
+    /// Its marks from bottom to top, with the white areas between them.
     pub painting: Vec<Painted>,
-    /// What was not taken, by kind.
+    /// What was not read, by kind.
     pub dropped: Dropped,
-    /// The recipe, when drypoint wrote it.
+    /// The recipe, if drypoint wrote the file.
     pub recipe: Option<String>,
-    /// What its labels' speeds mean, when drypoint wrote them for a plotter.
+    /// The meaning of its labels' speeds, if drypoint wrote them for a plotter.
     pub speeds: Option<LabelSpeeds>,
-    /// Whether it holds tool paths that drypoint wrote, which are never lowered again.
+    /// True if it holds tool paths that drypoint wrote, which are never lowered again.
     pub is_toolpaths: bool,
 }
 
@@ -80,12 +80,12 @@ pub struct Imported {
 pub struct ImportedLayer {
     /// Its marks.
     pub layer: Layer,
-    /// Areas that are the outlines of swelling strokes.
+    /// Number of areas that are the outlines of swelling strokes.
     pub swells: usize,
 }
 
 impl ImportedLayer {
-    /// Dots, strokes and areas.
+    /// Numbers of dots, strokes (swelling ones included) and areas.
     pub fn counts(&self) -> [usize; 3] {
         let [dots, strokes, areas] = self.layer.counts();
         [dots, strokes + self.swells, areas - self.swells]
@@ -99,12 +99,12 @@ impl Imported {
     }
 }
 
-/// Reads an SVG. Layers are Inkscape's, by their labels' conventions; without any, each colour is a layer.
+/// Reads an SVG. Layers are Inkscape's, with the conventions of their labels; marks outside them get one layer per colour.
 pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
     read_svg_within(bytes, &mut Budget::default())
 }
 
-/// The same with a limit of its own on the work.
+/// [`read_svg`] with a given work limit.
 pub fn read_svg_within(bytes: &[u8], budget: &mut Budget) -> Result<Imported, SvgError> {
     let given = text_of(bytes, budget)?;
     take_text(&given, budget)?;

@@ -6,7 +6,7 @@ use flate2::read::GzDecoder;
 use std::borrow::Cow;
 use std::io::Read;
 
-/// The text of a file's bytes, unpacked as far as the budget goes.
+/// The text of a file's bytes, decompressed as far as the budget allows.
 pub(super) fn text_of<'a>(bytes: &'a [u8], budget: &mut Budget) -> Result<Cow<'a, str>, SvgError> {
     match bytes {
         [0x1f, 0x8b, ..] => {
@@ -43,7 +43,7 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, SvgError> {
     }
 }
 
-/// Whether the XML declaration names a one-byte encoding whose letters are Unicode's first 256.
+/// True if the XML declaration names a one-byte encoding that matches Unicode's first 256 characters.
 fn says_latin_1(bytes: &[u8]) -> bool {
     let start: String = bytes.iter().take(120).map(|&byte| char::from(byte).to_ascii_lowercase()).collect();
     let declaration = start.split("?>").next().unwrap_or_default();

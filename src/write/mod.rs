@@ -1,8 +1,7 @@
-//! Writing: a [`Drawing`](crate::drawing::Drawing) as the bytes of a file for print, for the screen or for a painting program. Files for
-//! machines are written by a [`Job`](crate::plot::Job).
+//! Writers: a [`Drawing`](crate::drawing::Drawing) or a [`Plot`](crate::plot::Plot) as the bytes of a file.
 //!
-//! Nothing here knows of styles or file names; numbers are snapped to the format's grid before they are differenced, so that
-//! rounding never drifts.
+//! Nothing here knows of styles or file names. Numbers are snapped to the format's grid before differences are taken, so rounding
+//! errors never accumulate.
 
 mod number;
 mod pdf;

@@ -1,13 +1,13 @@
-//! Decimal numbers, as short as they can be.
+//! Decimal numbers in their shortest form.
 
 use std::fmt::Write;
 
-/// A length in millimetres on the grid of 0.001 mm that files use.
+/// Converts a length in millimetres to whole units of 0.001 mm, the grid of files.
 pub fn thousandths(mm: f64) -> i64 {
     (mm * 1000.0).round() as i64
 }
 
-/// Appends a whole number of `10^-digits` without needless zeros: 1500 thousandths are `1.5`, -20 are `-.02`.
+/// Appends `value` in units of `10^-digits`, without redundant zeros: 1500 thousandths are `1.5`, -20 are `-.02`.
 pub fn decimal(out: &mut String, value: i64, digits: u32) {
     let scale = 10_i64.pow(digits);
     if value < 0 {

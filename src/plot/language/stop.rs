@@ -5,36 +5,36 @@ use thiserror::Error;
 /// Where a machine stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The line that it did not finish, from 1, as a sender shows it.
+    /// The line that was not finished, from 1, as a sender shows it.
     Line(usize),
-    /// The byte that it did not take, from 0.
+    /// The first byte that was not received, from 0.
     Byte(usize),
-    /// The pen-down path that it did not finish, from 1, in the order of the file.
+    /// The pen-down path that was not finished, from 1, in file order.
     Path(usize),
 }
 
 /// Why a file cannot be resumed.
 #[derive(Debug, Error, PartialEq, Eq)]
 pub enum ResumeError {
-    /// Nothing is left to do there.
-    #[error("{stop} lies beyond the last drawn path of the file; it has {count}")]
+    /// The stop is past the end of the file.
+    #[error("{stop} is past the end of the file, which has {count}")]
     Beyond {
-        /// What was asked for, in words.
+        /// The given stop, such as `line 12`.
         stop: String,
-        /// How many lines, bytes or paths there are, in words.
+        /// Number of lines, bytes or paths in the file, such as `10 lines`.
         count: String,
     },
-    /// A number that is none or infinite, which no machine may get.
+    /// A number that is NaN, infinite or malformed, which must not reach a machine.
     #[error("{place}: '{number}' is not a finite number; write a number up to 1e30")]
     NotFinite {
-        /// The line or byte, in words.
+        /// The line or byte, such as `line 12`.
         place: String,
-        /// What stands there.
+        /// The text found there.
         number: String,
     },
-    /// The commands for pen up and pen down are not known.
+    /// The file's header does not name its pen commands.
     #[error(
-        "the file does not say how the pen is lifted: its header needs the comments 'pen up is ...' and 'pen down is ...', as in files that drypoint writes"
+        "the file does not name its pen commands: its header needs the comments 'pen up is ...' and 'pen down is ...', as in files that drypoint writes"
     )]
     NoPen,
     /// The machine is driven by a program of its own, which alone knows where it stopped.

@@ -1,4 +1,4 @@
-//! Marks as path operators, in millimetres on the grid of 0.001 mm.
+//! Marks as PDF path operators, in millimetres on the grid of 0.001 mm.
 
 use super::ink::Paint;
 use crate::drawing::{Dot, Drawing, Ends, Layer, Mark, Stroke, Width};
@@ -9,12 +9,12 @@ use std::fmt::Write as _;
 
 /// The paper's resource name.
 pub(super) const PAPER: &str = "P";
-/// Bytes after which a new piece of content begins, so that pieces can be compressed side by side.
+/// Bytes after which a new piece of content begins, so that pieces can be compressed in parallel.
 const PIECE: usize = 1 << 20;
-/// A disc of radius 1 around the origin. Set down anew for each dot behind the matrix that places it: compressed, a repetition
-/// costs three bytes (100,000 dots are 1.1 MB, against 5.2 MB as curves of their own). A form `XObject` saves a tenth more, but layout
-/// programs wrap each use in a clipped group, and readers take half as long again.
-/// The handles are those that give the disc's exact area, 0.551785 of the radius.
+/// A disc of radius 1 around the origin. Repeated for each dot after the matrix that places it: compressed, a repetition costs
+/// three bytes (100,000 dots are 1.1 MB, against 5.2 MB as separate curves). A form `XObject` saves a tenth more, but layout
+/// programs wrap each use in a clipped group, and readers take half as long again. The handles are 0.551785 of the radius, which
+/// gives the disc's exact area.
 const DISC: &str = " cm 1 0 m 1 .551785 .551785 1 0 1 c -.551785 1 -1 .551785 -1 0 c -1 -.551785 -.551785 -1 0 -1 c .551785 -1 1 -.551785 1 0 c f Q\n";
 
 /// The resource name of the i-th layer.
@@ -22,10 +22,10 @@ pub(super) fn layer_name(i: usize) -> String {
     format!("L{i}")
 }
 
-/// The page's content, cut between marks into pieces that belong one after the other.
+/// The page's content, split between marks into consecutive pieces.
 pub(super) fn pieces(drawing: &Drawing, spots: &[&str], units_a_mm: f64) -> Vec<String> {
     let mut writer = Writer { pieces: Vec::new(), text: String::new(), pen: Pen::default() };
-    // From here on lengths are millimetres, y down, from the sheet's upper left corner.
+    // From here on lengths are in millimetres, y down, from the sheet's upper left corner.
     let (page, scale) = (&drawing.page, units_a_mm);
     let _ = writeln!(writer.text, "{scale:.10} 0 0 -{scale:.10} 0 {:.6} cm 1 j", page.height * scale);
     if super::has_paper(drawing) {
@@ -45,7 +45,7 @@ pub(super) fn pieces(drawing: &Drawing, spots: &[&str], units_a_mm: f64) -> Vec<
     writer.pieces
 }
 
-/// What the reader has been told and need not be told again.
+/// The current graphics state, which need not be set again.
 #[derive(Default)]
 struct Pen {
     paint: Option<Paint>,
@@ -82,7 +82,7 @@ impl Writer {
 
     fn disc(&mut self, centre: Point, radius: f64) {
         let text = &mut self.text;
-        // A digit more than elsewhere: 0.001 mm of a small dot's radius would be a percent of its ink.
+        // One more digit than elsewhere: 0.001 mm of a small dot's radius is a percent of its ink.
         let radius = (radius * 10_000.0).round() as i64;
         text.push_str("q ");
         decimal(text, radius, 4);
@@ -94,7 +94,7 @@ impl Writer {
     }
 
     fn line(&mut self, stroke: &Stroke, width: i64) {
-        // A width of 0 would be the device's thinnest line, not none.
+        // In PDF, a width of 0 is the device's thinnest line, not an invisible one.
         if width == 0 || stroke.curve.elements().is_empty() {
             return;
         }
@@ -125,7 +125,7 @@ fn point(text: &mut String, p: Point) {
     decimal(text, thousandths(p.y), 3);
 }
 
-/// Path construction operators; a quadratic curve becomes the cubic that it is.
+/// Appends path construction operators; quadratic curves are written as equal cubics.
 fn path(text: &mut String, path: &BezPath) {
     let mut at = Point::ORIGIN;
     for element in path.elements() {

@@ -3,7 +3,7 @@
 use crate::drawing::{Colour, Ink, Layer, Mixing};
 use std::fmt::Write as _;
 
-/// The graphics states that knock out what lies below, or print over it.
+/// Resource names of the graphics states that knock out the ink below, or overprint it.
 pub(super) const KNOCK_OUT: &str = "K";
 pub(super) const OVERPRINT: &str = "O";
 
@@ -12,20 +12,20 @@ pub(super) fn space_name(i: usize) -> String {
     format!("S{i}")
 }
 
-/// What a mark is painted with.
+/// The paint of a mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
     /// `DeviceGray`: the black plate alone.
     Grey(u8),
     /// `DeviceRGB`.
     Rgb(Colour),
-    /// A spot ink in full, by its number; `overprints` when what lies below stays.
+    /// A spot ink at full tint, by its number; `overprints` keeps the ink below.
     Spot { number: usize, overprints: bool },
 }
 
 impl Paint {
-    /// Of a mark with or without a colour of its own. Beside black or spot ink a neutral colour (white, most often) is grey, so
-    /// that no mark calls for colour plates without need.
+    /// The paint of a mark with or without its own colour. In a layer of black or spot ink, a neutral colour (usually white)
+    /// becomes grey, so that it needs no colour plates.
     pub(super) fn of(layer: &Layer, own: Option<Colour>, spots: &[&str]) -> Self {
         match (own, &layer.ink) {
             (Some(colour), Ink::Black | Ink::Spot(_)) if colour.r == colour.g && colour.g == colour.b => Self::Grey(colour.r),
@@ -39,7 +39,7 @@ impl Paint {
         }
     }
 
-    /// Appends the operators that choose it for fills and strokes; `has_spots` says whether overprinting is an issue at all.
+    /// Appends the operators that select it for fills and strokes; the graphics state is written only if the file `has_spots`.
     pub(super) fn select(self, text: &mut String, has_spots: bool) {
         if has_spots {
             let state = if matches!(self, Self::Spot { overprints: true, .. }) { OVERPRINT } else { KNOCK_OUT };
@@ -62,7 +62,7 @@ impl Paint {
     }
 }
 
-/// 0 to 255 as 0 to 1, to four digits, which every byte survives.
+/// Converts 0 to 255 to 0 to 1 with four decimals, which distinguishes all bytes.
 fn fraction(byte: u8) -> String {
     let mut text = String::new();
     crate::write::decimal(&mut text, (f64::from(byte) / 255.0 * 10_000.0).round() as i64, 4);

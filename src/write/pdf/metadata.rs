@@ -1,4 +1,4 @@
-//! Who made the file from what: the information dictionary, and the same as XMP with the recipe (ISO 32000-1, 14.3).
+//! Metadata: the information dictionary, and the same as XMP with the recipe (ISO 32000-1, 14.3).
 
 use crate::write::SvgHead;
 use pdf_writer::writers::DocumentInfo;
@@ -46,7 +46,7 @@ pub(super) fn packet(head: &SvgHead, seconds: Option<u64>) -> String {
     text
 }
 
-/// As the text of an XML element; characters that XML cannot hold become spaces.
+/// Escapes the text of an XML element; characters that XML does not allow become spaces.
 fn escaped(text: &str) -> String {
     text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
         match c {
@@ -60,7 +60,7 @@ fn escaped(text: &str) -> String {
     })
 }
 
-/// Year, month, day, hour, minute and second of a time in seconds since 1970, at most the year 9999.
+/// Year, month, day, hour, minute and second of a time in seconds since 1970; the year is at most 9999.
 fn date(seconds: u64) -> [u64; 6] {
     let is_leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
     let (mut day, time) = (seconds / 86_400, seconds % 86_400);

@@ -1,9 +1,9 @@
-//! PDF for the press: one page at exact size, the drawing's ink as vectors, its layers as optional content. There are no fonts.
+//! PDF for print: one page at exact size, the drawing's ink as vectors, its layers as optional content. There are no fonts.
 //!
 //! ```text
 //! catalog   optional-content groups, named like the SVG's layers; XMP metadata with the recipe
 //! page      MediaBox = TrimBox = the drawing's page
-//! contents  /OC /L0 BDC q (ink) marks Q EMC          one such block a layer
+//! contents  /OC /L0 BDC q (ink) marks Q EMC          one block per layer
 //! ```
 //!
 //! Ink `k` is `DeviceGray`, which a press puts on the black plate alone; `spot:NAME` is a Separation; colours are `DeviceRGB`
@@ -23,11 +23,11 @@ use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
-/// Points in a millimetre.
+/// PDF points per millimetre.
 const POINTS_A_MM: f64 = 72.0 / 25.4;
-/// The longest side of a page in units (Acrobat's limit, ISO 32000-1, annex C); on a larger sheet each unit is several points.
+/// Maximum side of a page in units (Acrobat's limit, ISO 32000-1, annex C); on a larger sheet each unit is several points.
 const MOST_UNITS: f64 = 14_400.0;
-/// Of the compressor, 0 to 10: one more saves a percent and takes half as long again.
+/// Compression level, 0 to 10: one higher saves a percent and takes half as long again.
 const COMPRESSION: Compression = Compression::new(6);
 
 const CATALOG: Ref = Ref::new(1);
@@ -40,7 +40,7 @@ const OVERPRINT: Ref = Ref::new(7);
 const PAPER: Ref = Ref::new(8);
 const FIRST_LAYER: i32 = 9;
 
-/// Writes a drawing with its ink at exact size; `seconds` since 1970 is the date that the file gets, if any.
+/// Writes a drawing with its ink at exact size. `seconds` since 1970 is the file's date, if any.
 ///
 /// The ink is that of [`write_svg`](crate::write::write_svg): the same coordinates on the same grid.
 pub fn write_pdf(drawing: &Drawing, head: &SvgHead, seconds: Option<u64>, out: &mut impl io::Write) -> io::Result<()> {
@@ -72,11 +72,11 @@ fn compressed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     out.finish()
 }
 
-/// How the page's millimetres become the file's units.
+/// Conversion of millimetres to the file's units.
 #[derive(Clone, Copy)]
 struct Scale {
     units_a_mm: f64,
-    /// Points in a unit, 1 but for very large sheets.
+    /// Points per unit: 1, except for very large sheets.
     user_unit: f64,
 }
 
@@ -88,7 +88,7 @@ impl Scale {
     }
 }
 
-/// Each spot ink once, in the order of the layers.
+/// The distinct spot inks, in the order of the layers.
 fn spot_names(layers: &[Layer]) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for layer in layers {
@@ -139,7 +139,7 @@ fn catalog(pdf: &mut Pdf, drawing: &Drawing, layers: &[Ref]) {
     }
 }
 
-/// The paper's colour is shown but not printed: the press has paper of its own.
+/// Adds the optional-content group of the paper's colour, which is shown but not printed.
 fn paper_group(chunk: &mut Chunk) {
     let mut group = chunk.indirect(PAPER).dict();
     group.pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr("paper"));
@@ -163,7 +163,7 @@ fn page(pdf: &mut Pdf, drawing: &Drawing, spots: &[&str], layers: &[Ref], conten
             .insert(Name(ink::space_name(i).as_bytes()))
             .start::<pdf_writer::writers::ColorSpace>()
             .separation(Name(name.as_bytes()));
-        // Shown in black, like in the SVG: tint 0 is white, 1 black.
+        // Shown in black, as in the SVG: tint 0 is white, 1 black.
         separation.alternate_color_space().device_gray();
         separation.tint_exponential().domain([0.0, 1.0]).range([0.0, 1.0]).c0([1.0]).c1([0.0]).n(1.0);
     }
@@ -186,7 +186,7 @@ fn graphics_states(chunk: &mut Chunk) {
     chunk.ext_graphics(OVERPRINT).overprint(true).overprint_fill(true).overprint_mode(OverprintMode::IgnoreZeroChannel);
 }
 
-/// The same drawing gets the same identifier.
+/// The file identifier, a hash of the content: the same drawing gets the same identifier.
 fn identifier(streams: &[Vec<u8>], packet: &str) -> Vec<u8> {
     let mut hash = Sha256::new();
     for stream in streams {

@@ -1,4 +1,4 @@
-//! SVG in millimetres: a drawing with its ink, in the layers that Inkscape and plotter programs know.
+//! SVG in millimetres: a drawing with its ink, or a plot's tool paths, in layers as Inkscape and plotter programs read them.
 //!
 //! ```text
 //! svg  width="90mm" height="120mm" viewBox="0 0 90 120"
@@ -10,8 +10,8 @@
 //!     g id="layer1-areas"    filled outlines
 //! ```
 //!
-//! The group's id tells what its paths are, since readers turn circles into paths; marks stay in painting order, so a kind that
-//! comes again gets a new group (`layer1-dots.2`).
+//! The group's id names the kind of its paths, since readers turn circles into paths. Marks stay in painting order, so a kind
+//! that recurs gets a new group (`layer1-dots.2`).
 
 mod path_data;
 
@@ -26,23 +26,23 @@ use svg::Node;
 use svg::node::Blob;
 use svg::node::element::{Description, Element, Group, Rectangle, SVG, Title};
 
-/// What stands at the head of a file.
+/// Title, description and recipe at the head of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SvgHead {
-    /// A short name of the picture.
+    /// Short name of the picture.
     pub title: String,
-    /// One sentence on what it is.
+    /// One sentence describing it.
     pub description: String,
-    /// All that is needed to make the picture again, as JSON; empty for none.
+    /// Everything needed to reproduce the picture, as JSON; empty for none.
     pub recipe: String,
 }
 
-/// Dots beyond which circles go into common paths: readers refuse about 1,000,000 elements (usvg, librsvg), and the dots may share
-/// the file with other marks.
+/// Maximum number of dots written as circles; more are combined into paths. Readers (usvg, librsvg) refuse about 1,000,000
+/// elements, and the file may hold other marks too.
 const MOST_CIRCLES: usize = 600_000;
-/// Circles in one such path.
+/// Circles per combined path.
 const CIRCLES_A_PATH: usize = 1000;
-/// Digits of a radius after the point: four, since 0.001 mm of a small dot's radius would be a percent of its ink.
+/// Decimals of a radius: four, since 0.001 mm of a small dot's radius is a percent of its ink.
 const RADIUS_DIGITS: u32 = 4;
 const RADIUS_SCALE: f64 = 10_000.0;
 
@@ -80,7 +80,7 @@ pub(crate) fn document(page: &Page, head: &SvgHead, machine: Option<&str>) -> SV
         .add(Description::new().add(svg::node::Text::new(head.description.as_str())));
     let recipe = Some(head.recipe.as_str()).filter(|recipe| !recipe.is_empty());
     if recipe.is_some() || machine.is_some() {
-        // In RDF, the one vocabulary that checkers of SVG let into metadata.
+        // In RDF, the only vocabulary that SVG validators allow in metadata.
         let mut description = Element::new("rdf:Description");
         description.assign("rdf:about", "");
         for (name, text) in [("drypoint:recipe", recipe), ("drypoint:machine", machine)] {
@@ -124,7 +124,7 @@ pub(crate) fn lines_group(id: &str, width: &str, colour: Colour) -> Group {
         .set("stroke-linejoin", "round")
 }
 
-/// What a group of paths holds.
+/// The kind of marks in a group of paths.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Dots,
@@ -153,7 +153,7 @@ impl Kind {
     }
 }
 
-/// The layer's marks as one group for each run of one kind.
+/// The layer's marks, with one group per run of the same kind.
 fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
     let mut seen = [0_usize; 4];
     layer
@@ -247,7 +247,7 @@ fn filled(text: &mut String, mark: &Mark) {
     text.push_str("/>\n");
 }
 
-/// Many dots of one colour as the subpaths of one path.
+/// Writes dots of one colour as the subpaths of one path.
 fn bundle(text: &mut String, dots: &[Mark]) {
     text.push_str("<path d=\"");
     for mark in dots {
@@ -264,7 +264,7 @@ fn bundle(text: &mut String, dots: &[Mark]) {
     text.push_str("/>\n");
 }
 
-/// A disc as two half circles.
+/// Appends a disc as two half circles.
 fn disc_data(text: &mut String, centre: Point, radius: f64) {
     let units = |mm: f64| (mm * RADIUS_SCALE).round() as i64;
     let number = |text: &mut String, value: i64| decimal(text, value, RADIUS_DIGITS);

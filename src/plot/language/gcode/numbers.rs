@@ -1,9 +1,10 @@
-//! No number gets to a machine that is not one.
+//! Checks that all numbers sent to a machine are finite.
 
 use crate::geometry::parse_finite;
 use crate::plot::language::ResumeError;
 
-/// Refuses G-code with a word such as `Xnan` or `Y1e999`. Comments and a controller's own commands are not numbers.
+/// Refuses G-code with a word such as `Xnan` or `Y1e999`. Comments are skipped; a controller's own commands need not hold
+/// numbers.
 pub(super) fn check_gcode(text: &str) -> Result<(), ResumeError> {
     for (i, line) in text.lines().enumerate() {
         let code = line.split(['(', ';', '%']).next().unwrap_or("");
@@ -20,7 +21,7 @@ pub(super) fn check_gcode(text: &str) -> Result<(), ResumeError> {
     Ok(())
 }
 
-/// The words of `X1Y-2e3`, each a letter and what belongs to it.
+/// The words of `X1Y-2e3`, each a letter and its number.
 fn words(text: &str) -> Vec<&str> {
     let bytes = text.as_bytes();
     let begins = |i: usize| {

@@ -1,4 +1,4 @@
-//! G-code as motion: modal absolute moves, and the pen by the profile's own commands.
+//! G-code as motion: modal absolute moves; the pen moves by the profile's own commands.
 
 use super::Strokes;
 use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
@@ -9,14 +9,14 @@ use thiserror::Error;
 #[derive(Debug, Error, PartialEq)]
 pub enum GcodeError {
     /// A word that is not a letter and a number.
-    #[error("line {line}: '{word}' is not a G-code word")]
+    #[error("line {line}: '{word}' is not a G-code word (a letter and a number)")]
     Word {
         /// Line, from 1.
         line: usize,
         /// The word.
         word: String,
     },
-    /// A number that is none, infinite, or too large for any machine.
+    /// A number that is NaN, infinite, or too large for any machine.
     #[error("line {line}: '{word}' is not a finite number; write a number up to 1e30")]
     NotFinite {
         /// Line, from 1.
@@ -24,8 +24,8 @@ pub enum GcodeError {
         /// The word.
         word: String,
     },
-    /// A mode that is not read.
-    #[error("line {line}: {word} is not understood here; drypoint reads absolute moves in millimetres")]
+    /// A mode that is not supported.
+    #[error("line {line}: {word} is not supported; drypoint reads absolute moves in millimetres")]
     Mode {
         /// Line, from 1.
         line: usize,
@@ -37,7 +37,7 @@ pub enum GcodeError {
     Work {
         /// Line, from 1.
         line: usize,
-        /// How much.
+        /// The work counted and the limit.
         #[source]
         work: TooMuchWork,
     },
@@ -62,7 +62,7 @@ pub(super) enum PenLift<'a> {
     },
 }
 
-/// Distance from an arc at which it is followed, in millimetres.
+/// Flattening tolerance of arcs, in millimetres.
 const ARC_TOLERANCE: f64 = 0.002;
 
 struct Reader<'a> {
@@ -101,12 +101,12 @@ pub(super) fn read(text: &str, lift: &PenLift<'_>, budget: &mut Budget) -> Resul
     Ok(reader.motion)
 }
 
-/// Whether a word is a controller's named command, such as `SET_SERVO`.
+/// True if a word is a controller's named command, such as `SET_SERVO`.
 fn is_named(word: &str) -> bool {
     word.len() > 2 && word.bytes().take(2).all(|b| b.is_ascii_alphabetic())
 }
 
-/// The values that a line gives to the axes and an arc's centre.
+/// A line's values for the axes and an arc's centre.
 #[derive(Default)]
 struct Words {
     x: Option<f64>,

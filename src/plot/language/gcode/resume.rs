@@ -1,4 +1,4 @@
-//! G-code: one command a line; the header says which commands lift and lower the pen.
+//! Resumes G-code: one command per line; the header names the commands that lift and lower the pen.
 
 use super::numbers::check_gcode;
 use crate::plot::language::{ResumeError, Stop};
@@ -35,14 +35,14 @@ fn push(rest: &mut String, line: &str) {
     rest.push('\n');
 }
 
-/// The dwell that follows a pen command.
+/// Appends the dwell that follows a pen command, if any.
 fn wait_after(rest: &mut String, lines: &[&str], i: usize) {
     if let Some(wait) = lines.get(i + 1).filter(|line| line.starts_with("G4")) {
         push(rest, wait);
     }
 }
 
-/// The line at which to stop reading, from 0.
+/// The line at which the machine stopped, from 0.
 fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: Stop) -> Result<usize, ResumeError> {
     let beyond = |stop: String, count: String| Err(ResumeError::Beyond { stop, count });
     match stop {
@@ -60,10 +60,10 @@ fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: Stop) -> Result<usize, R
     }
 }
 
-/// How the pen is moved.
+/// The commands that move the pen.
 struct Pen<'a> {
     up: &'a str,
-    /// None for a z axis, whose height differs from path to path.
+    /// `None` for a z axis, whose height differs from path to path.
     down: Option<&'a str>,
 }
 
@@ -80,8 +80,8 @@ impl<'a> Pen<'a> {
         line == self.up || self.down.is_none() && line.starts_with(self.up) && line[self.up.len()..].starts_with(" F")
     }
 
-    /// Whether a line that follows a pen's name waits for its user: it is `M0`, `PAUSE` or whatever else the machine calls it, but no
-    /// move, no dwell, no comment and nothing that moves the pen.
+    /// True if a line after a pen's name pauses for the user: `M0`, `PAUSE` or another command of the machine, but not a move,
+    /// dwell, comment or pen command.
     fn pauses(&self, line: &str) -> bool {
         let is_code = line.starts_with('G') && line[1..].starts_with(|c: char| c.is_ascii_digit());
         !line.is_empty() && !is_code && !line.starts_with(['(', ';', '%']) && !self.lifts(line) && !self.lowers(line)
@@ -95,14 +95,14 @@ impl<'a> Pen<'a> {
     }
 }
 
-/// Whether a line is the comment that says which pen is in the holder, such as `(pen 2: red 0.5)`.
+/// True if a line is the comment that names the pen in the holder, such as `(pen 2: red 0.5)`.
 fn names_pen(line: &str) -> bool {
     let comment = line.strip_prefix(['(', ';']).map(str::trim_start);
     let number = comment.and_then(|text| text.strip_prefix("pen ")?.split_once(':')).map(|(number, _)| number);
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// A number after a letter, outside of comments.
+/// The number after a letter, outside comments.
 fn word(line: &str, letter: char) -> Option<f64> {
     let code = line.split(['(', ';']).next().unwrap_or("");
     let after = code.split_once(letter)?.1;
@@ -110,7 +110,7 @@ fn word(line: &str, letter: char) -> Option<f64> {
     after[..end].parse().ok()
 }
 
-/// A vertex of the path being drawn: the line that goes there, and the height where it changes.
+/// A vertex of the path being drawn: the line that moves there, the position, and the height if it varies along the path.
 #[derive(Clone, Copy)]
 struct Vertex {
     line: usize,
@@ -126,9 +126,9 @@ struct State {
     is_down: bool,
     last_up: usize,
     last_down: usize,
-    /// The last line that said which pen is in use.
+    /// The last line that named the pen in use.
     pen: Option<usize>,
-    /// The last travel.
+    /// The line of the last travel move.
     travel: Option<usize>,
     path: Vec<Vertex>,
 }
@@ -162,13 +162,13 @@ impl State {
         self.feed = if self.is_down { word(line, 'F').or(self.feed) } else { self.feed };
     }
 
-    /// Whether the pen in the holder has a path left; one that was named since the pen went up is named again in what follows.
+    /// True if the pen in the holder has a path left to draw before the next pen is named.
     fn draws_before_next_pen(&self, lines: &[&str], pen: &Pen) -> bool {
         let left = lines[self.last_up + 1..].iter().take_while(|line| !names_pen(line));
         left.into_iter().any(|line| pen.lowers(line))
     }
 
-    /// Says which pen must be in the holder, and waits if it is not the first.
+    /// Appends the comment that names the pen, and the pause that follows it, if any.
     fn restore_pen(&self, rest: &mut String, lines: &[&str], pen: &Pen) {
         let Some(i) = self.pen else { return };
         push(rest, lines[i]);
@@ -177,7 +177,7 @@ impl State {
         }
     }
 
-    /// Goes back a few units along the path and lowers the pen there; returns the line to go on with.
+    /// Goes back at least `again` units along the path and lowers the pen there; returns the line to continue from.
     fn restore_path(&self, rest: &mut String, lines: &[&str], again: f64) -> usize {
         let mut length = 0.0;
         let mut first = self.path.len() - 1;
@@ -204,7 +204,7 @@ impl State {
         if lines.get(next).is_some_and(|line| line.starts_with("G4")) {
             next += 1;
         }
-        // The feed stood in the path's first line, which may not be drawn again.
+        // The feed is in the path's first line, which may not be part of the rest.
         if let (Some(line), Some(feed)) = (lines.get(next).filter(|line| word(line, 'X').is_some()), self.feed)
             && word(line, 'F').is_none()
         {

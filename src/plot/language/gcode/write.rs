@@ -1,4 +1,4 @@
-//! G-code: absolute machine units, the pen's own commands or heights from the profile, arcs where the machine knows them.
+//! G-code: absolute machine units, pen commands or heights from the profile, arcs if the machine supports them.
 
 use super::{Comment, GcodeDialect, Lift, Orders, Travel};
 use crate::geometry::{Point, Step, fit_arcs};
@@ -30,7 +30,7 @@ pub(super) fn write(dialect: &GcodeDialect, orders: &Orders<'_>, out: &mut dyn i
     dialect.end.iter().chain(&dialect.frame).try_for_each(|line| writer.command(line))
 }
 
-/// A place in thousandths of a machine unit.
+/// A point in thousandths of a machine unit.
 type Grid = (i64, i64);
 
 struct Gcode<'a> {
@@ -64,7 +64,7 @@ impl Gcode<'_> {
         Ok(())
     }
 
-    /// How the pen is moved, for whoever resumes the file in its middle.
+    /// Writes comments with the pen commands, which resuming the file in its middle needs.
     fn comment_pen(&mut self) -> io::Result<()> {
         match (self.dialect.lift, self.dialect.height, &self.dialect.pen_up, &self.dialect.pen_down) {
             (Lift::Height, Some(height), ..) => {
@@ -85,8 +85,8 @@ impl Gcode<'_> {
         self.out.write_all(b"\n")
     }
 
-    /// A comment in plain ASCII without the characters that senders and firmware take out (`?!~`), that end it, or that would make it
-    /// a command (`LinuxCNC` acts on comments that begin with MSG and the like; ours begin with a word and a number or are the profile's).
+    /// Writes a comment in plain ASCII, without the characters that senders and firmware remove (`?!~`) or that end the comment.
+    /// `LinuxCNC` executes comments that begin with MSG and the like; ours begin with a word and a number or are the profile's.
     fn comment(&mut self, text: &str) -> io::Result<()> {
         let plain: String = text
             .chars()
@@ -102,7 +102,7 @@ impl Gcode<'_> {
 
     fn pause(&mut self) -> io::Result<()> {
         let Some(pause) = &self.dialect.pause else {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the machine has no word for a pause"));
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the machine's profile has no pause command"));
         };
         self.command(pause)
     }
@@ -124,7 +124,7 @@ impl Gcode<'_> {
                 self.line.clear();
                 self.line.push_str("G0 Z");
                 decimal(&mut self.line, thousandths(height.up), 3);
-                // Where a feed is modal for G0 too, the last travel's would be the lift's.
+                // If the feed is modal for G0 too, the lift would take the last travel's.
                 if self.dialect.travel != Travel::Rapid {
                     let _ = write!(self.line, " F{}", feed(height.plunge_speed));
                 }
@@ -138,7 +138,8 @@ impl Gcode<'_> {
         }
     }
 
-    /// Down to the first vertex's height, and what a touch rests there; a z axis goes down at its plunge feed, never at G0's rate.
+    /// Lowers the pen to the first vertex's height, and dwells there for a touch. A z axis goes down at its plunge feed, never at
+    /// G0's rate.
     fn pen_down(&mut self, path: &Toolpath) -> io::Result<()> {
         match (self.dialect.lift, self.dialect.height, &self.dialect.pen_down) {
             (Lift::Height, Some(height), _) => {
@@ -197,7 +198,7 @@ impl Gcode<'_> {
         Ok(())
     }
 
-    /// An arc lies a little outside its chords: at the very limit of the machine a path stays as it is.
+    /// False near the machine's limits: an arc lies a little outside its chords and could exceed them.
     fn has_room_for_arcs(&self, places: &[Grid]) -> bool {
         let room = 1.5 * self.mounting.tolerance * self.profile.units_per_mm;
         let inner = self.mounting.limits.inset(-room);
@@ -240,12 +241,12 @@ impl Gcode<'_> {
         self.end_line()
     }
 
-    /// Pen up already; to where it does no harm.
+    /// Moves to the park position. The pen is already up.
     fn park(&mut self) -> io::Result<()> {
         self.travel((thousandths(self.mounting.park.x), thousandths(self.mounting.park.y)))
     }
 
-    /// Thousandths of a machine unit, inside the limits (the check has forgiven 0.02 mm).
+    /// Snaps to thousandths of a machine unit, inside the limits (the check allows 0.02 mm beyond them).
     fn snap(&self, p: Point) -> Grid {
         let limits = self.mounting.limits;
         (thousandths(p.x.clamp(limits.x0, limits.x1)), thousandths(p.y.clamp(limits.y0, limits.y1)))
@@ -267,7 +268,7 @@ impl Gcode<'_> {
     }
 }
 
-/// Millimetres a second as whole millimetres a minute, at least 1.
+/// Converts mm/s to whole mm/min, at least 1.
 fn feed(speed: f64) -> i64 {
     ((speed * 60.0).round() as i64).max(1)
 }

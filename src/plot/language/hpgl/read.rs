@@ -12,42 +12,42 @@ pub enum HpglError {
     /// An instruction that is not two letters and numbers.
     #[error("byte {at}: '{text}' is not an HP-GL instruction")]
     Instruction {
-        /// Where it begins.
+        /// Byte offset of the instruction.
         at: usize,
-        /// What stands there.
+        /// The text found there.
         text: String,
     },
-    /// A number that is none, infinite, or too large for any machine.
+    /// A number that is NaN, infinite, or too large for any machine.
     #[error("byte {at}: '{number}' is not a finite number; write a number up to 1e30")]
     NotFinite {
-        /// Where the instruction begins.
+        /// Byte offset of the instruction.
         at: usize,
-        /// What stands there.
+        /// The text found there.
         number: String,
     },
     /// More moves than can be held.
     #[error("byte {at}: the file {work}")]
     Work {
-        /// Where the instruction begins.
+        /// Byte offset of the instruction.
         at: usize,
-        /// How much.
+        /// The work counted and the limit.
         #[source]
         work: TooMuchWork,
     },
     /// An odd number of coordinates.
-    #[error("byte {at}: a coordinate has no partner in '{text}'")]
+    #[error("byte {at}: odd number of coordinates in '{text}'; write x,y pairs")]
     OddCoordinates {
-        /// Where the instruction begins.
+        /// Byte offset of the instruction.
         at: usize,
         /// The instruction.
         text: String,
     },
 }
 
-/// Distance from an arc at which it is followed, in plotter units.
+/// Flattening tolerance of arcs, in plotter units.
 const ARC_TOLERANCE: f64 = 0.1;
 
-/// Begins what is meant for the interface, not the plotter.
+/// Starts an escape sequence, which is for the interface and not the plotter.
 const ESCAPE: char = '\u{1b}';
 
 /// Reads `IN SP VS FS PU PD PA PR PE AA AR PS` and skips other instructions' effects; escape sequences are passed over.
@@ -83,15 +83,15 @@ pub(super) fn instructions(text: &str) -> impl Iterator<Item = (Range<usize>, &s
     })
 }
 
-/// Bytes of the instruction that a text begins with.
+/// Length in bytes of the first instruction of a text.
 fn length(text: &str) -> usize {
-    // Packed numbers may hold any printable character but the one that ends them.
+    // Packed numbers may contain any printable character except their terminator.
     let is_packed = text.get(..2).is_some_and(|name| name.eq_ignore_ascii_case("PE"));
     let end = if is_packed { text.find(';') } else { text.find([';', '\n', ESCAPE]) };
     end.map_or(text.len(), |end| end + usize::from(!text[end..].starts_with(ESCAPE)))
 }
 
-/// An escape sequence is ESC, a point and a letter; some letters take numbers, which a colon ends.
+/// Length in bytes of an escape sequence: ESC, a point and a letter; some letters take numbers, which a colon ends.
 fn escape_length(text: &str) -> usize {
     let letter: usize = text.chars().take(3).map(char::len_utf8).sum();
     if !text.as_bytes().get(2).is_some_and(|letter| b"@HIMNPQSTY".contains(letter)) {
@@ -120,7 +120,7 @@ impl Reader<'_> {
         let (name, parameters) = instruction.split_at(2);
         let name = name.to_ascii_uppercase();
         if name == "PE" {
-            // A pair takes two characters at least.
+            // A pair takes at least two characters.
             self.budget.spend(0.5 * (POINT + PATH) * parameters.len() as f64, "moves").map_err(too_much)?;
             return self.packed(parameters).ok_or_else(refuse);
         }
@@ -157,7 +157,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Centre, and the angle in degrees.
+    /// Draws an arc given its centre and its sweep in degrees. `None` if parameters are missing.
     fn arc(&mut self, numbers: &[f64], is_relative: bool) -> Option<Result<(), TooMuchWork>> {
         let &[x, y, degrees, ..] = numbers else { return None };
         let centre = if is_relative { self.at + Vec2::new(x, y) } else { Point::new(x, y) };
@@ -173,7 +173,7 @@ impl Reader<'_> {
         Some(Ok(()))
     }
 
-    /// Pairs of differences in base 64 or, after a 7, in base 32; `<` lifts the pen for one move and `=` makes one absolute.
+    /// Reads pairs of differences in base 64 or, after a 7, base 32; `<` lifts the pen for one move and `=` makes one absolute.
     fn packed(&mut self, text: &str) -> Option<()> {
         let (mut base, mut value, mut scale) = (64, 0_i64, 1_i64);
         let (mut pair, mut is_up, mut is_absolute) = (Vec::new(), false, false);

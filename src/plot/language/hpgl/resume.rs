@@ -1,4 +1,4 @@
-//! HP-GL: instructions that end with a semicolon, absolute after each pen-up move.
+//! Resumes HP-GL: instructions that end with a semicolon, absolute after each pen-up move.
 
 use super::read::instructions as instructions_of;
 use crate::geometry::parse_finite;
@@ -25,7 +25,7 @@ pub(in crate::plot::language) fn resume(text: &str, stop: Stop, again: f64) -> R
         state.take(instruction, instruction.numbers.len());
     }
     let open = instructions.iter().find(|i| i.start < byte && byte < i.end);
-    // Inside a list of points: those before the byte are done.
+    // Inside a list of points, those before the byte are done.
     if let Some(open) = open.filter(|open| matches!(open.name.as_str(), "PD" | "PA" | "PU")) {
         let done = open.numbers.iter().take_while(|(_, end)| *end <= byte).count() & !1;
         if done > 0 {
@@ -74,18 +74,18 @@ fn byte_of(text: &str, instructions: &[Instruction], stop: Stop) -> Result<usize
     }
 }
 
-/// One instruction with its bytes, and each number with the byte behind it.
+/// One instruction with its byte range, and each number with the byte offset after it.
 struct Instruction<'a> {
-    /// In capitals.
+    /// In upper case.
     name: String,
-    /// Without what ends it.
+    /// Without its terminator.
     text: &'a str,
     start: usize,
     end: usize,
     numbers: Vec<(f64, usize)>,
 }
 
-/// The instructions as they are read.
+/// Splits a text into instructions.
 fn instructions(text: &str) -> Vec<Instruction<'_>> {
     let instruction = |(bytes, body): (Range<usize>, _)| {
         let (name, numbers) = str::split_at_checked(body, 2)?;
@@ -96,7 +96,7 @@ fn instructions(text: &str) -> Vec<Instruction<'_>> {
     instructions_of(text).filter_map(instruction).collect()
 }
 
-/// Refuses what is no number, or none that a machine may get, wherever an instruction takes numbers.
+/// Refuses parameters that are not finite numbers, in instructions that take numbers.
 fn check(instructions: &[Instruction]) -> Result<(), ResumeError> {
     let takes_numbers = |name: &str| matches!(name, "PU" | "PD" | "PA" | "PR" | "AA" | "AR" | "SP" | "VS" | "FS" | "AS");
     for instruction in instructions.iter().filter(|i| takes_numbers(&i.name)) {
@@ -109,7 +109,7 @@ fn check(instructions: &[Instruction]) -> Result<(), ResumeError> {
     Ok(())
 }
 
-/// What stands between commas and blanks, with the byte behind it and what follows it.
+/// The pieces between commas and blanks, each with the byte offset after it and its separator.
 fn pieces(text: &str) -> impl Iterator<Item = (&str, usize)> {
     let mut end = 0;
     let pieces = text.split_inclusive([',', ' ']).map(move |piece| {
@@ -119,7 +119,7 @@ fn pieces(text: &str) -> impl Iterator<Item = (&str, usize)> {
     pieces.filter(|(piece, _)| !piece.is_empty())
 }
 
-/// The last one takes with it whatever ends the instruction.
+/// The numbers of an instruction, each with the byte offset after it. The last one's offset includes the terminator.
 fn numbers(text: &str, offset: usize, end: usize) -> Vec<(f64, usize)> {
     let number = |(piece, behind): (&str, _)| Some((piece.parse().ok()?, offset + behind));
     let mut found: Vec<_> = pieces(text).filter_map(number).collect();
@@ -129,12 +129,12 @@ fn numbers(text: &str, offset: usize, end: usize) -> Vec<(f64, usize)> {
     found
 }
 
-/// A vertex of the path being drawn, and the byte at which the file goes on from there.
+/// A vertex of the path being drawn, and the byte offset at which the file continues from there.
 #[derive(Clone, Copy)]
 struct Vertex {
     at: (f64, f64),
     next: usize,
-    /// Whether more points of the same instruction follow.
+    /// True if more points of the same instruction follow.
     is_inside: bool,
 }
 
@@ -143,13 +143,13 @@ struct State<'a> {
     at: Option<(f64, f64)>,
     is_down: bool,
     pen: Option<&'a str>,
-    /// Speed, force, acceleration and the like as they were set last.
+    /// The last settings of speed, force and acceleration.
     set: BTreeMap<String, &'a str>,
     path: Vec<Vertex>,
 }
 
 impl<'a> State<'a> {
-    /// Takes an instruction, of a list of points only so many numbers.
+    /// Executes an instruction; of a list of points, only its first `numbers` numbers.
     fn take(&mut self, instruction: &Instruction<'a>, numbers: usize) {
         match instruction.name.as_str() {
             "SP" => (self.pen, self.is_down) = (Some(instruction.text), false),
@@ -160,7 +160,7 @@ impl<'a> State<'a> {
             "PD" if !self.is_down => {
                 self.is_down = true;
                 let at = self.at.unwrap_or_default();
-                // The first vertex: the file goes on with this very instruction.
+                // The first vertex: the file continues with this instruction.
                 self.path = vec![Vertex { at, next: instruction.start, is_inside: false }];
             }
             "PE" => self.path.clear(),
@@ -179,7 +179,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// An arc's end, which the next absolute point makes exact.
+    /// Moves to an arc's end, approximately; the next absolute point is exact.
     fn turn(&mut self, arc: &Instruction) {
         let (Some(at), [(x, _), (y, _), (degrees, _), ..]) = (self.at, &arc.numbers[..]) else { return };
         let ((sin, cos), (dx, dy)) = (degrees.to_radians().sin_cos(), (at.0 - x, at.1 - y));
@@ -197,7 +197,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Goes back a few units along the path and goes on from there with the pen down.
+    /// Goes back at least `again` units along the path and continues from there with the pen down.
     fn restore_path(&self, rest: &mut String, text: &str, again: f64) {
         let mut length = 0.0;
         let mut first = self.path.len() - 1;
@@ -252,7 +252,7 @@ mod tests {
         }
     }
 
-    /// Semicolons, ends of lines and the next escape sequence all end an instruction, and letters may be small.
+    /// Semicolons, line ends and escape sequences all end an instruction, and letters may be lower case.
     #[test]
     fn instructions_are_told_apart_as_they_are_read() {
         let stop = |text: &str, byte| resume(text, Stop::Byte(byte), 3.0).unwrap();

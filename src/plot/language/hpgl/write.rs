@@ -1,15 +1,16 @@
 //! HP-GL: absolute integer plotter units, one pen after another.
 //!
 //! ```text
-//! IN;PS4;           the machine is reset, which lifts the pen; the sheet
-//! PU;SP1;VS30;FS2;  a pen is fetched, its speed in cm/s, its force
+//! IN;PS4;           reset the machine, which lifts the pen; set the sheet
+//! PU;SP1;VS30;FS2;  select a pen, its speed in cm/s, its force
 //! PU 10,20;PD 30,40,50,60;      one path; a touch is PU x,y;PD;
-//! PA;AA 30,20,90;   an arc around a centre by whole degrees, where the machine knows them and nothing is lost
-//! PE...;            a path packed into differences, where the machine knows HP-GL/2
-//! PU;PU 0,7721;SP0; the pen is put away beyond the drawing
+//! PA;AA 30,20,90;   an arc around a centre by whole degrees, if the machine supports arcs and the error is within tolerance
+//! PE...;            a path packed into differences, if the machine supports HP-GL/2
+//! PU;PU 0,7721;SP0; put the pen away, clear of the drawing
 //! ```
 //!
-//! Points are rounded before they are differenced, and what follows an arc is absolute again, so rounding never adds up.
+//! Points are rounded before differences are taken, and moves after an arc are absolute again, so rounding errors never
+//! accumulate.
 
 use super::{HpglDialect, Orders, SPEED_STEP};
 use crate::geometry::{Point, Rect, Step, Vec2, fit_arcs};
@@ -25,7 +26,7 @@ pub(super) fn write(dialect: &HpglDialect, orders: &Orders<'_>, out: &mut dyn io
         text.push_str(&paper.setup);
     }
     for (i, pen) in plot.pens.iter().enumerate() {
-        // One pen holder and a new pen: SP0 parks what is there, and the operator changes it.
+        // With one pen holder, SP1 selects every pen and the operator changes it.
         let slot = if profile.pens.change == PenChange::Machine { pen.number } else { 1 };
         if i > 0 {
             text.push_str("PU;");
@@ -53,21 +54,22 @@ pub(super) fn write(dialect: &HpglDialect, orders: &Orders<'_>, out: &mut dyn io
     out.write_all(text.as_bytes())
 }
 
-/// A place in whole plotter units.
+/// A point in whole plotter units.
 type Unit = (i64, i64);
 
-/// Whole centimetres a second.
+/// Speed in whole cm/s.
 fn speed(profile: &Profile, wanted: f64) -> i64 {
     (profile.nearest_speed(wanted) / SPEED_STEP).round() as i64
 }
 
-/// Whole plotter units inside the machine's limits (the check has forgiven less than a unit).
+/// Snaps to whole plotter units inside the machine's limits (the check allows less than a unit beyond them).
 fn snap(m: Point, mounting: &Mounting) -> Unit {
     let limits = mounting.limits;
     (m.x.round().clamp(limits.x0, limits.x1) as i64, m.y.round().clamp(limits.y0, limits.y1) as i64)
 }
 
-/// `room` is where an arc, which lies a little outside its chords, cannot leave the machine.
+/// Writes one path. `room` is the area in which an arc, which lies a little outside its chords, cannot leave the machine's
+/// limits.
 fn path_instructions(text: &mut String, units: &[Unit], dialect: &HpglDialect, room: Rect, tolerance: f64) {
     let mut units = units.to_vec();
     units.dedup();
@@ -83,7 +85,7 @@ fn path_instructions(text: &mut String, units: &[Unit], dialect: &HpglDialect, r
     }
 }
 
-/// `PD` with as many points as fit into an instruction of `chunk` bytes, again and again.
+/// Writes `PD` instructions, each with as many points as fit into `chunk` bytes.
 fn lines(text: &mut String, units: &[Unit], chunk: usize) {
     let mut length = 0;
     for (x, y) in units {
@@ -103,10 +105,10 @@ fn lines(text: &mut String, units: &[Unit], chunk: usize) {
     }
 }
 
-/// Lines, and arcs of whole degrees where they end nearer to their vertex than the tolerance.
+/// Writes lines, and arcs of whole degrees that end within the tolerance of their vertex.
 fn with_arcs(text: &mut String, units: &[Unit], chunk: usize, tolerance: f64) {
     let points: Vec<Point> = units.iter().map(|&(x, y)| Point::new(x as f64, y as f64)).collect();
-    // The grid itself moves each vertex by up to 0.7 units, and the arc's end may lie as far off again.
+    // The grid moves each vertex by up to 0.7 units, and the arc's end may be off by as much again.
     let tolerance = tolerance.max(1.0);
     let (mut straight, mut at) = (Vec::new(), 0);
     for step in fit_arcs(&points, tolerance) {
@@ -117,7 +119,7 @@ fn with_arcs(text: &mut String, units: &[Unit], chunk: usize, tolerance: f64) {
                 let degrees = sweep.to_degrees().trunc();
                 let chord = chord_degrees(points[at].distance(centre), tolerance);
                 let _ = write!(text, "PD;AA{},{},{degrees},{chord};", centre.x.round(), centre.y.round());
-                // What is left of the last degree is drawn in lines, to the very vertex.
+                // The rest of the last degree is drawn in lines, to the exact vertex.
                 let left = first_beyond(&points[at..=end], centre, degrees.to_radians());
                 straight = units[at + left..=end].to_vec();
             }
@@ -128,7 +130,7 @@ fn with_arcs(text: &mut String, units: &[Unit], chunk: usize, tolerance: f64) {
     lines(text, &straight, chunk);
 }
 
-/// Whether an arc around a rounded centre, by the whole degrees of its sweep, keeps to the arc around the very centre.
+/// True if the arc around the rounded centre, by whole degrees, stays within the tolerance of the arc around the exact centre.
 fn arc_is_true(from: Point, centre: Point, sweep: f64, tolerance: f64) -> bool {
     let degrees = sweep.to_degrees().trunc();
     let strays = |part: f64| {
@@ -144,7 +146,7 @@ fn turned(from: Point, centre: Point, angle: f64) -> Point {
     centre + Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
 }
 
-/// The number of the first point, along an arc from the first of them, that lies beyond an angle in radians; the last one at the latest.
+/// The index of the first point, along an arc from point 0, past an angle in radians; the last index if none is.
 fn first_beyond(points: &[Point], centre: Point, angle: f64) -> usize {
     let mut swept = 0.0;
     for (i, pair) in points.windows(2).enumerate() {
@@ -157,15 +159,15 @@ fn first_beyond(points: &[Point], centre: Point, angle: f64) -> usize {
     points.len() - 1
 }
 
-/// The greatest whole angle of a chord whose arc rises less than half the tolerance over it.
+/// The largest whole chord angle, in degrees, at which the arc deviates from its chord by less than half the tolerance.
 fn chord_degrees(radius: f64, tolerance: f64) -> i64 {
     let angle = 2.0 * (1.0 - 0.5 * tolerance / radius.max(tolerance)).acos();
     (angle.to_degrees().floor() as i64).clamp(1, 45)
 }
 
-/// One path as `PE`: differences in base 64, the last digit of each number marked (HP-GL/2, polyline encoded).
+/// Writes one path as `PE`: differences in base 32, the last digit of each number marked (HP-GL/2, polyline encoded).
 fn packed(text: &mut String, units: &[Unit]) {
-    // The 7 asks for the 7-bit form.
+    // The 7 selects the 7-bit form.
     text.push_str("PD;PE7");
     let mut at = units[0];
     for &(x, y) in &units[1..] {
@@ -177,8 +179,9 @@ fn packed(text: &mut String, units: &[Unit]) {
     text.push(';');
 }
 
-/// Sign in the lowest bit, then digits of 6 bits from the lowest: 63 to 126 in ASCII, the last one 191 to 254; here in the 7-bit form,
-/// which every line passes on: digits of 5 bits, 63 to 94, the last one 95 to 126.
+/// Appends a number: sign in the lowest bit, then digits from the lowest. The 8-bit form has digits of 6 bits, 63 to 126 in
+/// ASCII, the last one 191 to 254. This is the 7-bit form, which every serial line transmits: digits of 5 bits, 63 to 94, the
+/// last one 95 to 126.
 fn packed_number(text: &mut String, value: i64) {
     let mut rest = if value < 0 { 2 * value.unsigned_abs() + 1 } else { 2 * value.unsigned_abs() };
     while rest >= 32 {
