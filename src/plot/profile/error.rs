@@ -6,23 +6,23 @@ use thiserror::Error;
 /// Why a profile could not be used.
 #[derive(Debug, Error, PartialEq)]
 pub enum ProfileError {
-    /// No such name.
-    #[error("there is no plotter profile '{name}'; there are {known}, or give the path of a .toml file")]
+    /// There is no built-in profile of this name.
+    #[error("there is no plotter profile '{name}'; choose one of {known}, or give the path of a .toml file")]
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
         /// All built-in names.
         known: String,
     },
-    /// Not TOML, or a key or value that is not a profile's.
+    /// The text is not TOML, or has an unknown key or a value of the wrong type.
     #[error("{place}: {message}")]
     Syntax {
         /// Where it stands.
         place: KeyPlace,
-        /// What is wrong there, the key named.
+        /// What is wrong, with the key's name.
         message: String,
     },
-    /// A value that cannot be.
+    /// A value is out of range or contradicts another.
     #[error("{place}: {key} {problem}")]
     Value {
         /// Where it stands.
@@ -46,7 +46,7 @@ pub enum KeyPlace {
         /// The line, from 1.
         line: usize,
     },
-    /// It was set over the file's keys.
+    /// Not in a file: the key was set as an override.
     Set,
 }
 
