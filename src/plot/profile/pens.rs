@@ -76,7 +76,7 @@ impl Swell {
     pub(super) fn check(&self) -> Result<(), Refusal> {
         let grows = self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
         if self.table.len() < 2 || !grows || !are_near(self.table.as_flattened()) {
-            return Err(Refusal::new("swell.table", "must contain at least two [width, height] pairs in order of increasing width"));
+            return Err(Refusal::new("swell.table", "must contain two or more [width, height] pairs of increasing width"));
         }
         Ok(())
     }
