@@ -16,8 +16,8 @@ const STEP: f64 = 0.25;
 /// Number of directions of a step.
 const WAYS: usize = 16;
 /// Pairs of the least share of newly laid ink that must lie on threads, and the share of a piece's ink drawn at that level: the
-/// best places first. Tuned on the hedcuts of the tests, of which the dark bust at a nib of 0.8 mm spills most: with 1 as every
-/// second value, it spills more than 3 % of its ink; without the last level, threads of half a nib and less would be lost.
+/// best places first. Tuned on the hedcuts of the tests, of which the dark bust at a nib of 0.8 mm spills most: with 1 at all
+/// levels, it spills more than 3 % of its ink; without the last level, threads of half a nib and less would be lost.
 const LEVELS: [(f64, f64); 4] = [(0.95, 1.0), (0.9, 1.0), (0.8, 0.5), (0.6, 0.15)];
 /// Least share of a touch, and of a step, that must lie on bare threads.
 const LEAST_TOUCH: f64 = 0.4;

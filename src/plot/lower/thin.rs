@@ -4,8 +4,8 @@ use crate::drawing::Mark;
 use crate::geometry::{Point, thinned};
 use crate::interrupt::Interrupt;
 
-/// True for each mark that is drawn. A dot smaller than the nib would lay down a full nib's disc, so it is drawn with a
-/// probability-like share: its area over that disc, in blue-noise order with its neighbours.
+/// True for each mark that is drawn. A dot smaller than the nib would lay down a full nib's disc, so its area over that disc is its
+/// share, and of neighbouring dots as many are drawn as their shares add up to.
 pub(super) fn keeps_tone(marks: &[Mark], nib: f64, interrupt: &Interrupt) -> Vec<bool> {
     let smallest = 0.5 * nib;
     let is_small = |mark: &Mark| matches!(mark, Mark::Dot(dot) if dot.radius < smallest && dot.centre.is_finite());

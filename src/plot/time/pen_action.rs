@@ -1,33 +1,33 @@
-//! What a profile's command for the pen makes the machine do.
+//! The effect of a profile's pen commands on the machine.
 
 /// One part of a pen command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum PenAction {
-    /// The motion comes to rest: a servo, a spindle, whatever is not a move.
+    /// The motion comes to rest: a servo, a spindle, anything that is not a move.
     Rest,
-    /// A wait of its own, in seconds.
+    /// A wait, in seconds.
     Wait(f64),
-    /// A move, such as a Z axis's.
+    /// A move, such as of the z axis.
     Move {
-        /// Where to, in machine units; an axis without a word stays.
+        /// Target in machine units; an axis without a word does not move.
         target: [Option<f64>; 3],
-        /// How fast.
+        /// The speed.
         rate: Rate,
     },
 }
 
-/// How fast a pen command moves.
+/// The speed of a pen command's move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rate {
-    /// As fast as the axes go.
+    /// The axes' maximum rate.
     Greatest,
-    /// Machine units a second.
+    /// Machine units per second.
     Given(f64),
-    /// As the last drawn line.
+    /// The rate of the last drawn line.
     Last,
 }
 
-/// The parts of a command of one or more lines; `dwell` is the profile's own command for a wait, which shows its unit.
+/// The parts of a command of one or more lines. `dwell` is the profile's wait command, which shows its unit.
 pub(super) fn pen_actions(command: &str, dwell: &str) -> Vec<PenAction> {
     command.lines().filter_map(|line| action(line.split(['(', ';']).next().unwrap_or(""), dwell)).collect()
 }
@@ -53,7 +53,7 @@ fn action(line: &str, dwell: &str) -> Option<PenAction> {
     Some(if moves { PenAction::Move { target, rate } } else { PenAction::Rest })
 }
 
-/// Letters with their numbers, with or without space between them.
+/// Letters with their numbers, separated by spaces or not.
 fn words(line: &str) -> Vec<(char, f64)> {
     let upper = line.to_ascii_uppercase();
     let mut words = Vec::new();
