@@ -53,7 +53,7 @@ pub struct Calibration {
 #[derive(Debug, Error, PartialEq)]
 pub enum CalibrationError {
     /// The machine or sheet is too small.
-    #[error("the test sheet needs {needed:.0} x {needed:.0} mm, but only {width:.1} x {height:.1} mm of this sheet can be drawn on")]
+    #[error("the test sheet needs {needed:.0} x {needed:.0} mm, but this sheet has {width:.1} x {height:.1} mm to draw on")]
     NoRoom {
         /// Side of the area that it needs.
         needed: f64,

@@ -23,7 +23,7 @@ pub(super) type Place = [f64; 3];
 
 /// Number of blocks kept before those with final speeds are timed.
 const KEPT: usize = 1 << 14;
-/// Cosines above this are a straight line or a reversal, as in GRBL.
+/// Cosines above this in magnitude are a straight line or a reversal, as in GRBL.
 const STRAIGHT: f64 = 0.999_999;
 /// GRBL's minimum rate, mm/s.
 const SLOWEST: f64 = 1.0 / 60.0;
