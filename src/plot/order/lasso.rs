@@ -2,9 +2,8 @@
 //!
 //! ```text
 //!                 ____
-//!      a---------p    \          The path from a continues around the loop and ends where it met it. An end that meets the
-//! inside of
-//!                |     |         an open path saves nothing: cut in two there, it would still have to be lifted for one half.
+//!      a---------p    \          The path from a continues around the loop and ends where it met it. An end that meets the inside
+//!                |     |         of an open path saves nothing: cut in two there, one half would still need a lift.
 //!                 \____/
 //! ```
 
