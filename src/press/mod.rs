@@ -1,7 +1,7 @@
 //! The press: compensates in the drawing for what a press does to ink.
 //!
 //! Ink spreads on its way to the paper, and light that enters the paper beside it is lost under it: each mark's border seems to
-//! move outwards by the same distance, whatever the mark's size. In this border-zone model, dot gain is proportional to the
+//! move outwards by the same distance, whatever the mark's size. In this border-zone model, dot gain grows with the
 //! length of the borders; Viggiano (The GRL Dot Gain Model, TAGA 1983) derives his `sqrt(a (1 - a))` law from it. It holds for
 //! stipples and lines of any pitch, whereas a tone curve (Murray-Davies, Yule-Nielsen) holds only for the screen on which it was
 //! measured and would make coarse marks far too thin. So the usual figure for a press, the gain of a 50 % screen tint, is
