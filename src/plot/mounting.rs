@@ -220,7 +220,7 @@ impl Mounting {
         Self { to_machine, limits, paper: None, turn: Turn::Upright, park, frame: None, tolerance: ARC_TOLERANCE, offsets }
     }
 
-    /// Where a pen is sent to draw at a point of the page, in machine units.
+    /// The position of a pen that draws at a point of the page, in machine units.
     pub fn place(&self, pen: u32, p: Point) -> Point {
         self.to_machine * p + self.offsets.iter().find(|(slot, _)| *slot == pen).map_or(Vec2::ZERO, |(_, offset)| *offset)
     }

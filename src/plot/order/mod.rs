@@ -82,7 +82,7 @@ pub enum Effort {
     Full,
 }
 
-/// Whether paths may be drawn backwards.
+/// The directions in which paths may be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Direction {
     /// In either direction, whichever is nearer.

@@ -235,7 +235,7 @@ fn best_seat(ring: &[Point], a: Option<Point>, b: Option<Point>) -> Seat {
     best
 }
 
-/// The same on one edge: where the straight line from `a` to `b`, mirrored at the edge if both lie on the same side, crosses the
+/// The best entry on one edge: where the straight line from `a` to `b`, mirrored at the edge if both lie on the same side, crosses the
 /// edge. The way is convex along the edge, so beyond its ends the nearer end is best.
 fn best_on_edge(from: Point, to: Point, a: Option<Point>, b: Option<Point>) -> Point {
     let along = to - from;

@@ -17,7 +17,7 @@ pub enum ProfileError {
     /// The text is not TOML, or has an unknown key or a value of the wrong type.
     #[error("{place}: {message}")]
     Syntax {
-        /// Where it stands.
+        /// The place of the fault.
         place: KeyPlace,
         /// What is wrong, with the key's name.
         message: String,
@@ -25,7 +25,7 @@ pub enum ProfileError {
     /// A value is out of range or contradicts another.
     #[error("{place}: {key} {problem}")]
     Value {
-        /// Where it stands.
+        /// The place of the fault.
         place: KeyPlace,
         /// The key.
         key: String,
@@ -34,7 +34,7 @@ pub enum ProfileError {
     },
 }
 
-/// Where a key of a profile stands.
+/// The place of a profile's key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyPlace {
     /// Somewhere in a file, or in the profile of this name.
