@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Error, PartialEq)]
 pub enum ProfileError {
     /// There is no built-in profile of this name.
-    #[error("there is no plotter profile '{name}'; choose one of {known}, or give the path of a .toml file")]
+    #[error("there is no plotter profile '{name}'; there are {known}, or give the path of a .toml file")]
     Unknown {
         /// The requested name.
         name: String,
