@@ -1,7 +1,7 @@
-//! A request to stop, which every long loop looks at.
+//! A request to stop that every long loop checks.
 //!
-//! Whoever starts some work keeps a handle and hands another to the work. Loops look at it every few milliseconds; what they leave
-//! unfinished is thrown away, and the work returns [`Interrupted`] instead of a result.
+//! The caller keeps one handle and passes a clone to the work. Loops check it every few milliseconds. Once it is raised, the work
+//! drops its unfinished result and returns [`Interrupted`].
 //!
 //! ```
 //! use drypoint::interrupt::{Interrupt, Interrupted};
@@ -16,7 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// A handle to one request to stop; clones share it. Looking at it costs about as much as a comparison.
+/// A handle to one request to stop; clones share it. Checking it costs about as much as a comparison.
 #[derive(Clone, Debug)]
 pub struct Interrupt(Option<Arc<AtomicBool>>);
 
@@ -26,19 +26,19 @@ pub struct Interrupt(Option<Arc<AtomicBool>>);
 pub struct Interrupted;
 
 impl Default for Interrupt {
-    /// One that can be raised.
+    /// A handle that can be raised.
     fn default() -> Self {
         Self(Some(Arc::default()))
     }
 }
 
 impl Interrupt {
-    /// One that can be raised.
+    /// A handle that can be raised.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// For work that nobody stops; raising it does nothing.
+    /// A handle for work that is never stopped; raising it does nothing.
     pub const fn never() -> Self {
         Self(None)
     }
@@ -50,13 +50,13 @@ impl Interrupt {
         }
     }
 
-    /// Whether the work was asked to stop.
+    /// True if the work was asked to stop.
     #[inline]
     pub fn is_raised(&self) -> bool {
         self.0.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// To be used with `?`.
+    /// Returns [`Interrupted`] if the work was asked to stop, for use with `?`.
     #[inline]
     pub fn check(&self) -> Result<(), Interrupted> {
         if self.is_raised() { Err(Interrupted) } else { Ok(()) }

@@ -316,7 +316,7 @@ fn what_cannot_be_is_refused_with_its_reason() {
     fs::write(folder.path().join("mine.toml"), "extends = \"hp7475a\"\n[motion]\ndraw_speed = 0\n").unwrap();
     fs::write(folder.path().join("two.toml"), "[red]\ncolour = \"red\"\nslot = 1\n[sky]\ncolour = \"#08f\"\nslot = 2\n").unwrap();
     for (arguments, words) in [
-        (&["a3.svg", "--profile", "idraw-a3", "-o", "x.gcode"][..], "has no word for one"),
+        (&["a3.svg", "--profile", "idraw-a3", "-o", "x.gcode"][..], "has no pause command"),
         (&["a3.svg", "--profile", "hp7475a", "--frame", "-o", "x.hpgl"], "--frame needs a pause"),
         (&["a3.svg", "--profile", "axidraw-v3", "-o", "x.svg"], "beyond the upper x limit of axidraw-v3"),
         (&["a3.svg", "--profile", "./mine.toml", "-o", "x.hpgl"], "mine.toml, line 3: motion.draw_speed must be above 0"),

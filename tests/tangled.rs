@@ -106,7 +106,7 @@ fn a_polygon_of_tens_of_millions_of_crossings_is_refused_with_their_number() {
     let even_odd = plotted("even-odd", &(polygon() + "Z"), "fill='#000' fill-rule='evenodd'", &[]);
     is_refused(&even_odd, &["crossings of outlines", "limit is 12 million", "--most-work"]);
     let nonzero = plotted("nonzero", &(polygon() + "Z"), "fill='#000'", &[]);
-    is_refused(&nonzero, &["cross or cover one another about", "at most 2000000", "--ink-model lines"]);
+    is_refused(&nonzero, &["cross or overlap about", "at most 2000000", "--ink-model lines"]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A colour in sRGB, 8 bits a channel.
+/// A colour in sRGB, 8 bits per channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Colour {
     /// Red.
@@ -16,16 +16,16 @@ pub struct Colour {
 }
 
 impl Colour {
-    /// No light.
+    /// Black.
     pub const BLACK: Self = Self { r: 0, g: 0, b: 0 };
-    /// Paper.
+    /// White.
     pub const WHITE: Self = Self { r: 255, g: 255, b: 255 };
-    /// The name that CSS Color 4 added.
+    /// The named colour that CSS Color 4 added.
     pub const REBECCAPURPLE: Self = Self { r: 0x66, g: 0x33, b: 0x99 };
 }
 
 impl Colour {
-    /// How different two colours look: their distance in CIE L*a*b* (D65), about 2 where it is just seen.
+    /// Visible difference of two colours: their distance in CIE L*a*b* (D65); about 2 is just noticeable.
     pub fn difference(self, other: Self) -> f64 {
         let (a, b) = (self.lab(), other.lab());
         a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
@@ -60,10 +60,10 @@ pub struct ColourError(String);
 impl FromStr for Colour {
     type Err = ColourError;
 
-    /// Any CSS colour; its transparency is left out. `currentColor` is CSS's first, black.
+    /// Parses any CSS colour, ignoring its alpha. `currentColor` is CSS's initial value, black.
     fn from_str(text: &str) -> Result<Self, ColourError> {
         match text.trim() {
-            // CSS Color 4; the parser knows the names of CSS Color 3.
+            // `rebeccapurple` is from CSS Color 4; the parser knows the names of CSS Color 3.
             name if name.eq_ignore_ascii_case("rebeccapurple") => return Ok(Self::REBECCAPURPLE),
             name if name.eq_ignore_ascii_case("currentcolor") => return Ok(Self::BLACK),
             _ => {}
@@ -85,7 +85,7 @@ pub enum Ink {
 }
 
 impl Ink {
-    /// The colour to show it in.
+    /// Its colour on screen.
     pub const fn colour(&self) -> Colour {
         match self {
             Self::Colour(colour) => *colour,
@@ -109,7 +109,7 @@ impl FromStr for Ink {
 
     fn from_str(text: &str) -> Result<Self, ColourError> {
         match text.strip_prefix("spot:") {
-            // In print files these two stand for every plate and for none.
+            // In print files `All` and `None` mean every plate and no plate.
             Some("" | "All" | "None") => Err(ColourError(text.to_owned())),
             Some(name) => Ok(Self::Spot(name.to_owned())),
             None if text.eq_ignore_ascii_case("k") => Ok(Self::Black),

@@ -1,40 +1,41 @@
-//! Ink held inside a box, by half a line's width too, with the tone at the border kept.
+//! Keeps ink inside a box, including half a line's width, while preserving the tone at the border.
 //!
 //! ```text
 //!   dots, areas     cut along the border
-//!   strokes         of each cross-section what lies inside: the line goes on in its middle
+//!   strokes         keep the inside part of each cross-section, with its midpoint as the new centre
 //!
 //!      border  ______________________
-//!                ___----------_____        a line that runs along the border and half over it
-//!              --                  --      goes on as half as wide a line inside
+//!                ___----------_____        a line that runs along the border and half across it
+//!              --                  --      continues inside at half its width
 //! ```
 //!
-//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are an engraving's, are
-//! cut by their middle lines only: their style ends them, and narrows them, before the border itself.
+//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are engraving
+//! lines, are cut by their centre lines only: their style ends and narrows them before the border.
 
 use super::mark::interpolate;
 use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
 use kurbo::Shape;
 
-/// How much less than the box strokes keep to, in millimetres: the least step of what is written.
+/// Distance that strokes keep from the box's border, in millimetres: the smallest written step.
 const RIM: f64 = 0.001;
-/// What rounding may put a mark beyond the box; it stays whole.
+/// Rounding tolerance in millimetres by which a mark may exceed the box and stay whole.
 const SLACK: f64 = 5e-7;
-/// Longest pieces of a stroke beside the border, in millimetres, and where its width begins to give way: between two places widths
-/// change smoothly, not straight, by less than [`RIM`] over the shorter ones.
+/// Maximum length of a stroke's pieces beside the border, in millimetres, coarse (`SPACING`) and fine (`FINEST`), and the number
+/// of fine pieces (`NEAR`) around the point where its width begins to shrink. Between two points widths change smoothly, not
+/// linearly, by less than [`RIM`] over the shorter ones.
 const SPACING: f64 = 0.05;
 const FINEST: f64 = 0.005;
 const NEAR: usize = 4;
-/// Steepest fall of the half width along a stroke that ends at the border: what is steeper lies within the round end before it.
+/// Steepest slope of the half width along a stroke that ends at the border: anything steeper lies within the round end before it.
 const STEEPEST: f64 = 0.7;
-/// Rounds in which a piece is made thinner whose outline, between its places, still reaches over: where two borders take turns.
+/// Rounds of thinning a piece whose outline still exceeds the box between its points, as where two borders alternate.
 const ROUNDS: usize = 4;
-/// Widths below this are no ink, in millimetres.
+/// Widths below this, in millimetres, are not ink.
 const NO_INK: f64 = 1e-4;
 
 impl Drawing {
-    /// The drawing without the ink outside `rect`. Dots and areas are cut; strokes give way by their width.
+    /// The drawing without the ink outside `rect`. Dots and areas are cut; strokes are narrowed.
     #[must_use]
     pub fn held_in(mut self, rect: Rect) -> Self {
         for layer in &mut self.layers {
@@ -45,7 +46,7 @@ impl Drawing {
 }
 
 impl Mark {
-    /// What of its ink lies inside a rectangle.
+    /// The part of its ink inside a rectangle.
     #[must_use]
     pub fn held_in(self, rect: Rect) -> Vec<Self> {
         let wide = rect.inflate(SLACK, SLACK);
@@ -59,13 +60,13 @@ impl Mark {
     }
 }
 
-/// An engraving's line: its middle is fitted to keep a least distance from its neighbours' and few nodes, so it is neither moved nor
-/// cut into pieces; its style has left room for its width.
+/// True for an engraving line. Its centre line is fitted with few nodes to keep a minimum distance from its neighbours', so it is
+/// neither moved nor cut into pieces; its style has left room for its width.
 fn is_engraved(stroke: &Stroke) -> bool {
     stroke.ends == Ends::Flat && matches!(stroke.width, Width::Along(_))
 }
 
-/// One place of a stroke after it was held: none where nothing of the cross-section lies inside.
+/// One point of a stroke kept inside the box; there is none if the cross-section lies outside.
 #[derive(Clone, Copy)]
 struct Held {
     at: Point,
@@ -92,7 +93,7 @@ fn held_stroke(stroke: Stroke, rect: Rect) -> Vec<Mark> {
         places.split(Option::is_none).filter(|run| run.len() > 1).map(|run| run.iter().copied().flatten().collect()).collect();
     let is_ring = stroke.is_closed() && runs.len() == 1 && runs[0].len() == places.len();
     if stroke.is_closed() && runs.len() > 1 && places[0].is_some() && places[places.len() - 1].is_some() {
-        // The ring goes on over its seam.
+        // The ring continues across its seam.
         let first = runs.remove(0);
         if let Some(last) = runs.last_mut() {
             last.extend(&first[1..]);
@@ -101,7 +102,7 @@ fn held_stroke(stroke: Stroke, rect: Rect) -> Vec<Mark> {
     runs.into_iter().filter_map(|run| piece(&stroke, run, is_ring, rect)).collect()
 }
 
-/// The middle and the width of what of a cross-section lies inside; round ends and corners need that room all round.
+/// The centre and width of the part of a cross-section inside the box. Round ends and corners need that room on all sides.
 fn held(station: &Station, stretch: Stretch, ends: Ends, rect: Rect) -> Option<Held> {
     let half = station.along.turn_90() * (0.5 * station.width);
     let (low, high) = inside(station.at, half, rect)?;
@@ -111,7 +112,7 @@ fn held(station: &Station, stretch: Stretch, ends: Ends, rect: Rect) -> Option<H
     (width > NO_INK || !is_moved).then_some(Held { at, width, node: station.node, stretch, is_moved })
 }
 
-/// From where to where `at + half * t`, t from -1 to 1, lies in a rectangle.
+/// The range of `t` in -1 to 1 for which `at + half * t` lies in a rectangle.
 fn inside(at: Point, half: Vec2, rect: Rect) -> Option<(f64, f64)> {
     let (mut low, mut high) = (-1.0_f64, 1.0_f64);
     for (at, half, least, most) in [(at.x, half.x, rect.x0, rect.x1), (at.y, half.y, rect.y0, rect.y1)] {
@@ -128,13 +129,13 @@ fn inside(at: Point, half: Vec2, rect: Rect) -> Option<(f64, f64)> {
     (high >= low).then_some((low, high))
 }
 
-/// How far inside a rectangle a place lies.
+/// Distance of a point from the nearest side of a rectangle, positive inside.
 fn room(p: Point, rect: Rect) -> f64 {
     (p.x - rect.x0).min(rect.x1 - p.x).min(p.y - rect.y0).min(rect.y1 - p.y)
 }
 
-/// Without the places that straight stretches of evenly changing width do not need: of those in a row that were moved, or were not,
-/// one each [`SPACING`]; where the one becomes the other, [`NEAR`] of them.
+/// Removes points that straight stretches of evenly changing width do not need: within a run of moved or of unmoved points, one
+/// per [`SPACING`] is kept; at a transition, [`NEAR`] of them on either side.
 fn thinned(places: &[Option<Held>]) -> Vec<Option<Held>> {
     let moved: Vec<Option<bool>> = places.iter().map(|place| place.map(|held| held.is_moved)).collect();
     let is_even = |i: usize| {
@@ -157,7 +158,7 @@ fn thinned(places: &[Option<Held>]) -> Vec<Option<Held>> {
     kept
 }
 
-/// One run of places as a mark.
+/// One run of points as a mark.
 fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Option<Mark> {
     if !is_ring && stroke.ends == Ends::Round {
         trim(&mut run);
@@ -203,12 +204,12 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
     Some(Mark::Stroke(piece))
 }
 
-/// How far a box reaches beyond another.
+/// How far a rectangle extends beyond another.
 fn beyond(inner: Rect, outer: Rect) -> f64 {
     (outer.x0 - inner.x0).max(inner.x1 - outer.x1).max(outer.y0 - inner.y0).max(inner.y1 - outer.y1)
 }
 
-/// Takes off the end what lies within the round end before it.
+/// Removes points at the end that lie within the round end before them.
 fn trim(run: &mut Vec<Held>) {
     while let [_, .., before, last] = run[..] {
         let fall = 0.5 * (before.width - last.width);
@@ -219,7 +220,7 @@ fn trim(run: &mut Vec<Held>) {
     }
 }
 
-/// The widths, less where a stretch that has turned with its middle would put a corner outside.
+/// The widths, reduced where a segment that turned with its moved centre would put a corner outside.
 fn fitted(run: &[Held], rect: Rect) -> Vec<f64> {
     let mut widths: Vec<f64> = run.iter().map(|held| held.width).collect();
     for i in 1..run.len() {
@@ -255,7 +256,7 @@ mod tests {
         }
     }
 
-    /// The ink of one stroke, held, and whether it lies inside.
+    /// The ink of one stroke kept in the box, checked to lie inside.
     fn held_ink(mark: Mark) -> f64 {
         let held = mark.held_in(BOX);
         for mark in &held {

@@ -7,11 +7,11 @@ use crate::geometry::{
 };
 use kurbo::{PathEl, Shape};
 
-/// Flattening tolerance where a curve must become a polygon to be cut, in millimetres: a few of the smallest written steps, so
-/// that a cut blob stays a short path.
+/// Flattening tolerance for curves that become polygons to be cut, in millimetres: a few of the smallest written steps, so that a
+/// cut blob stays a short path.
 const CUT_TOLERANCE: f64 = 0.004;
-/// How far a swelling stroke's outline may lie from the true one, in millimetres; half of what is written (0.001 mm) would not
-/// be seen, this is a hundredth of a hair.
+/// Tolerance of a swelling stroke's outline, in millimetres. Half the written step (0.001 mm) would not be visible; this is a
+/// hundredth of a hair.
 pub(super) const OUTLINE_TOLERANCE: f64 = 0.002;
 
 /// One mark of ink.
@@ -28,11 +28,11 @@ pub enum Mark {
 /// A disc, or a blob with an outline of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dot {
-    /// Where it stands.
+    /// Its centre.
     pub centre: Point,
     /// The disc's radius in millimetres; for a blob, that of the disc of equal area.
     pub radius: f64,
-    /// The outline, when it is not a circle.
+    /// The outline, if it is not a circle.
     pub outline: Option<Box<BezPath>>,
     /// Its own colour, instead of the layer's.
     pub colour: Option<Colour>,
@@ -41,19 +41,19 @@ pub struct Dot {
 /// A line with a width, along one open or closed curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// One subpath of lines and cubics; closed when it ends with a close.
+    /// One subpath of lines and cubics; closed if it ends with a close.
     pub curve: BezPath,
     /// Full width.
     pub width: Width,
     /// The shape of its two ends.
     pub ends: Ends,
-    /// How hard the hand presses at the curve's nodes, 0 to 1, where a style says so.
+    /// Pen pressure at the curve's nodes, 0 to 1, if the style gives it.
     pub pressure: Option<Vec<f64>>,
-    /// When the hand is at the curve's nodes, in seconds from the drawing's beginning, where a style says so.
+    /// Times at the curve's nodes, in seconds from the drawing's beginning, if the style gives them.
     pub times: Option<Vec<f64>>,
     /// Its own colour, instead of the layer's.
     pub colour: Option<Colour>,
-    /// The group whose strokes are drawn one after the other as they stand.
+    /// The group. Its strokes are drawn consecutively, in their given order and direction.
     pub group: Option<u32>,
 }
 
@@ -62,7 +62,7 @@ pub struct Stroke {
 pub enum Width {
     /// The same everywhere.
     Constant(f64),
-    /// At the curve's nodes (its start, then the end of each segment), changing smoothly between them.
+    /// One width per node of the curve (its start, then the end of each segment), changing smoothly between them.
     Along(Vec<f64>),
 }
 
@@ -112,7 +112,7 @@ impl Dot {
             None => clip_disc(self.centre, self.radius, rect),
         };
         let area = outline.area().abs();
-        // What is left of a slanting blob may lie anywhere along the border.
+        // The rest of a slanting blob may lie anywhere along the border.
         let left = outline.bounding_box();
         (area > 0.0).then(|| Self {
             centre: Point::new(self.centre.x.clamp(left.x0, left.x1), self.centre.y.clamp(left.y0, left.y1)),
@@ -129,7 +129,7 @@ impl Stroke {
         Self { curve, width, ends: Ends::Round, pressure: None, times: None, colour: None, group: None }
     }
 
-    /// Whether the curve returns to its start.
+    /// True if the curve is closed.
     pub fn is_closed(&self) -> bool {
         matches!(self.curve.elements().last(), Some(PathEl::ClosePath))
     }
@@ -139,7 +139,7 @@ impl Stroke {
         curve_length(&self.curve)
     }
 
-    /// The outline of a stroke whose width varies; a constant one is stroked by whoever draws it.
+    /// The outline of a stroke with varying width; none for a constant width, which the renderer strokes itself.
     pub fn outline(&self) -> Option<BezPath> {
         match &self.width {
             Width::Constant(_) => None,
@@ -147,7 +147,7 @@ impl Stroke {
         }
     }
 
-    /// The border of its ink, a constant width's too, right to `tolerance` millimetres.
+    /// The outline of its ink for any width, accurate to `tolerance` millimetres.
     pub fn ink_outline(&self, tolerance: f64) -> BezPath {
         match &self.width {
             Width::Along(widths) => swelling_outline(&self.curve, widths, self.ends, tolerance),
@@ -159,7 +159,7 @@ impl Stroke {
         }
     }
 
-    /// Length times width plus the half discs of round ends; a swelling stroke's is that of its outline.
+    /// Length times width plus the half discs of round ends; for a swelling stroke, the area of its outline.
     fn area(&self) -> f64 {
         match &self.width {
             Width::Constant(width) => {
@@ -199,7 +199,7 @@ impl Stroke {
         places.inflate(half, half)
     }
 
-    /// The pieces whose centre line is inside, with the width that they had there.
+    /// The pieces whose centre line is inside, with their original widths.
     fn clipped(&self, rect: Rect) -> Vec<Self> {
         if contains(rect, self.curve.bounding_box()) {
             return vec![self.clone()];
@@ -230,7 +230,7 @@ impl Stroke {
             .collect()
     }
 
-    /// The centre line as points, and for each the place along the curve's nodes (segment plus fraction).
+    /// The centre line as points, and for each its position along the curve's nodes (segment index plus fraction).
     fn flattened(&self) -> (Vec<Point>, Vec<f64>) {
         use kurbo::ParamCurve;
         let (mut points, mut position) = (Vec::new(), Vec::new());
@@ -292,7 +292,7 @@ impl Mark {
         }
     }
 
-    /// The mark moved, turned or evenly scaled; widths and radii scale by the root of the determinant.
+    /// The mark moved, rotated or uniformly scaled; widths and radii scale by the root of the determinant.
     #[must_use]
     pub fn transformed(&self, transform: Affine) -> Self {
         let scale = transform.determinant().abs().sqrt();
@@ -315,7 +315,7 @@ impl Mark {
         }
     }
 
-    /// What lies inside a rectangle: a dot or area is cut along the border, a stroke where its centre line crosses it.
+    /// The parts inside a rectangle: a dot or area is cut along the border, a stroke where its centre line crosses it.
     pub fn clipped(&self, rect: Rect) -> Vec<Self> {
         match self {
             Self::Dot(dot) => dot.clipped(rect).map(Self::Dot).into_iter().collect(),
@@ -329,7 +329,7 @@ fn contains(rect: Rect, inner: Rect) -> bool {
     inner.x0 >= rect.x0 && inner.y0 >= rect.y0 && inner.x1 <= rect.x1 && inner.y1 <= rect.y1
 }
 
-/// Each subpath of a filled outline cut to a rectangle, as polygons.
+/// Cuts each subpath of a filled outline to a rectangle, as polygons.
 fn clip_outline(outline: &BezPath, rect: Rect, tolerance: f64) -> BezPath {
     let mut cut = BezPath::new();
     for (polygon, _) in flatten(outline, tolerance) {
@@ -344,7 +344,7 @@ fn clip_outline(outline: &BezPath, rect: Rect, tolerance: f64) -> BezPath {
     cut
 }
 
-/// Between the nodes' values; `at` is a node's number and the share of the way to the next.
+/// The interpolated value at `at`, a node's index plus the fraction of the way to the next.
 pub(super) fn interpolate(values: &[f64], at: f64) -> f64 {
     let last = values.len() - 1;
     let i = (at.floor().max(0.0) as usize).min(last);

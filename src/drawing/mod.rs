@@ -1,4 +1,4 @@
-//! The stroke model: what a style makes, a press prints and a plotter draws.
+//! The stroke model: what a style produces, a press prints and a plotter draws.
 //!
 //! A [`Drawing`] is a page with layers of marks in painting order, in millimetres, y down, origin at the sheet's top left corner.
 //! It knows nothing of pixels, machines or file formats.
@@ -23,17 +23,17 @@ pub struct Drawing {
     pub layers: Vec<Layer>,
 }
 
-/// One thing in painting order.
+/// One item in painting order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Painted {
-    /// A mark, by layer and its number there.
+    /// A mark, by its layer and its index there.
     Mark {
         /// Index of the layer.
         layer: usize,
         /// Index of the mark.
         mark: usize,
     },
-    /// Paper: white paint, which is never ink but hides what it covers.
+    /// White paint the colour of paper: it is never ink but hides what it covers.
     White(BezPath),
 }
 
@@ -44,51 +44,52 @@ pub struct Page {
     pub width: f64,
     /// Height in millimetres, above 0.
     pub height: f64,
-    /// The paper's colour; marks of this colour are still ink.
+    /// The paper's colour. Marks of this colour are still ink.
     pub paper: Colour,
 }
 
 /// Marks that one pen draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// What the layer is called in files and reports, such as `dots`.
+    /// The layer's name in files and reports, such as `dots`.
     pub name: String,
     /// The pen's number, from 1.
     pub pen: u32,
-    /// What it is drawn with, unless a mark has a colour of its own.
+    /// The ink of marks without a colour of their own.
     pub ink: Ink,
-    /// How its marks add up with what lies below.
+    /// How its marks combine with what lies below.
     pub mixing: Mixing,
-    /// What a plotter does with it besides drawing.
+    /// Pause, speed and delay on a plotter.
     pub handling: Handling,
     /// Marks in painting order.
     pub marks: Vec<Mark>,
 }
 
-/// What a plotter does with a layer besides drawing it, as layer labels ask for it.
+/// Pause, speed and delay of a layer on a plotter, as set by layer labels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Handling {
-    /// Waits for the user first.
+    /// Wait for the user first.
     pub pauses: bool,
     /// Drawing speed in percent of the machine's.
     pub speed_percent: Option<f64>,
-    /// Waits this long first.
+    /// Wait this long first, in seconds.
     pub delay_seconds: f64,
 }
 
 impl Handling {
-    /// The speed to draw with, given the machine's usual one; 1 to 500 %, since an `AxiDraw`'s greatest is 4.4 times its usual.
+    /// The drawing speed, given the machine's usual one. The percentage is clamped to 1 to 500, since an `AxiDraw`'s maximum is
+    /// 4.4 times its usual speed.
     pub fn speed(&self, machine: f64) -> f64 {
         machine * self.speed_percent.unwrap_or(100.0).clamp(1.0, 500.0) / 100.0
     }
 }
 
-/// How ink meets what lies below it.
+/// How ink combines with what lies below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mixing {
     /// Ink on ink: what lies below stays.
     Add,
-    /// Opaque: what lies below is hidden, and need not be drawn.
+    /// Opaque paint: what lies below is hidden and need not be drawn.
     Paint,
 }
 
@@ -117,12 +118,12 @@ impl Layer {
         }
     }
 
-    /// Sum of the marks' areas in square millimetres; marks that overlap count each.
+    /// Sum of the marks' areas in square millimetres. Overlaps count for each mark.
     pub fn ink_mm2(&self) -> f64 {
         self.marks.iter().map(Mark::area).sum()
     }
 
-    /// How many dots, strokes and areas the layer holds.
+    /// Number of dots, strokes and areas in the layer.
     pub fn counts(&self) -> [usize; 3] {
         self.marks.iter().fold([0; 3], |mut counts, mark| {
             counts[match mark {
@@ -136,12 +137,12 @@ impl Layer {
 }
 
 impl Drawing {
-    /// The smallest rectangle around all ink, or none when there is no mark.
+    /// The smallest rectangle around all ink, or none if there are no marks.
     pub fn bounding_box(&self) -> Option<Rect> {
         self.marks().map(Mark::bounding_box).reduce(|a, b| a.union(b))
     }
 
-    /// Its marks from the lowest to the uppermost: layer by layer.
+    /// All marks from the lowest to the topmost, layer by layer.
     pub fn painting_order(&self) -> Vec<Painted> {
         let marks = |(layer, it): (usize, &Layer)| (0..it.marks.len()).map(move |mark| Painted::Mark { layer, mark });
         self.layers.iter().enumerate().flat_map(marks).collect()
@@ -152,7 +153,7 @@ impl Drawing {
         self.layers.iter().flat_map(|layer| &layer.marks)
     }
 
-    /// The drawing moved, turned or evenly scaled; the page stays as it is.
+    /// The drawing moved, rotated or uniformly scaled; the page is unchanged.
     #[must_use]
     pub fn transformed(&self, transform: Affine) -> Self {
         let mut moved = self.clone();
@@ -162,7 +163,7 @@ impl Drawing {
         moved
     }
 
-    /// The drawing without what lies outside `rect`. Dots that cross its border become what is left of them.
+    /// The drawing without what lies outside `rect`. Dots that cross the border are cut.
     #[must_use]
     pub fn clipped(&self, rect: Rect) -> Self {
         let mut cut = self.clone();

@@ -1,22 +1,22 @@
-//! The ink that is seen of a drawing: opaque paint covers what lies below it, so it counts once.
+//! The visible ink of a drawing: opaque paint covers what lies below it, so it counts once.
 
 use super::{Drawing, Layer, Mark, Mixing};
 use crate::geometry::{BezPath, Rect, flatten};
 use rayon::prelude::*;
 
-/// Distance of the lines along which paint is measured, in millimetres; along them it is exact. At 0.05 a painting's ink is off by
-/// less than 0.05 %.
+/// Distance of the scan lines along which paint is measured, in millimetres; along a line the measure is exact. At 0.05 a
+/// painting's ink is off by less than 0.05 %.
 const LINE: f64 = 0.05;
-/// Most lines on a page: a large one is measured more coarsely.
+/// Maximum scan lines per page: a large page is measured more coarsely.
 const MOST_LINES: f64 = 20_000.0;
-/// Flattening of outlines, in millimetres.
+/// Flattening tolerance of outlines, in millimetres.
 const TOLERANCE: f64 = 0.002;
-/// Rows that are measured together.
+/// Scan lines measured together.
 const BAND: usize = 64;
 
 impl Drawing {
-    /// Ink of each layer in square millimetres: of ink on ink the sum of its marks, of opaque paint what is seen of it. What paint hides
-    /// of other ink below it counts all the same, as the press prints it.
+    /// Ink of each layer in square millimetres: for transparent ink the sum of its marks, for opaque paint its visible part. Ink
+    /// hidden under paint still counts, as the press prints it.
     pub fn ink_mm2(&self) -> Vec<f64> {
         let is_paint = |layer: &&Layer| layer.mixing == Mixing::Paint;
         let painted = self.layers.iter().filter(is_paint).flat_map(|layer| &layer.marks);
@@ -25,7 +25,7 @@ impl Drawing {
         };
         let lines = Lines::over(bounds);
         let mut seen: Vec<f64> = self.layers.iter().map(|layer| if is_paint(&layer) { 0.0 } else { layer.ink_mm2() }).collect();
-        // From the top down: each layer adds what no paint above it covers.
+        // From the top down, each layer adds what no paint above it covers.
         let mut above: Vec<Spans> = vec![Spans::new(); lines.count];
         for (ink, layer) in seen.iter_mut().zip(&self.layers).rev().filter(|(_, layer)| is_paint(layer)) {
             let before: f64 = above.iter().map(|spans| length(spans)).sum();
@@ -36,14 +36,14 @@ impl Drawing {
     }
 }
 
-/// Stretches of one line from left to right, none of them touching another.
+/// Disjoint intervals of one line from left to right.
 type Spans = Vec<(f64, f64)>;
 
 fn length(spans: &[(f64, f64)]) -> f64 {
     spans.iter().map(|(from, to)| to - from).sum()
 }
 
-/// Horizontal lines at even distances.
+/// Evenly spaced horizontal lines.
 struct Lines {
     top: f64,
     step: f64,
@@ -81,14 +81,14 @@ impl Lines {
         self.top + (line as f64 + 0.5) * self.step
     }
 
-    /// The lines that an edge crosses, its upper end in and its lower end out.
+    /// The lines that an edge crosses, including its upper end and excluding its lower one.
     fn crossed(&self, edge: &Edge) -> std::ops::Range<usize> {
         let index = |y: f64| ((y - self.top) / self.step - 0.5).ceil().clamp(0.0, self.count as f64) as usize;
         index(edge.top.1)..index(edge.bottom.1)
     }
 }
 
-/// A side of an outline, from its upper end down; +1 if the outline goes down it.
+/// A side of an outline, from its upper end down. `winding` is +1 if the outline runs downwards along it, else -1.
 struct Edge {
     top: (f64, f64),
     bottom: (f64, f64),
@@ -125,7 +125,7 @@ fn edges(outline: &BezPath) -> Vec<Edge> {
     edges
 }
 
-/// Adds the stretches of a line that lie inside one outline, by the nonzero rule.
+/// Adds the intervals of a line inside one outline, by the nonzero rule.
 fn append_inside(spans: &mut Spans, mut crossings: Vec<(f64, i32)>) {
     crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (mut winding, mut from) = (0, 0.0);
@@ -140,7 +140,7 @@ fn append_inside(spans: &mut Spans, mut crossings: Vec<(f64, i32)>) {
     }
 }
 
-/// Makes one of stretches that overlap.
+/// Merges overlapping intervals.
 fn join(spans: &mut Spans) {
     spans.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut joined: Spans = Vec::with_capacity(spans.len());

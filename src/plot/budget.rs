@@ -1,4 +1,4 @@
-//! What a plot may cost, reckoned before the work is begun.
+//! Limits on the work of a plot, estimated before it begins.
 
 use super::lower::{InkModel, Nibs, turns_sharply};
 use super::occlude::Hides;
@@ -7,38 +7,38 @@ use crate::geometry::{BezPath, Point, Thread, flatten, simplify, tangles, tangle
 use crate::interrupt::{Interrupt, Interrupted};
 use thiserror::Error;
 
-/// Crossings of one mark's borders up to which it is filled: two million take about a gigabyte and some seconds.
+/// Maximum crossings of one mark's borders that are filled: two million take about a gigabyte and some seconds.
 const MOST_IN_A_MARK: f64 = 2e6;
-/// Pairs of a mark's borders that may lie nearer to one another than the nib is wide, or than a wide line is: each crosses some six times
-/// in the nib's ways along them, at their rounded corners.
+/// Maximum pairs of a mark's borders closer than the nib's width, or than a wide line's: each pair gives about six crossings of
+/// the nib's paths along them, at their rounded corners.
 const MOST_NEAR_IN_A_MARK: f64 = 4e5;
-/// The same of all marks together, where they are cut by one another.
+/// Maximum crossings of all marks together, where they cut one another.
 const MOST_IN_ALL: f64 = 1e7;
-/// Length of all lines, in widths of their nibs: 6 km with a nib of 0.3 mm, two days of a plotter's work and a gigabyte.
+/// Maximum length of all lines, in nib widths: 6 km with a nib of 0.3 mm, two days of plotting and a gigabyte.
 const MOST_NIBS: f64 = 2e7;
-/// Vertices of curves lie this near to them, in millimetres: crossings are counted, not placed.
+/// Flattening tolerance in millimetres: crossings are only counted, not located.
 const COARSE: f64 = 0.05;
-/// The share of its width by which a wide line's middle may be off where its coverings of itself are counted. Lines that follow one
-/// another within its width would count as such else.
+/// Tolerance of a wide line's centre line, as a share of its width, when its overlaps with itself are counted. Without it,
+/// consecutive segments within the line's width would count as overlaps.
 const OFF: f64 = 0.1;
 
-/// Why a drawing is not plotted as it is.
+/// Why a drawing is too much work to plot.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum TooMuch {
-    /// Borders that cross, or wide lines that cover one another, more often than can be worked on.
-    #[error("its outlines cross or cover one another about {crossings:.0} times, and at most {most:.0} times can be worked on")]
+    /// Too many crossings of borders, or overlaps of wide lines.
+    #[error("its outlines cross or overlap about {crossings:.0} times; at most {most:.0} can be processed")]
     Crossings {
-        /// How often, within a tenth.
+        /// Estimated number of crossings, within a tenth.
         crossings: f64,
         /// The limit.
         most: f64,
     },
-    /// More line than a plotter draws in days.
-    #[error("its ink is about {metres:.0} m of line, and at most {most:.0} m can be worked on")]
+    /// More line than a plotter draws in two days.
+    #[error("its ink needs about {metres:.0} m of line; at most {most:.0} m can be plotted with these nibs")]
     Length {
-        /// Metres.
+        /// Length of line in metres.
         metres: f64,
-        /// The limit with the same nibs.
+        /// The limit in metres with the same nibs.
         most: f64,
     },
     /// The work was stopped.
@@ -52,7 +52,7 @@ impl From<Interrupted> for TooMuch {
     }
 }
 
-/// Whether a drawing can be lowered, and before that occluded, within two gigabytes and some twenty seconds.
+/// Checks that a drawing can be occluded and lowered within two gigabytes and about twenty seconds.
 pub fn check_work(
     drawing: &Drawing,
     model: InkModel,
@@ -82,9 +82,9 @@ pub fn check_work(
 #[derive(Default)]
 struct Cut {
     threads: Vec<Thread>,
-    /// For each line, whose it is.
+    /// For each line, the index of its mark.
     owner: Vec<u32>,
-    /// For each mark, its colour and whether it is a line.
+    /// For each mark, its colour and whether it is a stroke.
     marks: Vec<(Colour, bool)>,
 }
 
@@ -96,7 +96,7 @@ impl Cut {
         self.marks.push((colour, matches!(mark, Mark::Stroke(_))));
     }
 
-    /// About how many pairs of lines are cut by one another.
+    /// Estimated number of pairs of lines that cut one another.
     fn crossings(&self, hides: Hides) -> f64 {
         tangles_among(&self.threads, |i, j| {
             let (a, b) = (self.owner[i] as usize, self.owner[j] as usize);
@@ -110,7 +110,7 @@ impl Cut {
     }
 }
 
-/// Whether a mark is filled from its outline.
+/// True if the mark is filled from its outline.
 fn is_outlined(mark: &Mark, nib: f64) -> bool {
     match mark {
         Mark::Stroke(stroke) => turns_sharply(stroke, nib),
@@ -118,7 +118,7 @@ fn is_outlined(mark: &Mark, nib: f64) -> bool {
     }
 }
 
-/// Few lines cannot cross often, and need not be looked at.
+/// Refuses lines that cross more than `most` times. Too few lines to reach the limit are not examined.
 fn refuse_tangled(threads: &[Thread], most: f64) -> Result<(), TooMuch> {
     let pairs = 0.5 * (threads.len() as f64).powi(2);
     if pairs > most { refuse_above(most, tangles(threads)) } else { Ok(()) }
@@ -142,7 +142,7 @@ fn check_length(drawing: &Drawing, model: InkModel, nibs: &Nibs) -> Result<(), T
     Ok(())
 }
 
-/// About how long the lines are that draw a mark, in millimetres.
+/// Estimated length of the lines that draw a mark, in millimetres.
 fn length_of(mark: &Mark, model: InkModel, nib: f64) -> f64 {
     match (mark, model) {
         (Mark::Stroke(stroke), InkModel::Lines) => stroke.length(),
@@ -152,7 +152,7 @@ fn length_of(mark: &Mark, model: InkModel, nib: f64) -> f64 {
     }
 }
 
-/// A mark's borders, as wide as the nib that follows them, or its wide line.
+/// A mark's borders with the nib's width, or its wide line.
 fn threads(mark: &Mark, nib: f64) -> Vec<Thread> {
     let (curve, half_width) = match mark {
         Mark::Dot(_) => return Vec::new(),

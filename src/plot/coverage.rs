@@ -1,8 +1,8 @@
-//! How much of the ink that was asked for a plot lays down, and how much that was not: both inks cut by the same lines across the page.
+//! How much of the drawing's ink a plot lays down, and how much it spills: both inks are cut by the same horizontal lines.
 //!
 //! ```text
-//!   asked   ----=======-----====----      along each line the intervals are exact; the lines lie a sixteenth of a nib apart, so
-//!   laid    ------=======---====----      a dot of the nib's size is right to 2 %, and many of them to much less
+//!   asked   ----=======-----====----      along each line the intervals are exact; the lines are a sixteenth of a nib apart, so
+//!   laid    ------=======---====----      a dot of the nib's size is accurate to 2 %, and many of them to much less
 //!   covered       xxxxx     xxxx     spilt      xx
 //! ```
 
@@ -13,45 +13,45 @@ use crate::geometry::{BezPath, Point, flatten};
 use crate::interrupt::{Interrupt, Interrupted};
 use rayon::prelude::*;
 
-/// Lines a nib.
+/// Scan lines per nib.
 const LINES_A_NIB: f64 = 16.0;
-/// Lines that are cut together.
+/// Scan lines processed together.
 const BAND: usize = 32;
-/// Lines across a page at most: a page of many metres is cut more coarsely.
+/// Maximum scan lines per page: a page of many metres is cut more coarsely.
 const MOST_LINES: f64 = 40_000.0;
-/// Flattening of outlines, in millimetres.
+/// Flattening tolerance of outlines, in millimetres.
 const TOLERANCE: f64 = 0.004;
 
 /// Areas in square millimetres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coverage {
-    /// Ink that was asked for, where marks overlap counted once.
+    /// The drawing's ink; overlapping marks count once.
     pub asked: f64,
-    /// Asked for and laid down.
+    /// Ink of the drawing that is laid down.
     pub covered: f64,
-    /// Laid down and not asked for.
+    /// Ink laid down outside the drawing's ink.
     pub spilt: f64,
 }
 
 impl Coverage {
-    /// The share of the asked ink that is laid down, 0 to 1; 1 when none was asked for.
+    /// Share of the drawing's ink that is laid down, 0 to 1; 1 for a drawing without ink.
     pub fn covered_fraction(&self) -> f64 {
         if self.asked > 0.0 { self.covered / self.asked } else { 1.0 }
     }
 
-    /// Two pens' ink together.
+    /// The sum of two pens' ink.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self { asked: self.asked + other.asked, covered: self.covered + other.covered, spilt: self.spilt + other.spilt }
     }
 
-    /// Ink that was not asked for as a share of what was.
+    /// Spilt ink as a share of the drawing's ink; 0 for a drawing without ink.
     pub fn spill_fraction(&self) -> f64 {
         if self.asked > 0.0 { self.spilt / self.asked } else { 0.0 }
     }
 }
 
-/// The coverage of each pen of a plot, in its order; pens of one number share theirs.
+/// The coverage of each entry of a plot's pens, in their order. Entries of one pen number share their coverage.
 pub fn coverage(drawing: &Drawing, plot: &Plot, nibs: &Nibs, interrupt: &Interrupt) -> Result<Vec<Coverage>, Interrupted> {
     let measured = |pen| {
         let coverage = coverage_of_pen(drawing, plot, nibs, pen, interrupt);
@@ -60,7 +60,7 @@ pub fn coverage(drawing: &Drawing, plot: &Plot, nibs: &Nibs, interrupt: &Interru
     plot.pens.iter().map(measured).collect()
 }
 
-/// Of use only if the interrupt was not raised by then.
+/// The coverage of one pen. Meaningless if the interrupt was raised meanwhile.
 fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths, interrupt: &Interrupt) -> Coverage {
     let layers = drawing.layers.iter().filter(|layer| layer.pen == pen.number);
     let goes_on = || !interrupt.is_raised();
@@ -93,9 +93,9 @@ fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths, 
     Coverage { asked: sum(0), covered: sum(1), spilt: sum(2) }
 }
 
-/// Something inked, as a line across the page meets it.
+/// An inked shape that scan lines cut.
 enum Shape {
-    /// All within `radius` of a segment.
+    /// All points within `radius` of a segment.
     Capsule { a: Point, b: Point, radius: f64 },
     /// The inside of closed polygons, by the nonzero rule.
     Polygons(Vec<[Point; 2]>),
@@ -111,7 +111,7 @@ impl Shape {
         }
     }
 
-    /// Adds the intervals of the line at `y`.
+    /// Adds the shape's intervals on the line at `y`.
     fn cut(&self, y: f64, intervals: &mut Vec<(f64, f64)>, crossings: &mut Vec<(f64, i32)>) {
         match self {
             Self::Capsule { a, b, radius } => intervals.extend(cut_capsule(*a, *b, *radius, y)),
@@ -135,7 +135,8 @@ impl Shape {
     }
 }
 
-/// A capsule is convex: the union of two discs and the strip between them meets a line in one interval.
+/// The interval of a capsule on the line at `y`. A capsule is convex: two discs and the strip between them meet a line in one
+/// interval.
 fn cut_capsule(a: Point, b: Point, radius: f64, y: f64) -> Option<(f64, f64)> {
     let disc = |c: Point| {
         let square = radius * radius - (y - c.y) * (y - c.y);
@@ -156,7 +157,7 @@ fn cut_capsule(a: Point, b: Point, radius: f64, y: f64) -> Option<(f64, f64)> {
     hit
 }
 
-/// The shapes that each band of lines may meet; of polygons only the edges there.
+/// The shapes that each band of lines may meet; polygons are reduced to their edges there.
 fn by_band(shapes: &[Shape], bands: usize, band_of: impl Fn(f64) -> usize, interrupt: &Interrupt) -> Vec<Vec<Shape>> {
     let mut all: Vec<Vec<Shape>> = (0..bands).map(|_| Vec::new()).collect();
     for shape in shapes.iter().take_while(|_| !interrupt.is_raised()) {
@@ -182,7 +183,7 @@ fn by_band(shapes: &[Shape], bands: usize, band_of: impl Fn(f64) -> usize, inter
     all
 }
 
-/// Buffers for one line after the other.
+/// Buffers reused from line to line.
 #[derive(Default)]
 struct Cuts {
     asked: Vec<(f64, f64)>,
@@ -191,7 +192,7 @@ struct Cuts {
 }
 
 impl Cuts {
-    /// Lengths along one line: asked, covered, spilt.
+    /// Lengths along one line: `[asked, covered, spilt]`.
     fn across(&mut self, y: f64, asked: &[Shape], laid: &[Shape]) -> [f64; 3] {
         self.asked.clear();
         self.laid.clear();
@@ -205,7 +206,7 @@ impl Cuts {
     }
 }
 
-/// Intervals sorted and, where they overlap, made one.
+/// Sorts intervals and merges those that overlap.
 fn unite(intervals: &mut Vec<(f64, f64)>) {
     intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut last = 0;
@@ -260,7 +261,7 @@ fn shapes_of_pen(pen: &PenPaths, nibs: &Nibs) -> Vec<Shape> {
     shapes.collect()
 }
 
-/// A polyline's segments with the radius at their vertices; where it changes, in steps.
+/// A polyline's segments as capsules with the radius at their vertices; a changing radius is split into steps.
 fn capsules(points: &[Point], radius: impl Fn(usize) -> f64) -> Vec<Shape> {
     if let [p] = points {
         return vec![Shape::Capsule { a: *p, b: *p, radius: radius(0) }];

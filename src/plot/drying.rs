@@ -1,4 +1,4 @@
-//! Wet lines are not crossed again before they are dry: paths are put off, and waited for when nothing else is left to draw.
+//! Keeps wet lines from being crossed: paths are put off, and the machine waits when nothing else is left to draw.
 
 use super::profile::Motion;
 use super::{PenPaths, Plot, Toolpath};
@@ -6,15 +6,15 @@ use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
 use std::collections::{HashMap, VecDeque};
 
-/// Cells a nib in which wet ink is looked for: lines whose middles lie less than about half a nib apart share or touch one.
+/// Cells per nib in which wet ink is tracked: lines whose centres are less than about half a nib apart share or touch one.
 const CELLS_A_NIB: f64 = 2.0;
 
-/// Puts off every path that would touch ink of another path drawn less than `seconds` ago, in the order that the plot has, and has the
-/// machine wait with the pen up where only such paths are left. Speeds are taken as constant: a machine that must speed up leaves the
-/// ink more time. Returns the seconds waited.
+/// Puts off every path that would touch another path's ink drawn less than `seconds` ago, otherwise keeping the plot's order, and
+/// makes the machine wait with the pen up where only such paths are left. Speeds are taken as constant: a machine that must
+/// accelerate leaves the ink more time. Returns the seconds waited.
 ///
-/// A path of a group is put off by itself. O(length of ink / nib) for each round, and there
-/// are about as many rounds as paths lie on top of one another.
+/// Paths of a group are put off one by one. O(length of ink / nib) for each round; there are about as many rounds as paths
+/// overlap one another.
 pub fn let_dry(plot: &mut Plot, seconds: f64, home: Point, motion: &Motion, interrupt: &Interrupt) -> Result<f64, Interrupted> {
     let mut paper = Paper { wet: HashMap::new(), seconds, now: 0.0, at: home, waited: 0.0 };
     let mut drawn = Vec::new();
@@ -30,7 +30,7 @@ type Cell = (i32, i32);
 
 /// The sheet as it is being drawn on.
 struct Paper {
-    /// When each inked cell was inked last.
+    /// Time at which each cell was last inked.
     wet: HashMap<Cell, f64>,
     seconds: f64,
     now: f64,
@@ -39,7 +39,7 @@ struct Paper {
 }
 
 impl Paper {
-    /// One pen's paths in the order in which they can be drawn, parted where the machine waits.
+    /// One pen's paths in drawing order, split where the machine waits.
     fn draw(&mut self, pen: &PenPaths, motion: &Motion, interrupt: &Interrupt) -> Result<Vec<PenPaths>, Interrupted> {
         let cell = pen.nib.max(0.05) / CELLS_A_NIB;
         let speed = pen.handling.speed(motion.draw_speed);
@@ -74,7 +74,7 @@ impl Paper {
                 let wait = soonest - self.now;
                 self.now = soonest;
                 self.waited += wait;
-                // The first wait of a part that draws nothing yet adds to its own.
+                // A part that draws nothing yet waits longer; otherwise a new part begins.
                 match parts.last_mut() {
                     Some(part) if part.paths.is_empty() => part.handling.delay_seconds += wait,
                     _ => parts.push(empty(wait)),
@@ -85,7 +85,7 @@ impl Paper {
         Ok(parts)
     }
 
-    /// When the last of the ink in or beside these cells is dry.
+    /// Time at which all ink in or beside these cells is dry.
     fn dry_at(&self, cells: &[Cell]) -> f64 {
         let around = |&(x, y): &Cell| [(x, y), (x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)];
         let inked = cells.iter().flat_map(around).filter_map(|cell| self.wet.get(&cell));
@@ -93,7 +93,7 @@ impl Paper {
     }
 }
 
-/// The cells that a path's middle line runs through, each once.
+/// The cells that a path's centre line crosses, each once.
 fn cells(points: &[Point], size: f64) -> Vec<Cell> {
     let cell = |p: Point| ((p.x / size).floor() as i32, (p.y / size).floor() as i32);
     let mut found: Vec<Cell> = points.iter().take(1).map(|p| cell(*p)).collect();
@@ -154,7 +154,7 @@ mod tests {
             all
         };
         assert_eq!(paths(&before), paths(&drawn));
-        // Gone through again with the clock, no path comes upon ink younger than 30 s.
+        // Replayed against the clock, no path meets ink younger than 30 s.
         let mut paper = Paper { wet: HashMap::new(), seconds: 30.0 - 1e-6, now: 0.0, at: Point::ORIGIN, waited: 0.0 };
         let motion = motion();
         for pen in &drawn.pens {

@@ -1,4 +1,4 @@
-//! What is drawn or waited for besides the drawing: crosses that show how pens meet, touches that rest, pauses on the way.
+//! Additions to the drawing: registration crosses, rests of touches, pauses.
 
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::Handling;
@@ -8,7 +8,7 @@ use crate::geometry::{Point, Rect};
 /// a margin.
 const CROSS: f64 = 2.5;
 
-/// Puts a cross into each corner of what can be drawn on, drawn by every pen before its own paths.
+/// Adds a cross in each corner of the drawable area, drawn by every pen before its own paths.
 pub fn add_registration(plot: &mut Plot, drawable: Rect) {
     let corners = drawable.inset(-CROSS);
     if corners.width() <= 2.0 * CROSS || corners.height() <= 2.0 * CROSS {
@@ -27,7 +27,7 @@ pub fn add_registration(plot: &mut Plot, drawable: Rect) {
     }
 }
 
-/// Lets every touch of a pen rest on the paper for as long as `seconds` says for its number.
+/// Makes every touch rest on the paper for `seconds` of its pen's number.
 pub fn rest_touches(plot: &mut Plot, seconds: impl Fn(u32) -> f64) {
     for pen in &mut plot.pens {
         let more = seconds(pen.number);
@@ -35,7 +35,7 @@ pub fn rest_touches(plot: &mut Plot, seconds: impl Fn(u32) -> f64) {
     }
 }
 
-/// Parts each pen's work so that the machine waits after every `length` millimetres drawn, at the end of a path.
+/// Splits each pen's paths so that the machine waits after every `length` millimetres drawn, at the end of a path.
 pub fn pause_every(plot: &mut Plot, length: f64) {
     let pens = std::mem::take(&mut plot.pens);
     for pen in pens {

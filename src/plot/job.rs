@@ -1,10 +1,10 @@
-//! The plotting job: what one machine draws, in order, laid on it, checked and timed.
+//! The plotting job: what one machine draws, ordered, placed on the machine, checked and timed.
 //!
 //! ```text
 //!   drawing --lower--> tool paths --clip, order, rest, dry--> checked against the machine --> timed, and its ink counted --> Job
 //! ```
 //!
-//! A [`Job`] can only be had by way of these checks, and only a job is written for a machine.
+//! A [`Job`] exists only if these checks passed, and only a job is written for a machine.
 
 use super::errands::{add_registration, pause_every, rest_touches};
 use super::language::{Orders, write_picture};
@@ -22,22 +22,22 @@ use std::fmt;
 use std::io;
 use thiserror::Error;
 
-/// What is asked of a job beyond its drawing and its machine.
+/// Settings of a job besides its drawing and its machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JobOptions {
-    /// How its paths are put in order.
+    /// How the paths are ordered.
     pub sequence: Sequence,
-    /// How far curves and arcs may lie from what they stand for, in millimetres.
+    /// Maximum deviation of flattened curves and fitted arcs from the originals, in millimetres.
     pub tolerance: f64,
-    /// What becomes of what the machine does not reach.
+    /// How to treat paths that the machine does not reach.
     pub beyond: Beyond,
-    /// What is drawn or traced besides.
+    /// Marks drawn or traced in addition.
     pub marks: PlacingMarks,
-    /// After so many millimetres of line the machine waits for a new pen.
+    /// The machine waits for a new pen each time this many millimetres of line are drawn.
     pub pause_every: Option<f64>,
-    /// Seconds for which ink that is crossed must have dried.
+    /// Minimum drying time in seconds before ink may be crossed.
     pub dry_seconds: Option<f64>,
-    /// For pens whose touches rest longer than the machine's usual: seconds by pen.
+    /// Rest of a touch in seconds by pen number, where it differs from the machine's usual.
     pub dwell: BTreeMap<u32, f64>,
 }
 
@@ -55,35 +55,35 @@ impl Default for JobOptions {
     }
 }
 
-/// What becomes of paths that the machine does not reach, or that leave the page.
+/// How to treat paths that the machine does not reach or that leave the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Beyond {
-    /// The job is refused.
+    /// Refuse the job.
     #[default]
     Refuse,
-    /// They are cut at the border, and what is lost is counted.
+    /// Cut them at the border and count what is lost.
     Clip,
 }
 
-/// What helps to put paper and pens in their places.
+/// Marks that help to align paper and pens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PlacingMarks {
-    /// The drawing's box is traced with the pen up before the first pen draws; then the machine waits.
+    /// Trace the drawing's bounding box with the pen up before the first pen draws, then wait.
     pub has_frame: bool,
-    /// Each pen draws crosses at the corners.
+    /// Draw crosses at the corners with each pen.
     pub has_registration: bool,
 }
 
-/// What is asked of a machine that must be able to wait.
+/// A feature that needs a machine, or a machine that can wait.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wish {
     /// Tracing the frame before the first pen draws.
     Frame,
-    /// Waiting after every so many millimetres.
+    /// Waiting each time a given length of line is drawn.
     PauseEvery,
     /// Letting ink dry.
     Drying,
-    /// Another pen, or a layer that asks for a pause.
+    /// Changing the pen, or a layer that requests a pause.
     PenChange,
 }
 
@@ -91,7 +91,7 @@ impl fmt::Display for Wish {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Frame => "tracing the frame",
-            Self::PauseEvery => "waiting after some line",
+            Self::PauseEvery => "pausing after a length of line",
             Self::Drying => "letting ink dry",
             Self::PenChange => "a change of pen",
         })
@@ -102,32 +102,32 @@ impl fmt::Display for Wish {
 #[derive(Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum JobError {
-    /// The page or the drawing does not go onto the machine.
+    /// The page or the drawing does not fit on the machine.
     #[error(transparent)]
     Misfit(#[from] MountingError),
-    /// What is asked for needs a machine.
-    #[error("{0} needs a machine")]
+    /// The feature needs a machine, and none was given.
+    #[error("{0} needs a machine; choose a plotter profile")]
     NoMachine(Wish),
-    /// What is asked for needs a pause.
-    #[error("{wish} needs a pause, and {machine} has no word for one")]
+    /// The feature needs a pause, and the machine has no command for one.
+    #[error("{wish} needs a pause, and {machine} has no pause command")]
     NoPause {
-        /// What was asked for.
+        /// The feature.
         wish: Wish,
         /// The profile's name.
         machine: String,
     },
-    /// A layer asks for a pause or a delay.
-    #[error("layer '{layer}' asks for a pause or a delay, for which HP-GL has no word")]
+    /// A layer requests a pause or a delay, which HP-GL does not have.
+    #[error("layer '{layer}' asks for a pause or a delay, and HP-GL has no command for either")]
     NoHandling {
         /// The layer's name.
         layer: String,
     },
-    /// A layer wants a pen that the machine does not hold.
-    #[error("layer '{layer}' wants pen {pen}, but {machine} holds {holds}")]
+    /// A layer needs a pen that the machine does not hold.
+    #[error("layer '{layer}' needs pen {pen}, but {machine} holds only {holds}")]
     NoSuchPen {
         /// The layer's name.
         layer: String,
-        /// The pen that it wants.
+        /// The pen's number.
         pen: u32,
         /// The profile's name.
         machine: String,
@@ -140,13 +140,13 @@ pub enum JobError {
         /// The profile's name.
         machine: String,
     },
-    /// Ink would have to dry, and the machine's language has no word for waiting.
-    #[error("the machine would have to wait {seconds:.0} s in all, for which its language has no word")]
+    /// Ink has to dry, and the machine's language has no wait command.
+    #[error("drying takes {seconds:.0} s of waiting in total, and the machine's language has no wait command")]
     NoWait {
-        /// In all, in seconds.
+        /// Total waiting time in seconds.
         seconds: f64,
     },
-    /// It was stopped.
+    /// The work was stopped.
     #[error("interrupted")]
     Interrupted,
 }
@@ -169,18 +169,19 @@ pub struct Job<'a> {
     duplicates: usize,
 }
 
-/// What was cut away.
+/// What clipping removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cut {
-    /// Millimetres of line.
+    /// Length of line in millimetres.
     pub length: f64,
-    /// Touches.
+    /// Number of touches.
     pub touches: usize,
 }
 
 impl<'a> Job<'a> {
-    /// The job of a drawing: lowered to tool paths, then as [`Job::of_paths`]. `begin` is told each step as it begins: `lowering`,
-    /// `ordering`, `coverage`. Of opaque paint, what is covered must have been left out ([`occluded`](super::occluded)).
+    /// Builds the job of a drawing: lowers it to tool paths, then continues as [`Job::of_paths`]. `begin` is called with each
+    /// step's name as it begins: `lowering`, `ordering`, `coverage`. For opaque paint, hidden parts must have been removed
+    /// ([`occluded`](super::occluded)).
     ///
     /// ```
     /// use drypoint::drawing::{Dot, Drawing, Layer, Mark, Page};
@@ -220,7 +221,8 @@ impl<'a> Job<'a> {
         Ok(job)
     }
 
-    /// The job of tool paths: clipped, laid on the machine and checked, put in order, with its rests, pauses and times.
+    /// Builds the job of tool paths: clips them, places them on the machine, checks and orders them, and adds rests, pauses and
+    /// times.
     pub fn of_paths(
         mut plot: Plot,
         machine: Option<&'a Profile>,
@@ -280,27 +282,27 @@ impl<'a> Job<'a> {
         &self.plot
     }
 
-    /// The machine that it is for.
+    /// The job's machine.
     pub fn machine(&self) -> Option<&'a Profile> {
         self.machine.as_ref().map(|(profile, _)| *profile)
     }
 
-    /// Where its page lies on the machine.
+    /// Where the page lies on the machine.
     pub fn mounting(&self) -> Option<&Mounting> {
         self.machine.as_ref().map(|(_, mounting)| mounting)
     }
 
-    /// Lengths and times, as it will be drawn.
+    /// Lengths and times of the job as drawn.
     pub const fn report(&self) -> &PlotReport {
         &self.report
     }
 
-    /// The same before its paths were put in order.
+    /// Lengths and times before ordering.
     pub const fn unordered(&self) -> &PlotReport {
         &self.unordered
     }
 
-    /// What was cut away.
+    /// What clipping removed.
     pub const fn cut(&self) -> Cut {
         self.cut
     }
@@ -310,13 +312,13 @@ impl<'a> Job<'a> {
         self.home
     }
 
-    /// How many repeated paths are not drawn again.
+    /// Number of repeated paths that were dropped.
     pub const fn duplicates(&self) -> usize {
         self.duplicates
     }
 }
 
-/// What only a machine can do is not asked of paper.
+/// Refuses features that need a machine when there is none.
 fn without_machine(machine: Option<&Profile>, options: &JobOptions) -> Result<(), JobError> {
     let wishes = [
         (options.marks.has_frame, Wish::Frame),
@@ -329,7 +331,7 @@ fn without_machine(machine: Option<&Profile>, options: &JobOptions) -> Result<()
     }
 }
 
-/// Touches rest, and ink that is crossed dries first.
+/// Adds the rests of touches and the waits for ink to dry before it is crossed.
 fn rest_and_dry(
     plot: &mut Plot,
     machine: Option<&Profile>,
@@ -352,14 +354,14 @@ fn bounds_of(plot: &Plot) -> Option<Rect> {
     points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
 }
 
-/// Where the pen starts, in millimetres on the page: machine zero, as near as the page comes to it; without a machine the page's upper
-/// left corner.
+/// Where the pen starts, in millimetres on the page: machine zero clamped to the page; without a machine, the page's upper left
+/// corner.
 pub fn home_of(mounting: Option<&Mounting>, plot: &Plot) -> Point {
     let zero = mounting.map_or(Point::ORIGIN, |m| m.to_machine.inverse() * Point::ORIGIN);
     Point::new(zero.x.clamp(0.0, plot.page.width), zero.y.clamp(0.0, plot.page.height))
 }
 
-/// Every pen is there, or the machine can wait until it is; what asks for a wait gets it.
+/// Checks that the machine holds every pen or can wait for a change, and that it can wait wherever the job needs it to.
 fn check_pens(plot: &Plot, profile: &Profile, options: &JobOptions) -> Result<(), JobError> {
     let machine = || profile.name.clone();
     if !profile.speech().has_layer_handling()

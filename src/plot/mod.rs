@@ -1,7 +1,7 @@
 //! Plotting: from a [`Drawing`](crate::drawing::Drawing) to ordered tool paths for one machine.
 //!
-//! In: marks with their ink. Out: a [`Plot`], the polylines that one nib per pen draws, in the page's millimetres; a
-//! [`Mounting`] says where the page lies on a machine. Nothing here knows of styles or fields.
+//! Input: marks with their ink. Output: a [`Plot`], the polylines that one nib per pen draws, in the page's millimetres. A
+//! [`Mounting`] places the page on a machine. Nothing here depends on styles or fields.
 
 mod budget;
 mod calibration;
@@ -50,12 +50,12 @@ pub use time::{Clock, clock};
 use crate::drawing::{Colour, Handling, Page};
 use crate::geometry::{Point, polyline_length};
 
-/// Tool paths, in the order in which they are drawn.
+/// Tool paths in drawing order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     /// The sheet.
     pub page: Page,
-    /// Pens in the order in which they are used.
+    /// Pens in order of use.
     pub pens: Vec<PenPaths>,
 }
 
@@ -70,7 +70,7 @@ pub struct PenPaths {
     pub colour: Colour,
     /// The nib's width in millimetres.
     pub nib: f64,
-    /// Pause, speed and delay that its layer asks for.
+    /// Pause, speed and delay set by its layer.
     pub handling: Handling,
     /// Paths in drawing order.
     pub paths: Vec<Toolpath>,
@@ -81,21 +81,21 @@ pub struct PenPaths {
 pub struct Toolpath {
     /// Vertices in millimetres on the page; a closed path repeats its first.
     pub points: Vec<Point>,
-    /// The pen's height at each vertex in millimetres, where its line swells by it.
+    /// The pen's height at each vertex in millimetres, if the line's width follows from the height.
     pub heights: Option<Vec<f64>>,
-    /// How long a touch rests on the paper beyond the time that the pen takes to come down.
+    /// How long a touch rests on the paper after the pen has come down, in seconds.
     pub dwell_seconds: f64,
-    /// The group whose paths are drawn one after the other as they stand, none of them turned round.
+    /// The group. Its paths are drawn consecutively, in their given order and direction.
     pub group: Option<u32>,
 }
 
 impl Toolpath {
-    /// A line of even height, or a touch, that belongs to no group.
+    /// A line of constant height, or a touch, without a group.
     pub const fn new(points: Vec<Point>) -> Self {
         Self { points, heights: None, dwell_seconds: 0.0, group: None }
     }
 
-    /// Drawn the other way round.
+    /// The path in the opposite direction.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.points.reverse();
@@ -105,7 +105,7 @@ impl Toolpath {
         self
     }
 
-    /// Whether it ends where it begins, and may begin elsewhere.
+    /// True if the path is a loop: more than two points, the last equal to the first.
     pub fn is_closed(&self) -> bool {
         self.points.len() > 2 && self.points[0] == self.points[self.points.len() - 1]
     }
@@ -113,12 +113,12 @@ impl Toolpath {
     /// Its two ends.
     ///
     /// # Panics
-    /// If it has no point, which no function here makes.
+    /// If the path has no points. No function here makes such a path.
     pub fn ends(&self) -> PathEnds {
         PathEnds { start: self.points[0], end: self.points[self.points.len() - 1] }
     }
 
-    /// Length drawn.
+    /// Length of the line in millimetres.
     pub fn length(&self) -> f64 {
         polyline_length(&self.points)
     }

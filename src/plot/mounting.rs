@@ -1,4 +1,4 @@
-//! Where the page lies on the machine.
+//! The position of the page on the machine.
 
 use super::profile::{Paper, Profile};
 use super::{Plot, Toolpath};
@@ -7,47 +7,47 @@ use crate::geometry::{Affine, Point, Rect, Vec2, clip_polyline};
 use std::fmt;
 use thiserror::Error;
 
-/// Sizes that differ by less are the same sheet, in millimetres.
+/// Sheet sizes that differ by less are the same, in millimetres.
 const SAME_SIZE: f64 = 1.0;
-/// Rounding that is forgiven at the machine's limits, in millimetres.
+/// Rounding tolerance at the machine's limits, in millimetres.
 const FORGIVEN: f64 = 0.02;
 
-/// How far arcs may lie from their path unless it is told otherwise, in millimetres: as far as curves are flattened.
+/// Default tolerance of fitted arcs, in millimetres; the same as for flattened curves.
 const ARC_TOLERANCE: f64 = 0.02;
 
 /// A page on a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mounting {
-    /// From the page's millimetres to machine units.
+    /// Transform from the page's millimetres to machine units.
     pub to_machine: Affine,
     /// The machine's reach in machine units.
     pub limits: Rect,
-    /// The sheet, where the machine knows it.
+    /// The sheet, if the machine knows it.
     pub paper: Option<Paper>,
     /// How the page is turned on the machine.
     pub turn: Turn,
     /// Where the pen waits at the end, in machine units.
     pub park: Point,
-    /// What is traced with the pen up before the first pen draws, on the page; then the machine waits.
+    /// Rectangle on the page traced with the pen up before the first pen draws; then the machine waits.
     pub frame: Option<Rect>,
-    /// How far fitted arcs may lie from their path, in millimetres.
+    /// Maximum deviation of fitted arcs from their path, in millimetres.
     pub tolerance: f64,
-    /// For slots whose pens' ink lies off: where they are sent instead, in machine units.
+    /// Corrections for slots whose ink is offset, in machine units.
     offsets: Vec<(u32, Vec2)>,
 }
 
-/// A page's turn on the machine.
+/// A page's rotation on the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// As it is.
+    /// Not rotated.
     Upright,
-    /// Clockwise by a quarter, so that a portrait page lies on a landscape sheet.
+    /// A quarter turn clockwise, so that a portrait page lies on a landscape sheet.
     Quarter,
-    /// Anticlockwise by a quarter, as the `AxiDraw`'s program does.
+    /// A quarter turn anticlockwise, as the `AxiDraw`'s program does.
     QuarterBack,
 }
 
-/// Why a page or drawing does not go onto a machine.
+/// Why a page or drawing does not fit on a machine.
 #[derive(Debug, Error, PartialEq)]
 pub enum MountingError {
     /// The page is larger than every sheet.
@@ -62,61 +62,61 @@ pub enum MountingError {
         /// The sheets and their sizes.
         sheets: String,
     },
-    /// The drawing leaves the machine's reach.
+    /// The drawing extends beyond the machine's reach.
     #[error("the drawing reaches {excess:.2} mm beyond the {side} limit of {machine} on this sheet; {room}")]
     OutOfReach {
-        /// How far.
+        /// By how many millimetres.
         excess: f64,
         /// Which limit.
         side: &'static str,
         /// The profile's name.
         machine: String,
-        /// What there is room for.
+        /// The drawing's size and the available room.
         room: Room,
     },
-    /// The drawing leaves the sheet.
+    /// The drawing extends beyond the sheet.
     #[error("the drawing reaches {excess:.2} mm beyond the sheet's {side} edge; {room}")]
     OffSheet {
-        /// How far.
+        /// By how many millimetres.
         excess: f64,
         /// Which edge.
         side: &'static str,
-        /// What there is room for.
+        /// The drawing's size and the available room.
         room: Room,
     },
 }
 
-/// A drawing's size and the room that there is for it, each a width and a height in millimetres.
+/// A drawing's size and the room available for it, each as (width, height) in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room {
-    /// The drawing, as far as the pen goes.
+    /// Size of the drawing's pen paths.
     pub drawn: (f64, f64),
-    /// What can be drawn on of this page.
+    /// Size of the page's drawable area.
     pub free: (f64, f64),
-    /// What the machine reaches, were the page larger.
+    /// Size of the machine's reach, regardless of the page.
     pub reach: (f64, f64),
-    /// What could be drawn on of the page turned by a quarter, where a machine takes it.
+    /// Size of the drawable area with the page turned by a quarter, if the machine takes it.
     pub free_turned: Option<(f64, f64)>,
 }
 
 impl Room {
-    /// Whether the drawing would fit somewhere on this page.
+    /// True if the drawing fits somewhere on this page.
     pub fn is_enough(&self) -> bool {
         fits(self.drawn, self.free)
     }
 
-    /// Whether the drawing would fit, turned by a quarter, on the page as it lies.
+    /// True if the drawing, turned by a quarter, fits on the page as it lies.
     pub fn is_enough_across(&self) -> bool {
         fits((self.drawn.1, self.drawn.0), self.free)
     }
 
-    /// Whether the drawing would fit if the page were turned by a quarter with it.
+    /// True if the drawing fits when the page is turned by a quarter with it.
     pub fn is_enough_turned(&self) -> bool {
         self.free_turned.is_some_and(|free| fits((self.drawn.1, self.drawn.0), free))
     }
 }
 
-/// Whether a width and height fit into others.
+/// True if the inner width and height fit in the outer ones.
 fn fits(inner: (f64, f64), outer: (f64, f64)) -> bool {
     inner.0 <= outer.0 + FORGIVEN && inner.1 <= outer.1 + FORGIVEN
 }
@@ -127,12 +127,12 @@ impl fmt::Display for Room {
             return write!(f, "it would fit elsewhere on the page");
         }
         let ((width, height), (free_width, free_height)) = (self.drawn, self.free);
-        write!(f, "it is {width:.1} x {height:.1} mm and {free_width:.1} x {free_height:.1} mm can be drawn on")
+        write!(f, "it is {width:.1} x {height:.1} mm, and {free_width:.1} x {free_height:.1} mm can be drawn on")
     }
 }
 
-/// Lays a page on a machine: on the sheet of its size, either way round, else in the machine's own area with its zero where the
-/// axes say, else in the middle of the first sheet of the profile that holds it.
+/// Places a page on a machine: on the sheet of its size, in either orientation; else in the machine's own area, with zero where
+/// the axes say; else in the middle of the profile's first sheet that holds it.
 pub fn mount(profile: &Profile, page: &Page) -> Result<Mounting, MountingError> {
     if let Some((paper, turn)) = paper_of_size(profile, page) {
         return Ok(on_paper(profile, page, paper, turn));
@@ -152,7 +152,7 @@ pub fn mount(profile: &Profile, page: &Page) -> Result<Mounting, MountingError> 
     Ok(on_paper(profile, page, paper, turn))
 }
 
-/// The page in the middle of a sheet.
+/// Places the page in the middle of a sheet.
 fn on_paper(profile: &Profile, page: &Page, paper: &Paper, turn: Turn) -> Mounting {
     let (width, height) = turned_size(page, turn);
     let centred = Affine::translate((0.5 * (paper.width - width), 0.5 * (paper.height - height)));
@@ -163,14 +163,14 @@ fn on_paper(profile: &Profile, page: &Page, paper: &Paper, turn: Turn) -> Mounti
     Mounting { paper: Some(paper.clone()), turn, park, ..plain }
 }
 
-/// From millimetres on the sheet, seen with the axes' ways, to machine units; `zero` is machine zero on the sheet.
+/// Transform from millimetres on the sheet to machine units along the machine's axes; `zero` is machine zero on the sheet.
 fn sheet_to_machine(profile: &Profile, zero: Point) -> Affine {
     let x = profile.axes.x.vector() * (profile.units_per_mm * profile.scale_x);
     let y = profile.axes.y.vector() * (profile.units_per_mm * profile.scale_y);
     Affine::new([x.x, y.x, x.y, y.y, 0.0, 0.0]) * Affine::translate(-zero.to_vec2())
 }
 
-/// From the page to its turned box, whose upper left corner is the origin.
+/// Transform from the page to the turned page, whose upper left corner is the origin.
 fn turned(page: &Page, turn: Turn) -> Affine {
     match turn {
         Turn::Upright => Affine::IDENTITY,
@@ -186,7 +186,7 @@ const fn turned_size(page: &Page, turn: Turn) -> (f64, f64) {
     }
 }
 
-/// Each sheet, either way round, with what a page leaves free of its width and height.
+/// Each sheet in both orientations, with the width and height that the page leaves free.
 fn sheets<'a>(profile: &'a Profile, page: &Page) -> impl Iterator<Item = (&'a Paper, Turn, f64, f64)> {
     profile.paper.iter().flat_map(move |paper| {
         [Turn::Upright, Turn::Quarter].map(|turn| {
@@ -211,7 +211,7 @@ fn paper_that_holds<'a>(profile: &'a Profile, page: &Page) -> Result<(&'a Paper,
 }
 
 impl Mounting {
-    /// A machine's reach and where the page lies in it, without a sheet.
+    /// A mounting from a machine's reach and the page's transform, without a sheet.
     pub fn new(profile: &Profile, to_machine: Affine, limits: Rect) -> Self {
         let park = profile.speech().park().map_or(Point::new(limits.x1, limits.y1), |[x, y]| Point::new(x, y));
         let offset = |[x, y]: [f64; 2]| -Vec2::new(x * profile.scale_x, y * profile.scale_y) * profile.units_per_mm;
@@ -219,7 +219,7 @@ impl Mounting {
         Self { to_machine, limits, paper: None, turn: Turn::Upright, park, frame: None, tolerance: ARC_TOLERANCE, offsets }
     }
 
-    /// Where a pen is sent to draw at a point of the page, in machine units.
+    /// The position of a pen that draws at a point of the page, in machine units.
     pub fn place(&self, pen: u32, p: Point) -> Point {
         self.to_machine * p + self.offsets.iter().find(|(slot, _)| *slot == pen).map_or(Vec2::ZERO, |(_, offset)| *offset)
     }
@@ -230,12 +230,12 @@ impl Mounting {
         self.to_machine.inverse().transform_rect_bbox(moved(self.limits))
     }
 
-    /// What may be drawn on: the sheet less what the machine cannot reach, on the page.
+    /// The drawable area on the page: the sheet without what the machine cannot reach.
     pub fn drawable(&self, page: &Page) -> Rect {
         self.reach_on_page().intersect(page.rect())
     }
 
-    /// Refuses a plot of which anything lies beyond the machine's reach or off the sheet, and says by how much.
+    /// Refuses a plot that extends beyond the machine's reach or off the sheet, and reports by how much.
     pub fn check(&self, profile: &Profile, plot: &Plot) -> Result<(), MountingError> {
         let (mut worst, mut worst_off) = ((0.0, ""), (0.0, ""));
         let mut whole: Option<Rect> = None;
@@ -262,7 +262,7 @@ impl Mounting {
         Ok(())
     }
 
-    /// What there is room for, for a drawing of these bounds.
+    /// The available room for a drawing with these bounds.
     fn room(&self, profile: &Profile, page: &Page, drawn: Rect) -> Room {
         let size = |rect: Rect| (rect.width().max(0.0), rect.height().max(0.0));
         let turned = Page { width: page.height, height: page.width, ..*page };
@@ -279,7 +279,7 @@ fn bounds(points: impl Iterator<Item = Point>) -> Option<Rect> {
     points.map(|p| Rect::from_points(p, p)).reduce(|a, b| a.union(b))
 }
 
-/// How far a box reaches beyond each limit, in millimetres.
+/// How far a rectangle extends beyond each limit, in millimetres.
 fn excesses(inner: Rect, limits: Rect, units_per_mm: f64, names: [&'static str; 4]) -> [(f64, &'static str); 4] {
     [
         ((limits.x0 - inner.x0) / units_per_mm, names[0]),
@@ -289,7 +289,7 @@ fn excesses(inner: Rect, limits: Rect, units_per_mm: f64, names: [&'static str; 
     ]
 }
 
-/// Cuts every path at a rectangle of the page; returns how many millimetres of line, and how many touches, fell away.
+/// Cuts every path at a rectangle of the page. Returns the lost millimetres of line and the number of lost touches.
 pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
     let (mut lost_length, mut lost_touches) = (0.0, 0);
     for pen in &mut plot.pens {
@@ -320,7 +320,7 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
     (lost_length.max(0.0), lost_touches)
 }
 
-/// A value between vertices; `at` is the vertex's index plus a fraction.
+/// The interpolated value at `at`, a vertex index plus a fraction.
 fn between(values: &[f64], at: f64) -> f64 {
     let last = values.len() - 1;
     let i = (at.max(0.0) as usize).min(last);

@@ -1,4 +1,4 @@
-//! Hidden parts removed: what lies under opaque ink of another colour is not drawn, as a pen cannot paint over it.
+//! Hidden-part removal: what lies under opaque ink of another colour is not drawn, as a pen cannot paint over it.
 
 use crate::drawing::{Area, Colour, Dot, Drawing, Mark, Mixing, Painted, Stroke, Width};
 use crate::geometry::{BezPath, Rect, Region};
@@ -6,14 +6,14 @@ use crate::interrupt::{Interrupt, Interrupted};
 use kurbo::Shape;
 use std::cell::OnceCell;
 
-/// Flattening of outlines that are cut, in millimetres.
+/// Flattening tolerance of outlines that are cut, in millimetres.
 const TOLERANCE: f64 = 0.005;
 /// Strokes wider than this are cut as areas, narrower ones along their centre lines, in millimetres: a pen's width.
 const WIDE: f64 = 0.8;
-/// Cells a side in which covers are looked up.
+/// Cells per side of the grid in which covers are looked up.
 const CELLS: usize = 96;
 
-/// What hides what lies below it.
+/// Which marks hide what lies below them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hides {
     /// Dots, areas and strokes hide ink of other colours, and white hides all.
@@ -24,13 +24,14 @@ pub enum Hides {
     PaintOnOtherColours,
 }
 
-/// The drawing without what is hidden. What is left of paint lies under no other colour, so that it needs no order and belongs to no
-/// group any more ([`Hides::PaintOnOtherColours`]). `painting` names every mark once, the lowest first; marks that it does not name are hidden.
+/// Removes the hidden parts of a drawing. The visible parts of paint no longer overlap other colours, so with
+/// [`Hides::PaintOnOtherColours`] they need no order and lose their group. `painting` names every mark once, the lowest first;
+/// marks that it does not name are removed.
 pub fn occluded(drawing: &Drawing, painting: &[Painted], hides: Hides, interrupt: &Interrupt) -> Result<Drawing, Interrupted> {
     occluded_where(drawing, painting, hides, |_, _| true, interrupt)
 }
 
-/// The same of those marks alone, by layer and number, that are wanted; the others hide them and are left out.
+/// As [`occluded`], but only for the marks selected by `is_wanted(layer, mark)`. The others still hide them and are left out.
 pub fn occluded_where(
     drawing: &Drawing,
     painting: &[Painted],
@@ -76,14 +77,14 @@ pub fn occluded_where(
     Ok(result)
 }
 
-/// Opaque outlines met so far, from the top down.
+/// Opaque outlines found so far, from the top down.
 struct Covers<'a> {
     bounds: Rect,
     cells: Vec<Vec<u32>>,
     all: Vec<Cover<'a>>,
 }
 
-/// Whose outline covers.
+/// The source of a cover's outline.
 enum Outline<'a> {
     White(&'a BezPath),
     Mark(&'a Mark),
@@ -91,7 +92,7 @@ enum Outline<'a> {
 
 struct Cover<'a> {
     of: Outline<'a>,
-    /// Made when something lies below.
+    /// Computed when first needed.
     outline: OnceCell<BezPath>,
     bounds: Rect,
     /// None for white.
@@ -107,7 +108,7 @@ impl Cover<'_> {
     }
 }
 
-/// A mark that may be drawn at any time.
+/// Removes a mark's group, so that it may be drawn at any time.
 fn ungroup(mark: &mut Mark) {
     if let Mark::Stroke(stroke) = mark {
         stroke.group = None;
@@ -150,7 +151,7 @@ impl<'a> Covers<'a> {
         covers.flat_map(|cover| cover.outline().iter()).collect()
     }
 
-    /// What is left of a mark.
+    /// The visible parts of a mark.
     fn visible(&self, mark: &Mark, colour: Colour, hides: Hides, interrupt: &Interrupt) -> Vec<Mark> {
         let bounds = mark.bounding_box();
         if !bounds.is_finite() {
@@ -170,7 +171,7 @@ impl<'a> Covers<'a> {
     }
 }
 
-/// The pieces of a stroke whose centre line is not covered, with the width that they had there.
+/// The pieces of a stroke whose centre line is not covered, with their original widths.
 fn uncovered_stroke(stroke: &Stroke, cover: &Region, interrupt: &Interrupt) -> Vec<Mark> {
     let (points, widths) = stroke.sampled(sampling(stroke));
     let pieces = cover.outside_of_line(&points, interrupt);
@@ -195,7 +196,7 @@ fn uncovered_stroke(stroke: &Stroke, cover: &Region, interrupt: &Interrupt) -> V
         .collect()
 }
 
-/// Fine enough for the curve and its widths.
+/// Sample spacing in millimetres, fine enough for the curve and its widths.
 fn sampling(stroke: &Stroke) -> f64 {
     (0.5 * stroke.widest()).clamp(0.05, 0.5)
 }
@@ -206,7 +207,7 @@ fn between(values: &[f64], at: f64) -> f64 {
     values[i] + (next - values[i]) * (at - i as f64)
 }
 
-/// What is left of a dot, an area or a wide stroke, as an area; the mark itself when nothing of it is covered.
+/// The visible part of a dot, an area or a wide stroke, as an area; the mark itself if nothing of it is covered.
 fn uncovered_area(mark: &Mark, cover: &Region) -> Vec<Mark> {
     let outline = outline_of(mark);
     let before = Region::new(&outline, TOLERANCE);

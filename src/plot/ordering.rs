@@ -1,52 +1,52 @@
-//! A plot is put in order: repeated paths go, paths that meet are joined, and what is left is drawn along the shortest way.
+//! Orders a plot: drops repeated paths, joins paths that meet, and minimizes the pen-up travel between the rest.
 
 use super::order::{is_free, join_to_loops, order_until, rotated, shuffled};
 use super::{Direction, Effort, PathEnds, Plot, Seam, Stop, Toolpath, Visit, chain, drop_duplicates};
 use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
 
-/// Millimetres within which two paths are the same one. What repeats in a file differs by the rounding of its numbers, a thousandth or two;
-/// the lines of the densest hatch lie a tenth apart, so that there is room on both sides.
+/// Tolerance in millimetres within which two paths are the same. Repeats in a file differ by the rounding of its numbers, a
+/// thousandth or two; the lines of the densest hatch are a tenth apart, so there is room on both sides.
 const SAME: f64 = 0.005;
 
-/// How a plot is put in order.
+/// How a plot is ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sequence {
     /// Work spent on the search.
     pub effort: Effort,
-    /// Whether paths may be drawn backwards.
+    /// The directions in which paths may be drawn.
     pub direction: Direction,
-    /// Ends that lie this near, in millimetres, are joined; with 0, none are.
+    /// Ends at most this far apart, in millimetres, are joined; 0 joins none.
     pub merge: f64,
-    /// What becomes of repeated paths.
+    /// How to treat repeated paths.
     pub duplicates: Duplicates,
     /// Where loops begin.
     pub seam: Seam,
     /// The way through the paths.
     pub course: Course,
-    /// The corner of the drawing from which the order starts instead of the machine's home.
+    /// The corner of the drawing at which the order starts, instead of the machine's home.
     pub start: Option<DrawingCorner>,
 }
 
-/// What becomes of paths that repeat an earlier one of the same pen.
+/// How to treat paths that repeat an earlier one of the same pen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Duplicates {
-    /// They are not drawn.
+    /// Draw them once.
     #[default]
     Drop,
-    /// They are drawn again.
+    /// Draw them again.
     Keep,
 }
 
 /// The way through the paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Course {
-    /// As found.
+    /// The order found.
     #[default]
     Forwards,
     /// From the last path to the first.
     Backwards,
-    /// At random, so that ink dries before the pen comes back; the order follows from the seed.
+    /// At random, so that ink dries before the pen comes back; determined by the seed.
     Shuffled(u64),
 }
 
@@ -64,7 +64,7 @@ pub enum DrawingCorner {
 }
 
 impl DrawingCorner {
-    /// Where it is, around these paths.
+    /// The corner of these paths' bounding box.
     fn of(self, paths: &[Toolpath]) -> Option<Point> {
         let all = || paths.iter().flat_map(|path| &path.points);
         let low = all().copied().reduce(|p, q| Point::new(p.x.min(q.x), p.y.min(q.y)))?;
@@ -79,17 +79,17 @@ impl DrawingCorner {
 }
 
 impl Plot {
-    /// Joins, orders and turns each pen's paths for the least pen-up travel from `home`, and draws no path twice.
+    /// Joins, orders and reverses each pen's paths for the least pen-up travel from `home`, and drops repeated paths.
     pub fn ordered(&mut self, home: Point, effort: Effort, direction: Direction, merge: f64) {
         let sequence = Sequence { effort, direction, merge, ..Sequence::default() };
         let done = self.put_in_order(home, &sequence, &Interrupt::never());
         debug_assert!(done.is_ok(), "nobody interrupts");
     }
 
-    /// Puts each pen's paths in order, beginning at `home`, and returns the number of repeated paths that went.
+    /// Orders each pen's paths, beginning at `home`, and returns the number of repeated paths dropped.
     ///
-    /// Paths of one group stay together, in their order and as they stand. Loops are entered where it suits the travel, unless the
-    /// seam's place is given. Interrupted, the plot is left without some of its paths.
+    /// Paths of one group stay together, in their given order and direction. Loops are entered wherever travel is shortest,
+    /// unless the seam is given. If interrupted, the plot lacks some of its paths.
     pub fn put_in_order(&mut self, home: Point, sequence: &Sequence, interrupt: &Interrupt) -> Result<usize, Interrupted> {
         let mut at = home;
         let mut dropped = 0;
@@ -109,7 +109,7 @@ impl Plot {
     }
 }
 
-/// The paths of one pen in the order in which they are drawn; once the interrupt is raised, any of them in any order.
+/// The paths of one pen in drawing order. Once the interrupt is raised, the result may be incomplete and in any order.
 fn in_order(paths: Vec<Toolpath>, from: Point, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut items = items(paths, sequence, interrupt);
     if interrupt.is_raised() {
@@ -135,7 +135,7 @@ fn in_order(paths: Vec<Toolpath>, from: Point, sequence: &Sequence, interrupt: &
     drawn
 }
 
-/// Single paths, joined where they meet, and groups, which stay as they are: what is drawn in one piece.
+/// The units to order: single paths, joined where they meet, and unchanged groups.
 fn items(paths: Vec<Toolpath>, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Vec<Toolpath>> {
     let joins = sequence.merge > 0.0 && sequence.effort != Effort::None;
     let mut slot_of = std::collections::HashMap::new();
@@ -164,7 +164,7 @@ fn is_single(item: &[Toolpath]) -> bool {
     item.iter().all(|path| path.group.is_none())
 }
 
-/// The order with the least travel; loops are turned to where they are entered.
+/// The order with the least travel; loops are rotated to where they are entered.
 fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Visit> {
     let stop = |item: &Vec<Toolpath>| {
         let ends = PathEnds { start: item[0].ends().start, end: item[item.len() - 1].ends().end };

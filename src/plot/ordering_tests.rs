@@ -34,7 +34,7 @@ fn loops_are_entered_where_the_pen_passes() {
     let free = in_order(squares.clone(), Point::ORIGIN, &PLAIN, &Interrupt::never());
     let fixed = in_order(squares.clone(), Point::ORIGIN, &Sequence { seam: Seam::Drawn, ..PLAIN }, &Interrupt::never());
     assert!((length(&free) - length(&squares)).abs() < 1e-9 && free.iter().all(Toolpath::is_closed));
-    // The pen leaves each loop where it entered it, so that only the way across the outermost ones and the turns are saved.
+    // The pen leaves each loop where it entered it, so only the travel across the outermost loops and the turns are saved.
     assert!(travel(&free, Point::ORIGIN) < 0.95 * travel(&fixed, Point::ORIGIN));
 }
 

@@ -1,4 +1,4 @@
-//! What a plot will take, per pen and in all.
+//! Lengths, times and coverage of a plot, per pen and in total.
 
 use super::coverage::Coverage;
 use super::order::{PathEnds, Visit};
@@ -9,7 +9,7 @@ use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
 use serde::Serialize;
 
-/// One pen's share.
+/// The report of one pen.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PenReport {
     /// The pen's number.
@@ -24,33 +24,34 @@ pub struct PenReport {
     pub pen_down_mm: f64,
     /// Millimetres travelled with the pen up, from the last pen's end or home.
     pub pen_up_mm: f64,
-    /// The same before ordering.
+    /// Pen-up travel before ordering, in millimetres.
     pub pen_up_mm_before: f64,
     /// How often the pen is lifted.
     pub pen_lifts: usize,
-    /// Time, when the machine is known.
+    /// Time in seconds, if the machine is known.
     pub seconds: Option<f64>,
-    /// The part of it in which an axis moves.
+    /// Time in seconds during which an axis moves.
     pub motion_seconds: Option<f64>,
-    /// The part of it in which none does: a servo or a solenoid lifts or lowers the pen, the pen is fetched, or a wait was asked for.
+    /// Time in seconds during which no axis moves: a servo or a solenoid lifts or lowers the pen, a pen is fetched, or the file
+    /// waits.
     pub waiting_seconds: Option<f64>,
-    /// The share of the asked ink that is laid down, where ink was asked for.
+    /// Share of the drawing's ink that is laid down, if coverage was measured.
     pub covered_fraction: Option<f64>,
-    /// Ink laid down that was not asked for, as a share of what was.
+    /// Ink laid down outside the drawing's ink, as a share of the latter.
     pub spill_fraction: Option<f64>,
 }
 
-/// All pens.
+/// The report of all pens.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PlotReport {
-    /// Each pen.
+    /// One report per pen.
     pub pens: Vec<PenReport>,
-    /// All together; its name is `all`.
+    /// The total; its name is `all`.
     pub total: PenReport,
 }
 
-/// Measures a plot that starts at `home` on the page; with a machine and where the page lies on it, also the time. `before` is the
-/// pen-up travel of each pen before ordering, if it is known.
+/// Measures a plot that starts at `home` on the page. With a machine and its mounting, also the time. `before` is the pen-up
+/// travel of each pen before ordering, if known.
 pub fn report(
     plot: &Plot,
     home: Point,
@@ -101,7 +102,7 @@ pub fn report(
 }
 
 impl PlotReport {
-    /// Adds what was measured of each pen's ink, in the pens' order.
+    /// Adds the measured coverage of each pen, in the pens' order.
     pub fn add_coverage(&mut self, measured: &[Coverage]) {
         let mut total = Coverage::default();
         let mut counted = Vec::new();

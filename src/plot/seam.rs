@@ -1,10 +1,10 @@
-//! Where a loop begins and ends, if not wherever the pen gets to it soonest.
+//! Where a loop begins and ends, if not where the pen reaches it soonest.
 
 use super::Toolpath;
 use super::order::{is_free, rotated};
 use crate::geometry::Point;
 
-/// The place of a loop's seam.
+/// The position of a loop's seam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Seam {
     /// Wherever the travel is shortest.
@@ -25,7 +25,7 @@ pub enum Seam {
 }
 
 impl Seam {
-    /// Turns a loop so that its seam lies here; anything else stays as it is.
+    /// Rotates a loop so that its seam lies here. Other paths are returned unchanged.
     pub(super) fn place(self, path: Toolpath) -> Toolpath {
         if !is_free(&path) {
             return path;
@@ -45,7 +45,7 @@ impl Seam {
     }
 }
 
-/// Cosine of the turn at a vertex of a loop: 1 straight on, -1 back.
+/// Cosine of the turn at a vertex of a loop: 1 is straight on, -1 a reversal.
 fn straightness(around: &[Point], vertex: usize) -> f64 {
     let at = around[vertex];
     let len = around.len();

@@ -1,4 +1,4 @@
-//! Areas: smaller by the spread, without what is too narrow for print; dots stand for that.
+//! Areas: shrunk by the spread, without parts too narrow for print, which dots replace.
 
 use super::Press;
 use super::thin::{Plan, Speck};
@@ -6,9 +6,9 @@ use crate::drawing::{Area, Dot, Mark};
 use crate::geometry::{BezPath, Insets, Point, Rect, clip_polygon, polygon_area};
 use std::f64::consts::PI;
 
-/// Flattening tolerance in millimetres: a tenth of what presses move borders by.
+/// Flattening tolerance in millimetres: a tenth of the distance by which presses move borders.
 const TOLERANCE: f64 = 0.002;
-/// A narrow piece with less ink than this share of the smallest dot is the tip of a corner, which print rounds anyway.
+/// Minimum ink of a narrow piece, as a share of the smallest dot's. Less is the tip of a corner, which print rounds anyway.
 const LEAST_SHARE: f64 = 0.25;
 
 /// A filled outline with its border moved outwards.
@@ -16,7 +16,7 @@ pub(super) fn grown(outline: &BezPath, distance: f64) -> BezPath {
     Insets::new(outline, TOLERANCE).grown(distance).path()
 }
 
-/// What a disc of the smallest mark can reach inside the area (its opening), and dots for the rest.
+/// The part of the area that a disc of the smallest mark can reach inside it (its opening), and dots for the rest.
 pub(super) fn plan(area: &Area, press: &Press) -> Plan {
     let shape = Insets::new(&area.outline, TOLERANCE);
     let radius = press.least_printed_radius();
@@ -29,7 +29,7 @@ pub(super) fn plan(area: &Area, press: &Press) -> Plan {
         if signed_area(&rings).abs() < LEAST_SHARE * disc {
             continue;
         }
-        // A square of the disc's area holds at most a disc's ink.
+        // A square with the disc's area contains at most a disc's ink.
         for (at, ink) in squares(rings, PI.sqrt() * radius) {
             let mark = Mark::Dot(Dot { colour: area.colour, ..Dot::circle(at, 0.5 * press.least) });
             specks.push(Speck { at, share: ink / disc, mark });
@@ -42,7 +42,7 @@ fn signed_area(rings: &[Vec<Point>]) -> f64 {
     rings.iter().map(|ring| polygon_area(ring)).sum()
 }
 
-/// A shape halved until its parts fit into squares of this side: the middle and the area of each.
+/// Halves a shape until its parts fit into squares of this side. Returns the centroid and the area of each part.
 fn squares(rings: Vec<Vec<Point>>, side: f64) -> Vec<(Point, f64)> {
     let (mut parts, mut out) = (vec![rings], Vec::new());
     while let Some(rings) = parts.pop() {
@@ -69,7 +69,7 @@ fn bounds(rings: &[Vec<Point>]) -> Option<Rect> {
     rings.iter().flatten().map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
 }
 
-/// Centre of weight.
+/// The centroid.
 fn middle(rings: &[Vec<Point>]) -> Option<Point> {
     let origin = *rings.first()?.first()?;
     let (mut sum, mut twice) = (kurbo::Vec2::ZERO, 0.0);

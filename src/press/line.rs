@@ -1,4 +1,4 @@
-//! Strokes: thinner by the spread on both sides; where that is too thin for print, dashes of the thinnest line.
+//! Strokes: thinned by the spread on both sides, and broken into dashes of the thinnest line where that is too thin for print.
 
 use super::thin::{Plan, Speck};
 use super::{Press, widened};
@@ -6,31 +6,31 @@ use crate::drawing::{Dot, Ends, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, catmull_rom, polyline_length, simplify};
 use std::f64::consts::PI;
 
-/// Length of a dash in widths of the thinnest line. Dashes of 2 look like a dotted line; from 5 on the gaps between them are
-/// seen as breaks.
+/// Length of a dash in widths of the thinnest line. Dashes of 2 look like a dotted line; from 5 on, the gaps between them look
+/// like breaks.
 const DASH_WIDTHS: f64 = 3.0;
-/// Samples along a dash; cuts fall between them.
+/// Samples per dash; cuts fall between them.
 const SAMPLES_A_DASH: f64 = 4.0;
-/// The longest step between samples in millimetres, so that a swelling stroke keeps its shape.
+/// Maximum step between samples in millimetres, so that a swelling stroke keeps its shape.
 const LONGEST_STEP: f64 = 0.25;
-/// How far a dash may lie from the curve that it is cut from, in millimetres; half of it cannot be printed.
+/// Maximum deviation of a dash from the original curve, in millimetres; half of it cannot be printed.
 const DASH_TOLERANCE: f64 = 0.003;
 
-/// A stroke in pieces from start to end; the thin ones may be left out.
+/// A stroke in pieces from start to end. The thin ones may be left out.
 pub(super) struct Broken {
     stroke: Stroke,
     pieces: Vec<Piece>,
 }
 
-/// A piece of the centre line with the widths that print shall show; neighbours share a point.
+/// A piece of the centre line with the widths wanted in print. Neighbours share a point.
 struct Piece {
     points: Vec<Point>,
     widths: Vec<f64>,
-    /// Of a piece that is too thin: its ink as a share of a dash's.
+    /// If the piece is too thin: its ink as a share of a full dash's.
     share: Option<f64>,
 }
 
-/// Whole when it is wide enough everywhere, else broken.
+/// Plans a stroke: whole if it is wide enough everywhere, else broken.
 pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {
     let least = 2.0 * press.least_printed_radius();
     let thinnest = match &stroke.width {
@@ -51,9 +51,9 @@ pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {
     Plan::Broken(Broken { stroke: Stroke { pressure: None, times: None, ..stroke.clone() }, pieces })
 }
 
-/// A thin stroke that is shorter than it would have to be wide.
+/// A thin stroke shorter than the least printable width.
 fn speck(stroke: &Stroke, points: &[Point], widths: &[f64], press: &Press) -> Plan {
-    // A touch has no length, and so no samples.
+    // A touch has no length and so no samples.
     let touch = match stroke.curve.elements().first() {
         Some(kurbo::PathEl::MoveTo(at)) => Some(*at),
         _ => None,
@@ -65,12 +65,12 @@ fn speck(stroke: &Stroke, points: &[Point], widths: &[f64], press: &Press) -> Pl
     Plan::Specks(None, vec![Speck { at, share, mark }])
 }
 
-/// Area between samples.
+/// Ink area along the samples.
 fn ink(points: &[Point], widths: &[f64]) -> f64 {
     points.windows(2).zip(widths.windows(2)).map(|(p, w)| p[0].distance(p[1]) * 0.5 * (w[0] + w[1])).sum()
 }
 
-/// Runs of wide enough steps, and thin runs cut into dashes.
+/// Splits a line into runs that are wide enough and thin runs cut into dashes.
 fn pieces(points: &[Point], widths: &[f64], least: f64) -> Vec<Piece> {
     let is_thin = |step: usize| 0.5 * (widths[step] + widths[step + 1]) < least;
     let mut pieces = Vec::new();
@@ -96,7 +96,7 @@ fn pieces(points: &[Point], widths: &[f64], least: f64) -> Vec<Piece> {
     pieces
 }
 
-/// Counts the round ends of the stroke to the dashes there.
+/// Adds the ink of the stroke's round ends to the dashes there.
 fn add_caps(pieces: &mut [Piece], stroke: &Stroke, least: f64) {
     if stroke.ends == Ends::Flat || stroke.is_closed() || pieces.is_empty() {
         return;
@@ -115,12 +115,12 @@ fn add_caps(pieces: &mut [Piece], stroke: &Stroke, least: f64) {
 }
 
 impl Broken {
-    /// The middle and the share of each piece that may be left out.
+    /// The midpoint and the share of each piece that may be left out.
     pub(super) fn dashes(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         self.pieces.iter().filter_map(|piece| Some((piece.points[piece.points.len() / 2], piece.share?)))
     }
 
-    /// What is left of the stroke; `kept` says which dashes are.
+    /// The remaining parts of the stroke; `kept` tells for each dash whether it stays.
     pub(super) fn strokes(&self, kept: &[bool], press: &Press) -> Vec<Stroke> {
         let mut kept = kept.iter();
         let is_printed: Vec<bool> =
@@ -145,7 +145,7 @@ impl Broken {
         }
         let is_whole = first == 0 && end == self.pieces.len();
         if !(is_whole && self.stroke.is_closed()) {
-            // The end of a dash is there already in its ink: what the press and a round end add beyond it is taken off.
+            // A dash's ink already includes its ends: trim what the press and a round end add beyond them.
             let least = 2.0 * press.least_printed_radius();
             let beyond = if self.stroke.ends == Ends::Round { PI / 8.0 * least } else { press.spread };
             let length = polyline_length(&points);
@@ -166,13 +166,13 @@ impl Broken {
 }
 
 impl Piece {
-    /// What the plate gets at one of its points.
+    /// The width on the plate at one of its points.
     fn plate_width(&self, i: usize, press: &Press) -> f64 {
         if self.share.is_some() { press.least } else { (self.widths[i] - 2.0 * press.spread).max(press.least) }
     }
 }
 
-/// Takes a length off the beginning.
+/// Removes a length from the beginning.
 fn trim(points: &mut Vec<Point>, widths: &mut Vec<f64>, mut length: f64) {
     let mut dropped = 0;
     while points.len() - dropped > 2 && points[dropped].distance(points[dropped + 1]) <= length {
@@ -189,7 +189,7 @@ fn trim(points: &mut Vec<Point>, widths: &mut Vec<f64>, mut length: f64) {
     }
 }
 
-/// A dash of one width as a polyline, a swelling stroke as a spline.
+/// A dash of constant width as a polyline, a swelling stroke as a spline.
 fn curve(points: &[Point], widths: Vec<f64>) -> (BezPath, Width) {
     if widths.iter().all(|width| *width == widths[0]) {
         let mut curve = BezPath::new();

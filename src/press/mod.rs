@@ -1,14 +1,14 @@
-//! The press: what it does to ink, undone beforehand in the drawing.
+//! The press: compensates in the drawing for what a press does to ink.
 //!
-//! Ink spreads on its way to the paper, and light that enters the paper beside it is lost under it: each mark's border
-//! seems moved outwards by the same distance, whatever the mark's size. That dot gain grows with the length of the borders is
-//! the border-zone model, from which Viggiano (The GRL Dot Gain Model, TAGA 1983) derives its `sqrt(a (1 - a))` law; it holds
-//! for stipples and lines of any pitch, whereas a tone curve (Murray-Davies, Yule-Nielsen) holds for the screen that it was measured
-//! on and would make coarse marks far too thin. So the one number by which presses are described, the gain of a 50 % screen tint,
-//! is turned into that distance ([`Press::new`]), and all marks are made smaller by it ([`Press::compensated`]).
+//! Ink spreads on its way to the paper, and light that enters the paper beside it is lost under it: each mark's border seems to
+//! move outwards by the same distance, whatever the mark's size. In this border-zone model, dot gain grows with the
+//! length of the borders; Viggiano (The GRL Dot Gain Model, TAGA 1983) derives his `sqrt(a (1 - a))` law from it. It holds for
+//! stipples and lines of any pitch, whereas a tone curve (Murray-Davies, Yule-Nielsen) holds only for the screen on which it was
+//! measured and would make coarse marks far too thin. So the usual figure for a press, the gain of a 50 % screen tint, is
+//! converted to that distance ([`Press::new`]), and all marks are made smaller by it ([`Press::compensated`]).
 //!
-//! Marks that print could not hold are thinned out: dots, and thin lines cut in dashes, stand for their neighbours in
-//! blue-noise order with the smallest mark that print may use, so that the mean ink stays.
+//! Marks too small for print are thinned out: dots, and thin lines cut into dashes, stand for their neighbours in blue-noise
+//! order at the smallest printable size, so that the mean ink is kept.
 
 mod area;
 mod job;
@@ -25,32 +25,33 @@ use kurbo::Shape;
 use rayon::prelude::*;
 use thin::{Plan, Speck};
 
-/// What a press does to marks.
+/// The effect of a press on marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Press {
-    /// How far it moves a mark's border outwards, in millimetres.
+    /// Distance by which a mark's border moves outwards, in millimetres.
     spread: f64,
-    /// The smallest dot and the thinnest line on the plate, in millimetres across.
+    /// Diameter of the smallest dot and width of the thinnest line on the plate, in millimetres.
     least: f64,
 }
 
 impl Press {
-    /// A press that prints a 50 % tint of `lines_a_cm` as 50 % and `dot_gain` (0 to 0.5), and may use no mark smaller than
-    /// `least_mark` millimetres across. Where there is gain a mark is never made less than half its size: it is thinned out
+    /// A press that prints a 50 % tint of `lines_a_cm` lines per centimetre as 50 % + `dot_gain` (0 to 0.5), with no mark smaller
+    /// than `least_mark` millimetres across. With dot gain, no mark is reduced to less than half its size: it is thinned out
     /// instead.
     pub fn new(dot_gain: f64, lines_a_cm: f64, least_mark: f64) -> Self {
         let spread = spread::of_gain(dot_gain, 10.0 / lines_a_cm);
         Self { spread, least: least_mark.max(2.0 * spread) }
     }
 
-    /// How far a mark's border moves outwards in print, in millimetres.
+    /// Distance by which a mark's border moves outwards in print, in millimetres.
     pub const fn spread(&self) -> f64 {
         self.spread
     }
 
-    /// The drawing to put on the plate, so that print shows `drawing`.
+    /// The drawing for the plate, such that the print shows `drawing`.
     ///
-    /// Marks in the colour of the paper, into which ink spreads, are made larger. Strokes that are broken lose pressure and times.
+    /// Marks in the paper's colour, into which ink spreads, are made larger. Strokes that are cut into dashes lose pressure and
+    /// times.
     #[must_use]
     pub fn compensated(&self, drawing: &Drawing) -> Drawing {
         if self.least == 0.0 {
@@ -60,7 +61,7 @@ impl Press {
         Drawing { page: drawing.page, layers }
     }
 
-    /// The same, which can be stopped.
+    /// As [`Press::compensated`], but can be interrupted.
     pub fn compensated_until(&self, drawing: &Drawing, interrupt: &Interrupt) -> Result<Drawing, Interrupted> {
         if self.least == 0.0 {
             return Ok(drawing.clone());
@@ -95,7 +96,7 @@ impl Press {
 
     fn dot(&self, dot: &Dot) -> Plan {
         let least = self.least_printed_radius();
-        // Written sizes are rounded: what is asked for exactly at the limit is not below it.
+        // Written sizes are rounded: a size exactly at the limit counts as large enough.
         if dot.radius >= least - 1e-6 {
             return Plan::Whole(Mark::Dot(spread_dot(dot, -self.spread)));
         }
@@ -104,7 +105,7 @@ impl Press {
     }
 }
 
-/// A hole in the ink, larger by what the press will fill of it.
+/// A hole in the ink, enlarged by what the press will fill.
 fn knocked_out(mark: &Mark, spread: f64) -> Mark {
     match mark {
         Mark::Dot(dot) => Mark::Dot(spread_dot(dot, spread)),
@@ -113,8 +114,8 @@ fn knocked_out(mark: &Mark, spread: f64) -> Mark {
     }
 }
 
-/// A dot whose border has moved outwards; a blob keeps its shape and gets the area that moving its border gives
-/// (Steiner's formula, exact for convex outlines: `A + P d + pi d^2`).
+/// A dot whose border has moved outwards. A blob keeps its shape and gets the area that moving its border would give (Steiner's
+/// formula, exact for convex outlines: `A + P d + pi d^2`).
 fn spread_dot(dot: &Dot, distance: f64) -> Dot {
     let Some(outline) = &dot.outline else {
         return Dot { radius: dot.radius + distance, ..dot.clone() };
@@ -138,7 +139,7 @@ fn scaled_dot(dot: &Dot, scale: f64) -> Dot {
     }
 }
 
-/// A stroke wider by `more` all along.
+/// A stroke wider by `more` millimetres everywhere.
 fn widened(stroke: &Stroke, more: f64) -> Stroke {
     let width = match &stroke.width {
         Width::Constant(width) => Width::Constant(width + more),

@@ -1,9 +1,9 @@
-//! From a press's dot gain to the distance by which it moves a mark's border.
+//! Converts a press's dot gain to the distance by which it moves a mark's border.
 
 use crate::geometry::{Point, radius_for_area};
 
-/// The distance, in the unit of `pitch`, by which the border of each dot of a 50 % tint must move for the tint to print as
-/// 50 % + `gain`: round dots on a square screen, as in the tints that dot gain is measured on.
+/// The distance, in the unit of `pitch`, by which the border of each dot of a 50 % tint must move for the tint to print as 50 % +
+/// `gain`. The tint has round dots on a square screen, as the tints on which dot gain is measured.
 pub(super) fn of_gain(gain: f64, pitch: f64) -> f64 {
     let cell = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y));
     let radius = |tone: f64| radius_for_area(&cell, Point::new(0.5, 0.5), tone);

@@ -10,7 +10,7 @@ fn drawing(marks: Vec<Mark>) -> Drawing {
     Drawing { page: Page::new(60.0, 60.0), layers: vec![layer] }
 }
 
-/// The ink of marks whose borders have moved outwards, by Steiner's formula for straight strokes and dots.
+/// The ink of marks after their borders have moved outwards, by Steiner's formula for straight strokes and dots.
 fn printed_ink(drawing: &Drawing, spread: f64) -> f64 {
     let area = |mark: &Mark| match mark {
         Mark::Dot(dot) => spread_dot(dot, spread).radius.powi(2) * std::f64::consts::PI,

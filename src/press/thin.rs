@@ -1,4 +1,4 @@
-//! Marks too small for print: which of them stay, and what they become.
+//! Chooses which marks too small for print stay, and what they become.
 
 use super::Press;
 use super::line::Broken;
@@ -6,26 +6,26 @@ use crate::drawing::Mark;
 use crate::geometry::{Point, thinned};
 use crate::interrupt::Interrupt;
 
-/// What becomes of one mark.
+/// The plan for one mark.
 pub(super) enum Plan {
-    /// It is printed, with its size corrected.
+    /// Print it, with its size corrected.
     Whole(Mark),
-    /// What of it is large enough, and what stands for the rest.
+    /// The part that is large enough, and the specks for the rest.
     Specks(Option<Mark>, Vec<Speck>),
-    /// A line of which some is too thin.
+    /// A line that is partly too thin.
     Broken(Broken),
 }
 
-/// A smallest mark that may be printed in a place where less ink is wanted.
+/// A mark of the smallest size at a point where less ink is wanted.
 pub(super) struct Speck {
     pub at: Point,
-    /// The ink that is wanted there, in smallest marks.
+    /// The ink wanted there, as a share of the smallest mark's.
     pub share: f64,
     pub mark: Mark,
 }
 
-/// The marks of a layer in painting order, thinned out: specks stay in blue-noise order, everywhere as many as their shares add up to;
-/// once the interrupt is raised, any of them.
+/// The marks of a layer in painting order, thinned out: specks are kept in blue-noise order, everywhere as many as their shares
+/// add up to. Once the interrupt is raised, any of them.
 pub(super) fn settled(plans: Vec<Plan>, press: &Press, interrupt: &Interrupt) -> Vec<Mark> {
     let (places, shares): (Vec<Point>, Vec<f64>) = plans.iter().flat_map(candidates).unzip();
     let is_kept = thinned(&places, &shares, interrupt);

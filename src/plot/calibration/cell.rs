@@ -4,10 +4,10 @@ use super::font;
 use crate::geometry::{Point, Vec2};
 use crate::plot::Toolpath;
 
-/// Free space between tests, in millimetres.
+/// Gap between tests, in millimetres.
 pub(super) const GAP: f64 = 1.5;
 
-/// A path with what draws it.
+/// A path with its pen and speed.
 #[derive(Clone, Debug)]
 pub(super) struct Drawn {
     /// The pen's number.
@@ -18,7 +18,7 @@ pub(super) struct Drawn {
     pub path: Toolpath,
 }
 
-/// A test with its label, from its upper left corner.
+/// A test with its label; its origin is the upper left corner.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     pub width: f64,
@@ -27,14 +27,14 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// Nothing but a text.
+    /// A cell with text only.
     pub(super) fn text(text: &str, height: f64) -> Self {
         let mut cell = Self { width: font::width(text, height), height, drawn: Vec::new() };
         font::written(text, Point::ORIGIN, height).into_iter().for_each(|line| cell.add(line));
         cell
     }
 
-    /// A label above a drawing of this size, which is then added at `below`.
+    /// A label above an empty drawing of this size, and the offset at which the drawing begins.
     pub(super) fn labelled(label: &str, text_height: f64, width: f64, height: f64) -> (Self, Vec2) {
         let mut cell = Self::text(label, text_height);
         let top = text_height + 1.0;
@@ -43,12 +43,12 @@ impl Cell {
         (cell, Vec2::new(0.0, top))
     }
 
-    /// A line of the first pen.
+    /// Adds a line of the first pen.
     pub(super) fn add(&mut self, points: Vec<Point>) {
         self.add_path(Toolpath::new(points));
     }
 
-    /// A path of the first pen.
+    /// Adds a path of the first pen.
     pub(super) fn add_path(&mut self, path: Toolpath) {
         self.drawn.push(Drawn { pen: 1, speed_percent: None, path });
     }

@@ -1,15 +1,15 @@
-//! A small font of single strokes, so that a test sheet needs no other: digits, `. + %` and the capitals that the sheet uses.
+//! A small single-stroke font, so that a test sheet needs no other: digits, `. + %` and the capitals that the sheet uses.
 
 use crate::geometry::Point;
 
-/// Height of the grid that letters are drawn on; it is 4 wide.
+/// Height of the grid on which letters are drawn; its width is 4.
 const GRID: f64 = 6.0;
 /// Width of a letter, as a share of its height.
 const WIDTH: f64 = 0.55;
-/// From one letter to the next, as a share of their height.
+/// Advance from one letter to the next, as a share of their height.
 const ADVANCE: f64 = 0.85;
 
-/// The strokes of each letter on a grid of 4 x 6, y down: strokes are parted by spaces, each two digits are x and y of a point.
+/// The strokes of each letter on a grid of 4 x 6, y down. Spaces separate strokes; each pair of digits is the x and y of a point.
 const LETTERS: [(char, &str); 27] = [
     ('0', "103041453616050110"),
     ('1', "112026"),
@@ -40,13 +40,13 @@ const LETTERS: [(char, &str); 27] = [
     ('Z', "00400646"),
 ];
 
-/// Lines that write a text from its upper left corner, in millimetres; letters that the font lacks leave their place empty.
+/// Lines that write a text from its upper left corner, in millimetres. Letters missing from the font leave a gap.
 pub(super) fn written(text: &str, at: Point, height: f64) -> Vec<Vec<Point>> {
     let letters = text.chars().enumerate();
     letters.flat_map(|(i, letter)| strokes(letter, Point::new(at.x + i as f64 * ADVANCE * height, at.y), height)).collect()
 }
 
-/// How wide a text is.
+/// Width of a text.
 pub(super) fn width(text: &str, height: f64) -> f64 {
     (text.chars().count() as f64 * ADVANCE - (ADVANCE - WIDTH)).max(0.0) * height
 }

@@ -1,4 +1,4 @@
-//! A test sheet for one machine and its pens: what is read off it goes into the profile (see `docs/calibration.md`).
+//! A test sheet for one machine and its pens. Its readings go into the profile (see `docs/calibration.md`).
 //!
 //! ```text
 //!   +--------------------------+  a square of 100 mm           scale_x, scale_y
@@ -23,19 +23,19 @@ use cell::{Cell, Drawn, GAP, square};
 use thiserror::Error;
 use trials::{Bench, laid_out};
 
-/// Side of the square where the machine has room, in millimetres: a ruler shows its error in a thousandth.
+/// Side of the square if the machine has room, in millimetres: a ruler shows its error to a thousandth.
 const SIDE: f64 = 100.0;
-/// Least side of the square.
+/// Minimum side of the square.
 const LEAST_SIDE: f64 = 70.0;
-/// Room beside the square that a sheet must have to be the usual one.
+/// Free room beside the square that a sheet needs to become the default, in millimetres.
 const ROOM: f64 = 10.0;
-/// Kept free around the square.
+/// Margin around the square.
 const FREE: f64 = 1.0;
-/// Between the square and what lies in it, for its labels.
+/// Distance between the square and its contents, for labels.
 const BORDER: f64 = 4.0;
-/// Least height of letters; broader nibs need higher ones.
+/// Minimum height of letters; broad nibs need larger ones.
 const LEAST_TEXT: f64 = 1.6;
-/// Sheets that a machine without sheets of its own is tried with, landscape: ISO 216 A4, A5, A6.
+/// Sheets tried for a machine without its own, landscape: ISO 216 A4, A5, A6.
 const SHEETS: [(f64, f64); 3] = [(297.0, 210.0), (210.0, 148.0), (148.0, 105.0)];
 
 /// A test sheet.
@@ -43,9 +43,9 @@ const SHEETS: [(f64, f64); 3] = [(297.0, 210.0), (210.0, 148.0), (148.0, 105.0)]
 pub struct Calibration {
     /// Its tool paths, in drawing order.
     pub plot: Plot,
-    /// The square that is to be measured, on the page.
+    /// The square to measure, on the page.
     pub square: Rect,
-    /// Trials that this machine cannot make, and why.
+    /// Reasons for the trials left out on this machine.
     pub left_out: Vec<&'static str>,
 }
 
@@ -53,29 +53,28 @@ pub struct Calibration {
 #[derive(Debug, Error, PartialEq)]
 pub enum CalibrationError {
     /// The machine or sheet is too small.
-    #[error("the test sheet needs {needed:.0} x {needed:.0} mm, and {width:.1} x {height:.1} mm of this sheet can be drawn on")]
+    #[error("the test sheet needs {needed:.0} x {needed:.0} mm, but this sheet has {width:.1} x {height:.1} mm to draw on")]
     NoRoom {
-        /// Side that it needs.
+        /// Side of the area that it needs.
         needed: f64,
-        /// Width that can be drawn on.
+        /// Width of the drawable area.
         width: f64,
-        /// Height that can be drawn on.
+        /// Height of the drawable area.
         height: f64,
     },
     /// The trials do not fit into the square.
-    #[error("with a nib of {nib} mm the trials need {needed:.0} mm of {side:.0} mm")]
+    #[error("with a nib of {nib} mm the trials need {needed:.0} mm, but the square has room for {side:.0} mm")]
     TooMuch {
         /// The nib.
         nib: f64,
-        /// Height that they need.
+        /// Width or height that the trials need.
         needed: f64,
-        /// Height that there is.
+        /// Width and height inside the square.
         side: f64,
     },
 }
 
-/// The sheet that a machine is calibrated on unless another is asked for: the first of its own, else the largest from A4 to A6
-/// on which the whole square fits.
+/// The default sheet for calibration: the machine's first, else the largest from A4 to A6 on which the whole square fits.
 pub fn calibration_page(profile: &Profile) -> Page {
     if let Some(paper) = profile.paper.first() {
         return Page::new(paper.width, paper.height);
@@ -90,7 +89,7 @@ pub fn calibration_page(profile: &Profile) -> Page {
     *pages.iter().find(has_room).unwrap_or(&pages[2])
 }
 
-/// Draws the test sheet into what a machine can draw on of a page, for a nib in millimetres and the first pens of the machine.
+/// Draws the test sheet into the drawable area of a page, for a nib in millimetres and the machine's first `pens` pens.
 pub fn calibration_sheet(
     profile: &Profile,
     page: Page,
@@ -118,7 +117,7 @@ fn frame(side: f64) -> Drawn {
     Drawn { pen: 1, speed_percent: None, path: super::Toolpath::new(square(Point::ORIGIN, side)) }
 }
 
-/// The side's length, and which of the machine's axes runs along the upper side and which along the left.
+/// Labels for the side's length and for the machine's axes along the upper and left sides.
 fn side_labels(bench: &Bench<'_>, page: &Page, side: f64) -> Vec<Drawn> {
     let is_upright = mount(bench.profile, page).is_ok_and(|m| m.to_machine.as_coeffs()[0].abs() > 1e-6);
     let (across, down) = if is_upright { ("X", "Y") } else { ("Y", "X") };
@@ -132,7 +131,7 @@ fn side_labels(bench: &Bench<'_>, page: &Page, side: f64) -> Vec<Drawn> {
     drawn
 }
 
-/// All trials, one below the other.
+/// All trials, one below another.
 fn trials_within(bench: &Bench<'_>, side: f64) -> Result<Vec<Drawn>, CalibrationError> {
     let inner = side - 2.0 * BORDER;
     let titles = ["NIB", "Z", "DWELL", "FILL", "PENS", "SPEED"];
@@ -157,7 +156,7 @@ fn trials_within(bench: &Bench<'_>, side: f64) -> Result<Vec<Drawn>, Calibration
     Ok(drawn)
 }
 
-/// Paths sorted by what draws them: the first pen, its other speeds, then the other pens.
+/// Groups paths by pen and speed: the first pen, its other speeds, then the other pens.
 fn by_pen(drawn: Vec<Drawn>, nib: f64) -> Vec<PenPaths> {
     let mut pens: Vec<((u32, Option<u32>), PenPaths)> = Vec::new();
     for Drawn { pen, speed_percent, path } in drawn {
@@ -180,10 +179,10 @@ fn left_out(bench: &Bench<'_>) -> Vec<&'static str> {
         why.push("no Z row: this pen is not lifted by a z axis; try gcode.pen_down, or the height in the plotter's own program, until NIB is drawn without gaps");
     }
     if bench.dwells().is_empty() {
-        why.push("no DWELL row: this machine has no word for a wait at each touch");
+        why.push("no DWELL row: this machine has no command to wait at each touch");
     }
     if bench.pens == 1 {
-        why.push("one cross only: a sheet for several pens has one for each");
+        why.push("only one cross: a sheet for several pens has one per pen");
     }
     why
 }

@@ -6,22 +6,22 @@ use crate::plot::Toolpath;
 use crate::plot::language::Height;
 use crate::plot::profile::Profile;
 
-/// Spacings of the ladder in tenths of the nib's stated width: a nib that is half or one and a half times as wide still shows.
+/// Spacings of the ladder in tenths of the nib's nominal width: a nib half or one and a half times as wide still shows.
 pub(super) const LADDER_TENTHS: std::ops::RangeInclusive<u32> = 5..=16;
-/// Lines of each rung of the ladder: enough to see white between them, few enough for a broad pen.
+/// Lines per rung of the ladder: enough to see white between them, few enough for a broad pen.
 const LADDER_LINES: usize = 6;
 /// Overlaps of the filled patches in percent of the nib.
 pub(super) const OVERLAPS: [u32; 7] = [0, 5, 10, 15, 20, 25, 30];
 /// Rests of the touches in seconds: below a twentieth no servo settles, above half a second ink pens bleed.
 pub(super) const DWELLS: [f64; 7] = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5];
-/// Heights above the profile's lowered pen, in tenths of a millimetre. None is below it: that could bend a nib.
+/// Heights above the profile's lowered pen, in tenths of a millimetre. None is below it, which could bend a nib.
 pub(super) const HEIGHTS_TENTHS: [u32; 7] = [12, 10, 8, 6, 4, 2, 0];
 /// Speeds in percent of the profile's.
 pub(super) const SPEEDS: [u32; 4] = [50, 100, 150, 200];
-/// Least width of a cell, which keeps neighbouring labels apart, and side of a filled patch, in millimetres.
+/// Minimum width of a cell, which keeps neighbouring labels apart, and side of a filled patch, in millimetres.
 const PATCH: f64 = 5.0;
 
-/// What all trials need to know.
+/// Settings shared by all trials.
 pub(super) struct Bench<'a> {
     pub profile: &'a Profile,
     pub nib: f64,
@@ -29,7 +29,7 @@ pub(super) struct Bench<'a> {
     pub pens: u32,
 }
 
-/// A number as its label shows it, without the zeros that go without saying.
+/// A number as its label shows it, without redundant zeros.
 fn short(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -37,7 +37,7 @@ fn short(value: f64, decimals: usize) -> String {
 }
 
 impl Bench<'_> {
-    /// Parallel lines whose spacing grows from half the nib: the first rung with white between its lines is wider than the nib.
+    /// Parallel lines with spacing from half the nib upwards: the first rung with white between its lines is wider than the nib.
     pub(super) fn ladder(&self) -> Vec<Cell> {
         let rung = |tenths: u32| {
             let spacing = self.nib * f64::from(tenths) / 10.0;
@@ -52,7 +52,7 @@ impl Bench<'_> {
         LADDER_TENTHS.map(rung).collect()
     }
 
-    /// Lines at growing depth, for machines whose pen goes by its height.
+    /// Lines at increasing depth, for machines that lift the pen by height.
     pub(super) fn heights(&self) -> Vec<Cell> {
         let Some(height) = self.z_height() else { return Vec::new() };
         let most = 0.4 * (height.up - height.down).abs();
@@ -67,12 +67,12 @@ impl Bench<'_> {
         HEIGHTS_TENTHS.into_iter().filter(|tenths| f64::from(*tenths) / 10.0 <= most).map(line).collect()
     }
 
-    /// The pen's heights, where its z axis lifts it.
+    /// The pen's heights, if a z axis lifts it.
     pub(super) fn z_height(&self) -> Option<Height> {
         self.profile.height()
     }
 
-    /// Rows of touches that rest longer and longer, where the machine can be told to wait.
+    /// Rows of touches with increasing rests, if the machine can wait.
     pub(super) fn dwells(&self) -> Vec<Cell> {
         if !self.profile.speech().can_dwell() {
             return Vec::new();
@@ -88,7 +88,7 @@ impl Bench<'_> {
         DWELLS.into_iter().map(row).collect()
     }
 
-    /// Patches filled to and fro, whose lines overlap more and more.
+    /// Patches filled back and forth, with increasing overlap of the lines.
     pub(super) fn patches(&self) -> Vec<Cell> {
         let side = PATCH.max(8.0 * self.nib);
         let patch = |percent: u32| {
@@ -106,7 +106,7 @@ impl Bench<'_> {
         OVERLAPS.into_iter().map(patch).collect()
     }
 
-    /// For each pen a frame with ticks in the middle of its sides, drawn by the first, and a cross that should meet them.
+    /// For each pen, a frame with ticks in the middle of its sides, drawn by the first pen, and a cross that should meet them.
     pub(super) fn crosses(&self) -> Vec<Cell> {
         let side = 6.0;
         let cross = |pen: u32| {
@@ -128,7 +128,7 @@ impl Bench<'_> {
         (1..=self.pens).map(cross).collect()
     }
 
-    /// Nested squares at growing speed, whose corners show when the machine loses steps or shakes.
+    /// Nested squares at increasing speed, whose corners show lost steps or shaking.
     pub(super) fn speeds(&self) -> Vec<Cell> {
         let motion = &self.profile.motion;
         let fastest = motion.draw_speed_limit.unwrap_or(f64::INFINITY).min(motion.travel_speed.max(motion.draw_speed));
@@ -146,7 +146,7 @@ impl Bench<'_> {
     }
 }
 
-/// Rows of cells within a width, each row after its title, from the upper left corner; gives their height too.
+/// Lays out cells after a title in rows within a width, from the upper left corner; also returns the height.
 pub(super) fn laid_out(title: Cell, cells: Vec<Cell>, width: f64, indent: f64, gap: f64) -> (Vec<Drawn>, f64) {
     let (mut x, mut y, mut row) = (indent, 0.0, title.height);
     let mut drawn = title.placed(Vec2::ZERO);

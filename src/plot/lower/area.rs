@@ -1,5 +1,5 @@
-//! A filled outline with one nib: rings that follow the outline, from its border inwards, or one ring and hatching inside it, whichever
-//! is shorter; parts narrower than the nib are drawn like thin lines.
+//! Fills an outline with one nib: rings that follow the outline from its border inwards, or one ring and hatching inside it,
+//! whichever is shorter. Parts narrower than the nib are drawn like thin lines.
 
 use super::super::Toolpath;
 use super::dash::dashes;
@@ -15,20 +15,17 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
-/// What lifting and lowering the pen once more is worth in millimetres of line, when two ways to fill are compared: 0.35 s of a servo
-/// at 30 mm/s, about.
+/// Cost of one pen lift in millimetres of line, when two ways to fill are compared: about 0.35 s of a servo at 30 mm/s.
 const LIFT: f64 = 10.0;
-/// A narrow part is worth drawing from this share of a touch's ink: corners of wide parts stay round.
+/// Least ink of a narrow part that is drawn, as a share of a touch's: corners of wide parts stay round.
 const LEAST_PART: f64 = 0.5;
-/// How far a ring may lie off for fewer vertices, in pitches. An offset makes two vertices of each at a rounded corner: with none left
-/// out, rings have twice as many at each level.
+/// Simplification tolerance of a ring, in pitches. An offset splits each vertex at a rounded corner in two; without
+/// simplification, rings would double their vertices at each level.
 const SMOOTH: f64 = 0.02;
-/// Vertices of all rings after which an area is hatched without finding the rest: about three seconds. A disc of 400 rings has a tenth of
-/// that.
+/// Total ring vertices beyond which an area is hatched instead: about three seconds. A disc of 400 rings has a tenth of that.
 const MOST_RING_VERTICES: usize = 2_000_000;
 
-/// The paths that fill a shape; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes of narrow
-/// parts begin.
+/// The paths that fill a shape; incomplete once the interrupt is raised. `phase` is the phase of the dashes of narrow parts.
 pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let outermost = insets.grown(-0.5 * nib);
@@ -47,7 +44,7 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
     paths
 }
 
-/// What is narrower than the nib, as dashes with its ink; `outermost` is where the nib's middle can be.
+/// The parts narrower than the nib, as dashes with the same ink; `outermost` is where the nib's centre fits.
 fn narrow_parts(insets: &Insets, outermost: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let least = LEAST_PART * FRAC_PI_4 * nib * nib;
     let ground = OnceCell::new();
@@ -69,11 +66,11 @@ fn cost(paths: &[Toolpath]) -> f64 {
     paths.iter().map(|path| path.length() + LIFT).sum()
 }
 
-/// The outermost rings and then, level by level, those a pitch further in; between two levels, pieces of a ring where the next one is
-/// missing and the middle would stay bare. None where that would be too many.
+/// The outermost rings, then level by level those one pitch further in. Between two levels come pieces of a ring where the next
+/// one is missing and the middle would stay bare. None if there would be too many.
 ///
-/// Each level is found from the one before: from the border, a comb's teeth would each swing an arc as wide as the depth through all
-/// others.
+/// Each level is offset from the one before. Offset from the border, each tooth of a comb would swing an arc as wide as the depth
+/// through all others.
 fn rings(outermost: Insets, pitch: f64, interrupt: &Interrupt) -> Option<Vec<Vec<Vec<Point>>>> {
     let mut levels = Vec::new();
     let mut rings = outermost;
@@ -116,7 +113,7 @@ fn around((x, y): Cell) -> impl Iterator<Item = Cell> {
     (-1..=1).flat_map(move |dy| (-1..=1).map(move |dx| (x + dx, y + dy)))
 }
 
-/// The sides of rings by the cells of a grid as wide as they are felt.
+/// The sides of rings in the cells of a grid whose size is their reach.
 struct Sides {
     reach: f64,
     cells: HashMap<Cell, Vec<[Point; 2]>>,
@@ -126,7 +123,7 @@ impl Sides {
     fn new(rings: &[Vec<Point>], reach: f64) -> Self {
         let mut cells: HashMap<Cell, Vec<[Point; 2]>> = HashMap::new();
         for (a, b) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))) {
-            // In pieces no longer than a cell, each in the cell of its middle.
+            // Split into pieces no longer than a cell, each stored in the cell of its midpoint.
             let pieces = (a.distance(b) / reach).ceil().max(1.0);
             let at = |k: f64| a.lerp(b, k / pieces);
             for k in 0..pieces as usize {
@@ -137,7 +134,7 @@ impl Sides {
         Self { reach, cells }
     }
 
-    /// Whether a side lies within reach of a place. The middle of its piece there lies at most one and a half cells away.
+    /// True if a side lies within reach of a point. The midpoint of its nearest piece is at most one and a half cells away.
     fn is_near(&self, p: Point) -> bool {
         let (x, y) = cell(p, self.reach);
         let near = (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (x + dx, y + dy)));
@@ -145,12 +142,12 @@ impl Sides {
     }
 }
 
-/// The parts of a ring that are far from the sides of others, as open lines; the whole ring, closed, where that is all of it.
+/// The parts of a ring that are far from the sides of other rings, as open lines; the whole ring, closed, if all of it is far.
 fn far_pieces(ring: &[Point], others: &Sides, interrupt: &Interrupt) -> Vec<Vec<Point>> {
     let points = resample(&closed(ring.to_vec()), 0.6 * others.reach);
     let far: Vec<bool> = points.iter().map(|p| interrupt.is_raised() || !others.is_near(*p)).collect();
     let Some(first_near) = far.iter().position(|far| !far) else { return vec![points] };
-    // Once round from a point that is near, so that no piece is cut where the ring begins.
+    // Go round once from a near point, so that no piece is cut where the ring begins.
     let last = points.len() - 1;
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     let mut was_far = false;
@@ -166,8 +163,8 @@ fn far_pieces(ring: &[Point], others: &Sides, interrupt: &Interrupt) -> Vec<Vec<
     pieces
 }
 
-/// Rings as few paths: each continues at the nearest ring of the next level when a step over is short; where several paths could go on
-/// there, the one begun last does.
+/// Joins rings to few paths: each continues at the nearest ring of the next level if the step is short. If several paths could
+/// continue there, the one begun last does.
 fn joined(levels: &[Vec<Vec<Point>>], room: &Room, reach: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
     let mut ends: HashMap<Cell, Vec<usize>> = HashMap::new();

@@ -1,7 +1,7 @@
-//! A line thinner than the nib as dashes, or as touches where it is very thin, whose ink is the line's.
+//! Draws a line thinner than the nib as dashes, or as touches where it is very thin, with the same ink.
 //!
 //! ```text
-//!   asked   --------------------------  width w
+//!   wanted  --------------------------  width w
 //!   drawn   ====    ====    ====    ==  width of the nib; P w = L nib + pi/4 nib^2 for period P and dash L
 //! ```
 
@@ -9,9 +9,9 @@ use super::super::Toolpath;
 use crate::geometry::Point;
 use std::f64::consts::FRAC_PI_4;
 
-/// Distance between the middles of two dashes' ends, in nibs: at 1 they would touch; at 2 the eye sees dots for a line.
+/// Distance between the end points of two dashes, in nibs: at 1 they would touch; at 2 the eye sees dots instead of a line.
 const GAP: f64 = 1.5;
-/// Of the nib: a line at least this wide is drawn whole; its period of dashes would be over 20 nibs.
+/// Width in nibs from which a line is drawn solid; its dash period would be over 20 nibs.
 pub(super) const NEARLY_WHOLE: f64 = 0.97;
 
 /// A point of a line and its width there.
@@ -21,8 +21,8 @@ pub(super) struct Sample {
     pub width: f64,
 }
 
-/// Dashes along a line. `phase`, from 0 to 1, is how much of the first period is already over, so that the ends of neighbouring
-/// lines do not fall together. Samples should lie at most a quarter of a nib apart.
+/// Dashes along a line. `phase`, from 0 to 1, is the elapsed share of the first period; different phases keep the ends of
+/// neighbouring lines apart. Samples should lie at most a quarter of a nib apart.
 pub(super) fn dashes(samples: &[Sample], nib: f64, phase: f64) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
     let mut phase = phase.rem_euclid(1.0);
@@ -37,7 +37,7 @@ pub(super) fn dashes(samples: &[Sample], nib: f64, phase: f64) -> Vec<Toolpath> 
         let (period, down) = rhythm(0.5 * (pair[0].width + pair[1].width), nib);
         let mut travelled = 0.0;
         while travelled < length {
-            // To the next change of state, or to the end of this step.
+            // Advance to the next change of state, or to the end of this step.
             let is_down = phase < down;
             let until = (if is_down { down } else { 1.0 } - phase) * period;
             let changes = until <= length - travelled;
@@ -66,7 +66,7 @@ pub(super) fn dashes(samples: &[Sample], nib: f64, phase: f64) -> Vec<Toolpath> 
     paths
 }
 
-/// The period in millimetres, and the share of it that the pen is down, whose ink is that of a line of this width.
+/// The period in millimetres and the pen-down share of it that give the ink of a line of this width.
 fn rhythm(width: f64, nib: f64) -> (f64, f64) {
     let width = width.clamp(1e-3 * nib, NEARLY_WHOLE * nib);
     let gap = GAP * nib;

@@ -1,4 +1,4 @@
-//! A dot with one nib: a touch, a ring, or a spiral that ends in a full ring.
+//! Fills a dot with one nib: a touch, a ring, or a spiral that ends in a full ring.
 //!
 //! ```text
 //!   r <= w/2      r <= w          r > w
@@ -11,15 +11,15 @@ use crate::geometry::{BezPath, Point, Vec2, flatten};
 use crate::interrupt::Interrupt;
 use std::f64::consts::TAU;
 
-/// How far neighbouring turns overlap, as a share of the nib. With none, a pen that wears or skips leaves hairlines; with a third,
-/// paper is soaked and time lost.
+/// Overlap of neighbouring turns, as a share of the nib. With 0, a pen that wears or skips leaves hairlines; with a third, the
+/// paper is soaked and time is lost.
 pub(super) const OVERLAP: f64 = 0.1;
 
 /// The path that fills a dot with a nib of width `nib`, as one pen-down path.
 ///
-/// Up to half a nib: a touch at the centre. Larger: one ring half a nib inside the outline, and from a nib on a spiral from the
-/// centre outwards, whose turns lie at most `nib (1 - OVERLAP)` apart, before it. The path of a disc is at most 6 % longer than
-/// its area over that distance once it is 30 nibs wide.
+/// A radius up to half a nib gives a touch at the centre. A larger one gives a ring half a nib inside the outline; from one nib
+/// on, the ring is preceded by a spiral from the centre outwards whose turns are at most `nib (1 - OVERLAP)` apart. Once a disc
+/// is 30 nibs wide, its path is at most 6 % longer than its area over that distance.
 pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64, interrupt: &Interrupt) -> Toolpath {
     let inside = dot.radius - 0.5 * nib;
     // A ring smaller than this is lost in the nib's own roundness.
@@ -35,14 +35,14 @@ pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64, interrupt: &Interrup
     Toolpath::new(points)
 }
 
-/// The ring that the nib's middle follows, as distances from the centre by angle.
+/// The ring that the nib's centre follows, as distances from the dot's centre by angle.
 struct Rim {
     centre: Point,
-    /// At even angles from 0; a single one for a circle.
+    /// At evenly spaced angles from 0; a single value for a circle.
     distances: Vec<f64>,
 }
 
-/// Directions in which a blob's outline is measured; its lobes are six.
+/// Number of directions in which a blob's outline is measured; a blob has six lobes.
 const DIRECTIONS: usize = 96;
 
 impl Rim {
@@ -51,7 +51,7 @@ impl Rim {
             None => vec![dot.radius - 0.5 * nib],
             Some(outline) => {
                 let outline = distances(outline, dot.centre);
-                // A nib of the blob's own size feels two directions to either side, a fine one only the one it goes.
+                // A nib as large as the blob is limited by two directions on either side, a fine one only by its own direction.
                 let reach = (nib / dot.radius) as usize;
                 (0..DIRECTIONS).map(|i| (least_around(&outline, i, reach.min(2)) - 0.5 * nib).max(0.0)).collect()
             }
@@ -59,7 +59,7 @@ impl Rim {
         Self { centre: dot.centre, distances }
     }
 
-    /// A point at a share (0 the centre, 1 the rim) of the way out.
+    /// The point at this angle and share of the way out (0 the centre, 1 the rim).
     fn at(&self, angle: f64, share: f64) -> Point {
         let count = self.distances.len();
         let position = angle.rem_euclid(TAU) / TAU * count as f64;
@@ -73,12 +73,12 @@ impl Rim {
     }
 }
 
-/// The least distance within a few directions: where the outline runs aslant, the nib's flank meets it before its front does.
+/// The least distance within a few directions: where the outline is oblique, the nib's side meets it before its front does.
 fn least_around(outline: &[f64], i: usize, reach: usize) -> f64 {
     (DIRECTIONS - reach..=DIRECTIONS + reach).map(|step| outline[(i + step) % DIRECTIONS]).fold(f64::INFINITY, f64::min)
 }
 
-/// How far an outline lies from a point inside, by angle; the farthest where it is crossed several times.
+/// Distance of an outline from a point inside, by angle; the greatest if it is crossed several times.
 fn distances(outline: &BezPath, centre: Point) -> Vec<f64> {
     let polygon: Vec<Point> = flatten(outline, 0.002).into_iter().flat_map(|(points, _)| points).collect();
     (0..DIRECTIONS)
@@ -114,7 +114,7 @@ fn spiral(rim: &Rim, pitch: f64, tolerance: f64, interrupt: &Interrupt, points: 
 /// Once round, back to angle 0.
 fn ring(rim: &Rim, tolerance: f64, points: &mut Vec<Point>) {
     let count = (TAU / step(rim.largest(), tolerance)).ceil();
-    // Vertices a little outside, so that the chords' mean distance is the rim's.
+    // Vertices lie slightly outside, so that the chords' mean distance is the rim's.
     let share = 1.0 / (1.0 - 2.0 / 3.0 * (1.0 - (0.5 * TAU / count).cos()));
     points.extend((0..count as usize).map(|i| rim.at(TAU * i as f64 / count, share)));
     points.push(rim.at(0.0, share));
@@ -132,7 +132,7 @@ mod tests {
     use rand::SeedableRng;
     use rand::rngs::ChaCha8Rng;
 
-    /// Whether each place of the dot, but for a thousandth, lies under the nib, and no ink outside.
+    /// The shares of the dot's grid points that are covered, and of ink outside.
     fn check(dot: &Dot, nib: f64, inside: impl Fn(Point) -> bool) -> (f64, f64) {
         let path = fill_dot(dot, nib, 0.01, &Interrupt::never()).points;
         let steps = 160;

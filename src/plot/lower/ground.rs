@@ -1,28 +1,28 @@
-//! The ground on which the dashes of narrow parts are drawn: where their ink is asked for, where it is there already, where it spills.
+//! The ground under the dashes of narrow parts: where ink is wanted, where it already lies, and where it would spill.
 
 use crate::geometry::{Insets, Point, Region, Vec2, resample};
 
-/// What is to be inked, and what of it is inked already where the nib fits.
+/// The region to be inked, and the part of it already inked where the nib fits.
 pub(super) struct Ground {
     asked: Region,
     reached: Region,
 }
 
-/// Places across the nib at which its ink is looked at; 5 are right to a tenth.
+/// Sample points from the nib's centre to its edge; 5 are accurate to a tenth.
 const ACROSS: i32 = 5;
-/// Share of a dash on ink that is there already from which it must cover more than it spills. A dash that begins at a wide part's border
-/// has a tenth there; a thread of a net, between two places where the nib fits, a third or more.
+/// Share of a dash on existing ink from which it must cover more than it spills. A dash that begins at a wide part's border has a
+/// tenth there; a thread of a net between two places where the nib fits, a third or more.
 const SHARED: f64 = 0.2;
 
 impl Ground {
     pub fn new(asked: &Insets, reached: &Insets) -> Self {
-        // Polygons: nothing is flattened.
+        // The outlines are polygons, so the flattening tolerance has no effect.
         let region = |insets: &Insets| Region::new(&insets.path(), 1.0);
         Self { asked: region(asked), reached: region(reached) }
     }
 
-    /// Whether a dash may be drawn: it stands by itself, or covers more than it spills. Nets' threads beside one another would fill the
-    /// holes else.
+    /// True if a dash may be drawn: it stands by itself, or covers more than it spills. Otherwise adjacent threads of a net would
+    /// fill the holes.
     pub fn bears(&self, points: &[Point], nib: f64) -> bool {
         let half = 0.5 * nib;
         let grid = (-ACROSS..=ACROSS).flat_map(|j| (-ACROSS..=ACROSS).map(move |i| Vec2::new(f64::from(i), f64::from(j))));
@@ -40,12 +40,12 @@ impl Ground {
         shared < SHARED * all || gained > 0.0
     }
 
-    /// Whether ink is asked for at a place.
+    /// True if ink is wanted at a point.
     pub fn is_asked(&self, place: Point) -> bool {
         self.asked.contains(place)
     }
 
-    /// Whether it is inked where the nib fits.
+    /// True if the point is inked where the nib fits.
     pub fn is_reached(&self, place: Point) -> bool {
         self.reached.contains(place)
     }

@@ -5,11 +5,12 @@ use super::room::Room;
 use crate::geometry::{Insets, Point};
 use crate::interrupt::Interrupt;
 
-/// Distance of the lines' ends from the border ring's middle, in pitches: the nib's round end then reaches under the ring.
+/// Distance of the lines' ends from the border ring's centre line, in pitches: the nib's round end then reaches under the ring.
 const TUCK: f64 = 0.55;
 
-/// A filled outline as its border rings (closed lines) and lines along its longer extent, a pitch apart, joined back and forth where they
-/// lie side by side and the room holds the step. None where the inside holds no line; some of the lines once the interrupt is raised.
+/// Fills an outline with its border rings (closed lines) and lines along its longer extent, one pitch apart, joined back and
+/// forth where they are adjacent and `room` allows the step. None if the inside holds no line; incomplete once the interrupt is
+/// raised.
 pub(super) fn hatching(
     insets: &Insets,
     border: &[Vec<Point>],
@@ -27,7 +28,7 @@ pub(super) fn hatching(
     if inside.is_empty() || !(x.1 - x.0).is_finite() {
         return None;
     }
-    // Lines along the longer extent: fewer turns.
+    // Lines along the longer extent need fewer turns.
     let is_wide = x.1 - x.0 >= y.1 - y.0;
     let turned = |p: Point| if is_wide { p } else { Point::new(p.y, p.x) };
     let rings: Vec<Vec<Point>> = inside.iter().map(|ring| ring.iter().map(|p| turned(*p)).collect()).collect();
@@ -47,14 +48,14 @@ pub(super) fn hatching(
     Some(paths)
 }
 
-/// Whether no row crosses a ring; rows from the lowest.
+/// True if no row crosses the ring. Rows ascend.
 fn lies_between(ring: &[Point], rows: &[f64]) -> bool {
     let (low, high) = ring.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
     let next = rows.partition_point(|y| *y < low);
     rows.get(next).is_none_or(|y| *y > high)
 }
 
-/// Where each row, from the lowest, lies inside the rings, by the even-odd rule (the rings of one level do not cross).
+/// The spans of each row inside the rings, by the even-odd rule (the rings of one level do not cross). Rows ascend.
 fn spans(rings: &[Vec<Point>], rows: &[f64]) -> Vec<Vec<[Point; 2]>> {
     let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); rows.len()];
     for (a, b) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |i| (ring[i], ring[(i + 1) % ring.len()]))) {
@@ -72,8 +73,8 @@ fn spans(rings: &[Vec<Point>], rows: &[f64]) -> Vec<Vec<[Point; 2]>> {
     crossings.into_iter().zip(rows).map(spans).collect()
 }
 
-/// Spans of successive rows, each from left to right, as few lines: each row's span continues a line whose end is within reach of one of
-/// its own.
+/// Joins spans of successive rows, each from left to right, to few lines: a span continues a line that ends within `reach` of one
+/// of its ends.
 fn back_and_forth(
     rows: impl Iterator<Item = Vec<[Point; 2]>>,
     reach: f64,

@@ -1,8 +1,9 @@
 //! Lowering: from ink to the centre lines that a nib draws.
 //!
-//! A dot no larger than the nib is a touch, a larger one is filled with a spiral; dots smaller than the nib are thinned out, so that
-//! tone stays. A line as wide as the nib is its centre line, a wider one passes side by side, a thinner one dashes; areas are filled
-//! with rings that follow their outline, or hatched. A pen whose line swells with its height draws a swelling stroke in one pass.
+//! A dot no larger than the nib becomes a touch, a larger one a spiral. Dots smaller than the nib are thinned out so that tone is
+//! kept. A line as wide as the nib becomes its centre line, a wider one several passes side by side, a thinner one dashes. Areas
+//! are filled with rings that follow their outline, or hatched. A pen whose line swells with its height draws a swelling stroke
+//! in one pass.
 
 mod area;
 mod dash;
@@ -30,7 +31,7 @@ use stroke::lower_stroke;
 pub(super) use stroke::turns_sharply;
 use swell::swelling_pass;
 
-/// What of a drawing a plotter draws.
+/// Which parts of a drawing are plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InkModel {
     /// Widths and fills are laid down with the nib.
@@ -42,11 +43,11 @@ pub enum InkModel {
 /// The nib of each pen, in millimetres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nibs {
-    /// For pens that have none of their own.
+    /// Default for pens without their own.
     pub usual: f64,
-    /// By pen number.
+    /// Nib by pen number.
     pub by_pen: BTreeMap<u32, f64>,
-    /// For a machine whose pen swells with its height.
+    /// Line width by pen height, for a machine whose line swells with the pen's height.
     pub swell: Option<Swell>,
 }
 
@@ -62,7 +63,7 @@ impl Nibs {
     }
 }
 
-/// The tool paths of a drawing, layers of one pen together, curves flattened to `tolerance` millimetres.
+/// Lowers a drawing to tool paths. Layers of one pen are merged, and curves are flattened to `tolerance` millimetres.
 pub fn lower(
     drawing: &Drawing,
     model: InkModel,
@@ -76,7 +77,7 @@ pub fn lower(
         let lowering = Lowering { model, nib, swell: nibs.swell.as_ref(), tolerance, interrupt };
         let paths = lowering.layer(layer);
         interrupt.check()?;
-        // A layer that asks for something of its own is drawn by itself.
+        // A layer with its own handling is kept separate.
         let is_alike = |pen: &&mut PenPaths| pen.number == layer.pen && pen.handling == layer.handling && !layer.handling.pauses;
         match pens.iter_mut().find(is_alike) {
             Some(pen) => {
@@ -100,7 +101,7 @@ struct Lowering<'a> {
     nib: f64,
     swell: Option<&'a Swell>,
     tolerance: f64,
-    /// Raised, it leaves the result unfinished.
+    /// If raised, the result is incomplete.
     interrupt: &'a Interrupt,
 }
 
@@ -160,7 +161,7 @@ impl Lowering<'_> {
         self.simplified(fill(shape, self.nib, phase, self.interrupt))
     }
 
-    /// Paths without the vertices that straight stretches do not need.
+    /// Removes vertices that straight stretches do not need.
     fn simplified(&self, paths: Vec<Toolpath>) -> Vec<Toolpath> {
         let points = |path: &Toolpath| simplify_until(&path.points, 0.5 * self.tolerance, self.interrupt);
         let thinned = |path: Toolpath| Toolpath { points: points(&path), ..path };
@@ -168,7 +169,7 @@ impl Lowering<'_> {
     }
 }
 
-/// Where in its rhythm the line of a mark begins: the golden ratio spreads the phases of neighbouring dashed lines.
+/// The dash phase at which a mark's line begins, from 0 to 1. The golden ratio spreads the phases of neighbouring dashed lines.
 fn phase(index: usize) -> f64 {
     (index as f64 * 0.618_033_988_75).fract()
 }
@@ -178,7 +179,7 @@ fn grouped(mut paths: Vec<Toolpath>, stroke: &Stroke) -> Vec<Toolpath> {
     paths
 }
 
-/// A curve's subpaths as tool paths; one without length becomes a touch.
+/// A curve's subpaths as tool paths. A subpath without length becomes a touch.
 fn polylines(curve: &BezPath, tolerance: f64) -> Vec<Toolpath> {
     flatten(curve, tolerance)
         .into_iter()

@@ -3,11 +3,11 @@
 use super::dash::Sample;
 use crate::geometry::{BezPath, Point, Rect, Region, Vec2, half_plane, polygon_area, polyline_length, resample};
 
-/// Side, in nibs, of the pieces into which a net is cut: each is given its own threads' ink. With 2, most are less than half a touch; with
-/// 16, the ink of a whole net is laid where its threads are widest.
+/// Size, in nibs, of the pieces into which a net is cut; each piece gets its own threads' ink. With 2, most are less than half a
+/// touch; with 16, the ink of a whole net is laid where its threads are widest.
 const PIECE: f64 = 4.0;
 
-/// A shape's ink, in square millimetres: its first ring's area less those of the others, which turn the other way.
+/// A shape's ink in square millimetres: its first ring's area less those of the others, which have the opposite orientation.
 pub(super) fn ink_of(shape: &[Vec<Point>]) -> f64 {
     shape.iter().map(|ring| polygon_area(ring)).sum::<f64>().abs()
 }
@@ -31,7 +31,7 @@ pub(super) fn pieces(shape: Vec<Vec<Point>>, nib: f64) -> Vec<Vec<Vec<Point>>> {
     done
 }
 
-/// What of a shape lies on the side of a place that the normal points away from.
+/// The part of a shape behind the line through `at`, on the side opposite to the normal.
 fn cut(shape: &[Vec<Point>], at: Point, normal: Vec2) -> Vec<Vec<Point>> {
     let half = |ring: &Vec<Point>| {
         let mut out = Vec::new();
@@ -41,11 +41,11 @@ fn cut(shape: &[Vec<Point>], at: Point, normal: Vec2) -> Vec<Vec<Point>> {
     shape.iter().map(half).filter(|ring| ring.len() > 2).collect()
 }
 
-/// The middle line of a shape's first ring between its two tips, with widths whose ink is the shape's; where that line is outside of the
-/// shape, no ink.
+/// The centre line of a shape's first ring between its two tips, with widths that add up to the shape's ink. Where that line lies
+/// outside the shape, the width is 0.
 ///
-/// The tips are the two vertices farthest apart; the border between them is cut into two sides, and points at the same share of either
-/// side's length are taken as opposite.
+/// The tips are the two vertices farthest apart. They cut the border into two sides; points at the same share of each side's
+/// length are taken as opposite.
 pub(super) fn needle(shape: &[Vec<Point>], nib: f64) -> Vec<Sample> {
     let Some(polygon) = shape.first() else { return Vec::new() };
     let Some((a, b)) = tips(polygon) else { return Vec::new() };
@@ -77,7 +77,7 @@ fn outline(shape: &[Vec<Point>]) -> BezPath {
     path
 }
 
-/// Two vertices about as far apart as any: the farthest from the first vertex, and the farthest from that.
+/// Two vertices about as far apart as any: the one farthest from the first vertex, and the one farthest from that.
 fn tips(polygon: &[Point]) -> Option<(usize, usize)> {
     let farthest = |from: usize| {
         (0..polygon.len())

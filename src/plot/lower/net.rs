@@ -1,5 +1,6 @@
-//! The threads of a net that are narrower than the nib: no line along one of them is the middle of its neighbours too, and the nib's ends
-//! reach into the holes. So the nib is led from place to place where it covers most and spills least, until the threads' ink is laid.
+//! Draws the threads of a net that are narrower than the nib. No line along a thread is also its neighbours' centre line, and the
+//! nib's round ends reach into the holes. So the nib moves from point to point where it covers most and spills least, until the
+//! threads' ink is laid.
 
 use super::ground::Ground;
 use super::needle::ink_of;
@@ -8,17 +9,17 @@ use crate::interrupt::Interrupt;
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-/// Side of the cells that ink is counted in, in nibs: a nib is 50 of them.
+/// Size of the cells in which ink is counted, in nibs: a nib covers 50 of them.
 const CELL: f64 = 0.125;
-/// How far the nib is led at once, in nibs.
+/// Length of one step of the nib, in nibs.
 const STEP: f64 = 0.25;
-/// Directions that it may be led in.
+/// Number of directions of a step.
 const WAYS: usize = 16;
-/// Shares of the ink newly laid that must lie on threads, and up to what share of a piece's ink: the best places first. Tuned on the
-/// hedcuts of the tests, of which the dark bust at a nib of 0.8 mm spills most: with 1 for all, it spills more than 3 % of its ink; without
-/// the last, threads of half a nib and less would be lost.
+/// Pairs of the least share of newly laid ink that must lie on threads, and the share of a piece's ink drawn at that level: the
+/// best places first. Tuned on the hedcuts of the tests, of which the dark bust at a nib of 0.8 mm spills most: with 1 at all
+/// levels, it spills more than 3 % of its ink; without the last level, threads of half a nib and less would be lost.
 const LEVELS: [(f64, f64); 4] = [(0.95, 1.0), (0.9, 1.0), (0.8, 0.5), (0.6, 0.15)];
-/// Share of a touch, and of a step, that must lie on bare threads.
+/// Least share of a touch, and of a step, that must lie on bare threads.
 const LEAST_TOUCH: f64 = 0.4;
 const LEAST_STEP: f64 = 0.4;
 
@@ -30,15 +31,15 @@ pub(super) struct Net<'a> {
     ground: &'a Ground,
     nib: f64,
     interrupt: &'a Interrupt,
-    /// Where the nib has been so far, by squares as wide as it.
+    /// Cells that the nib has visited so far, by nib-sized squares.
     been: HashMap<Cell, Vec<Cell>>,
-    /// Ink asked for and not laid yet, in square millimetres: pieces too small for a touch leave theirs to the next.
+    /// Ink wanted but not laid yet, in square millimetres: pieces too small for a touch pass theirs on to the next.
     owed: f64,
-    /// The cells under a nib, from that of its middle.
+    /// The cells under a nib, relative to its centre.
     under: Vec<Cell>,
 }
 
-/// What the nib lays down newly, in cells.
+/// Ink newly laid by the nib, in cells.
 #[derive(Clone, Copy)]
 struct Laid {
     covered: usize,
@@ -129,7 +130,8 @@ impl<'a> Net<'a> {
         Laid { covered: count(State::Asked), spilt: count(State::Hole) }
     }
 
-    /// The next line, from the place where a touch covers most, as far as each step lays this share of its ink on threads.
+    /// The next line: it starts where a touch covers most and continues while each step lays at least this share of its ink on
+    /// threads.
     fn line(&mut self, patch: &mut Patch, level: f64) -> Option<Vec<Point>> {
         let starts = patch.places().map(|at| (at, self.laid(patch, at)));
         let least = LEAST_TOUCH * self.under.len() as f64;
@@ -150,7 +152,7 @@ impl<'a> Net<'a> {
         Some(forth)
     }
 
-    /// Leads the nib on, to where it covers most; none where ink enough is laid or it would spill.
+    /// Moves the nib on to where it covers most; none if enough ink is laid or it would spill.
     fn step(&mut self, patch: &mut Patch, from: Point, level: f64) -> Option<Point> {
         if self.owed <= 0.0 || self.interrupt.is_raised() {
             return None;
@@ -171,7 +173,7 @@ impl<'a> Net<'a> {
     }
 }
 
-/// The square, as wide as the nib, that a cell lies in.
+/// The nib-sized square that contains a cell.
 fn square((x, y): Cell) -> Cell {
     let cells = (1.0 / CELL) as i64;
     (x.div_euclid(cells), y.div_euclid(cells))
@@ -191,7 +193,7 @@ impl Patch {
         (x < self.width && y < self.height).then_some(y * self.width + x)
     }
 
-    /// Every other cell that is asked for.
+    /// Every other cell, in rows and columns, that wants ink.
     fn places(&self) -> impl Iterator<Item = Cell> + '_ {
         let places = (0..self.height).step_by(2).flat_map(|y| (0..self.width).step_by(2).map(move |x| (x, y)));
         let asked = places.filter(|&(x, y)| self.cells[y * self.width + x] == State::Asked);

@@ -1,24 +1,24 @@
-//! Where the nib may go on the way from one line of a filling to the next: a step over a hole would fill the hole.
+//! Where the nib may go between two lines of a filling: a step across a hole would fill the hole.
 
 use crate::geometry::{Insets, Point, Region};
 
-/// The places of the nib's middle from which it spills next to nothing.
+/// The positions of the nib's centre at which it spills next to nothing.
 pub(super) struct Room {
     inside: Region,
     step: f64,
 }
 
-/// How far beyond the border a step may take the nib, and the distance of the places on it that are looked at, in nibs.
+/// Distance that a step may take the nib beyond the border, and spacing of the sample points on a step, both in nibs.
 const SLACK: f64 = 0.1;
 const LOOK: f64 = 0.25;
 
 impl Room {
     pub fn new(outermost: &Insets, nib: f64) -> Self {
-        // Polygons: nothing is flattened.
+        // The outlines are polygons, so the flattening tolerance has no effect.
         Self { inside: Region::new(&outermost.grown(SLACK * nib).path(), 1.0), step: LOOK * nib }
     }
 
-    /// Whether the nib stays inside between two places.
+    /// True if the nib stays inside between two points.
     pub fn holds(&self, a: Point, b: Point) -> bool {
         let steps = (a.distance(b) / self.step).ceil();
         (1..steps as usize).all(|k| self.inside.contains(a.lerp(b, k as f64 / steps)))

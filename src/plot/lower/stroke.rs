@@ -1,4 +1,5 @@
-//! A wide stroke with one nib: passes side by side, each half a nib and then a pitch further inside the stroke's border.
+//! Draws a wide stroke with one nib: passes side by side, the first half a nib inside the stroke's border, each next one pitch
+//! further in.
 //!
 //! ```text
 //!        ,-----------------.           pass 0 along the left side, round the end, back along the right
@@ -17,13 +18,13 @@ use kurbo::PathEl;
 /// Distance from the middle below which the two sides of a pass are one line, in nibs.
 const ONE_LINE: f64 = 0.04;
 
-/// Flattening of a stroke that is but a dot, in millimetres.
+/// Flattening tolerance of a stroke without length, in millimetres.
 const POINT_TOLERANCE: f64 = 0.02;
 
 /// Width in nibs up to which one pass is enough.
 const ONE_PASS: f64 = 1.1;
 
-/// The centre line at even steps with its unit normals and how far from it the nib may go to either side.
+/// The centre line at even steps, with unit normals and the nib's maximum offset to either side.
 struct Spine {
     points: Vec<Point>,
     normals: Vec<Vec2>,
@@ -32,8 +33,8 @@ struct Spine {
     ends: Ends,
 }
 
-/// The paths that lay down a stroke's ink: passes where it is wider than the nib, its centre line where it is as wide, dashes where it is
-/// thinner; some of them once the interrupt is raised. `phase` says where in their rhythm the dashes begin.
+/// The paths that lay down a stroke's ink: passes where it is wider than the nib, its centre line where it is as wide, dashes
+/// where it is thinner; incomplete once the interrupt is raised. `phase` is the phase of the dashes.
 pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let samples = trimmed(samples(stroke, nib), stroke, nib);
     if samples.windows(2).all(|pair| pair[0].at == pair[1].at) {
@@ -44,7 +45,7 @@ pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64, interrupt: &In
     let mut from = 0;
     while from < samples.len() && !interrupt.is_raised() {
         let to = (from..samples.len()).find(|&i| is_thin(i) != is_thin(from)).unwrap_or(samples.len());
-        // Neighbouring runs share the sample where one goes over into the other.
+        // Neighbouring runs share the sample at their transition.
         let run = &samples[from.saturating_sub(1)..to];
         if is_thin(from) {
             paths.extend(dashes(run, nib, phase));
@@ -58,8 +59,8 @@ pub(super) fn lower_stroke(stroke: &Stroke, nib: f64, phase: f64, interrupt: &In
     paths
 }
 
-/// Whether a stroke wider than the nib turns so sharply that passes along it would leave the outside of the turn bare: in less than
-/// 0.6 of its width.
+/// True if a stroke wider than the nib turns so sharply that passes along it would leave the outside of the turn bare: at a
+/// radius of less than 0.6 of its width.
 pub(in crate::plot) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
     if stroke.widest() <= ONE_PASS * nib {
         return false;
@@ -77,19 +78,19 @@ pub(in crate::plot) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
     })
 }
 
-/// A stroke without length is a dot as wide as the stroke.
+/// Draws a stroke without length as a dot of the stroke's width.
 fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let at = sample.map(|sample| sample.at).or_else(|| stroke.curve.elements().first().and_then(PathEl::end_point));
     let Some(at) = at.filter(|at| at.is_finite()) else { return Vec::new() };
     let width = sample.map_or(stroke.widest(), |sample| sample.width);
-    // Thinned dots are chosen together; one alone is drawn when half of a touch was asked for.
+    // Dots are thinned out together. A single one is drawn if at least half a touch is wanted.
     let asks_for_half = 2.0 * width * width >= nib * nib;
     let dot = || fill_dot(&Dot::circle(at, 0.5 * width), nib, POINT_TOLERANCE, interrupt);
     asks_for_half.then(dot).into_iter().collect()
 }
 
-/// The centre line with its widths: at steps of a quarter of a nib at most, but for straight lines of one width that a pass or dashes
-/// draw.
+/// The centre line with its widths, at steps of at most a quarter of a nib. Straight lines of one width that a pass or dashes
+/// draw are sampled only at their vertices.
 fn samples(stroke: &Stroke, nib: f64) -> Vec<Sample> {
     if let (Width::Constant(width), Some(points)) = (&stroke.width, corners(&stroke.curve))
         && *width <= ONE_PASS * nib
@@ -101,7 +102,7 @@ fn samples(stroke: &Stroke, nib: f64) -> Vec<Sample> {
     finite.map(|(at, width)| Sample { at, width }).collect()
 }
 
-/// The vertices of a curve that is all straight lines, back at its start where it is closed.
+/// The vertices of a curve of straight lines only, ending at its start if it is closed.
 fn corners(curve: &BezPath) -> Option<Vec<Point>> {
     let mut points: Vec<Point> = Vec::with_capacity(curve.elements().len());
     for element in curve.elements() {
@@ -116,7 +117,8 @@ fn corners(curve: &BezPath) -> Option<Vec<Point>> {
     (points.len() > 1).then_some(points)
 }
 
-/// Half a nib less at both ends of a stroke that ends square, as the nib's own end is round; the middle of one no longer than a nib.
+/// Trims half a nib off both ends of a stroke with square ends, as the nib's own end is round. A stroke no longer than a nib
+/// becomes its midpoint.
 fn trimmed(samples: Vec<Sample>, stroke: &Stroke, nib: f64) -> Vec<Sample> {
     if stroke.ends != Ends::Flat || stroke.is_closed() || samples.len() < 2 {
         return samples;
@@ -146,7 +148,7 @@ fn fill(spine: &Spine, nib: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut paths: Vec<Toolpath> = Vec::new();
     for pass in (0..passes).take_while(|_| !interrupt.is_raised()) {
         let inner = pass as f64 * pitch;
-        // Pass 0 goes the whole way; the next ones wherever more than half a pitch is still open.
+        // Pass 0 covers the whole length; later ones only where more than half a pitch is still open.
         let has_room = |i: usize| pass == 0 || spine.room[i] - inner > -0.5 * pitch;
         for run in runs(spine.points.len(), has_room) {
             append(&mut paths, spine.pass(run, inner, ONE_LINE * nib), 1.6 * pitch);
@@ -165,7 +167,7 @@ impl Spine {
                 if along.hypot() > 1e-12 { along.normalize().turn_90() } else { Vec2::new(0.0, 1.0) }
             })
             .collect();
-        // A line hardly wider than the nib gains nothing from a second pass.
+        // A line barely wider than the nib gains nothing from a second pass.
         let widest = samples.iter().map(|sample| sample.width).fold(0.0, f64::max);
         let room = |width: f64| if widest <= ONE_PASS * nib { 0.0 } else { (0.5 * (width - nib)).max(0.0) };
         Self {
@@ -177,8 +179,7 @@ impl Spine {
         }
     }
 
-    /// One pass over a run of the spine: out along one side and back along the other, the sides together where there is no room
-    /// between them.
+    /// One pass over a run of the spine: out along one side and back along the other, or a single line where the sides coincide.
     fn pass(&self, run: std::ops::Range<usize>, inner: f64, one_line: f64) -> Vec<Vec<Point>> {
         let offset = |i: usize| (self.room[i] - inner).max(0.0);
         let side = |i: usize, sign: f64| self.points[i] + self.normals[i] * (sign * offset(i));
@@ -214,7 +215,7 @@ impl Spine {
     }
 }
 
-/// A half circle around the stroke's end from one side to the other, past `forward`.
+/// A half circle around the stroke's end from one side to the other, on the side of `forward`.
 fn arc(centre: Point, from: Point, to: Point, forward: Vec2) -> Vec<Point> {
     let (a, b) = (from - centre, to - centre);
     let ahead = forward.normalize() * a.hypot();
@@ -226,7 +227,7 @@ fn arc(centre: Point, from: Point, to: Point, forward: Vec2) -> Vec<Point> {
         .collect()
 }
 
-/// Adds pieces of line, joined to the last path where the step over is short: it lies within the stroke's ink.
+/// Appends pieces of line, joined to the last path if the step between them is short and so lies within the stroke's ink.
 fn append(paths: &mut Vec<Toolpath>, pieces: Vec<Vec<Point>>, reach: f64) {
     for mut piece in pieces.into_iter().filter(|piece| !piece.is_empty()) {
         let end = paths.last().and_then(|path| path.points.last().copied());
@@ -249,7 +250,7 @@ fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usiz
     runs_in(0..count, holds)
 }
 
-/// The longest runs of indices for which something holds.
+/// The maximal runs of indices for which `holds` is true.
 fn runs_in(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
     for i in range.filter(|&i| holds(i)) {
@@ -300,7 +301,7 @@ mod tests {
         let asked: f64 =
             (1..points.len()).filter(|&i| points[i].x < end).map(|i| widths[i] * points[i].distance(points[i - 1])).sum();
         assert!((ink / asked - 1.0).abs() < 0.2, "{ink} for {asked}");
-        // Out the whole way, back only where it is wider than the nib.
+        // Out along the whole length, back only where it is wider than the nib.
         let wide: f64 = paths.iter().filter(|path| path.length() > 5.0).map(Toolpath::length).sum();
         assert!((17.0..24.0).contains(&wide), "{wide}");
     }

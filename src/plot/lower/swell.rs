@@ -1,11 +1,11 @@
-//! A pen whose line swells as it is lowered, such as a brush: a stroke is one pass whose height follows its width.
+//! For a pen whose line swells as it is lowered, such as a brush: a stroke becomes one pass whose height follows its width.
 
 use super::super::Toolpath;
 use super::super::profile::Swell;
 use crate::drawing::Stroke;
 use crate::geometry::Point;
 
-/// A stroke no wider than the pen can swell, as one pass. None for wider ones, which are filled.
+/// A stroke as one pass, if it is no wider than the pen's widest line. None for wider ones, which are filled.
 pub(super) fn swelling_pass(stroke: &Stroke, swell: &Swell, tolerance: f64) -> Option<Vec<Toolpath>> {
     if stroke.widest() > swell.widest() {
         return None;
@@ -23,7 +23,8 @@ pub(super) fn swelling_pass(stroke: &Stroke, swell: &Swell, tolerance: f64) -> O
     (!points.is_empty()).then(|| vec![Toolpath { heights: Some(heights), ..Toolpath::new(points) }])
 }
 
-/// Samples that a straight line in the page and in height does not give within the tolerance (Douglas and Peucker 1973).
+/// Indices of the samples to keep: those that a straight line in position and height does not reproduce within the tolerance
+/// (Douglas and Peucker 1973).
 fn kept(samples: &[(Point, f64)], tolerance: f64) -> Vec<usize> {
     if samples.len() < 3 {
         return (0..samples.len()).collect();

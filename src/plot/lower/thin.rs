@@ -1,11 +1,11 @@
-//! Less ink than a nib can make: dots smaller than the nib are thinned out, so that their mean ink stays.
+//! Thins out dots smaller than the nib, so that their mean ink is kept.
 
 use crate::drawing::Mark;
 use crate::geometry::{Point, thinned};
 use crate::interrupt::Interrupt;
 
-/// Which marks are drawn. A dot smaller than the nib would lay down a whole nib's disc: it stands for its neighbours with the share
-/// of that disc which was asked for.
+/// True for each mark that is drawn. A dot smaller than the nib would lay down a full nib's disc, so its area over that disc is its
+/// share, and of neighbouring dots as many are drawn as their shares add up to.
 pub(super) fn keeps_tone(marks: &[Mark], nib: f64, interrupt: &Interrupt) -> Vec<bool> {
     let smallest = 0.5 * nib;
     let is_small = |mark: &Mark| matches!(mark, Mark::Dot(dot) if dot.radius < smallest && dot.centre.is_finite());

@@ -1,5 +1,5 @@
-//! Areas of one pen that lie on one another or side by side are one area: filled each by itself, all would stay half a nib off the
-//! borders between them, and what they share would be drawn twice.
+//! Unites areas of one pen that overlap or touch. Filled one by one, each would stay half a nib off the common borders, and
+//! overlaps would be drawn twice.
 
 use crate::drawing::{Area, Mark};
 use crate::geometry::{Insets, Rect, Thread, tangles};
@@ -7,22 +7,22 @@ use crate::interrupt::Interrupt;
 use kurbo::Shape;
 use rayon::prelude::*;
 
-/// Cells a side in which neighbours are looked for, at most.
+/// Maximum cells per side of the grid in which neighbours are searched.
 const CELLS: usize = 512;
-/// Vertices of all areas up to which they are united: half a million take a second or two and a few hundred megabytes.
+/// Maximum vertices of all areas that are united: half a million take a second or two and a few hundred megabytes.
 const MOST_VERTICES: usize = 2_000_000;
-/// Crossings of all their borders up to which they are united.
+/// Maximum crossings of all their borders.
 const MOST_CROSSINGS: f64 = 1_000_000.0;
 
-/// What areas become when those that meet are one.
+/// The result of uniting areas.
 pub(super) struct United {
-    /// For each mark, whether it is part of one of the shapes and not drawn by itself.
+    /// For each mark, true if it is part of one of the shapes and not drawn by itself.
     pub is_part: Vec<bool>,
     /// Connected shapes.
     pub shapes: Vec<Insets>,
 }
 
-/// Unites the areas among some marks that may meet; none where that would be too much work. Curves are flattened to `tolerance`.
+/// Unites the areas that may meet among some marks, or none if that is too much work. Curves are flattened to `tolerance`.
 pub(super) fn united(marks: &[Mark], tolerance: f64, interrupt: &Interrupt) -> United {
     let areas: Vec<(usize, &Area, Rect)> = marks.iter().enumerate().filter_map(|(i, mark)| area(i, mark)).collect();
     let mut united = United { is_part: vec![false; marks.len()], shapes: Vec::new() };
@@ -54,7 +54,7 @@ fn is_tangled(outlines: &[Insets]) -> bool {
     tangles(&threads) > MOST_CROSSINGS
 }
 
-/// Which of some boxes share a cell of a grid with another one.
+/// For each box, true if it shares a grid cell with another.
 fn crowded(boxes: &[Rect]) -> Vec<bool> {
     let Some(all) = boxes.iter().copied().reduce(|a, b| a.union(b)) else { return Vec::new() };
     let side = (4.0 * (boxes.len() as f64).sqrt()) as usize;
@@ -64,7 +64,7 @@ fn crowded(boxes: &[Rect]) -> Vec<bool> {
         let (x, y) = (|v| cell(v, all.x0, all.width()), |v| cell(v, all.y0, all.height()));
         (x(b.x0), y(b.y0), x(b.x1) + 1, y(b.y1) + 1)
     };
-    // Each box adds 1 to its cells: as differences first, then summed up to counts, then to sums of counts.
+    // Each box adds 1 to its cells: first as differences, which are summed to counts, then to sums of counts.
     let width = side + 1;
     let mut counts = vec![0_i64; width * width];
     for b in boxes {
@@ -75,7 +75,7 @@ fn crowded(boxes: &[Rect]) -> Vec<bool> {
         counts[y1 * width + x0] -= 1;
     }
     sum_up(&mut counts, width);
-    // The sums of all cells above and to the left, so that a row and a column of zeros come first.
+    // Summed-area table with a leading row and column of zeros.
     let mut sums = vec![0_i64; width * width];
     for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
         sums[(y + 1) * width + x + 1] = counts[y * width + x];
@@ -89,7 +89,7 @@ fn crowded(boxes: &[Rect]) -> Vec<bool> {
     boxes.iter().map(is_crowded).collect()
 }
 
-/// Makes each cell the sum of all cells up to it in both directions.
+/// Replaces each cell by the sum of all cells above and to the left, itself included.
 fn sum_up(cells: &mut [i64], width: usize) {
     for i in 0..cells.len() {
         let (x, y) = (i % width, i / width);

@@ -1,4 +1,4 @@
-//! Repeated paths go, so that no line is drawn twice.
+//! Drops repeated paths, so that no line is drawn twice.
 
 use std::collections::HashMap;
 
@@ -7,14 +7,15 @@ use kurbo::{Point, Rect};
 use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
-/// Vertices of a closed path that are tried as the counterpart of another one's start. More than a few coincide only in a path that
-/// goes round in place.
+/// Maximum vertices of a closed path tried as the counterpart of another path's start. More than a few coincide only in a path
+/// that runs round in place.
 const MOST_STARTS: usize = 16;
 
-/// Drops each path that repeats an earlier one: as many vertices, each at most `tolerance` millimetres from its counterpart, and as high, in
-/// either direction; a closed path may begin at any of them. A path that belongs to a group is never dropped, nor anything for its sake.
-/// Of repeated touches the longest stays. O(number of vertices), as long as few paths with equally many vertices share the middle of
-/// their bounds without being the same. Once the interrupt is raised, the rest is left out.
+/// Drops each path that repeats an earlier one: with as many vertices, each at most `tolerance` millimetres from its counterpart
+/// in position and height, in either direction; a closed path may begin at any vertex. A path in a group is never dropped, nor
+/// does it cause another to be dropped. Of repeated touches the longest rest is kept. O(number of vertices), as long as few paths
+/// with equally many vertices share the centre of their bounds without being the same. Once the interrupt is raised, the rest is
+/// left out.
 pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let mut kept: Vec<Toolpath> = Vec::with_capacity(paths.len());
     let mut by_middle: HashMap<(usize, i64, i64), Vec<usize>> = HashMap::new();
@@ -23,8 +24,8 @@ pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64, interrupt: &Interru
             kept.push(path);
             continue;
         }
-        // The middle of the bounds is the same in both directions, and moves no farther than the vertices: two equal paths lie in the same
-        // cell or in adjacent ones.
+        // The centre of the bounds is the same in both directions and moves no farther than the vertices: two equal paths lie in
+        // the same cell or in adjacent ones.
         let (x, y) = cell(bounds(&path.points).center(), tolerance);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))));
         let mut candidates = around.filter_map(|(x, y)| by_middle.get(&(path.points.len(), x, y))).flatten();
@@ -70,7 +71,7 @@ fn bounds(points: &[Point]) -> Rect {
     points.iter().map(|&p| around(p)).reduce(|all, p| all.union(p)).unwrap_or_default()
 }
 
-/// The cell of a grid as fine as the tolerance, but for rounding.
+/// The cell of a grid with the tolerance as its size.
 fn cell(p: Point, tolerance: f64) -> (i64, i64) {
     let size = tolerance.max(1e-9);
     ((p.x / size).floor() as i64, (p.y / size).floor() as i64)

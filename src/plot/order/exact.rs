@@ -1,9 +1,9 @@
-//! A few paths: the best order there is, by dynamic programming over the sets of paths already drawn (Held and Karp 1962).
+//! The optimal order of a few paths, by dynamic programming over the sets of paths already drawn (Held and Karp 1962).
 
 use super::{Stop, Visit};
 use kurbo::Point;
 
-/// Paths up to which all orders are weighed; the table has `2^n n` rows of two ways round, 9000 at nine.
+/// Maximum number of paths solved exactly; the table has `2^n n` rows of two directions, 9000 at nine paths.
 pub(super) const MOST: usize = 9;
 
 /// The shortest order of at most [`MOST`] paths from `home`.
@@ -15,7 +15,7 @@ pub(super) fn best_order(stops: &[Stop], home: Point) -> Vec<Visit> {
         |path: usize, way: usize| if way == 0 { stops[path].ends.end } else { stops[path].ends.start },
     );
     let slot = |set: usize, path: usize, way: usize| (set * count + path) * 2 + way;
-    // The least travel to have drawn `set`, its last path that way round, and what was drawn before.
+    // The least travel to draw `set` with this last path in this direction, and the path drawn before.
     let mut least = vec![(f64::INFINITY, None); (1 << count) * count * 2];
     for set in 1_usize..1 << count {
         for (path, way) in (0..count).filter(|path| set >> path & 1 == 1).flat_map(|path| ways(path).map(move |way| (path, way)))

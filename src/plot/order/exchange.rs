@@ -1,22 +1,22 @@
-//! Exchanging k links of a tour for k others: whether that leaves one tour, and how its segments then lie.
+//! Exchanges k links of a tour for k others: checks that one tour remains, and finds the new positions of its segments.
 
 use super::one_way::OneWay;
 use super::sites::End;
 use super::tour::Tour;
 
-/// Most links in one exchange.
+/// Maximum links in one exchange.
 pub(super) const MAX_LINKS: usize = 8;
 
-/// A piece of tour between two cut links, and where it goes.
+/// A piece of the tour between two cut links, and its new position.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Segment {
-    /// Its first seat now.
+    /// Its current first seat.
     pub(super) first: usize,
     /// Number of paths in it.
     pub(super) len: usize,
-    /// Whether it is to be drawn backwards.
+    /// True if it is reversed.
     pub(super) reversed: bool,
-    /// Its first seat afterwards, which may count on past the last seat.
+    /// Its new first seat, which may wrap around past the last seat.
     pub(super) to: usize,
 }
 
@@ -32,9 +32,9 @@ pub(super) struct Rearrangement {
 }
 
 impl Rearrangement {
-    /// Cuts the links `ends[0] - ends[1]`, `ends[2] - ends[3]` ... and joins `ends[1]` with `ends[2]`, `ends[3]` with `ends[4]` ... and
-    /// the last one with the first. `None` if that would fall apart into several rings, or turn round a path that is `one_way`. O(k^2) for
-    /// k links.
+    /// Cuts the links `ends[0] - ends[1]`, `ends[2] - ends[3]` ... and joins `ends[1]` with `ends[2]`, `ends[3]` with `ends[4]`
+    /// ... and the last with the first. `None` if the tour would fall apart into several rings, or a `one_way` path would be
+    /// reversed. O(k^2) for k links.
     pub(super) fn new(tour: &Tour, ends: &[End], one_way: &OneWay) -> Option<Self> {
         let count = ends.len() / 2;
         let (cuts, sides) = cut(tour, ends);
@@ -58,7 +58,7 @@ impl Rearrangement {
         is_allowed.then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
     }
 
-    /// Puts the segments of these lengths behind a seat in reverse order, each still drawn the same way.
+    /// Reverses the order of the segments of these lengths behind a seat, keeping the direction of each.
     ///
     /// ```text
     ///      before:  == A == B == C == D == (A)
@@ -76,7 +76,7 @@ impl Rearrangement {
         Self { segments, count: lengths.len() + 1 }
     }
 
-    /// The pieces that change their seats or direction. The longest never does.
+    /// The segments that change seats or direction. The longest never does.
     pub(super) fn moved(&self) -> impl Iterator<Item = &Segment> {
         self.segments[1..self.count].iter().filter(|segment| segment.reversed || segment.first != segment.to)
     }
@@ -86,7 +86,7 @@ impl Rearrangement {
         let longest = (0..walked.len()).max_by_key(|&i| segment(walked[i].0).1).unwrap_or(0);
         walked.rotate_left(longest);
         if walked[0].1 {
-            // The same ring, walked the other way.
+            // Walk the same ring in the other direction.
             walked[1..].reverse();
             for (_, reversed) in walked.iter_mut() {
                 *reversed = !*reversed;
@@ -110,7 +110,7 @@ fn segment(paths: usize, cuts: &[usize], index: usize) -> (usize, usize) {
     (first, (cuts[index] + paths - before - 1) % paths + 1)
 }
 
-/// Whether all segments with a path that may not be turned round go the same way.
+/// True if all segments with a one-way path keep the same direction.
 fn keeps_directions(tour: &Tour, cuts: &[usize], walked: &[(usize, bool)], one_way: &OneWay) -> bool {
     let mut way = None;
     walked.iter().all(|&(index, reversed)| {
@@ -119,15 +119,15 @@ fn keeps_directions(tour: &Tour, cuts: &[usize], walked: &[(usize, bool)], one_w
     })
 }
 
-/// The cut links as the seats before them, ascending; and for each end its side of a segment: `2 s` for the first end of
-/// segment `s`, `2 s + 1` for its last one, where segment `s` ends at cut `s`.
+/// The cut links as the seats before them, ascending, and for each end its side of a segment: `2 s` for the first end of segment
+/// `s`, `2 s + 1` for its last, where segment `s` ends at cut `s`.
 fn cut(tour: &Tour, ends: &[End]) -> ([usize; MAX_LINKS], [usize; 2 * MAX_LINKS]) {
     let count = ends.len() / 2;
     let mut cuts = [usize::MAX; MAX_LINKS];
     let mut seats = [0; MAX_LINKS];
     for i in 0..count {
         let (a, b) = (tour.position(ends[2 * i]), tour.position(ends[2 * i + 1]));
-        // The one that is left is the one before the cut.
+        // The end at which its path is left lies before the cut.
         seats[i] = (if a & 1 == 1 { a } else { b }) as usize >> 1;
         let mut rank = i;
         while rank > 0 && cuts[rank - 1] > seats[i] {

@@ -1,4 +1,4 @@
-//! The first tour: the shortest links first, as long as they make no fork and no ring.
+//! The first tour: links are made from the shortest up, as long as they create no fork and no ring.
 
 use rayon::prelude::*;
 
@@ -6,21 +6,22 @@ use super::neighbours::{Neighbours, nearest_ends};
 use super::sites::{End, Role, Sites};
 use crate::interrupt::Interrupt;
 
-/// Neighbours of each loose end that are looked at in later rounds. With fewer, more rounds are needed.
+/// Neighbours of each loose end examined in later rounds. With fewer, more rounds are needed.
 const LATER_NEIGHBOURS: usize = 6;
 
-/// Runs into which candidates are cut by their length before they are sorted, so that a request to stop is seen between two of them.
+/// Number of runs into which candidates are split by length before sorting, so that an interrupt is noticed between two runs.
 const RUNS: usize = 64;
 
-/// Rounds after which the remaining fragments are strung together as they come. If most ends have the same few nearest partners, as with
-/// thousands of copies of one path drawn forwards only, a round joins next to nothing, and without a limit they would take n^2.
+/// Maximum rounds; after them the remaining fragments are strung together in order. If most ends have the same few nearest
+/// partners, as with thousands of copies of one path drawn forwards only, a round joins next to nothing, and without a limit they
+/// would take n^2.
 const MOST_ROUNDS: usize = 30;
 
-/// A link that might be made: length, then the two ends. Lengths are kept as the bits of an `f32`, whose order is the same.
+/// A possible link: its length, then the two ends. Lengths are stored as the bits of an `f32`, whose order is the same.
 type Candidate = (u32, End, End);
 
 /// Orders all paths greedily and returns the end at which each is entered, beginning with the home path. About 14 % above the
-/// optimum on uniform dots; O(n log n). Interrupted, it returns some of them.
+/// optimum on uniform dots; O(n log n). If interrupted, some paths are missing.
 pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours) -> Vec<End> {
     let mut fragments = Fragments::new(sites);
     let all = (0..sites.end_count() as End).into_par_iter();
@@ -45,7 +46,7 @@ fn candidate(sites: &Sites, a: End, b: End) -> Candidate {
     ((sites.distance(a, b) as f32).to_bits(), a.min(b), a.max(b))
 }
 
-/// Candidates in runs of about the same number, each run's before the next one's; within a run they stand as they come.
+/// Splits candidates into runs of about equal size in ascending order; within a run they are unsorted.
 fn runs(candidates: Vec<Candidate>) -> Vec<Vec<Candidate>> {
     let step = candidates.len() / (16 * RUNS);
     if step == 0 {
@@ -61,14 +62,14 @@ fn runs(candidates: Vec<Candidate>) -> Vec<Vec<Candidate>> {
     runs
 }
 
-/// Pieces of tour that grow together, as a union-find forest over paths.
+/// Pieces of the tour that grow together, as a union-find forest over paths.
 struct Fragments {
     count: usize,
     parent: Vec<u32>,
     link: Vec<Option<End>>,
-    /// For each loose end, the loose end at the other side of its fragment.
+    /// For each loose end, the loose end on the other side of its fragment.
     far: Vec<End>,
-    /// For each loose end, whether its fragment is entered or left there.
+    /// For each loose end, its role: whether its fragment is entered or left there.
     role: Vec<Role>,
 }
 
@@ -113,7 +114,7 @@ impl Fragments {
         }
     }
 
-    /// Both ends of every fragment, but for the free end, which closes the tour when all else is joined.
+    /// Both ends of every fragment except the free end, which closes the tour at the end.
     fn loose_ends(&self, sites: &Sites) -> Vec<End> {
         (0..sites.end_count() as End).filter(|&end| self.link[end as usize].is_none() && end != sites.free_end()).collect()
     }
@@ -125,7 +126,7 @@ impl Fragments {
         let (far_a, far_b) = (self.far[a as usize], self.far[b as usize]);
         self.far[far_a as usize] = far_b;
         self.far[far_b as usize] = far_a;
-        // A fragment that may be turned round takes the direction of the one it is joined to.
+        // A reversible fragment takes the direction of the one to which it is joined.
         if self.role[a as usize] == Role::Either {
             self.role[far_a as usize] = self.role[b as usize];
         }
@@ -144,7 +145,7 @@ impl Fragments {
         let Some(from_home) = by_root.iter().position(|&(root, ..)| root == home) else {
             return;
         };
-        // The only loose end of the home fragment; all others have two, the one to enter first.
+        // The only loose end of the home fragment. All others have two, the entry first.
         let (.., mut tail) = by_root.remove(from_home);
         for fragment in by_root.chunks_exact(2) {
             self.join(tail, fragment[0].3);

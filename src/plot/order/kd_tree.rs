@@ -1,19 +1,19 @@
-//! A k-d tree of points in the plane, for nearest neighbours however unevenly the points lie.
+//! A k-d tree of points in the plane, for nearest neighbours in any distribution of points.
 
 use std::cmp::Ordering;
 
 use kurbo::Point;
 
-/// Points with a label each. Labels must differ; they break every tie, which makes answers reproducible and keeps
-/// searches among thousands of coincident points short.
+/// Points with a label each. Labels must differ. They break every tie, which makes results reproducible and keeps searches among
+/// thousands of coincident points short.
 pub(super) struct KdTree {
     /// In tree order: the middle element of a range is its root, with one subtree on either side.
     points: Vec<(Point, u32)>,
-    /// Whether the range with this middle element is split by y.
+    /// True if the range with this middle element is split by y.
     by_y: Vec<bool>,
 }
 
-/// Ranges up to this length are searched from end to end. Twice or half as many make no difference that could be measured.
+/// Ranges up to this length are searched linearly. Twice or half as many make no measurable difference.
 const LEAF: usize = 8;
 
 impl KdTree {
@@ -24,7 +24,7 @@ impl KdTree {
         Self { points, by_y }
     }
 
-    /// The labels in tree order, in which neighbours in the plane tend to be close.
+    /// The labels in tree order, which tends to keep neighbours in the plane close.
     pub(super) fn into_labels(self) -> impl Iterator<Item = u32> {
         self.points.into_iter().map(|(_, label)| label)
     }
@@ -59,7 +59,7 @@ impl<W: Fn(u32) -> bool> NearestSearch<'_, W> {
         let root = points[middle];
         let below = (&points[..middle], &by_y[..middle]);
         let above = (&points[middle + 1..], &by_y[middle + 1..]);
-        // Comparing with the label leads each of many coincident points to a leaf of its own.
+        // Comparing labels too sends each of many coincident points to its own leaf.
         let is_below = compare(by_y[middle], &self.query, &root) == Ordering::Less;
         let (near, far) = if is_below { (below, above) } else { (above, below) };
         self.visit(near.0, near.1);
@@ -104,15 +104,14 @@ fn build(points: &mut [(Point, u32)], by_y: &mut [bool]) {
     rayon::join(|| build(below, by_y_below), || build(&mut above[1..], &mut by_y_above[1..]));
 }
 
-/// Moves the points so that those before `middle` lie to one side of that one along the longer side of the bounds, the others
-/// to the other. Returns whether they are split by y.
+/// Partitions the points at index `middle` along the longer side of their bounds. Returns true if they are split by y.
 pub(super) fn split(points: &mut [(Point, u32)], middle: usize) -> bool {
     let by_y = is_taller(points);
     points.select_nth_unstable_by(middle, |a, b| compare(by_y, a, b));
     by_y
 }
 
-/// Whether the points spread farther in y than in x.
+/// True if the points extend farther in y than in x.
 fn is_taller(points: &[(Point, u32)]) -> bool {
     let spread = |axis: fn(&Point) -> f64| {
         let (low, high) =

@@ -1,24 +1,25 @@
-//! Getting out of a local optimum: small random changes, each repaired on the spot and taken back if it did not pay.
+//! Escapes local optima: small random changes, each repaired locally and undone if it did not pay.
 
 use super::exchange::Rearrangement;
 use super::lin_kernighan::LinKernighan;
 use super::random::SplitMix;
 use super::sites::End;
 
-/// Links cut by a kick.
+/// Number of links cut by a kick.
 const CUTS: usize = 4;
 
-/// Random steps from neighbour to neighbour between the first cut and each other one. Tuned on 10,000 dots, segments and hatch lines: 4 steps
-/// take two thirds of the time and leave the order 0.2 to 1 % longer; 30 take half as long again or more for 0.1 to 0.2 %.
+/// Number of random steps from neighbour to neighbour between the first cut and each other one. Tuned on 10,000 dots, segments
+/// and hatch lines: 4 steps take two thirds of the time and leave the order 0.2 to 1 % longer; 30 take half as long again or more
+/// for 0.1 to 0.2 %.
 const STEPS: usize = 10;
 
-/// Kicks the tour this many times and returns the millimetres gained. One kick takes about 25 microseconds, however long the tour,
-/// as long as the changes to its array stay short.
+/// Kicks the tour `times` times and returns the millimetres gained. One kick takes about 25 microseconds regardless of the tour's
+/// length, as long as the changes to its array stay short.
 pub(super) fn kick(search: &mut LinKernighan, times: usize, random: &mut SplitMix) -> f64 {
     (0..times).take_while(|_| !search.sites.interrupt().is_raised()).filter_map(|_| kick_once(search, random)).sum()
 }
 
-/// Makes one kick and keeps it if the repaired tour is no longer than before. `None` if there was no room for it.
+/// Makes one kick and keeps it if the repaired tour is no longer than before. `None` if no kick was possible.
 fn kick_once(search: &mut LinKernighan, random: &mut SplitMix) -> Option<f64> {
     let seats = nearby_seats(search, random)?;
     let tour = &search.tour;
@@ -41,7 +42,7 @@ fn kick_once(search: &mut LinKernighan, random: &mut SplitMix) -> Option<f64> {
     }
 }
 
-/// The seats before the cuts, ascending: all near a random path on paper, wherever in the tour.
+/// The seats before the cuts, ascending: all near a random path on paper, anywhere in the tour.
 fn nearby_seats(search: &LinKernighan, random: &mut SplitMix) -> Option<[usize; CUTS]> {
     let start = random.below(2 * search.tour.len()) as End;
     let mut seats = [search.tour.seat_of(start); CUTS];

@@ -1,9 +1,9 @@
-//! Paths that end on a loop: the loop is drawn in the same go, which saves a lift.
+//! Joins loops to paths that end on them: the loop is drawn in the same go, which saves a lift.
 //!
 //! ```text
 //!                 ____
-//!      a---------p    \          The path from a goes on around the loop and ends where it met it. An end that meets the inside of an
-//!                |     |         open path saves nothing: cut in two there, it would still have to be lifted for one of the halves.
+//!      a---------p    \          The path from a continues around the loop and ends where it met it. An end that meets the inside
+//!                |     |         of an open path saves nothing: cut in two there, one half would still need a lift.
 //!                 \____/
 //! ```
 
@@ -16,26 +16,26 @@ use super::ring::{is_free, rotated};
 use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
-/// The sharpest turn from the path into the loop, as 1 - cos of it: 90 degrees, as where a stem meets a ring head-on.
+/// The sharpest turn from the path into the loop, as 1 - cos of the angle: 90 degrees, as where a stem meets a ring head-on.
 const SHARPEST: f64 = 1.0 + 1e-6;
 
 /// An end of a path on a loop.
 struct Touch {
     turn: f64,
     gap: f64,
-    /// Path, and whether its end rather than its start meets the loop.
+    /// The path, and whether it is its end rather than its start that meets the loop.
     path: usize,
     at_end: bool,
     ring: usize,
     edge: usize,
     place: Point,
-    /// Whether the loop is then drawn backwards.
+    /// True if the loop is then drawn backwards.
     reversed: bool,
 }
 
-/// Joins each loop to a path with an end at most `tolerance` millimetres from it, if there is one: of several the one from which the
-/// turn is least. The turn is never above 90 degrees; with [`Direction::AsDrawn`], nothing is turned round. Each end is used
-/// once. Paths with heights stay as they are. O(number of vertices). Once the interrupt is raised, only some are joined.
+/// Joins each loop to a path with an end at most `tolerance` millimetres from it, if there is one; of several, the one with the
+/// least turn. The turn is never above 90 degrees; with [`Direction::AsDrawn`], nothing is reversed. Each end is used once. Paths
+/// with heights are left alone. O(number of vertices). Once the interrupt is raised, only some are joined.
 pub(in crate::plot) fn join_to_loops(
     mut paths: Vec<Toolpath>,
     tolerance: f64,
@@ -79,14 +79,14 @@ pub(in crate::plot) fn join_to_loops(
     paths
 }
 
-/// The edges of all loops by the cells of a grid.
+/// The edges of all loops in the cells of a grid.
 struct Edges {
     size: f64,
     cells: HashMap<(i64, i64), Vec<(usize, usize)>>,
 }
 
 impl Edges {
-    /// Cells are about as large as the edges, so that an edge lies in a few of them on average.
+    /// Builds the grid. Cells are about as large as the edges, so that an edge lies in a few of them on average.
     fn new(paths: &[Toolpath], rings: &[usize], tolerance: f64, interrupt: &Interrupt) -> Self {
         let (length, count) = rings
             .iter()
@@ -111,7 +111,7 @@ impl Edges {
         ((p.x / self.size).floor() as i64, (p.y / self.size).floor() as i64)
     }
 
-    /// The loop that this end of a path meets with the least turn, if it meets any.
+    /// The loop that this end of a path meets with the least turn, if any.
     fn touch(&self, paths: &[Toolpath], path: usize, at_end: bool, tolerance: f64, direction: Direction) -> Option<Touch> {
         let points = &paths[path].points;
         let at = if at_end { points[points.len() - 1] } else { points[0] };
@@ -138,8 +138,8 @@ impl Edges {
     }
 }
 
-/// The least turn between a path that arrives at a loop and the loop's edge, and whether the loop is drawn backwards for it. A path that
-/// starts at the loop is arrived at backwards here, as if the drawing were played in reverse.
+/// The least turn between a path that arrives at a loop and the loop's edge, and whether the loop is drawn backwards for it. A
+/// path that starts at the loop is treated as arriving in reverse.
 fn turn(arriving: Vec2, along: Vec2, at_end: bool, direction: Direction) -> (f64, bool) {
     let forwards = if at_end { arriving.dot(along) } else { -arriving.dot(along) };
     match direction {

@@ -1,4 +1,4 @@
-//! Lin-Kernighan search: exchange a few links for shorter ones until no such exchange is left.
+//! Lin-Kernighan search: exchanges a few links for shorter ones until no such exchange is left.
 //!
 //! ```text
 //!      t1  t2        Cut t1-t2, join t2 with a near t3, cut t3's link to t4, and so on, as long as what was cut is longer than
@@ -14,12 +14,12 @@ use super::neighbours::Neighbours;
 use super::sites::{End, Sites};
 use super::tour::Tour;
 
-/// How many continuations are tried after the first, second ... link is cut; an exchange replaces at most one link more than
-/// this is long. Tuned on 10,000 dots, segments and hatch lines, kicks included: `[5, 3]` leaves dots 0.6 % longer, as the ends of a
-/// dot come in pairs; `[10, 5, 1]` gains at most 0.2 % and takes twice as long on dots, `[10, 5, 3, 1]` six times.
+/// Number of continuations tried after the first, second ... link is cut; an exchange replaces at most one link more than this
+/// has entries. Tuned on 10,000 dots, segments and hatch lines, kicks included: `[5, 3]` leaves dots 0.6 % longer, as the ends of
+/// a dot come in pairs; `[10, 5, 1]` gains at most 0.2 % and takes twice as long on dots, `[10, 5, 3, 1]` six times.
 const BREADTH: [usize; 2] = [10, 5];
 
-/// The most of [`BREADTH`].
+/// The maximum of [`BREADTH`].
 const MOST_CONTINUATIONS: usize = 10;
 
 /// The search with its tour.
@@ -27,14 +27,14 @@ pub(super) struct LinKernighan<'a> {
     pub(super) sites: &'a Sites,
     pub(super) tour: Tour,
     pub(super) neighbours: &'a Neighbours,
-    /// Ends whose surroundings have changed since they were last tried; all others have their don't-look bit set.
+    /// Ends whose surroundings have changed since they were last tried. All others have their don't-look bit set.
     waiting: VecDeque<End>,
     is_waiting: Vec<bool>,
     /// The exchange under consideration: t1, t2, ... with links t1-t2, t3-t4, ... cut and t2-t3, ... joined.
     ends: [End; 2 * MAX_LINKS],
 }
 
-/// One way to go on with an exchange: join to `next`, then cut its link to `after`.
+/// One continuation of an exchange: join to `next`, then cut its link to `after`.
 #[derive(Clone, Copy, Default)]
 struct Continuation {
     next: End,
@@ -44,13 +44,13 @@ struct Continuation {
 }
 
 impl<'a> LinKernighan<'a> {
-    /// A search that begins with this tour.
+    /// A search that starts from this tour.
     pub(super) fn new(sites: &'a Sites, neighbours: &'a Neighbours, tour: Tour) -> Self {
         let ends = [0; 2 * MAX_LINKS];
         Self { sites, tour, neighbours, waiting: VecDeque::new(), is_waiting: vec![false; sites.end_count()], ends }
     }
 
-    /// Puts an end on the list of those to be tried.
+    /// Adds an end to the list of those to be tried.
     pub(super) fn look_at(&mut self, end: End) {
         if !std::mem::replace(&mut self.is_waiting[end as usize], true) {
             self.waiting.push_back(end);
@@ -62,7 +62,8 @@ impl<'a> LinKernighan<'a> {
         ends.iter().map(|&end| self.sites.distance(end, self.tour.link(end))).sum::<f64>() / 2.0
     }
 
-    /// Improves the tour until no end is waiting or the search is interrupted, and returns the millimetres gained. `after_each` sees the tour after every exchange.
+    /// Improves the tour until no end is waiting or the search is interrupted, and returns the millimetres gained. `after_each`
+    /// is called with the tour after every exchange.
     pub(super) fn improve(&mut self, mut after_each: impl FnMut(&mut Tour)) -> f64 {
         let mut gained = 0.0;
         while let Some(end) = self.waiting.pop_front().filter(|_| !self.sites.interrupt().is_raised()) {
@@ -87,8 +88,8 @@ impl<'a> LinKernighan<'a> {
         Some(gain)
     }
 
-    /// With `cut` links cut and a gain of `open_gain` so far, joins and cuts on until closing the exchange gains something, and
-    /// makes it. Returns the number of links exchanged and the gain.
+    /// With `cut` links cut and a gain of `open_gain` so far, joins and cuts until closing the exchange gives a gain, and makes
+    /// it. Returns the number of links exchanged and the gain.
     fn deepen(&mut self, cut: usize, open_gain: f64) -> Option<(usize, f64)> {
         let (continuations, count) = self.continuations(cut, open_gain);
         for continuation in &continuations[..count] {
@@ -107,7 +108,7 @@ impl<'a> LinKernighan<'a> {
         None
     }
 
-    /// The most promising ways to go on, the best first.
+    /// The most promising continuations, the best first.
     fn continuations(&self, cut: usize, open_gain: f64) -> ([Continuation; MOST_CONTINUATIONS], usize) {
         let from = self.ends[2 * cut - 1];
         let breadth = BREADTH[cut - 1];
@@ -115,7 +116,7 @@ impl<'a> LinKernighan<'a> {
         let mut count = 0;
         for &next in self.neighbours.of(from) {
             let joined = open_gain - self.sites.distance(from, next);
-            // The list is sorted: whatever follows is farther still.
+            // The list is sorted: all that follow are farther.
             if joined <= self.sites.tolerance() {
                 break;
             }

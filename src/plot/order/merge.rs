@@ -1,4 +1,4 @@
-//! Fewer and longer paths before they are ordered: paths that meet end to end become one.
+//! Makes fewer and longer paths before ordering: paths that meet end to end become one.
 
 use kurbo::{Point, Vec2};
 
@@ -7,32 +7,32 @@ use super::kd_tree::KdTree;
 use crate::interrupt::Interrupt;
 use crate::plot::Toolpath;
 
-/// Ends that are looked at around each end. At a crossroads of more, some pairs may stay apart; with all of them, a star of n rays would
-/// take n^2.
+/// Maximum ends examined around each end. At a crossroads of more, some pairs may stay apart; examining all would take n^2 for a
+/// star of n rays.
 const MOST_MEETING: usize = 8;
 
-/// The sharpest turn at which paths are joined, as 1 - cos of it: 150 degrees, which is still the point of a star. Beyond it the pen would go
-/// back almost over the wet line, which frays the paper.
+/// The sharpest turn at which paths are joined, as 1 - cos of the angle: 150 degrees, still the point of a star. Beyond it the
+/// pen would go back almost over the wet line, which frays the paper.
 const SHARPEST: f64 = 1.866;
 
-/// Millimetres by which the pen's height may differ where two swelling paths are joined.
+/// Maximum difference in pen height where two swelling paths are joined, in millimetres.
 const STEP: f64 = 0.01;
 
 /// Joins paths end to end where two ends are at most `tolerance` millimetres apart, so that the pen stays down.
 ///
-/// Two ends that do not coincide are joined only if the path goes on by a turn below 90 degrees:
+/// Two ends that do not coincide are joined only if the turn is below 90 degrees:
 ///
 /// ```text
 ///      -----------.  .-----------   joined, and the gap is drawn        -----------.   left apart: neighbouring
 ///                                                                       -----------'   lines of a hatch
 /// ```
 ///
-/// Ends at the very same point are joined up to a turn of 150 degrees, as that adds no ink. Each end is used once, and of several ways to
-/// go on the straightest is taken, then the one with the smallest gap: where three ends meet like a T, its bar becomes one path. A chain
-/// whose own ends meet becomes a closed path, its last point equal to its first. A path not longer than the tolerance is a
-/// dot and left alone; a path with heights is joined only to others that have them, where they are the same. Chains come in the order of
-/// their first path, which keeps its direction; with [`Direction::AsDrawn`] the end of one is joined only to the start of
-/// the next. O(n log n). Once the interrupt is raised, some of the chains.
+/// Coincident ends are joined up to a turn of 150 degrees, as that adds no ink. Each end is used once. Of several continuations
+/// the straightest is taken, then the one with the smallest gap: where three ends meet like a T, its bar becomes one path. A
+/// chain whose own ends meet becomes a closed path, its last point equal to its first. A path no longer than the tolerance is a
+/// dot and is left alone. A path with heights is joined only to others with heights, where these match. Chains are ordered by
+/// their first path, which keeps its direction; with [`Direction::AsDrawn`], the end of one path is joined only to the start of
+/// the next. O(n log n). Once the interrupt is raised, some chains are missing.
 #[expect(clippy::needless_pass_by_value, reason = "the paths are replaced by their chains")]
 pub fn chain(paths: Vec<Toolpath>, tolerance: f64, direction: Direction, interrupt: &Interrupt) -> Vec<Toolpath> {
     let links = matched(meetings(&paths, tolerance, direction, interrupt), 2 * paths.len());
@@ -61,7 +61,7 @@ pub fn chain(paths: Vec<Toolpath>, tolerance: f64, direction: Direction, interru
     chains
 }
 
-/// Adds a path to a chain, which goes on at the same point or after a gap.
+/// Appends a path to a chain, which continues at the same point or after a gap.
 fn append(chain: &mut Toolpath, path: &Toolpath, reversed: bool) {
     let at = |i: usize| if reversed { path.points.len() - 1 - i } else { i };
     let skip = usize::from(chain.points.last().is_some_and(|last| *last == path.points[at(0)]));
@@ -71,7 +71,8 @@ fn append(chain: &mut Toolpath, path: &Toolpath, reversed: bool) {
     }
 }
 
-/// Two ends that could be joined, the best pairs first in order: turn, gap, ends. End `2 p` is the first point of path `p`, `2 p + 1` its last.
+/// Two ends that could be joined, ordered by turn, gap, ends; the least is best. End `2 p` is the first point of path `p`, `2 p +
+/// 1` its last.
 struct Meeting {
     turn: f64,
     gap: f64,
@@ -97,13 +98,13 @@ fn meetings(paths: &[Toolpath], tolerance: f64, direction: Direction, interrupt:
     meetings
 }
 
-/// These two ends, if they may be joined.
+/// The meeting of two ends, if they may be joined.
 fn meeting(paths: &[Toolpath], ends: (usize, usize), tolerance: f64) -> Option<Meeting> {
     let gap = place(paths, ends.0).distance(place(paths, ends.1));
     let (leaving, going_on) = (outwards(paths, ends.0, tolerance), -outwards(paths, ends.1, tolerance));
-    // 0 straight on, 1 at a right angle, 2 back.
+    // 0 is straight on, 1 a right angle, 2 a reversal.
     let turn = 1.0 - leaving.dot(going_on);
-    // Below 90 degrees by more than rounding: lines that meet at right angles are two lines.
+    // Below 90 degrees by more than rounding: lines that meet at right angles stay separate.
     let meets = gap == 0.0 && turn <= SHARPEST || gap <= tolerance && turn < 1.0 - 1e-9;
     let is_level = match (height(paths, ends.0), height(paths, ends.1)) {
         (Some(a), Some(b)) => (a - b).abs() <= STEP,
@@ -112,7 +113,7 @@ fn meeting(paths: &[Toolpath], ends: (usize, usize), tolerance: f64) -> Option<M
     (meets && is_level).then_some(Meeting { turn, gap, ends })
 }
 
-/// The partner of each end after joining the best pairs first.
+/// The partner of each end after joining pairs, the best first.
 fn matched(mut meetings: Vec<Meeting>, ends: usize) -> Vec<Option<usize>> {
     meetings.sort_by(|a, b| a.turn.total_cmp(&b.turn).then(a.gap.total_cmp(&b.gap)).then(a.ends.cmp(&b.ends)));
     let mut links = vec![None; ends];
@@ -125,7 +126,7 @@ fn matched(mut meetings: Vec<Meeting>, ends: usize) -> Vec<Option<usize>> {
     links
 }
 
-/// The end at which a chain through `end` begins, or `end` itself if the chain is a ring.
+/// The end at which the chain through `end` begins, or `end` itself if the chain is a ring.
 fn first_entry(links: &[Option<usize>], end: usize) -> usize {
     let mut entry = end;
     while let Some(before) = links[entry] {
@@ -147,8 +148,8 @@ fn height(paths: &[Toolpath], end: usize) -> Option<f64> {
     if end.is_multiple_of(2) { heights.first().copied() } else { heights.last().copied() }
 }
 
-/// The direction in which a path arrives at one of its ends: from the nearest vertex that is farther away than the tolerance,
-/// as shorter pieces point anywhere.
+/// The direction in which a path arrives at one of its ends, measured from the nearest vertex farther away than the tolerance, as
+/// shorter pieces have no reliable direction.
 fn outwards(paths: &[Toolpath], end: usize, tolerance: f64) -> Vec2 {
     let at = place(paths, end);
     let path = &paths[end / 2].points;
@@ -157,7 +158,7 @@ fn outwards(paths: &[Toolpath], end: usize, tolerance: f64) -> Vec2 {
     from.map_or(Vec2::ZERO, |&from| (at - from) / at.distance(from))
 }
 
-/// Whether some vertex is farther than this from the first.
+/// True if some vertex is farther than `tolerance` from the first.
 fn is_longer_than(path: &[Point], tolerance: f64) -> bool {
     path.iter().any(|p| p.distance(path[0]) > tolerance)
 }

@@ -1,13 +1,13 @@
-//! The order in which paths are drawn, for the least travel with the pen up.
+//! The drawing order of paths with the least pen-up travel.
 //!
-//! This is the travelling salesman's problem with a path in place of each city, which may be drawn either way round. A first tour
-//! of the shortest links that fit together (`greedy`) is improved by exchanging links (`lin_kernighan`) and, as far as the
-//! effort allows, kicked out of its local optimum again and again (`kicks`, `sweeps`). Loops may be entered anywhere: they are seated between
-//! their neighbours in the tour (`seats`), and the search goes on from there.
+//! This is the travelling salesman problem with paths instead of cities; each path may be drawn in either direction. A greedy
+//! first tour of the shortest compatible links (`greedy`) is improved by exchanging links (`lin_kernighan`) and, as far as the
+//! effort allows, repeatedly kicked out of its local optimum (`kicks`, `sweeps`). Loops may be entered anywhere: their entry
+//! points are chosen between their neighbours in the tour (`seats`), and the search continues from there.
 //!
-//! What is made short is the distance. Travel time under acceleration (100 mm/s, 250 mm/s^2) was tried in its place on 1000 and 10,000
-//! dots, segments and hatch lines: the time of travel fell by 0.05 to 0.9 %, less than half a percent of a plot's, and the distance grew
-//! by up to 4.5 %. Lifts do not depend on the order.
+//! The objective is distance. Travel time under acceleration (100 mm/s, 250 mm/s^2) was tried instead on 1000 and 10,000 dots,
+//! segments and hatch lines: travel time fell by 0.05 to 0.9 %, less than half a percent of a plot's time, and the distance grew
+//! by up to 4.5 %. The number of lifts does not depend on the order.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -52,104 +52,105 @@ use sites::Sites;
 use sweeps::Workpiece;
 use tour::Tour;
 
-/// The two ends of one path that is drawn in one go, in millimetres. A closed path has both at the same point.
+/// The two ends of a path drawn in one go, in millimetres. For a closed path they are the same point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathEnds {
-    /// Where the path as given begins.
+    /// Start of the path as given.
     pub start: Point,
-    /// Where the path as given ends.
+    /// End of the path as given.
     pub end: Point,
 }
 
-/// One path in its turn.
+/// One step of an order: a path and its direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Visit {
-    /// Index of the path among those given.
+    /// Index of the path in the input.
     pub path: usize,
-    /// Whether it is drawn from its end to its start.
+    /// True if it is drawn from its end to its start.
     pub reversed: bool,
 }
 
-/// How much work to spend on the order. Budgets are counted in work and not in seconds, so the result is the same on any machine.
+/// How much work to spend on the order. Budgets count work, not seconds, so the result is the same on any machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Effort {
     /// The order as given.
     None,
-    /// About 2 % longer than the best known order for dots, 4 % for segments and 8 % for hatches; some 15 microseconds a path.
+    /// About 2 % longer than the best known order for dots, 4 % for segments and 8 % for hatches; about 15 microseconds per path.
     #[default]
     Fast,
-    /// About 1 % longer than the best known order; some 100 microseconds a path, and a second for the first thousand.
+    /// About 1 % longer than the best known order; about 100 microseconds per path, and a second for the first thousand.
     Full,
 }
 
-/// Whether paths may be drawn backwards.
+/// The directions in which paths may be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Direction {
-    /// Either way round, whichever is nearer.
+    /// In either direction, whichever is nearer.
     #[default]
     Either,
     /// Always from start to end.
     AsDrawn,
 }
 
-/// Neighbours of each path end that links are tried with. Tuned on 10,000 dots, segments and hatch lines: with 10, the order ends 0.2 to 2 %
-/// longer; 20 take a third longer on dots and gain nothing worth that.
+/// Number of neighbours per path end with which links are tried. Tuned on 10,000 dots, segments and hatch lines: with 10, the
+/// order ends up 0.2 to 2 % longer; 20 take a third longer on dots and gain nothing worth that.
 const NEIGHBOURS: usize = 14;
 
-/// Kicks per path with [`Effort::Fast`]. Without any, 100,000 dots take half the time and end 1.3 % longer, and hatches 3 %.
+/// Kicks per path with [`Effort::Fast`]. Without any, 100,000 dots take half the time and end up 1.3 % longer, and hatches 3 %.
 const FAST_KICKS: f64 = 0.4;
 
-/// Kicks per path with [`Effort::Full`]: one less or one more makes 100,000 dots 0.1 % longer or shorter, and a quarter of the time.
+/// Kicks per path with [`Effort::Full`]. One less or one more makes 100,000 dots 0.1 % longer or shorter, for a quarter of the
+/// time.
 const FULL_KICKS: f64 = 3.0;
 
-/// Kicks that [`Effort::Full`] spends on top however few the paths, as even a thousand take many to come within 1 %.
+/// Additional kicks with [`Effort::Full`], however few the paths: even a thousand paths need many to come within 1 %.
 const LEAST_FULL_KICKS: f64 = 40_000.0;
 
-/// A path, or several that are drawn one after the other, as the search sees it.
+/// A path, or several drawn consecutively, as the search sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop<'a> {
-    /// Where the pen comes down and where it is lifted.
+    /// Where the pen is lowered and where it is lifted.
     pub ends: PathEnds,
-    /// Whether it may be drawn from its end to its start.
+    /// True if it may be drawn from its end to its start.
     pub may_turn: bool,
-    /// The vertices of a loop that may be entered anywhere, the last one equal to the first; `ends` are both on it then.
+    /// The vertices of a loop that may be entered anywhere, the last equal to the first; `ends` both lie on it.
     pub ring: Option<&'a [Point]>,
-    /// The edge of the ring, by its first vertex, on which `ends` lie.
+    /// The edge of the ring on which `ends` lie, by its first vertex.
     pub edge: usize,
 }
 
-/// A path whose ends are no farther apart than this, in millimetres, is travelled to alike from either end, and the search need not
-/// keep its direction. A hundredth of a millimetre is less than the step of most plotters.
+/// Maximum distance in millimetres between the ends of a path that is as near from one end as from the other, so that the search
+/// may ignore its direction. A hundredth of a millimetre is less than the step of most plotters.
 const TOUCH: f64 = 0.01;
 
 impl Stop<'_> {
-    /// A path with two ends that it keeps.
+    /// A path with two fixed ends.
     pub const fn new(ends: PathEnds, may_turn: bool) -> Self {
         Self { ends, may_turn, ring: None, edge: 0 }
     }
 
-    /// Whether its direction matters to the search.
+    /// True if its direction matters to the search.
     fn is_one_way(&self) -> bool {
         !self.may_turn && self.ends.start.distance(self.ends.end) > TOUCH
     }
 }
 
-/// Orders the paths for the least pen-up travel from `home` through all of them; the way back home does not count.
+/// Orders paths for the least pen-up travel from `home` through all of them. The way back home does not count.
 ///
 /// Returns each path once. The result is the same on any number of threads; more effort never gives a longer order. Coordinates
-/// must not be NaN. Memory: about 0.9 kB a path. Time: O(n log n) with [`Effort::Fast`] and slightly more
-/// with [`Effort::Full`], in practice.
+/// must not be NaN. Memory: about 0.9 kB per path. Time: O(n log n) with [`Effort::Fast`] and slightly more with
+/// [`Effort::Full`], in practice.
 pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Direction) -> Vec<Visit> {
     let mut stops: Vec<Stop> = paths.iter().map(|&ends| Stop::new(ends, direction == Direction::Either)).collect();
     order_stops(&mut stops, home, effort)
 }
 
-/// Does what [`order`] does for stops of any kind, and moves the ends of loops to where the pen enters them.
+/// As [`order`], for stops of any kind. Moves the ends of loops to where the pen enters them.
 pub fn order_stops(stops: &mut [Stop], home: Point, effort: Effort) -> Vec<Visit> {
     order_until(stops, home, effort, &Interrupt::never())
 }
 
-/// The same; once the interrupt is raised, the shortest order found by then.
+/// As [`order_stops`]; once the interrupt is raised, returns the shortest order found so far.
 pub(super) fn order_until(stops: &mut [Stop], home: Point, effort: Effort, interrupt: &Interrupt) -> Vec<Visit> {
     let mut best = Best::as_given(stops, home);
     if effort != Effort::None && !stops.is_empty() {
@@ -165,8 +166,8 @@ pub(super) fn order_until(stops: &mut [Stop], home: Point, effort: Effort, inter
     best.visits
 }
 
-/// The shortest order found so far. Gains are right up to rounding, and the order as given may happen to be optimal: what is
-/// returned is measured.
+/// The shortest order found so far. It is chosen by measured length, since gains are exact only up to rounding and the given
+/// order may already be optimal.
 struct Best {
     home: Point,
     visits: Vec<Visit>,
@@ -196,7 +197,7 @@ impl Best {
     }
 }
 
-/// Rounds of ordering and seating a few stops: a bound on the work.
+/// Maximum rounds of ordering and choosing loop entries for a few stops.
 const FEW_ROUNDS: usize = 8;
 
 fn order_few(stops: &mut [Stop], best: &mut Best) {
@@ -211,10 +212,10 @@ fn order_few(stops: &mut [Stop], best: &mut Best) {
     }
 }
 
-/// How often the search goes on from new seats before kicks begin; a bound on the work, not tuned yet.
+/// Maximum restarts of the search with new loop entries before kicks begin; not tuned yet.
 const SEATINGS: usize = 3;
 
-/// Parts into which kicks are divided between seatings where there are loops; not tuned yet.
+/// Number of parts into which kicks are divided, with new loop entries after each, if there are loops; not tuned yet.
 const PARTS: usize = 4;
 
 fn order_many(stops: &mut [Stop], effort: Effort, interrupt: &Interrupt, best: &mut Best) {
@@ -258,7 +259,7 @@ fn order_many(stops: &mut [Stop], effort: Effort, interrupt: &Interrupt, best: &
 /// Pen-up travel in millimetres from `home` through all visits, without the way back home.
 ///
 /// # Panics
-/// If a visit is to a path that does not exist.
+/// If a visit's path index is out of range.
 pub fn pen_up_length(paths: &[PathEnds], visits: &[Visit], home: Point) -> f64 {
     let mut pen = home;
     let mut length = 0.0;
@@ -271,7 +272,7 @@ pub fn pen_up_length(paths: &[PathEnds], visits: &[Visit], home: Point) -> f64 {
     length
 }
 
-/// The tour as the caller knows the paths, from home on.
+/// The tour in the caller's numbering, starting from home.
 fn visits(sites: &Sites, numbering: &[usize], tour: &Tour, stops: &[Stop]) -> Vec<Visit> {
     let entries = tour.entries_from(sites.free_end());
     let visit = |&entry: &sites::End| {

@@ -1,4 +1,4 @@
-//! The neighbour list: for each path end, the few ends that a good tour might link it with.
+//! The neighbour list: for each path end, the few ends with which a good tour might link it.
 
 use kurbo::Point;
 use rayon::prelude::*;
@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::kd_tree::KdTree;
 use super::sites::{End, Role, Sites};
 
-/// The nearest ends of other paths to each end, the nearest first. The free end of the home path has none and is nobody's
-/// neighbour, as it is equally near to all.
+/// For each end, the nearest ends of other paths, the nearest first. The free end of the home path has no neighbours and is
+/// nobody's neighbour, as it is equally near to all.
 pub(super) struct Neighbours {
     list: Vec<End>,
     first: Vec<u32>,
@@ -24,7 +24,7 @@ impl Neighbours {
         Self::collect(of_each, sites.end_count(), count)
     }
 
-    /// The same lists for some of the ends under new numbers: `renumbered` says which, if any.
+    /// The same lists for some of the ends, renumbered; `renumbered` returns an end's new number, if any.
     pub(super) fn part(&self, ends: &[End], renumbered: impl Fn(End) -> Option<End>) -> Self {
         let most = ends.iter().map(|&end| self.of(end).len()).max().unwrap_or(0);
         Self::collect(ends.iter().map(|&end| self.of(end).iter().filter_map(|&other| renumbered(other))), ends.len(), most)
@@ -48,7 +48,8 @@ impl Neighbours {
     }
 }
 
-/// For each of some ends, up to `count` nearest ones among them that it may be linked with by their roles and `may_link`, the nearest first.
+/// For each of some ends, up to `count` nearest ones among them with which their roles and `may_link` allow a link, the nearest
+/// first.
 pub(super) fn nearest_ends(
     sites: &Sites,
     ends: &[End],
@@ -56,7 +57,7 @@ pub(super) fn nearest_ends(
     role: impl Fn(End) -> Role + Sync,
     may_link: impl Fn(End, End) -> bool + Sync,
 ) -> Vec<Vec<End>> {
-    // A tree for each role rather than one with a filter: the nearest thousand ends may all be of the wrong kind.
+    // One tree per role rather than one with a filter: the nearest thousand ends may all have the wrong role.
     let roles = [Role::Entry, Role::Exit, Role::Either];
     let trees = roles.map(|wanted| {
         let labelled: Vec<(Point, End)> =
@@ -75,7 +76,7 @@ pub(super) fn nearest_ends(
                     tree.nearest((sites.place(end), end), count, |other| may_link(end, other), nearest);
                     all.append(nearest);
                 }
-                // Stable, so that ties stay as one tree gives them.
+                // The sort is stable, so ties keep each tree's order.
                 all.sort_by(|a: &(f64, End), b| a.0.total_cmp(&b.0));
                 all.iter().take(count).map(|&(_, other)| other).collect()
             },

@@ -1,19 +1,19 @@
-//! Paths that must be drawn in their own direction, among others that may be turned round.
+//! Paths that must keep their direction, among others that may be reversed.
 
 use super::tour::Tour;
 
-/// Up to this many are looked up one by one; more are found by walking along the segment in question, where one turns up soon. Both
-/// cost at most a few hundred steps in a patch of 5000.
+/// Up to this many are looked up one by one. More are found by walking along the segment in question, where one turns up soon.
+/// Both cost at most a few hundred steps in a patch of 5000.
 const FEW: usize = 32;
 
-/// Which paths may not be turned round.
+/// The paths that may not be reversed.
 pub(super) struct OneWay {
-    /// For each path; empty if there is none.
+    /// True for each one-way path; empty if there is none.
     is: Vec<bool>,
-    /// All of them, if they are few.
+    /// All one-way paths, if they are few.
     few: Vec<u32>,
-    /// Whether there are also paths that may be turned round, so that a change of the tour has to be checked. Where there is none, every link
-    /// joins an exit to an entry, which keeps all directions by itself.
+    /// True if there are also reversible paths, so that a change of the tour has to be checked. Without any, every link joins an
+    /// exit to an entry, which by itself keeps all directions.
     is_mixed: bool,
 }
 
@@ -39,7 +39,7 @@ impl OneWay {
         self.is_mixed
     }
 
-    /// Whether one of them is in these seats, which count on past the last one.
+    /// True if one of them is in these seats, which wrap around past the last one.
     pub(super) fn is_within(&self, tour: &Tour, first: usize, len: usize) -> bool {
         if self.few.is_empty() {
             return (first..first + len).any(|seat| self.contains(tour.entry(seat) as usize >> 1));

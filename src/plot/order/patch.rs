@@ -1,12 +1,12 @@
-//! A patch of the tour: some paths, and everything between them tied into bundles, as a small tour of its own.
+//! A patch of the tour: some paths, with everything between them tied into bundles, as a small tour of its own.
 
 use super::neighbours::Neighbours;
 use super::one_way::OneWay;
 use super::sites::{End, Sites};
 use super::tour::Tour;
 
-/// Some paths of a tour as a smaller tour. Whatever the tour does between two of them, outside of the patch, is one
-/// bundle, which is a path like any other: it has two ends and is drawn from one to the other or back.
+/// Some paths of a tour as a smaller tour. The part of the tour between two of them, outside the patch, is one bundle, which is a
+/// path like any other: it has two ends and may be drawn in either direction.
 ///
 /// ```text
 ///           +---------+
@@ -17,19 +17,19 @@ use super::tour::Tour;
 ///          ----    -----
 /// ```
 ///
-/// Any improvement of the small tour is one of the large tour too; but a change moves some hundred entries at
-/// most, and all that the search looks at stays in the cache.
+/// Any improvement of the small tour also improves the large one, but a change moves at most some hundred entries, and everything
+/// that the search examines stays in the cache.
 pub(super) struct Patch {
     pub(super) sites: Sites,
     pub(super) neighbours: Neighbours,
-    /// Path `p` of the small tour is the run of seats of the large one from `pieces[p]` up to `pieces[p + 1]`, the first
-    /// piece being the first path of the patch.
+    /// Path `p` of the small tour is the run of seats of the large one from `pieces[p]` up to `pieces[p + 1]`. The first piece is
+    /// the first path of the patch.
     pieces: Vec<usize>,
 }
 
 impl Patch {
-    /// The patch of the paths in these seats, which ascend. `renumbered` has an entry for each end, all `End::MAX`, and is left
-    /// like that. O(number of paths in the patch).
+    /// The patch of the paths in these ascending seats. `renumbered` is scratch space with an entry `End::MAX` for each end, and
+    /// is restored. O(number of paths in the patch).
     pub(super) fn new(sites: &Sites, neighbours: &Neighbours, tour: &Tour, seats: &[usize], renumbered: &mut [End]) -> Self {
         let mut pieces = Vec::with_capacity(2 * seats.len() + 1);
         for (i, &seat) in seats.iter().enumerate() {
@@ -69,7 +69,7 @@ impl Patch {
         2 * (self.piece_count() as End - 1)
     }
 
-    /// The entries of the large tour that these entries of the small one stand for. O(their number).
+    /// The entries of the large tour that correspond to these entries of the small one. O(their number).
     pub(super) fn spread(&self, large: &Tour, small: impl IntoIterator<Item = End>) -> Vec<End> {
         let mut entries = Vec::new();
         for entry in small {

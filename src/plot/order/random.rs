@@ -1,6 +1,6 @@
-//! Random numbers that are the same everywhere.
+//! Random numbers that are the same on every platform.
 
-/// The numbers from 0 up to `count` in an order that follows from the seed (Fisher and Yates 1938).
+/// The numbers from 0 to `count - 1`, shuffled by the seed (Fisher and Yates 1938).
 pub(in crate::plot) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
     let mut random = SplitMix::new(seed);
     let mut order: Vec<usize> = (0..count).collect();
@@ -10,17 +10,17 @@ pub(in crate::plot) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
     order
 }
 
-/// The generator known as `SplitMix64`: one addition and some mixing a number.
+/// The `SplitMix64` generator: one addition and some mixing per number.
 pub(super) struct SplitMix(u64);
 
 impl SplitMix {
-    /// The sequence of this number; sequences of different numbers have nothing to do with each other.
+    /// The sequence with this number; different sequences are unrelated.
     pub(super) fn new(sequence: u64) -> Self {
         let mut start = Self(sequence);
         Self(start.next())
     }
 
-    /// A number below `limit`, all equally likely but for one part in 2^32 or so.
+    /// A number below `limit`, uniform to about one part in 2^32.
     pub(super) fn below(&mut self, limit: usize) -> usize {
         ((u128::from(self.next()) * limit as u128) >> 64) as usize
     }

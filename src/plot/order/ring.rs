@@ -1,20 +1,20 @@
-//! Loops that may be entered anywhere, and how they are drawn from another place.
+//! Loops that may be entered anywhere, and their rotation to another start.
 
 use kurbo::Point;
 
 use crate::plot::Toolpath;
 
-/// Whether a path is a loop that may be entered anywhere: closed, of finite extent, its height the same at both ends.
+/// True if a path is a loop that may be entered anywhere: closed, of finite extent, with equal heights at both ends.
 pub(in crate::plot) fn is_free(path: &Toolpath) -> bool {
     let is_level = path.heights.as_ref().is_none_or(|heights| heights.first() == heights.last());
     path.is_closed() && is_level && path.points.iter().any(|p| *p != path.points[0]) && path.length().is_finite()
 }
 
-/// The same loop drawn from a place on one of its edges, the edge given by its first vertex. The place becomes a vertex if it is not one.
+/// The same loop drawn from a point on one of its edges, given by its first vertex. The point becomes a vertex if it is not one.
 pub(in crate::plot) fn rotated(mut path: Toolpath, edge: usize, at: Point) -> Toolpath {
     let around = path.points.len() - 1;
     let (from, to) = (path.points[edge], path.points[edge + 1]);
-    // Both ends of the edge may be the place itself.
+    // Both ends of the edge may equal the point.
     let first = if at == from { edge } else { edge + 1 };
     let is_vertex = at == from || at == to;
     let turn = |len: usize| (0..len).map(move |i| (first + i) % around);

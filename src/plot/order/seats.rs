@@ -1,10 +1,10 @@
-//! Where each loop is entered: anywhere along it, wherever that makes the way from the stop before to the stop behind shortest.
+//! Chooses where each loop is entered: the point that minimizes the way from the stop before to the stop after.
 //!
 //! ```text
 //!                     ____            The pen comes from a and goes on to b: it enters the loop where the way over it is
-//!        a .----->---/    \           shortest, which may be on an edge. As the stops before and behind may be loops too,
-//!                   |      |---> . b  each loop is seated again whenever one of its neighbours has moved; and it is put
-//!                    \____/           elsewhere in the tour if it lies nearer to another link.
+//!        a .----->---/    \           shortest, which may be on an edge. As the stops before and after may be loops too,
+//!                   |      |---> . b  a loop is seated again whenever one of its neighbours has moved, and moved elsewhere
+//!                    \____/           in the tour if it lies nearer to another link.
 //! ```
 
 use std::collections::VecDeque;
@@ -18,21 +18,21 @@ use super::tour::Tour;
 use super::{PathEnds, Stop};
 use crate::interrupt::Interrupt;
 
-/// Places along a large loop around which links are looked for, and ends near each: chosen to reach all sides of it, not tuned yet.
+/// Points along a large loop near which links are searched, and ends near each: chosen to reach all sides of it, not tuned yet.
 const SAMPLES: usize = 8;
 const ENDS_NEAR: usize = 4;
 
-/// Ends that are looked at around a loop that is small beside its distance to them.
+/// Number of ends examined around a loop that is small compared with its distance to them.
 const ENDS_AROUND: usize = 8;
 
-/// How often a loop is seated at most, on average: a bound on the work, as gains shrink with each turn.
+/// Maximum seatings per loop, on average: limits the work, as gains shrink with each round.
 const MOST_TURNS: usize = 20;
 
-/// Millimetres that an entry between two vertices must gain over one at a vertex, as it adds a vertex.
+/// Minimum gain in millimetres of an entry between two vertices over one at a vertex, as it adds a vertex.
 const EDGE_GAIN: f64 = 1e-3;
 
-/// The tour with its loops seated anew: the stops' ends are changed, the entries returned from the free end on, and the
-/// millimetres gained. The tour is never longer than before. O(n log n) and some hundred looks at each vertex of a loop.
+/// Chooses new entries for the tour's loops and changes the stops' ends accordingly. Returns the entries from the free end on,
+/// and the millimetres gained. The tour never becomes longer. O(n log n) and some hundred evaluations per vertex of a loop.
 pub(super) fn seated(stops: &mut [Stop], numbering: &[usize], sites: &Sites, tour: &Tour) -> (Vec<End>, f64) {
     let mut seating = Seating::new(stops, numbering, sites, tour);
     let gained = seating.settle(tour);
@@ -48,7 +48,7 @@ pub(super) fn seated(stops: &mut [Stop], numbering: &[usize], sites: &Sites, tou
     (entries.take(sites.path_count()).collect(), gained)
 }
 
-/// Seats the loops among a few visits, whose order stays.
+/// Chooses the entries of the loops among a few visits, keeping the order. Returns the millimetres gained.
 pub(super) fn seat_in_order(stops: &mut [Stop], order: &[usize], home: Point) -> f64 {
     let mut gained = 0.0;
     for i in 0..order.len() {
@@ -66,21 +66,21 @@ pub(super) fn seat_in_order(stops: &mut [Stop], order: &[usize], home: Point) ->
     gained
 }
 
-/// A loop with a circle around it.
+/// A loop with its bounding circle.
 struct Ring<'a> {
     points: &'a [Point],
     centre: Point,
     radius: f64,
-    /// Ends near it, whose links it might be put into.
+    /// Ends near it, into whose links it might be inserted.
     near: Vec<End>,
 }
 
-/// A place to enter a loop.
+/// A point at which to enter a loop.
 #[derive(Clone, Copy)]
 struct Seat {
     edge: usize,
     at: Point,
-    /// Length of the way over it.
+    /// Length of the way through it.
     way: f64,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Seating<'a> {
         Self { free: sites.free_end(), tolerance: sites.tolerance(), interrupt: sites.interrupt().clone(), rings, at, edge, link }
     }
 
-    /// Seats loops until none moves any more.
+    /// Seats loops until none moves. Returns the millimetres gained.
     fn settle(&mut self, tour: &Tour) -> f64 {
         let is_ring = |rings: &[Option<Ring>], path: usize| rings.get(path).is_some_and(Option::is_some);
         let paths = (0..tour.len()).map(|seat| tour.entry(seat) as usize >> 1);
@@ -133,7 +133,7 @@ impl<'a> Seating<'a> {
         gained
     }
 
-    /// Finds the best place in the tour and the best entry for one loop, and returns the millimetres gained.
+    /// Moves one loop to the best position in the tour with the best entry, and returns the millimetres gained.
     fn seat(&mut self, path: usize) -> f64 {
         let Some(ring) = &self.rings[path] else { return 0.0 };
         let ends = [2 * path as End, 2 * path as End + 1];
@@ -173,7 +173,7 @@ impl<'a> Seating<'a> {
         self.link[b as usize] = a;
     }
 
-    /// Where an end is; the free one is everywhere.
+    /// Position of an end; none for the free end, which is 0 mm from everything.
     fn place(&self, end: End) -> Option<Point> {
         (end != self.free).then(|| self.at[end as usize])
     }
@@ -205,12 +205,12 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// Length of the way from `a` over `p` to `b`, as far as they are anywhere.
+/// Length of the way from `a` through `p` to `b`; a missing point adds nothing.
 fn way(a: Option<Point>, b: Option<Point>, p: Point) -> f64 {
     a.map_or(0.0, |a| a.distance(p)) + b.map_or(0.0, |b| b.distance(p))
 }
 
-/// The place on a loop over which the way from `a` to `b` is shortest.
+/// The point on a loop through which the way from `a` to `b` is shortest.
 fn best_seat(ring: &[Point], a: Option<Point>, b: Option<Point>) -> Seat {
     let over = |p| way(a, b, p);
     let mut best = Seat { edge: 0, at: ring[0], way: over(ring[0]) };
@@ -222,7 +222,7 @@ fn best_seat(ring: &[Point], a: Option<Point>, b: Option<Point>) -> Seat {
     let mut at_start = over(ring[0]);
     for (edge, side) in ring.windows(2).enumerate() {
         let at_end = over(side[1]);
-        // Along the edge the way shrinks by at most twice what is gone.
+        // Along the edge the way shrinks by at most twice the distance moved.
         let least = f64::midpoint(at_start, at_end) - side[0].distance(side[1]);
         at_start = at_end;
         if least + EDGE_GAIN < best.way {
@@ -235,8 +235,8 @@ fn best_seat(ring: &[Point], a: Option<Point>, b: Option<Point>) -> Seat {
     best
 }
 
-/// The same on one edge: where the straight line from `a` to `b`, mirrored in the edge if it lies on the same side, crosses the
-/// edge; the way is convex along it, so that beyond its ends the nearer end is best.
+/// The best entry on one edge: where the straight line from `a` to `b`, mirrored at the edge if both lie on the same side, crosses the
+/// edge. The way is convex along the edge, so beyond its ends the nearer end is best.
 fn best_on_edge(from: Point, to: Point, a: Option<Point>, b: Option<Point>) -> Point {
     let along = to - from;
     let length = along.hypot();

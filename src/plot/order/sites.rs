@@ -7,25 +7,25 @@ use super::kd_tree::KdTree;
 use super::one_way::OneWay;
 use crate::interrupt::Interrupt;
 
-/// One end of one path. Path `p` owns the ends `2 p` (its start) and `2 p + 1` (its end), so that `end ^ 1` is the
+/// One end of one path. Path `p` has the ends `2 p` (its start) and `2 p + 1` (its end), so that `end ^ 1` is the
 /// other end of the same path and `end >> 1` the path. The numbering is the internal one of [`Sites`].
 pub(super) type End = u32;
 
 /// Coordinates are clamped to this, so that squares and sums of distances stay finite.
 const FARTHEST: f64 = 1e150;
 
-/// Path ends with their places, and one path for the pen's home among them.
+/// Path ends with their positions, including a path for the pen's home.
 ///
-/// The home path turns the open tour into a closed one, which spares the search every special case:
+/// The home path closes the open tour, which avoids special cases in the search:
 ///
 /// ```text
 ///      free end ==== home end ---- first path ---- ... ---- last path ---- (back to the free end)
 ///                at home                                                0 mm from everywhere
 /// ```
 ///
-/// The free end has an even number like every start, and the home end an odd one like every end; so "links only join
-/// an odd with an even end" means "every path is drawn forwards" without an exception for home. Where some path may not be turned
-/// round, the home path may not either, as it says which way the tour is read.
+/// The free end is even like every start, and the home end odd like every end. So "links only join an odd end with an even one"
+/// means "every path is drawn forwards", home included. If some path may not be reversed, neither may the home path, as it
+/// defines the direction of the tour.
 pub(super) struct Sites {
     at: Vec<Point>,
     free: End,
@@ -34,7 +34,7 @@ pub(super) struct Sites {
     interrupt: Interrupt,
 }
 
-/// What a link may do with an end, as far as it matters.
+/// How a link may use an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Role {
     /// The path is entered here.
@@ -46,37 +46,37 @@ pub(super) enum Role {
 }
 
 impl Role {
-    /// Whether ends of these roles may be linked.
+    /// True if ends with these roles may be linked.
     pub(super) fn may_link(self, other: Self) -> bool {
         self == Self::Either || other == Self::Either || self != other
     }
 }
 
-/// Numbers the paths along a k-d tree of their middles, so that neighbours on paper are close in memory. Returns
-/// the caller's number of each; the home path is the last one and not among these.
+/// Numbers the paths along a k-d tree of their midpoints, so that neighbours on paper are close in memory. Returns the caller's
+/// number of each. The home path comes last and is not included.
 pub(super) fn numbering(stops: &[Stop]) -> Vec<usize> {
     let middles = stops.iter().map(|stop| clamped(stop.ends.start).midpoint(clamped(stop.ends.end)));
     KdTree::new(middles.zip(0..).collect()).into_labels().map(|path| path as usize).collect()
 }
 
 impl Sites {
-    /// The ends of all paths in this numbering, and of the home path. Once the interrupt is raised, the search among them ends with what
-    /// it has.
+    /// The ends of all paths in this numbering, and of the home path. Once the interrupt is raised, the search among them stops
+    /// with its current result.
     pub(super) fn new(stops: &[Stop], numbering: &[usize], home: Point, interrupt: &Interrupt) -> Self {
         let ends = numbering.iter().flat_map(|&path| [stops[path].ends.start, stops[path].ends.end]);
         let at: Vec<Point> = ends.chain([home, home]).map(clamped).collect();
         let corner = |pick: fn(f64, f64) -> f64| {
             at.iter().copied().reduce(|p, q| Point::new(pick(p.x, q.x), pick(p.y, q.y))).unwrap_or(home)
         };
-        // A sum of a dozen distances is wrong by some 1e-15 of the extent at most: whatever the search takes for a gain
-        // above this is one, so it never walks in circles.
+        // A sum of a dozen distances has an error of about 1e-15 of the extent at most. Gains above this tolerance are real, so
+        // the search never cycles.
         let tolerance = 1e-12 * corner(f64::min).distance(corner(f64::max));
         let mut one_way: Vec<bool> = numbering.iter().map(|&path| stops[path].is_one_way()).collect();
         one_way.push(one_way.contains(&true));
         Self { at, free: 2 * numbering.len() as End, tolerance, one_way: OneWay::new(one_way), interrupt: interrupt.clone() }
     }
 
-    /// Some of these ends under new numbers, two and two those of a path.
+    /// Some of these ends, renumbered; each consecutive pair belongs to one path.
     pub(super) fn part(&self, ends: &[End], one_way: OneWay) -> Self {
         let at = ends.iter().map(|&end| self.place(end)).collect();
         let free = ends.iter().position(|&end| end == self.free).map_or(End::MAX, |end| end as End);
@@ -88,32 +88,32 @@ impl Sites {
         &self.interrupt
     }
 
-    /// Number of paths with the home path.
+    /// Number of paths, including the home path.
     pub(super) fn path_count(&self) -> usize {
         self.at.len() / 2
     }
 
-    /// Number of ends with both of the home path.
+    /// Number of ends, including the home path's.
     pub(super) fn end_count(&self) -> usize {
         self.at.len()
     }
 
-    /// The end of the home path that is 0 mm from everywhere; `End::MAX` if it is not among these ends.
+    /// The end of the home path that is 0 mm from everything; `End::MAX` if it is not among these ends.
     pub(super) fn free_end(&self) -> End {
         self.free
     }
 
-    /// Where an end is. The place of the free end means nothing.
+    /// Position of an end. Meaningless for the free end.
     pub(super) fn place(&self, end: End) -> Point {
         self.at[end as usize]
     }
 
-    /// The paths that may not be turned round.
+    /// The paths that may not be reversed.
     pub(super) fn one_way(&self) -> &OneWay {
         &self.one_way
     }
 
-    /// What a link may do with this end.
+    /// How a link may use this end.
     pub(super) fn role(&self, end: End) -> Role {
         match (self.one_way.contains(end as usize >> 1), end & 1) {
             (false, _) => Role::Either,
@@ -122,7 +122,7 @@ impl Sites {
         }
     }
 
-    /// Gains up to this many millimetres are rounding errors.
+    /// Gains up to this, in millimetres, are rounding errors.
     pub(super) fn tolerance(&self) -> f64 {
         self.tolerance
     }

@@ -1,4 +1,4 @@
-//! Which patch of the tour is kicked when: once along the tour on all threads, and once across the paper.
+//! The order in which patches of the tour are kicked: once along the tour on all threads, once across the paper.
 
 use kurbo::Point;
 use rayon::prelude::*;
@@ -13,11 +13,11 @@ use super::sites::{End, Sites};
 use super::tour::Tour;
 use super::{NEIGHBOURS, Stop, seats};
 
-/// Most paths in a patch. Tuned on 100,000 dots: with 1000, the tour ends 0.2 to 0.4 % longer, as more links would cross the rims of the patches; with
-/// many more, changes are dearer and there are too few patches for all threads.
+/// Maximum paths in a patch. Tuned on 100,000 dots: with 1000, the tour ends up 0.2 to 0.4 % longer, as more links would cross
+/// the borders of the patches; with many more, changes cost more and there are too few patches for all threads.
 const PATCH: usize = 5000;
 
-/// A tour and all that is needed to improve it.
+/// A tour with the data needed to improve it.
 pub(super) struct Workpiece {
     pub(super) sites: Sites,
     pub(super) neighbours: Neighbours,
@@ -25,9 +25,9 @@ pub(super) struct Workpiece {
 }
 
 impl Workpiece {
-    /// Kicks the tour `kicks_per_path` times the number of paths, in patches that are consecutive pieces of the tour. They do not touch
-    /// each other, so they are worked on at the same time; but links from one to another cannot be made. Another
-    /// `sequence` makes other kicks.
+    /// Kicks the tour `kicks_per_path` times the number of paths, in patches that are consecutive pieces of the tour. They do not
+    /// overlap, so they are processed in parallel, but links between them cannot be made. A different `sequence` gives different
+    /// kicks.
     pub(super) fn along_the_tour(&mut self, kicks_per_path: f64, sequence: u64) {
         let len = self.tour.len();
         let count = len.div_ceil(PATCH);
@@ -37,7 +37,7 @@ impl Workpiece {
             let patch = Patch::new(&self.sites, &self.neighbours, &self.tour, &seats, renumbered);
             let (small, _) =
                 kicked(&patch, kicks_per_path * seats.len() as f64, &mut SplitMix::new((sequence << 32) + window as u64));
-            // The bundle of all else is the last piece: it is left out, and the rest follows in its direction.
+            // The bundle of everything else is the last piece: skip it; the rest follows in its direction.
             let outside = usize::from(patch.piece_count() > seats.len());
             patch.spread(&self.tour, small.entries_from(patch.last_piece()).into_iter().skip(outside))
         });
@@ -45,14 +45,14 @@ impl Workpiece {
         self.tour = Tour::new(windows.concat());
     }
 
-    /// Kicks the tour as often as [`Workpiece::along_the_tour`], in patches that are compact on paper, one after the other: each may turn
-    /// round whatever the tour does outside of it. Another `sequence` makes other kicks.
+    /// Kicks the tour as often as [`Workpiece::along_the_tour`], in patches that are compact on paper, one after another: each
+    /// may reverse the tour's course outside it. A different `sequence` gives different kicks.
     pub(super) fn across_the_paper(&mut self, kicks_per_path: f64, sequence: u64) {
         let mut random = SplitMix::new(u64::MAX - sequence);
         self.on_each_tile(|patch, paths| kicked(patch, kicks_per_path * paths.len() as f64, &mut random));
     }
 
-    /// Seats all loops anew and returns the millimetres gained.
+    /// Chooses new entries for all loops and returns the millimetres gained.
     pub(super) fn seat(&mut self, stops: &mut [Stop], numbering: &[usize], home: Point) -> f64 {
         let (entries, gained) = seats::seated(stops, numbering, &self.sites, &self.tour);
         if gained > 0.0 {
@@ -64,7 +64,7 @@ impl Workpiece {
     }
 
     /// Searches from all links: first in patches that are compact on paper, where changes are cheap; then in the whole tour, from
-    /// the ends at the rims of the patches.
+    /// the ends at the borders of the patches.
     pub(super) fn settle(&mut self) {
         let mut patch_of = vec![0; self.sites.path_count()];
         if self.tour.len() > PATCH {
@@ -84,8 +84,8 @@ impl Workpiece {
         (self.tour, _) = settled(&self.sites, &self.neighbours, tour, |end| is_single || is_at_rim(end));
     }
 
-    /// Replaces the tour patch by patch. `improved` is given a patch and its paths without the bundles, and returns its small tour
-    /// and the millimetres gained.
+    /// Replaces the tour patch by patch. `improved` takes a patch and its paths without the bundles, and returns the patch's
+    /// small tour and the millimetres gained.
     fn on_each_tile(&mut self, mut improved: impl FnMut(&Patch, &[(Point, u32)]) -> (Tour, f64)) {
         let mut renumbered = vec![End::MAX; self.sites.end_count()];
         let middle = |path: u32| self.sites.place(2 * path).midpoint(self.sites.place(2 * path + 1));

@@ -1,4 +1,4 @@
-//! What any order must be, whatever the paths.
+//! Properties of any order, for any paths.
 
 use kurbo::Point;
 use proptest::prelude::*;

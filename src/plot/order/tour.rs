@@ -1,4 +1,4 @@
-//! The tour as an array that knows where each path is, changes by whole segments, and can take changes back.
+//! The tour as an array with the position of each path. Changes move whole segments and can be undone.
 
 use super::exchange::Rearrangement;
 use super::sites::End;
@@ -14,14 +14,14 @@ use super::sites::End;
 pub(super) struct Tour {
     /// The end at which the path in each seat is entered.
     entry: Vec<End>,
-    /// Position of the start of each path: twice its seat, and one more if the path is drawn backwards.
+    /// Position of the start of each path: twice its seat, plus one if the path is drawn backwards.
     start_position: Vec<u32>,
-    /// What the changes since the last [`Tour::keep`] have overwritten: the entries, and where each run of them was.
+    /// Log of the changes since the last [`Tour::keep`]: the overwritten entries, and the place of each run of them.
     overwritten: Vec<End>,
     runs: Vec<Run>,
 }
 
-/// A run of overwritten entries: first seat, and where it begins in the log.
+/// A run of overwritten entries: its first seat, and its start in the log.
 #[derive(Clone, Copy)]
 struct Run {
     seat: usize,
@@ -29,7 +29,7 @@ struct Run {
 }
 
 impl Tour {
-    /// The tour that enters all paths at the given ends, in that order.
+    /// The tour that enters all paths at the given ends, in this order.
     pub(super) fn new(entry: Vec<End>) -> Self {
         let mut tour = Self { start_position: vec![0; entry.len()], entry, overwritten: Vec::new(), runs: Vec::new() };
         for seat in 0..tour.entry.len() {
@@ -43,7 +43,7 @@ impl Tour {
         self.entry.len()
     }
 
-    /// Position of an end: twice its path's seat, and one more if the path is left at this end.
+    /// Position of an end: twice its path's seat, plus one if the path is left at this end.
     #[inline]
     pub(super) fn position(&self, end: End) -> u32 {
         self.start_position[end as usize >> 1] ^ (end & 1)
@@ -54,7 +54,7 @@ impl Tour {
         self.start_position[end as usize >> 1] as usize >> 1
     }
 
-    /// The end that the pen goes to from here, or came from.
+    /// The end linked to this one: where the pen goes next, or came from.
     #[inline]
     pub(super) fn link(&self, end: End) -> End {
         let position = self.position(end);
@@ -66,12 +66,12 @@ impl Tour {
         }
     }
 
-    /// The end at which the path in this seat is entered; seats count on past the last one.
+    /// The end at which the path in this seat is entered; seats beyond the last wrap around.
     pub(super) fn entry(&self, seat: usize) -> End {
         self.entry[seat % self.entry.len()]
     }
 
-    /// The entered ends in the order of the tour, beginning with this end and in the direction that enters there.
+    /// The entered ends in tour order, beginning with this end and in the direction that enters there.
     pub(super) fn entries_from(&self, end: End) -> Vec<End> {
         std::iter::successors(Some(end), |&entered| Some(self.link(entered ^ 1))).take(self.len()).collect()
     }
@@ -101,7 +101,7 @@ impl Tour {
         self.runs.clear();
     }
 
-    /// Takes back all changes since the last [`Tour::keep`], at the cost of making them.
+    /// Undoes all changes since the last [`Tour::keep`], at the cost of making them.
     pub(super) fn take_back(&mut self) {
         while let Some(run) = self.runs.pop() {
             for i in run.logged_at..self.overwritten.len() {

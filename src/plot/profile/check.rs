@@ -1,14 +1,14 @@
-//! A profile's values are checked before anything is drawn with them.
+//! Validation of a profile's values before anything is drawn with them.
 
 use super::Profile;
 use crate::plot::language::Refusal;
 
-/// The least and the greatest that a scale, a speed or the like may be, and the farthest place: beyond any machine by a factor of a
-/// thousand, and near enough that all that is reckoned with them is finite and fits on the grid of a file.
+/// Minimum and maximum of a scale, a speed or the like, and maximum coordinate: a factor of a thousand beyond any machine, yet
+/// small enough that all computed values are finite and fit the grid of a file.
 const LEAST: f64 = 1e-6;
 const MOST: f64 = 1e7;
 
-/// Refuses what is not above 0, or beyond all measure.
+/// Refuses a value that is not above 0 or outside `LEAST` to `MOST`.
 pub(in crate::plot) fn above_zero(key: &str, value: f64) -> Result<(), Refusal> {
     if (LEAST..=MOST).contains(&value) {
         return Ok(());
@@ -17,7 +17,7 @@ pub(in crate::plot) fn above_zero(key: &str, value: f64) -> Result<(), Refusal> 
     Err(Refusal::new(key, if is_in_sight { "must be from 0.000001 to 10000000" } else { "must be above 0" }))
 }
 
-/// Whether places and heights are near enough to be reckoned with.
+/// True if all coordinates are at most `MOST` in magnitude.
 pub(in crate::plot) fn are_near(places: &[f64]) -> bool {
     places.iter().all(|place| place.abs() <= MOST)
 }
@@ -31,7 +31,7 @@ impl Profile {
             if !(0.8..=1.25).contains(&scale) {
                 return Err(Refusal::new(
                     key,
-                    "must be from 0.8 to 1.25: it corrects what was measured; units_per_mm sets the unit",
+                    "must be from 0.8 to 1.25: it corrects a measured length; units_per_mm sets the unit",
                 ));
             }
         }
@@ -50,7 +50,7 @@ impl Profile {
         self.check_park()
     }
 
-    /// A pen that swells touches the paper at every height of its table.
+    /// Checks that a swelling pen touches the paper at every height of its table.
     fn check_heights(&self) -> Result<(), Refusal> {
         let (Some(swell), Some(height)) = (&self.swell, self.height()) else {
             return Ok(());
@@ -59,7 +59,7 @@ impl Profile {
         if swell.table.iter().all(touches) {
             return Ok(());
         }
-        Err(Refusal::new("swell.table", "must hold heights on the paper's side of gcode.height.up"))
+        Err(Refusal::new("swell.table", "must contain only heights on the paper's side of gcode.height.up"))
     }
 
     fn check_park(&self) -> Result<(), Refusal> {

@@ -1,11 +1,11 @@
-//! A profile's text: one file over another, key by key, and where each key stands.
+//! A profile's text: files merged key by key, with the place of each key.
 //!
 //! ```text
-//! extends = "hp7475a"        the built-in file's keys first, then this file's, then those that are set over it
+//! extends = "hp7475a"        the built-in file's keys first, then this file's, then the overrides
 //! [motion]
 //! draw_speed = 200           replaces that one key
 //! [[paper]]
-//! name = "a4"                joins the sheet of this name, or adds one
+//! name = "a4"                changes the sheet of this name, or adds one
 //! zero = [10.5, 206]
 //! ```
 
@@ -14,10 +14,10 @@ use crate::plot::language::Language;
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
 
-/// Lists whose members are told apart by one of their keys, so that one member can be changed.
+/// Lists whose members are identified by one of their keys, so that a single member can be changed.
 const NAMED_LISTS: [(&str, &str); 2] = [("paper", "name"), ("pen", "slot")];
 
-/// Keys and values in the order in which they were first met.
+/// Keys and values in order of first appearance.
 #[derive(Debug, Default)]
 pub(super) struct Document {
     entries: Vec<Entry>,
@@ -34,7 +34,7 @@ struct Entry {
 }
 
 impl Document {
-    /// Reads one file over what is there; gives back the profile that it extends.
+    /// Merges one file into the document and returns the name of the profile that it extends.
     pub(super) fn read(&mut self, file: &str, text: &str) -> Result<Option<String>, ProfileError> {
         let syntax = |span: Option<std::ops::Range<usize>>, message: String| {
             let line = span.map_or(1, |span| line_of(text, span.start));
@@ -54,7 +54,7 @@ impl Document {
         Ok(extends)
     }
 
-    /// Sets one key, such as `motion.draw_speed` or `paper.a4.zero`; what is no TOML value is a text.
+    /// Sets one key, such as `motion.draw_speed` or `paper.a4.zero`. A value that is not valid TOML is taken as a string.
     pub(super) fn set_option(&mut self, key: &str, value: &str) {
         let path: Vec<String> = key.split('.').map(str::to_owned).collect();
         let value = toml::from_str::<toml::Table>(&format!("v = {value}"))
@@ -92,7 +92,7 @@ impl Document {
         Ok(())
     }
 
-    /// A key replaces the same key and everything that stood below it, or that it now stands below.
+    /// Sets a key, replacing the same key, everything below it and every key above it.
     fn set(&mut self, entry: Entry) {
         if let Some(same) = self.entries.iter_mut().find(|known| known.path == entry.path) {
             *same = entry;
@@ -103,14 +103,14 @@ impl Document {
         self.entries.push(entry);
     }
 
-    /// Whether a key, or one below it, is given.
+    /// The place of a key or of one below it, if given.
     pub(super) fn place_of(&self, key: &str) -> Option<KeyPlace> {
         let parts: Vec<&str> = key.split('.').collect();
         let begins = |entry: &&Entry| entry.path.len() >= parts.len() && entry.path.iter().zip(&parts).all(|(a, b)| a == b);
         self.entries.iter().rfind(begins).map(|entry| entry.place.clone())
     }
 
-    /// The whole as a value of its own; a fault is told by the place of the key that made it.
+    /// Deserializes the document. Errors name the place of the key that caused them.
     pub(super) fn resolve<T: serde::de::DeserializeOwned>(&self, name: &str) -> Result<T, ProfileError> {
         let (text, owners) = self.flat();
         toml::from_str(&text).map_err(|error| {
@@ -129,7 +129,8 @@ impl Document {
         })
     }
 
-    /// One key a line, and for each line whose it is: single keys, then tables, then the lists' members.
+    /// The document as TOML with one key per line, and for each line the index of its entry: single keys first, then tables, then
+    /// list members.
     fn flat(&self) -> (String, Vec<usize>) {
         let mut sections: Vec<(Vec<String>, Vec<usize>)> = vec![(Vec::new(), Vec::new())];
         for (i, entry) in self.entries.iter().enumerate() {

@@ -6,26 +6,26 @@ use thiserror::Error;
 /// Why a profile could not be used.
 #[derive(Debug, Error, PartialEq)]
 pub enum ProfileError {
-    /// No such name.
+    /// There is no built-in profile of this name.
     #[error("there is no plotter profile '{name}'; there are {known}, or give the path of a .toml file")]
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
         /// All built-in names.
         known: String,
     },
-    /// Not TOML, or a key or value that is not a profile's.
+    /// The text is not TOML, or has an unknown key or a value of the wrong type.
     #[error("{place}: {message}")]
     Syntax {
-        /// Where it stands.
+        /// The place of the fault.
         place: KeyPlace,
-        /// What is wrong there, the key named.
+        /// What is wrong, with the key's name.
         message: String,
     },
-    /// A value that cannot be.
+    /// A value is out of range or contradicts another.
     #[error("{place}: {key} {problem}")]
     Value {
-        /// Where it stands.
+        /// The place of the fault.
         place: KeyPlace,
         /// The key.
         key: String,
@@ -34,7 +34,7 @@ pub enum ProfileError {
     },
 }
 
-/// Where a key of a profile stands.
+/// The place of a profile's key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyPlace {
     /// Somewhere in a file, or in the profile of this name.
@@ -46,7 +46,7 @@ pub enum KeyPlace {
         /// The line, from 1.
         line: usize,
     },
-    /// It was set over the file's keys.
+    /// Not in a file: the key was set as an override.
     Set,
 }
 

@@ -1,4 +1,4 @@
-//! Machines as data: `plot-profiles/*.toml`, compiled in, or a file of the user's, key by key over one of them.
+//! Machine profiles: `plot-profiles/*.toml`, compiled in, or a user's file whose keys override those of a built-in one.
 
 mod check;
 mod document;
@@ -20,7 +20,7 @@ use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
 static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/plot-profiles");
-/// Profiles that extend one another; more is a circle.
+/// Maximum depth of `extends`; a deeper chain is a cycle.
 const DEEPEST: usize = 8;
 
 /// One machine.
@@ -31,12 +31,12 @@ pub struct Profile {
     pub name: String,
     /// One line for a list.
     pub description: String,
-    /// Machine units a millimetre.
+    /// Machine units per millimetre.
     pub units_per_mm: f64,
-    /// What a measured length along x must be multiplied with to be right, from calibration.
+    /// Correction factor for lengths along x, from calibration.
     #[serde(default = "one")]
     pub scale_x: f64,
-    /// The same along y.
+    /// Correction factor for lengths along y.
     #[serde(default = "one")]
     pub scale_y: f64,
     /// How its axes run, and where zero is.
@@ -45,11 +45,11 @@ pub struct Profile {
     /// Sheets that the machine knows.
     #[serde(default)]
     pub paper: Vec<Paper>,
-    /// The machine's reach for pages that are none of those sheets, in machine units.
+    /// The machine's reach, in machine units, for pages that match none of those sheets.
     pub area: Option<Area>,
     /// Its pens.
     pub pens: Pens,
-    /// What calibration found of each pen.
+    /// Calibration results by pen.
     #[serde(default)]
     pub pen: Vec<PenSlot>,
     /// Speeds and times.
@@ -65,12 +65,12 @@ const fn one() -> f64 {
 }
 
 impl Profile {
-    /// Reads a profile from TOML; `name` stands in messages.
+    /// Reads a profile from TOML. `name` identifies it in messages.
     pub fn parse(name: &str, text: &str) -> Result<Self, ProfileError> {
         Self::parse_with(name, text, &[])
     }
 
-    /// The same with keys set over it, such as `motion.draw_speed` to `30`.
+    /// Reads a profile from TOML and overrides keys, such as `motion.draw_speed` with `30`.
     pub fn parse_with(name: &str, text: &str, set: &[(String, String)]) -> Result<Self, ProfileError> {
         let mut document = Document::default();
         read_chain(&mut document, name, text, DEEPEST)?;
@@ -92,7 +92,7 @@ impl Profile {
         Self::parse(name, built_in(name)?)
     }
 
-    /// How far the ink of a slot's pen lies from where it should, in millimetres along the machine's axes.
+    /// Offset of a slot's ink from its nominal place, in millimetres along the machine's axes.
     pub fn offset_of(&self, slot: u32) -> [f64; 2] {
         self.pen.iter().find(|pen| pen.slot == slot).map_or([0.0; 2], |pen| pen.offset)
     }
@@ -149,13 +149,13 @@ impl Profile {
         self.dialect.speech_mut().feed_travel();
     }
 
-    /// Metres that the pen in a slot draws, where that is known.
+    /// Metres that the pen in a slot draws before it wears out, if known.
     pub fn life_of(&self, slot: u32) -> Option<f64> {
         self.pen.iter().find(|pen| pen.slot == slot).and_then(|pen| pen.pen_life).or(self.pens.pen_life)
     }
 }
 
-/// Reads what a profile extends, then the profile itself over it.
+/// Reads the profile's base, then the profile's own keys over it.
 fn read_chain(document: &mut Document, name: &str, text: &str, depth: usize) -> Result<(), ProfileError> {
     let mut own = Document::default();
     if let Some(base) = own.read(name, text)? {

@@ -8,64 +8,65 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Pen down, mm/s.
+    /// Speed with the pen down, mm/s.
     pub draw_speed: f64,
-    /// The fastest that the machine can be told to draw, mm/s.
+    /// Maximum programmable drawing speed, mm/s.
     pub draw_speed_limit: Option<f64>,
-    /// Pen up, mm/s; where limits hold for each axis, the rate of x and of y (GRBL's `$110` and `$111`).
+    /// Speed with the pen up, mm/s. With per-axis limits, the rate of x and of y (GRBL's `$110` and `$111`).
     pub travel_speed: f64,
-    /// The fastest that the machine can be told to travel, mm/s.
+    /// Maximum programmable travel speed, mm/s.
     pub travel_speed_limit: Option<f64>,
-    /// mm/s^2, along the path or for each axis as `planner.limits` says.
+    /// Acceleration in mm/s^2, along the path or per axis as `planner.limits` says.
     pub acceleration: f64,
-    /// mm/s^2 with the pen up, where it differs.
+    /// Acceleration with the pen up in mm/s^2, if it differs.
     pub travel_acceleration: Option<f64>,
-    /// GRBL's `$11` in millimetres: how far a corner may be rounded in thought, which sets its speed.
+    /// Junction deviation in millimetres (GRBL's `$11`): the virtual rounding of a corner, which sets its speed.
     pub junction_deviation: Option<f64>,
-    /// The same as the `AxiDraw`'s driver counts it: in 5000ths of an inch.
+    /// Junction deviation in the `AxiDraw` driver's unit: 5000ths of an inch.
     pub corner_factor: Option<f64>,
     /// Time to lift the pen.
     pub pen_up_seconds: f64,
     /// Time to lower the pen.
     pub pen_down_seconds: f64,
-    /// How long a touch rests on the paper beyond that.
+    /// How long a touch rests on the paper after that.
     #[serde(default)]
     pub touch_seconds: f64,
-    /// How far the machine looks ahead, and what its limits hold for.
+    /// Look-ahead, and what the limits apply to.
     #[serde(default)]
     pub planner: Planner,
 }
 
-/// Millimetres of junction deviation for a corner factor of 1: the `AxiDraw`'s driver divides the factor by 5000 and takes inches.
+/// Junction deviation in millimetres for a corner factor of 1: the `AxiDraw`'s driver divides the factor by 5000 and takes
+/// inches.
 const MM_PER_CORNER_FACTOR: f64 = 25.4 / 5000.0;
 
 /// GRBL's default for `$112`, 500 mm/min.
 const USUAL_Z_SPEED: f64 = 500.0 / 60.0;
 
 impl Motion {
-    /// Greatest rates of x, y and z in mm/s, where limits hold for each axis.
+    /// Maximum rates of x, y and z in mm/s, with per-axis limits.
     pub fn axis_speeds(&self) -> [f64; 3] {
         let [x, y, z] = self.planner.axis_speed.unwrap_or([self.travel_speed, self.travel_speed, USUAL_Z_SPEED]);
         [x.min(self.travel_speed), y.min(self.travel_speed), self.planner.z_speed.unwrap_or(z)]
     }
 
-    /// Accelerations of x, y and z in mm/s^2, where `all` is that of axes without one of their own.
+    /// Accelerations of x, y and z in mm/s^2; `all` applies to axes without their own.
     pub fn axis_accelerations(&self, all: f64) -> [f64; 3] {
         let [x, y, z] = self.planner.axis_acceleration.unwrap_or([all; 3]);
         [x, y, self.planner.z_acceleration.unwrap_or(z)]
     }
 
-    /// The fastest that the machine draws, mm/s: where no limit is known, as fast as it travels.
+    /// Maximum drawing speed in mm/s. Without a limit, the greater of drawing and travel speed.
     pub fn fastest_drawing(&self) -> f64 {
         self.draw_speed_limit.unwrap_or(self.draw_speed.max(self.travel_speed))
     }
 
-    /// The fastest that it travels, mm/s: where no limit is known, as fast as it draws or travels by itself.
+    /// Maximum travel speed in mm/s. Without a limit, the greater of the travel speed and the maximum programmable drawing speed.
     pub fn fastest_travel(&self) -> f64 {
         self.travel_speed_limit.unwrap_or(self.travel_speed.max(self.draw_speed_limit.unwrap_or(self.draw_speed)))
     }
 
-    /// How far a corner may be rounded in thought, in millimetres.
+    /// Junction deviation in millimetres.
     pub fn corner_deviation(&self) -> f64 {
         self.junction_deviation.or(self.corner_factor.map(|factor| factor * MM_PER_CORNER_FACTOR)).unwrap_or(0.0)
     }
@@ -75,31 +76,32 @@ impl Motion {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields, default)]
 pub struct Planner {
-    /// Places of the controller's look-ahead buffer, of which one stays free (GRBL: 16); without it, all is planned that lies
-    /// between two stops.
+    /// Size of the look-ahead buffer in blocks, of which one stays free (GRBL: 16). Without it, everything between two stops is
+    /// planned as a whole.
     pub block_buffer: Option<usize>,
-    /// What speed and acceleration are limits of.
+    /// What the limits of speed and acceleration apply to.
     pub limits: Limits,
-    /// Greatest rates of x, y and z, mm/s (GRBL's `$110` to `$112`); those of x and y are `travel_speed` or less.
+    /// Maximum rates of x, y and z, mm/s (GRBL's `$110` to `$112`); those of x and y are capped at `travel_speed`.
     pub axis_speed: Option<[f64; 3]>,
-    /// Accelerations of x, y and z, mm/s^2 (GRBL's `$120` to `$122`); without it, `acceleration`.
+    /// Accelerations of x, y and z, mm/s^2 (GRBL's `$120` to `$122`). Default: `acceleration`.
     pub axis_acceleration: Option<[f64; 3]>,
-    /// Greatest rate of z alone, mm/s (GRBL's `$112`); without it that of `axis_speed`, else GRBL's default.
+    /// Maximum rate of z, mm/s (GRBL's `$112`). Default: that of `axis_speed`, else GRBL's default.
     pub z_speed: Option<f64>,
-    /// Acceleration of z alone, mm/s^2 (GRBL's `$122`); without it that of `axis_acceleration`, else `acceleration`.
+    /// Acceleration of z, mm/s^2 (GRBL's `$122`). Default: that of `axis_acceleration`, else `acceleration`.
     pub z_acceleration: Option<f64>,
-    /// Motor steps a millimetre of x, y and z (GRBL's `$100` to `$102`): places are rounded to them before they are planned.
+    /// Motor steps per millimetre of x, y and z (GRBL's `$100` to `$102`). Positions are rounded to steps before planning.
     pub steps_per_mm: Option<[f64; 3]>,
-    /// How far the chords of an arc may lie from it, mm (GRBL's `$12`); without it, arcs are timed as the chords that they replace.
+    /// Maximum deviation of an arc's chords from it, mm (GRBL's `$12`). Without it, arcs are timed as the chords that they
+    /// replace.
     pub arc_tolerance: Option<f64>,
-    /// The time for which the controller keeps one speed before it takes the next on a ramp (GRBL: 0.01, a hundredth of a second); with
-    /// it and `steps_per_mm` a start from rest is as slow as GRBL's.
+    /// Duration of one speed step on a ramp, in seconds (GRBL: 0.01). Together with `steps_per_mm`, it makes a start from rest as
+    /// slow as GRBL's.
     pub segment_seconds: Option<f64>,
-    /// Waits last a whole number of these.
+    /// Waits are rounded up to a multiple of this, in seconds.
     pub dwell_step_seconds: f64,
 }
 
-/// What a machine's speed and acceleration are limits of.
+/// What a machine's limits of speed and acceleration apply to.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Limits {
@@ -128,7 +130,7 @@ impl Motion {
             return Err(Refusal::new("motion.junction_deviation", "or motion.corner_factor must be given, and not both"));
         }
         if self.travel_acceleration.is_some() && self.planner.limits == Limits::Axis {
-            return Err(Refusal::new("motion.travel_acceleration", "cannot differ where limits are the axes' own"));
+            return Err(Refusal::new("motion.travel_acceleration", "cannot be set where motion.planner.limits is \"axis\""));
         }
         for (key, seconds) in [
             ("motion.pen_up_seconds", self.pen_up_seconds),
@@ -145,7 +147,7 @@ impl Motion {
 
 impl Planner {
     fn check(&self) -> Result<(), Refusal> {
-        // The block that runs is fixed and one place stays free: with less than four there would be nothing to look ahead to.
+        // The running block is fixed and one place stays free: with fewer than four there would be nothing to look ahead to.
         if self.block_buffer.is_some_and(|places| !(4..=4096).contains(&places)) {
             return Err(Refusal::new("motion.planner.block_buffer", "must be from 4 to 4096"));
         }

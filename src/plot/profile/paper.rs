@@ -1,4 +1,4 @@
-//! Where a sheet lies: papers, the machine's reach, its axes.
+//! Sheets, the machine's reach and its axes.
 
 use super::check::{above_zero, are_near};
 use crate::geometry::{Point, Vec2};
@@ -11,7 +11,7 @@ use serde::Deserialize;
 pub struct Paper {
     /// The page's name, such as `a4`.
     pub name: String,
-    /// Side that lies horizontally when the axes point as `axes` says, in millimetres.
+    /// The side that is horizontal when the axes point as `axes` says, in millimetres.
     pub width: f64,
     /// The other side, in millimetres.
     pub height: f64,
@@ -21,10 +21,10 @@ pub struct Paper {
     pub y: [f64; 2],
     /// Machine zero in millimetres from the sheet's upper left corner, x right, y down.
     pub zero: [f64; 2],
-    /// What the machine is told to use this sheet.
+    /// Command that makes the machine use this sheet.
     #[serde(default)]
     pub setup: String,
-    /// Where the carriage waits at the end, in machine units; without it, the upper right corner of the reach.
+    /// Where the carriage waits at the end, in machine units. Default: the upper right corner of the reach.
     pub park: Option<[f64; 2]>,
 }
 
@@ -47,7 +47,7 @@ impl Paper {
     }
 }
 
-/// A reach without sheets, in machine units.
+/// A machine's reach if it has no sheets, in machine units.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Area {
@@ -71,18 +71,18 @@ fn check_range(key: &str, [low, high]: [f64; 2]) -> Result<(), Refusal> {
     if low < high {
         return Ok(());
     }
-    Err(Refusal::new(key, "needs its lower limit first"))
+    Err(Refusal::new(key, "must be [lower, upper] with lower < upper"))
 }
 
-/// How the machine's axes run on the sheet.
+/// Directions of the machine's axes on the sheet.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields, default)]
 pub struct Axes {
-    /// The way that x grows.
+    /// Direction of increasing x.
     pub x: Way,
-    /// The way that y grows.
+    /// Direction of increasing y.
     pub y: Way,
-    /// Where on the page machine zero is, for machines that know no sheets.
+    /// Where machine zero lies on the page, for machines without sheets.
     pub zero: Corner,
 }
 
@@ -101,7 +101,7 @@ impl Axes {
     }
 }
 
-/// A way on the sheet.
+/// A direction on the sheet.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
@@ -144,7 +144,7 @@ pub enum Corner {
 }
 
 impl Corner {
-    /// On a page of this size, in millimetres from its upper left corner.
+    /// Its position on a page of this size, in millimetres from the upper left corner.
     pub fn on(self, width: f64, height: f64) -> Point {
         match self {
             Self::LowerLeft => Point::new(0.0, height),

@@ -1,4 +1,4 @@
-//! Pens, how they are changed, and how high each width of line needs them.
+//! Pens, how they are changed, and the pen height for each line width.
 
 use super::check::{above_zero, are_near};
 use crate::plot::language::Refusal;
@@ -8,11 +8,11 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Pens {
-    /// How many the machine holds.
+    /// Number of pens that the machine holds.
     pub count: u32,
-    /// How it gets another.
+    /// How the pen is changed.
     pub change: PenChange,
-    /// Time that the machine itself takes to fetch one.
+    /// Time that the machine takes to fetch a pen, in seconds.
     #[serde(default)]
     pub change_seconds: f64,
     /// Metres that a pen draws before it wears out or runs dry.
@@ -29,16 +29,17 @@ pub enum PenChange {
     Pause,
 }
 
-/// What calibration found of the pen in one slot.
+/// Calibration of the pen in one slot.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PenSlot {
     /// The slot, from 1.
     pub slot: u32,
-    /// How far its ink lies from where it should, in millimetres along the machine's x and y; it is sent this much the other way.
+    /// Offset of its ink from the nominal place, in millimetres along the machine's x and y. The pen is moved by the opposite
+    /// amount.
     #[serde(default)]
     pub offset: [f64; 2],
-    /// Metres that it draws before it wears out or runs dry, where it differs from the others.
+    /// Metres that it draws before it wears out or runs dry, if it differs from the other pens.
     pub pen_life: Option<f64>,
 }
 
@@ -64,11 +65,11 @@ impl PenSlot {
     }
 }
 
-/// How high the pen stands for each width of line, for brushes and other pens whose line swells by their height.
+/// The pen's height for each line width, for brushes and other pens whose line swells with their height.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Swell {
-    /// Pairs of line width and z in millimetres, widths growing.
+    /// Pairs of line width and z in millimetres, in order of increasing width.
     pub table: Vec<[f64; 2]>,
 }
 
@@ -76,19 +77,19 @@ impl Swell {
     pub(super) fn check(&self) -> Result<(), Refusal> {
         let grows = self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
         if self.table.len() < 2 || !grows || !are_near(self.table.as_flattened()) {
-            return Err(Refusal::new("swell.table", "must hold two or more pairs of width and height, widths growing"));
+            return Err(Refusal::new("swell.table", "must contain two or more [width, height] pairs of increasing width"));
         }
         Ok(())
     }
 
-    /// The height for a width, straight between the table's rows and the last one's beyond them.
+    /// The height for a width, linear between the table's rows and constant beyond them.
     pub fn height(&self, width: f64) -> f64 {
         let next = self.table.partition_point(|row| row[0] <= width).clamp(1, self.table.len() - 1);
         let ([w0, z0], [w1, z1]) = (self.table[next - 1], self.table[next]);
         z0 + (z1 - z0) * ((width - w0) / (w1 - w0)).clamp(0.0, 1.0)
     }
 
-    /// The width at a height, the other way round; the nearest row's beyond the table.
+    /// The width at a height, the inverse of [`Swell::height`]; beyond the table, the nearest row's width.
     pub fn width(&self, height: f64) -> f64 {
         let covers = |pair: &&[[f64; 2]]| (pair[0][1].min(pair[1][1])..=pair[0][1].max(pair[1][1])).contains(&height);
         match self.table.windows(2).find(covers) {

@@ -39,7 +39,7 @@ fn a_wrong_profile_says_file_line_and_key() {
     let said = message("name = \"x\"\nlanguage = gcode\n", &[]);
     assert!(said.starts_with("mine.toml, line 2: "), "{said}");
     let said = message("extends = \"hp7475a\"\n[[paper]]\nname = \"a4\"\nx = [5, 2]\n", &[]);
-    assert_eq!(said, "mine.toml, line 4: paper.a4.x needs its lower limit first");
+    assert_eq!(said, "mine.toml, line 4: paper.a4.x must be [lower, upper] with lower < upper");
     assert!(message("extends = \"nothing\"\n", &[]).contains("there is no plotter profile 'nothing'"));
     assert!(message("name = \"x\"\n", &[]).contains("missing field"));
 }

@@ -1,33 +1,33 @@
-//! The speed that a controller with look-ahead has at each corner, and the time that this takes.
+//! The speed of a controller with look-ahead at each corner, and the resulting time.
 //!
 //! ```text
 //!   speed |    ______        corner^2 = a d s / (1 - s), s = sin(t/2), t the angle between the legs, d the junction deviation
 //!         |   /      \   __  exit^2  <= entry^2 + 2 a length
-//!         |  /        \_/  \ entry^2 <= the same backwards from rest at the end of what is known
+//!         |  /        \_/  \ entry^2 <= the same backwards from rest at the end of the known blocks
 //!         +--------------------> time
 //! ```
 //!
-//! GRBL 1.1 (planner.c) knows of the running block and those behind it in its buffer, which is full while a file is sent: when a
-//! block starts, its exit speed is fixed by those that follow it in the buffer, the last of which must end at rest. The driver
-//! of the `AxiDraw` (`motion.py`) plans each pen-down path whole, with the same rule of corners. Of other machines no rule is
-//! known; they are taken to do the latter.
+//! GRBL 1.1 (planner.c) knows the running block and those behind it in its buffer, which is full while a file is sent. When a
+//! block starts, its exit speed is fixed by the blocks after it in the buffer, the last of which must end at rest. The driver of
+//! the `AxiDraw` (`motion.py`) plans each pen-down path as a whole, with the same corner rule. For other machines no rule is
+//! known; they are assumed to do the latter.
 //!
-//! What GRBL plans it runs in segments of a hundredth of a second (stepper.c), each at one speed, and longer where there would be
-//! less than a step in it. That is so at a start from rest, and there it loses 1 to 8 ms where the ramp ends in what was added: see
+//! GRBL executes its plan in segments of a hundredth of a second (stepper.c), each at one speed, and longer if a segment would
+//! contain less than one step. This happens at a start from rest, which loses 1 to 8 ms if the ramp ends in the added time: see
 //! [`Rules::slow_start`].
 
 use crate::plot::profile::{Limits, Motion};
 
-/// A place in millimetres.
+/// A position in millimetres: x, y, z.
 pub(super) type Place = [f64; 3];
 
-/// Blocks that are kept before those whose fate is settled are timed.
+/// Number of blocks kept before those with final speeds are timed.
 const KEPT: usize = 1 << 14;
-/// Cosines nearer to 1 than this are a straight line or a reversal, as in GRBL.
+/// Cosines above this in magnitude are a straight line or a reversal, as in GRBL.
 const STRAIGHT: f64 = 0.999_999;
-/// GRBL's slowest rate, mm/s.
+/// GRBL's minimum rate, mm/s.
 const SLOWEST: f64 = 1.0 / 60.0;
-/// Steps that one of GRBL's segments covers at least.
+/// Minimum steps in one of GRBL's segments.
 const LEAST_STEPS: f64 = 1.25;
 
 /// One straight move.
@@ -35,18 +35,18 @@ const LEAST_STEPS: f64 = 1.25;
 struct Block {
     length: f64,
     acceleration: f64,
-    /// Square of the speed asked for and allowed in its direction.
+    /// Square of the programmed speed, limited for its direction.
     nominal: f64,
-    /// Square of the greatest speed at its start.
+    /// Square of the maximum speed at its start.
     entry: f64,
-    /// The shortest way that the controller covers at one speed.
+    /// The shortest distance that the controller covers at one speed.
     least: f64,
-    /// Whose time it is.
+    /// The slot to which its time is added.
     slot: usize,
 }
 
 impl Block {
-    /// How much the square of the speed can change over it.
+    /// Maximum change of the squared speed over the block.
     fn gain(&self) -> f64 {
         2.0 * self.acceleration * self.length
     }
@@ -55,7 +55,7 @@ impl Block {
 /// A controller: moves go in, seconds come out.
 pub(super) struct LookAhead {
     rules: Rules,
-    /// Moves since the last rest that are not timed yet.
+    /// Moves since the last rest that are not yet timed.
     blocks: Vec<Block>,
     /// The speed at the start of the first of them.
     speed: f64,
@@ -72,15 +72,15 @@ struct Rules {
     travel_acceleration: Limit,
     speed: Limit,
     deviation: f64,
-    /// How many blocks are known behind a corner when the speed there is fixed.
+    /// Number of blocks known after a corner when its speed is fixed.
     known: Option<usize>,
     steps_per_mm: Option<Place>,
-    /// How long the controller keeps one speed.
+    /// Duration of one segment at constant speed, in seconds.
     segment: Option<f64>,
 }
 
 impl LookAhead {
-    /// A machine at rest at zero; times are added up in so many slots.
+    /// A machine at rest at zero, with a number of slots in which times are summed.
     pub fn new(motion: &Motion, slots: usize) -> Self {
         let planner = &motion.planner;
         let acceleration = |all: f64| motion.axis_accelerations(all);
@@ -90,7 +90,7 @@ impl LookAhead {
             travel_acceleration: Limit::new(acceleration(motion.travel_acceleration.unwrap_or(motion.acceleration))),
             speed: Limit::new(motion.axis_speeds()),
             deviation: motion.corner_deviation(),
-            // One place stays free, and one holds the block that runs.
+            // One place stays free, and one holds the running block.
             known: planner.block_buffer.map(|places| places - 2),
             steps_per_mm: planner.steps_per_mm,
             segment: planner.segment_seconds,
@@ -98,12 +98,12 @@ impl LookAhead {
         Self { rules, blocks: Vec::new(), speed: 0.0, squared: 0.0, at: [0.0; 3], direction: [0.0; 3], seconds: vec![0.0; slots] }
     }
 
-    /// Draws a straight line to a place that the file gives, at a rate in mm/s; the time goes to a slot.
+    /// Draws a straight line to a position given in the file, at a rate in mm/s; the time goes to a slot.
     pub fn line(&mut self, to: Place, rate: f64, slot: usize) {
         self.add(self.rules.in_steps(to, as_read), rate, self.rules.acceleration, slot);
     }
 
-    /// Draws a chord of an arc, to a place that the controller reckons itself: it lies on no grid of decimals.
+    /// Draws a chord of an arc to a position computed by the controller, which lies on no decimal grid.
     pub fn chord(&mut self, to: Place, rate: f64, slot: usize) {
         self.add(self.rules.in_steps(to, |place| place as f32), rate, self.rules.acceleration, slot);
     }
@@ -113,7 +113,7 @@ impl LookAhead {
         self.add(self.rules.in_steps(to, as_read), rate, self.rules.travel_acceleration, slot);
     }
 
-    /// A move to a place in whole steps.
+    /// Adds a move to a position in whole steps.
     fn add(&mut self, to: Place, rate: f64, acceleration: Limit, slot: usize) {
         let leg = [to[0] - self.at[0], to[1] - self.at[1], to[2] - self.at[2]];
         let length = norm(leg);
@@ -137,7 +137,7 @@ impl LookAhead {
         }
     }
 
-    /// All that was asked for is done, and the machine stands.
+    /// Finishes all moves and brings the machine to rest.
     pub fn rest(&mut self) {
         if self.rules.known.is_none() {
             let mut after = 0.0;
@@ -149,7 +149,7 @@ impl LookAhead {
         self.run(self.blocks.len());
     }
 
-    /// Time in which nothing moves.
+    /// Adds time in which nothing moves.
     pub fn wait(&mut self, seconds: f64, slot: usize) {
         self.seconds[slot] += seconds;
     }
@@ -159,7 +159,7 @@ impl LookAhead {
         &self.seconds
     }
 
-    /// Times the first blocks.
+    /// Times the first `count` blocks.
     fn run(&mut self, count: usize) {
         for i in 0..count {
             let block = self.blocks[i];
@@ -179,7 +179,7 @@ impl LookAhead {
     }
 }
 
-/// Square of the greatest speed into the first of these blocks from which each later limit, and rest at the end, can be met.
+/// Square of the maximum speed at the start of these blocks from which every later limit, and rest at the end, can be met.
 fn braking(blocks: &[Block]) -> f64 {
     let (mut limit, mut gained) = (f64::INFINITY, 0.0);
     for block in blocks {
@@ -192,7 +192,7 @@ fn braking(blocks: &[Block]) -> f64 {
     limit.min(gained)
 }
 
-/// Time over a block with given speeds at both ends, and their squares.
+/// Time over a block, given the speeds at both ends and their squares.
 fn trapezoid(block: &Block, [entry, exit]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
     let a = block.acceleration;
     let peak = peak(block, [entry, exit]);
@@ -201,27 +201,27 @@ fn trapezoid(block: &Block, [entry, exit]: [f64; 2], [from, to]: [f64; 2]) -> f6
     (2.0 * fastest - from - to + level / fastest) / a
 }
 
-/// Square of the greatest speed on a block.
+/// Square of the maximum speed on a block.
 fn peak(block: &Block, [entry, exit]: [f64; 2]) -> f64 {
     (0.5 * (entry + exit) + block.acceleration * block.length).min(block.nominal).max(entry).max(exit)
 }
 
 impl Rules {
-    /// The shortest way that GRBL covers at one speed: so many steps of the leading axis.
+    /// The shortest distance that GRBL covers at one speed: `LEAST_STEPS` steps of the leading axis.
     fn least_way(&self, direction: Place) -> f64 {
         let Some(steps) = self.steps_per_mm.filter(|_| self.segment.is_some()) else { return 0.0 };
         LEAST_STEPS / (0..3).map(|axis| direction[axis].abs() * steps[axis]).fold(0.0, f64::max)
     }
 
-    /// What a start from rest loses. Where the first segment had to be made longer, for want of a step in it, and the ramp up ends in
-    /// the time that was added, GRBL takes the time for this part from the whole way of the segment and the speed at the part's
-    /// beginning: the way before is counted twice. It is 3.3 ms where 250 mm/s^2 end at 5 mm/s, and there are two or three starts to
-    /// each path; without it a plot of short lines is told 0.3 to 0.7 % too short.
+    /// Time lost by a start from rest. If the first segment was lengthened because it would not contain a step, and the
+    /// acceleration ends in the added time, GRBL computes the duration of this part from the segment's whole distance and the
+    /// speed at the part's beginning, so the distance before is counted twice. The loss is 3.3 ms where 250 mm/s^2 end at 5 mm/s,
+    /// with two or three starts per path; without it, the time of a plot of short lines is 0.3 to 0.7 % too short.
     fn slow_start(&self, block: &Block, squares: [f64; 2], from: f64) -> f64 {
         let Some(segment) = self.segment else { return 0.0 };
         let (a, fastest) = (block.acceleration, peak(block, squares).sqrt());
         let ramp = (fastest - from) / a;
-        // The first segment is long enough at any speed but the slowest.
+        // Only at the lowest speeds is the first segment too short.
         if ramp <= segment || segment * (from + 0.5 * a * segment) >= block.least {
             return 0.0;
         }
@@ -230,14 +230,14 @@ impl Rules {
         if way >= block.least { 0.0 } else { 2.0 * way / (from + a * before + fastest) }
     }
 
-    /// Rounded to motor steps, as the controller does it from the single precision in which it holds a place.
+    /// Rounds a position to motor steps as the controller does, from the single precision in which it is held.
     fn in_steps(&self, place: Place, held: fn(f64) -> f32) -> Place {
         let Some(steps) = self.steps_per_mm else { return place };
         let rounded = |axis: usize| whole(f64::from(held(place[axis]) * steps[axis] as f32)) as f64 / steps[axis];
         [rounded(0), rounded(1), rounded(2)]
     }
 
-    /// The greatest value along a direction.
+    /// The limit along a direction.
     fn along(&self, limit: Limit, direction: Place) -> f64 {
         match self.limits {
             Limits::Path => limit.path,
@@ -252,7 +252,7 @@ impl Rules {
         }
     }
 
-    /// Square of the greatest speed at a corner.
+    /// Square of the maximum speed at a corner.
     fn corner(&self, before: Place, after: Place, acceleration: Limit) -> f64 {
         let cosine = -(before[0] * after[0] + before[1] * after[1] + before[2] * after[2]);
         if cosine > STRAIGHT {
@@ -281,16 +281,16 @@ impl Limit {
         Self { path: axes[0], reciprocals: axes.map(f64::recip) }
     }
 
-    /// The greatest length along a unit vector of which no component exceeds its axis's value.
+    /// The greatest length along a unit vector at which no component exceeds its axis's value.
     fn along(&self, direction: Place) -> f64 {
         let share = |axis: usize| direction[axis].abs() * self.reciprocals[axis];
         1.0 / share(0).max(share(1)).max(share(2))
     }
 }
 
-/// A place as GRBL's single precision holds it after reading up to three decimals: the digits as a whole number, times 0.01 and
-/// 0.1. At 100 steps a millimetre every tenth place lies half way between two steps, and this decides to which it goes: circles
-/// of 0.02 mm chords are timed 1.3 % short without it.
+/// A coordinate as GRBL holds it in single precision after reading up to three decimals: the digits as an integer, times 0.01 and
+/// 0.1. At 100 steps per millimetre every tenth coordinate lies half way between two steps, and this decides how it is rounded:
+/// without it, circles of 0.02 mm chords are timed 1.3 % short.
 fn as_read(place: f64) -> f32 {
     let digits = whole(place * 1000.0);
     if digits == 0 {
@@ -306,7 +306,7 @@ fn as_read(place: f64) -> f32 {
     }
 }
 
-/// The nearest whole number, halves away from zero: `round` is a call into the mathematical library, and this runs for each point.
+/// The nearest integer, halves away from zero. `round` would be a library call, and this runs for each point.
 pub(super) fn whole(value: f64) -> i64 {
     (value + 0.5_f64.copysign(value)) as i64
 }
@@ -375,7 +375,7 @@ mod tests {
 
     #[test]
     fn a_short_buffer_never_runs_faster_than_it_can_stop() {
-        // 14 blocks of 0.1 mm are known: the speed settles where 1.4 mm are enough to stop in.
+        // 14 blocks of 0.1 mm are known: the speed settles where 1.4 mm suffice to stop.
         let fine: Vec<[f64; 2]> = (1..=3000).map(|i| [0.1 * f64::from(i), 0.0]).collect();
         let limited = with_planner(Planner { block_buffer: Some(16), ..Planner::default() });
         let settled = (2.0 * 250.0 * 1.4_f64).sqrt();
@@ -389,7 +389,7 @@ mod tests {
         let limited = with_planner(Planner { block_buffer: Some(16), ..Planner::default() });
         let mut whole = LookAhead::new(&limited, 1);
         let mut from = [0.0; 3];
-        // The same in pieces that never fill what is kept, each run with all that is known behind it.
+        // The same in pieces that never fill the kept blocks, each run with all known blocks behind it.
         for [x, y] in &wave {
             from = [*x, *y, 0.0];
             whole.line(from, 50.0, 0);
@@ -415,12 +415,12 @@ mod tests {
         assert!(travel(&MOTION, [100.0, 100.0, 0.0]) > along);
         let slow_z = with_planner(Planner { axis_speed: Some([100.0, 100.0, 5.0]), ..axes.planner });
         assert!((travel(&slow_z, [0.0, 0.0, 5.0]) - (1.0 + 5.0 / 250.0)).abs() < 1e-9);
-        // GRBL's 500 mm/min where nothing is said, and what is said of z alone before anything else.
+        // GRBL's 500 mm/min is the default, and settings of z alone take precedence.
         let usual = 500.0 / 60.0;
         assert!((travel(&axes, [0.0, 0.0, 5.0]) - (5.0 / usual + usual / 250.0)).abs() < 1e-9);
         let own = with_planner(Planner { z_speed: Some(4.0), z_acceleration: Some(10.0), ..slow_z.planner });
         assert!((travel(&own, [0.0, 0.0, 8.0]) - (2.0 + 4.0 / 10.0)).abs() < 1e-9);
-        // Both at once are no faster than the slower axis lets them be.
+        // A combined move is no faster than the slower axis allows.
         let leg = (8.0_f64 * 8.0 + 6.0 * 6.0).sqrt() / 8.0;
         assert!((travel(&own, [6.0, 0.0, 8.0]) - (8.0 * leg / (4.0 * leg) + 4.0 / 10.0)).abs() < 1e-9);
     }

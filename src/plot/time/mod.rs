@@ -1,12 +1,12 @@
-//! How long a plot takes: the machine's file is gone through as it is written, and each move timed as the controller plans it.
+//! Estimates how long a plot takes: replays the machine's file as it is written and times each move as the controller plans it.
 //!
 //! ```text
 //!   travel   lower    draw ...   lift        what is written for one path
 //!   G0 X Y   M3, G4   G1 X Y     M3, G4      every M3 and G4 lets the motion come to rest first
 //! ```
 //!
-//! What reaches a motor is rounded as the machine rounds it: places to the file's decimals and to steps, rates to the file's
-//! digits, waits to whole ticks.
+//! Values are rounded as the machine rounds them: positions to the file's decimals and to steps, rates to the file's digits,
+//! waits to whole ticks.
 
 mod look_ahead;
 
@@ -21,30 +21,30 @@ use std::f64::consts::PI;
 /// Times in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
-    /// Pen down, moving.
+    /// Moving with the pen down.
     pub drawing: f64,
-    /// Pen up, moving.
+    /// Moving with the pen up.
     pub travelling: f64,
-    /// A z axis, moving up or down.
+    /// A z axis moving up or down.
     pub lifting: f64,
-    /// Nothing moves but a servo or a solenoid that lifts, lowers or fetches the pen, and waits that a layer or a touch asks for.
+    /// No axis moves: a servo or a solenoid lifts, lowers or fetches the pen, or a layer or a touch waits.
     pub waiting: f64,
 }
 
 impl Clock {
-    /// All of it.
+    /// Total time.
     pub fn total(&self) -> f64 {
         self.motion() + self.waiting
     }
 
-    /// All in which an axis moves.
+    /// Time in which an axis moves.
     pub fn motion(&self) -> f64 {
         self.drawing + self.travelling + self.lifting
     }
 }
 
-/// The time of each pen of a plot, from machine zero with the pen up to where the machine parks; the user's own time at a pause
-/// is not known and not counted.
+/// The time of each pen of a plot, from machine zero with the pen up to the parking position. The user's own time at a pause is
+/// unknown and not counted.
 pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &Interrupt) -> Result<Vec<Clock>, Interrupted> {
     let mut run = Run::new(profile, mounting, plot.pens.len());
     if plot.pens.is_empty() {
@@ -66,7 +66,7 @@ pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &In
     Ok(run.finish())
 }
 
-/// What a stretch of time is spent on, for each pen.
+/// What a pen's time is spent on.
 #[derive(Clone, Copy)]
 enum Share {
     Drawing,
@@ -78,25 +78,25 @@ enum Share {
 /// A straight move on the way along a path.
 #[derive(Clone, Copy)]
 enum Leg {
-    /// To a place that stands in the file.
+    /// To a position given in the file.
     Line([f64; 2]),
-    /// To a place on an arc, which the controller reckons.
+    /// To a position on an arc, computed by the controller.
     Chord([f64; 2]),
 }
 
-/// How many shares there are.
+/// Number of shares.
 const SHARES: usize = 4;
 
-/// A machine that goes through its file.
+/// A machine replaying its file.
 struct Run<'a> {
     profile: &'a Profile,
     mounting: &'a Mounting,
     planner: LookAhead,
     up: Vec<PenAction>,
     down: Vec<PenAction>,
-    /// Where the file has sent the pen, in millimetres.
+    /// The pen's position in the file, in millimetres.
     at: Place,
-    /// Which of the plot's pens draws.
+    /// Index of the plot's current pen.
     pen: usize,
 }
 
@@ -136,7 +136,7 @@ impl<'a> Run<'a> {
         self.wait(pen.handling.delay_seconds);
     }
 
-    /// The rate that the file asks for, mm/s.
+    /// The drawing rate in the file, mm/s.
     fn draw_rate(&self, pen: &PenPaths) -> f64 {
         self.profile.nearest_speed(pen.handling.speed(self.profile.motion.draw_speed))
     }
@@ -176,7 +176,7 @@ impl<'a> Run<'a> {
         self.act(PenMove::Up, if self.waits_for_pen() { self.profile.motion.pen_up_seconds } else { 0.0 });
     }
 
-    /// Where the controller goes after the first place: where arcs are written, the chords that it cuts them into.
+    /// The controller's moves after the first position: straight lines, or the chords into which it cuts written arcs.
     fn legs(&self, places: &[[f64; 2]]) -> Vec<Leg> {
         let sent = self.profile.motion.planner.arc_tolerance.filter(|_| self.profile.speech().sends_arcs());
         let Some(tolerance) = sent else {
@@ -187,7 +187,7 @@ impl<'a> Run<'a> {
         let mut from = points[0];
         for step in fit_arcs(&points, self.mounting.tolerance) {
             if let Step::Arc { centre, sweep, to } = step {
-                // The file gives the centre rounded, and the controller reckons the angle from it.
+                // The file gives a rounded centre, and the controller computes the angle from it.
                 let per_mm = self.profile.speech().places_per_unit() * self.profile.units_per_mm;
                 let centre = from + ((centre - from) * per_mm).round() / per_mm;
                 let (a, b) = (from - centre, to - centre);
@@ -210,12 +210,12 @@ impl<'a> Run<'a> {
         self.profile.height().is_some()
     }
 
-    /// Whether the file waits for the pen: a z axis is there when its move is over.
+    /// True if the file waits for the pen. With a z axis the pen is in place when the move ends.
     fn waits_for_pen(&self) -> bool {
         !self.lifts_by_height()
     }
 
-    /// Lowers the pen, straight to a height of its own if the path has one.
+    /// Lowers the pen, directly to the path's own height if it has one.
     fn lower(&mut self, height: Option<f64>) {
         match (height, self.profile.height()) {
             (Some(z), Some(usual)) => {
@@ -267,7 +267,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// A wait, for which the motion comes to rest; none is written for no time.
+    /// Waits, after the motion comes to rest. A wait of no time is not written.
     fn wait(&mut self, seconds: f64) {
         if seconds <= 0.0 {
             return;
@@ -279,7 +279,7 @@ impl<'a> Run<'a> {
         self.planner.wait(lasting, slot);
     }
 
-    /// To where the file leaves the carriage.
+    /// Moves to the parking position.
     fn park(&mut self) {
         let scale = self.profile.units_per_mm;
         let place = [self.mounting.park.x / scale, self.mounting.park.y / scale];
@@ -304,12 +304,12 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Chords after which GRBL works out the next from the arc's beginning.
+/// Chords after which GRBL computes the next one from the arc's start.
 const CHORDS_BY_TURNING: usize = 12;
 
-/// The arms from an arc's centre to the ends of its chords but the last, as GRBL finds them (`motion_control.c`): each is the one before,
-/// turned with a sine and a cosine of the third order, and every thirteenth is exact. On a dot of 0.15 mm, whose chords turn by a third
-/// of a radian, they come to lie a motor step aside.
+/// The vectors from an arc's centre to the ends of its chords except the last, as GRBL computes them (`motion_control.c`): each
+/// is the one before, rotated with third-order sine and cosine, and every thirteenth is exact. On a dot of 0.15 mm, whose chords
+/// turn by a third of a radian, they end up a motor step off.
 fn turned(start: Vec2, angle: f64, count: usize) -> impl Iterator<Item = Vec2> {
     let small = (angle * (1.0 - angle * angle / 6.0), 1.0 - 0.5 * angle * angle);
     let mut arm = start;

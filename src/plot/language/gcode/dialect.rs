@@ -1,53 +1,53 @@
-//! How G-code is written for one machine.
+//! The G-code dialect of a machine.
 
 use crate::plot::language::Refusal;
 use crate::plot::profile::{above_zero, are_near};
 use serde::Deserialize;
 
-/// G-code for one machine.
+/// The G-code dialect of one machine.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GcodeDialect {
-    /// The `G` and `M` words and the named commands that the controller knows; nothing else is written.
+    /// The `G` and `M` words and named commands that the controller knows. Nothing else is written.
     pub words: Vec<String>,
     /// The line that opens and closes a file, such as `%`.
     pub frame: Option<String>,
-    /// How a comment is marked.
+    /// Syntax of comments.
     #[serde(default)]
     pub comment: Comment,
-    /// Comment lines at the top.
+    /// Comment lines at the top of the file.
     #[serde(default)]
     pub header: Vec<String>,
-    /// Lines before anything moves.
+    /// Lines before the first move.
     pub start: Vec<String>,
     /// Lines after the pen is parked.
     #[serde(default)]
     pub end: Vec<String>,
     /// What lifts the pen.
     pub lift: Lift,
-    /// Lifts the pen, where a command does.
+    /// Command that lifts the pen, if a command does.
     pub pen_up: Option<String>,
-    /// Lowers the pen, where a command does.
+    /// Command that lowers the pen, if a command does.
     pub pen_down: Option<String>,
-    /// The pen's heights, where the z axis lifts it.
+    /// The pen's heights, if the z axis lifts it.
     pub height: Option<Height>,
-    /// How the machine is told to move with the pen up.
+    /// Syntax of moves with the pen up.
     #[serde(default)]
     pub travel: Travel,
-    /// Whether `G2` and `G3` are written.
+    /// Write arcs as `G2` and `G3`.
     #[serde(default)]
     pub arcs: bool,
     /// Where the pen waits at the end, in machine units.
     pub park: [f64; 2],
-    /// Waits for the user; without it, what needs a pause is refused.
+    /// Command that waits for the user. Without it, jobs that need a pause are refused.
     pub pause: Option<String>,
-    /// Waits for a time; `{seconds}` or `{milliseconds}` is replaced.
+    /// Command that waits for a time; `{seconds}` or `{milliseconds}` is replaced.
     pub dwell: String,
-    /// Greatest length of a line.
+    /// Maximum length of a line in characters.
     pub line_length: usize,
 }
 
-/// How a comment is marked.
+/// Syntax of comments.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Comment {
@@ -68,7 +68,7 @@ pub enum Lift {
     Height,
 }
 
-/// The pen's heights on the z axis, in machine units; either may be the greater one.
+/// The pen's heights on the z axis, in machine units. Either may be the greater.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Height {
@@ -76,15 +76,15 @@ pub struct Height {
     pub up: f64,
     /// On the paper.
     pub down: f64,
-    /// Speed of coming down, mm/s.
+    /// Lowering speed, mm/s.
     pub plunge_speed: f64,
 }
 
-/// How the machine is told to move with the pen up.
+/// Syntax of moves with the pen up.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Travel {
-    /// `G0`, at the machine's own greatest rate.
+    /// `G0`, at the machine's maximum rate.
     #[default]
     Rapid,
     /// `G0` with a feed.
@@ -94,7 +94,7 @@ pub enum Travel {
 }
 
 impl GcodeDialect {
-    /// The commands or heights that lift and lower the pen are there, and differ.
+    /// Checks that the commands or heights that lift and lower the pen are given and differ.
     fn check_lift(&self) -> Result<(), Refusal> {
         let given = |command: &Option<String>| command.as_ref().is_some_and(|text| !text.trim().is_empty());
         match (self.lift, self.height) {
@@ -103,7 +103,7 @@ impl GcodeDialect {
             (Lift::Command, _) if self.pen_up == self.pen_down => {
                 Err(Refusal::new("gcode.pen_up", "must differ from gcode.pen_down"))
             }
-            (Lift::Height, None) => Err(Refusal::new("gcode.height", "is missing, and the pen is lifted by its height")),
+            (Lift::Height, None) => Err(Refusal::new("gcode.height", "is missing, and gcode.lift is \"height\"")),
             (Lift::Height, Some(z)) if !are_near(&[z.up, z.down]) => {
                 Err(Refusal::new("gcode.height.up", "and gcode.height.down must be numbers up to 10000000"))
             }
@@ -115,17 +115,18 @@ impl GcodeDialect {
         }
     }
 
-    /// Nothing is written that the controller does not know, that draws where it should travel, or that does not fit its line.
+    /// Checks that nothing is written that the controller does not know, that draws during travel, or that exceeds the line
+    /// length.
     pub(super) fn check(&self) -> Result<(), Refusal> {
         self.check_lift()?;
         if !self.dwell.contains("{seconds}") && !self.dwell.contains("{milliseconds}") {
-            return Err(Refusal::new("gcode.dwell", "must hold {seconds} or {milliseconds}"));
+            return Err(Refusal::new("gcode.dwell", "must contain {seconds} or {milliseconds}"));
         }
         if !(60..=256).contains(&self.line_length) {
             return Err(Refusal::new("gcode.line_length", "must be from 60 to 256"));
         }
         let own = [("gcode.pause", &self.pause), ("gcode.pen_up", &self.pen_up), ("gcode.pen_down", &self.pen_down)];
-        // A profile whose pen goes by its height may have inherited commands that it does not use.
+        // A profile that lifts by height may have inherited commands that it does not use.
         let used = if self.lift == Lift::Command { 3 } else { 1 };
         let mut lines: Vec<(&str, &str)> = own[..used].iter().filter_map(|(key, line)| Some((*key, line.as_deref()?))).collect();
         lines.push(("gcode.dwell", &self.dwell));
@@ -136,7 +137,7 @@ impl GcodeDialect {
         }
         for (needed, why) in [("G0", "travel"), ("G1", "drawing")].into_iter().chain(self.arcs.then_some(("G2", "arcs"))) {
             if !self.words.iter().any(|word| word == needed) {
-                return Err(Refusal::new("gcode.words", &format!("must hold {needed}, which {why} needs")));
+                return Err(Refusal::new("gcode.words", &format!("must contain {needed}, which {why} needs")));
             }
         }
         Ok(())
@@ -145,7 +146,7 @@ impl GcodeDialect {
     fn check_line(&self, key: &str, line: &str) -> Result<(), Refusal> {
         if line.len() > self.line_length || line.contains(['\n', '\r', '?', '!', '~', '(', ';']) || !line.is_ascii() {
             let most = self.line_length;
-            return Err(Refusal::new(key, &format!("'{line}' must be one ASCII line of {most} or less without ? ! ~ ( ;")));
+            return Err(Refusal::new(key, &format!("'{line}' must be one ASCII line of at most {most} bytes without ? ! ~ ( ;")));
         }
         let unknown = line.split_whitespace().enumerate().find(|(i, word)| {
             let is_command = word.starts_with(['G', 'M', 'O', '$']) && word[1..].starts_with(|c: char| c.is_ascii_digit());

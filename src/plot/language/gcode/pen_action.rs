@@ -1,8 +1,8 @@
-//! What a profile's command for the pen makes the machine do.
+//! The effect of a profile's pen commands on the machine.
 
 use super::{PenAction, Rate};
 
-/// The parts of a command of one or more lines; `dwell` is the profile's own command for a wait, which shows its unit.
+/// The parts of a command of one or more lines. `dwell` is the profile's wait command, which shows its unit.
 pub(super) fn pen_actions(command: &str, dwell: &str) -> Vec<PenAction> {
     command.lines().filter_map(|line| action(line.split(['(', ';']).next().unwrap_or(""), dwell)).collect()
 }
@@ -28,7 +28,7 @@ fn action(line: &str, dwell: &str) -> Option<PenAction> {
     Some(if moves { PenAction::Move { target, rate } } else { PenAction::Rest })
 }
 
-/// Letters with their numbers, with or without space between them.
+/// Letters with their numbers, separated by spaces or not.
 fn words(line: &str) -> Vec<(char, f64)> {
     let upper = line.to_ascii_uppercase();
     let mut words = Vec::new();

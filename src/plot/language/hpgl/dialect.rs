@@ -1,29 +1,29 @@
-//! How HP-GL is written for one machine.
+//! The HP-GL dialect of a machine, and SVG for a machine driven by its own program.
 
 use crate::plot::language::Refusal;
 use serde::Deserialize;
 
-/// HP-GL for one machine.
+/// The HP-GL dialect of one machine.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct HpglDialect {
-    /// Greatest length of one instruction in bytes.
+    /// Maximum length of one instruction in bytes.
     pub chunk: usize,
-    /// What stands before everything, such as escape sequences for a handshake.
+    /// Text before everything else, such as escape sequences for a handshake.
     #[serde(default)]
     pub preamble: String,
-    /// What stands after everything, such as a command that puts out the sheet.
+    /// Text after everything else, such as a command that ejects the sheet.
     #[serde(default)]
     pub postamble: String,
-    /// Whether `AA` is written.
+    /// Write arcs as `AA`.
     #[serde(default)]
     pub arcs: bool,
-    /// Whether lines are written packed, as `PE` of HP-GL/2.
+    /// Write lines packed, as `PE` of HP-GL/2.
     #[serde(default)]
     pub packed: bool,
-    /// The pen's force (`FS`), where it can be told.
+    /// The pen's force (`FS`), if the machine has it.
     pub force: Option<u32>,
-    /// The pen's acceleration (`AS`) in g, where it can be told.
+    /// The pen's acceleration (`AS`) in g, if the machine has it.
     pub acceleration: Option<u32>,
 }
 
