@@ -71,8 +71,8 @@ fn bad_photographs_are_named_and_explained() {
     put("none.png", &png_header(0, 10));
     for (name, words) in [
         ("empty.jpg", "empty.jpg is empty"),
-        ("text.jpg", "is not a known image format"),
-        ("magic.png", "is not a known image format"),
+        ("text.jpg", "is not in a known image format"),
+        ("magic.png", "is not in a known image format"),
         ("huge.png", "65535 x 65535 px, beyond the limit of 200 megapixels"),
         ("none.png", "none.png is a PNG image"),
         ("missing.jpg", "missing.jpg does not exist"),

@@ -12,7 +12,7 @@ pub enum SourceError {
     #[error("is empty; give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
     Empty,
     /// The first bytes match no known image format.
-    #[error("is not a known image format (it begins with {0}); give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
+    #[error("is not in a known image format (it begins with {0}); give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
     Unrecognised(String),
     /// The header is damaged or needs a feature that the decoder does not support.
     #[error("is a {format} image that cannot be decoded: {reason}")]

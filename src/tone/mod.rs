@@ -95,8 +95,8 @@ fn at_full_size(tone: &Raster<f32>, reduced: &Raster<f32>, full: &Raster<f32>, f
     slope.zip_map(full, |a, v| a * v).zip_map(&offset, |av, b| (av + b).clamp(0.0, 1.0))
 }
 
-/// The weighted Gaussian mean of values around each pixel. Weights must be above 0 everywhere; tiny ones decide where there are
-/// no others.
+/// The weighted Gaussian mean of values around each pixel. Callers add a tiny weight everywhere, which decides where there is no
+/// other.
 fn blurred_within(values: &Raster<f32>, weight: &Raster<f32>, sigma: f32) -> Raster<f32> {
     let sum = fast_gaussian(&values.zip_map(weight, |v, w| v * w), sigma);
     sum.zip_map(&fast_gaussian(weight, sigma), |sum, weight| sum / weight.max(1e-6))
