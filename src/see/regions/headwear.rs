@@ -1,4 +1,4 @@
-//! Hats, caps and scarves: pixels in the place of hair whose colours hair does not have, or black and white side by side.
+//! Hats, caps and scarves: pixels where hair would be, in colours that hair does not have, or in black and white side by side.
 
 use super::mixture::Mixture;
 use super::parting::{HAIR, Shares, greatest};
