@@ -1,5 +1,5 @@
-//! Path order on planted inputs: `cargo bench --bench order`, or with the folder of the peers' own inputs `cargo bench --bench
-//! order -- FOLDER` (files such as `dots_1000.txt`: one polyline per line, `x,y x,y ...` in millimetres).
+//! Path order on planted inputs: `cargo bench --bench order`, or with the folder of the peers' own inputs
+//! `cargo bench --bench order -- FOLDER` (files such as `dots_1000.txt`: one polyline per line, `x,y x,y ...` in millimetres).
 //!
 //! Pen-up travel, without the way from and to home, compared with a plain nearest-neighbour order in the same run.
 

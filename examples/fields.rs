@@ -1,5 +1,5 @@
-//! Writes the fields of the structure grid's paper as photographs to be drawn, with their steering lines: `cargo run --release
-//! --example fields -- DIR` writes `circular.png`, `circular-edges.png`, `saddle.png` and `saddle-edges.png`.
+//! Writes the fields of the structure grid's paper as photographs to be drawn, with their steering lines:
+//! `cargo run --release --example fields -- DIR` writes `circular.png`, `circular-edges.png`, `saddle.png` and `saddle-edges.png`.
 
 use image::{GrayImage, Luma};
 use std::path::Path;

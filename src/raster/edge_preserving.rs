@@ -11,8 +11,8 @@ const LEAST_VARIANCE: f32 = (0.5 / 255.0) * (0.5 / 255.0);
 /// pixel becomes the mean of `m` around it, weighted by the Gaussian and `s^-q`. `q = 0` is a Gaussian blur of `sqrt(2) sigma`;
 /// large `q` (up to 16) takes the most even neighbourhood alone, as Kuwahara's filter does. The time does not depend on `sigma`.
 ///
-/// Results on a plate of step edges with noise of 0.05 (figure 7.18, sigma 3), from `cargo test --test glass figure --
-/// --nocapture`:
+/// Results on a plate of step edges with noise of 0.05 (figure 7.18, sigma 3), from
+/// `cargo test --test glass figure -- --nocapture`:
 ///
 /// | q | noise rejected, PSNR in dB | edges lost |
 /// |---|---|---|
