@@ -1,6 +1,6 @@
-//! Charcoal's figures: `cargo bench --bench charcoal`.
+//! Charcoal's measurements: `cargo bench --bench charcoal`.
 //!
-//! The Hough filter against the same filter written plainly on one thread, against the thesis's printed form and against a structure
+//! The Hough filter compared with a plain implementation on one thread, with the thesis's printed form and with a structure
 //! tensor of the same window; then whole sketches.
 
 use drypoint::field::{HoughFilter, HoughForm, OrientationField};
@@ -20,7 +20,7 @@ fn main() {
     sketches();
 }
 
-/// 600 x 800 pixels of lines, a tenth of them marked, as hair gives.
+/// 600 x 800 pixels of lines, a tenth of them marked, as in hair.
 fn speed() {
     let (width, height) = (600, 800);
     let noise = paper_texture(width, height, 6.0, 1);
@@ -39,7 +39,7 @@ fn speed() {
             .fold(f64::INFINITY, f64::min)
     };
     let (two, one) = (with_threads(2), with_threads(1));
-    // Every eighth row, times eight: the plain one takes long.
+    // Every eighth row, times eight: the plain implementation is slow.
     let started = Instant::now();
     let mut differing = 0;
     let mut strength = 0.0;
@@ -66,7 +66,7 @@ fn kept(is_kept: bool) -> &'static str {
     if is_kept { "kept" } else { "MISSED" }
 }
 
-/// Counts by angle and page-anchored rho, from the definition.
+/// Counts by angle and page-anchored rho, computed from the definition.
 fn plain_counts(lines: &Raster<u8>, x: usize, y: usize) -> Vec<std::collections::BTreeMap<i32, u16>> {
     let reach = RADIUS as isize;
     let mut counts = vec![std::collections::BTreeMap::new(); ANGLES];
@@ -170,7 +170,7 @@ fn mean_error(field: &OrientationField, degrees: f64) -> f64 {
     sum / count
 }
 
-/// The gradient's orientation, turned along the lines, averaged over the same window.
+/// The gradient's orientation, rotated to run along the lines, averaged over the same window.
 fn structure_tensor(lines: &Raster<u8>) -> OrientationField {
     let grey = gaussian_blur(&lines.map(f32::from), 1.0);
     let doubled = Raster::from_fn(grey.width(), grey.height(), |x, y| {

@@ -1,7 +1,7 @@
-//! What engraving costs, against what was promised: `cargo bench --bench engrave`.
+//! The cost of engraving, compared with the guarantees: `cargo bench --bench engrave`.
 //!
-//! Whole drawings on two threads, from decoded pictures to the drawing and to SVG; superpixels on one thread beside the figure
-//! that `OpenCV`'s SLIC took for the same work on the machine where it was measured.
+//! Whole drawings on two threads, from decoded pictures to the drawing and to SVG; superpixels on one thread, compared with the
+//! time of `OpenCV`'s SLIC for the same work on the machine where it was measured.
 
 use drypoint::drawing::Page;
 use drypoint::field::superpixels;
@@ -79,8 +79,8 @@ fn picture(value: impl Fn(u32, u32) -> f64) -> Photograph {
     Photograph::decode(&bytes.into_inner(), Limits::default()).expect("it was just written")
 }
 
-/// The least wall time of some runs; says the processor's time of each where the system tells it, which others' work on the
-/// machine changes less.
+/// The least wall time of several runs; also prints the processor time of each if the system reports it, which other work on the
+/// machine affects less.
 fn least_of(runs: usize, mut work: impl FnMut()) -> f64 {
     (0..runs)
         .map(|_| {

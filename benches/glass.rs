@@ -1,6 +1,6 @@
-//! The cost of painting with Glass patterns, against what was promised: `cargo bench --bench glass`.
+//! The cost of painting with Glass patterns, compared with the guarantees: `cargo bench --bench glass`.
 //!
-//! The least of some runs on two threads; the machine's other work is in the figures.
+//! The minimum of several runs on two threads; other work on the machine affects the figures.
 
 use drypoint::drawing::Page;
 use drypoint::field::{Flow, GlassLevels, RibbonFit, glass_pattern, glass_ribbons};

@@ -1,7 +1,8 @@
-//! The structure grid against its promises: `cargo bench --bench grid`.
+//! The structure grid compared with its guarantees: `cargo bench --bench grid`.
 //!
-//! Two threads, in one run: field, grid and primitives of a portrait at 450 x 590 working pixels and 6 pixels a pitch, with the
-//! defaults; the paper's update written plainly on one thread; the growth with the page's area; coherent lines on a megapixel.
+//! Two threads, in one run: field, grid and primitives of a portrait at 450 x 590 working pixels and 6 pixels per pitch, with the
+//! defaults; a plain implementation of the paper's update on one thread; the growth with the page's area; coherent lines on a
+//! megapixel.
 
 #[path = "../tests/common/fields.rs"]
 mod fields;
@@ -40,7 +41,7 @@ fn main() {
     line("coherent lines, 1024 x 1024 px, s", lines, "at most 0.5 s", lines <= 0.5);
 }
 
-/// The run of least time in all.
+/// The run with the least total time.
 fn at_best(runs: usize, run: impl Fn() -> Vec<(String, f64)>) -> Vec<(String, f64)> {
     let sum = |steps: &Vec<(String, f64)>| steps.iter().map(|s| s.1).sum::<f64>();
     (0..runs).map(|_| run()).min_by(|a, b| sum(a).total_cmp(&sum(b))).expect("at least one run")
@@ -62,7 +63,7 @@ impl Observer for Clock {
     }
 }
 
-/// The astronaut in units of a millimetre a pitch, 6 pixels each.
+/// The astronaut at a pitch of one millimetre and 6 pixels per pitch.
 fn style_seconds(width: f64, height: f64) -> Vec<(String, f64)> {
     let bytes = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/samples/astronaut.jpg")).expect("the sample is there");
     let photograph = Photograph::decode(&bytes, Limits::default()).expect("the sample is sound");

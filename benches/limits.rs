@@ -1,6 +1,6 @@
-//! What users wait for, against what was promised: `cargo bench --bench limits`.
+//! What users wait for, compared with the guarantees: `cargo bench --bench limits`.
 //!
-//! Whole commands in processes of their own, with their peak memory (from `wait4` by way of `/usr/bin/time` where it is there, else
+//! Whole commands in their own processes, with their peak memory (from `wait4` through `/usr/bin/time` if available, else
 //! unknown), and ratios within one run, so that a busy machine does not decide.
 
 use drypoint::drawing::{Colour, Handling, Page};
@@ -34,7 +34,7 @@ fn main() {
     line("  10 x the paths cost times", growth, "at most 15", growth <= 15.0);
 }
 
-/// How long it takes to tell the time of many waves of 20 points each on a machine with GRBL.
+/// Seconds to estimate the time of many waves of 20 points each on a machine with GRBL.
 fn clock_seconds(count: usize) -> f64 {
     let servo = Profile::built_in("grbl-servo").expect("it is built in");
     let wave = |i: usize| {
@@ -59,7 +59,7 @@ fn clock_seconds(count: usize) -> f64 {
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
-/// The sample blown up to 4900 x 4900 pixels as JPEG.
+/// The sample enlarged to 4900 x 4900 pixels, as JPEG.
 fn large_photograph(folder: &Path, sample: &Path) -> PathBuf {
     let picture: RgbImage = image::open(sample).expect("the sample is sound").to_rgb8();
     let large = image::imageops::resize(&picture, 4900, 4900, image::imageops::FilterType::Triangle);
@@ -68,7 +68,7 @@ fn large_photograph(folder: &Path, sample: &Path) -> PathBuf {
     path
 }
 
-/// The least of some runs: wall seconds, and peak megabytes where they can be had.
+/// The best of several runs: wall seconds, and peak megabytes if known.
 fn best_of(runs: usize, photo: &Path, folder: &Path, extra: &[&str]) -> (f64, Option<f64>) {
     (0..runs).map(|_| run(photo, folder, extra)).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least one run")
 }

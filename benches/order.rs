@@ -1,7 +1,7 @@
 //! Path order on planted inputs: `cargo bench --bench order`, or with the folder of the peers' own inputs
-//! `cargo bench --bench order -- FOLDER` (files such as `dots_1000.txt`: a polyline a line, `x,y x,y ...` in millimetres).
+//! `cargo bench --bench order -- FOLDER` (files such as `dots_1000.txt`: one polyline per line, `x,y x,y ...` in millimetres).
 //!
-//! Pen-up travel without the way from and to home, against a plain nearest-neighbour order in the same run.
+//! Pen-up travel, without the way from and to home, compared with a plain nearest-neighbour order in the same run.
 
 use drypoint::geometry::Point;
 use drypoint::plot::{Direction, Effort, PathEnds, Stop, Visit, order, order_stops, pen_up_length};
@@ -13,7 +13,7 @@ fn main() {
     println!("{:14} {:>12} {:>22} {:>22}", "input", "neighbour mm", "fast mm, s", "full mm, s");
     let inputs = folder.map_or_else(generated, |folder| read(Path::new(&folder)));
     for (name, paths) in inputs {
-        // The naive order is quadratic: only where it ends.
+        // The naive order is quadratic: only for inputs where it finishes.
         let neighbour = if paths.len() <= 20_000 { without_home(&paths, &nearest_neighbour(&paths)) } else { f64::NAN };
         let [fast, full] = [Effort::Fast, Effort::Full].map(|effort| {
             let started = Instant::now();
@@ -25,7 +25,7 @@ fn main() {
     loops();
 }
 
-/// What it saves to enter loops anywhere rather than where they begin, on a sheet of 2000 circles and polygons.
+/// Saving from entering loops anywhere instead of at their start, on a sheet of 2000 circles and polygons.
 fn loops() {
     let rings: Vec<Vec<Point>> = (1..=2000).map(ring).collect();
     let given: Vec<Stop> = rings.iter().map(|ring| Stop::new(PathEnds { start: ring[0], end: ring[0] }, true)).collect();
@@ -65,7 +65,7 @@ fn without_home(paths: &[PathEnds], visits: &[Visit]) -> f64 {
     pen_up_length(paths, visits, start)
 }
 
-/// The naive order: always the nearest free end; n squared.
+/// The naive order: always the nearest free end; quadratic time.
 fn nearest_neighbour(paths: &[PathEnds]) -> Vec<Visit> {
     let mut left: Vec<usize> = (0..paths.len()).collect();
     let mut at = Point::ORIGIN;

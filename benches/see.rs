@@ -1,7 +1,7 @@
-//! What seeing costs, against what was promised: `cargo bench --bench see`.
+//! The cost of detection, compared with the guarantees: `cargo bench --bench see`.
 //!
-//! The whole command in processes of its own, with and without looking, on a photograph of 12 megapixels: wall seconds and peak memory
-//! (by way of `/usr/bin/time` where it is there, else unknown). Then the look alone.
+//! The whole command in its own processes, with and without detection, on a photograph of 12 megapixels: wall seconds and peak
+//! memory (through `/usr/bin/time` if available, else unknown). Then detection alone.
 
 use drypoint::interrupt::Interrupt;
 use drypoint::see::look;
@@ -36,7 +36,7 @@ fn alone(photograph: &Photograph) -> f64 {
     (0..3).map(|_| once()).fold(f64::INFINITY, f64::min)
 }
 
-/// The astronaut blown up to 3464 x 3464 pixels as JPEG.
+/// The astronaut enlarged to 3464 x 3464 pixels, as JPEG.
 fn large_photograph(folder: &Path) -> PathBuf {
     let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/astronaut.jpg");
     let picture: RgbImage = image::open(sample).expect("the sample is sound").to_rgb8();
@@ -56,12 +56,12 @@ fn nobody(folder: &Path) -> Vec<u8> {
     std::fs::read(path).expect("it was written")
 }
 
-/// The least of some runs: wall seconds, and peak megabytes where they can be had.
+/// The best of several runs: wall seconds, and peak megabytes if known.
 fn best_of(runs: usize, photo: &Path, folder: &Path, background: &str) -> (f64, Option<f64>) {
     (0..runs).map(|_| run(photo, folder, background)).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least one run")
 }
 
-/// Draws a subject given or found: the marks are few either way, so that the difference is the look.
+/// Draws with a given or a detected subject: the marks are few either way, so that the difference is the detection.
 fn run(photo: &Path, folder: &Path, background: &str) -> (f64, Option<f64>) {
     let timer = Path::new("/usr/bin/time");
     let mut command = if timer.exists() {

@@ -1,4 +1,4 @@
-//! Every hot stage by itself: `cargo bench --bench stages`.
+//! Every hot stage on its own: `cargo bench --bench stages`.
 
 use divan::{Bencher, black_box};
 use drypoint::drawing::{Drawing, Page};
@@ -32,7 +32,7 @@ fn drawing() -> Drawing {
     style.draw(&portrait(), &settings, 0, &Silent).expect("it draws")
 }
 
-/// Points that look random and are always the same.
+/// Deterministic pseudo-random points.
 fn points(count: usize, width: f64, height: f64) -> Vec<Point> {
     (1..=count)
         .map(|i| Point::new((i as f64 * 0.754_877_666).fract() * width, (i as f64 * 0.569_840_291).fract() * height))

@@ -1,11 +1,11 @@
-//! Makes the fields that the structure grid's paper speaks of as photographs to be drawn, with the lines that steer:
+//! Writes the fields of the structure grid's paper as photographs to be drawn, with their steering lines:
 //! `cargo run --release --example fields -- DIR` writes `circular.png`, `circular-edges.png`, `saddle.png` and `saddle-edges.png`.
 
 use image::{GrayImage, Luma};
 use std::path::Path;
 
 const SIDE: u32 = 900;
-/// Half the width of a steering line and the distance from one to the next, in parts of the half side.
+/// Half the width of a steering line, and the spacing of the lines, in half sides of the picture.
 const HALF_LINE: f64 = 0.004;
 const RINGS: f64 = 0.1;
 
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let pixel = |x: u32, y: u32| Luma([(255.0 * grey(at(x), at(y)).clamp(0.0, 1.0)).round() as u8]);
         GrayImage::from_fn(SIDE, SIDE, pixel).save(Path::new(&folder).join(name))
     };
-    // A ball lit from the upper left on a light ground, so that all tones occur along every ring.
+    // A ball lit from the upper left on a light ground, so that every ring has all tones.
     write("circular.png", &|x, y| {
         let r = x.hypot(y);
         let ground = 0.92 - 0.25 * (r - 0.8).max(0.0);
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A ramp from corner to corner.
     write("saddle.png", &|x, y| 0.5 + 0.24 * (x + y))?;
     write("saddle-edges.png", &|x, y| {
-        // The lines xy = c; their distance grows with the slope of xy.
+        // The lines xy = c; their spacing grows with the slope of xy.
         let slope = x.hypot(y).max(0.02);
         let step = 2.0 * RINGS * RINGS;
         let away =
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Lambert's law on a ball, with a little light from all round.
+/// Lambert's law on a ball, with some ambient light.
 fn lit(x: f64, y: f64) -> f64 {
     let z = (1.0 - x * x - y * y).max(0.0).sqrt();
     0.03 + 0.97 * (-0.5 * x - 0.55 * y + 0.67 * z).max(0.0)

@@ -1,4 +1,4 @@
-//! The map of the modules is kept: what each may use stands in the crate's documentation, and this test reads the code.
+//! Modules use only what the crate's documentation allows; this test reads the code.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Modules named after `crate::` in code that is not a test's.
+/// Modules named after `crate::` in non-test code.
 fn used_modules(text: &str) -> Vec<String> {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
     code.lines()
@@ -48,7 +48,7 @@ fn modules_use_only_what_they_may() {
     for (module, allowed) in MAY_USE {
         for file in rust_files(&source.join(module)) {
             for used in used_modules(&fs::read_to_string(&file).unwrap()) {
-                // A request to stop goes everywhere.
+                // The interrupt may be used everywhere.
                 let is_common = used == "interrupt";
                 assert!(is_common || used == *module || allowed.contains(&used.as_str()), "{} uses {used}", file.display());
             }
@@ -75,7 +75,8 @@ fn only_the_command_line_prints_or_opens_files() {
     }
 }
 
-/// Options are the command line's: the library says what was wrong and what would be accepted, and `cli/remedies.rs` which option helps.
+/// Options belong to the command line: the library says what was wrong and what would be accepted; `cli/remedies.rs` names the
+/// option that helps.
 #[test]
 fn the_library_names_no_options() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");

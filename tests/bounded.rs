@@ -1,5 +1,5 @@
-//! Whatever a file asks for is counted before it is done: each of these small files once took all memory or never ended. All of them
-//! are read, or refused with the number and the limit, within two gigabytes.
+//! Work is counted before it is done: each of these small files once took all memory or never ended. Each is read, or refused
+//! with the number and the limit, within two gigabytes.
 #![cfg(feature = "cli")]
 
 use assert_cmd::Command;
@@ -19,7 +19,7 @@ fn many(number: usize, element: impl Fn(usize) -> String) -> String {
     (0..number).map(element).collect()
 }
 
-/// Numbers from 0 to 100 that look random and are the same each time.
+/// Deterministic pseudo-random points from 0 to 100.
 fn scattered(number: usize) -> impl Iterator<Item = (f64, f64)> {
     let fraction = |i: usize, step: f64| 100.0 * (i as f64 * step).fract();
     (0..number).map(move |i| (fraction(i * i % 65_537, 0.618_034), fraction(i * i % 65_521, 0.414_214)))
@@ -42,7 +42,7 @@ fn told(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// It is done, or refused in words.
+/// The command succeeds or is refused with a message.
 fn is_bounded(name: &str, bytes: &[u8]) {
     for arguments in [&["inspect"][..], &["plot", "-o", "out.svg", "--order", "none"]] {
         if arguments[0] == "plot" && !name.contains(".svg") {
@@ -62,7 +62,7 @@ fn is_bounded(name: &str, bytes: &[u8]) {
     }
 }
 
-/// It is refused, with the number and the limit.
+/// The command is refused, with the number and the limit.
 fn is_refused(name: &str, bytes: &[u8]) {
     is_bounded(name, bytes);
     let output = run(name, bytes, &["inspect"]);
@@ -146,7 +146,7 @@ fn many_fine_dashes() {
     let line = |i: usize| format!("<path stroke='black' d='M0 {:.1}H100' stroke-dasharray='.0026 .0026'/>", i as f64 * 0.2);
     is_refused("dashes.svg", &svg(&many(500, line)));
     let pattern = "1 ".repeat(50_000);
-    // Too fine for its line, which is drawn whole.
+    // Too fine for its line; the line is drawn solid.
     is_bounded(
         "pattern.svg",
         &svg(&many(500, |_| format!("<path stroke='black' d='M0 0H9e8' stroke-dasharray='{pattern}' transform='scale(1e-7)'/>"))),
@@ -194,7 +194,7 @@ fn many_rules_on_many_elements() {
         "more.svg",
         &svg(&format!("<style>{rules}</style>{}", many(20_000, |i| format!("<path class='c{i}' d='M0 {}H9'/>", i % 90)))),
     );
-    // Each descendant is looked for at every distance.
+    // Each descendant is searched at every depth.
     let deep = format!("{}<path d='M0 0H9'/>{}", "<g>".repeat(100), "</g>".repeat(100));
     is_refused("descendants.svg", &svg(&format!("<style>x {}path{{stroke:red}}</style>{deep}", "g ".repeat(9))));
     is_refused("sheets.svg", &svg(&format!("{}<path d='M0 0H9' stroke='red'/>", "<style>.a{fill:red}</style>".repeat(30_000))));
@@ -282,7 +282,7 @@ fn the_option_lifts_the_limit() {
     assert_eq!(run("lines.svg", &lines, &["inspect", "--most-work", "1001"]).status.code(), Some(2));
 }
 
-/// What people do plot is far from the limit.
+/// Realistic drawings are far below the limit.
 #[test]
 fn large_drawings_are_read() {
     let points: String = scattered(1_000_000).fold(String::new(), |mut text, (x, y)| {

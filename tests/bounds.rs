@@ -1,5 +1,5 @@
-//! What is asked for has ends: nibs, tolerances and scales have ranges, and what would not fit into memory is refused before it is begun,
-//! with what would fit.
+//! Nibs, tolerances and scales have ranges; what would not fit into memory is refused before work begins, and the message says
+//! what would fit.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -22,7 +22,7 @@ fn folder() -> TempDir {
     folder
 }
 
-/// Exit status and message of a command that is stopped when it does far more than it should.
+/// Exit status and message of a command, which is killed if it does far more than it should.
 fn run(folder: &TempDir, arguments: &[&str]) -> (Option<i32>, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
     let output = command.current_dir(folder.path()).args(arguments).timeout(Duration::from_mins(4)).output().unwrap();

@@ -1,5 +1,5 @@
-//! The test sheet of every machine: inside sheet and machine, exact where it is measured, and read back as it was asked. A plot
-//! kept to a time.
+//! The test sheet of every machine: inside sheet and machine, exact where it is measured, and read back as requested. Also a plot
+//! limited to a time.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -56,7 +56,7 @@ fn rungs_of_the_ladder_have_the_spacings_that_their_labels_say() {
     for nib in [0.1, NIB, 0.5, 0.8] {
         let profile = Profile::built_in("grbl-servo").unwrap();
         let (_, sheet) = sheet_of(&profile, nib, 1);
-        // Six parallel lines of 5 mm, rung by rung; nothing else on the sheet is a horizontal line of 5 mm with two points.
+        // Six parallel lines of 5 mm per rung; no other horizontal two-point line on the sheet is 5 mm long.
         let is_rung = |p: &&Vec<Point>| p.len() == 2 && p[0].y == p[1].y && ((p[1].x - p[0].x) - 5.0).abs() < 1e-9;
         let lines: Vec<&Vec<Point>> = sheet.plot.pens[0].paths.iter().map(|path| &path.points).filter(is_rung).collect();
         assert_eq!(lines.len(), 12 * 6, "{nib}");

@@ -1,4 +1,4 @@
-//! Charcoal's promises, measured.
+//! Charcoal's guarantees, measured.
 
 mod common;
 
@@ -16,7 +16,7 @@ use rand::{RngExt, SeedableRng};
 use std::io::Cursor;
 use std::sync::Mutex;
 
-/// A photograph with its masks, and how it is drawn.
+/// A photograph with its masks and drawing settings.
 struct Sitting<'a> {
     photo: &'a [u8],
     mm: (f64, f64),
@@ -54,7 +54,7 @@ impl<'a> Sitting<'a> {
     }
 }
 
-/// Keeps the pictures of the features and their tones, and all warnings.
+/// Collects the feature labels, their tones and all warnings.
 #[derive(Default)]
 struct Notes {
     features: Mutex<Option<Raster<i32>>>,
@@ -85,7 +85,7 @@ impl Observer for Notes {
     }
 }
 
-/// Parallel lines one pixel wide, `spacing` pixels apart, at an angle; then a share of the pixels flipped.
+/// Parallel lines one pixel wide, `spacing` pixels apart, at an angle; then a fraction of the pixels is flipped.
 fn line_drawing(size: usize, degrees: f64, spacing: f64, flipped: f64, seed: u64) -> Raster<u8> {
     let normal = (degrees + 90.0).to_radians();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -176,7 +176,7 @@ fn scale_space_gives_back_the_modes() {
     assert!(right >= 95, "{right}");
 }
 
-/// The photograph lit from the left: the light falls to half at the right border.
+/// The photograph lit from the left: light falls to half at the right border.
 fn side_lit(photo: &[u8]) -> Vec<u8> {
     let picture = image::load_from_memory(photo).unwrap().to_rgba8();
     let width = f64::from(picture.width());
@@ -207,7 +207,7 @@ const ASTRONAUT: Boxes = [
     [203.0, 120.0, 247.0, 137.0],
     [201.0, 137.0, 252.0, 157.0],
 ];
-/// The brows are seen through the upper rim of the glasses, which hides the most of them.
+/// The brows are seen through the upper rim of the glasses, which hides most of them.
 const HOPPER: Boxes = [
     [178.0, 158.0, 252.0, 185.0],
     [276.0, 153.0, 347.0, 181.0],
@@ -220,7 +220,7 @@ const HOPPER: Boxes = [
 fn bust_boxes() -> Boxes {
     let text = String::from_utf8(sample("bust-features.txt")).unwrap();
     FacialFeature::ALL.map(|feature| {
-        // Eyes are not eyebrows: a number follows the name.
+        // "eye" must not match "eyebrow": a number follows the name.
         let is_its_own = |line: &&str| line.strip_prefix(feature.name()).is_some_and(|rest| rest.starts_with(' '));
         let line = text.lines().find(is_its_own).unwrap();
         let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
@@ -228,7 +228,7 @@ fn bust_boxes() -> Boxes {
     })
 }
 
-/// How many of the six features have their middle inside their box (an eighth of its size more on each side).
+/// Number of the six features whose middle is inside its box, grown by an eighth of its size on each side.
 fn features_in_place(name: &str, notes: &Notes, boxes: &Boxes, scale: f64) -> usize {
     let labels = notes.features.lock().unwrap();
     let Some(labels) = labels.as_ref() else {
@@ -274,7 +274,7 @@ fn features_of_the_busts_are_found_in_both_lights() {
     }
 }
 
-/// Right features without a face mask, in both lights.
+/// The number of features in place without a face mask, in both lights.
 fn portrait_features(name: &str, mm: (f64, f64), mask: Vec<u8>, boxes: &Boxes) -> Vec<usize> {
     let masks = [(MaskRole::Subject, mask)];
     let count = |(light, photo): (&str, Vec<u8>)| {
@@ -377,10 +377,10 @@ fn background_strokes_stay_off_the_subject() {
     }
 }
 
-/// Greatest width of a background's stroke: seven tenths of the stick's 0.42 mm.
+/// Maximum width of a background stroke: seven tenths of the stick's 0.42 mm.
 const BACKGROUND_NIB: f64 = 0.294;
 
-/// Clothing is shaded in a ring, whose inner border is hollow: strokes stay inside on both sides.
+/// Clothing is shaded in a ring, whose inner border is concave: strokes stay inside on both sides.
 #[test]
 fn shading_stays_in_its_region() {
     let ring = |x: u32, y: u32| (60.0..120.0).contains(&(f64::from(x) - 149.5).hypot(f64::from(y) - 149.5));
@@ -401,7 +401,7 @@ fn shading_stays_in_its_region() {
     }
 }
 
-/// The strokes of a bust's eyes, nose and mouth stay where there is ink to draw, those of its brows within them.
+/// The strokes of a bust's eyes, nose and mouth stay where there is ink to draw, those of its brows inside the brows.
 #[test]
 fn features_strokes_stay_in_them() {
     let masks = [
@@ -415,7 +415,7 @@ fn features_strokes_stay_in_them() {
     let drawing = sitting.draw(&notes);
     let (labels, tones) = (notes.features.into_inner().unwrap().unwrap(), notes.tones.into_inner().unwrap().unwrap());
     let pixel = 90.0 / labels.width() as f64;
-    // Faint ink and the brows are blurred by a pixel before they are cut out.
+    // Faint ink, and the brows: they are blurred by a pixel before they are cut out.
     let is_drawn = |x: isize, y: isize| tones.clamped(x, y) < 0.85 || matches!(labels.clamped(x, y), 1 | 2);
     let (mut count, mut farthest) = (0, f64::NEG_INFINITY);
     for mark in only(&drawing, "features").marks() {
@@ -435,7 +435,7 @@ fn features_strokes_stay_in_them() {
     assert!(count > 100 && farthest <= 0.5 * 0.42, "{count} {farthest}");
 }
 
-/// Two discs: the edge of one is kept, that of the other is not; a line that nothing in the picture shows is drawn as well.
+/// Two discs: the mask keeps one's edge and drops the other's; a line in the mask that is not in the picture is drawn too.
 #[test]
 fn the_keep_mask_chooses_edges_and_adds_its_own() {
     let disc = |x: u32, y: u32, cx: f64| (f64::from(x) - cx).hypot(f64::from(y) - 80.0);
@@ -477,7 +477,7 @@ fn in_disc(x: u32, y: u32) -> bool {
     (f64::from(x) - 149.5).hypot(f64::from(y) - 149.5) < 100.0
 }
 
-/// The layers keep to their regions: hair and background have no smudge under them, and no stroke comes twice.
+/// Layers keep to their regions: no smudge under hair and background, and no stroke twice.
 #[test]
 fn nothing_is_drawn_twice() {
     let masks = [
@@ -608,8 +608,8 @@ fn a_sketch_s_inkml_has_a_trace_for_each_stroke() {
     }
 }
 
-/// The light bust with its hair shaved off: skin in its place, lit from one side (`shade` from the lit side to the other, in encoded
-/// light), with a gleam on the forehead.
+/// The light bust with its hair replaced by skin, lit from one side (`shade` from the lit side to the other, in encoded light),
+/// with a highlight on the forehead.
 fn shaved_bust(shade: (f64, f64), gleam: f64) -> Vec<u8> {
     use image::{ImageFormat, Rgb};
     let open = |name: &str| image::load_from_memory(&sample(name)).unwrap();
@@ -625,7 +625,7 @@ fn shaved_bust(shade: (f64, f64), gleam: f64) -> Vec<u8> {
         hair.enumerate_pixels().filter(|(.., v)| v.0[0] > 127).fold((u32::MAX, 0), |(l, r), (x, ..)| (l.min(x), r.max(x)));
     let top = in_face().map(|(_, y, _)| y).min().unwrap();
     let (width, middle) = (f64::from(right - left), 0.5 * f64::from(left + right));
-    // With the single strands that hang out of the mask.
+    // Includes single strands that hang out of the mask.
     let is_near = |x: u32, y: u32| {
         let step = |v: u32, by: i64, most: u32| (i64::from(v) + by).clamp(0, i64::from(most) - 1) as u32;
         let reach = [-14, -7, 0, 7, 14_i64];
@@ -637,7 +637,7 @@ fn shaved_bust(shade: (f64, f64), gleam: f64) -> Vec<u8> {
         let across = (f64::from(x) - f64::from(left)) / width;
         let away = (f64::from(x) - middle).hypot(f64::from(y) - f64::from(top)) / (0.22 * width);
         let share = shade.0 + (shade.1 - shade.0) * across + gleam * (-away * away).exp();
-        // Skin in the shade is a little redder.
+        // Skin in shade is a little redder.
         let redder = [1.0, 1.0 - 0.1 * (1.0 - share).max(0.0), 1.0 - 0.2 * (1.0 - share).max(0.0)];
         let pixel = [0, 1, 2].map(|i| (skin[i] * share * redder[i]).clamp(0.0, 255.0) as u8);
         bust.put_pixel(x, y, Rgb(pixel));

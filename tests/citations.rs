@@ -1,11 +1,11 @@
-//! Comments and parameters cite sections, figures and equations that the works have.
+//! Comments and parameters cite only sections, figures and equations that exist in the cited works.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What a work's table of contents lists: its numbered sections (chapters among them), its greatest figure of each chapter (or of the
-/// whole, as chapter 0), its greatest equation, and its appendices.
+/// A work's contents: its numbered sections (including chapters), the last figure of each chapter (chapter 0 is the whole work),
+/// the last equation, and its appendices.
 struct Work {
     author: &'static str,
     sections: &'static [&'static str],
@@ -66,7 +66,7 @@ const WORKS: &[Work] = &[
     },
 ];
 
-/// Whose work a file of a style follows where it names none itself.
+/// The work that a style's files follow if they name none.
 const STYLES: &[(&str, &str)] =
     &[("hedcut", "Bruehl"), ("grid", "Son"), ("engrave", "Galarza"), ("charcoal", "Wong"), ("glass", "Papari")];
 
@@ -82,7 +82,7 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// What a file says in prose: its comments, line ends taken out, and the parameters' sources and meanings.
+/// The prose of a file: its comments with line ends removed, and the parameters' sources and meanings.
 fn prose(text: &str) -> String {
     let comments =
         text.lines().filter_map(|line| line.trim_start().strip_prefix("//")).map(|line| line.trim_start_matches(['/', '!']));
@@ -100,7 +100,7 @@ enum Of {
     Equation,
 }
 
-/// The numbers cited in a text: whose, of what, which.
+/// The citations in a text: author, kind and number.
 fn citations(text: &str, usual: Option<&'static str>) -> Vec<(&'static str, Of, String)> {
     let mut found = Vec::new();
     let (mut author, mut of) = (usual, None);
@@ -119,16 +119,16 @@ fn citations(text: &str, usual: Option<&'static str>) -> Vec<(&'static str, Of, 
             "and" | "to" | "et" | "al" => of,
             number if is_number(number) => {
                 if let (Some(author), Some(of)) = (author, of) {
-                    // Not a year, nor a length or a share: what follows would be its unit.
+                    // Not a year, length or percentage, which would be followed by a unit.
                     let is_quantity =
                         words.get(i + 1).is_some_and(|next| ["px", "mm", "%", "degrees", "iterations"].contains(next));
-                    // "Son 4.1, 0 to 4 levels": beyond a comma only what has a point is sure to be another section.
+                    // "Son 4.1, 0 to 4 levels": after a comma only a number with a point is certainly another section.
                     let is_beside = i > 0 && words[i - 1].ends_with(',') && !number.contains('.');
                     if number.len() < 7 && !is_beside && !is_quantity && number.parse::<u32>().ok().is_none_or(|n| n < 100) {
                         found.push((author, of, number.to_owned()));
                     }
                 }
-                // "Wong 6.3.1, n" and "sections 3.1 and 4": a list goes on over its commas.
+                // "Wong 6.3.1, n" and "sections 3.1 and 4": a list continues after commas.
                 if raw.ends_with([',', ';', ')', '.', ':']) && !raw.ends_with(',') { None } else { of }
             }
             _ => None,
@@ -152,7 +152,7 @@ fn exists(work: &Work, of: Of, number: &str) -> bool {
         table.iter().any(|(known, most)| *known == chapter && last <= *most)
     };
     match of {
-        // Papari's parameters name equations by their numbers alone.
+        // Papari's parameters cite equations by number alone.
         Of::Section => work.sections.contains(&number) || (work.author == "Papari" && in_table(work.equations)),
         Of::Figure => in_table(work.figures),
         Of::Equation => in_table(work.equations),

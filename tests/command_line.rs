@@ -1,4 +1,4 @@
-//! The command line's contract: exit status, messages, whole files or none, the same bytes on any number of threads.
+//! The command line's contract: exit status, messages, complete files or none, the same bytes on any number of threads.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -14,7 +14,7 @@ fn drypoint() -> Command {
     Command::new(env!("CARGO_BIN_EXE_drypoint"))
 }
 
-/// A folder with a small good photograph in it.
+/// A folder with a small valid photograph.
 fn folder() -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let photo = folder.path().join("photo.png");
@@ -26,7 +26,7 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Runs a command that must fail; it says one line with `words`, and leaves nothing new behind.
+/// Runs a command that must fail with one line that contains `words`, and must leave no new file.
 fn refuses(folder: &Path, status: i32, words: &str, arguments: &[&str]) {
     let before = fs::read_dir(folder).unwrap().count();
     let output = drypoint().current_dir(folder).args(arguments).output().unwrap();
@@ -41,7 +41,7 @@ fn refuses(folder: &Path, status: i32, words: &str, arguments: &[&str]) {
     assert_eq!(fs::read_dir(folder).unwrap().count(), before, "{arguments:?} left a file behind");
 }
 
-/// A PNG header of any size with no pixels behind it.
+/// A PNG header of any size, without pixels.
 fn png_header(width: u32, height: u32) -> Vec<u8> {
     let mut chunk = b"IHDR".to_vec();
     chunk.extend(width.to_be_bytes());
@@ -71,8 +71,8 @@ fn bad_photographs_are_named_and_explained() {
     put("none.png", &png_header(0, 10));
     for (name, words) in [
         ("empty.jpg", "empty.jpg is empty"),
-        ("text.jpg", "is not an image that drypoint knows"),
-        ("magic.png", "is not an image that drypoint knows"),
+        ("text.jpg", "is not in a known image format"),
+        ("magic.png", "is not in a known image format"),
         ("huge.png", "65535 x 65535 px, beyond the limit of 200 megapixels"),
         ("none.png", "none.png is a PNG image"),
         ("missing.jpg", "missing.jpg does not exist"),
@@ -104,7 +104,7 @@ fn an_unreadable_photograph_is_named() {
     if fs::File::open(&photo).is_err() {
         return refuses(folder.path(), 1, "permission denied", &["draw", "photo.png", "-o", "out.svg"]);
     }
-    // Permissions do not bind the superuser: run as nobody.
+    // Permissions do not bind the superuser, so run as nobody.
     let output = std::process::Command::new("setpriv")
         .args([
             "--reuid=65534",

@@ -1,4 +1,4 @@
-//! Depth found by itself: like the true one of the busts, smooth, ordered as heads and bodies are, and nothing behind the people.
+//! Estimated depth: close to the busts' true depth, smooth, heads and bodies in the right order, nothing outside the people.
 #![cfg(feature = "see")]
 
 mod common;
@@ -21,7 +21,7 @@ fn depth_of(sight: &Sight) -> &Raster<u16> {
     sight.depth.as_ref().unwrap()
 }
 
-/// Nearness 0 to 1 at a point of the first face, moved by so many widths of the face to the right and down.
+/// Nearness 0 to 1 at a landmark of the first face, offset by widths of the face to the right and down.
 fn nearness(sight: &Sight, point: usize, right: f64, down: f64) -> f64 {
     let depth = depth_of(sight);
     let landmarks = &sight.faces[0].landmarks;
@@ -46,11 +46,11 @@ fn normal(heights: &Raster<f32>, x: usize, y: usize) -> [f64; 3] {
     [-right / length, -down / length, 1.0 / length]
 }
 
-/// Mean angle in degrees between the normals of two surfaces inside a region, and between those of the first and a plane's.
+/// Mean angle in degrees between the normals of two surfaces inside a region, and between the first's normals and a plane's.
 fn angles(truth: &Raster<f32>, found: &Raster<f32>, region: &Raster<f32>) -> [f64; 2] {
     let places: Vec<(usize, usize)> = (12..truth.height() - 12)
         .flat_map(|y| (12..truth.width() - 12).map(move |x| (x, y)))
-        // A dozen pixels inside.
+        // At least a dozen pixels inside.
         .filter(|&(x, y)| {
             [(12, 12), (0, 12), (24, 12), (12, 0), (12, 24)].iter().all(|(i, j)| region.get(x + i - 12, y + j - 12) > 0.5)
         })
@@ -60,7 +60,7 @@ fn angles(truth: &Raster<f32>, found: &Raster<f32>, region: &Raster<f32>) -> [f6
         let mean = values().sum::<f64>() / places.len() as f64;
         (values().map(|v| (v - mean).powi(2)).sum::<f64>() / places.len() as f64).sqrt()
     };
-    // Heights of one spread; the true head is about as deep as 0.6 of the picture's height for a nearness of 1.
+    // Scaled to the same spread; the true head is about as deep as 0.6 of the picture's height for a nearness of 1.
     let deep = 480.0;
     let scale = (spread(truth) / spread(found)) as f32;
     let smooth = |heights: &Raster<f32>, scale: f32| gaussian_blur(&heights.map(|v| deep * scale * v), 1.0);
@@ -70,7 +70,7 @@ fn angles(truth: &Raster<f32>, found: &Raster<f32>, region: &Raster<f32>) -> [f6
     [mean(&|x, y| angle(normal(&truth, x, y), normal(&found, x, y))), mean(&|x, y| angle(normal(&truth, x, y), [0.0, 0.0, 1.0]))]
 }
 
-/// Faces within 22 degrees where a plane is off by 39, clothing within 19 where a plane is off by 36, whatever the skin.
+/// Faces within 22 degrees, where a plane is off by 39; clothing within 19, where a plane is off by 36; for every skin.
 #[test]
 fn the_busts_have_their_own_form() {
     let truth = grey("bust-depth.png");
@@ -98,12 +98,12 @@ fn heads_and_bodies_are_ordered() {
         assert!(nose > 0.95 && nose > forehead && nose > chin, "{name}: {nose} {forehead} {chin}");
         assert!(chin > at(152, 0.25) && at(152, 0.25) > 0.0, "{name}: {chin}, neck {}", at(152, 0.25));
         assert!(chin > at(152, 0.6) && at(152, 0.6) > 0.0, "{name}: {chin}, chest {}", at(152, 0.6));
-        // Above the forehead first hair that is nearly as near, then less and less.
+        // Above the forehead: first hair that is nearly as near, then ever farther.
         assert!(at(10, -0.05) > at(10, -0.2) && at(10, -0.2) > 0.0, "{name}: {} {}", at(10, -0.05), at(10, -0.2));
     }
 }
 
-/// Nothing where there is no subject, something where there is; the nearest is 65535; no step and no crease inside.
+/// Zero exactly outside the subject; the nearest is 65535; no step and no crease inside.
 #[test]
 fn depth_is_smooth_inside_the_subject_and_nothing_outside() {
     for name in PEOPLE {
@@ -114,7 +114,7 @@ fn depth_is_smooth_inside_the_subject_and_nothing_outside() {
             assert!(if subject == 0 { nearness == 0 } else { subject < 128 || nearness > 0 }, "{name}: {subject} {nearness}");
         }
         assert_eq!(depth.pixels().iter().max(), Some(&65535), "{name}");
-        // Pixels of the depth across the face.
+        // Width of the face in pixels of the depth map.
         let width = sight.faces[0].landmarks.width() * depth.width() as f64 / f64::from(sight.width);
         let (mut steepest, mut sharpest) = (0, 0);
         for (y, x) in (1..depth.height() - 1).flat_map(|y| (1..depth.width() - 1).map(move |x| (y, x))) {
@@ -129,12 +129,12 @@ fn depth_is_smooth_inside_the_subject_and_nothing_outside() {
         }
         let (slope, bend) = (width * f64::from(steepest) / 65535.0, width * width * f64::from(sharpest) / 65535.0);
         println!("{name}: slope {slope:.1} for each width of the face, bend {bend:.0} for each of its squares");
-        // 16 portraits: slopes up to 3.7, bends up to 80; a step of a hundredth in one pixel bends by 600.
+        // 16 portraits: slopes up to 3.7, bends up to 80; a step of a hundredth within one pixel bends by 600.
         assert!(slope < 5.0 && bend < 120.0, "{name}: {slope} {bend}");
     }
 }
 
-/// A large face and one half its size beside it: the larger is nearer, the smaller has relief of its own.
+/// A large face and one of half its size beside it: the larger is nearer, the smaller has its own relief.
 #[test]
 fn of_two_people_the_larger_face_is_nearer() {
     let bust = image::load_from_memory(&sample("bust-light.png")).unwrap().to_rgb8();

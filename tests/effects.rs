@@ -1,4 +1,4 @@
-//! Each parameter of each style does something; where it cannot, it says so and what would switch it on.
+//! Each parameter of each style has an effect; where it cannot, a warning says so and names what would enable it.
 
 #[path = "common/any_style.rs"]
 mod any_style;
@@ -12,19 +12,19 @@ use drypoint::style::{Kind, Need, Parameter, find};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use std::io::Cursor;
 
-/// What a style is tried on.
+/// A style and the input to try it on.
 struct Trial {
     style: &'static str,
     photo: Vec<u8>,
     mm: (f64, f64),
-    /// Set throughout, so that the drawing is quick.
+    /// Set throughout, to keep the drawing fast.
     set: &'static [(&'static str, &'static str)],
-    /// Masks and a depth map to be given where a need asks for them.
+    /// Masks and a depth map, passed if a parameter needs them.
     masks: Vec<(MaskRole, Vec<u8>)>,
     depth: Vec<u8>,
 }
 
-/// Settings, masks and depth that meet needs, or break one.
+/// Settings, masks and depth that meet a parameter's needs, or break one.
 #[derive(Clone, Default)]
 struct Given {
     set: Vec<(String, String)>,
@@ -61,7 +61,7 @@ impl Trial {
         match need {
             Need::Word(name, words) => set(name, words[0].to_owned()),
             Need::Above(name, least) => {
-                // The default, where it will do.
+                // Keep the default if it suffices.
                 if self.kind(name).default_number(0.6).is_none_or(|default| default <= *least) {
                     set(name, (least + 2.0).to_string());
                 }
@@ -95,7 +95,7 @@ impl Trial {
         }
     }
 
-    /// What each parameter does that should do something and does not.
+    /// Parameters that should have an effect and have none.
     fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for parameter in self.parameters() {
@@ -220,7 +220,7 @@ fn every_parameter_of_glass() {
 
 #[test]
 fn every_parameter_of_charcoal() {
-    // A face and hair are needed; coarse grain is quick.
+    // Face and hair are needed; coarse grain is fast.
     let (photo, masks) = (sample("bust-light.png"), vec![(MaskRole::Subject, sample("bust-mask-subject.png"))]);
     check(&Trial { photo, mm: (30.0, 40.0), masks, ..trial("charcoal", &[("grain", "2mm")]) });
 }
@@ -232,7 +232,7 @@ fn a_default_that_is_spelled_out_is_no_wish() {
     assert_eq!(order.try_draw().1, "");
 }
 
-/// The longest edges alone, however they are found.
+/// Only the longest edges, whichever detector finds them.
 #[test]
 fn a_hedcut_s_outline_is_of_the_longest_lines() {
     let photo = sample("grace-hopper.jpg");
@@ -247,7 +247,7 @@ fn a_hedcut_s_outline_is_of_the_longest_lines() {
                 .collect();
             let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
             println!("{lines}, {least}: {} lines, the shortest {shortest:.2} mm", lengths.len());
-            // What the picture's border cuts off a line is not counted again.
+            // The parts that the picture's border cuts off a line are not counted.
             assert!(!lengths.is_empty() && shortest > least - 1.5, "{lines}: {shortest} of {least}");
         }
     }

@@ -10,12 +10,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// What a drawing at an end may take here; by itself on a quiet machine the slowest takes a quarter of a minute, and this one may be busy.
+/// Time limit of one drawing; on an idle machine the slowest takes a quarter of a minute, but this one may be busy.
 const MOST: Duration = Duration::from_mins(4);
-/// Drawings at the same time.
+/// Drawings made at the same time.
 const MOST_WORKERS: usize = 2;
 
-/// Every parameter and every value of it that is tried: both ends, or all words, or places.
+/// Every parameter with each value to try: both ends, or all words, or places.
 fn values() -> Vec<(&'static str, &'static str, String)> {
     let of = |kind: &Kind| match *kind {
         Kind::Choice(words) => words.iter().map(|word| (*word).to_owned()).collect(),
@@ -28,7 +28,7 @@ fn values() -> Vec<(&'static str, &'static str, String)> {
         .collect()
 }
 
-/// What is wrong with a drawing at an end, if anything; that there is nothing to draw is right.
+/// The fault of a drawing at an end, if any; "nothing to draw" is no fault.
 fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Option<String> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
     command.current_dir(folder.path()).timeout(MOST).args(["draw", "face.jpg", "--size", "25x30mm", "--fit", "cover", "-q"]);
@@ -50,7 +50,7 @@ fn both_ends_of_every_parameter_are_drawn() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("face.jpg"), sample("astronaut.jpg")).unwrap();
     if cfg!(feature = "see") {
-        // Looked at once for all.
+        // Analysed once for all drawings.
         let mut see = Command::new(env!("CARGO_BIN_EXE_drypoint"));
         see.current_dir(folder.path()).args(["see", "face.jpg", "-o", "sight", "-q"]).assert().success();
     }

@@ -1,4 +1,4 @@
-//! The engraving's promises: lines never cross, follow the depth, and print the tone.
+//! The engraving's guarantees: lines never cross, follow the depth, and print the tone.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -16,7 +16,7 @@ use std::io::Cursor;
 use std::sync::Mutex;
 
 const PITCH: f64 = 0.6;
-/// Least distance of lines that the default keeps.
+/// Least distance between lines that the default keeps.
 const MIN_GAP: f64 = 0.25 * PITCH;
 const WHOLE: &[(&str, &str)] = &[("look", "hatch"), ("thinnest", "0")];
 
@@ -81,11 +81,11 @@ fn segment_distance(a: [Point; 2], b: [Point; 2]) -> f64 {
     ends.into_iter().map(|(p, s)| distance_to_segment(p, s[0], s[1])).fold(f64::INFINITY, f64::min)
 }
 
-/// A segment with the number of its line.
+/// A segment with the index of its line.
 type Leg = (usize, [Point; 2]);
 
-/// Least distance of any two lines of a set, by an exact test of all segments that share a cell; those farther than a cell
-/// count as a cell.
+/// Least distance between any two lines of a set, by an exact test of all segments that share a cell; larger distances count as
+/// one cell.
 fn least_distance(lines: &[Vec<Point>], cell: f64) -> (f64, Point) {
     let mut cells: HashMap<(i64, i64), Vec<Leg>> = HashMap::new();
     for (k, line) in lines.iter().enumerate() {
@@ -119,7 +119,7 @@ fn assert_apart(drawing: &Drawing, what: &str) {
     }
 }
 
-/// Numbers from 0 to 1 that look random.
+/// Deterministic pseudo-random numbers from 0 to 1.
 fn hash(seed: u64, i: u64) -> f64 {
     let mut v = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ i.wrapping_mul(0xbf58_476d_1ce4_e5b9);
     v = (v ^ (v >> 30)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -136,7 +136,7 @@ fn lines_never_cross_on_noise() {
     assert_never_crossing(200..250);
 }
 
-/// Random depth maps, smooth ones below 200 and noise from there on.
+/// Random depth maps: smooth for seeds below 200, noise from there on.
 fn assert_never_crossing(seeds: std::ops::Range<u64>) {
     let photo = png_of_light(60, 60, |x, y| 0.15 + 0.6 * f64::from(x + y) / 120.0);
     for seed in seeds {
@@ -157,7 +157,7 @@ fn assert_never_crossing(seeds: std::ops::Range<u64>) {
     }
 }
 
-/// From 0 to 1.
+/// Stretched to 0 to 1.
 fn stretched(raster: &Raster<f32>) -> Raster<f32> {
     let (low, high) = raster.pixels().iter().fold((1.0_f32, 0.0_f32), |(l, h), &v| (l.min(v), h.max(v)));
     raster.map(|v| (v - low) / (high - low))
@@ -179,7 +179,7 @@ fn lines_show_a_hemisphere_s_form() {
         nearness(Point::new((x as f64 + 0.5) * 0.1, (y as f64 + 0.5) * 0.1)).max(1e-4) as f32
     }));
     let drawing = sheet.draw(&portrait);
-    // Heights of base line k at x, as drawn: the line whose base height, less the displacement there, passes nearest.
+    // Heights of base line k at x as drawn: of the line whose base height minus its displacement there passes nearest.
     let mut heights: HashMap<(i64, i64), f64> = HashMap::new();
     let (mut worst, mut count) = (0.0_f64, 0);
     let is_fair = |p: Point| p.distance(Point::new(0.5 * size, 0.5 * size)) < 0.8 * radius;
@@ -204,7 +204,7 @@ fn lines_show_a_hemisphere_s_form() {
     let mut steepest = 0.0_f64;
     for (&(k, i), &y) in &heights {
         let (Some(next), Some(aside)) = (heights.get(&(k + 1, i)), heights.get(&(k, i + 1))) else { continue };
-        // What a reader of the lines sees: the slope along from the line itself, across from its distance to the next.
+        // What the lines show: the slope along comes from the line itself, the slope across from its distance to the next.
         let slope_x = -(aside - y) / 0.1 * radius / phi;
         let slope_up = ((y - next) / PITCH - 1.0) * PITCH / PITCH * radius / phi;
         let p = Point::new(0.1 * i as f64 + 0.05, -(k as f64 + 0.5) * PITCH);
@@ -227,7 +227,7 @@ fn height_at(line: &[Point], x: f64) -> Option<f64> {
     })
 }
 
-/// Ten patches, tone 0.05 to 0.95, and how far the print of each is off.
+/// The tone error of each of ten patches, tone 0.05 to 0.95.
 fn wedge_errors(look: &str) -> Vec<f64> {
     let photo = png_of_light(600, 240, |x, y| 0.05 + 0.1 * f64::from(x / 120 + 5 * (y / 120)));
     let sheet = Sheet::new(&photo, (60.0, 24.0), &[("look", look)]);
@@ -284,7 +284,7 @@ fn samples_keep_their_tone_and_their_lines_apart() {
     }
 }
 
-/// Mean absolute difference inside the subject between print and wanted tone, both blurred by 1.5 pitches.
+/// Mean absolute difference inside the subject between printed and target tone, both blurred by 1.5 pitches.
 fn tone_error(drawing: &Drawing, portrait: &Portrait) -> f64 {
     let (columns, rows) = (portrait.placement.columns, portrait.placement.rows);
     let white = rendered(&svg_of(drawing), 40.0);
@@ -313,7 +313,7 @@ fn png_of_colours(width: u32, height: u32, colour: impl Fn(u32, u32) -> [u8; 3])
     bytes.into_inner()
 }
 
-/// Two regions with a slanted straight border: dark grey left of it, light grey right.
+/// Two regions with a slanted straight border: dark grey to its left, light grey to its right.
 fn two_regions(hues: [[u8; 3]; 2], set: &[(&str, &str)]) -> (Drawing, impl Fn(Point) -> f64 + use<>) {
     let is_left = |x: u32, y: u32| f64::from(x) < 150.0 + 0.05 * f64::from(y);
     let photo = png_of_light(300, 300, |x, y| if is_left(x, y) { 0.35 } else { 0.65 });
@@ -326,7 +326,7 @@ fn two_regions(hues: [[u8; 3]; 2], set: &[(&str, &str)]) -> (Drawing, impl Fn(Po
     sheet.masks.push((MaskRole::Scribbles, scribbles));
     let mut portrait = sheet.portrait();
     portrait.depth = Some(portrait.tone.map(|_| 0.5));
-    // Above 0 to the right of the border, in millimetres.
+    // Positive to the right of the border, in millimetres.
     (sheet.draw(&portrait), |p: Point| (p.x - 15.0 - 0.05 * p.y) / 0.05_f64.hypot(1.0))
 }
 
@@ -368,9 +368,9 @@ impl Observer for Regions {
     }
 }
 
-/// A photograph cut into regions, by superpixels and by scribbles, with lines of every direction.
+/// A photograph divided into regions, by superpixels and by scribbles, with lines of every direction.
 fn samples_in_regions(photo: &[u8], (columns, rows): (u32, u32), overlap: &str) -> Vec<(&'static str, Drawing, Raster<i32>)> {
-    // Bars a third of the picture apart, each in a hue of its own.
+    // Bars a third of the picture apart, each with its own hue.
     let hues = [[255, 0, 0], [255, 200, 0], [0, 255, 0], [0, 255, 255], [0, 100, 255], [255, 0, 255], [255, 0, 100]];
     let scribbles = png_of_colours(columns, rows, |x, y| match (x % 170, y % 170) {
         (70..100, 50..120) => hues[((x / 170 + 3 * (y / 170)) % 7) as usize],
@@ -405,7 +405,7 @@ fn pixels_to(labels: &Raster<i32>, label: i32, p: Point) -> f64 {
     least
 }
 
-/// The region that a stroke leaves least, and by how many millimetres.
+/// The region that a stroke leaves least, and by how many millimetres it leaves it.
 fn region_of(labels: &Raster<i32>, line: &[Point]) -> (i32, f64) {
     let places: Vec<Point> = line.iter().map(|p| Point::new(p.x * 10.0, p.y * 10.0)).collect();
     let label_at = |p: &Point| labels.clamped(p.x.floor() as isize, p.y.floor() as isize);
@@ -418,7 +418,7 @@ fn region_of(labels: &Raster<i32>, line: &[Point]) -> (i32, f64) {
     crossed.into_iter().map(|label| (label, farthest(label))).min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
 }
 
-/// Longest way that strokes of two regions run within 15 degrees and half a pitch of each other.
+/// Greatest length along which strokes of two regions run within 15 degrees and half a pitch of each other.
 fn longest_side_by_side(lines: &[(i32, Vec<Point>)]) -> f64 {
     const STEP: f64 = 0.1;
     let fine: Vec<(i32, Vec<Point>)> = lines.iter().map(|(label, line)| (*label, resample(line, STEP))).collect();
@@ -429,7 +429,7 @@ fn longest_side_by_side(lines: &[(i32, Vec<Point>)]) -> f64 {
     }
     let mut longest = 0.0_f64;
     for (label, line) in &fine {
-        // How far each stroke of another region has come along beside this one.
+        // Length that each stroke of another region has run beside this one so far.
         let mut runs: HashMap<usize, f64> = HashMap::new();
         for pair in line.windows(2) {
             let (way, (x, y)) = (pair[1] - pair[0], cell(pair[0]));
@@ -485,7 +485,7 @@ fn assert_clean_edges(overlap: &str, most: f64) {
                  {shortest:.3} mm, two run side by side for {beside:.2} mm",
                 layer.name
             );
-            // Half a pixel: the regions' borders are curves between the pixels' centres.
+            // Half a pixel: the regions' borders are curves between pixel centres.
             assert!(over <= most + 0.05, "{over}");
             assert!(shortest >= 0.5 * PITCH - 1e-3, "{shortest}");
             assert!(beside <= 2.0 * PITCH, "{beside}");
@@ -548,7 +548,7 @@ fn strokes_are_few_smooth_curves() {
     assert!(per_cm <= 12.0, "{per_cm}");
 }
 
-/// Bezier segments a centimetre of stroke, both sides and ends, on a smooth form; no outline of them may meet itself.
+/// Bezier segments per centimetre of stroke, both sides and ends, on a smooth form; no outline may cross itself.
 fn segments_a_centimetre() -> f64 {
     let photo = png_of_light(300, 300, |x, y| 0.45 + 0.3 * (f64::from(x) / 70.0).sin() * (f64::from(y) / 90.0).cos());
     let sheet = Sheet::new(&photo, (60.0, 60.0), WHOLE);
@@ -573,7 +573,7 @@ fn segments_a_centimetre() -> f64 {
     per_cm
 }
 
-/// Whether a closed ring crosses itself, by all pairs of segments that are near along x.
+/// True if a closed ring crosses itself, by testing all pairs of segments that are near along x.
 fn meets_itself(ring: &[Point]) -> bool {
     let count = ring.len();
     let segment = |i: usize| [ring[i], ring[(i + 1) % count]];

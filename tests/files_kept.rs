@@ -1,4 +1,4 @@
-//! Nothing that was given is destroyed: no output is an input or another output, whatever way it is spelled.
+//! No input is destroyed: no output may be an input or another output, however its path is spelled.
 #![cfg(feature = "cli")]
 
 mod common;

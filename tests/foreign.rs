@@ -1,4 +1,4 @@
-//! SVGs of other programs: each file of `tests/data/foreign` is drawn as it looks, or what is not drawn is counted.
+//! SVGs of other programs: each file of `tests/data/foreign` is drawn as it looks, and what is not drawn is counted.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -17,7 +17,8 @@ use machine_file::picture;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// A file, its layers (`pen name strokes/fills`), millimetres under `lines`, whether fills leave ink under `ink`, and what is counted.
+/// A file, its layers (`pen name strokes/fills`), millimetres under `lines`, whether fills leave ink under `ink`, and what is
+/// counted as not drawn.
 type Expected = (&'static str, &'static str, f64, bool, &'static str);
 
 const FILES: &[Expected] = &[
@@ -130,7 +131,7 @@ fn each_file_is_drawn_as_it_looks_or_counted() {
         if (drawn(&lines) - mm).abs() > 0.1 {
             writeln!(wrong, "{name}: {} mm, not {mm}", drawn(&lines)).unwrap();
         }
-        // Nothing is hatched by surprise: under `ink` the strokes, as wide as the nib or less, stay what they are.
+        // Nothing is hatched unexpectedly: under `ink`, strokes up to the nib's width stay strokes.
         let ink = drawn(&plot(&drawing, InkModel::Ink));
         let are_thin = ![
             "nested-transforms.svg",
@@ -153,7 +154,7 @@ fn each_file_is_drawn_as_it_looks_or_counted() {
 
 const PIXELS_PER_MM: f64 = 20.0;
 
-/// Of the first picture's ink, the part within 0.15 mm of the second's.
+/// The fraction of the first picture's ink within 0.15 mm of the second's.
 fn near(ink: &Raster<u8>, other: &Raster<u8>) -> f64 {
     let Some(nearest) = nearest_seed(other) else { return 0.0 };
     let (mut all, mut close) = (0.0, 0.0);
@@ -168,7 +169,7 @@ fn near(ink: &Raster<u8>, other: &Raster<u8>) -> f64 {
     close / all
 }
 
-/// Files of strokes half a millimetre wide, whose tool paths look like them.
+/// Files with strokes half a millimetre wide, whose tool paths must look like them.
 #[test]
 fn the_tool_paths_look_like_the_file() {
     for name in [
@@ -194,7 +195,7 @@ fn the_tool_paths_look_like_the_file() {
         let (drawn, added) = (near(&theirs, &ours), near(&ours, &theirs));
         println!("{name}: {drawn:.4} of its ink is drawn, {added:.4} of ours is its");
         assert!(drawn >= 0.99, "{name}: {drawn}");
-        // Round ends of the pen reach past flat ones of the file.
+        // The pen's round ends extend past the file's flat ones.
         assert!(added >= if name.starts_with("dash") { 0.97 } else { 0.99 }, "{name}: {added}");
     }
 }
@@ -229,7 +230,8 @@ fn what_is_covered_can_be_left_out() {
     let seen = |hides, model| {
         drawn(&plot(&occluded(&imported.drawing(), &imported.painting, hides, &Interrupt::never()).unwrap(), model))
     };
-    // The disc takes 40 mm of one line; the rectangle 20 mm and the white stroke 10 mm of the other; what is translucent, nothing.
+    // The disc hides 40 mm of one line; the rectangle 20 mm and the white stroke 10 mm of the other; translucent shapes hide
+    // nothing.
     let lines = seen(Hides::AllLines, InkModel::Lines);
     assert!((lines - 90.0).abs() < 0.1, "{lines}");
     let strokes: f64 =
@@ -255,7 +257,7 @@ fn what_is_no_svg_is_refused_in_words() {
     assert!(read_svg(deep.as_bytes()).unwrap_err().to_string().contains("nested"));
 }
 
-/// Runs `drypoint plot` on a file of the corpus: success, what it says, and its report.
+/// Runs `drypoint plot` on a file of the corpus; returns success, messages and report.
 fn command(name: &str, arguments: &[&str]) -> (bool, String, serde_json::Value) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out.svg");

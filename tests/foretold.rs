@@ -1,4 +1,4 @@
-//! Time, marks and ink are told before the work is done, about right, and without doing it.
+//! Time, marks and ink are estimated before the work is done: about right, and without doing it.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -21,7 +21,7 @@ fn folder() -> TempDir {
     folder
 }
 
-/// Status, standard output as JSON if it is that, and the message.
+/// Status, standard output as JSON if it parses, and the message.
 fn run(folder: &TempDir, arguments: &[&str]) -> (Option<i32>, Value, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
     let output = command.current_dir(folder.path()).args(arguments).timeout(Duration::from_mins(5)).output().unwrap();
@@ -97,7 +97,7 @@ fn a_long_plot_is_warned_of_before_it_is_drawn() {
         .spawn()
         .unwrap();
     let first = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap).find(|line| line.contains("warning"));
-    // The drawing itself takes most of a minute, and is not waited for.
+    // The drawing itself takes most of a minute; do not wait for it.
     let is_running = child.try_wait().unwrap().is_none();
     child.kill().unwrap();
     child.wait().unwrap();

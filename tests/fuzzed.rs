@@ -1,5 +1,5 @@
-//! What the fuzzer starts from and what it has found goes through the very functions that it calls: `fuzz/seeds` and
-//! `tests/data/fuzz`, a folder for each target.
+//! The fuzzer's seeds and findings go through the same functions that the fuzzer calls: `fuzz/seeds` and `tests/data/fuzz`, one
+//! folder per target.
 #![cfg(feature = "cli")]
 
 #[path = "../fuzz/checks/mod.rs"]
@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// What one input may take, in seconds. The fuzzer reports what takes 20; a busy machine without optimisation gets more.
+/// Time limit per input, in seconds. The fuzzer reports what takes 20; a busy machine without optimisation gets more.
 const LONGEST: u64 = 120;
-/// The largest input that is kept, in bytes: what is found is made small first.
+/// Maximum size of a kept input, in bytes; findings are minimised first.
 const LARGEST: u64 = 100_000;
-/// What the whole may take of memory, in kB, as the fuzzer limits it.
+/// Memory limit of the whole test in kB, the same as the fuzzer's.
 const MOST_MEMORY: u64 = 2_000_000;
 
 fn inputs(target: &str) -> Vec<PathBuf> {
@@ -26,7 +26,7 @@ fn inputs(target: &str) -> Vec<PathBuf> {
     all
 }
 
-/// Each input within its time; a panic names the input by the last line printed.
+/// Runs each input within its time limit; on a panic the last line printed names the input.
 fn replay(target: &str, check: fn(&[u8])) {
     for path in inputs(target) {
         println!("{}", path.display());
@@ -47,7 +47,7 @@ fn replay(target: &str, check: fn(&[u8])) {
     }
 }
 
-/// The greatest memory of this process so far, in kB, where the system tells it.
+/// Peak memory of this process so far, in kB, if the system reports it.
 fn most_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?.trim().trim_end_matches(" kB").parse().ok()

@@ -1,4 +1,4 @@
-//! The promises of painting with continuous Glass patterns.
+//! The guarantees of painting with continuous Glass patterns.
 
 mod common;
 
@@ -54,7 +54,7 @@ fn fields() -> Vec<(&'static str, Flow)> {
     ]
 }
 
-/// The short side of the pictures that the paper's figures are for (Table 7.1).
+/// The short side of the pictures that the paper's values are for (Table 7.1).
 const PHOTOGRAPH: usize = 320;
 
 /// The flow of a photograph.
@@ -68,7 +68,7 @@ fn photograph_flow(name: &str) -> Flow {
     Flow::steepest(&structure_tensor(std::slice::from_ref(&slope)).unwrap(), &slope).turned(FRAC_PI_2)
 }
 
-/// The ribbons in grey, as resvg prints them, at the pixels' centres (where the raster pattern is sampled too).
+/// The ribbons in grey, as resvg prints them, at pixel centres (where the raster pattern is sampled too).
 fn painted(noise: &Raster<f32>, flow: &Flow, length: f64, pattern: &Raster<f32>, count: usize) -> Raster<f32> {
     let levels = GlassLevels::new(pattern, count);
     let mut layer = Layer::new("strokes", 1);
@@ -124,7 +124,7 @@ fn ribbons_are_the_pattern() {
     assert!(missed.is_empty(), "{missed:?}");
 }
 
-/// The sum of the slopes' `power`-th powers across the flow over that along it, inside the raster: of energies for 2, of total
+/// The sum of the slopes' `power`-th powers across the flow divided by that along it, inside the raster: energies for 2, total
 /// variations for 1.
 fn slope_ratio(raster: &Raster<f32>, flow: &Flow, power: i32) -> f64 {
     let slopes = gradient(raster);
@@ -139,7 +139,7 @@ fn slope_ratio(raster: &Raster<f32>, flow: &Flow, power: i32) -> f64 {
     across / along
 }
 
-/// The median slope across the flow over the median slope along it: what the strokes are between their ends.
+/// The median slope across the flow divided by the median slope along it: strokes between their ends.
 fn typical_ratio(raster: &Raster<f32>, flow: &Flow) -> f64 {
     let slopes = gradient(raster);
     let (mut alongs, mut acrosses) = (Vec::new(), Vec::new());
@@ -157,7 +157,7 @@ fn typical_ratio(raster: &Raster<f32>, flow: &Flow) -> f64 {
     median(acrosses) / median(alongs)
 }
 
-/// The shares of slope along the flow that are next to nothing (a tenth of the mean slope across).
+/// The fraction of slopes along the flow that are almost zero (below a tenth of the mean slope across).
 fn flat_share(raster: &Raster<f32>, flow: &Flow) -> f64 {
     let slopes = gradient(raster);
     let (mut alongs, mut across) = (Vec::new(), 0.0);
@@ -192,17 +192,17 @@ fn ribbons_are_flatter_along_and_sharper_across_than_line_integral_convolution()
             "{name}: across to along, of pattern, ribbons and LIC: variation {variation:.2?}, energy {energy:.2?}; flat along: \
              {flat:.3?}"
         );
-        // Squared slopes along a stroke are those of its two ends, which are as sharp as its sides, in the raster pattern too.
+        // Squared slopes along a stroke come from its two ends, which are as sharp as its sides; in the raster pattern too.
         assert!(variation[0] > variation[2] && variation[1] > variation[2], "{name}: {variation:?}");
     }
 }
 
-/// A hill's name and its gradient by place.
+/// A hill's name and its gradient as a function of position.
 type Hill = (&'static str, fn(f64, f64) -> Vec2);
 
 #[test]
 fn contours_close() {
-    // Hills of several shapes, by their gradients.
+    // Hills of several shapes, given by their gradients.
     let hills: [Hill; 3] = [
         ("round", |x, y| Vec2::new(-x, -y)),
         ("long", |x, y| Vec2::new(-x / 9.0, -y)),
@@ -226,7 +226,7 @@ fn contours_close() {
     }
 }
 
-/// Places where the field turns once around, with the sign of the turn (the singular points' index).
+/// Points where the field makes a full turn, with the sign of the turn (the singular points' index).
 fn singular_points(flow: &Flow) -> Vec<(usize, usize, i32)> {
     let directions = flow.directions();
     let angle = |x: usize, y: usize| {
@@ -252,7 +252,7 @@ fn singular_points(flow: &Flow) -> Vec<(usize, usize, i32)> {
     found
 }
 
-/// The flow of smoothed white noise, with what it is the gradient of.
+/// The flow of smoothed white noise, and the raster whose gradient it is.
 fn noise_flow(size: usize, sigma: f32, seed: u64) -> (Raster<f32>, Flow) {
     let smooth = fast_gaussian(&white_noise(size, size, seed), sigma);
     let slope = gradient(&smooth);
@@ -331,7 +331,7 @@ fn plate(size: usize) -> (Raster<f32>, Raster<f32>) {
     (plate, distance)
 }
 
-/// Gaussian-Kuwahara, plainly: the mean of the window within 3 sigma whose deviation is least.
+/// A plain Gaussian-Kuwahara filter: the mean of the window within 3 sigma with the least deviation.
 fn kuwahara(picture: &Raster<f32>, sigma: f32) -> Raster<f32> {
     let mean = fast_gaussian(picture, sigma);
     let squares = fast_gaussian(&picture.map(|v| v * v), sigma);
@@ -480,7 +480,7 @@ fn colour_error(name: &str, mm: (f64, f64), set: &[(&str, &str)]) -> f64 {
     let planes: Vec<Raster<f32>> = (0..3).map(|i| portrait.light.map(|rgb| encoded(rgb[i]))).collect();
     let smooth = edge_preserving(&planes, (settings.number("smoothing") / scale) as f32, settings.number("sharpness") as f32);
     let painting = colour_planes(&svg_of(&drawing), portrait.placement.columns, portrait.placement.rows);
-    // Light adds up, so it is light that the eye's blur mixes.
+    // The eye's blur mixes linear light.
     let blur = (settings.number("pitch") / scale) as f32;
     let seen = |planes: &[Raster<f32>]| planes.iter().map(|plane| fast_gaussian(&plane.map(decoded), blur)).collect::<Vec<_>>();
     let (one, two) = (seen(&painting), seen(&smooth));
@@ -567,7 +567,7 @@ fn paintings_repeat_and_differ_by_seed() {
     }
 }
 
-/// The help's number of strokes is that of what is drawn.
+/// The help's number of strokes is the number drawn.
 #[test]
 fn the_help_says_how_many_strokes_there_are() {
     let meaning = find("glass").unwrap().parameters().iter().find(|p| p.name == "grain").unwrap().meaning;
@@ -586,7 +586,7 @@ fn the_help_says_how_many_strokes_there_are() {
     }
 }
 
-/// A transform lays its flow under strokes as it moves points (figure 7.4).
+/// A transform moves the flow under the strokes as it moves points (figure 7.4).
 #[test]
 fn strokes_follow_a_transform() {
     let photo = sample("coffee.png");

@@ -1,4 +1,4 @@
-//! The structure grid's promises: alignment and holes on known fields and on the samples, tone on what resvg prints.
+//! The structure grid's guarantees: alignment and holes on known fields and on the samples, tone on what resvg prints.
 
 mod common;
 #[path = "common/fields.rs"]
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::sync::Mutex;
 
-/// Inside a margin of three pitches, and as far from a field's centre.
+/// Inside a margin of three pitches, and at least as far from a field's centre.
 fn counted(p: Point, size: (usize, usize), centre: Option<Point>) -> bool {
     let margin = 3.0 * PITCH;
     let (width, height) = (size.0 as f64, size.1 as f64);
@@ -147,7 +147,7 @@ fn fitted_circle(points: &[Point]) -> (Point, f64) {
     ((mean + c).to_point(), (c.hypot2() + z / n).sqrt())
 }
 
-/// A photograph, its masks and how it is drawn.
+/// A photograph, its masks and drawing settings.
 struct Case<'a> {
     style: &'a str,
     photo: &'a [u8],
@@ -158,7 +158,7 @@ struct Case<'a> {
     set: &'a [(&'a str, &'a str)],
 }
 
-/// Keeps the drawings among the stages.
+/// Collects the drawings among the stages.
 #[derive(Default)]
 struct Stages(Mutex<BTreeMap<String, Drawing>>);
 
@@ -225,10 +225,10 @@ fn curves(drawing: &Drawing, layer: &str, pixels_per_mm: f64) -> Vec<Curve> {
         .collect()
 }
 
-/// Parts of a pixel in which distances to lines are counted.
+/// Subpixels per pixel for measuring distances to lines.
 const FINER: usize = 3;
 
-/// Lines on a finer raster.
+/// Lines drawn on the finer raster.
 fn drawn(lines: &[Curve], width: usize, height: usize) -> Raster<u8> {
     let mut marked = Raster::filled(FINER * width, FINER * height, 0_u8);
     for line in lines {
@@ -250,7 +250,7 @@ fn dot_centres(drawing: &Drawing) -> Vec<Point> {
     common::dots(drawing)
 }
 
-/// On every point that calls for ink; a patch without stripes would be farther away.
+/// At every point with target ink; a patch without stripes would be farther away.
 fn check_holes((name, mm, mask): SamplePicture) {
     let (photo, mask) = (sample(name), mask.map(sample));
     let case =
@@ -323,7 +323,7 @@ fn no_point_of_the_dark_bust_is_far_from_a_line_of_either_family() {
 
 fn check_alignment((name, mm, mask): SamplePicture) {
     let (photo, mask) = (sample(name), mask.map(sample));
-    // All crossings as dots, where the hedcut has all of its own.
+    // All crossings as dots, as the hedcut has throughout.
     let case =
         |style, set| Case { style, photo: &photo, mask: mask.as_deref(), detail: None, mm, tone: ToneTarget::Lightness, set };
     let (portrait, grid, stages) = case("grid", &[("size_max", "0.75mm"), ("lines", "off"), ("reversed_from", "1")]).draw();
@@ -435,7 +435,7 @@ fn lines_that_close_up_have_the_tone_of_the_wedge() {
     check_wedge("not reversed", &[("pitch", "0.8mm"), ("reversed_from", "1")]);
 }
 
-/// A disc of detail of 12 mm in each patch: the tone holds in it, on its border and around it, and three times the dots stand in it.
+/// A disc of detail of 12 mm in each patch: the tone holds in it, on its border and around it, and it has three times the dots.
 #[test]
 fn detail_has_three_times_the_dots_and_the_tone_of_the_wedge() {
     let (tones, disc) = (tones(), 6.0);
@@ -487,7 +487,7 @@ fn detail_has_three_times_the_dots_and_the_tone_of_the_wedge() {
     }
 }
 
-/// A ramp of 200 mm; the error of tone may not jump from one strip of two pitches to the next.
+/// A ramp of 200 mm; the tone error must not jump from one strip of two pitches to the next.
 #[test]
 fn the_change_from_dots_to_lines_is_no_step() {
     let photo = png_of_light(1600, 160, |x, _| f64::from(x) / 1600.0);

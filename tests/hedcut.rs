@@ -1,4 +1,4 @@
-//! The hedcut's promises, measured on what resvg prints.
+//! The hedcut's guarantees, measured on what resvg prints.
 
 mod common;
 #[path = "common/machine_file.rs"]
@@ -12,7 +12,7 @@ use drypoint::source::{MaskRole, ToneTarget};
 
 const EXACT: &[(&str, &str)] = &[("pitch", "0.8mm"), ("highlights", "off"), ("outline", "off")];
 
-/// resvg's own error at 20 px/mm reaches 0.018; at 60 it is small.
+/// resvg's own error reaches 0.018 at 20 px/mm; at 60 it is small.
 const FINE: f64 = 60.0;
 
 fn wedge_errors(set: &[(&str, &str)]) -> Vec<f64> {
@@ -66,7 +66,7 @@ fn dots_are_evenly_spaced_and_as_many_as_asked() {
         println!("tone {tone:.1}: {} dots, spacing {:.3} +- {:.3}", nearest.len(), mean, deviation / mean);
         assert!(deviation / mean <= 0.15, "tone {tone}: {}", deviation / mean);
     }
-    // In each patch by the area of its dots' own cells, which counting in a square of 20 pitches is too coarse for.
+    // In each patch by the area of its dots' Voronoi cells; counting in a square of 20 pitches is too coarse.
     let sites = Sites::new(&dots, WEDGE_MM, WEDGE_MM, 0.8);
     for (patch, tone) in wedge_patches() {
         let inside: Vec<usize> = (0..dots.len()).filter(|&i| patch.contains(dots[i])).collect();
@@ -76,7 +76,7 @@ fn dots_are_evenly_spaced_and_as_many_as_asked() {
         println!("tone {tone:.1}: density by cells {density:.4}");
         assert!((density - 1.0).abs() <= 0.03, "tone {tone}: {density}");
     }
-    // Over the whole sheet, since a patch of 20 pitches holds whole rows only.
+    // Over the whole sheet, since a patch of 20 pitches holds only whole rows.
     let density = dots.len() as f64 * 0.8 * 0.8 / (WEDGE_MM * WEDGE_MM);
     println!("density {density:.4}");
     assert!((density - 1.0).abs() <= 0.03);
@@ -101,7 +101,7 @@ fn dots_follow_rings() {
     for dot in dots(&drawing) {
         let r = dot.distance(centre);
         let nearest = rings.iter().map(|ring| (r - ring).abs()).fold(f64::INFINITY, f64::min) / pitch;
-        // Beyond the last ring the sheet's corners are far away; at 8 pitches from a ring two families of lanes meet.
+        // Beyond the last ring the sheet's corners are far away; 8 pitches from a ring two families of lanes meet.
         if r > rings[3] || nearest > 7.0 {
             continue;
         }
@@ -136,7 +136,7 @@ fn samples_keep_their_tone() {
     }
 }
 
-/// Mean absolute difference inside the subject between the printed drawing and the wanted tone, both blurred by 1.5 pitches.
+/// Mean absolute difference inside the subject between the printed drawing and the target tone, both blurred by 1.5 pitches.
 fn tone_error(sheet: &Sheet<'_>) -> f64 {
     let portrait = sheet.portrait();
     let pitch_px = 6.0;
@@ -156,7 +156,7 @@ fn tone_error(sheet: &Sheet<'_>) -> f64 {
     sum / count
 }
 
-/// Box means, to a smaller raster.
+/// Reduced to a smaller raster by box means.
 fn reduced(raster: &Raster<f32>, columns: usize, rows: usize) -> Raster<f32> {
     let (fx, fy) = (raster.width() as f64 / columns as f64, raster.height() as f64 / rows as f64);
     Raster::from_fn(columns, rows, |x, y| {
@@ -172,7 +172,7 @@ fn seeds_differ_and_repeat() {
     assert_ne!(draw(1), draw(2));
 }
 
-/// The wedge as a 0.3 mm nib draws it, rendered with round pens.
+/// The wedge drawn with a 0.3 mm nib, rendered with round pens.
 #[test]
 fn the_lowered_wedge_has_its_tone() {
     use drypoint::interrupt::Interrupt;

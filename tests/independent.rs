@@ -1,4 +1,4 @@
-//! Programs that others wrote read what drypoint writes, and draw the same.
+//! Independent programs read what drypoint writes, and draw the same.
 
 mod common;
 #[path = "common/machine_file.rs"]
@@ -12,13 +12,13 @@ use machine_file::written;
 use std::collections::HashMap;
 use std::process::Command;
 
-/// How far a program's ink may lie from ours, in millimetres, and the share of it that must not lie farther.
+/// Maximum distance of a program's ink from ours, in millimetres, and the least fraction of it within that distance.
 const NEAR: f64 = 0.15;
 const SHARE: f64 = 0.995;
-/// Distance of the points of ink that are compared, in millimetres.
+/// Spacing of the ink points that are compared, in millimetres.
 const GRAIN: f64 = 0.05;
 
-/// Runs a program, or says that the check is skipped where it is not installed.
+/// Runs a program; if it is not installed, reports the check as skipped.
 fn run(program: &str, arguments: &[&str]) -> Option<(i32, String)> {
     let Ok(output) = Command::new(program).args(arguments).output() else {
         skip(&format!("{program} is not installed"));
@@ -55,7 +55,7 @@ fn ink(paths: &[Vec<Point>]) -> Vec<Point> {
     points
 }
 
-/// The share of the points that lie near one of others.
+/// The fraction of the points that lie near one of the others.
 fn share_near(points: &[Point], others: &[Point]) -> f64 {
     let cell = |p: &Point| ((p.x / NEAR).floor() as i64, (p.y / NEAR).floor() as i64);
     let mut cells: HashMap<(i64, i64), Vec<Point>> = HashMap::new();
@@ -82,7 +82,7 @@ fn least(paths: &[Vec<Point>]) -> (f64, f64) {
     (points().map(|p| p.x).fold(f64::INFINITY, f64::min), points().map(|p| p.y).fold(f64::INFINITY, f64::min))
 }
 
-/// hp2xx's lines, which are in points of 1/72 inch with y down; it takes a unit for 1/40 mm.
+/// hp2xx's lines, in points of 1/72 inch with y down; it takes a unit to be 1/40 mm.
 fn of_hp2xx(svg: &str, units_per_mm: f64) -> Vec<Vec<Point>> {
     let mm = 25.4 / 72.0 * 40.0 / units_per_mm;
     let groups = svg.split("</g>").filter(|group| !group.contains("stroke-width:1.000mm"));
@@ -108,14 +108,15 @@ fn hp2xx_takes_every_hpgl_file_and_draws_the_same() {
         assert!(words.contains("Unexpected event(s):  0"), "{name}: {words}");
         let ours = asked(&plot, &profile);
         let mut theirs = of_hp2xx(&std::fs::read_to_string(&svg).unwrap(), profile.units_per_mm);
-        // Its picture begins where the ink does.
+        // Its picture begins at the ink.
         let ((x, y), (to_x, to_y)) = (least(&theirs), least(&ours));
         theirs.iter_mut().flatten().for_each(|p| *p = Point::new(p.x + to_x - x, p.y + to_y - y));
         assert_same_ink(name, &ours, &theirs);
     }
 }
 
-/// The file as `LinuxCNC`'s interpreter takes it: between percent signs, and named commands of other controllers as words that it knows.
+/// The file as `LinuxCNC`'s interpreter accepts it: between percent signs, with other controllers' named commands replaced by
+/// words that it knows.
 fn for_rs274(text: &str, profile: &Profile) -> String {
     let Dialect::Gcode(gcode) = &profile.dialect else { panic!("{} is no G-code", profile.name) };
     let line = |line: &str| match line {

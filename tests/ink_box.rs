@@ -1,4 +1,4 @@
-//! Every curve stays in the box of its mark, in what every writer writes: the box of its centre line, grown by half its greatest width.
+//! In every output format every curve stays in its mark's box: the box of its centre line, grown by half its greatest width.
 
 #[path = "common/machine_file.rs"]
 mod machine_file;
@@ -14,12 +14,11 @@ use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use std::io::Read;
 
-/// What rounding and flattening may add, in millimetres.
+/// Tolerance for rounding and flattening, in millimetres.
 const ROOM: f64 = 0.012;
 const PAGE: Page = Page::new(180.0, 180.0);
 
-/// A stroke through places that are now a thousandth of a millimetre apart and now twenty millimetres, with sharp turns, as wide as it
-/// happens to be.
+/// A stroke of random width through points from a thousandth of a millimetre to twenty millimetres apart, with sharp turns.
 fn any_stroke() -> impl Strategy<Value = Mark> {
     let node = (-3.0_f64..1.3, -3.2_f64..3.2, -2.0_f64..0.9);
     (prop::collection::vec(node, 3..9), any::<bool>(), any::<bool>(), 0..3_u8).prop_map(|(nodes, is_closed, is_flat, kind)| {
@@ -101,7 +100,7 @@ fn svg_box(drawing: &Drawing) -> Rect {
     ink.unwrap()
 }
 
-/// No handle is longer than its chord, but for what rounding to 0.001 mm does.
+/// No handle is longer than its chord, except by rounding to 0.001 mm.
 fn assert_handles(path: &BezPath) {
     for segment in path.segments() {
         if let PathSeg::Cubic(c) = segment {
@@ -111,7 +110,7 @@ fn assert_handles(path: &BezPath) {
     }
 }
 
-/// The ink of a PDF's content, in millimetres: its first matrix turns them into points.
+/// The ink of a PDF's content, in millimetres: its first matrix converts to points.
 fn pdf_box(drawing: &Drawing) -> Rect {
     let mut bytes = Vec::new();
     write_pdf(drawing, &SvgHead::default(), None, &mut bytes).unwrap();
@@ -155,7 +154,7 @@ fn pdf_box(drawing: &Drawing) -> Rect {
     ink.unwrap()
 }
 
-/// The ink of an `InkML` file: each vertex with half its brush at its force.
+/// The ink of an `InkML` file: each vertex with half its brush width at its force.
 fn inkml_box(drawing: &Drawing) -> Option<Rect> {
     let mut bytes = Vec::new();
     write_inkml(drawing, "", &mut bytes).unwrap();
@@ -191,7 +190,7 @@ fn path_box(points: impl Iterator<Item = Point>) -> Option<Rect> {
     points.map(|p| Rect::from_points(p, p)).reduce(|a, b| a.union(b))
 }
 
-/// Where the pen is down in what is written for two machines.
+/// Pen-down moves in the files for two machines.
 fn toolpath_boxes(drawing: &Drawing) -> Vec<Rect> {
     let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.01, &drypoint::interrupt::Interrupt::never()).unwrap();
     plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.01);
@@ -215,11 +214,11 @@ fn check(mark: &Mark) {
     assert_within("SVG", svg_box(&drawing), room);
     assert_within("PDF", pdf_box(&drawing), room);
     if let Some(ink) = inkml_box(&drawing) {
-        // Traces are flattened to 0.02 mm, and brushes that fill a tiny mark have a least width.
+        // Traces are flattened to 0.02 mm, and brushes that fill a tiny mark have a minimum width.
         assert_within("InkML", ink, room.inflate(0.02, 0.02));
     }
     for ink in toolpath_boxes(&drawing) {
-        // A plotter's step and the arcs fitted to the path.
+        // Tolerance for a plotter's step and the arcs fitted to the path.
         assert_within("tool paths", ink, room.inflate(0.03, 0.03));
     }
 }
@@ -242,8 +241,8 @@ proptest! {
     }
 }
 
-/// A ribbon as glass makes them where the flow whirls: a wide stroke whose line turns on a quarter of its width. Its outline had a
-/// handle of 127 mm on a chord of 1.4 mm.
+/// A ribbon as glass makes it where the flow whirls: a wide stroke whose line turns within a quarter of its width. Its outline
+/// once had a handle of 127 mm on a chord of 1.4 mm.
 #[test]
 fn a_whirl_s_stroke_throws_no_spike() {
     let places: Vec<Point> = (0..14)
@@ -256,7 +255,7 @@ fn a_whirl_s_stroke_throws_no_spike() {
     check(&Mark::Stroke(Stroke::new(catmull_rom(&places, false), Width::Along(widths))));
 }
 
-/// Paintings of whole photographs, where spikes were found.
+/// Paintings of whole photographs, in which spikes were found.
 #[test]
 fn no_stroke_of_a_painting_leaves_its_box() {
     use drypoint::source::{Crop, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};

@@ -1,4 +1,4 @@
-//! Digital ink, read back: colours, widths of dots and filled areas are what was drawn.
+//! Digital ink, read back: colours, widths of dots and filled areas match the drawing.
 
 #[path = "common/any_style.rs"]
 mod any_style;
@@ -18,11 +18,11 @@ const INKML: &str = "http://www.w3.org/2003/InkML";
 const RED: Colour = Colour { r: 200, g: 20, b: 30 };
 const BLUE: Colour = Colour { r: 10, g: 60, b: 220 };
 
-/// A trace as a reader draws it: discs of its brush's width times its force, and what lies between two of them.
+/// A trace as a reader draws it: discs of the brush's width times force, and the areas between consecutive discs.
 struct Trace {
     colour: Colour,
     width: f64,
-    /// Place and force from 0 to 1.
+    /// Position, and force from 0 to 1.
     vertices: Vec<(Point, f64)>,
 }
 
@@ -120,7 +120,7 @@ fn every_style_s_ink_is_read_back() {
     ] {
         let mut drawing = Order::new(style, &photo, (24.0, 32.0), set).draw();
         if style == "charcoal" {
-            // Its pressure is the hand's, which is not the width; grains have none.
+            // Its pressure is the hand's, not the width; grains have none.
             drawing.layers.retain(|layer| layer.name == "tone");
         }
         let own = rasterised(&drawing, 16.0);

@@ -1,4 +1,4 @@
-//! Whoever is asked to stop stops within a second, whatever it is at.
+//! A request to stop takes effect within a second, whatever the work.
 
 use drypoint::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point};
@@ -9,14 +9,14 @@ use drypoint::plot::{
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A second, and as much again for a machine that is busy with other tests.
+/// One second, doubled for a machine that is busy with other tests.
 const AT_ONCE: Duration = Duration::from_secs(2);
 
-/// One at a time: they share the threads of one pool, where the work of one would wait until another's is over.
+/// One test at a time: they share the threads of one pool, so one's work would wait for another's.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// Starts some work again and again, asks it to stop after each of these many seconds and holds it to the limit. Work that is over before
-/// it is asked proves nothing; the first must not be.
+/// Starts some work repeatedly, asks it to stop after each of these numbers of seconds and checks the limit. A run that finishes
+/// before the request proves nothing; the first must not.
 fn stops_at_once<T>(name: &str, moments: &[f64], mut work: impl FnMut(&Interrupt) -> Result<T, Interrupted>) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     for (i, &moment) in moments.iter().enumerate() {
@@ -36,7 +36,7 @@ fn stops_at_once<T>(name: &str, moments: &[f64], mut work: impl FnMut(&Interrupt
     }
 }
 
-/// Places spread evenly over a page of 500 mm without any pattern.
+/// Points spread evenly over a page of 500 mm, without a pattern.
 fn place(i: usize) -> Point {
     let share = |step: f64| (i as f64 * step).fract();
     Point::new(500.0 * share(0.754_877_666_246_69), 500.0 * share(0.569_840_290_998_05))
@@ -56,7 +56,7 @@ fn plot_of(paths: Vec<Toolpath>) -> Plot {
     Plot { page: Page::new(500.0, 500.0), pens: vec![pen] }
 }
 
-/// A comb whose back and forth of thin teeth makes filling it long.
+/// A comb of thin teeth, slow to fill.
 fn comb(teeth: usize) -> BezPath {
     let mut path = BezPath::new();
     path.move_to((0.0, 0.0));

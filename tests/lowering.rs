@@ -1,4 +1,4 @@
-//! One nib lays down the ink that was asked for, and no more.
+//! One nib lays down the requested ink, and no more.
 
 mod common;
 #[path = "common/machine_file.rs"]
@@ -18,7 +18,7 @@ use proptest::prelude::*;
 const PIXELS_PER_MM: f64 = 40.0;
 const NIBS: [f64; 4] = [0.1, 0.3, 0.5, 0.8];
 
-/// Every sample photograph, with the size of its test sheet in millimetres, its pitch and what else is set.
+/// Every sample photograph, with the size of its test sheet in millimetres, its pitch and other settings.
 type Sample = (&'static str, (f64, f64), &'static [(&'static str, &'static str)]);
 const SAMPLES: [Sample; 9] = [
     ("astronaut.jpg", (50.0, 50.0), &[("pitch", "1.2")]),
@@ -32,7 +32,7 @@ const SAMPLES: [Sample; 9] = [
     ("bust-dark.png", (45.0, 60.0), &[("pitch", "1.0"), ("blob", "0.4")]),
 ];
 
-/// The drawing for a nib. A net of holes whose threads are thinner than the nib is no wide mark: there the darks stay dots.
+/// The drawing for a nib. A net of holes with threads thinner than the nib is not a wide mark, so darks stay dots there.
 fn drawing_for(nib: f64, (name, mm, set): Sample) -> Drawing {
     let pitch: f64 = set[0].1.parse().unwrap();
     if nib > 0.6 * pitch {
@@ -69,7 +69,7 @@ fn grown(marked: &Raster<u8>, radius: f64) -> Raster<u8> {
     })
 }
 
-/// The ink that a disc of this radius can reach without leaving it.
+/// The ink that a disc of this radius can cover without leaving it.
 fn opened(marked: &Raster<u8>, radius: f64) -> Raster<u8> {
     let eroded = grown(&marked.map(|v| 1 - v), radius).map(|v| 1 - v);
     grown(&eroded, radius)
@@ -83,7 +83,7 @@ fn common_pixels(a: &Raster<u8>, b: &Raster<u8>) -> f64 {
     a.pixels().iter().zip(b.pixels()).filter(|(a, b)| **a != 0 && **b != 0).count() as f64
 }
 
-/// A drawing's marks as wide as the nib somewhere, or the others.
+/// A drawing's marks that are as wide as the nib somewhere, or all others.
 fn only(drawing: &Drawing, nib: f64, wide: bool) -> Drawing {
     let is_wide = |mark: &Mark| match mark {
         Mark::Dot(dot) => dot.radius >= 0.5 * nib,
@@ -129,8 +129,8 @@ fn the_nib_covers_nets_finer_than_itself_too() {
     assert_covered(|_, sample| drawing_of(sample));
 }
 
-/// Marks narrower than the nib keep the mean tone in windows of three pitches (of the thinned marks, where the nib is large:
-/// a window must hold several touches).
+/// Marks narrower than the nib keep the mean tone in windows of three pitches (of the thinned marks, if the nib is large: a
+/// window must hold several touches).
 #[test]
 fn marks_narrower_than_the_nib_keep_the_tone() {
     for sample in SAMPLES {
@@ -189,7 +189,7 @@ fn the_report_s_coverage_is_what_is_seen() {
     }
 }
 
-/// A coordinate on the page, now and then exactly on another's place or at the border.
+/// A coordinate on the page, sometimes exactly equal to another or at the border.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![5 => 0.0..60.0, 1 => Just(30.0), 1 => Just(0.0), 1 => Just(60.0)]
 }
@@ -235,7 +235,8 @@ fn mark() -> impl Strategy<Value = Mark> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever is drawn lies within half a nib (and the tolerance) of the asked ink's box, and nearly all reachable ink is laid.
+    /// Everything drawn lies within half a nib (and the tolerance) of the requested ink's box, and nearly all reachable ink is
+    /// laid.
     #[test]
     fn lowering_stays_inside_the_ink(marks in prop::collection::vec(mark(), 0..6), nib in 0.1..1.0_f64) {
         for mark in marks {
@@ -261,7 +262,7 @@ proptest! {
         }
     }
 
-    /// Many marks at once: lowering never panics, on finite and on monstrous input.
+    /// Many marks at once: lowering never panics, on normal and on extreme input.
     #[test]
     fn lowering_takes_anything(marks in prop::collection::vec(mark(), 0..40), scale in prop_oneof![Just(1.0), Just(1e-9), Just(1e4)]) {
         let layer = Layer { marks, ..Layer::new("x", 1) };

@@ -1,5 +1,5 @@
-//! Every machine's file does what was asked: read back to the same motion, inside sheet and machine, pen up first and last, and with no
-//! word that the machine does not know or that could ruin a sheet.
+//! Every machine's file does what was requested: it reads back to the same motion, inside sheet and machine, pen up first and
+//! last, without words that the machine does not know or that could ruin a sheet.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -20,9 +20,9 @@ use machine_file::{read_back, written};
 use rayon::prelude::*;
 use std::fs;
 
-/// What no file may hold out of the box.
+/// Words that no file may contain by default.
 const FORBIDDEN: [&str; 9] = ["G28", "$H", "G92", "M84", "M2", "M30", "M5", "M18", "G20"];
-/// How far what is read back may lie from what was asked, in millimetres.
+/// Maximum distance of the motion read back from the requested one, in millimetres.
 const NEAR: f64 = 0.03;
 
 fn profiles() -> impl Iterator<Item = Profile> {
@@ -43,7 +43,7 @@ fn plotted(drawing: &Drawing) -> Plot {
     plot
 }
 
-/// A square, a circle and touches, each with a pen of its own, and names that no controller would like.
+/// A square, a circle and touches, each with its own pen, and with names that a controller might misread.
 fn three_layers() -> Plot {
     let square = [(5.0, 5.0), (55.0, 5.0), (55.0, 35.0), (5.0, 35.0), (5.0, 5.0)].map(|(x, y)| Point::new(x, y)).to_vec();
     let circle = (0..=90).map(|i| Point::new(30.0, 20.0) + Vec2::from_angle(f64::from(i) * std::f64::consts::PI / 45.0) * 12.0);
@@ -61,7 +61,7 @@ fn distance(p: Point, path: &[Point]) -> f64 {
     of_legs.fold(path.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min), f64::min)
 }
 
-/// Each path was drawn, by its pen, in order and within reach of what was asked, both ways.
+/// Each path was drawn, by its pen, in order and within tolerance of the request, both ways.
 fn assert_same_motion(name: &str, plot: &Plot, motion: &Strokes, profile: &Profile, mounting: &Mounting) {
     let asked: Vec<(u32, &Toolpath)> = plot.pens.iter().flat_map(|pen| pen.paths.iter().map(|path| (pen.number, path))).collect();
     assert_eq!(asked.len(), motion.paths.len(), "{name}");
@@ -75,7 +75,7 @@ fn assert_same_motion(name: &str, plot: &Plot, motion: &Strokes, profile: &Profi
     }
 }
 
-/// What holds for every file of a machine.
+/// Checks that hold for every machine's file.
 fn assert_safe(text: &str, motion: &Strokes, profile: &Profile, mounting: &Mounting, page: &Page) {
     let name = &profile.name;
     let limits = mounting.limits;
@@ -122,8 +122,8 @@ fn assert_safe_gcode(text: &str, profile: &Profile) {
     }
 }
 
-/// A plotter's SVG holds each path, in order and where it was asked for (its driver raises, parks and changes pens by itself), all of
-/// it on the sheet and within the machine's reach.
+/// A plotter's SVG contains each path, in order and in place (its driver raises, parks and changes pens by itself), all on the
+/// sheet and within the machine's reach.
 fn assert_same_strokes(text: &str, plot: &Plot, profile: &Profile, mounting: &Mounting) {
     let name = &profile.name;
     let asked: Vec<&Toolpath> = plot.pens.iter().flat_map(|pen| &pen.paths).collect();
@@ -181,14 +181,14 @@ fn a_hedcut_and_three_layers_come_back_from_every_machine() {
         assert_holds(&hedcut, &profile);
         let mut layers = three_layers();
         if profile.name == "toy" {
-            // Its second pen is sent half a millimetre aside, and its brush swells.
+            // Its second pen is offset by half a millimetre, and its brush swells.
             layers.pens[0].paths[0].heights = Some(vec![-0.1, -1.1, -0.5, -0.3, -0.1]);
         }
         assert_holds(&layers, &profile);
     }
 }
 
-/// Numbers from 0 to 1 that are the same everywhere (splitmix64).
+/// Deterministic pseudo-random numbers from 0 to 1 (splitmix64).
 struct Chance(u64);
 
 impl Chance {

@@ -1,12 +1,12 @@
-//! Files that something went wrong with: pieces lost, doubled or swapped, numbers without end. Readers tell what is wrong or read
-//! what is left; they never panic.
+//! Damaged files: pieces lost, doubled or swapped, numbers out of range. Readers report the fault or read the rest; they never
+//! panic.
 
 use drypoint::plot::{Language, Profile, StopPlace};
 use drypoint::read::{Budget, read_svg_within};
 use proptest::prelude::*;
 use std::path::Path;
 
-/// Texts that break things where numbers, names or references are expected.
+/// Texts that cause trouble where numbers, names or references are expected.
 const STRANGE: &[&str] = &[
     "nan",
     "inf",
@@ -62,13 +62,13 @@ const SVG: &str = "<!DOCTYPE svg [<!ENTITY a 'M0 0H10'>]><svg xmlns='http://www.
 
 #[derive(Clone, Debug)]
 enum Change {
-    /// A piece goes.
+    /// Remove a piece.
     Cut(f64, usize),
-    /// A piece comes again elsewhere.
+    /// Insert a copy of a piece elsewhere.
     Copy(f64, usize, f64),
-    /// Something strange takes a piece's place.
+    /// Replace a piece by a strange text.
     Put(f64, usize, usize),
-    /// A number takes another's place.
+    /// Replace a number by another.
     Number(f64, usize),
 }
 
@@ -82,7 +82,7 @@ fn change() -> impl Strategy<Value = Change> {
     ]
 }
 
-/// The nearest place at or after a part of the way that is between letters.
+/// The first character boundary at or after a fraction of the text.
 fn place(text: &str, part: f64) -> usize {
     let start = (part * text.len() as f64) as usize;
     (start..=text.len()).find(|at| text.is_char_boundary(*at)).unwrap_or(text.len())
@@ -116,7 +116,7 @@ fn changed(text: &str, changes: &[Change]) -> String {
     text
 }
 
-/// A tenth of a million steps, so that no case takes long.
+/// A tenth of a million steps, so that each case is fast.
 fn budget() -> Budget {
     Budget::of_millions(0.1)
 }

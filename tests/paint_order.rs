@@ -1,4 +1,4 @@
-//! Opaque paint on a plotter: what is hidden is not drawn, and what is left is drawn along the shortest way.
+//! Opaque paint on a plotter: hidden parts are not drawn, and the rest is drawn along the shortest way.
 
 use drypoint::drawing::{Colour, Drawing, Ink, Layer, Mark, Mixing, Page, Painted, Stroke, Width};
 use drypoint::geometry::{BezPath, Point};
@@ -12,7 +12,7 @@ fn spread(i: usize, step: f64) -> f64 {
     (i as f64 * step).fract()
 }
 
-/// Strokes of three colours across one another, one layer a colour, all of one group, and their painting order.
+/// Crossing strokes of three colours, one layer per colour, all in one group, and their painting order.
 fn painting(count: usize, width: f64) -> (Drawing, Vec<Painted>) {
     let mut layers: Vec<Layer> = (1..)
         .zip(INKS)
@@ -55,7 +55,7 @@ fn paint_that_is_left_is_drawn_along_the_shortest_way() {
         let ordered = travel(&plot);
         println!("width {width}: {ink:.0} mm of ink, {unordered:.0} mm of travel unordered, {ordered:.0} mm ordered");
         assert!(ordered < 0.15 * unordered, "{ordered} of {unordered}");
-        // Each pen is taken up once.
+        // Each pen is used once.
         assert_eq!(plot.pens.iter().map(|pen| pen.number).collect::<Vec<_>>(), [1, 2, 3]);
     }
 }
@@ -65,7 +65,7 @@ fn what_lies_under_another_colour_is_not_drawn_whatever_the_pens_order() {
     let (drawing, order) = painting(600, 2.0);
     let seen = occluded(&drawing, &order, Hides::PaintOnOtherColours, &Interrupt::never()).unwrap();
     let plot = lower(&seen, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
-    // All that is seen together is what is inked at all: each place once, in one colour.
+    // All visible parts together are the whole inked area: each point once, in one colour.
     let inked = |drawing: &Drawing| {
         let mut one = drawing.clone();
         let marks = one.layers.iter().flat_map(|layer| layer.marks.clone()).collect();

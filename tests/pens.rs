@@ -1,4 +1,4 @@
-//! Pens, colours and speeds: what the machine has is used, and what became of the rest is said.
+//! Pens, colours and speeds: the machine's are used, and the rest is reported.
 #![cfg(feature = "cli")]
 
 use assert_cmd::Command;
@@ -13,7 +13,7 @@ fn drypoint(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), said(output.stdout), said(output.stderr))
 }
 
-/// A picture as plotting libraries write them: no layers, a colour for each line.
+/// A picture as plotting libraries write it: no layers, one colour per line.
 fn lines(colours: &[String]) -> String {
     let line = |(i, colour): (usize, &String)| {
         format!("<path style=\"stroke:{colour};fill:none\" d=\"M20 {} h{}\"/>", 20 + 2 * i, 40 + i)
@@ -34,7 +34,7 @@ fn more_colours_than_pens_are_drawn_with_the_pens_there_are() {
     fs::write(folder.path().join("a.svg"), lines(&colours)).unwrap();
     let run = |more: &[&str]| drypoint(folder.path(), &[&["plot", "a.svg", "-q"], more].concat());
 
-    // One pen: all colours became one, and each of them is named.
+    // One pen: all colours are merged, and each of them is named.
     let (status, _, said) = run(&["--profile", "grbl-servo", "-o", "a.gcode"]);
     assert_eq!(status, 0, "{said}");
     assert!(said.contains("25 colours became one, the one pen of grbl-servo"), "{said}");
@@ -42,7 +42,7 @@ fn more_colours_than_pens_are_drawn_with_the_pens_there_are() {
     let gcode = at("a.gcode");
     assert_eq!((gcode.matches("M3 S700").count(), gcode.lines().filter(|line| *line == "M0").count()), (26, 0));
 
-    // Six pens for colours that run from dark to light: each stands for some, and the ends do not meet.
+    // Six pens for colours from dark to light: each stands for several, and the ends are not merged.
     let (status, _, said) = run(&["--profile", "hp7475a", "-o", "a.hpgl"]);
     assert_eq!(status, 0, "{said}");
     assert!(said.contains("25 colours on the 6 pens of hp7475a"), "{said}");
@@ -55,7 +55,7 @@ fn more_colours_than_pens_are_drawn_with_the_pens_there_are() {
     assert_eq!(slots, ["SP1", "SP2", "SP3", "SP4", "SP5", "SP6", "SP0"]);
     assert_eq!(hpgl.matches(";PD").count(), 25);
 
-    // As many as there are pens keep one each, and a file says otherwise.
+    // As many colours as pens: each keeps its own. A pens file can assign them otherwise.
     fs::write(folder.path().join("a.svg"), lines(&colours[..6])).unwrap();
     let (status, _, said) = run(&["--profile", "hp7475a", "-o", "a.hpgl"]);
     assert_eq!((status, said.as_str()), (0, ""));
@@ -111,7 +111,7 @@ fn a_speed_in_a_label_means_the_same_on_another_machine() {
         assert_eq!(status, 0, "{said}");
         said
     };
-    // The plotter's usual speed is no wish of the layer's.
+    // The plotter's default speed is not written as the layer's own.
     plot("a.svg", "axidraw-v3", "usual.svg", &[]);
     assert!(at("usual.svg").contains("inkscape:label=\"1 black +S25\""), "{}", at("usual.svg"));
     let direct = seconds(folder, "a.svg", "grbl-servo");
@@ -121,7 +121,7 @@ fn a_speed_in_a_label_means_the_same_on_another_machine() {
     let told: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert!((told["plot"]["total"]["seconds"].as_f64().unwrap() / direct - 1.0).abs() < 0.05, "{told}");
 
-    // A speed of its own stays, in mm/s; and in percent on the same machine.
+    // A layer's own speed is kept, in mm/s; and in percent on the same machine.
     plot("a.svg", "axidraw-v3", "slow.svg", &["--pens", "slow.toml"]);
     assert!(at("slow.svg").contains("1 black +S15"), "{}", at("slow.svg"));
     plot("slow.svg", "grbl-servo", "slow.gcode", &[]);
@@ -130,12 +130,12 @@ fn a_speed_in_a_label_means_the_same_on_another_machine() {
     plot("slow.svg", "axidraw-v3", "again.svg", &[]);
     assert!(at("again.svg").contains("1 black +S15"), "{}", at("again.svg"));
 
-    // A label of a person's own is for the plotter's program, which takes it as it stands.
+    // A label written by hand is for the plotter's program and is kept as it stands.
     fs::write(folder.join("own.svg"), THREE.replace("1 black", "1 black +S40")).unwrap();
     plot("own.svg", "axidraw-v3", "own-again.svg", &[]);
     assert!(at("own-again.svg").contains("1 black +S40"), "{}", at("own-again.svg"));
 
-    // What another machine cannot reach is said.
+    // A speed that another machine cannot reach is reported.
     fs::write(folder.join("fast.svg"), at("usual.svg").replace("+S25", "+S110")).unwrap();
     let said = plot("fast.svg", "grbl-servo", "fast.gcode", &[]);
     assert!(said.contains("layer 'black' asks for 221 mm/s") && said.contains("at 100"), "{said}");
@@ -186,7 +186,7 @@ fn the_example_of_pens_works_as_it_is() {
             Language::Gcode => ("x-{layer}.gcode", !profile.can_pause()),
             _ => ("x-{layer}.svg", false),
         };
-        // A machine that cannot wait draws layer by layer.
+        // A machine that cannot wait draws one layer per file.
         let out = if is_mute { out.to_owned() } else { out.replace("-{layer}", "") };
         let (status, _, said) =
             drypoint(folder.path(), &["plot", "a.svg", "-q", "--profile", name, "--pens", "pens.toml", "-o", &out]);

@@ -1,4 +1,4 @@
-//! All ink stays inside the box asked for by half a line's width too; and the tone at its border is kept.
+//! All ink, including half a line's width, stays inside the requested box, and the tone at its border is kept.
 #![cfg(feature = "cli")]
 
 #[path = "common/any_style.rs"]
@@ -16,7 +16,7 @@ use kurbo::Shape;
 
 const PICTURE: Rect = Rect::new(7.0, 9.0, 37.0, 44.156);
 
-/// Each style as it is and with all that adds marks of another kind.
+/// Each style with defaults, and with everything that adds other kinds of marks.
 const LOOKS: &[(&str, &[(&str, &str)])] = &[
     ("hedcut", &[]),
     ("hedcut", &[("lines", "canny"), ("outline_length", "0"), ("outline_width", "0.8"), ("blob", "0.6")]),
@@ -49,7 +49,8 @@ fn ink_stays_in_the_picture_in_every_style_at_every_pitch() {
                 let bounds = ink_outline(mark, 1e-3).bounding_box();
                 assert!(room.union(bounds) == room, "{style} {set:?}: {bounds:?}\n{mark:?}");
             }
-            // The nib's middle too, but for a spiral's rounding, so that no machine whose reach is the box refuses it.
+            // The nib's middle stays inside too, except for a spiral's rounding, so that no machine whose reach is the box
+            // refuses it.
             let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
             for p in plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points) {
                 assert!(PICTURE.inflate(0.1, 0.1).contains(*p), "{style} {set:?}: {p:?}");
@@ -58,7 +59,7 @@ fn ink_stays_in_the_picture_in_every_style_at_every_pitch() {
     }
 }
 
-/// What lies in a strip along each side before the ink is held is there afterwards too.
+/// The ink in a strip along each side is the same before and after the ink is confined.
 #[test]
 fn the_tone_at_the_border_is_kept() {
     let photo = png_of_light(200, 200, |_, _| 0.3);
@@ -88,7 +89,7 @@ fn the_tone_at_the_border_is_kept() {
     }
 }
 
-/// A machine whose reach is the sheet draws every style at the default margins.
+/// A machine with the reach of the sheet accepts every style at the default margins.
 #[test]
 fn no_style_is_refused_at_default_margins() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Where a drawing lies on its sheet, and that the advice of a refusal works when it is followed.
+//! The position of a drawing on its sheet; and the advice of every refusal works when followed.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The exit status and what was said.
+/// The exit status and the message.
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_drypoint")).current_dir(folder).args(arguments).output().unwrap();
     (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
@@ -43,7 +43,7 @@ fn draw_turns_mirrors_and_moves_as_plot_does() {
     let near = |(drawn, ..): (Rect, f64, f64), x: f64, y: f64, width: f64, height: f64| {
         let wanted = Rect::new(x, y, x + width, y + height);
         let off = [drawn.x0 - wanted.x0, drawn.y0 - wanted.y0, drawn.x1 - wanted.x1, drawn.y1 - wanted.y1];
-        // Marks stand on the border and reach over it by less than a pitch.
+        // Marks on the border extend over it by less than a pitch.
         assert!(off.iter().all(|off| off.abs() < 0.8), "{drawn:?} is not {wanted:?}");
     };
     near(draw("a.svg", "--center"), 44.0, 85.0, 60.0, 40.0);
@@ -52,7 +52,7 @@ fn draw_turns_mirrors_and_moves_as_plot_does() {
     let dark = |out: &str, more: &str| {
         draw(out, more);
         let drawing = read_svg(&fs::read(at(out)).unwrap()).unwrap().drawing();
-        // Where most of the ink lies, from the middle of the sheet.
+        // Centre of mass of the ink, from the middle of the sheet.
         let ink: f64 = drawing.marks().map(drypoint::drawing::Mark::area).sum();
         let moment = drawing.marks().map(|mark| (mark.bounding_box().center().to_vec2()) * mark.area());
         let middle = moment.fold(drypoint::geometry::Vec2::ZERO, |sum, next| sum + next) / ink;
@@ -64,7 +64,7 @@ fn draw_turns_mirrors_and_moves_as_plot_does() {
     assert_eq!(dark("g.svg", "--rotate 180"), (false, false));
     assert_eq!(dark("h.svg", "--rotate 270"), (true, false));
     assert_eq!(dark("i.svg", "--mirror --rotate 90"), (false, false));
-    // Of a landscape picture, more fits onto a portrait sheet when it is turned.
+    // A landscape picture fits a portrait sheet at a larger size when turned.
     let (upright, ..) = box_of_free(folder.path(), "j.svg", "");
     let (turned, width, height) = box_of_free(folder.path(), "k.svg", "--rotate auto");
     assert!(turned.area() > 1.5 * upright.area() && turned.height() > turned.width(), "{upright:?} {turned:?}");
@@ -77,7 +77,7 @@ fn box_of_free(folder: &Path, out: &str, more: &str) -> (Rect, f64, f64) {
     box_of(&folder.join(out))
 }
 
-/// A frame as a plotter's user has it: a page in millimetres with one rectangle.
+/// A plotter user's frame: a page in millimetres with one rectangle.
 fn frame(page: (f64, f64), x: f64, y: f64, width: f64, height: f64) -> String {
     let (w, h) = page;
     format!(
@@ -116,7 +116,7 @@ fn a_square_photograph_lies_where_the_machine_reaches() {
     }
 }
 
-/// The ways out that a refusal names, each as options to add; "a or b" are two.
+/// The remedies that a refusal names, each as options to add; "a or b" are two.
 fn remedies(message: &str) -> Vec<String> {
     let advice = message.rsplit_once("; ").map_or(message, |(_, advice)| advice);
     let advice = advice.replace(", or cut it with --clip", " or --clip").replace("without --at: ", "");
@@ -137,7 +137,7 @@ fn remedies(message: &str) -> Vec<String> {
     advice.split(" or ").map(of).filter(|options| !options.is_empty()).collect()
 }
 
-/// The command with options added; a turn that it has gives way.
+/// The command with options added; they replace a rotation that it has.
 fn followed(line: &str, remedy: &str) -> String {
     let mut words: Vec<&str> = line.split_whitespace().collect();
     for option in remedy.split_whitespace().filter(|word| word.starts_with("--")) {
@@ -156,7 +156,7 @@ fn without_place(line: &str) -> String {
     [&words[..at], &words[at + 2..]].concat().join(" ")
 }
 
-/// Runs a command; when it is refused, each way out that it names must lead out.
+/// Runs a command; if it is refused, each remedy that it names must work.
 fn advice_works(folder: &Path, line: &str) -> usize {
     let (status, message) = run_words(folder, line);
     if status == 0 {

@@ -1,8 +1,7 @@
-//! The time that is told comes true: held against a machine with GRBL 1.1 that is simulated step by step.
+//! The estimated time comes true: compared with a step-by-step simulation of a machine with GRBL 1.1.
 //!
-//! What is left between the two on drawings, 0.1 to 0.2 %, is mostly the firmware's own rounding: a stop that falls on the end of a
-//! segment may make the last step up to 33 ms late (the column `late`). See
-//! `a_stop_on_the_end_of_a_segment_is_late`.
+//! The difference on drawings, 0.1 to 0.2 %, is mostly the firmware's own rounding: a stop that falls on the end of a segment may
+//! make the last step up to 33 ms late (the column `late`). See `a_stop_on_the_end_of_a_segment_is_late`.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -22,7 +21,7 @@ use machine_file::written;
 use std::f64::consts::TAU;
 use std::process::Command;
 
-/// What a machine with the profile `grbl-servo` is set to, in the firmware's own units.
+/// Settings of a machine with the profile `grbl-servo`, in the firmware's units.
 const SERVO: Settings = Settings {
     steps_per_mm: [80.0, 80.0, 400.0],
     greatest_rate: [6000.0, 6000.0, 6000.0],
@@ -76,7 +75,7 @@ fn one_pen(paths: Vec<Vec<[f64; 2]>>) -> Plot {
     Plot { page: Page::new(200.0, 200.0), pens: vec![pen] }
 }
 
-/// A circle about the middle of the page in chords of this length, from a direction in radians.
+/// A circle about the middle of the page in chords of this length, starting at a direction in radians.
 fn circle_from(from: f64, radius: f64, chord: f64) -> Vec<[f64; 2]> {
     let count = (TAU * radius / chord).ceil() as u32;
     let place = |i: u32| (from + TAU * f64::from(i) / f64::from(count)).sin_cos();
@@ -103,12 +102,12 @@ fn zigzag(width: f64, pitch: f64, turns: u32) -> Vec<[f64; 2]> {
     (0..turns).map(|i| [20.0 + width * f64::from(i % 2), 20.0 + pitch * f64::from(i)]).collect()
 }
 
-/// A place that is spread evenly, the same each time.
+/// Evenly spread points, the same each time.
 fn spread(i: usize) -> [f64; 2] {
     [10.0 + 180.0 * (i as f64 * 0.754_877_666).fract(), 10.0 + 180.0 * (i as f64 * 0.569_840_291).fract()]
 }
 
-/// Lines of many lengths and curves of all chords, touches between them.
+/// Lines of many lengths and curves of all chord lengths, with touches between them.
 fn mixture() -> Vec<Vec<[f64; 2]>> {
     let mut paths = vec![zigzag(3.0, 0.3, 60), spiral(0.3, 0.05, 3.0), circle(20.0, 0.1)];
     for i in 0..60 {
@@ -164,7 +163,7 @@ fn small_rings_take_what_is_told() {
     hold_synthetic(|name| name.starts_with("circles of 2"));
 }
 
-/// Holds what is told of the synthetic files of these names to 1 %.
+/// Requires the estimates for the synthetic files of these names to be within 1 %.
 fn hold_synthetic(is_held: fn(&str) -> bool) {
     let servo = profile(&[]);
     let finer = profile(&[("steps_per_mm = [80, 80, 400]", "steps_per_mm = [100, 100, 400]")]);
@@ -211,7 +210,7 @@ fn sample_plot(name: &str, width: f64, profile: &Profile) -> Plot {
     plot
 }
 
-/// What a machine with the profile `grbl-z` is set to.
+/// Settings of a machine with the profile `grbl-z`.
 const Z: Settings = Settings { greatest_rate: [6000.0, 6000.0, 500.0], ..SERVO };
 
 fn samples_take_what_is_told(names: &[&str], width: f64) {
@@ -226,8 +225,8 @@ fn samples_take_what_is_told(names: &[&str], width: f64) {
     }
 }
 
-/// A z axis that is slower or faster than the profile's takes what is told once the profile says so; without a word of the profile
-/// GRBL's `$112` holds.
+/// A z axis slower or faster than the profile's takes the estimated time once the profile states it; by default GRBL's `$112`
+/// holds.
 #[test]
 fn a_z_axis_has_its_own_rate_and_acceleration() {
     let plot = one_pen(mixture());
@@ -255,8 +254,9 @@ fn a_z_axis_has_its_own_rate_and_acceleration() {
     assert!(errors.iter().all(|error| *error <= 0.3), "{errors:?} %");
 }
 
-/// Seconds of motion that the firmware's own code takes (gnea/grbl 1.1: `planner.c`, `stepper.c` and `motion_control.c` compiled for a
-/// computer, the timer's interrupt called by hand and its periods added up), at 80 and 400 steps/mm, `$112` = 500 and 250 mm/s^2.
+/// Seconds of motion that the firmware's own code takes (gnea/grbl 1.1: `planner.c`, `stepper.c` and `motion_control.c` compiled
+/// for a computer, the timer's interrupt called directly and its periods summed), at 80 and 400 steps/mm, `$112` = 500 and 250
+/// mm/s^2.
 #[test]
 fn the_simulated_machine_takes_what_the_firmware_takes() {
     let measured = [
@@ -304,7 +304,7 @@ fn a_pen_on_a_z_axis_takes_what_is_told() {
     }
 }
 
-/// The rules that the comparison is about matter, and it would show if one was left out.
+/// The simulated rules matter: the comparison would show if one were left out.
 #[test]
 fn a_machine_with_other_rules_takes_another_time() {
     let same = |changes: &[(&str, &str)], plot: &Plot| compare(changes[0].0, plot, &profile(changes), &SERVO)[0];
@@ -320,8 +320,9 @@ fn a_machine_with_other_rules_takes_another_time() {
     assert!(same(&[("junction_deviation = 0.01", "junction_deviation = 0.02")], &corners) > 2.0);
 }
 
-/// The one thing that is not told. From 0.2 mm along an axis, at 250 mm/s^2, it takes four segments of 10 ms to stop, so that rings
-/// which end with such a chord end on a segment's end; ten of them and nothing else take 1 to 3 % longer than told.
+/// The one effect that is not estimated. From 0.2 mm along an axis, at 250 mm/s^2, it takes four segments of 10 ms to stop, so
+/// that rings which end with such a chord end on a segment's end; a file of only ten of them takes 1 to 3 % longer than
+/// estimated.
 #[test]
 fn a_stop_on_the_end_of_a_segment_is_late() {
     let servo = profile(&[]);
@@ -353,7 +354,7 @@ fn pens_are_changed_and_layers_wait_as_told() {
     assert!(errors.iter().all(|error| *error <= 0.1), "{errors:?} %");
 }
 
-/// The simulation itself, where the answer is known.
+/// The simulation itself, in cases with a known answer.
 #[test]
 fn the_simulated_machine_keeps_its_rules() {
     let seconds = |text: &str| run(text, &SERVO);
@@ -361,13 +362,14 @@ fn the_simulated_machine_keeps_its_rules() {
     // A trapezoid: 50 mm/s after 0.2 s, and the same at the end.
     near(seconds("G1 X100 F3000").motion, 100.0 / 50.0 + 50.0 / 250.0);
     assert_eq!(seconds("G1 X100 Y50 F3000").steps, 8000);
-    // A diagonal is faster, a slow rate is kept, a wait comes in steps, and lies between two motions from rest to rest.
+    // A diagonal is faster, a slow rate is kept, and a wait is rounded to whole steps and lies between two motions from rest to
+    // rest.
     near(seconds("G0 X100 Y100").motion, seconds("G0 X100").motion);
     near(seconds("G1 X1 F60").motion, 1.0 + 1.0 / 250.0);
     let waited = seconds("G1 X50 F3000\nG4 P0.12\nG1 X100");
     near(waited.motion, 2.0 * (1.0 + 0.2));
     near(waited.dwell, 0.15);
-    // A spindle command stops too, unless it says nothing new; in laser mode a new speed does not stop.
+    // A spindle command stops the motion too, unless it changes nothing; in laser mode a new speed does not stop it.
     near(seconds("M3 S5\nG1 X50 F3000\nS6\nG1 X100").motion, 2.4);
     near(seconds("M3 S5\nG1 X50 F3000\nM3 S5\nG1 X100").motion, 2.2);
     near(run("M3 S5\nG1 X50 F3000\nS6\nG1 X100", &Settings { laser: Laser::On, ..SERVO }).motion, 2.2);
@@ -376,11 +378,11 @@ fn the_simulated_machine_keeps_its_rules() {
     let corner = (250.0 * 2.0_f64.sqrt() * 0.01 * half / (1.0 - half)).sqrt();
     let leg = |from: f64| 40.0 / 50.0 + (50.0 - from).powi(2) / (2.0 * 250.0 * 50.0) + 50.0 / (2.0 * 250.0);
     near(seconds("G1 X40 F3000\nY40").motion, 2.0 * leg(corner));
-    // With 0.1 mm blocks 14 of them are all there is to stop in; in one block 50 mm/s are reached.
+    // With 0.1 mm blocks only 14 of them are available for stopping; a single block reaches 50 mm/s.
     let fine = (1..1000).map(|i| format!("G1 X{}.{} F3000", i / 10, i % 10)).collect::<Vec<_>>().join("\n");
     near(seconds(&fine).top_speed, (2.0 * 250.0 * 1.4_f64).sqrt());
     near(seconds("G1 X100 F3000").top_speed, 50.0);
-    // An arc is the chords that leave it by 0.002 mm.
+    // An arc becomes chords within 0.002 mm of it.
     let count = (0.5 * TAU * 10.0 / (0.002 * (20.0 - 0.002_f64)).sqrt()).floor() as u32;
     let chord = |i: u32| (TAU * f64::from(i) / f64::from(count)).sin_cos();
     let chords: Vec<String> =

@@ -1,4 +1,4 @@
-//! The tone made for faces, by what the ink of real drawings shows: all on the samples, looked at as `draw` looks.
+//! The tone made for faces, measured by the ink of real drawings of all samples, analysed as `draw` does.
 #![cfg(feature = "see")]
 
 mod common;
@@ -12,7 +12,7 @@ use drypoint::see::{Sight, look};
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget, outlines};
 use drypoint::tone::portrait_tone;
 
-/// A portrait 400 pixels wide with all that was found in it.
+/// A portrait 400 pixels wide with everything found in it.
 fn portrait(name: &str) -> (Portrait, Sight) {
     let photograph = Photograph::decode(&sample(name), Limits::default()).unwrap();
     let sight = look(&photograph, &Interrupt::default()).unwrap();

@@ -1,4 +1,4 @@
-//! For the press: PDF as other programs read it, and ink that print changes on its way to the paper.
+//! For the press: PDF as other programs read it, and ink compensated for its change in print.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -19,7 +19,7 @@ use tempfile::TempDir;
 
 const DPI: f64 = 300.0;
 
-/// Runs a program, or says that the check is skipped where it is not installed.
+/// Runs a program; if it is not installed, reports the check as skipped.
 fn run(program: &str, arguments: &[&str]) -> Option<Output> {
     let output = Command::new(program).args(arguments).output();
     if output.is_err() {
@@ -94,8 +94,8 @@ fn read_pgm(bytes: &[u8]) -> Raster<f32> {
     Raster::from_vec(width, height, pixels)
 }
 
-/// Share of pixels whose grey differs by at most `within` of the range: the programs smooth edges differently, but at a quarter a border
-/// that is off by half a pixel (0.04 mm) shows.
+/// Fraction of pixels whose grey differs by at most `within` of the range: the programs smooth edges differently, but at a
+/// quarter a border that is off by half a pixel (0.04 mm) shows.
 fn agreement(a: &Raster<f32>, b: &Raster<f32>, within: f32) -> f64 {
     let (width, height) = (a.width().min(b.width()), a.height().min(b.height()));
     assert!(a.width() - width <= 1 && b.width() - width <= 1 && a.height() - height <= 1 && b.height() - height <= 1);
@@ -108,7 +108,7 @@ fn ink(raster: &Raster<f32>) -> f64 {
     raster.pixels().iter().map(|white| 1.0 - f64::from(*white)).sum()
 }
 
-/// Averages of blocks of `n` by `n` pixels; white where a block goes beyond the edge.
+/// Means of blocks of `n` by `n` pixels; white where a block extends beyond the edge.
 fn averaged(fine: &Raster<f32>, n: usize) -> Raster<f32> {
     let at = |x: usize, y: usize| if x < fine.width() && y < fine.height() { fine.get(x, y) } else { 1.0 };
     let block = |x: usize, y: usize| (0..n * n).map(|i| at(n * x + i % n, n * y + i / n)).sum::<f32>() / (n * n) as f32;
@@ -116,10 +116,10 @@ fn averaged(fine: &Raster<f32>, n: usize) -> Raster<f32> {
     Raster::from_vec(width, height, (0..width * height).map(|i| block(i % width, i / width)).collect())
 }
 
-/// The PDF at 300 dpi by pdftoppm, each pixel the mean of 4 by 4 samples of its own; `None` where the program is missing.
+/// The PDF at 300 dpi by pdftoppm, each pixel the mean of 4 by 4 samples; `None` if the program is missing.
 ///
-/// Splash, its renderer, raises the coverage of a smoothed border to the power of 1.5, which at 300 dpi is 0.15 of the range at most and
-/// 2.5 % of a hedcut's ink; sampled more finely the border that this happens to is a quarter as wide.
+/// Splash, its renderer, raises the coverage of a smoothed border to the power of 1.5, which at 300 dpi is at most 0.15 of the
+/// range and 2.5 % of a hedcut's ink; with finer sampling the affected border is a quarter as wide.
 fn by_pdftoppm(pdf: &Path, samples: usize) -> Option<Raster<f32>> {
     let out = pdf.with_extension("");
     let dpi = (DPI as usize * samples).to_string();
@@ -159,7 +159,7 @@ fn poppler_shows_what_resvg_shows_of_the_svg() {
             100.0 * agreement(&raw, &shown, 0.5)
         );
         assert!(alike >= 0.995 && agreement(&raw, &shown, 0.5) >= 0.995, "{name}");
-        // Two programs that paint coverage as it is and with the same library: with them the ink can be weighed (resvg's own
+        // Two programs that paint coverage unchanged and use the same library: they allow the ink to be weighed (resvg's own
         // smoothing loses 0.4 %).
         let svg = file(&folder, "a.svg", svg_of(&drawing).as_bytes());
         let shown = folder.path().join("shown.png");
@@ -269,7 +269,7 @@ fn longer(line: &BezPath, by: f64) -> BezPath {
     curve
 }
 
-/// What a press makes of a drawing without areas: all borders `spread` further out.
+/// The printed result of a drawing without areas: all borders `spread` further out.
 fn pressed(drawing: &Drawing, spread: f64) -> Drawing {
     let mut printed = drawing.clone();
     for mark in printed.layers.iter_mut().flat_map(|layer| &mut layer.marks) {
@@ -292,15 +292,15 @@ fn pressed(drawing: &Drawing, spread: f64) -> Drawing {
     printed
 }
 
-/// The tones that a drawing shows in the patches of the wedge. The resolution shares no factor with the pitches, so that borders
-/// fall on all parts of a pixel.
+/// The tones of a drawing in the patches of the wedge. The resolution shares no factor with the pitches, so that borders fall on
+/// all parts of a pixel.
 fn tones(drawing: &Drawing) -> Vec<f64> {
     let pixels_per_mm = 61.3;
     let shown = rendered(&svg_of(drawing), pixels_per_mm);
     wedge_patches().map(|(rect, _)| mean_in(&shown, rect, pixels_per_mm)).collect()
 }
 
-/// The greatest difference from the wedge's tones, after the press, of a drawing and of what it is without correction.
+/// The greatest tone error on the wedge, after the press, with and without correction.
 fn tone_errors(drawing: &Drawing, press: &Press) -> (f64, f64) {
     let worst = |drawing: &Drawing| {
         let errors: Vec<f64> = tones(drawing).iter().zip(wedge_patches()).map(|(shown, (_, tone))| shown - tone).collect();
@@ -400,7 +400,7 @@ fn the_command_line_draws_for_the_press() {
     }
 }
 
-/// The Nu checker's jar is named by `DRYPOINT_VNU`, since no system has a place for it.
+/// `DRYPOINT_VNU` names the Nu checker's jar, since no system has a standard place for it.
 #[test]
 fn the_nu_checker_finds_no_error_in_svg() {
     let Ok(jar) = std::env::var("DRYPOINT_VNU") else {

@@ -1,4 +1,4 @@
-//! Every command of the README and of `docs/` does what it says, run as written.
+//! Every command of the README and of `docs/` works when run as written.
 #![cfg(feature = "cli")]
 
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The indented commands of a page, their lines joined and their comments gone.
+/// The indented commands of a page, with lines joined and comments removed.
 fn commands(page: &str) -> Vec<String> {
     let text = fs::read_to_string(root().join(page)).unwrap().replace("\\\n", " ");
     let indented = text.lines().filter_map(|line| line.strip_prefix("    "));
@@ -52,7 +52,7 @@ fn every_command_of_the_pages_runs_as_written() {
     let pages = ["README.md", "docs/first-plot.md", "docs/calibration.md", "docs/gallery.md"];
     let all: Vec<String> = pages.into_iter().flat_map(commands).collect();
     assert!(all.len() > 30, "{all:?}");
-    // What reads another command's file comes after it.
+    // Commands that read another command's file run after it.
     let folder = folder();
     let is_second = |command: &&String| ["drypoint resume", "drypoint inspect"].iter().any(|start| command.starts_with(start));
     let (second, first): (Vec<&String>, Vec<&String>) = all.iter().partition(is_second);

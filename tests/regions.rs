@@ -1,4 +1,4 @@
-//! What people are made of, against masks painted by hand and heads made for it.
+//! The regions of people, compared with hand-painted masks and with heads made for the test.
 #![cfg(feature = "see")]
 
 mod common;
@@ -22,7 +22,7 @@ fn mask(name: &str) -> GrayImage {
     image::load_from_memory(&sample(name)).unwrap().to_luma8()
 }
 
-/// Intersection over union of a region of a sample that is seen at its own size and the truth, both from the middle grey.
+/// Intersection over union of the true region and the one found in a sample at its own size, both thresholded at middle grey.
 fn agreement(found: &Raster<u8>, truth: &GrayImage) -> f64 {
     let pairs = found.pixels().iter().zip(truth.pixels()).map(|(found, is)| (*found > 127, is.0[0] > 127));
     let (both, either) = pairs
@@ -30,7 +30,7 @@ fn agreement(found: &Raster<u8>, truth: &GrayImage) -> f64 {
     f64::from(both) / f64::from(either)
 }
 
-/// The skin of the face: within the oval, raised to take in all of the forehead.
+/// The skin of the face: within the oval, extended upwards to the whole forehead.
 fn face(sight: &Sight, regions: &Regions) -> Raster<u8> {
     let landmarks = &sight.faces[0].landmarks;
     let rise = landmarks.point(10) - landmarks.point(152);
@@ -79,7 +79,7 @@ fn a_cap_is_headwear_and_hair_is_not() {
     assert!(astronaut.headwear.pixels().iter().chain(astronaut.facial_hair.pixels()).all(|v| *v < 128));
 }
 
-/// A bust whose hair is shaved off: the scalp goes on in the forehead's colour, darker towards the edge, with a light on top.
+/// A bust without hair: the scalp continues in the forehead's colour, darker towards the edge, with a highlight on top.
 fn shaved(name: &str) -> RgbImage {
     let hair = mask("bust-mask-hair.png");
     let mut picture = image::load_from_memory(&sample(name)).unwrap().to_rgb8();
@@ -97,7 +97,7 @@ fn shaved(name: &str) -> RgbImage {
 
 #[test]
 fn a_shaved_head_has_no_hair() {
-    // Open: on the dark bust the painted scalp, lighter than the forehead's border, is still taken for hair.
+    // Known limitation: on the dark bust the painted scalp, lighter than the forehead's border, is still taken for hair.
     for name in &BUSTS[..2] {
         let mut bytes = Cursor::new(Vec::new());
         DynamicImage::ImageRgb8(shaved(name)).write_to(&mut bytes, ImageFormat::Png).unwrap();

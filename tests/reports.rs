@@ -1,4 +1,4 @@
-//! What is said of a drawing is so: roles of masks, crops, warnings, names of files, plurals.
+//! What is reported about a drawing is true: roles of masks, crops, warnings, names of files, plurals.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -26,7 +26,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// A help page or manual without its line breaks and hyphens' escapes.
+/// A help page or manual without line breaks and escaped hyphens.
 fn unwrapped(page: &str) -> String {
     page.replace("\\-", "-").replace("\\(aq", "'").split_whitespace().collect::<Vec<_>>().join(" ")
 }

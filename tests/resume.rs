@@ -1,4 +1,4 @@
-//! The rest of a file and what was drawn before it are the whole drawing's ink, and nothing else, on every machine.
+//! The rest of a file and the part drawn before it add up to the whole drawing's ink, and nothing else, on every machine.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -48,7 +48,7 @@ fn inked(strokes: &Strokes, units_per_mm: f64) -> HashSet<(u32, i64, i64)> {
     cells
 }
 
-/// Cells of one set that have none of the other's beside them.
+/// Cells of one set with no cell of the other beside them.
 fn missing(of: &HashSet<(u32, i64, i64)>, from: &HashSet<(u32, i64, i64)>) -> usize {
     let has = |&(pen, x, y): &(u32, i64, i64)| (-1..=1).any(|dx| (-1..=1).any(|dy| from.contains(&(pen, x + dx, y + dy))));
     of.iter().filter(|cell| !has(cell)).count()
@@ -59,13 +59,13 @@ fn check(what: &str, whole: &Strokes, before: &Strokes, rest: &Strokes, units_pe
     let together: HashSet<_> = done.union(&left).copied().collect();
     assert_eq!(missing(&all, &together), 0, "{what}: ink is lost");
     assert_eq!(missing(&together, &all), 0, "{what}: ink is drawn that is not the drawing's");
-    // A few millimetres are drawn again, not more: three, and what is left of a vertex or an arc.
+    // A few millimetres are drawn again, no more: three, and the rest of a vertex or an arc.
     let length = |strokes: &Strokes| -> f64 { strokes.paths.iter().map(|(_, points)| polyline_length(points)).sum() };
     let again = (length(before) + length(rest) - length(whole)) / units_per_mm;
     assert!((-0.01..20.0).contains(&again), "{what}: {again} mm twice");
 }
 
-/// Evenly spread over a range, in no order.
+/// Indices spread evenly over a range, out of order.
 fn spread(i: usize, count: usize) -> usize {
     ((i as f64 * 0.618_033_988_75).fract() * count as f64) as usize
 }
@@ -81,7 +81,7 @@ fn g_code_goes_on_at_any_line() {
             let line = 1 + spread(i, lines.len());
             let rest = Language::Gcode.resume(&text, StopPlace::Line(line), 3.0).unwrap();
             let before = lines[..line - 1].join("\n") + "\n";
-            // A pen number is told by its comment, which both parts hold.
+            // A pen's number stands in a comment, which both parts keep.
             let [whole, before, rest] = [&text, &before, &rest].map(|text| {
                 let mut strokes = read_back(text, &profile);
                 strokes.paths.iter_mut().for_each(|(pen, _)| *pen = 0);
@@ -107,7 +107,7 @@ fn hp_gl_goes_on_at_any_byte() {
     }
 }
 
-/// What a plotter has done of a file that broke off: whole instructions, and the whole points of a list.
+/// The part of an interrupted file that a plotter has executed: whole instructions, and the whole points of a list.
 fn taken(text: &str) -> String {
     let (whole, tail) = text.rsplit_once(';').unwrap_or(("", ""));
     let mut numbers: Vec<&str> = tail.get(2..).unwrap_or("").split(',').collect();
@@ -140,7 +140,8 @@ fn nothing_is_drawn_before_the_place_to_go_on_from() {
     }
 }
 
-/// Three pens with two lines and a touch each, so that a machine with one holder pauses twice; one pen where it cannot.
+/// Three pens with two lines and a touch each, so that a machine with one holder pauses twice; one pen on a machine that cannot
+/// pause.
 fn three_layers(profile: &Profile) -> Plot {
     let cannot_wait = profile.language() == Language::Gcode && !profile.can_pause();
     let pen = |number: u32| {
@@ -163,12 +164,12 @@ fn written(profile: &Profile) -> String {
     machine_file::written(&three_layers(profile), profile).unwrap()
 }
 
-/// Pens, pauses, position and pen of what is left are those of the whole.
+/// Pens, pauses, position and pen of the rest match those of the whole.
 fn assert_rest(what: &str, whole: &Strokes, before: &Strokes, rest: &Strokes, profile: &Profile) {
     check(what, whole, before, rest, profile.units_per_mm);
     assert!(rest.ends_up, "{what}");
     assert_eq!(rest.visited.last(), whole.visited.last(), "{what}: it ends elsewhere");
-    // Who draws: each pen that is not the first is asked for once, and no pen that has nothing left to draw.
+    // Each pen except the first is asked for once, and no pen without anything left to draw.
     let pens: BTreeSet<u32> = rest.paths.iter().map(|(pen, _)| *pen).collect();
     let waits = if profile.pens.change == PenChange::Pause { pens.iter().filter(|pen| **pen > 1).count() } else { 0 };
     assert_eq!(rest.pauses, waits, "{what}: pens {pens:?}");
@@ -202,7 +203,7 @@ fn every_machine_goes_on_with_its_pens_pauses_and_place() {
     }
 }
 
-/// Runs the program on a file that it gets on its standard input, so that no name tells what it is; status, stdout and stderr.
+/// Runs the program on a file from standard input, so that no name reveals its kind; status, stdout and stderr.
 fn drypoint(arguments: &[&str], file: &str) -> (i32, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
     let output = command.args(arguments).write_stdin(file.to_owned()).output().unwrap();

@@ -49,7 +49,7 @@ fn svg_reads_back_with_the_same_marks_and_ink() {
         let imported = read_svg(svg_of(&drawing).as_bytes()).unwrap();
         assert!(imported.dropped.is_empty());
         assert!((imported.page.width - drawing.page.width).abs() < 1e-3);
-        // Without the recipe a file is a foreign one; the kinds of marks are told by drypoint's own.
+        // Without the recipe a file counts as foreign; drypoint's own files keep the kinds of marks.
         let own =
             svg_of(&drawing).replace("</title>", "</title><metadata><r:recipe xmlns:r=\"urn:drypoint\">{}</r:recipe></metadata>");
         let imported = read_svg(own.as_bytes()).unwrap();
@@ -76,7 +76,7 @@ fn svg_keeps_to_its_bytes() {
     }
 }
 
-/// Styles and looks that make each kind of mark, in one colour and in many.
+/// Styles and looks that make each kind of mark, in one colour and in several.
 const LOOKS: &[(&str, &[(&str, &str)])] = &[
     ("hedcut", &[]),
     ("hedcut", &[("blob", "0.6"), ("lines", "canny")]),
@@ -90,7 +90,7 @@ const LOOKS: &[(&str, &[(&str, &str)])] = &[
     ("glass", &[("colors", "mono")]),
 ];
 
-/// Pixels a millimetre at which pictures are compared: a dot of 0.3 mm is six across.
+/// Pixels per millimetre at which pictures are compared: a dot of 0.3 mm is six across.
 const FINE: f64 = 20.0;
 
 #[test]
@@ -101,12 +101,12 @@ fn svg_has_the_pixels_of_the_drawing_in_every_style() {
         let own = rasterised(&drawing, FINE);
         let (mean, far) = difference(&own, &resvg_pixels(&svg_of(&drawing), FINE));
         println!("{style} {set:?}: mean difference {mean:.5}, {far:.6} of the pixels off by more than a quarter");
-        // resvg covers pixels in steps of a sixteenth and writes hold 0.001 mm.
+        // resvg computes coverage in sixteenths, and files have a resolution of 0.001 mm.
         assert!(mean <= 0.01 && far <= 0.001, "{style} {set:?}: {mean} {far}");
     }
 }
 
-/// A mark that is missing, moved by a tenth of a millimetre or of another colour is seen by the comparison.
+/// The comparison notices a mark that is missing, moved by a tenth of a millimetre or of another colour.
 #[test]
 fn a_changed_drawing_has_other_pixels() {
     let photo = sample("grace-hopper.jpg");
@@ -134,7 +134,8 @@ fn resvg_pixels(svg: &str, pixels_per_mm: f64) -> Pixels {
     Pixels { width: width as usize, height: height as usize, rgb }
 }
 
-/// Mean difference of two pictures over all channels, and the share of the pixels in which a channel differs by more than a quarter.
+/// Mean difference of two pictures over all channels, and the fraction of pixels with a channel that differs by more than a
+/// quarter.
 fn difference(a: &Pixels, b: &Pixels) -> (f64, f64) {
     assert_eq!((a.width, a.height), (b.width, b.height));
     let (mut sum, mut far) = (0.0, 0.0);

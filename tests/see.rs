@@ -1,4 +1,4 @@
-//! What is found in photographs: faces where they are, people without the background, and nothing where there is nobody.
+//! Detection in photographs: faces in the right place, people without the background, and nothing where there is nobody.
 #![cfg(feature = "see")]
 
 mod common;
@@ -12,8 +12,8 @@ use drypoint::source::{Limits, Photograph};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use std::io::Cursor;
 
-/// The samples with a person, and where the pupils are, the person's right one first, in pixels: read off the pictures, enlarged six
-/// times, by eye.
+/// The samples with a person, and the positions of the pupils in pixels, the person's right one first: read off the pictures by
+/// eye, enlarged six times.
 const PUPILS: [(&str, [(f64, f64); 2]); 5] = [
     ("astronaut.jpg", [(203.0, 101.2), (246.3, 103.3)]),
     ("grace-hopper.jpg", [(220.8, 190.0), (305.8, 186.3)]),
@@ -21,7 +21,7 @@ const PUPILS: [(&str, [(f64, f64); 2]); 5] = [
     ("bust-brown.png", [(221.0, 277.0), (344.5, 280.0)]),
     ("bust-dark.png", [(221.0, 277.0), (344.5, 280.0)]),
 ];
-/// Greatest distance of a pupil found from where it is, in distances of the eyes.
+/// Largest error of a pupil, in distances between the eyes.
 const NEAR: f64 = 0.04;
 
 fn seen(bytes: &[u8]) -> Sight {
@@ -38,7 +38,7 @@ fn png(picture: RgbImage) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// How far the pupils of the first face lie from where they should, in distances of the eyes.
+/// Errors of the pupils of the first face, in distances between the eyes.
 fn error_of_pupils(sight: &Sight, pupils: [Point; 2]) -> f64 {
     let face = &sight.faces[0];
     let distance = (pupils[1] - pupils[0]).hypot();
@@ -58,7 +58,7 @@ fn a_face_is_found_with_its_eyes_where_they_are() {
     }
 }
 
-/// Intersection over union of a subject and the truth, both from the middle grey.
+/// Intersection over union of a subject and the truth, both thresholded at middle grey.
 fn agreement(subject: &Raster<u8>, truth: impl Fn(u32, u32) -> u8) -> f64 {
     let (mut both, mut either) = (0.0, 0.0);
     for (x, y) in (0..subject.height()).flat_map(|y| (0..subject.width()).map(move |x| (x, y))) {
@@ -86,10 +86,10 @@ fn the_subject_is_the_person() {
     }
 }
 
-/// A colour, 0 to 255, at each place.
+/// A colour, 0 to 255, as a function of position.
 type Ground = fn(f64, f64) -> [f64; 3];
 
-/// Backgrounds that look like people to the network, for a place from 0 to 1 across and down.
+/// Backgrounds that the network takes for people; position from 0 to 1 across and down.
 const DECEPTIVE: [(&str, Ground); 3] = [
     ("a flag", |u, v| {
         let is_red = (13.0 * u + 6.0 * v + 0.4 * (13.0 * v).sin()).rem_euclid(2.0) < 1.0;
@@ -128,7 +128,7 @@ fn flags_lights_and_shadows_are_no_people() {
     }
 }
 
-/// A number from 0 to 1 that looks random and is always the same.
+/// A deterministic pseudo-random number from 0 to 1.
 fn noise(x: u32, y: u32, seed: u32) -> f64 {
     let mut h = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca77) ^ seed.wrapping_mul(0xc2b2_ae3d);
     h = (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d);
@@ -145,7 +145,7 @@ fn clouds(x: u32, y: u32, scale: u32, seed: u32) -> f64 {
     mix(row(j), row(j + 1), v)
 }
 
-/// Pictures of nothing: noises, gradients and textures of many scales, in grey, skin's colours and others.
+/// Pictures without people: noises, gradients and textures of many scales, in grey, skin colours and others.
 fn nothings(count: u32) -> impl Iterator<Item = RgbImage> {
     (0..count).map(|n| {
         let (width, height) = [(320, 240), (240, 320), (640, 480)][(n / 10) as usize % 3];
@@ -191,7 +191,7 @@ fn noises_gradients_and_textures_have_no_face() {
     }
 }
 
-/// Where a place of the upright picture, `x`, `y`, of its width and height, comes to lie.
+/// Maps a point `x`, `y` of the upright picture, given its width and height, to the stored one.
 type Place = fn(f64, f64, f64, f64) -> Point;
 
 #[test]

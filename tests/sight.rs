@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 use tempfile::TempDir;
 
-/// A small hedcut, quickly drawn.
+/// A small hedcut, fast to draw.
 const SMALL: [&str; 4] = ["--size", "30x30mm", "--pitch", "0.8mm"];
 
 fn folder() -> TempDir {
@@ -32,7 +32,7 @@ fn runs(folder: &Path, arguments: &[&str]) -> String {
     said
 }
 
-/// The drawing that options give, and what was said.
+/// The drawing for some options, and the messages.
 fn drawn(folder: &Path, photo: &str, options: &[&str]) -> (String, String) {
     let said = runs(folder, &[&["draw", photo, "-o", "out.svg"], &SMALL[..], options].concat());
     (fs::read_to_string(folder.join("out.svg")).unwrap(), said)
@@ -54,7 +54,7 @@ fn grey_png(path: &Path, width: u32, height: u32, value: impl Fn(u32, u32) -> u8
     fs::write(path, bytes.into_inner()).unwrap();
 }
 
-/// A slope as photograph, 60 x 80 pixels.
+/// A gradient as photograph, 60 x 80 pixels.
 fn slope(folder: &Path) -> PathBuf {
     let path = folder.join("slope.png");
     fs::write(&path, png_of_light(60, 80, |x, _| 0.1 + 0.4 * f64::from(x) / 60.0)).unwrap();
@@ -83,7 +83,7 @@ fn masks_of_another_size_are_scaled() {
     let said = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(1));
     assert!(said.contains("60 x 60 px, but the photograph is 60 x 80 px") && said.contains("proportions"), "{said}");
-    // Depth and scribbles go the same way.
+    // Depth and scribbles are handled the same way.
     grey_png(&folder.path().join("depth.png"), 30, 40, |x, y| (5 * x + y) as u8);
     grey_png(&folder.path().join("scribbles.png"), 120, 160, |x, y| if y < 20 { 200 } else { u8::from(x < 20 && y > 99) * 90 });
     let engraved = ["--style", "engrave", "--depth", "depth.png", "--mask", "scribbles=scribbles.png"];
@@ -138,7 +138,7 @@ fn see_writes_what_was_found_in_the_photographs_own_size() {
     let output = run(folder.path(), &["see", "photo.jpg", "--json"]);
     assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap(), json);
     assert!(output.stderr.is_empty());
-    // Nobody in the next photograph: said, and nothing of the last one stays.
+    // Nobody in the next photograph: reported, and nothing of the last sight stays.
     fs::write(folder.path().join("cat.png"), sample("chelsea.png")).unwrap();
     let said = runs(folder.path(), &["see", "cat.png", "-o", "seen"]);
     assert!(said.contains("no face found"), "{said}");
@@ -179,7 +179,7 @@ fn portrait_styles_leave_the_background_out_where_a_face_is_found() {
     assert!(!said.contains("background"), "{said}");
     let (keep, _) = drawn(folder.path(), &photo, &["--style", "glass", "--background", "keep"]);
     assert_eq!(auto, keep);
-    // A subject that is given is not looked for.
+    // A subject that is given is not detected.
     let mask = format!("subject={}", sample_path("grace-hopper-subject.png"));
     let (_, said) = drawn(folder.path(), &sample_path("grace-hopper.jpg"), &["--mask", &mask]);
     assert!(!said.contains("background"), "{said}");
@@ -281,7 +281,7 @@ fn the_part_round_the_head_and_the_tone_are_found() {
     let part =
         |svg: &str| -> Vec<f64> { recipe(svg, "crop_px").as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect() };
     let (head_part, face_part) = (part(&head), part(&face));
-    // The eyes lie 87 pixels apart, their middle at 264, 206; the head with its cap is cut by no border.
+    // The eyes are 87 pixels apart, their middle at 264, 206; no border cuts the head with its cap.
     assert!(head_part[0] < 150.0 && head_part[0] + head_part[2] > 380.0 && head_part[1] < 20.0, "{head_part:?}");
     assert!(face_part[2] < 0.75 * head_part[2] && face_part[1] > head_part[1], "{face_part:?}");
     assert_eq!(recipe(&head, "tone"), "portrait");
@@ -290,7 +290,7 @@ fn the_part_round_the_head_and_the_tone_are_found() {
     assert_ne!(marks(&lightness), marks(&head));
     let (half, _) = drawn(folder.path(), "photo.jpg", &["--crop", "head", "--tone-strength", "0.5"]);
     assert!(marks(&half) != marks(&head) && marks(&half) != marks(&lightness));
-    // A small face at this pitch: said, with what shows it.
+    // A small face at this pitch: reported, with the options that make it visible.
     let said = drawn(folder.path(), "photo.jpg", &[]).1;
     assert!(said.contains("too small for a pitch of 0.8 mm") && said.contains("--crop head"), "{said}");
 }
@@ -309,7 +309,7 @@ fn a_folder_that_was_written_draws_what_was_found() {
     let (found, _) = drawn(folder.path(), "photo.jpg", &[]);
     let (a, b) = (marks(&by_folder).len() as f64, marks(&found).len() as f64);
     assert!((a / b - 1.0).abs() < 0.05, "{a} bytes by the folder, {b} found");
-    // What is no sight is refused with its name.
+    // A file that is no sight is refused by name.
     fs::write(folder.path().join("seen/sight.json"), "{}").unwrap();
     let refused = run(folder.path(), &["draw", "photo.jpg", "--sight", "seen", "-o", "no.svg"]);
     assert_eq!(refused.status.code(), Some(1));
@@ -328,7 +328,7 @@ fn the_first_stages_are_what_was_seen() {
         names.sort();
         names
     };
-    // The hedcut has a use for some of them only.
+    // The hedcut uses only some of them.
     let names = stages("found", &[]);
     assert_eq!(names[..3], ["01-subject.png", "02-skin.png", "03-hair.png"]);
     for role in ["headwear", "clothing", "detail", "faces", "depth"] {
@@ -336,11 +336,11 @@ fn the_first_stages_are_what_was_seen() {
     }
     let place = |step: &str| names.iter().position(|name| name.contains(step)).unwrap();
     assert!(place("-depth.png") < place("-tone.png"), "{names:?}");
-    // What was painted stands in the place of what was found.
+    // Painted masks replace detected ones.
     grey_png(&folder.path().join("left.png"), 128, 150, |x, _| if x < 64 { 255 } else { 0 });
     stages("painted", &["--mask", "subject=left.png"]);
     let painted = image::open(folder.path().join("painted/01-subject.png")).unwrap().to_luma8();
     assert_eq!((painted.get_pixel(10, 60).0, painted.get_pixel(100, 60).0), ([255], [0]));
-    // Unseen, nothing of it is shown.
+    // Without a sight none of it is shown.
     assert_eq!(stages("unseen", &["--sight", "none"])[0], "01-tone.png");
 }

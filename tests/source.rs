@@ -1,4 +1,4 @@
-//! Every kind of photograph comes in right: formats, depths, profiles, alpha, turns.
+//! Every kind of photograph is read correctly: formats, depths, profiles, alpha, orientation.
 
 mod common;
 
@@ -22,7 +22,7 @@ fn data(name: &str) -> Vec<u8> {
     std::fs::read(format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// One working pixel for each of the picture's.
+/// One working pixel per pixel of the picture.
 fn portrait(bytes: &[u8]) -> Portrait {
     let photograph = Photograph::decode(bytes, Limits::default()).unwrap();
     let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
@@ -78,7 +78,7 @@ fn palettes_and_single_bits() {
         encoder.set_depth(depth);
         encoder.set_palette((0..levels).flat_map(|i| [255 - i * (255 / (levels - 1)); 3]).collect::<Vec<u8>>());
         let bits = depth as usize;
-        // Every pixel shows the last entry of the palette, black, but the first eight show white.
+        // Every pixel has the palette's last entry, black, except the first eight, which are white.
         let row: Vec<u8> = (0..16 * bits / 8).map(|i| if i < bits { 0 } else { 0xff }).collect();
         let mut writer = encoder.write_header().unwrap();
         writer.write_image_data(&row.repeat(4)).unwrap();
@@ -101,7 +101,7 @@ fn alpha_is_the_subject_and_the_picture_lies_on_white() {
 
 #[test]
 fn the_exif_turn_is_applied_before_masks_and_crops() {
-    // 40 x 20 px, its left half black, to be turned clockwise by a quarter: 20 x 40 px, the upper half black.
+    // 40 x 20 px, left half black, to be turned a quarter clockwise: 20 x 40 px, upper half black.
     let portrait = portrait(&data("turned.jpg"));
     assert_eq!((portrait.placement.columns, portrait.placement.rows), (20, 40));
     assert!(portrait.tone.get(10, 5) < 0.02 && portrait.tone.get(10, 34) > 0.98);
@@ -127,7 +127,7 @@ fn an_embedded_profile_is_honoured() {
     let plain = green(None);
     let close = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.004);
     assert!(close(green(Some(ColorProfile::new_srgb())), plain));
-    // The same numbers in a wider space are a stronger green: less red, more green.
+    // The same numbers in a wider colour space are a stronger green: less red, more green.
     for wide in [ColorProfile::new_adobe_rgb(), ColorProfile::new_display_p3()] {
         let [red, green, _] = green(Some(wide));
         assert!(red < plain[0] - 0.005 && green >= plain[1] - 0.02, "{red} {green} {plain:?}");

@@ -1,5 +1,5 @@
-//! Ctrl-C, SIGTERM and SIGHUP end the program soon, wherever it is, and leave nothing behind; nor does SIGKILL spoil a file; and
-//! nobody needs to listen to stderr.
+//! Ctrl-C, SIGTERM and SIGHUP end the program soon, wherever it is, and leave nothing behind; SIGKILL corrupts no file; and a
+//! closed stderr does no harm.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// One second is promised; the rest is for machines that do other things too.
+/// The guarantee is one second; the rest allows for busy machines.
 const SOON: Duration = Duration::from_millis(2500);
 
 fn folder() -> TempDir {
@@ -29,10 +29,11 @@ fn send(signal: &str, child: &Child) {
     assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
 }
 
-/// Starts a command, sends a signal after a while, and gives the exit status and how long the end took; `None` if it was done before.
+/// Starts a command, sends a signal after a while, and returns the exit status and the time until the end; `None` if it finished
+/// before.
 fn stopped(folder: &Path, arguments: &[&str], signal: &str, after: Duration) -> Option<(Option<i32>, Duration)> {
     let mut child = start(folder, arguments);
-    // To wait for a child closes its stdin, which would end its reading.
+    // Waiting for a child closes its stdin, which would end its reading.
     let _stdin = child.stdin.take();
     std::thread::sleep(after);
     if child.try_wait().unwrap().is_some() {
@@ -49,7 +50,7 @@ fn assert_nothing_new(folder: &Path, before: usize, what: &str) {
     assert_eq!(found.len(), before, "{what} left {found:?}");
 }
 
-/// A hatching of many lines, which takes long to read, to order and to write.
+/// A hatching of many lines, slow to read, to order and to write.
 fn long_drawing(lines: usize) -> String {
     let paths = (0..lines)
         .map(|i| {
@@ -105,7 +106,7 @@ fn a_signal_while_a_file_is_written_leaves_no_temporary_one() {
         if child.try_wait().unwrap().is_none() {
             seen += 1;
             send(signal, &child);
-            // Once more at once: impatience leaves nothing behind either.
+            // A second signal at once must leave nothing behind either.
             let _ = Command::new("kill").args([signal, &child.id().to_string()]).stderr(Stdio::null()).status();
         }
         child.wait().unwrap();

@@ -5,10 +5,10 @@
 use std::fmt::Write;
 use std::process::{Command, Output};
 
-/// Kilobytes of address space that the program may take.
+/// Limit of the program's address space in kilobytes.
 const MEMORY: u32 = 2 << 20;
 
-/// Places without a pattern, from 0 to 1.
+/// Deterministic pseudo-random numbers from 0 to 1.
 struct Places(u64);
 
 impl Places {
@@ -44,7 +44,7 @@ fn ring() -> String {
     }))
 }
 
-/// 20,000 vertices anywhere: tens of millions of crossings.
+/// 20,000 random vertices: tens of millions of crossings.
 fn polygon() -> String {
     let mut places = Places(3);
     path((0..20_000).map(|_| [200.0 * places.next(), 200.0 * places.next()]))

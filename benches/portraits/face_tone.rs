@@ -1,4 +1,4 @@
-//! The tone of a face on the print beside the photograph's.
+//! The tone of a face on the print compared with the photograph's.
 
 use super::kept;
 use super::print::Print;
@@ -8,22 +8,22 @@ use drypoint::geometry::Point;
 use drypoint::raster::{Raster, dilate, gaussian_blur, reduce};
 use drypoint::source::{Crop, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget, outlines};
 
-/// Ink below which a place is bare, and above which it is black.
+/// Ink below which a pixel is bare, and above which it is black.
 const BARE: f32 = 0.03;
 const BLACK: f32 = 0.85;
-/// Standard deviation of the blur by which ink is weighed, and the halo's width, in pitches.
+/// Standard deviation of the blur for measuring ink, and width of the halo, in pitches.
 const BLUR: f64 = 2.0;
 const HALO: f64 = 2.0;
-/// Width of the skin round a feature that it is compared with, in widths of the face.
+/// Width of the skin around a feature that it is compared with, in widths of the face.
 const ROUND: f64 = 0.08;
-/// Contrast of the photograph, in L*/100, below which its sign says nothing.
+/// Contrast of the photograph, in L*/100, below which its sign is unreliable.
 const LEAST_CONTRAST: f64 = 0.01;
-/// Ink on paper that no eye sees: the round edges of the outermost dots.
+/// Invisible ink on paper: the round edges of the outermost dots.
 const NO_INK: f64 = 0.005;
 
-/// What was measured of one face.
+/// Measurements of one face.
 pub struct FaceTone {
-    /// Shares of the face.
+    /// Fractions of the face.
     bare: f64,
     black: f64,
     /// Median ink and median L*/100 within the outline of the face.
@@ -35,7 +35,7 @@ pub struct FaceTone {
     halo: f64,
 }
 
-/// How much darker a feature is than the skin round it.
+/// How much darker a feature is than the skin around it.
 #[derive(Clone, Copy)]
 struct Contrast {
     /// In L*/100.
@@ -49,7 +49,7 @@ impl Contrast {
         self.photograph * self.drawing > 0.0 || self.photograph.abs() < LEAST_CONTRAST
     }
 
-    /// Counted where the sign is the photograph's.
+    /// Checked only if the drawing's sign is the photograph's.
     fn is_enough(self) -> bool {
         !self.has_its_sign() || self.drawing.abs() >= self.photograph.abs() - 0.005
     }
@@ -103,19 +103,19 @@ impl<'a> Weighed<'a> {
         self.print.pitch.expect("dots have a pitch") * 0.5 * self.print.pixels_per_mm
     }
 
-    /// The inside of a line of the face.
+    /// The inside of a contour of the face.
     fn inside(&self, indices: &[usize]) -> Raster<u8> {
         let line = self.sitter.face().line(indices);
         let outline: Vec<Point> = line.iter().map(|p| (self.print.place(*p).to_vec2() * 0.5).to_point()).collect();
         inside(&outline, self.ink.width(), self.ink.height())
     }
 
-    /// What of the face's outline belongs to the person.
+    /// The part of the face's outline that belongs to the person.
     fn face(&self) -> Raster<u8> {
         self.inside(&outlines::OVAL).zip_map(&self.portrait.subject, |inside, subject| inside * u8::from(subject >= 0.5))
     }
 
-    /// A feature against the skin round it, without other features.
+    /// Contrast of a feature with the skin around it, without other features.
     fn contrast(&self, indices: &[usize]) -> Contrast {
         let feature = self.inside(indices);
         let reach = ROUND * self.sitter.face().width() * 0.5 * self.print.scale();
@@ -128,7 +128,7 @@ impl<'a> Weighed<'a> {
         }
     }
 
-    /// Mean ink where there is nothing of the person, near the silhouette.
+    /// Mean ink outside the person, near the silhouette.
     fn halo(&self) -> f64 {
         let person = self.portrait.subject.map(|v| u8::from(v >= 0.5));
         let near = dilate(&person, (HALO * self.pitch()).round() as usize);
@@ -137,7 +137,7 @@ impl<'a> Weighed<'a> {
     }
 }
 
-/// A blur that takes nothing from outside.
+/// A blur that ignores everything outside.
 fn blurred_within(raster: &Raster<f32>, inside: &Raster<u8>, sigma: f32) -> Raster<f32> {
     let weight = inside.map(f32::from);
     let sum = gaussian_blur(&raster.zip_map(&weight, |v, w| v * w), sigma);
@@ -153,7 +153,7 @@ fn mean_in(raster: &Raster<f32>, inside: &Raster<u8>) -> f64 {
     values.iter().copied().map(f64::from).sum::<f64>() / values.len().max(1) as f64
 }
 
-/// A line for each portrait, then what was promised of all.
+/// A row for each portrait, then the guarantees for all.
 pub fn report(tones: &[(&str, FaceTone)]) {
     println!(
         "{:16} {:>5} {:>6} {:>5} {:>5}   {:>12}   {:>12} {:>6}",
@@ -188,10 +188,10 @@ pub fn report(tones: &[(&str, FaceTone)]) {
     );
 }
 
-/// What is promised, and whether a face keeps it.
+/// A guarantee, and whether a face meets it.
 type Promise = (&'static str, fn(&FaceTone) -> bool);
 
-/// What every face was promised.
+/// The guarantees for every face.
 const PROMISES: [Promise; 5] = [
     ("bare, 2 to 25 % of the face", |tone| (0.02..=0.25).contains(&tone.bare)),
     ("black, at most 5 % of the face", |tone| tone.black <= 0.05),
@@ -205,7 +205,7 @@ fn missed(tone: &FaceTone) -> Vec<&'static str> {
     broken.map(|(what, _)| what.split(',').next().unwrap_or_default()).collect()
 }
 
-/// Each value's place in order; equal values share their mean.
+/// The rank of each value; equal values share their mean.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let rank = |v: &f64| {
         let below = values.iter().filter(|other| *other < v).count();

@@ -1,4 +1,4 @@
-//! How far a drawing's features are from the photograph's.
+//! Displacement of a drawing's features from the photograph's.
 
 use super::kept;
 use super::print::Print;
@@ -11,12 +11,12 @@ use drypoint::source::{Landmarks, outlines};
 /// The tip of the nose.
 const NOSE_TIP: usize = 1;
 
-/// How far eyes, nose and mouth are off, in percent of the distance of the eyes.
+/// Displacement of eyes, nose and mouth, in percent of the distance between the eyes.
 #[derive(Clone, Copy, Debug)]
 pub struct Likeness {
     /// The mean of both irises.
     eyes: f64,
-    /// Its tip.
+    /// The tip of the nose.
     nose: f64,
     /// The middle of the border between the lips.
     mouth: f64,
@@ -26,7 +26,7 @@ pub struct Likeness {
 pub struct Row {
     name: String,
     skin: Skin,
-    /// None where the face was not found again.
+    /// `None` if the face was not found again.
     likeness: Option<Likeness>,
 }
 
@@ -36,7 +36,7 @@ impl Row {
     }
 }
 
-/// The largest face of a print against the photograph's; none where no face is found within the distance of the eyes.
+/// The largest face of a print compared with the photograph's; `None` if no face is found within the distance between the eyes.
 pub fn likeness(sitter: &Sitter, print: &Print) -> Option<Likeness> {
     let there = sitter.face().placed(|p| print.place(p), print.scale());
     let seen = look(&print.photograph(), &Interrupt::never()).expect("a print can be looked at");
@@ -56,7 +56,7 @@ fn mouth(face: &Landmarks) -> Point {
     (line.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / line.len() as f64).to_point()
 }
 
-/// One way's line in the table, and the portraits that are off by more than is asked of the median.
+/// A row of the table, and the portraits beyond the limit for the median.
 pub fn report(way: &str, rows: &[Row], limit: f64) {
     let found: Vec<(&Row, Likeness)> = rows.iter().filter_map(|row| Some((row, row.likeness?))).collect();
     let of = |feature: fn(&Likeness) -> f64| median(found.iter().map(|(_, likeness)| feature(likeness)).collect());

@@ -1,8 +1,8 @@
-//! How like the drawings of faces are, and how their tone is: `cargo bench --bench portraits [-- FOLDER]`.
+//! Likeness of drawn faces, and their tone: `cargo bench --bench portraits [-- FOLDER]`.
 //!
-//! Each photograph of a person (those of `samples`, or all JPEG and PNG files of a folder) is drawn in every style by the whole command,
-//! with no mask and nothing tuned, and printed by resvg. The face finder that looked at the photograph looks at the print: how far
-//! are eyes, nose and mouth from where they were? Then the tone of the faces as hedcuts, weighed on the print.
+//! Each photograph of a person (those of `samples`, or all JPEG and PNG files of a folder) is drawn in every style by the whole
+//! command, with no mask and default settings, and printed by resvg. The face detector that analysed the photograph then analyses
+//! the print: how far have eyes, nose and mouth moved? Then the tone of the faces as hedcuts is measured on the print.
 
 mod face_tone;
 mod likeness;
@@ -19,7 +19,7 @@ use std::path::Path;
 struct Way {
     name: &'static str,
     options: &'static [&'static str],
-    /// Most that a feature may be off in the median, in percent of the distance of the eyes.
+    /// Limit of the median displacement of a feature, in percent of the distance between the eyes.
     limit: f64,
 }
 
@@ -32,9 +32,9 @@ const WAYS: [Way; 6] = [
     Way { name: "glass", options: &["--style", "glass"], limit: 3.0 },
     Way { name: "hedcut 38x50", options: &["--crop", "head", "--size", "38x50mm", "--set", "pitch=0.35"], limit: 5.0 },
 ];
-/// Pixels a millimetre at which the face finder looks at a print, which it makes smaller itself.
+/// Pixels per millimetre of the print for the face detector, which reduces it itself.
 const TO_LOOK_AT: f64 = 20.0;
-/// Pixels a millimetre at which ink is weighed: at half as many resvg is off by 0.018 on small dots.
+/// Pixels per millimetre at which ink is measured: at half as many resvg is off by 0.018 on small dots.
 const TO_WEIGH: f64 = 40.0;
 
 fn main() {

@@ -1,4 +1,4 @@
-//! A drawing as resvg prints it, and where on it a place of the photograph lies.
+//! A drawing as resvg prints it, and the mapping from the photograph to it.
 
 use drypoint::geometry::{Point, Rect};
 use drypoint::raster::Raster;
@@ -25,9 +25,9 @@ pub struct Print {
     pub pixels_per_mm: f64,
     /// The part of the photograph that was drawn.
     pub crop: Crop,
-    /// Where it lies on the page, in millimetres.
+    /// Its position on the page, in millimetres.
     pub picture: Rect,
-    /// The style's pitch in millimetres, where it has one.
+    /// The style's pitch in millimetres, if it has one.
     pub pitch: Option<f64>,
 }
 
@@ -47,14 +47,14 @@ impl Print {
         }
     }
 
-    /// Where a place of the photograph lies, in pixels of the print.
+    /// Maps a point of the photograph to pixels of the print.
     pub fn place(&self, p: Point) -> Point {
         let x = self.picture.x0 + (p.x - self.crop.x) / self.crop.width * self.picture.width();
         let y = self.picture.y0 + (p.y - self.crop.y) / self.crop.height * self.picture.height();
         Point::new(x * self.pixels_per_mm, y * self.pixels_per_mm)
     }
 
-    /// Pixels of the print a pixel of the photograph.
+    /// Pixels of the print per pixel of the photograph.
     pub fn scale(&self) -> f64 {
         self.picture.width() * self.pixels_per_mm / self.crop.width
     }
@@ -67,7 +67,7 @@ impl Print {
         Photograph::decode(bytes.get_ref(), Limits::default()).expect("it was just written")
     }
 
-    /// The share of each pixel that is inked, in black drawings.
+    /// The inked fraction of each pixel, in black drawings.
     pub fn ink(&self) -> Raster<f32> {
         self.pixels.map(|[_, green, _]| 1.0 - f32::from(green) / 255.0)
     }

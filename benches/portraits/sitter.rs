@@ -1,4 +1,4 @@
-//! The people: photographs and what is seen in them.
+//! The people: photographs and what was detected in them.
 
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
@@ -94,7 +94,7 @@ pub fn inside(outline: &[Point], width: usize, height: usize) -> Raster<u8> {
     filled_polygon(width, height, &corners)
 }
 
-/// The middle value; NaN of none.
+/// The median; NaN for an empty list.
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let middle = values.len() / 2;

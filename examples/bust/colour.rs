@@ -16,7 +16,7 @@ pub struct Look {
     pub iris: Vec3,
     pub hair: Vec3,
     pub shirt: Vec3,
-    /// How much darker the stripes of the shirt are, and how many go on a decimetre.
+    /// How much darker the stripes of the shirt are, and their number per decimetre.
     pub stripes: (f32, f32),
 }
 
@@ -83,8 +83,8 @@ pub fn shade(hit: &Hit, look: &Look) -> Vec3 {
     }
 }
 
-/// Diffuse and glossy light. Skin lets light through: it wraps round to where the surface already
-/// turns away from the key, red furthest.
+/// Diffuse and glossy light. Skin is translucent: light wraps round to where the surface already turns away from the key, red
+/// farthest.
 pub fn lit(hit: &Hit, albedo: Vec3, shine: f32, translucency: f32) -> Vec3 {
     let facing = hit.normal.dot(KEY_LIGHT);
     let wrapped = |wrap: f32| ((facing + wrap) / (1.0 + wrap)).max(0.0);
@@ -192,7 +192,7 @@ pub fn shade_hair(hit: &Hit, look: &Look) -> Vec3 {
     );
     let fine = noise(vec3(across * 75.0, along * 3.0, 1.0));
     let finer = noise(vec3(across * 150.0, along * 5.0, 4.0));
-    // Tangents are taken in head space, so the lights have to go there too.
+    // Tangents are in head space, so the lights must be too.
     let into_head = |v: Vec3| v.turned(HEAD_TURN, HEAD_LEAN);
     let normal = into_head(hit.normal);
     let tangent = (normal.cross(slope).normalized() + normal * (0.12 * fine)).normalized();

@@ -13,7 +13,7 @@ pub const TORSO_TOP: f32 = -1.25;
 pub const MOUTH_HEIGHT: f32 = -0.70;
 pub const MOUTH_HALF: f32 = 0.25;
 
-/// What a ray can hit. The face is told apart further, at hits only, by [`face_part`].
+/// What a ray can hit. [`face_part`] subdivides the face, at hits only.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Part {
     Face,
@@ -45,7 +45,7 @@ pub fn scene(point: Vec3) -> (f32, Part) {
             best = (distance, part);
         }
     };
-    // Far from a part a bound will do; nearer than 0.4 it would show in the soft shadows.
+    // Far from a part a bound is enough; below 0.4 it would show in the soft shadows.
     let bound = (head - vec3(0.0, 0.05, 0.0)).length() - 1.35;
     if bound > 0.4 {
         offer(bound, Part::Hair);
@@ -120,7 +120,7 @@ pub fn eye_opening(p: Vec3) -> f32 {
     upper.max(lower) * 0.8
 }
 
-/// How far a point lies above the upper and below the lower edge of the opening.
+/// Distance of a point above the upper and below the lower edge of the opening.
 pub fn lid_offsets(p: Vec3) -> (f32, f32) {
     let x = p.x - EYE_CENTRE.x;
     let y = p.y - 0.10 * x;
@@ -130,7 +130,7 @@ pub fn lid_offsets(p: Vec3) -> (f32, f32) {
     (y - upper, -lower - y)
 }
 
-/// The fine forms of the face, as a height over the coarse ones.
+/// The fine forms of the face, as a height above the coarse ones.
 pub fn relief(p: Vec3) -> f32 {
     let mut height = lip_relief(p);
     // Groove between nose and mouth, with its two ridges.
@@ -276,7 +276,7 @@ pub fn shirt(point: Vec3, torso: f32) -> (f32, Part) {
     if button < distance { (button, Part::Button) } else { (distance, Part::Shirt) }
 }
 
-/// A turned-down collar: a piece of a cone round the neck, cut to two points in front.
+/// A turned-down collar: a piece of a cone around the neck, cut to two points in front.
 pub fn collar(point: Vec3) -> f32 {
     let p = point.mirrored();
     let centre_z = -0.28;

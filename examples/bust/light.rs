@@ -81,8 +81,8 @@ pub fn render_pixel(x: u32, y: u32) -> Pixel {
     pixel
 }
 
-/// Follows a ray to the first surface. The light is taken from the last hit of the same pixel if
-/// that is close, since shadows are soft.
+/// Follows a ray to the first surface. The light is taken from the last hit of the same pixel if that is close, since shadows are
+/// soft.
 pub fn trace(camera: Vec3, direction: Vec3, last: Option<Hit>) -> Option<Hit> {
     let mut travelled = (NEAR - camera.z) / direction.z;
     let end = (FAR - camera.z) / direction.z;
@@ -98,7 +98,7 @@ pub fn trace(camera: Vec3, direction: Vec3, last: Option<Hit>) -> Option<Hit> {
             return None;
         }
     }
-    // Still under way after so many steps: it grazes an edge.
+    // Not finished after all steps: the ray grazes an edge.
     let position = camera + direction * travelled;
     Some(light_hit(position, direction, scene(position).1, last))
 }

@@ -1,5 +1,5 @@
-//! Renders a human bust whose truth is known: three pictures of it, with the depth, the region
-//! masks and the feature boxes that a style would otherwise have to guess.
+//! Renders a human bust with known ground truth: three pictures of it, with the depth, the region masks and the feature boxes
+//! that a style would otherwise have to guess.
 //!
 //! Usage: `cargo run --release --example bust -- OUTDIR`
 //!
@@ -82,7 +82,7 @@ fn feature_bit(hit: &Hit) -> u8 {
     let p = hit.head.mirrored();
     match hit.part {
         Part::Brow => 1 << right,
-        // The corners of the eye, beyond the ball, belong to it too.
+        // The corners of the eye, outside the ball, belong to it too.
         Part::Eye => 4 << right,
         Part::Face if p.z > 0.5 && eye_opening(p) < 0.004 => 4 << right,
         Part::Nose => 16,

@@ -1,4 +1,4 @@
-//! The bilateral filter (Tomasi and Manduchi 1998), which Bruehl 2023, section 1.4.1 smooths with before isophotes are read, in
+//! The bilateral filter (Tomasi and Manduchi 1998), used by Bruehl 2023, section 1.4.1 to smooth before isophotes are traced, in
 //! its separable form (Pham and van Vliet 2005): along the rows, then along the columns.
 
 use super::Raster;
@@ -7,9 +7,9 @@ use rayon::prelude::*;
 /// Smooths within regions and keeps their edges.
 ///
 /// Each pixel becomes the mean of `2 sigma_space` pixels on either side, weighted by a Gaussian of the distance (`sigma_space`,
-/// pixels) and one of the difference in value (`sigma_value`, in the raster's own unit); first in its row, then in its column.
-/// Cost grows with `sigma_space`; the full window's would grow with its square (3 s in place of 0.1 s a megapixel at sigma 6)
-/// and looks the same once the lines are smoothed.
+/// pixels) and one of the difference in value (`sigma_value`, in the raster's unit); first in its row, then in its column. Time
+/// grows with `sigma_space`. The full window would grow with its square (3 s instead of 0.1 s per megapixel at sigma 6) and looks
+/// the same once the lines are smoothed.
 pub fn bilateral(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Raster<f32> {
     let rows = filter_rows(raster, sigma_space, sigma_value).transposed();
     filter_rows(&rows, sigma_space, sigma_value).transposed()
@@ -43,7 +43,7 @@ fn filter_rows(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Rast
     out
 }
 
-/// Close to `exp(-d^2 / 2)` within 0.04, without the cost of `exp`: `(1 - d^2 / 16)^8`, 0 from d = 4 on.
+/// Approximates `exp(-d^2 / 2)` within 0.04, without the cost of `exp`: `(1 - d^2 / 16)^8`, 0 from d = 4 on.
 fn alike(difference: f32) -> f32 {
     let base = (1.0 - difference * difference / 16.0).max(0.0);
     let squared = base * base;

@@ -7,13 +7,14 @@ pub fn dilate(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     window_count(mask, radius).map(|count| u8::from(count > 0))
 }
 
-/// The median of a binary raster: marked where more than half of the `(2r+1)^2` window is; outside the raster counts as unmarked.
+/// The median of a binary raster: marked where more than half of the `(2r+1)^2` window is marked. Pixels outside the raster count
+/// as unmarked.
 pub fn majority(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     let half = ((2 * radius + 1) * (2 * radius + 1) / 2) as u32;
     window_count(mask, radius).map(|count| u8::from(count > half))
 }
 
-/// How many pixels of the window around each pixel are marked.
+/// The number of marked pixels in the window around each pixel.
 fn window_count(mask: &Raster<u8>, radius: usize) -> Raster<u32> {
     let rows = running_count(&mask.map(u32::from), radius).transposed();
     running_count(&rows, radius).transposed()
@@ -39,8 +40,8 @@ fn running_count(raster: &Raster<u32>, radius: usize) -> Raster<u32> {
 /// Labels the connected components of a mask (eight neighbours): 0 outside, then 1, 2, ... in row order of their first pixel.
 /// Returns the labels and the number of components.
 ///
-/// Two passes: the first takes a label from the neighbours above and to the left and notes which labels meet there, the second
-/// gives all that meet one number.
+/// Two passes: the first takes a label from the neighbours above and to the left and records which labels meet there; the second
+/// renumbers the joined labels.
 pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
     let mut labels = Raster::filled(mask.width(), mask.height(), 0_u32);
     let mut meets = Meets(vec![0]);
@@ -58,7 +59,7 @@ pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
     (labels.map(|label| numbers[label as usize]), count)
 }
 
-/// For each label a smaller one that it meets, or itself.
+/// Union-find: for each label a smaller one that it is joined to, or itself.
 struct Meets(Vec<u32>);
 
 impl Meets {
@@ -68,7 +69,7 @@ impl Meets {
         label
     }
 
-    /// The smallest label of all that meet this one; the way there is halved for the next search.
+    /// The smallest label joined to this one; halves the path for later searches.
     fn least(&mut self, mut label: u32) -> u32 {
         while self.0[label as usize] != label {
             let next = self.0[self.0[label as usize] as usize];
@@ -88,7 +89,7 @@ impl Meets {
     fn numbers(self) -> (Vec<u32>, usize) {
         let (mut numbers, mut count) = (self.0, 0);
         for label in 1..numbers.len() {
-            // A label meets smaller ones only, and those are numbered by now.
+            // A label is joined only to smaller ones, which have their numbers by now.
             if numbers[label] == label as u32 {
                 count += 1;
                 numbers[label] = count;
@@ -100,7 +101,7 @@ impl Meets {
     }
 }
 
-/// Drops every component of `mask` for which `keep(label)` is false; labels as [`components`] gives them.
+/// Keeps the components of `mask` for which `keep(label)` is true; labels as [`components`] returns them.
 pub fn remove_components(mask: &Raster<u8>, labels: &Raster<u32>, keep: impl Fn(u32) -> bool + Sync) -> Raster<u8> {
     mask.zip_map(labels, |marked, label| u8::from(marked != 0 && keep(label)))
 }

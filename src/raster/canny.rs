@@ -11,9 +11,9 @@ pub struct Thresholds {
     pub high: f32,
 }
 
-/// Marks (1) the ridges of the gradient that reach `high` somewhere and never fall below `low`.
+/// Marks (1) the ridges of the gradient that reach `high` somewhere and never fall below `low`, one pixel wide.
 ///
-/// The raster is taken as it is: blur it first. The outermost ring of pixels is never an edge.
+/// The raster is not blurred here: blur it first. The outermost ring of pixels is never an edge.
 pub fn canny(raster: &Raster<f32>, thresholds: Thresholds) -> Raster<u8> {
     let gradient = sobel(raster);
     let strength = gradient.map(|[gx, gy]| gx.hypot(gy));
@@ -21,7 +21,7 @@ pub fn canny(raster: &Raster<f32>, thresholds: Thresholds) -> Raster<u8> {
     follow_from_strong(&ridges, &strength, thresholds.high)
 }
 
-/// Keeps pixels whose gradient is at least that of both points one pixel ahead and behind along it.
+/// Keeps pixels whose gradient is at least that of the two points one pixel ahead and behind along it.
 fn suppress_non_maxima(gradient: &Raster<[f32; 2]>, strength: &Raster<f32>, low: f32) -> Raster<u8> {
     let (width, height) = (strength.width(), strength.height());
     Raster::from_fn(width, height, |x, y| {

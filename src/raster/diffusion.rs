@@ -5,10 +5,11 @@ use super::{Raster, gradient};
 /// A step of the explicit scheme; stable up to 1/4.
 const TIME_STEP: f32 = 0.2;
 
-/// Smooths the planes within regions for the time in which plain diffusion would be a Gaussian blur of `sigma` pixels.
+/// Smooths within regions, for the time in which plain diffusion would be a Gaussian blur of `sigma` pixels.
 ///
-/// Conductance is `1 / (1 + (|gradient| / contrast)^2)`, the gradient summed over the planes and taken at one pixel's blur, so that
-/// corners keep their place (Papari 2009, figure 7.14). `contrast` is in values a pixel, above 0; the cost grows with `sigma^2`.
+/// Conductance is `1 / (1 + (|gradient| / contrast)^2)`. The squared gradient is summed over the planes and taken by central
+/// differences (about one pixel's blur), so that corners keep their place (Papari 2009, figure 7.14). `contrast` is in values per
+/// pixel, above 0. Time grows with `sigma^2`.
 pub fn anisotropic_diffusion(planes: &[Raster<f32>], sigma: f32, contrast: f32) -> Vec<Raster<f32>> {
     let rounds = (0.5 * sigma * sigma / TIME_STEP).ceil() as usize;
     let mut planes = planes.to_vec();

@@ -1,17 +1,18 @@
-//! Edge preserving smoothing (Papari 2009, appendix A): a mean of local means, those of uneven neighbourhoods weighing little.
+//! Edge-preserving smoothing (Papari 2009, appendix A): a mean of local means that gives uneven neighbourhoods little weight.
 
 use super::{Raster, fast_gaussian};
 
-/// Least variance that counts, of values from 0 to 1: half a step of 8 bits (errata).
+/// Least variance, for values from 0 to 1: half a step of 8 bits (errata).
 const LEAST_VARIANCE: f32 = (0.5 / 255.0) * (0.5 / 255.0);
 
 /// `Psi_q` of one plane (grey) or several (colour), equation 7.16, all of one size, values 0 to 1.
 ///
 /// With `m` and `s` the mean and standard deviation in a Gaussian window of `sigma` pixels (`s^2` summed over the planes), each
 /// pixel becomes the mean of `m` around it, weighted by the Gaussian and `s^-q`. `q = 0` is a Gaussian blur of `sqrt(2) sigma`;
-/// large `q` (up to 16) takes the least uneven neighbourhood alone, as Kuwahara's filter does. The cost does not depend on `sigma`.
+/// large `q` (up to 16) takes the most even neighbourhood alone, as Kuwahara's filter does. The time does not depend on `sigma`.
 ///
-/// On a plate of step edges with noise of 0.05 (figure 7.18, sigma 3), `cargo test --test glass figure -- --nocapture`:
+/// Results on a plate of step edges with noise of 0.05 (figure 7.18, sigma 3), from
+/// `cargo test --test glass figure -- --nocapture`:
 ///
 /// | q | noise rejected, PSNR in dB | edges lost |
 /// |---|---|---|
@@ -34,7 +35,7 @@ pub fn edge_preserving(planes: &[Raster<f32>], sigma: f32, q: f32) -> Vec<Raster
         .collect()
 }
 
-/// `s^-q`, 1 where the picture is flat.
+/// The weight `s^-q`, scaled to 1 where the picture is flat.
 fn evenness(planes: &[Raster<f32>], means: &[Raster<f32>], sigma: f32, q: f32) -> Option<Raster<f32>> {
     let variances = planes.iter().zip(means).map(|(plane, mean)| {
         let squares = fast_gaussian(&plane.map(|v| v * v), sigma);

@@ -1,9 +1,9 @@
-//! Region growing without recursion: from the border inwards, and the hulls of regions.
+//! Region growing without recursion: flood fill from the border, and hole filling.
 
 use super::Raster;
 
-/// The pixels (1) that can be reached from the raster's border through pixels for which `joins(from, to)` holds; every border
-/// pixel for which `starts` holds is a beginning. Indices are into the pixels in row order; four neighbours.
+/// Marks (1) the pixels that can be reached from the raster's border through steps for which `joins(from, to)` holds, beginning
+/// at each border pixel for which `starts` holds. Indices are in row order; four neighbours.
 pub fn flood_from_border(
     width: usize,
     height: usize,
@@ -38,7 +38,7 @@ pub fn flood_from_border(
     reached
 }
 
-/// A mask with its holes filled: what the border cannot reach through unmarked pixels.
+/// A mask with its holes filled: unmarked pixels that the border cannot reach through unmarked pixels.
 pub fn without_holes(mask: &Raster<u8>) -> Raster<u8> {
     let pixels = mask.pixels();
     flood_from_border(mask.width(), mask.height(), |i| pixels[i] == 0, |_, to| pixels[to] == 0).map(|outside| 1 - outside)

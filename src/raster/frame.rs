@@ -3,7 +3,7 @@
 use super::Raster;
 
 impl<T: Copy + Send + Sync> Raster<T> {
-    /// The raster with `margin` more pixels on each side, each the border pixel nearest to it.
+    /// The raster with `margin` more pixels on each side, which repeat the nearest border pixel.
     #[must_use]
     pub fn framed(&self, margin: usize) -> Self {
         Self::from_fn(self.width() + 2 * margin, self.height() + 2 * margin, |x, y| {
@@ -11,7 +11,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
         })
     }
 
-    /// The raster without `margin` pixels on each side, which it must have.
+    /// The raster without `margin` pixels on each side; each side must be at least `2 margin` long.
     #[must_use]
     pub fn unframed(&self, margin: usize) -> Self {
         Self::from_fn(self.width() - 2 * margin, self.height() - 2 * margin, |x, y| self.get(x + margin, y + margin))

@@ -1,11 +1,11 @@
-//! The guided filter (He, Sun and Tang 2010): a mask takes the edges of a colour picture. And its fast form (He and Sun 2015),
-//! where the mask is coarser than the picture.
+//! The guided filter (He, Sun and Tang 2010): a mask takes on the edges of a colour picture. Also its fast form (He and Sun
+//! 2015), for a mask coarser than the picture.
 
 use super::{Raster, box_blur};
 
-/// `raster` smoothed along the edges of `guide`, of the same size, values 0 to 1: in each window of `radius` pixels it is a
+/// `raster` smoothed along the edges of `guide` (same size, values 0 to 1): in each window of `radius` pixels it is fitted as a
 /// linear function of the guide's three channels, by least squares, and each pixel takes the mean of the functions of its
-/// windows. Edges of a contrast well below the root of `eps` do not count. The cost does not depend on `radius`.
+/// windows. Edges of a contrast well below the root of `eps` are ignored. The time does not depend on `radius`.
 ///
 /// # Panics
 /// If the sizes differ.
@@ -13,9 +13,9 @@ pub fn guided_filter(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usi
     fitted(guide, raster, radius, eps).zip_map(guide, applied)
 }
 
-/// A coarse raster, values 0 to 1, on the grid of a picture of bytes, along the picture's edges: the functions of the guided
-/// filter are found on `coarse_guide`, the same picture in the coarse raster's size, values 0 to 1, in windows of `radius` coarse
-/// pixels, and each fine pixel takes the bilinear mean of those round it.
+/// A coarse raster, values 0 to 1, enlarged to the grid of a picture of bytes, along the picture's edges. The guided filter's
+/// functions are fitted on `coarse_guide` (the same picture at the coarse raster's size, values 0 to 1) in windows of `radius`
+/// coarse pixels; each fine pixel takes their bilinear interpolation.
 ///
 /// # Panics
 /// If the coarse sizes differ.
@@ -38,21 +38,20 @@ pub fn guided_enlargement(
     })
 }
 
-/// For each of `fine` pixels in a row the two of `coarse` between whose centres it lies, and how far it is towards the second, 0
-/// to 1.
+/// For each of `fine` pixels in a row: the two of `coarse` between whose centres it lies, and its position between them, 0 to 1.
 fn neighbours(fine: usize, coarse: usize) -> Vec<(usize, usize, f32)> {
     let last = coarse.saturating_sub(1);
     let place = |i: usize| ((i as f64 + 0.5) * coarse as f64 / fine as f64 - 0.5).clamp(0.0, last as f64);
     (0..fine).map(place).map(|p| (p as usize, (p as usize + 1).min(last), p.fract() as f32)).collect()
 }
 
-/// A function's value, 0 to 1, at a colour: slopes for its three channels, then the offset.
+/// The value, 0 to 1, of a function at a colour: slopes for the three channels, then the offset.
 fn applied(function: [f32; 4], colour: [f32; 3]) -> f32 {
     let sum = (0..3).map(|k| function[k] * colour[k]).sum::<f32>();
     (sum + function[3]).clamp(0.0, 1.0)
 }
 
-/// For each pixel the mean of the linear functions of its windows: slopes for the guide's three channels, then the offset.
+/// For each pixel, the mean of the linear functions of its windows: slopes for the guide's three channels, then the offset.
 fn fitted(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usize, eps: f64) -> Raster<[f32; 4]> {
     let mean = |plane: &Raster<f32>| box_blur(plane, radius);
     let channels = [0, 1, 2].map(|k| guide.map(|colour| colour[k]));

@@ -1,19 +1,19 @@
-//! Gaussian blur whose cost does not grow with sigma: the raster is gathered onto a coarse lattice by cubic B-splines, blurred
-//! there by a short kernel and spread back by the same splines.
+//! Gaussian blur whose time does not depend on sigma: the raster is gathered onto a coarse lattice by cubic B-splines, blurred
+//! there by a short kernel, and interpolated back by the same splines.
 //!
 //! ```text
 //!   pixels   . . . . . . . . . . . .        a B-spline of the lattice's step has variance step^2 / 3 wherever it lies between
 //!   lattice  |       |       |              nodes, so that  sigma^2 = (kernel's sigma * step)^2 + 2 step^2 / 3  exactly
 //! ```
 //!
-//! All weights are positive, so that weights of very unlike size (edge preserving smoothing) stay exact to f32; recursive
+//! All weights are positive, so that weights of very different magnitude (edge-preserving smoothing) stay exact to f32; recursive
 //! filters ring there.
 
 use super::{Raster, gaussian_blur, gaussian_kernel};
 use rayon::prelude::*;
 
-/// Least sigma in lattice steps. At 1.5 the blur is within 0.2 % of the Gaussian's peak; at 1 within 1.2 %, at 2 the lattice
-/// needs twice the nodes for nothing that shows.
+/// Least sigma in lattice steps. At 1.5 the blur is within 0.2 % of the Gaussian's peak, at 1 within 1.2 %; 2 needs twice the
+/// nodes without visible gain.
 const LEAST_SIGMA: f32 = 1.5;
 
 /// Gaussian blur of standard deviation `sigma` in pixels, within 1 % of the Gaussian's peak; borders clamped.
@@ -38,14 +38,14 @@ fn b_spline(t: f32) -> f32 {
     }
 }
 
-/// One axis' lattice, with nodes at every `step`-th pixel.
+/// The lattice along one axis, with a node at every `step`-th pixel.
 struct Lattice {
     step: usize,
     /// Right half of the kernel between nodes, centre first.
     kernel: Vec<f32>,
-    /// What a node takes of the pixels from `2 step - 1` before it to as many after it.
+    /// Weights of a node for the pixels from `2 step - 1` before it to as many after it.
     gather: Vec<f32>,
-    /// For each place between two nodes, what it takes of the node before those, of both, and of the node after.
+    /// For each position between two nodes, the weights of those two, of the node before and of the node after.
     spread: Vec<[f32; 4]>,
 }
 
@@ -64,7 +64,7 @@ impl Lattice {
         }
     }
 
-    /// Nodes beyond the border: one for the splines and the kernel's reach.
+    /// Nodes beyond the border: one for the splines, and the kernel's radius.
     fn margin(&self) -> usize {
         self.kernel.len()
     }
@@ -130,7 +130,7 @@ impl Lattice {
     }
 }
 
-/// A raster whose rows are weighted sums of rows; `sum` adds those of one row.
+/// A raster whose rows are weighted sums of rows; `sum` adds up one row.
 fn weighted_rows(width: usize, height: usize, sum: impl Fn(usize, &mut dyn FnMut(&[f32], f32)) + Sync) -> Raster<f32> {
     let mut out = Raster::filled(width, height, 0.0_f32);
     out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, out)| {

@@ -1,15 +1,15 @@
-//! Local Laplacian filtering (Paris, Hasinoff and Kautz 2011) by a few samples of the remapping (Aubry et al. 2014): contrast is
-//! changed at chosen sizes without halos.
+//! Local Laplacian filtering (Paris, Hasinoff and Kautz 2011) by a few samples of the remapping (Aubry et al. 2014): changes
+//! contrast at chosen scales without halos.
 
 use super::{Raster, doubled, halved};
 
-/// How contrasts of one level are remapped: `d`, a value's distance from the local mean, becomes
-/// `sigma (d / sigma)^alpha` below `sigma`, and beyond it grows by `beta`.
+/// Remapping of the contrasts of one level: `d`, a value's distance from the local mean, becomes `sigma (d / sigma)^alpha` below
+/// `sigma`; beyond it the slope is `beta`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remapping {
     /// Below 1 raises fine contrast, above 1 lowers it.
     pub alpha: f32,
-    /// What counts as fine, in the raster's units.
+    /// Limit of fine contrast, in the raster's units.
     pub sigma: f32,
     /// Below 1 lowers large contrast.
     pub beta: f32,
@@ -28,8 +28,8 @@ impl Remapping {
     }
 }
 
-/// The raster, of values 0 to 1, with the contrast of each level remapped, the finest level first; what is coarser is left.
-/// The remapping is sampled at `samples` means, at least two; 14 show no bands.
+/// The raster (values 0 to 1) with the contrast of each level remapped, finest level first; coarser levels are unchanged. The
+/// remapping is sampled at `samples` means, at least two; 14 show no bands.
 pub fn local_laplacian(raster: &Raster<f32>, levels: &[Remapping], samples: usize) -> Raster<f32> {
     let mut means = vec![raster.clone()];
     for _ in levels {
@@ -59,7 +59,7 @@ pub fn local_laplacian(raster: &Raster<f32>, levels: &[Remapping], samples: usiz
     })
 }
 
-/// Runs of levels that are remapped alike.
+/// Runs of levels with the same remapping.
 fn runs_of(levels: &[Remapping]) -> Vec<std::ops::Range<usize>> {
     let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
     for i in 0..levels.len() {

@@ -82,7 +82,7 @@ impl<T> Raster<T> {
         self.data.len()
     }
 
-    /// Whether there is no pixel at all.
+    /// Whether there are no pixels.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
     }
@@ -92,7 +92,7 @@ impl<T> Raster<T> {
         &self.data
     }
 
-    /// All pixels in row order, to change.
+    /// All pixels in row order, mutable.
     pub fn pixels_mut(&mut self) -> &mut [T] {
         &mut self.data
     }
@@ -143,7 +143,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
         Raster { width: self.width, height: self.height, data }
     }
 
-    /// A raster of the same size from two of them.
+    /// A raster of the same size from two, pixel by pixel.
     ///
     /// # Panics
     /// If the sizes differ.
@@ -188,17 +188,17 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 }
 
-/// Pixels that one thread takes at once: enough to outweigh the call, few enough to share a small raster out.
+/// Pixels per parallel task: enough to outweigh the call, few enough to divide a small raster among threads.
 const SHARE: usize = 4096;
 
-/// Fills each share of `data` by `fill(its start, share)`, parallel. The parallel part is compiled once for each type of pixel, not
-/// once for each call: three functions made half of the crate's machine code otherwise.
+/// Fills each share of `data` by `fill(start of the share, share)`, in parallel. The parallel part is compiled once per pixel
+/// type, not once per call: otherwise three functions made half of the crate's machine code.
 fn fill_shares<T: Send>(data: &mut [T], share: usize, fill: &(dyn Fn(usize, &mut [T]) + Sync)) {
     data.par_chunks_mut(share).enumerate().for_each(|(i, out)| fill(i * share, out));
 }
 
 impl Raster<f32> {
-    /// The value at a place in pixel units (`0.5, 0.5` is the centre of the first pixel), bilinear between centres.
+    /// The value at a point in pixel units (`0.5, 0.5` is the centre of the first pixel), bilinear between centres.
     #[inline]
     pub fn sample(&self, x: f64, y: f64) -> f32 {
         let (fx, fy) = (x - 0.5, y - 0.5);

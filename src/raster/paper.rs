@@ -3,23 +3,23 @@
 use super::{Raster, gaussian_blur};
 use rayon::prelude::*;
 
-/// Steps of the table that makes the texture's values even; a step is below what a mark's edge can show.
+/// Bins of the histogram that equalises the texture; one bin is less than a mark's edge can show.
 const LEVELS: usize = 8192;
 
-/// An irregular texture whose values are spread evenly over 0 to 1 and whose hills are about `grain` pixels apart.
+/// An irregular texture with values distributed evenly over 0 to 1 and hills about `grain` pixels apart.
 ///
-/// White noise (a hash of place and `seed`) less its own average over a grain, so that no tenth of the sheet is much darker than
-/// another, then equalised by rank. Nothing in it repeats. `grain` is at least 2.
+/// White noise (a hash of position and `seed`), band-passed so that no tenth of the sheet is much darker than another, then
+/// equalised by rank. It does not repeat. `grain` is at least 2.
 pub fn paper_texture(width: usize, height: usize, grain: f32, seed: u64) -> Raster<f32> {
     let white = Raster::from_fn(width, height, |x, y| hash(seed, x as u64, y as u64));
     // The band between the two blurs peaks at a wavelength of 2 pi * 1.26 sigma.
     let sigma = grain / 5.0;
     let (fine, coarse) = (gaussian_blur(&white, sigma), gaussian_blur(&white, 2.0 * sigma));
-    // Twice, since ranking bends the surface between the pixels.
+    // Twice, since equalising changes the interpolated surface between the pixels.
     equalised(&equalised(&fine.zip_map(&coarse, |a, b| a - b)))
 }
 
-/// Evenly distributed in -1 to 1 by place (`SplitMix64`'s finaliser).
+/// A hash of the position, evenly distributed in -1 to 1 (`SplitMix64`'s finaliser).
 fn hash(seed: u64, x: u64, y: u64) -> f32 {
     let mut z = seed.wrapping_add(x.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_add(y.wrapping_mul(0xd1b5_4a32_d192_ed03));
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -28,8 +28,8 @@ fn hash(seed: u64, x: u64, y: u64) -> f32 {
     (z >> 40) as f32 / 8_388_608.0 - 1.0
 }
 
-/// Each value replaced by its rank, 0 to 1, among the values of the surface between the pixels' centres (bilinear), since that is
-/// what outlines are drawn on; the pixels alone reach farther up and down.
+/// Each value replaced by its rank, 0 to 1, among the values of the bilinear surface between pixel centres, on which outlines are
+/// drawn. The pixels alone have a wider range.
 fn equalised(raster: &Raster<f32>) -> Raster<f32> {
     let bounds = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
     let (low, high) = raster.pixels().par_iter().map(|&v| (v, v)).reduce(|| (f32::INFINITY, f32::NEG_INFINITY), bounds);

@@ -1,16 +1,16 @@
-//! Burt and Adelson's pyramids (1983): halves of a raster, and what each half loses.
+//! The pyramids of Burt and Adelson (1983): halving and doubling a raster.
 
 use super::Raster;
 
-/// Their five weights with a = 0.375: the binomial ones.
+/// Their five weights for a = 0.375, which are binomial.
 const WEIGHTS: [f32; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
 
-/// Every second pixel of the smoothed raster; an odd side keeps its last.
+/// Every second pixel of the smoothed raster; an odd side is rounded up.
 pub fn halved(raster: &Raster<f32>) -> Raster<f32> {
     halved_rows(&halved_rows(raster).transposed()).transposed()
 }
 
-/// A halved raster at its former size, smooth.
+/// A halved raster interpolated smoothly to its former size.
 pub fn doubled(raster: &Raster<f32>, width: usize, height: usize) -> Raster<f32> {
     doubled_rows(&doubled_rows(raster, width).transposed(), height).transposed()
 }

@@ -1,13 +1,14 @@
 //! Line detection: thin dark and light lines of a raster, as one-pixel ridges of its second derivative.
 //!
-//! Wong 1999, section 3.1.2 uses "a standard line-detection algorithm"; the masks of the textbooks see four directions. Here the
-//! second derivatives give the strength and the direction across the line, and only the ridge itself is kept, so that the Hough
+//! Wong 1999, section 3.1.2 uses "a standard line-detection algorithm"; textbook masks see four directions. Here the second
+//! derivatives give the strength and the direction across the line, and only the ridge itself is kept, so that the Hough
 //! transform that follows counts thin lines.
 
 use super::Raster;
 
-/// Marks (1) the pixels that lie on a dark or light line: the second derivative across it is the greatest of its neighbours and
-/// at least `least` (raster units a square pixel). Blur the raster first: the blur decides the width of the lines seen.
+/// Marks (1) the pixels on a dark or light line: the magnitude of the second derivative across the line is the largest among its
+/// neighbours and at least `least` (raster units per square pixel). Blur the raster first: the blur sets the width of the lines
+/// found.
 pub fn ridges(raster: &Raster<f32>, least: f32) -> Raster<u8> {
     let curvature = Raster::from_fn(raster.width(), raster.height(), |x, y| across(raster, x as isize, y as isize));
     let strength = curvature.map(|[s, ..]| s.abs());
@@ -17,12 +18,12 @@ pub fn ridges(raster: &Raster<f32>, least: f32) -> Raster<u8> {
             return 0;
         }
         let at = |step: f32| strength.sample(x as f64 + 0.5 + f64::from(step * ux), y as f64 + 0.5 + f64::from(step * uy));
-        // Two pixels either way, since a blurred line has a weaker line of the opposite sign on both its sides.
+        // Two pixels each way, since a blurred line has a weaker line of the opposite sign on both sides.
         u8::from(here.abs() > at(1.0).max(at(2.0)) && here.abs() >= at(-1.0).max(at(-2.0)))
     })
 }
 
-/// The second derivative of greatest size (positive on a dark line) and its unit direction.
+/// The second derivative of largest magnitude (positive on a dark line) and its unit direction.
 fn across(raster: &Raster<f32>, x: isize, y: isize) -> [f32; 3] {
     let at = |dx: isize, dy: isize| raster.clamped(x + dx, y + dy);
     let xx = at(1, 0) - 2.0 * at(0, 0) + at(-1, 0);
@@ -30,7 +31,7 @@ fn across(raster: &Raster<f32>, x: isize, y: isize) -> [f32; 3] {
     let xy = 0.25 * (at(1, 1) - at(-1, 1) - at(1, -1) + at(-1, -1));
     let (mean, spread) = (0.5 * (xx + yy), (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt());
     let value = if mean >= 0.0 { mean + spread } else { mean - spread };
-    // The eigenvector, from the row of the matrix that is farther from 0.
+    // The eigenvector, from the row of the matrix with the larger entry.
     let (a, b) = if (value - yy).abs() > (value - xx).abs() { (value - yy, xy) } else { (xy, value - xx) };
     let length = a.hypot(b);
     if length > 0.0 { [value, a / length, b / length] } else { [value, 1.0, 0.0] }

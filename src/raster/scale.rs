@@ -1,4 +1,4 @@
-//! Smaller and larger rasters, for fields that are smooth.
+//! Reducing and enlarging rasters of smooth fields.
 
 use super::Raster;
 
@@ -13,17 +13,17 @@ pub fn reduce(raster: &Raster<f32>, factor: usize) -> Raster<f32> {
     })
 }
 
-/// The raster that was reduced by `factor`, `width` by `height` pixels large again, bilinear.
+/// Enlarges a raster that was reduced by `factor` to `width` by `height` pixels, bilinear.
 pub fn enlarge(raster: &Raster<f32>, factor: usize, width: usize, height: usize) -> Raster<f32> {
     let scale = 1.0 / factor.max(1) as f64;
     Raster::from_fn(width, height, |x, y| raster.sample((x as f64 + 0.5) * scale, (y as f64 + 0.5) * scale))
 }
 
-/// Like [`enlarge`], with the pixels as control points of a uniform cubic B-spline: smooth to the second derivative, and smoothed by
-/// it (a third of a pixel squared).
+/// Like [`enlarge`], with the pixels as control points of a uniform cubic B-spline: smooth to the second derivative, and blurred
+/// by the spline (variance a third of a pixel squared).
 pub fn enlarge_smoothly(raster: &Raster<f32>, factor: usize, width: usize, height: usize) -> Raster<f32> {
     let scale = 1.0 / factor.max(1) as f64;
-    // For each place: the pixel before the one that lies left of it, and what its four neighbours count.
+    // For each position: the first of its four pixels (one before its left neighbour), and their weights.
     let taps = |count: usize| -> Vec<(isize, [f32; 4])> {
         let place = |i: usize| (i as f64 + 0.5) * scale - 0.5;
         (0..count).map(|i| (place(i).floor() as isize - 1, cubic_basis((place(i) - place(i).floor()) as f32))).collect()
@@ -39,7 +39,7 @@ pub fn enlarge_smoothly(raster: &Raster<f32>, factor: usize, width: usize, heigh
     })
 }
 
-/// The four cubic B-splines that are not 0 at `t`, 0 to 1 between the second and the third.
+/// The four non-zero cubic B-splines at `t`, 0 to 1 from the second to the third control point.
 fn cubic_basis(t: f32) -> [f32; 4] {
     let (s, t2, t3) = (1.0 - t, t * t, t * t * t);
     [s * s * s / 6.0, (3.0 * t3 - 6.0 * t2 + 4.0) / 6.0, (-3.0 * t3 + 3.0 * t2 + 3.0 * t + 1.0) / 6.0, t3 / 6.0]

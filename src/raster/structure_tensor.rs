@@ -7,7 +7,7 @@ pub fn gaussian_gradient(plane: &Raster<f32>, sigma: f32) -> Raster<[f32; 2]> {
     gradient(&fast_gaussian(plane, sigma))
 }
 
-/// Central differences (x, then y) per pixel; one-sided, so halved, at the border.
+/// Central differences (x, then y) per pixel; at the border one-sided, so half as large.
 pub fn gradient(plane: &Raster<f32>) -> Raster<[f32; 2]> {
     Raster::from_fn(plane.width(), plane.height(), |x, y| {
         let (x, y) = (x as isize, y as isize);
@@ -17,7 +17,7 @@ pub fn gradient(plane: &Raster<f32>) -> Raster<[f32; 2]> {
     })
 }
 
-/// The sum of the outer products of the planes' gradients: `[xx, xy, yy]` a pixel. None for no planes.
+/// The sum of the outer products of the planes' gradients: `[xx, xy, yy]` per pixel. `None` without planes.
 pub fn structure_tensor(gradients: &[Raster<[f32; 2]>]) -> Option<Raster<[f32; 3]>> {
     let outer = |g: &Raster<[f32; 2]>| g.map(|[x, y]| [x * x, x * y, y * y]);
     let add = |a: Raster<[f32; 3]>, b: Raster<[f32; 3]>| a.zip_map(&b, |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]);

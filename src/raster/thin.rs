@@ -26,7 +26,7 @@ pub fn thin(mask: &Raster<u8>) -> Raster<u8> {
     }
 }
 
-/// The two half-steps of an iteration, named by the side they peel.
+/// The two half-steps of an iteration, named by the side that they peel.
 #[derive(Clone, Copy)]
 enum Pass {
     SouthEast,

@@ -1,32 +1,32 @@
-//! Colours of the subject and of what is behind it, each where it occurs.
+//! Colours of the subject and of the background, each where it occurs.
 //!
-//! Pixels that are surely the one or the other are counted in a lattice over place and colour, which is blurred; what a pixel's
-//! place and colour say of it is the ratio of both counts there. A red beside black hair is flag if there is red flag near and no
-//! red on the person near; the same red in a jacket is not.
+//! Pixels that are certainly one or the other are counted in a lattice over position and colour, which is then blurred. The
+//! evidence for a pixel is the ratio of both counts at its position and colour. A red beside black hair is flag if there is red
+//! flag nearby and no red on the person nearby; the same red in a jacket is not.
 
 use crate::raster::Raster;
 use crate::source::{lab, srgb_to_linear};
 use rayon::prelude::*;
 
-/// Nodes along the longer side of the picture, and along L*, a* and b*, with their steps in units of Lab.
+/// Nodes along the longer side of the picture, along L*, and along a* and b*; and the step of the last three in units of Lab.
 const PLACES: usize = 5;
 const LIGHTNESSES: usize = 13;
 const HUES: usize = 16;
 const STEP: f32 = 8.0;
 const SIZE: [usize; 5] = [PLACES, PLACES, LIGHTNESSES, HUES, HUES];
-/// How often each axis is blurred by 1 2 1: twice over places.
+/// Number of 1 2 1 blurs of each axis: two along positions.
 const BLURS: [usize; 5] = [2, 2, 1, 1, 1];
-/// Pixels that are added to both counts, so that rare colours say little.
+/// Pixels added to both counts, so that rare colours give little evidence.
 const UNKNOWN: f32 = 0.5;
 
-/// Where a pixel lies in the lattice, in nodes.
+/// A pixel's position in the lattice, in nodes.
 type Place = [f32; 5];
 
-/// The picture's pixels in the lattice.
+/// The position of each pixel of the picture in the lattice.
 pub(super) struct Colours(Raster<Place>);
 
 impl Colours {
-    /// Of a picture in bytes as numbers.
+    /// From a picture in byte values as floats.
     pub(super) fn new(picture: &Raster<[f32; 3]>) -> Self {
         let scale = PLACES as f32 / picture.width().max(picture.height()) as f32;
         Self(Raster::from_fn(picture.width(), picture.height(), |x, y| {
@@ -56,12 +56,12 @@ impl Colours {
     }
 }
 
-/// The node's number, the last axis running fastest.
+/// The node's index; the last axis varies fastest.
 fn index(node: [usize; 5]) -> usize {
     node.into_iter().zip(SIZE).fold(0, |number, (i, size)| number * size + i)
 }
 
-/// By 1 2 1 along an axis, nothing beyond its ends.
+/// Blur by 1 2 1 along an axis, with zeros beyond its ends.
 fn blurred(lattice: &[[f32; 2]], axis: usize) -> Vec<[f32; 2]> {
     let step: usize = SIZE[axis + 1..].iter().product();
     let along = |i: usize| i / step % SIZE[axis];
@@ -73,7 +73,7 @@ fn blurred(lattice: &[[f32; 2]], axis: usize) -> Vec<[f32; 2]> {
     (0..lattice.len()).into_par_iter().map(value).collect()
 }
 
-/// Between the nodes round a place, whose centres lie at halves, linear along each axis.
+/// Linear interpolation along each axis between the nodes around a position; node centres are at halves.
 fn at(lattice: &[[f32; 2]], place: Place) -> [f32; 2] {
     let mut low = [0; 5];
     let mut high = [0; 5];
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn a_colour_belongs_to_what_has_it_nearby() {
-        // A red coat in the lower half on the right, a red flag in the upper half on the left, blue elsewhere.
+        // A red coat at the lower right, a red flag at the upper left, blue elsewhere.
         let is_red = |x: usize, y: usize| (x >= 32) == (y >= 32);
         let picture = Raster::from_fn(64, 64, |x, y| if is_red(x, y) { [200.0, 20.0, 30.0] } else { [30.0, 60.0, 180.0] });
         let subject = Raster::from_fn(64, 64, |x, y| u8::from(x >= 32 && y >= 32 && (x + y) % 2 == 0));

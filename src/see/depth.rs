@@ -1,7 +1,8 @@
-//! How near the people are: the subject bulged like a cushion, the faces' own relief on it, bodies behind chins.
+//! Nearness of the people: the subject inflated like a cushion, with the faces' own relief on it and bodies set back behind
+//! chins.
 //!
-//! Slopes are put together, not heights: where a face's points rule, the slopes are theirs, elsewhere the cushion's, with a soft seam;
-//! Poisson's equation finds the heights. So there is no step at any border, and hair keeps the volume of its silhouette.
+//! Slopes are combined, not heights: within a face they follow its landmarks, elsewhere the cushion, with a soft seam between;
+//! Poisson's equation gives the heights. So no border has a step, and hair keeps the volume of its silhouette.
 
 mod face_relief;
 mod heads;
@@ -15,26 +16,26 @@ use crate::source::Landmarks;
 use face_relief::FaceRelief;
 use heads::Heads;
 
-/// Longest side of the grid that depth is found on, in pixels: all of it is smooth.
+/// Longest side of the depth grid, in pixels; depth is smooth throughout.
 const LONGEST: usize = 280;
-/// V-cycles of each solution.
+/// V-cycles of each Poisson solution.
 const CYCLES: usize = 6;
-/// Smoothing of the silhouette in widths of the face, and what of it counts as inside: curls and a raster's stairs would show as
-/// waves of the lines inside.
+/// Blur of the silhouette in widths of the face, and the threshold for inside: curls and a raster's steps would show as waves in
+/// the lines inside.
 const OUTLINE_SMOOTHING: f64 = 0.04;
 const OUTLINE: f32 = 0.15;
-/// Reach of the silhouette in widths of the face: a head is round, a torso, which is much wider, no more than half as thick again.
+/// Reach of the silhouette in widths of the face: a head is round; a torso, which is much wider, is at most half as thick again.
 const REACH: f64 = 0.4;
-/// Rounding at the silhouette in widths of the face: a hemisphere's edge is infinitely steep, which presses lines together.
+/// Rounding at the silhouette in widths of the face: a hemisphere's edge is infinitely steep, which crowds lines.
 const EDGE: f64 = 0.2;
-/// Smoothing of the result in pixels of the grid.
+/// Blur of the result in pixels of the grid.
 const SMOOTHING: f32 = 1.0;
-/// Least depth of the whole picture in its longer sides: in a picture of small faces their relief is small too.
+/// Least depth range of the whole picture, in its longer sides: in a picture of small faces their relief is small too.
 const LEAST_RANGE: f64 = 0.3;
-/// Nearness grows with this power of the height: faces, which are high, take more of the range, and the silhouette is flatter. With 1
-/// an engraving's lines hardly bend over a face; with 2 shoulders are flat.
+/// Nearness grows with this power of the height: faces, which are high, take more of the range, and the silhouette is flatter. At
+/// 1 an engraving's lines hardly bend over a face; at 2 shoulders are flat.
 const POWER: f64 = 1.6;
-/// Nearness of the farthest place of the subject, and what of the soft mask has depth.
+/// Nearness of the subject's farthest pixel, and the least mask value that has depth.
 const FARTHEST: f64 = 0.05;
 const LEAST_SUBJECT: u8 = 26;
 
@@ -49,7 +50,7 @@ pub(super) fn depth(subject: &Raster<u8>, view: &View, faces: &[Face]) -> Raster
     depth_of(subject, &faces)
 }
 
-/// The same for faces in pixels of the subject.
+/// [`depth`] for faces in pixels of the subject.
 fn depth_of(subject: &Raster<u8>, faces: &[Landmarks]) -> Raster<u16> {
     let (width, height) = (subject.width(), subject.height());
     let factor = width.max(height).div_ceil(LONGEST).max(1);
@@ -86,14 +87,14 @@ fn centre(x: usize, y: usize) -> Point {
     Point::new(x as f64 + 0.5, y as f64 + 0.5)
 }
 
-/// The subject bulged: what a disc makes a hemisphere, less high far from its silhouette. The photograph's edge is no silhouette.
+/// The inflated subject: a disc becomes a hemisphere, flatter far from its silhouette. The photograph's edge is no silhouette.
 fn cushion(given: &Raster<Option<f32>>, width: f64) -> Raster<f32> {
     let edge = (EDGE * width) as f32;
     let squares = screened_poisson(&given.map(|_| -4.0), given, (REACH * width) as f32, CYCLES);
     squares.map(|square| (square.max(0.0) + edge * edge).sqrt() - edge)
 }
 
-/// Heights in 16 bits: the nearest place of the subject takes 65535; the farthest is a range away at least.
+/// Heights in 16 bits: the nearest pixel of the subject is 65535; the range is at least `least_range`.
 fn as_nearness(heights: &Raster<f32>, subject: &Raster<u8>, least_range: f64) -> Raster<u16> {
     let inside = || heights.pixels().iter().zip(subject.pixels()).filter(|(_, s)| **s >= LEAST_SUBJECT).map(|(h, _)| *h);
     let (lowest, highest) = inside().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));

@@ -1,4 +1,4 @@
-//! The small things by which a face is known: eyes, brows, nose and mouth, from the points of its mesh.
+//! The features by which a face is recognised: eyes, brows, nose and mouth, from its landmarks.
 
 use crate::geometry::{Point, Vec2, convex_hull};
 use crate::raster::Raster;
@@ -7,23 +7,23 @@ use crate::source::outlines::{LEFT_BROW, LEFT_EYE, LIPS, RIGHT_BROW, RIGHT_EYE};
 
 /// The nose's underside and wings, up to its tip.
 const NOSE: [usize; 11] = [1, 48, 64, 98, 97, 2, 326, 327, 294, 278, 4];
-/// The lids reach so far round the eye, in widths of the face.
+/// Margin of the lids around the eye, in widths of the face.
 const LIDS: f64 = 0.02;
 /// Width of the soft edge, in widths of the face.
 const SOFT: f64 = 0.02;
 
-/// A part of a face that wants finer strokes.
+/// A part of a face that needs finer strokes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DetailRegion {
     /// What it is; left and right are the person's.
     pub name: &'static str,
     /// Its outline, closed and convex, in the landmarks' unit.
     pub outline: Vec<Point>,
-    /// How far it reaches beyond the outline, in that unit.
+    /// How far it extends beyond the outline, in that unit.
     pub margin: f64,
 }
 
-/// The parts of a face that want finer strokes.
+/// The parts of a face that need finer strokes.
 pub fn detail_regions(face: &Landmarks) -> Vec<DetailRegion> {
     let lids = LIDS * face.width();
     let region = |name, indices: &[usize], margin| DetailRegion { name, outline: convex_hull(face.line(indices)), margin };
@@ -37,7 +37,7 @@ pub fn detail_regions(face: &Landmarks) -> Vec<DetailRegion> {
     ]
 }
 
-/// All parts of all faces together, 0 to 255 with a soft edge, never more than the subject; the faces lie on its pixels.
+/// All parts of all faces, 0 to 255 with a soft edge, never more than the subject; the faces are in its pixels.
 pub(super) fn detail(subject: &Raster<u8>, faces: &[Landmarks]) -> Raster<u8> {
     let mut out = subject.map(|_| 0_u8);
     for face in faces {
@@ -65,7 +65,7 @@ fn paint(out: &mut Raster<u8>, region: &DetailRegion, soft: f64) {
     }
 }
 
-/// How far a place is outside a convex polygon, negative inside.
+/// Distance of a point from a convex polygon, negative inside.
 fn distance(outline: &[Point], p: Point) -> f64 {
     let mut nearest = f64::INFINITY;
     let (mut left, mut right) = (false, false);

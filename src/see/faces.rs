@@ -1,4 +1,4 @@
-//! The face detector: boxes and key points over a grid of anchors, joined where they mean one face.
+//! The face detector: boxes and key points over a grid of anchors; boxes of the same face are merged.
 
 use super::SeeError;
 use super::networks::{Network, sigmoid, sixteenths, thousandths};
@@ -6,28 +6,28 @@ use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::interrupt::Interrupt;
 
-/// Least score of a face. On sixteen portraits and the samples faces score 0.88 and more where the head is upright, cats,
-/// parrots, a raccoon and a cup at most 0.60: at 0.6 animals become people, and their drawings lose the background; at 0.9 heads
-/// that are tilted or half in shade are passed over.
+/// Least score of a face. On sixteen portraits and the samples, faces with upright heads score 0.88 and more; cats, parrots, a
+/// raccoon and a cup score at most 0.60. At 0.6 animals become people, and their drawings lose the background; at 0.9 heads that
+/// are tilted or half in shade are missed.
 const GATE: f64 = 0.75;
-/// Least score of a box that has a say in where a face lies.
+/// Least score of a box that takes part in the average of a face's boxes.
 const CANDIDATE: f64 = 0.5;
-/// Boxes that share more than this of their union mean one face.
+/// Boxes with more than this ratio of intersection to union are one face.
 const ONE_FACE: f64 = 0.3;
-/// A stranger's face is narrower than this part of the largest known one: a companion of the same size, not found because of
+/// A stranger's face is narrower than this fraction of the largest known one: a companion of the same size, missed because of
 /// turning away, is not cut out.
 const SMALLER: f64 = 2.0 / 3.0;
-/// Its middle is at least so far away, in the sum of half their sides.
+/// Its middle is at least this far away, in the half sum of both sides.
 const BESIDE: f64 = 0.7;
-/// A face narrower than this part of the longer side is worth a second look: the detector misses half of those that fill 0.12 of
-/// what it sees and all below 0.08, so that others may stand beside it.
+/// A face narrower than this fraction of the longer side calls for a second pass: the detector misses half of those that fill
+/// 0.12 of its view and all below 0.08, so there may be others beside it.
 const SMALL: f64 = 0.15;
-/// Sides of the tiles of the second look, in longer sides of the picture: faces down to 0.05 of it are found.
+/// Sides of the tiles of the second pass, in longer sides of the picture: finds faces down to 0.05 of it.
 const TILES: [f64; 2] = [0.5, 1.0 / 3.0];
-/// Least side of a tile in pixels of the picture, twice the detector's own; below it there is no detail to look at.
+/// Least side of a tile in pixels of the picture, twice the detector's own; below it there is no further detail.
 const LEAST_TILE: f64 = 256.0;
 
-/// A face as the detector gives it, in pixels of the upright picture.
+/// A detected face, in pixels of the upright picture.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     pub bounds: Rect,
@@ -37,7 +37,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The turn of the line through the eyes, in radians, clockwise; 0 for an upright head.
+    /// The angle of the line through the eyes, in radians, clockwise; 0 for an upright head.
     pub(super) fn angle(&self) -> f64 {
         (self.keys[1] - self.keys[0]).atan2()
     }
@@ -48,15 +48,15 @@ impl Found {
     }
 }
 
-/// The faces in the picture as a whole, largest first.
+/// The faces found in the picture as a whole, largest first.
 pub(super) fn find(detector: &Network, view: &View) -> Result<Vec<Found>, SeeError> {
     let side = view.part.width().max(view.part.height());
     let found = candidates(detector, view, Window::square(view.part.center(), side, 0.0))?;
     Ok(joined(found, GATE))
 }
 
-/// The boxes of people behind those whose faces are `known`: smaller faces beside theirs that the detector is not sure of,
-/// because they are out of focus, cut by the frame or half hidden.
+/// The boxes of people behind those whose faces are `known`: smaller faces beside theirs with a low score, because they are out
+/// of focus, cut by the frame or half hidden.
 pub(super) fn strangers(detector: &Network, view: &View, known: &[Found]) -> Result<Vec<Rect>, SeeError> {
     let side = view.part.width().max(view.part.height());
     let widest = known.first().map_or(0.0, |largest| largest.bounds.width());
@@ -66,20 +66,20 @@ pub(super) fn strangers(detector: &Network, view: &View, known: &[Found]) -> Res
     Ok(found.into_iter().map(|found| found.bounds).filter(is_stranger).collect())
 }
 
-/// Whether two boxes' middles are so far apart that they can hardly mean one face.
+/// True if the boxes' middles are too far apart to be one face.
 fn is_beside(a: Rect, b: Rect) -> bool {
     let between = a.center() - b.center();
     let half = 0.5 * (a.size() + b.size());
     (between.x / half.width).hypot(between.y / half.height) > BESIDE
 }
 
-/// Whether there may be more faces than a look at the whole shows.
+/// True if there may be more faces than a pass over the whole picture finds.
 pub(super) fn wants_second_look(found: &[Found], view: &View) -> bool {
     let longest = view.part.width().max(view.part.height());
     found.first().is_none_or(|largest| largest.bounds.width() < SMALL * longest)
 }
 
-/// The faces in tiles that overlap by half, and those known already, largest first.
+/// The faces found in tiles that overlap by half, merged with the known ones, largest first.
 pub(super) fn find_small(
     detector: &Network,
     view: &View,
@@ -100,13 +100,13 @@ pub(super) fn find_small(
     Ok(joined(found, GATE))
 }
 
-/// Middles of tiles along a side, at most half a tile apart, the first and the last at its ends.
+/// Middles of tiles along a side: at most half a tile apart, the first and last tile flush with its ends.
 fn tile_places(length: f64, side: f64) -> impl Iterator<Item = f64> {
     let gaps = (2.0 * (length / side - 1.0) - 1e-9).ceil().max(0.0);
     (0..=gaps as usize).map(move |i| if gaps == 0.0 { 0.5 * length } else { 0.5 * side + (length - side) * i as f64 / gaps })
 }
 
-/// The detector's boxes that may be faces.
+/// The detector's boxes with a score of at least [`CANDIDATE`].
 fn candidates(detector: &Network, view: &View, window: Window) -> Result<Vec<Found>, SeeError> {
     let side = detector.side as f64;
     let seen = view.through(&window, detector.side, Outside::Grey(0.0));
@@ -127,7 +127,7 @@ fn candidates(detector: &Network, view: &View, window: Window) -> Result<Vec<Fou
     Ok(found.collect())
 }
 
-/// The middles of the detector's 896 boxes, from 0 to 1: two at each place of a 16 x 16 grid, then six at each of an 8 x 8 grid.
+/// The middles of the detector's 896 boxes, from 0 to 1: two at each cell of a 16 x 16 grid, then six at each of an 8 x 8 grid.
 fn anchors() -> impl Iterator<Item = Point> {
     [(16, 2), (8, 6)].into_iter().flat_map(|(count, each)| {
         let middle = move |i: usize| (i as f64 + 0.5) / count as f64;
@@ -135,8 +135,8 @@ fn anchors() -> impl Iterator<Item = Point> {
     })
 }
 
-/// One face for each heap of boxes: the mean by score of all that overlap the surest one, with its score (weighted non-maximum
-/// suppression); those from the gate on, largest first.
+/// Merges boxes into faces: all that overlap the one with the highest score become their mean weighted by score, with that
+/// highest score (weighted non-maximum suppression). Faces from `gate` on, largest first.
 fn joined(mut candidates: Vec<Found>, gate: f64) -> Vec<Found> {
     candidates.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut faces = Vec::new();
@@ -160,7 +160,7 @@ fn joined(mut candidates: Vec<Found>, gate: f64) -> Vec<Found> {
     faces
 }
 
-/// Area in both over area in either.
+/// Intersection over union.
 fn overlap(a: Rect, b: Rect) -> f64 {
     let both = a.intersect(b).area();
     both / (a.area() + b.area() - both)

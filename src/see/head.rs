@@ -1,58 +1,60 @@
-//! A head's place: what is person for sure, and where head, shoulders and body are to be expected.
+//! The pose of a head: where the picture certainly shows the person, and where head, shoulders and body are expected.
 
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, filled_polygon};
 use crate::source::LEAST_FACE_WIDTH;
 use crate::source::outlines::OVAL;
 
-/// A close-up: the face wider than this part of the picture, or the top of the head, so many heights of the face above the
-/// forehead, out of it.
+/// A close-up: the face is wider than this fraction of the picture, or the top of the head, `CROWN` heights of the face above the
+/// forehead, is outside it.
 const CLOSE_UP: f64 = 0.5;
 const CROWN: f64 = 0.3;
-/// Reach of what is near the head, in widths of the face: to either side, and above the forehead.
+/// Extent of the surroundings of the head, in widths of the face: to either side, and above the forehead.
 const NEAR_SIDE: f64 = 1.7;
 const NEAR_TOP: f64 = 1.0;
-/// Part of the oval, about its middle, that is person for sure: the oval of a turned face goes beyond its far cheek, by up to a
-/// twelfth of the face; at 1 a strip of what is behind stays there, at 0.7 lights on a forehead are lost.
+/// Scale of the oval, about its middle, that is certainly person: the oval of a turned face extends beyond its far cheek, by up
+/// to a twelfth of the face; at 1 a strip of background stays there, at 0.7 highlights on a forehead are lost.
 const SURE: f64 = 0.85;
-/// Hair and ears beside the oval, in widths of the face, and what is left of that at the far side of a face turned so far that
-/// the nose is `TURNED` widths from the middle; the head's back adds so many widths for each of the nose's on the near side.
+/// Hair and ears beside the oval, in widths of the face; the rest of it at the far side of a face turned so far that the nose is
+/// `TURNED` widths from the middle; and the widths that the back of the head adds on the near side per width of the nose's
+/// offset.
 const BESIDE: f64 = 0.22;
 const FAR: f64 = 0.03;
 const TURNED: f64 = 0.3;
 const BACK: f64 = 0.8;
-/// The expected head's reach above and below its middle in widths of the face, and how far that lies above the face's: hats and
-/// high hair are common above, and flags and lamps are rare there.
+/// Extent of the expected head above and below its middle, and height of its middle above the face's, in widths of the face: hats
+/// and high hair are common above, and flags and lamps are rare there.
 const HEIGHTS: [f64; 2] = [1.35, 1.0];
 const RAISED: f64 = 0.12;
-/// The expected head narrows by this part from eyes to chin: hair that ends at the ears leaves shadows on walls beside the jaw.
+/// The expected head narrows by this fraction from eyes to chin: hair that ends at the ears leaves shadows on walls beside the
+/// jaw.
 const JAW: f64 = 0.35;
 
-/// A piecewise linear function by its corners: the ends' values beyond them.
+/// A piecewise linear function given by its corners; constant beyond the first and last.
 fn through_corners<const N: usize>(corners: [(f64, f64); N], x: f64) -> f64 {
     let inside = corners.windows(2).find(|pair| x < pair[1].0);
     let [(x0, y0), (x1, y1)] = inside.map_or([corners[N - 1]; 2], |pair| [pair[0], pair[1]]);
     if x1 > x0 { y0 + (y1 - y0) * ((x - x0) / (x1 - x0)).clamp(0.0, 1.0) } else { y1 }
 }
 
-/// A face's place, in pixels of the upright picture.
+/// The pose of a head, in pixels of the upright picture.
 pub(super) struct Head {
     oval: Vec<Point>,
-    /// Between the ears.
+    /// The midpoint between the ears.
     pub centre: Point,
     forehead: Point,
     /// From ear to ear.
     pub width: f64,
     crown: f64,
-    /// The middle of the face, and the way from the person's right to left, of length 1.
+    /// The middle of the face, and the unit vector from the person's right to left.
     middle: Point,
     across: Vec2,
-    /// How far the expected head reaches to either side of the middle, in widths of the face.
+    /// Extent of the expected head to either side of the middle, in widths of the face.
     reach: [f64; 2],
 }
 
 impl Head {
-    /// Of a face's 468 points.
+    /// From a face's 468 landmarks.
     pub(super) fn new(points: &[[f64; 3]]) -> Self {
         let at = |i: usize| Point::new(points[i][0], points[i][1]);
         let (nose, forehead, chin, right, left) = (at(1), at(10), at(152), at(234), at(454));
@@ -76,14 +78,14 @@ impl Head {
         self.width > CLOSE_UP * picture.width() || self.crown < picture.y0
     }
 
-    /// The part of the picture near this head, down to the lower border.
+    /// The part of the picture around this head, down to the lower border.
     pub(super) fn surroundings(&self, picture: Rect) -> Rect {
         let reach = NEAR_SIDE * self.width;
         let top = self.forehead.y - NEAR_TOP * self.width;
         Rect::new(self.centre.x - reach, top, self.centre.x + reach, picture.y1).intersect(picture)
     }
 
-    /// The face without its rim, on a grid of so many columns and rows over a picture.
+    /// The face without its rim, on a grid of `columns` by `rows` over a picture.
     pub(super) fn sure(&self, picture: Rect, columns: usize, rows: usize) -> Raster<u8> {
         let middle = self.oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / self.oval.len() as f64;
         let outline: Vec<[f64; 2]> = self
@@ -95,7 +97,7 @@ impl Head {
         filled_polygon(columns, rows, &outline)
     }
 
-    /// Whether a place is where this person is to be expected, without knowing hair or hat: from 1, in head and body, to 0.
+    /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.
     pub(super) fn expects(&self, place: Point) -> f64 {
         let from = (place - self.middle) / self.width;
         let (across, down) = (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)));
@@ -103,7 +105,7 @@ impl Head {
         let down_from_middle = down + RAISED;
         let height = HEIGHTS[usize::from(down_from_middle >= 0.0)];
         let head = through_corners([(0.9, 1.0), (1.25, 0.0)], (across / reach).hypot(down_from_middle / height));
-        // Below the chin, at half a width, shoulders grow to either side.
+        // Below the chin, half a width down, shoulders widen to either side.
         let shoulders = through_corners([(0.5, 0.4), (0.8, 1.15), (1.2, 2.2)], down);
         let body = if down > 0.45 { through_corners([(1.0, 1.0), (1.4, 0.0)], across.abs() / shoulders) } else { 0.0 };
         head.max(body)
@@ -114,7 +116,7 @@ impl Head {
 pub(super) mod tests {
     use super::*;
 
-    /// A face 100 wide and 140 high about `(x, y)`, its nose so far to the side.
+    /// A face 100 wide and 140 high about `(x, y)`, with its nose `nose` to the side.
     pub(in super::super) fn face(x: f64, y: f64, nose: f64) -> Vec<[f64; 3]> {
         let mut points = vec![[x, y, 0.0]; 468];
         for (i, k) in OVAL.iter().enumerate() {

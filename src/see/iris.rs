@@ -1,4 +1,4 @@
-//! The irises, each looked for round the corners of its eye.
+//! The irises, each detected around the corners of its eye.
 
 use super::SeeError;
 use super::networks::{Network, sixteenths};
@@ -8,10 +8,10 @@ use crate::source::Iris;
 
 /// Corners of the eyes: outer and inner of the right, inner and outer of the left, each from left to right on an upright face.
 const CORNERS: [(usize, usize); 2] = [(33, 133), (362, 263)];
-/// Side of the window in distances of an eye's corners.
+/// Side of the window in distances between an eye's corners.
 const ROOM: f64 = 2.3;
 
-/// The person's right iris, then the left. The network was trained on left eyes; the right one is shown to it in a mirror.
+/// The person's right iris, then the left. The network was trained on left eyes, so the right one is mirrored.
 pub(super) fn irises(network: &Network, view: &View, points: &[[f64; 3]]) -> Result<[Iris; 2], SeeError> {
     let window = |(a, b): (usize, usize)| {
         let [a, b] = [a, b].map(|i| Point::new(points[i][0], points[i][1]));
@@ -25,13 +25,13 @@ fn iris(network: &Network, view: &View, window: Window) -> Result<Iris, SeeError
     let [_lids, numbers] = network.run(&view.through(&window, network.side, Outside::Repeated), 1.0 / 255.0, 0.0)?;
     let points: Vec<Point> =
         numbers.chunks_exact(3).map(|p| window.place(f64::from(p[0]) / side, f64::from(p[1]) / side)).collect();
-    // Its middle, then its ends to the right, above, to the left and below.
+    // The iris' centre, then its right, upper, left and lower end.
     let [middle, ends @ ..] = points.as_slice() else {
-        return Err(SeeError::Network { network: "iris_landmark", reason: "it gave no point".to_owned() });
+        return Err(SeeError::Network { network: "iris_landmark", reason: "it returned no points".to_owned() });
     };
     let radius = ends.iter().map(|p| (*p - *middle).hypot()).sum::<f64>() / ends.len().max(1) as f64;
     if !(middle.is_finite() && radius.is_finite()) {
-        return Err(SeeError::Network { network: "iris_landmark", reason: "its points are no iris".to_owned() });
+        return Err(SeeError::Network { network: "iris_landmark", reason: "its points do not form an iris".to_owned() });
     }
     Ok(Iris { centre: Point::new(sixteenths(middle.x), sixteenths(middle.y)), radius: sixteenths(radius) })
 }

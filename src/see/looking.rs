@@ -1,4 +1,4 @@
-//! The order of looks: upright, else by quarter turns, else at tiles; then each face, then the people.
+//! The order of detection: upright, else by quarter turns, else in tiles; then each face, then the people.
 
 use super::SeeError;
 use super::depth::depth;
@@ -16,17 +16,17 @@ use crate::interrupt::Interrupt;
 use crate::source::{Landmarks, Photograph};
 use std::f64::consts::FRAC_PI_2;
 
-/// Longer side in pixels of what is looked at, and of the masks that are found: a face that fills a fifth of it still has the 200
-/// pixels that the mesh takes, and a mask's edge is fine enough for a picture of 170 mm at the usual pitch.
+/// Longer side in pixels of the view, and of the masks: a face that fills a fifth of it still has the mesh's 200 pixels, and a
+/// mask's edge is fine enough for a picture of 170 mm at the usual pitch.
 const LONGEST: f64 = 1024.0;
-/// A face of fewer pixels in the view is looked at closer, if the photograph has more: the mesh and the irises take 128 for a face.
+/// A face with fewer pixels in the view gets a closer view, if the photograph has more: mesh and irises take 128 for a face.
 const ENOUGH: f64 = 160.0;
-/// Longer side of such a closer view, which shows so many longer sides of the face's box.
+/// Longer side of a closer view in pixels, and its extent in longer sides of the face's box.
 const CLOSER: f64 = 640.0;
 const ROUND_A_FACE: f64 = 3.0;
 /// Least width of a face in pixels of the photograph; smaller ones give no drawing and are found in foliage.
 const LEAST_FACE: f64 = 20.0;
-/// How sure the mesh must be that it lies on a face, as far as the detector's gate leaves doubt.
+/// Least probability by the mesh that it lies on a face; it removes doubtful faces that pass the detector's gate.
 const PRESENCE: f64 = 0.5;
 
 pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sight, SeeError> {
@@ -63,7 +63,7 @@ pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sig
     Ok(sight)
 }
 
-/// The faces, with the turn and the view in which they stand upright.
+/// Finds the faces, and the rotation and view in which they are upright.
 fn find(
     detector: &Network,
     photograph: &Photograph,
@@ -87,7 +87,7 @@ fn find(
     Ok((!found.is_empty()).then_some((turn, view, found)))
 }
 
-/// The quarter turn in which a face is found upright and the surest.
+/// The quarter turn in which a face is upright and has the highest score.
 fn find_turned(
     detector: &Network,
     first: &View,
@@ -109,7 +109,7 @@ fn find_turned(
     Ok(best.map(|(_, turn, found)| (turn, found)))
 }
 
-/// Points and irises of each face, in pixels of the upright picture.
+/// Landmarks and irises of each face, in pixels of the upright picture.
 fn measured(
     engine: &Engine,
     photograph: &Photograph,
@@ -141,7 +141,7 @@ fn measured(
     Ok(faces)
 }
 
-/// A face of the upright picture on the photograph's own grid.
+/// Maps a face of the upright picture to the photograph's grid.
 fn turned_back(turn: Turn, face: &Face) -> Face {
     let landmarks = face.landmarks.placed(|p| turn.back(p), 1.0);
     Face { bounds: turn.box_back(face.bounds), score: face.score, landmarks }

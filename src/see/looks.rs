@@ -1,4 +1,4 @@
-//! What the network that tells people from their background says, looking three times.
+//! Three runs of the person network on different windows and tones, and how their results are combined.
 
 use super::SeeError;
 use super::head::Head;
@@ -7,23 +7,24 @@ use super::view::{Outside, View, Window};
 use crate::geometry::Rect;
 use crate::raster::Raster;
 
-/// Side of the padded looks in longer sides of the picture: the network expects the head away from the frame. The padding is
-/// black: beside grey it takes flags and curtains for people. For close-ups it is grey, where black loses cheeks.
+/// Side of the padded window in longer sides of the picture: the network expects the head away from the frame. The padding is
+/// black: next to grey the network takes flags and curtains for people. For close-ups it is grey: black loses cheeks.
 const PADDED: f64 = 1.25;
 const GREY: f32 = 127.0;
 const BLACK: f32 = 0.0;
 
-/// The network's opinions of each pixel of a grid, probabilities in steps of 1/255.
+/// The network's results for each pixel of a grid, as probabilities in steps of 1/255.
 pub(super) struct Looks {
-    /// The one in the middle.
+    /// The median of the three.
     pub middle: Raster<f32>,
-    /// The one that doubts the most.
+    /// The minimum of the three.
     pub least: Raster<f32>,
 }
 
 impl Looks {
-    /// Looks at a view, onto a grid of so many columns and rows: near the heads, at the whole with black round it, and at the
-    /// whole in brighter tone. Hardly anything but a person is one in all three; where one fails, it fails alone.
+    /// Runs the network on a view, resampled to a grid of `size` columns and rows: near the heads, on the whole with black
+    /// padding, and on the whole in brighter tone. Hardly anything but a person is found by all three; where one misses a person,
+    /// it is the only one.
     pub(super) fn new(network: &Network, view: &View, heads: &[Head], size: [usize; 2]) -> Result<Self, SeeError> {
         let look = Look { network, view, size };
         let picture = view.part;
@@ -44,18 +45,18 @@ impl Looks {
     }
 }
 
-/// A square about the picture's lower side. All of its room is above and beside: bodies go on below the frame.
+/// A square resting on the picture's lower side. All padding is above and beside: bodies continue below the frame.
 fn with_room(picture: Rect) -> Rect {
     let side = PADDED * picture.width().max(picture.height());
     let left = 0.5 * (picture.x0 + picture.x1 - side);
     Rect::new(left, picture.y1 - side, left + side, picture.y1)
 }
 
-/// The tone in which the network is shown a picture.
+/// The tone of a network's input.
 #[derive(Clone, Copy)]
 enum Tone {
     Own,
-    /// The root of each value: dark hair comes apart from dark walls.
+    /// The square root of each value: separates dark hair from dark walls.
     Brighter,
 }
 
@@ -66,7 +67,7 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// What the network says of a part of the picture, or of more than it.
+    /// The network's result for a window, which may extend beyond the picture.
     fn at(&self, part: Rect, outside: Outside, tone: Tone) -> Result<Raster<f32>, SeeError> {
         let side = self.network.side;
         let shown = self.view.through(&Window::stretched(part), side, outside);
@@ -76,7 +77,7 @@ impl Look<'_> {
         };
         let [numbers] = self.network.run(&shown, 1.0 / 255.0, 0.0)?;
         if numbers.len() != side * side {
-            return Err(SeeError::Network { network: "selfie_segmentation", reason: "its mask has another size".to_owned() });
+            return Err(SeeError::Network { network: "selfie_segmentation", reason: "its mask has the wrong size".to_owned() });
         }
         let steps = numbers.into_iter().map(|v| (255.0 * v.clamp(0.0, 1.0)).round() / 255.0).collect();
         let seen = Raster::from_vec(side, side, steps);
@@ -89,7 +90,7 @@ impl Look<'_> {
         }))
     }
 
-    /// Near each head what the network says of that part, where parts overlap the most of them; elsewhere `beyond`.
+    /// Near each head the network's result for its surroundings (where these overlap, the maximum); elsewhere `beyond`.
     fn near(&self, heads: &[Head], beyond: &Raster<f32>) -> Result<Raster<f32>, SeeError> {
         let picture = self.view.part;
         let mut near: Raster<Option<f32>> = beyond.map(|_| None);

@@ -1,4 +1,4 @@
-//! The 468 points of a face: found in the detector's box, then twice more in the box that the points themselves give.
+//! The 468 landmarks of a face: computed in the detector's box, then twice more in the box of the landmarks themselves.
 
 use super::SeeError;
 use super::faces::Found;
@@ -7,14 +7,14 @@ use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Vec2};
 use crate::source::POINTS;
 
-/// Side of the window in longer sides of the box, which leaves out brow and hair.
+/// Side of the window in longer sides of the box; the box leaves out brow and hair.
 const ROOM: f64 = 1.5;
 /// The outer corners of the right and the left eye.
 const EYE_LINE: (usize, usize) = (33, 263);
-/// How often the points are found again, in their own box: the detector's is a few percent off, and lids follow the box.
+/// Number of refinements in the landmarks' own box: the detector's box is a few percent off, and lids follow the box.
 const AGAIN: usize = 2;
 
-/// The points in pixels of the upright picture, z alike, and how sure the network is that they are a face's.
+/// The landmarks in pixels of the upright picture (z too), and the network's probability that they are on a face.
 pub(super) struct Mesh {
     pub points: Vec<[f64; 3]>,
     pub presence: f64,
@@ -25,7 +25,7 @@ pub(super) fn mesh(network: &Network, view: &View, found: &Found) -> Result<Mesh
     (0..AGAIN).try_fold(points_in(network, view, window)?, |mesh, _| points_in(network, view, window_of(&mesh.points)))
 }
 
-/// The window that points themselves ask for: their box when the eyes are level, and room.
+/// The window for a set of landmarks: their box with the eyes level, and a margin.
 fn window_of(points: &[[f64; 3]]) -> Window {
     let at = |i: usize| Point::new(points[i][0], points[i][1]);
     let across = (at(EYE_LINE.1) - at(EYE_LINE.0)).normalize();
@@ -52,7 +52,7 @@ fn points_in(network: &Network, view: &View, window: Window) -> Result<Mesh, See
         .collect();
     let is_whole = points.len() == POINTS && points.iter().flatten().all(|v| v.is_finite());
     if !is_whole || points[EYE_LINE.0] == points[EYE_LINE.1] {
-        return Err(SeeError::Network { network: "face_landmark", reason: "its points are no face".to_owned() });
+        return Err(SeeError::Network { network: "face_landmark", reason: "its points do not form a face".to_owned() });
     }
     Ok(Mesh { points, presence: flag.first().map_or(0.0, |flag| sigmoid(*flag)) })
 }

@@ -1,8 +1,9 @@
-//! What is in a photograph: faces with their points, and the person without the background.
+//! What is in a photograph: faces with their landmarks, and the people without the background.
 //!
-//! In: a [`Photograph`]. Out: a [`Sight`] on its pixel grid, or nothing where there is no face. Nothing here knows of styles, pages
-//! or files. Four small networks look (`models/`, compiled in with the cargo feature `see`); whatever leaves one is rounded (masks to
-//! 8 bits, points to 1/16 pixel, scores to 1/1000), so that neither threads nor the last bits of a processor's arithmetic show.
+//! In: a [`Photograph`]. Out: a [`Sight`] on its pixel grid, without faces and subject if no face is found. Nothing here knows of
+//! styles, pages or files. Four small networks are used (`models/`, compiled in with the cargo feature `see`). Their outputs are
+//! rounded (masks to 8 bits, points to 1/16 pixel, scores to 1/1000), so that neither the number of threads nor a processor's
+//! last bits of arithmetic change the result.
 //!
 //! ```text
 //!   photograph --1024 px--> detector --box--> mesh, three times --corners of the eyes--> irises
@@ -51,21 +52,21 @@ use crate::interrupt::{Interrupt, Interrupted};
 use crate::source::{Photograph, SourceError};
 use thiserror::Error;
 
-/// Why a photograph could not be looked at.
+/// Why a photograph could not be analysed.
 #[derive(Debug, Error)]
 pub enum SeeError {
-    /// The networks were left out when drypoint was built.
-    #[error("cannot be looked at: this drypoint was built without its networks; build it with the cargo feature `see`")]
+    /// drypoint was built without the networks.
+    #[error("cannot be analysed: drypoint was built without its networks; rebuild it with the cargo feature `see`")]
     WithoutNetworks,
-    /// A network does not do what it is there for.
-    #[error("cannot be looked at: the network {network} failed: {reason}")]
+    /// A network failed or gave unusable output.
+    #[error("cannot be analysed: the network {network} failed: {reason}")]
     Network {
-        /// Its file in `models/`, without the ending.
+        /// The network's file in `models/`, without the extension.
         network: &'static str,
-        /// The engine's words.
+        /// The engine's message.
         reason: String,
     },
-    /// The photograph's pixels could not be had.
+    /// The photograph's pixels could not be read.
     #[error(transparent)]
     Source(#[from] SourceError),
     /// The user stopped it.
@@ -73,18 +74,18 @@ pub enum SeeError {
     Interrupted(#[from] Interrupted),
 }
 
-/// Whether this drypoint can look at photographs.
+/// Whether the networks are compiled in.
 pub const fn can_see() -> bool {
     cfg!(feature = "see")
 }
 
-/// Looks at a photograph: a sight without faces, and so without a subject, where no face was found.
+/// Analyses a photograph. If no face is found, the result has no faces and no subject.
 #[cfg(feature = "see")]
 pub fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sight, SeeError> {
     looking::look(photograph, interrupt)
 }
 
-/// Looks at a photograph, which this drypoint cannot: it was built without the cargo feature `see`.
+/// Always fails: the networks were not compiled in (cargo feature `see`).
 #[cfg(not(feature = "see"))]
 pub fn look(_: &Photograph, _: &Interrupt) -> Result<Sight, SeeError> {
     Err(SeeError::WithoutNetworks)

@@ -1,7 +1,7 @@
-//! What the people are made of: skin, hair, facial hair, headwear and clothing, found in the photograph's own colours.
+//! The regions of the people: skin, hair, facial hair, headwear and clothing, segmented by the photograph's own colours.
 //!
-//! No network knows these; the mesh of the face does: it tells where skin surely is, where hair would begin, where shoulders would be.
-//! What lies there is learned (Gaussian mixtures of colour and texture), each pixel takes what suits it best at its place on the
+//! No network detects these. The face mesh shows where skin certainly is, where hair would begin and where shoulders would be.
+//! Gaussian mixtures of colour and texture are fitted there, each pixel takes the class that suits it best at its position on the
 //! head, and the picture's own edges decide the rest.
 //!
 //! ```text
@@ -33,21 +33,21 @@ use plate::{Plate, owner};
 use rayon::prelude::*;
 use smoothing::{Guide, Lines, value};
 
-/// Skin, hair, facial hair, headwear, clothing.
+/// Number of regions: skin, hair, facial hair, headwear, clothing.
 const KINDS: usize = 5;
 const LAST: usize = KINDS - 1;
-/// Radii in working pixels of the filters that bring shares to the picture's edges, the second at the view's size too, and their
-/// `eps`: at twice the radii fair hair melts into the forehead.
+/// Radii in working pixels of the filters that align shares with the picture's edges (the second also at the view's size), and
+/// their `eps`: at twice the radii fair hair blurs into the forehead.
 const REACHES: [usize; 2] = [5, 3];
 const EPS: f32 = 1.5e-3;
 
-/// What one head's plate says, ready to be asked for any colour.
+/// The result for one head: linear functions of colour for each region, on its plate.
 struct Told {
     plate: Plate,
     lines: [Lines; KINDS],
 }
 
-/// The regions of the people in a view, whose faces lie on its pixels.
+/// The regions of the people in a view; the faces are in its pixels.
 pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks]) -> Regions {
     let detail = detail(subject, faces);
     let (heads, faces): (Vec<Head>, Vec<&Landmarks>) = faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
@@ -75,7 +75,7 @@ fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads:
     Some(Told { plate, lines })
 }
 
-/// The five kinds within the person: facial hair takes from skin and clothing, headwear from hair.
+/// The five regions within the person: facial hair takes from skin and clothing, headwear from hair.
 fn kinds(shares: &Raster<Shares>, beard: Option<&Raster<f32>>, hat: Option<&Raster<f32>>) -> Raster<[f32; KINDS]> {
     Raster::from_fn(shares.width(), shares.height(), |x, y| {
         let s = shares.get(x, y);
@@ -90,7 +90,7 @@ fn kinds(shares: &Raster<Shares>, beard: Option<&Raster<f32>>, hat: Option<&Rast
     })
 }
 
-/// The kinds at the view's size, each pixel by its nearest head; what no plate shows is clothing.
+/// The regions at the view's size, each pixel from its nearest head; pixels outside all plates are clothing.
 fn at_full_size(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, heads: &[Head], told: &[Option<Told>]) -> Raster<[u8; KINDS]> {
     let width = pixels.width();
     let mut out = Raster::filled(width, pixels.height(), [0_u8; KINDS]);
@@ -110,7 +110,7 @@ fn at_full_size(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, heads: &[Head], 
     out
 }
 
-/// What a plate says of a colour at a place of the view; none where it does not reach.
+/// A plate's shares for a colour at a point of the view; `None` outside the plate.
 fn shares_at(told: &Told, x: f64, y: f64, colour: [f32; 3]) -> Option<[f32; KINDS]> {
     let plate = &told.plate;
     if !plate.part.contains(crate::geometry::Point::new(x, y)) {
@@ -133,7 +133,7 @@ fn shares_at(told: &Told, x: f64, y: f64, colour: [f32; 3]) -> Option<[f32; KIND
     }))
 }
 
-/// A whole of at most 255 shared out without remainder.
+/// Divides a whole of at most 255 without remainder.
 fn shared_out(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
     let sum: f32 = shares.iter().sum();
     let shares = if sum > 0.02 { shares.map(|v| v / sum) } else { [0.0, 0.0, 0.0, 0.0, 1.0] };
@@ -154,7 +154,7 @@ mod tests {
     use crate::geometry::Point;
     use crate::source::Iris;
 
-    /// A face of so many pixels' width, turned by `yaw` radians: only the points that heads are measured by are where they should be.
+    /// A face `width` pixels wide, turned by `yaw` radians; only the landmarks that heads are measured by are in place.
     pub(in crate::see) fn face(centre: Point, width: f64, yaw: f64) -> Landmarks {
         let mut points = vec![[centre.x, centre.y, 0.0]; 468];
         let (sin, cos) = yaw.sin_cos();

@@ -4,7 +4,7 @@ use crate::geometry::Rect;
 use crate::raster::Raster;
 use crate::source::{Landmarks, MaskRole};
 
-/// What was found in a photograph, on its pixel grid (after its EXIF turn; x right, y down, pixel centres at halves).
+/// What was found in a photograph, on its pixel grid (after EXIF orientation; x right, y down, pixel centres at halves).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sight {
     /// Columns of the photograph.
@@ -13,34 +13,35 @@ pub struct Sight {
     pub height: u32,
     /// The faces, largest first.
     pub faces: Vec<Face>,
-    /// The people whose faces were found, 255 inside, with a soft edge; of the photograph's proportions, at most 1024 pixels on the
-    /// longer side. None without a face: what the network then takes for a person is a guess (animals are found in pieces).
+    /// The people whose faces were found: 255 inside, with a soft edge, in the photograph's proportions, at most 1024 pixels on
+    /// the longer side. `None` without a face: the network's person is then a guess (animals are found in pieces).
     pub subject: Option<Raster<u8>>,
-    /// What the people are made of, on the subject's grid. None without a face.
+    /// The people's regions, on the subject's grid. `None` without a face.
     pub regions: Option<Regions>,
-    /// How near each pixel of the subject is: 65535 the nearest, 0 the background; on the subject's grid. None without a face.
+    /// Nearness of each pixel of the subject: 65535 is the nearest, 0 the background; on the subject's grid. `None` without a
+    /// face.
     pub depth: Option<Raster<u16>>,
 }
 
-/// How much of each pixel belongs to what, 0 to 255; all but `detail` together are the subject.
+/// Share of each pixel in each region, 0 to 255. All but `detail` add up to the subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions {
-    /// Bare skin: face, ears, neck, hands; shaved heads too.
+    /// Bare skin: face, ears, neck, hands, shaved heads.
     pub skin: Raster<u8>,
-    /// Hair of the head, long hair on shoulders too.
+    /// Hair of the head, including long hair on shoulders.
     pub hair: Raster<u8>,
     /// Beards and moustaches.
     pub facial_hair: Raster<u8>,
     /// Hats, caps and scarves.
     pub headwear: Raster<u8>,
-    /// Clothing and what else is worn below the chin.
+    /// Clothing and anything else worn below the chin.
     pub clothing: Raster<u8>,
-    /// Eyes with their lids, brows, nose and mouth, over whatever they are part of: where strokes want to be finer.
+    /// Eyes with their lids, brows, nose and mouth, which need finer strokes; overlaps the other regions.
     pub detail: Raster<u8>,
 }
 
 impl Regions {
-    /// Every region changed alike.
+    /// Applies `change` to every region.
     #[must_use]
     pub fn map(&self, change: impl Fn(&Raster<u8>) -> Raster<u8>) -> Self {
         Self {
@@ -55,7 +56,7 @@ impl Regions {
 }
 
 impl Sight {
-    /// Every region that was found, by the role of a mask.
+    /// The subject and every region, by mask role.
     pub fn masks(&self) -> Vec<(MaskRole, &Raster<u8>)> {
         let subject = self.subject.iter().map(|subject| (MaskRole::Subject, subject));
         let regions = self.regions.iter().flat_map(|regions| {
@@ -71,13 +72,13 @@ impl Sight {
         subject.chain(regions).collect()
     }
 
-    /// The subject in the photograph's own size.
+    /// The subject at the photograph's own size.
     pub fn subject_at_full_size(&self) -> Option<Raster<u8>> {
         let subject = self.subject.as_ref()?.map(f32::from);
         Some(self.at_full_size(&subject).map(|v| v.round() as u8))
     }
 
-    /// A map of the photograph in the photograph's own size, bilinear.
+    /// Enlarges a map of the photograph to its own size, bilinear.
     pub fn at_full_size(&self, map: &Raster<f32>) -> Raster<f32> {
         let (width, height) = (self.width as usize, self.height as usize);
         let (x_step, y_step) = (map.width() as f64 / f64::from(self.width), map.height() as f64 / f64::from(self.height));
@@ -90,8 +91,8 @@ impl Sight {
 pub struct Face {
     /// The detector's box: from the brows to the chin, upright.
     pub bounds: Rect,
-    /// How sure the detector is, 0.75 to 1.
+    /// The detector's score, 0.75 to 1.
     pub score: f64,
-    /// Its points and irises.
+    /// Its landmarks and irises.
     pub landmarks: Landmarks,
 }

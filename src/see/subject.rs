@@ -1,5 +1,5 @@
-//! The people without the background: three looks of a coarse network where people are to be expected, unanimity and colours
-//! where they are not, then the photograph's own edges.
+//! The people without the background: three runs of a coarse network where people are expected, unanimity and colours elsewhere,
+//! then the photograph's own edges.
 
 use super::SeeError;
 use super::colours::Colours;
@@ -10,50 +10,51 @@ use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, components, dilate, guided_enlargement};
 
-/// Longer side in pixels of the grid on which it is decided, the network's own.
+/// Longer side in pixels of the decision grid, the same as the network's.
 const GRID: usize = 256;
-/// Radius in pixels of that grid of the windows of the guided filter: hair's edges come out clean at 1 % of the longer side; at 3
-/// % the background's own edges leak in.
+/// Radius of the guided filter's windows in pixels of that grid: hair's edges come out clean at 1 % of the longer side; at 3 %
+/// the background's own edges leak in.
 const REACH: usize = 2;
-/// Its `eps`, values 0 to 1: edges of a hundredth count.
+/// The guided filter's `eps`, for values 0 to 1: edges of a hundredth count.
 const EPS: f64 = 1e-4;
-/// The network's doubt: up to the first it is background, from the second person, smooth between. From 0.5 to 1 a dark jacket on
-/// a dark ground goes (intersection over union on the astronaut: 0.972 with 0.4 and 0.9, 0.969 with 0.5 and 1).
+/// Thresholds on the network's probability: background up to the first, person from the second, smooth between. From 0.5 to 1 a
+/// dark jacket on a dark ground is lost (intersection over union on the astronaut: 0.972 with 0.4 and 0.9, 0.969 with 0.5 and 1).
 const DOUBT: [f32; 2] = [0.4, 0.9];
-/// The network's probabilities count as at least so far from certainty.
+/// The network's probabilities are kept at least this far from 0 and 1.
 const CERTAIN: f32 = 0.01;
-/// How much the logarithms of colours count beside those of the network, and the most that they say against a pixel; the network
-/// at its most certain says 4.6. With a weight of 1 red flag stays beside hair, at 1.6 white collars on white walls go.
+/// Weight of the colours' log ratio relative to the network's log odds, and the most that colours can lower a pixel's log odds;
+/// the network at its most certain gives 4.6. With a weight of 1 red flag stays beside hair, at 1.6 white collars on white walls
+/// are lost.
 const WEIGHT: f32 = 1.25;
 const MOST_AGAINST: f32 = 4.5;
-/// Colours must speak for a pixel by so much where nobody is expected. Of sixteen portraits and six samples: at 0 the lights
-/// beside a face and the shadow of a head stay, at 3 the corners of hats go.
+/// Log ratio by which colours must favour a pixel where nobody is expected. On sixteen portraits and six samples: at 0 the lights
+/// beside a face and the shadow of a head stay, at 3 the corners of hats are lost.
 const DEMANDED: f32 = 2.0;
-/// Where colours speak for a pixel by more than the first the network's least opinion gives way to its middle one, wholly at the
-/// second; from there on they count for it, by so much each and at most twice. Without, curls at necks go where nobody is
-/// expected.
+/// From the first log ratio of colours on, the network's minimum gives way to its median, fully at the second; beyond that the
+/// colours raise the odds by the factor `FOR` per unit, for at most `MOST_FOR` units. Without this, curls at necks are lost where
+/// nobody is expected.
 const SUPPORT: [f32; 2] = [1.0, 2.0];
 const FOR: f32 = 1.5;
 const MOST_FOR: f32 = 2.0;
-/// What the network says less than this of is nobody, whatever the colour.
+/// Below this probability by the network colours cannot raise the odds.
 const NOBODY: f32 = 0.05;
-/// Colours are taken of pixels that are so far, in pixels of the grid, inside subject and background as first decided: wisps of
-/// hair with a flag between them belong to neither.
+/// Colours are sampled this far, in pixels of the grid, inside the first decision's subject and background: wisps of hair with a
+/// flag between them belong to neither.
 const INSIDE: [usize; 2] = [2, 1];
-/// What is at least so much person is no hole.
+/// From this share of person on a pixel cannot be a hole.
 const WHOLE: f32 = 0.9;
-/// How often colours are taken and it is decided again.
+/// Number of rounds of sampling colours and deciding again.
 const ROUNDS: usize = 2;
-/// What is at least so much person hangs together.
+/// From this mask value on pixels are connected into pieces.
 const SOLID: u8 = 89;
-/// Pixels round it that are kept for the soft edge.
+/// Pixels around a piece that are kept for the soft edge.
 const SOFT: usize = 3;
-/// Half width and half height of a stranger's head in sides of the detector's box, and how far it lies above the box's middle.
+/// Half width and half height of a stranger's head in sides of the detector's box, and its height above the box's middle.
 const STRANGER: [f64; 2] = [0.62, 0.8];
 const STRANGER_RAISED: f64 = 0.12;
 
-/// How much of each pixel of the view belongs to a person whose face was found, 0 to 255. `strangers` are the detector's boxes of
-/// people behind, who are background.
+/// Share of each pixel of the view that belongs to a person whose face was found, 0 to 255. `strangers` are the detector's boxes
+/// of people behind, who are background.
 pub(super) fn subject(
     network: &Network,
     view: &View,
@@ -72,13 +73,13 @@ pub(super) fn subject(
     Ok(with_a_face(&fine, view, &heads))
 }
 
-/// What it is decided by, on the grid.
+/// Inputs of the decision, on the grid.
 struct Decision {
     /// The faces without their rims.
     sure: Raster<u8>,
-    /// Whether people are expected, 0 to 1.
+    /// How much people are expected, 0 to 1.
     expected: Raster<f32>,
-    /// What the network says: its middle opinion where people are expected, its least where not.
+    /// The network's probability: the median where people are expected, the minimum elsewhere.
     said: Raster<f32>,
     middle: Raster<f32>,
     least: Raster<f32>,
@@ -96,7 +97,7 @@ impl Decision {
         });
         let expected =
             Raster::from_fn(columns, rows, |x, y| heads.iter().map(|head| head.expects(place(x, y)) as f32).fold(0.0, f32::max));
-        // People whose face was found come before strangers.
+        // Known people take precedence over strangers.
         let own = Raster::from_fn(columns, rows, |x, y| {
             let is_strange = strangers.iter().any(|bounds| is_in_head(*bounds, place(x, y)));
             if is_strange { expected.get(x, y) } else { 1.0 }
@@ -107,7 +108,7 @@ impl Decision {
         Self { sure, expected, said, middle, least }
     }
 
-    /// The decision, 0 to 1, by the network and by colours taken where it is clear.
+    /// The decision, 0 to 1, by the network and by colours sampled where it is clear.
     fn made(&self, colours: &Colours) -> Raster<f32> {
         let mut decided = self.said.map(without_doubt);
         let mut certain = self.least.map(|v| u8::from(v > 0.97));
@@ -120,7 +121,7 @@ impl Decision {
         decided
     }
 
-    /// The network's opinions, for and against which colours may speak.
+    /// The network's probabilities, raised or lowered by colours.
     fn weighed(&self, colours: &Raster<f32>) -> Raster<f32> {
         Raster::from_fn(self.said.width(), self.said.height(), |x, y| {
             if self.sure.get(x, y) != 0 {
@@ -137,8 +138,8 @@ impl Decision {
         })
     }
 
-    /// Holes where the network sees a person are filled again: what has the background's colour without touching the background
-    /// is a collar, a patch or a lens.
+    /// Fills holes where the network sees a person: an area of the background's colour that does not touch the background is a
+    /// collar, a patch or a lens.
     fn filled(&self, decided: &Raster<f32>) -> Raster<f32> {
         let (labels, count) = components(&decided.map(|v| u8::from(v < WHOLE)));
         let mut is_open = vec![false; count + 1];
@@ -151,30 +152,30 @@ impl Decision {
     }
 }
 
-/// From `a` at 0 to `b` at 1.
+/// Linear interpolation from `a` at 0 to `b` at 1.
 fn between(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
-/// Whether a place is in the head of a stranger.
+/// True if a point is in the head of a stranger.
 fn is_in_head(bounds: Rect, place: Point) -> bool {
     let from = place - bounds.center();
     let (across, down) = (from.x / bounds.width(), from.y / bounds.height() + STRANGER_RAISED);
     (across / STRANGER[0]).hypot(down / STRANGER[1]) < 1.0
 }
 
-/// A probability without its doubtful ends.
+/// Maps a probability to 0 below [`DOUBT`], to 1 above it, smoothly between.
 fn without_doubt(v: f32) -> f32 {
     let t = ((v - DOUBT[0]) / (DOUBT[1] - DOUBT[0])).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// What is so far inside; the picture's border does not count.
+/// The pixels farther than `radius` inside; the picture's border does not count as an edge.
 fn eroded(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     dilate(&mask.map(|v| 1 - v), radius).map(|v| 1 - v)
 }
 
-/// Only the pieces that hold a face: what the network took for a person elsewhere goes.
+/// Only the pieces that contain a face: what the network took for a person elsewhere is dropped.
 fn with_a_face(person: &Raster<u8>, view: &View, heads: &[Head]) -> Raster<u8> {
     let (labels, _) = components(&person.map(|v| u8::from(v > SOLID)));
     let step = view.step();
@@ -207,7 +208,7 @@ mod tests {
 
     #[test]
     fn holes_are_filled_and_bays_are_not() {
-        // A person on the left; what has the background's colour is a patch inside and a bay at the edge.
+        // A person on the left; the background's colour is in a patch inside and in a bay at the edge.
         let said = Raster::from_fn(40, 30, |x, _| if x < 20 { 1.0 } else { 0.0 });
         let is_vetoed = |x: usize, y: usize| (5..9).contains(&x) && (5..9).contains(&y) || x > 14 && (20..24).contains(&y);
         let decided = Raster::from_fn(40, 30, |x, y| if is_vetoed(x, y) { 0.0 } else { said.get(x, y) });

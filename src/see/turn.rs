@@ -3,7 +3,7 @@
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 
-/// So many quarters clockwise bring the photograph upright.
+/// The rotation, in clockwise quarter turns, that brings the photograph upright.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Turn {
     quarters: u8,
@@ -16,7 +16,7 @@ impl Turn {
         Self { quarters: quarters % 4, size }
     }
 
-    /// Turned further, clockwise.
+    /// The rotation plus `quarters` clockwise.
     pub(super) const fn further(self, quarters: u8) -> Self {
         Self::new(self.quarters + quarters, self.size)
     }
@@ -27,7 +27,7 @@ impl Turn {
         if self.quarters.is_multiple_of(2) { [w, h] } else { [h, w] }
     }
 
-    /// The photograph's place of a place in the upright picture.
+    /// Maps a point of the upright picture to the photograph.
     pub(super) fn back(self, p: Point) -> Point {
         let [w, h] = self.size.map(f64::from);
         match self.quarters {
@@ -38,12 +38,12 @@ impl Turn {
         }
     }
 
-    /// The photograph's box of a box in the upright picture.
+    /// Maps a box of the upright picture to the photograph.
     pub(super) fn box_back(self, r: Rect) -> Rect {
         Rect::from_points(self.back(r.origin()), self.back(Point::new(r.x1, r.y1)))
     }
 
-    /// A raster over the photograph, or a part of it, turned upright.
+    /// Rotates a raster over the photograph, or over a part of it, upright.
     pub(super) fn raster<T: Copy + Send + Sync>(self, raster: &Raster<T>) -> Raster<T> {
         let (w, h) = (raster.width(), raster.height());
         match self.quarters {
@@ -54,7 +54,7 @@ impl Turn {
         }
     }
 
-    /// A raster over the upright picture, turned as the photograph is.
+    /// Rotates a raster over the upright picture back to the photograph.
     pub(super) fn raster_back<T: Copy + Send + Sync>(self, raster: &Raster<T>) -> Raster<T> {
         Self::new(4 - self.quarters, self.size).raster(raster)
     }

@@ -1,4 +1,4 @@
-//! The upright picture, or a part of it, as bytes, and windows onto it for the networks.
+//! The upright picture, or a part of it, as bytes; and windows onto it, the networks' inputs.
 
 use super::SeeError;
 use super::turn::Turn;
@@ -6,22 +6,22 @@ use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::{Crop, Photograph};
 
-/// How often the pixels are halved beforehand: 1024 pixels a side down to the 128 that the smallest window takes.
+/// Number of precomputed halvings of the pixels: from 1024 pixels per side down to the 128 of the smallest window.
 const HALVINGS: usize = 3;
-/// Most samples of a window's pixel in one direction, once the pixels are halved as often as can be; larger steps are left out.
+/// Most samples of a window's pixel in one direction at the coarsest halving; larger steps skip pixels.
 const MOST_SAMPLES: f64 = 8.0;
 
 /// Pixels of the upright picture, or of a part of it.
 pub(super) struct View {
     pub pixels: Raster<[u8; 3]>,
-    /// The part in pixels of the upright picture.
+    /// The part, in pixels of the upright picture.
     pub part: Rect,
-    /// The pixels at half their size, at a quarter, and so on.
+    /// The pixels at half size, quarter size, and so on.
     halves: Vec<Raster<[u8; 3]>>,
 }
 
 impl View {
-    /// Pixels that show a part of the upright picture.
+    /// Wraps pixels that show `part` of the upright picture.
     pub(super) fn new(pixels: Raster<[u8; 3]>, part: Rect) -> Self {
         let mut halves: Vec<Raster<[u8; 3]>> = Vec::with_capacity(HALVINGS);
         for _ in 0..HALVINGS {
@@ -30,13 +30,13 @@ impl View {
         Self { pixels, part, halves }
     }
 
-    /// The whole picture, at most `longest` pixels on its longer side, and never more than the photograph has.
+    /// The whole picture, at most `longest` pixels on its longer side, never enlarged.
     pub(super) fn whole(photograph: &Photograph, turn: Turn, longest: f64) -> Result<Self, SeeError> {
         let [width, height] = turn.upright_size();
         Self::of_part(photograph, turn, Rect::new(0.0, 0.0, width, height), longest)
     }
 
-    /// A part of the picture, as far as there is one.
+    /// A part of the picture, clipped to it.
     pub(super) fn of_part(photograph: &Photograph, turn: Turn, part: Rect, longest: f64) -> Result<Self, SeeError> {
         let [width, height] = turn.upright_size();
         let part = part.expand().intersect(Rect::new(0.0, 0.0, width, height));
@@ -48,18 +48,18 @@ impl View {
         Ok(Self::new(pixels, part))
     }
 
-    /// Pixels of the upright picture for each pixel of the view.
+    /// Size of a view pixel in pixels of the upright picture.
     pub(super) fn step(&self) -> Vec2 {
         Vec2::new(self.part.width() / self.pixels.width() as f64, self.part.height() / self.pixels.height() as f64)
     }
 
-    /// What is seen through a window, `side` pixels a side, in bytes as numbers.
+    /// The view through a window, resampled to `side` x `side` pixels, in byte values as floats.
     pub(super) fn through(&self, window: &Window, side: usize, outside: Outside) -> Raster<[f32; 3]> {
         self.through_to(window, [side, side], outside)
     }
 
-    /// What is seen through a window, so many columns and rows, in bytes as numbers: each pixel is the mean of as many bilinear
-    /// samples as it covers pixels, of those halved so often that it covers at most two by two.
+    /// The view through a window, resampled to `size` columns and rows, in byte values as floats. Each pixel is the mean of
+    /// bilinear samples, one per pixel that it covers, taken at the halving where it covers at most two by two.
     pub(super) fn through_to(&self, window: &Window, size: [usize; 2], outside: Outside) -> Raster<[f32; 3]> {
         let step = self.step();
         let in_view = |v: Vec2, count: usize| Vec2::new(v.x / step.x, v.y / step.y) / count as f64;
@@ -85,7 +85,7 @@ impl View {
     }
 }
 
-/// Half as many columns and rows, each pixel the mean of four.
+/// Half the columns and rows; each pixel is the mean of four.
 fn halved(pixels: &Raster<[u8; 3]>) -> Raster<[u8; 3]> {
     let (right, bottom) = (pixels.width() - 1, pixels.height() - 1);
     Raster::from_fn(pixels.width().div_ceil(2), pixels.height().div_ceil(2), |x, y| {
@@ -96,7 +96,7 @@ fn halved(pixels: &Raster<[u8; 3]>) -> Raster<[u8; 3]> {
     })
 }
 
-/// The colour at a place in pixels, bilinear.
+/// The colour at a point in pixels, bilinear.
 fn sample(pixels: &Raster<[u8; 3]>, p: Point, outside: Outside) -> [f32; 3] {
     let (width, height) = (pixels.width() as f64, pixels.height() as f64);
     if let Outside::Grey(grey) = outside
@@ -112,16 +112,16 @@ fn sample(pixels: &Raster<[u8; 3]>, p: Point, outside: Outside) -> [f32; 3] {
     [0, 1, 2].map(|k| (a[k] * (1.0 - tx) + b[k] * tx) * (1.0 - ty) + (c[k] * (1.0 - tx) + d[k] * tx) * ty)
 }
 
-/// What a window shows beyond the picture.
+/// What a window shows outside the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Outside {
-    /// The border's pixels again.
+    /// The nearest border pixel.
     Repeated,
     /// A grey, 0 to 255.
     Grey(f32),
 }
 
-/// A parallelogram of the upright picture that a network looks at, in pixels of that picture.
+/// A parallelogram of the upright picture, the input of a network, in pixels of that picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     /// Its first corner.
@@ -133,12 +133,12 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// An upright box, whatever its proportions.
+    /// An upright rectangle of any proportions.
     pub(super) fn stretched(part: Rect) -> Self {
         Self { origin: part.origin(), across: Vec2::new(part.width(), 0.0), down: Vec2::new(0.0, part.height()) }
     }
 
-    /// A square turned by an angle in radians, clockwise.
+    /// A square rotated clockwise by an angle in radians.
     pub(super) fn square(centre: Point, side: f64, angle: f64) -> Self {
         let across = Vec2::from_angle(angle) * side;
         let down = Vec2::new(-across.y, across.x);
@@ -150,7 +150,7 @@ impl Window {
         Self { origin: self.origin + self.across, across: -self.across, down: self.down }
     }
 
-    /// The upright picture's place of a place in the window, both from 0 to 1.
+    /// Maps a point of the window (0 to 1 in both directions) to the upright picture.
     pub(super) fn place(&self, x: f64, y: f64) -> Point {
         self.origin + self.across * x + self.down * y
     }

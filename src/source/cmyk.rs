@@ -1,5 +1,5 @@
-//! CMYK JPEGs through their own profile. The decoder behind `image` turns inks into RGB as if they were ideal, which a press's are
-//! not: its cyan is no screen's.
+//! CMYK JPEGs through their embedded profile. The decoder behind `image` converts ideal inks to RGB; a press's inks are not
+//! ideal: its cyan is no screen's cyan.
 
 use super::error::SourceError;
 use image::RgbImage;
@@ -9,7 +9,7 @@ use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
-/// The picture in sRGB, 8 bits, by its embedded profile.
+/// Decodes to 8-bit sRGB through the embedded profile.
 pub(super) fn decode(bytes: &[u8], profile: &[u8]) -> Result<RgbImage, SourceError> {
     let damaged = |error: &dyn std::fmt::Display| SourceError::Damaged { format: "JPEG", reason: error.to_string() };
     let reject = |error: moxcms::CmsError| SourceError::Profile(error.to_string());
@@ -28,7 +28,7 @@ pub(super) fn decode(bytes: &[u8], profile: &[u8]) -> Result<RgbImage, SourceErr
     if stored == ColorSpace::YCCK {
         inks.chunks_exact_mut(4).for_each(ycc_to_rgb);
     }
-    // Stored inverted, by Adobe's custom: 255 is no ink.
+    // Stored inverted, by Adobe's convention: 255 is no ink.
     for ink in &mut inks {
         *ink = 255 - *ink;
     }
@@ -40,7 +40,8 @@ pub(super) fn decode(bytes: &[u8], profile: &[u8]) -> Result<RgbImage, SourceErr
     RgbImage::from_raw(width as u32, height as u32, rgb).ok_or_else(|| damaged(&"its size is not that of its pixels"))
 }
 
-/// The first three of four samples from luma and chroma to red, green, blue (JFIF's equations); the fourth, black, stays.
+/// Converts the first three of four samples from luma and chroma to red, green, blue (JFIF's equations); the fourth, black,
+/// stays.
 fn ycc_to_rgb(pixel: &mut [u8]) {
     let (y, cb, cr) = (f32::from(pixel[0]), f32::from(pixel[1]) - 128.0, f32::from(pixel[2]) - 128.0);
     let byte = |v: f32| v.round().clamp(0.0, 255.0) as u8;

@@ -9,12 +9,12 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 use sha2::{Digest, Sha256};
 use std::io::{Cursor, Read};
 
-/// How much a picture may ask for.
+/// Limits on the size of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Pixels of the picture.
+    /// Most pixels.
     pub pixels: u64,
-    /// Bytes of the file, and bytes of its decoded pixels.
+    /// Most bytes, of the file and of its decoded pixels.
     pub bytes: u64,
 }
 
@@ -25,10 +25,10 @@ impl Default for Limits {
     }
 }
 
-/// What is known of a picture's file.
+/// What is known about a picture's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceInfo {
-    /// The format found by content, such as `JPEG`.
+    /// The format, detected by content, such as `JPEG`.
     pub format: &'static str,
     /// SHA-256 of the file's bytes, in hexadecimal.
     pub sha256: String,
@@ -41,7 +41,7 @@ pub struct SourceInfo {
 pub struct Photograph {
     pub(super) pixels: DynamicImage,
     pub(super) lineariser: Lineariser,
-    /// What is known of its file.
+    /// What is known about its file.
     pub info: SourceInfo,
 }
 
@@ -67,7 +67,7 @@ impl Photograph {
             return Err(SourceError::Truncated { format });
         }
         if let Some(length) = png::uneven_palette(bytes).filter(|_| kind == ImageFormat::Png) {
-            let reason = format!("its palette is of {length} bytes, three a colour");
+            let reason = format!("its palette has {length} bytes, not a multiple of 3");
             return Err(SourceError::Damaged { format, reason });
         }
         let mut decoder =
@@ -85,7 +85,7 @@ impl Photograph {
             Some(profile) if !is_cmyk => (Lineariser::from_profile(&profile, &pixels)?, Vec::new()),
             None if is_cmyk => (
                 Lineariser::srgb(),
-                vec!["it is CMYK without a profile: its inks are taken as ideal; convert it to RGB for exact tone".to_owned()],
+                vec!["it is CMYK without a profile, so ideal inks are assumed; convert it to RGB for exact tone".to_owned()],
             ),
             _ => (Lineariser::srgb(), Vec::new()),
         };
@@ -93,12 +93,12 @@ impl Photograph {
         Ok(Self { pixels, lineariser, info })
     }
 
-    /// Columns, after the EXIF turn.
+    /// Columns, after EXIF orientation.
     pub fn width(&self) -> u32 {
         self.pixels.width()
     }
 
-    /// Rows, after the EXIF turn.
+    /// Rows, after EXIF orientation.
     pub fn height(&self) -> u32 {
         self.pixels.height()
     }
@@ -144,7 +144,7 @@ const fn format_name(format: ImageFormat) -> Option<&'static str> {
 }
 
 fn describe(format: &'static str, error: &ImageError) -> SourceError {
-    // The message is one line.
+    // Keep the message on one line.
     let reason = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     let is_early_end = matches!(error, ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof)
         || ["unexpected end", "UnexpectedEof", "failed to fill whole buffer", "unexpected EOF"]

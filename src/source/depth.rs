@@ -1,4 +1,4 @@
-//! Depth maps: nearness at the working resolution, with what is unknown kept apart.
+//! Depth maps: nearness at the working resolution, with unknown places marked.
 
 use super::decode::Photograph;
 use super::portrait::{Crop, Placement};
@@ -15,11 +15,11 @@ pub enum DepthSense {
     FarWhite,
 }
 
-/// Least nearness of a place that is known: one step of 16 bits.
+/// Least nearness of a known place: one step of 16 bits.
 const FARTHEST: f32 = 1.0 / 65535.0;
 
-/// Nearness 0 to 1 on the working grid; 0 is unknown. The file's numbers are depths, not light, so no transfer curve is applied;
-/// each working pixel is the mean of the known depths under a tent of its size (at least a pixel of the file).
+/// Nearness 0 to 1 on the working grid; 0 is unknown. The file's values are depths, not light, so no transfer curve is applied.
+/// Each working pixel is the mean of the known depths under a tent of its size (at least one pixel of the file).
 pub(super) fn read_depth(depth: &Photograph, sense: DepthSense, crop: Crop, placement: Placement) -> Raster<f32> {
     let grey = depth.pixels.to_luma16();
     let (width, height) = (grey.width() as usize, grey.height() as usize);
@@ -50,7 +50,7 @@ pub(super) fn read_depth(depth: &Photograph, sense: DepthSense, crop: Crop, plac
     out
 }
 
-/// For each working pixel in one direction the file's pixels under its tent, with their weights; the file's border repeats.
+/// For each working pixel along one axis: the file's pixels under its tent, with their weights. Border pixels are repeated.
 fn tents(from: f64, length: f64, count: usize, end: usize) -> Vec<Vec<(usize, f32)>> {
     let step = length / count as f64;
     let reach = step.max(1.0);

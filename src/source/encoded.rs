@@ -1,5 +1,4 @@
-//! The photograph as sRGB bytes, smaller: what networks look at. And rasters of bytes as photographs, for masks that were not
-//! painted.
+//! The photograph as smaller sRGB bytes, the networks' input; and rasters of bytes as photographs, for computed masks.
 
 use super::colour::linear_to_srgb;
 use super::decode::{Photograph, SourceInfo};
@@ -13,8 +12,8 @@ use fast_image_resize::{FilterType, PixelTrait, ResizeAlg, ResizeOptions, Resize
 use image::{DynamicImage, GenericImageView, GrayImage, ImageBuffer, RgbImage};
 
 impl Photograph {
-    /// A part of it as sRGB bytes on white, `columns` by `rows` large. Pixels of 8 bits without alpha are averaged as they are
-    /// stored, which costs a tenth of averaging light and is how the pictures were made smaller that networks were trained on.
+    /// A part of the photograph as sRGB bytes on white, `columns` by `rows` pixels. Pixels of 8 bits without alpha are averaged
+    /// as stored (not as light): it costs a tenth, and the networks' training pictures were reduced the same way.
     pub fn encoded(&self, crop: Crop, columns: usize, rows: usize) -> Result<Raster<[u8; 3]>, SourceError> {
         let crop = crop.within(self)?;
         let size = (columns, rows);
@@ -40,12 +39,12 @@ impl Photograph {
         Ok(light.map(|[r, g, b, _]| [byte(r), byte(g), byte(b)]))
     }
 
-    /// Whether something of it is transparent, so that it shows its subject already.
+    /// True if any pixel is transparent: the alpha channel then marks the subject.
     pub fn is_cut_out(&self) -> bool {
         self.has_alpha() && self.pixels.pixels().any(|(.., pixel)| pixel.0[3] < 255)
     }
 
-    /// Grey bytes as a picture, such as a mask that was found.
+    /// Grey bytes as a picture, such as a computed mask.
     ///
     /// # Panics
     /// Never: a raster's pixels fill it.
@@ -69,7 +68,7 @@ impl Photograph {
     }
 }
 
-/// A crop of stored bytes, `width` pixels a row, at another size: each pixel the mean of those round it.
+/// Resizes a crop of stored bytes, `width` pixels per row; each output pixel is the mean of the input around it.
 fn resized<P: PixelTrait + Default + Copy + Send + Sync>(
     bytes: &[u8],
     width: u32,

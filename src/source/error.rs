@@ -1,4 +1,4 @@
-//! What can be wrong with an image file.
+//! Errors of image files.
 
 use thiserror::Error;
 
@@ -8,30 +8,30 @@ pub enum SourceError {
     /// The bytes could not be read.
     #[error("cannot be read: {0}")]
     Io(#[from] std::io::Error),
-    /// There is nothing in it.
+    /// The file is empty.
     #[error("is empty; give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
     Empty,
-    /// The first bytes are those of no known image format.
-    #[error("is not an image that drypoint knows (it begins with {0}); give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
+    /// The first bytes match no known image format.
+    #[error("is not in a known image format (it begins with {0}); give a JPEG, PNG, WebP, TIFF, BMP or GIF photograph")]
     Unrecognised(String),
-    /// The header is damaged or asks for something the decoder does not do.
+    /// The header is damaged or needs a feature that the decoder does not support.
     #[error("is a {format} image that cannot be decoded: {reason}")]
     Damaged {
-        /// The format found by content.
+        /// The format, detected by content.
         format: &'static str,
-        /// The decoder's words.
+        /// The decoder's message.
         reason: String,
     },
     /// The file ends early.
     #[error("is a {format} image that ends too early: the file is truncated; copy it again from its source")]
     Truncated {
-        /// The format found by content.
+        /// The format, detected by content.
         format: &'static str,
     },
-    /// No pixel.
+    /// Width or height is zero.
     #[error("is a {format} image of {width} x {height} px, which has no pixels")]
     NoPixels {
-        /// The format found by content.
+        /// The format, detected by content.
         format: &'static str,
         /// Columns.
         width: u32,
@@ -43,22 +43,22 @@ pub enum SourceError {
         "is a {format} image of {width} x {height} px, beyond the limit of {limit}; scale it down first (drypoint never needs more than about 6 pixels per dot)"
     )]
     TooLarge {
-        /// The format found by content.
+        /// The format, detected by content.
         format: &'static str,
         /// Columns.
         width: u32,
         /// Rows.
         height: u32,
-        /// What is allowed.
+        /// The limit, with its unit.
         limit: String,
     },
-    /// More bytes in the file than allowed.
+    /// The file has more bytes than allowed.
     #[error("is larger than the limit of {0} MB; scale it down or save it as JPEG")]
     TooManyBytes(u64),
-    /// A colour profile that cannot be used.
+    /// The colour profile cannot be used.
     #[error("has a colour profile that cannot be used ({0}); convert the picture to sRGB first")]
     Profile(String),
-    /// A mask or depth map of other proportions.
+    /// A mask or depth map has other proportions than the photograph.
     #[error(
         "is {width} x {height} px, but the photograph is {expected_width} x {expected_height} px; a mask needs the photograph's proportions (after its EXIF turn), at any size"
     )]
@@ -72,17 +72,17 @@ pub enum SourceError {
         /// Rows of the photograph.
         expected_height: u32,
     },
-    /// Scribbles without a colour, or with too many to be regions.
+    /// Scribbles with no colour, or with too many to be regions.
     #[error(
         "has {colours} colours that could mark regions; mark 1 to {most} regions, one flat colour each, on black or transparent, without soft brushes or JPEG"
     )]
     Scribbles {
-        /// Colours that cover enough of the picture.
+        /// Number of colours that cover enough of the picture.
         colours: usize,
-        /// Colours allowed.
+        /// Most colours allowed.
         most: usize,
     },
-    /// A crop without pixels, or outside the picture.
+    /// The crop has no pixel, or lies outside the picture.
     #[error("has no pixel inside the crop {x},{y},{w},{h}: the picture is {width} x {height} px")]
     EmptyCrop {
         /// Left border of the crop in pixels.

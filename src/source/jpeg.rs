@@ -1,7 +1,7 @@
-//! What the decoder does not tell of a JPEG file: whether it is whole (what is missing would be drawn as grey, without a word), and
-//! whether its numbers are inks.
+//! What the decoder does not report about a JPEG file: whether it is complete (it silently fills missing parts with grey), and
+//! whether its samples are inks (CMYK).
 
-/// A marker of a JPEG file (ITU T.81, annex B) and where it stands.
+/// Iterator over the markers of a JPEG file (ITU T.81, annex B) and their offsets.
 struct Markers<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -16,9 +16,9 @@ impl<'a> Markers<'a> {
 impl Iterator for Markers<'_> {
     type Item = (u8, usize);
 
-    /// The next marker after a segment or after entropy-coded data; none when the file ends before it.
+    /// The next marker after a segment or after entropy-coded data; `None` if the file ends before it.
     fn next(&mut self) -> Option<(u8, usize)> {
-        // 0xFF00 is a stuffed byte, D0 to D7 are restarts, and FF may fill.
+        // 0xFF00 is a stuffed byte, D0 to D7 are restarts, and FF may be padding.
         let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0x00 | 0xFF | 0xD0..=0xD7);
         let start = self.at + self.bytes.get(self.at..)?.windows(2).position(is_marker)?;
         let marker = self.bytes[start + 1];

@@ -1,16 +1,16 @@
-//! The points of a face, as the networks' mesh numbers them.
+//! The landmarks of a face, numbered as in the networks' mesh.
 
 use crate::geometry::Point;
 
-/// Points of the mesh.
+/// Number of points in the mesh.
 pub const POINTS: usize = 468;
 
-/// The points of one face: x, y, and z in the same unit, smaller is nearer, 0 about the centre of the head's front.
+/// The landmarks of one face: x, y, z in the same unit. Smaller z is nearer; z is about 0 at the centre of the head's front.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landmarks {
     /// The [`POINTS`] points of the mesh.
     pub points: Vec<[f64; 3]>,
-    /// The irises: the person's right one, then the left.
+    /// The irises: first the person's right, then the left.
     pub irises: [Iris; 2],
 }
 
@@ -23,32 +23,33 @@ pub struct Iris {
     pub radius: f64,
 }
 
-/// A face turned to the side is narrower than its head: its width counts at least this part of its height.
+/// A face seen from the side is narrower than its head: [`Landmarks::width`] is at least this fraction of the face's height.
 pub const LEAST_FACE_WIDTH: f64 = 0.6;
 
 impl Landmarks {
-    /// A point of the mesh, seen from the front.
+    /// A point of the mesh in the image plane (x, y).
     pub fn point(&self, index: usize) -> Point {
         Point::new(self.points[index][0], self.points[index][1])
     }
 
-    /// A line of the mesh.
+    /// Several points of the mesh, as a polyline.
     pub fn line(&self, indices: &[usize]) -> Vec<Point> {
         indices.iter().map(|&index| self.point(index)).collect()
     }
 
-    /// The distance of the irises, by which errors of points are measured.
+    /// The distance between the irises, by which landmark errors are normalised.
     pub fn eye_distance(&self) -> f64 {
         (self.irises[1].centre - self.irises[0].centre).hypot()
     }
 
-    /// The width of the face from ear to ear, or of one turned to the side what it would be from the front, at least.
+    /// The width of the face from ear to ear, at least [`LEAST_FACE_WIDTH`] of its height: about the frontal width of a face seen
+    /// from the side.
     pub fn width(&self) -> f64 {
         let across = (self.point(454) - self.point(234)).hypot();
         across.max(LEAST_FACE_WIDTH * (self.point(10) - self.point(152)).hypot())
     }
 
-    /// The same face elsewhere and of another size: lengths grow by `scale`.
+    /// The same face with each point moved by `place` and lengths scaled by `scale`.
     #[must_use]
     pub fn placed(&self, place: impl Fn(Point) -> Point, scale: f64) -> Self {
         let points = self.points.iter().map(|&[x, y, z]| {
@@ -60,7 +61,7 @@ impl Landmarks {
     }
 }
 
-/// Lines of the mesh, as indices of its points (`MediaPipe`'s canonical face); left and right are the person's.
+/// Contours of the mesh, as indices of its points (`MediaPipe`'s canonical face); left and right are the person's.
 pub mod outlines {
     /// The outline of the face, from the middle of the forehead, closed.
     pub const OVAL: [usize; 36] = [
@@ -71,9 +72,9 @@ pub mod outlines {
     pub const LEFT_EYE: [usize; 16] = [263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466];
     /// The lids of the right eye, closed.
     pub const RIGHT_EYE: [usize; 16] = [33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246];
-    /// The left brow: its lower line, then its upper, not a ring.
+    /// The left brow: its lower line, then its upper; open.
     pub const LEFT_BROW: [usize; 10] = [276, 283, 282, 295, 285, 336, 296, 334, 293, 300];
-    /// The right brow alike.
+    /// The right brow: its lower line, then its upper; open.
     pub const RIGHT_BROW: [usize; 10] = [46, 53, 52, 65, 55, 107, 66, 105, 63, 70];
     /// The lips' outer border, closed.
     pub const LIPS: [usize; 20] = [61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 409, 270, 269, 267, 0, 37, 39, 40, 185];

@@ -1,4 +1,4 @@
-//! From a picture's own encoding to linear sRGB light and alpha, in bands of rows, so that a large photograph never stands in
+//! From a picture's own encoding to linear sRGB light and alpha, in bands of rows, so that a large photograph is never held in
 //! memory as floats.
 
 use super::colour::srgb_to_linear;
@@ -8,9 +8,9 @@ use moxcms::{ColorProfile, DataColorSpace, Layout, TransformExecutor, TransformO
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// How one picture's numbers become light.
+/// Converts one picture's samples to light.
 pub(super) struct Lineariser {
-    /// From the embedded profile to sRGB, both with 16 bits; none when the picture is sRGB already.
+    /// From the embedded profile to sRGB, both 16 bits; `None` if the picture is sRGB already.
     transform: Option<Arc<dyn TransformExecutor<u16> + Send + Sync>>,
     /// Light for each 16-bit sRGB value.
     table: Vec<f32>,
@@ -46,7 +46,7 @@ impl Lineariser {
         Ok(Self { transform: Some(transform), ..Self::srgb() })
     }
 
-    /// Whether an embedded profile says what the numbers mean, so that they are not sRGB as they stand.
+    /// True if samples go through an embedded profile; false if they are sRGB already.
     pub(super) const fn is_managed(&self) -> bool {
         self.transform.is_some()
     }
@@ -128,7 +128,7 @@ impl Lineariser {
     }
 }
 
-/// Whether a profile's primaries and curve are sRGB's, so that nothing needs doing.
+/// Whether a profile's primaries and curve are sRGB's, so that no conversion is needed.
 fn is_srgb(profile: &ColorProfile) -> bool {
     let srgb = ColorProfile::new_srgb();
     let close =
@@ -136,7 +136,7 @@ fn is_srgb(profile: &ColorProfile) -> bool {
     let has_primaries = close(profile.red_colorant, srgb.red_colorant)
         && close(profile.green_colorant, srgb.green_colorant)
         && close(profile.blue_colorant, srgb.blue_colorant);
-    // The usual sRGB profiles hold the curve as a table of 1024 entries; its middle tells it from a pure gamma.
+    // The usual sRGB profiles hold the curve as a table of 1024 entries; its middle value distinguishes it from a pure gamma.
     let has_curve = match &profile.red_trc {
         Some(moxcms::ToneReprCurve::Lut(table)) if table.len() > 16 => {
             let middle = f32::from(table[table.len() / 2]) / 65535.0;
@@ -159,7 +159,7 @@ fn from_rgb([r, g, b]: [u8; 3], alpha: u8) -> [u16; 4] {
     [u16::from(r) * 257, u16::from(g) * 257, u16::from(b) * 257, u16::from(alpha) * 257]
 }
 
-/// Pictures in floats are light already.
+/// Float pictures are linear light already.
 fn light_band(samples: &[f32], width: u32, first: u32, count: u32) -> Vec<[f32; 4]> {
     let row = width as usize * 3;
     let sound = |v: f32| if v.is_finite() { v.clamp(0.0, 1.0) } else { 0.0 };

@@ -1,7 +1,7 @@
 //! From bytes to a [`Portrait`]: decoding, orientation, colour management, alpha, resampling, tone.
 //!
-//! In: a reader with an image file of any supported kind. Out: a [`Photograph`] (the file's pixels, upright), and from it a
-//! [`Portrait`] at the working resolution that a style asks for, or its sRGB bytes at any smaller size. Nothing here opens files or knows of styles.
+//! In: a reader over an image file of any supported format. Out: a [`Photograph`] (the file's pixels, upright), and from it a
+//! [`Portrait`] at a style's working resolution, or sRGB bytes at any smaller size. Nothing here opens files or knows of styles.
 
 mod cmyk;
 mod colour;

@@ -1,9 +1,9 @@
-//! What is looked at in a PNG file before it is decoded.
+//! Checks on a PNG file before it is decoded.
 
 /// Bytes before the first chunk.
 const SIGNATURE: usize = 8;
 
-/// The length of a palette that is no whole number of colours, at which the decoder fails.
+/// The length in bytes of a palette that is not a multiple of three, if there is one; the decoder fails on it.
 pub(super) fn uneven_palette(bytes: &[u8]) -> Option<u32> {
     let mut left = bytes.get(SIGNATURE..)?;
     loop {
@@ -12,7 +12,7 @@ pub(super) fn uneven_palette(bytes: &[u8]) -> Option<u32> {
         if chunk.starts_with(b"PLTE") && !length.is_multiple_of(3) {
             return Some(length);
         }
-        // Four bytes of name before what it holds, four of a checksum behind.
+        // Four bytes of chunk type before the data, four of checksum after it.
         left = chunk.get(usize::try_from(length).ok()?.checked_add(8)?..)?;
     }
 }

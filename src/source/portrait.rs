@@ -15,13 +15,13 @@ use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Working pixels beyond which a page is refused whatever draws it; a style takes 80 to 500 bytes for each, and says beforehand.
+/// Most working pixels, whatever the style; a style takes 80 to 500 bytes for each, and reports its need beforehand.
 const WORK_LIMIT: u64 = 60_000_000;
-/// How far the proportions of a mask may be from the photograph's; a thumbnail of 50 pixels is rounded by as much.
+/// Largest relative difference between the proportions of a mask and the photograph's: the rounding of a thumbnail of 50 pixels.
 const MOST_DISTORTION: f64 = 0.03;
 /// The mesh's point on the tip of the nose, the middle of a face.
 const NOSE_TIP: usize = 1;
-/// Rows of the working raster resampled at a time.
+/// Rows of the working raster resampled at once.
 const BAND: usize = 64;
 
 /// What a mask means.
@@ -29,7 +29,7 @@ const BAND: usize = 64;
 pub enum MaskRole {
     /// What is drawn; the rest is background.
     Subject,
-    /// Where finer detail is wanted.
+    /// Where finer detail is drawn.
     Detail,
     /// Hair.
     Hair,
@@ -72,27 +72,27 @@ impl MaskRole {
         Self::ALL.iter().find(|(_, role)| *role == self).map_or("", |(name, _)| name)
     }
 
-    /// What its picture shows, for a user.
+    /// What the mask's picture shows, for the user.
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::Subject => "what is drawn, white; the rest is background (without this mask: the photograph's alpha)",
-            Self::Detail => "where dots stand closer, white, such as the eyes",
-            Self::Hair => "hair, white, which is drawn in strokes that flow",
-            Self::Face => "the face, white, whose eyes, nose and mouth are looked for and drawn",
-            Self::Clothing => "clothing, white, which is shaded by hand where it is dark",
-            Self::Skin => "bare skin, white, whose lights and shadows the portrait tone evens out",
+            Self::Detail => "where dots are denser, white, such as the eyes",
+            Self::Hair => "hair, white, drawn in flowing strokes",
+            Self::Face => "the face, white, where eyes, nose and mouth are detected and drawn",
+            Self::Clothing => "clothing, white, shaded freehand where it is dark",
+            Self::Skin => "bare skin, white, where the portrait tone evens out light and shadow",
             Self::FacialHair => "beards and moustaches, white",
             Self::Headwear => "hats, caps and scarves, white",
             Self::Edges => {
-                "edges as white lines, in the place of those that would be found (charcoal: which of those to keep, and more)"
+                "edges as white lines, instead of the detected ones (charcoal: which detected edges to keep, and more to add)"
             }
-            Self::Isophotes => "borders of light as white lines, in the place of those that would be found",
-            Self::Scribbles => "a flat colour scribbled into each region, on black or transparent",
+            Self::Isophotes => "isophotes as white lines, instead of the detected ones",
+            Self::Scribbles => "one flat colour scribbled into each region, on black or transparent",
         }
     }
 }
 
-/// What the ink must match.
+/// The measure of tone that the ink must match.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneTarget {
     /// CIE L*/100: equal steps look equal.
@@ -145,7 +145,7 @@ impl Crop {
         Self { x: 0.0, y: 0.0, width: f64::from(photograph.width()), height: f64::from(photograph.height()) }
     }
 
-    /// The part of it that the photograph has, at least a pixel each way.
+    /// The crop clipped to the photograph; an error unless at least one pixel is left in each direction.
     pub fn within(self, photograph: &Photograph) -> Result<Self, SourceError> {
         let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
         let (x0, y0) = (self.x.clamp(0.0, width), self.y.clamp(0.0, height));
@@ -171,18 +171,18 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// A box with `pixels_per_mm` working pixels a millimetre, rounded to whole ones.
+    /// A box with `pixels_per_mm` working pixels per millimetre, rounded to whole pixels.
     pub fn new(picture: Rect, pixels_per_mm: f64) -> Self {
         let count = |length: f64| (length * pixels_per_mm).round().max(1.0) as usize;
         Self { picture, columns: count(picture.width()), rows: count(picture.height()) }
     }
 
-    /// Millimetres a pixel, the mean of both directions (they differ by less than a pixel in the whole box).
+    /// Millimetres per pixel, the mean of both directions (over the whole box they differ by less than a pixel).
     pub fn mm_per_pixel(&self) -> f64 {
         (self.picture.area() / (self.columns as f64 * self.rows as f64)).sqrt()
     }
 
-    /// The page's millimetres of a place in working pixels.
+    /// Converts a point from working pixels to millimetres on the page.
     pub fn to_page(&self, p: Point) -> Point {
         Point::new(
             self.picture.x0 + p.x * self.picture.width() / self.columns as f64,
@@ -196,27 +196,27 @@ impl Placement {
 pub struct Portrait {
     /// The sheet that it is drawn on.
     pub page: Page,
-    /// Where it lies on the page.
+    /// Where the working raster lies on the page.
     pub placement: Placement,
-    /// Linear sRGB light, composed on white.
+    /// Linear sRGB light, composited on white.
     pub light: Raster<[f32; 3]>,
-    /// Wanted fraction of white paper, 0 to 1.
+    /// Target tone as the fraction of white paper, 0 to 1.
     pub tone: Raster<f32>,
-    /// CIE L*/100 before the tone curve; what features are found in.
+    /// CIE L*/100 before the tone curve; features are detected in it.
     pub lightness: Raster<f32>,
     /// How much of each pixel belongs to the subject, 0 to 1.
     pub subject: Raster<f32>,
     /// Whether the tone was made for faces.
     has_portrait_tone: bool,
-    /// The people, where their background is drawn too.
+    /// The people, if their background is drawn too.
     people: Option<Raster<f32>>,
-    /// Whether the photograph was composed on white by `subject` itself, its alpha.
+    /// True if `subject` is the photograph's own alpha, so that `light` is already composited on white.
     is_on_white: bool,
     /// Other masks, 0 to 1.
     pub masks: BTreeMap<MaskRole, Raster<f32>>,
-    /// Nearness, 1 nearest and towards 0 far; 0 where nothing is known or there is background.
+    /// Nearness, 1 nearest and towards 0 far; 0 where unknown or background.
     pub depth: Option<Raster<f32>>,
-    /// The faces that were found, in working pixels, largest first.
+    /// The detected faces, in working pixels, largest first.
     pub faces: Vec<Landmarks>,
     /// Regions marked by hand.
     pub scribbles: Option<Scribbles>,
@@ -259,8 +259,8 @@ impl Portrait {
         })
     }
 
-    /// Adds a mask, resampled alike, on the photograph's pixel grid or one of the same proportions; its brightness (not its light) is the region: 0.5 grey is half in. A `Subject` mask
-    /// replaces the photograph's alpha.
+    /// Adds a mask, resampled like the photograph. It lies on the photograph's pixel grid or one of the same proportions. Its
+    /// encoded brightness (not its light) is the coverage: 0.5 grey is half in. A `Subject` mask replaces the photograph's alpha.
     pub fn add_mask(
         &mut self,
         role: MaskRole,
@@ -283,30 +283,30 @@ impl Portrait {
         Ok(())
     }
 
-    /// Adds the people without their background, which is drawn all the same; as a mask.
+    /// Adds a mask of the people for a picture whose background is drawn too.
     pub fn add_people(&mut self, mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
         let crop = crop_on_grid(mask, photograph, crop.within(photograph)?)?;
         self.people = Some(region(mask, crop, self.placement)?);
         Ok(())
     }
 
-    /// The people, where they are known apart from the subject, else the subject; 0 to 1.
+    /// The mask of the people if one was added, else the subject; 0 to 1.
     pub fn people(&self) -> &Raster<f32> {
         self.people.as_ref().unwrap_or(&self.subject)
     }
 
-    /// Gives it a tone made for its faces, 0 to 1, to which the curve is applied.
+    /// Replaces the tone by one made for its faces, 0 to 1, after applying the curve.
     pub fn set_portrait_tone(&mut self, tone: &Raster<f32>, curve: ToneCurve) {
         self.tone = tone.map(|t| curve.apply(t));
         self.has_portrait_tone = true;
     }
 
-    /// Whether the tone was made for its faces, so that the whites are those that are wanted.
+    /// Whether the tone was made for its faces; its whites are then intended.
     pub const fn has_portrait_tone(&self) -> bool {
         self.has_portrait_tone
     }
 
-    /// Adds a depth map, resampled alike, on the photograph's pixel grid or one of the same proportions.
+    /// Adds a depth map, resampled like the photograph, on its pixel grid or one of the same proportions.
     pub fn add_depth(
         &mut self,
         depth: &Photograph,
@@ -319,7 +319,8 @@ impl Portrait {
         Ok(())
     }
 
-    /// Adds faces that were found in the photograph, in its pixels, largest first; those whose middle lies outside the crop are left out.
+    /// Adds faces detected in the photograph, in its pixels, largest first. Faces whose middle (tip of the nose) lies outside the
+    /// crop are dropped.
     pub fn add_faces(&mut self, faces: &[Landmarks], photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
         let crop = crop.within(photograph)?;
         let (x, y) = (self.placement.columns as f64 / crop.width, self.placement.rows as f64 / crop.height);
@@ -330,21 +331,23 @@ impl Portrait {
         Ok(())
     }
 
-    /// The wanted ink of a pixel, 0 to 1: nothing outside the subject.
+    /// Target ink of each pixel, 0 to 1; 0 outside the subject.
     pub fn ink(&self) -> Raster<f32> {
         self.on_white(&self.tone).map(|tone| 1.0 - tone)
     }
 
-    /// A raster of tone or lightness with white outside the subject. What alpha has composed on white already is not faded again.
+    /// A raster of tone or lightness with white outside the subject. A picture already composited on white by its alpha is not
+    /// faded again.
     pub fn on_white(&self, tone: &Raster<f32>) -> Raster<f32> {
         if self.is_on_white { tone.clone() } else { tone.zip_map(&self.subject, |tone, subject| 1.0 - (1.0 - tone) * subject) }
     }
 }
 
-/// The photograph's crop on the pixel grid of a mask or depth map: the same grid, or one of the same proportions, larger or smaller.
+/// The photograph's crop on the pixel grid of a mask or depth map, which has the photograph's proportions at any size.
 fn crop_on_grid(mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<Crop, SourceError> {
     let [w, h, width, height] = [mask.width(), mask.height(), photograph.width(), photograph.height()].map(f64::from);
-    // What lies across: none for the same proportions, up to a pixel of the mask after a program has rounded its sides.
+    // The difference of the proportions, cross-multiplied: 0 if equal, up to one pixel of the mask after a program rounded its
+    // sides.
     let across = (w * height - h * width).abs();
     if across > width.max(height) || across > MOST_DISTORTION * w * height {
         return Err(SourceError::OtherSize {
@@ -358,7 +361,7 @@ fn crop_on_grid(mask: &Photograph, photograph: &Photograph, crop: Crop) -> Resul
     Ok(Crop { x: crop.x * x, y: crop.y * y, width: crop.width * x, height: crop.height * y })
 }
 
-/// How much of each working pixel a mask marks.
+/// The fraction of each working pixel that a mask covers.
 fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<f32>, SourceError> {
     // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
     Ok(resample(mask, crop, placement)?.map(|[r, g, b, alpha]| {
@@ -373,15 +376,15 @@ fn resample(photograph: &Photograph, crop: Crop, placement: Placement) -> Result
     resample_by(photograph, inside(crop, photograph), (placement.columns, placement.rows), FilterType::Lanczos3)
 }
 
-/// The part of a crop that lies inside a photograph, however little: a mask may have fewer pixels than the photograph.
+/// Clips a crop to a photograph, however little is left: a mask may have fewer pixels than the photograph.
 fn inside(crop: Crop, photograph: &Photograph) -> Crop {
     let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
     let (x, y) = (crop.x.clamp(0.0, width), crop.y.clamp(0.0, height));
     Crop { x, y, width: crop.width.min(width - x), height: crop.height.min(height - y) }
 }
 
-/// Linear light on white, and alpha, of a crop inside the photograph at another size, by one of the filters that reach three pixels
-/// or less.
+/// Linear light on white, and alpha, of a crop inside the photograph, resampled to another size by a filter that reaches at most
+/// three pixels.
 pub(super) fn resample_by(
     photograph: &Photograph,
     crop: Crop,
@@ -393,7 +396,7 @@ pub(super) fn resample_by(
         return Err(SourceError::WorkTooLarge { pixels, limit: WORK_LIMIT });
     }
     let scale = crop.height / rows as f64;
-    // Lanczos 3 reaches three working pixels, at least three of the photograph's.
+    // Lanczos 3 reaches three working pixels, and at least three of the photograph's.
     let reach = (3.0 * scale.max(1.0)).ceil() + 1.0;
     let bands: Vec<Vec<[f32; 4]>> = (0..rows.div_ceil(BAND))
         .into_par_iter()
@@ -429,7 +432,7 @@ fn resize_band(
     band.pixels().iter().map(|p| p.0).collect()
 }
 
-/// The part of a crop that fills a box of this shape, centred (`--fit cover`).
+/// The centred part of a crop that fills a box of these proportions (`--fit cover`).
 pub fn fill_box(crop: Crop, box_width: f64, box_height: f64) -> Crop {
     let shape = box_width / box_height;
     let (width, height) =

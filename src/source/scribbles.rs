@@ -7,24 +7,25 @@ use crate::raster::Raster;
 use image::GenericImageView;
 use std::collections::BTreeMap;
 
-/// Least share of the picture that a colour must cover to be a region; what lies below is the soft edge of a brush.
+/// Least share of the picture that a colour must cover to be a region; smaller shares are the soft edges of brushes.
 const LEAST_SHARE: f64 = 5e-5;
 /// Greatest number of regions.
 const MOST_REGIONS: usize = 1000;
-/// Channels below this, all of them, are black: no mark.
+/// A pixel whose channels are all below this is black: unmarked.
 const BLACK: u8 = 24;
 
 /// Regions marked by hand, on the working grid.
 #[derive(Clone, Debug)]
 pub struct Scribbles {
-    /// 0 where nothing is marked, else the number of the colour, from 1.
+    /// 0 where unmarked, else the region's number, from 1.
     pub labels: Raster<i32>,
     /// The sRGB colour of each region, in the order of its numbers.
     pub colours: Vec<[u8; 3]>,
 }
 
 impl Scribbles {
-    /// Each working pixel takes the colour of the pixel in its centre; black and what is more than half transparent is unmarked.
+    /// Each working pixel takes the colour of the mask's pixel at its centre. Black pixels and those more than half transparent
+    /// are unmarked.
     pub(super) fn read(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Self, SourceError> {
         let marked = |x: u32, y: u32| {
             let [r, g, b, alpha] = mask.pixels.get_pixel(x, y).0;

@@ -1,6 +1,6 @@
 //! A monotone curve through points.
 
-/// The shape-preserving cubic (Fritsch and Carlson 1980) through points of ascending place and value; straight on beyond its ends.
+/// The shape-preserving cubic (Fritsch and Carlson 1980) through points of ascending x and y; linear beyond its ends.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     points: Vec<[f32; 2]>,

@@ -1,4 +1,4 @@
-//! The tone that one face asks for, over the whole picture.
+//! The tone of one face, over the whole picture.
 
 use super::blurred_within;
 use super::curve::Curve;
@@ -7,69 +7,70 @@ use crate::geometry::Point;
 use crate::raster::{Raster, Remapping, box_blur, fast_gaussian, local_laplacian};
 use crate::source::Landmarks;
 
-/// Lighting: the reach of what counts as light rather than form, and how much of its departure from the median is taken back, in shade
-/// and in light.
+/// Lighting: the blur (in widths of the face) that separates light from form, and the share of its difference from the median
+/// that is removed in shade and in light.
 const LIGHT_REACH: f64 = 0.22;
 const SHADE_EVENED: f32 = 0.5;
 const LIGHT_EVENED: f32 = 0.35;
-/// Local contrast: contrasts below the first are raised by the power, larger ones lowered a little; levels finer than this part of a
-/// sixtieth of the face, which is about a dot, are left.
+/// Local contrast: contrasts below `sigma` are raised by the power `alpha`, larger ones lowered a little. Pyramid levels finer
+/// than `FINE` of a sixtieth of the face (about a dot) are left unchanged.
 const CONTRAST: Remapping = Remapping { alpha: 0.65, sigma: 0.16, beta: 0.85 };
 const LEFT: Remapping = Remapping { alpha: 1.0, sigma: 0.16, beta: 0.85 };
 const DOTS: f64 = 60.0;
 const FINE: f64 = 0.35;
 const SAMPLES: usize = 14;
-/// The base layer of the curve: its reach, and the contrast that it keeps.
+/// The base layer of the curve: its radius in widths of the face, the contrast that it keeps, and the gain of the detail.
 const BASE_REACH: f64 = 0.045;
 const BASE_CONTRAST: f32 = 0.03;
 const DETAIL: f32 = 1.25;
-/// The paper's tone for a face's median `m`: `MEDIAN[0] + MEDIAN[1] m`.
+/// Target tone on paper for a face's median `m`: `MEDIAN[0] + MEDIAN[1] m`.
 const MEDIAN: [f32; 2] = [0.32, 0.61];
 /// Black, and the end of the curve's toe.
 const BLACK: f32 = 0.06;
 const TOE: [f32; 2] = [0.10, 0.19];
-/// The lights: which hundredths of the skin take which tone, and the curve's slope there.
+/// The lights: the percentiles of the skin that get `LIGHT_TONE` and white, and the range of the curve's slope up to the first.
 const LIGHTS: f64 = 84.0;
 const LIGHT_TONE: f32 = 0.955;
 const WHITES: f64 = 96.0;
 const SLOPES: [f32; 2] = [0.8, 3.1];
-/// Lights count at the size of the dots, in widths of the face.
+/// Lights are measured at the size of a dot, in widths of the face.
 const DOT: f64 = 0.012;
-/// Clothing's own curve: black cloth is opened, white cloth stays white.
+/// Clothing's own curve: black cloth is lightened, white cloth stays white.
 const CLOTHING: [[f32; 2]; 6] = [[-0.3, 0.0], [0.0, 0.06], [0.10, 0.17], [0.35, 0.40], [0.70, 0.73], [1.0, 1.0]];
-/// Hair lighter than this is held back, and the contrast of its strands raised.
+/// Hair lighter than `LIGHT_HAIR` is compressed, and the contrast of its strands raised.
 const LIGHT_HAIR: f32 = 0.80;
 const HELD: f32 = 0.45;
 const STRANDS: f32 = 1.6;
-/// How much the difference of eyes, brows and lips from the skin round them is raised.
+/// How much the difference of eyes, brows and lips from the surrounding skin is raised.
 const FEATURES: f32 = 0.40;
-/// Large blacks are opened below this tone, in the face from a lighter one.
+/// Large blacks below this tone are lightened; in the face the threshold is higher.
 const OPENED: f32 = 0.19;
 const OPENED_IN_FACE: f32 = 0.07;
 
-/// What is seen as bare paper from the distance of a print: a blur in widths of the face, the hundredths of the face that are below the
-/// lights which reach paper, and their tone. With 98 hundredths three of sixteen faces had less than 2 % of bare paper.
+/// What is seen as bare paper at the viewing distance of a print: a blur in widths of the face, the percentile above which the
+/// face's lights reach paper, and the tone of paper. With the 98th percentile, three of sixteen faces had less than 2 % of bare
+/// paper.
 const SEEN: f64 = 0.03;
 const BELOW_PAPER: f64 = 96.5;
 const PAPER: f32 = 0.985;
-/// From these hundredths up the lights are raised; and by how much more than they were above them, at most.
+/// Lights above this percentile are raised, at most by this multiple of the range from there to the lights.
 const RAISED_FROM: f64 = 75.0;
 const MOST_RAISED: f32 = 1.8;
 const HALVINGS: usize = 5;
-/// Width of the border, in widths of the face, over which raised lights go over into the tone as it was.
+/// Width of the transition, in widths of the face, from raised lights inside the face to the unchanged tone outside.
 const FACE_EDGE: f64 = 0.05;
 
 /// The picture that faces are in.
 pub(super) struct Setting<'a> {
     pub lightness: &'a Raster<f32>,
-    /// 0 to 1, its edge made firmer.
+    /// 0 to 1, with a sharpened edge.
     pub subject: Raster<f32>,
     /// Hair and headwear.
     pub hair: Option<Raster<f32>>,
     pub clothing: Option<Raster<f32>>,
 }
 
-/// The steps in their order; not held to 0 and 1.
+/// Applies all steps in order. Values may leave 0 to 1. `None` if the face has no skin to measure.
 pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32>> {
     let zones = Zones::new(face, setting.lightness)?;
     let evened = evened_light(&zones, setting.lightness);
@@ -92,7 +93,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }
 
-/// Step 1: a very smooth lightness of the skin is taken towards its median.
+/// Step 1: a heavily blurred lightness of the skin is pulled towards its median.
 fn evened_light(zones: &Zones, lightness: &Raster<f32>) -> Raster<f32> {
     let weight = zones.skin.zip_map(&zones.oval, |skin, oval| skin + 1e-5 * f32::from(oval));
     let smooth = zones.over_skin(lightness, &weight, LIGHT_REACH);
@@ -104,11 +105,11 @@ fn evened_light(zones: &Zones, lightness: &Raster<f32>) -> Raster<f32> {
         share * (median - smooth) * sure
     });
     let off = fast_gaussian(&off, 0.5 * sigma);
-    // Blacks stay black and whites white.
+    // Blacks stay black, and whites white.
     lightness.zip_map(&off, |l, off| (l + off * (l / 0.25).clamp(0.0, 1.0) * ((1.0 - l) / 0.1).clamp(0.0, 1.0)).clamp(0.0, 1.0))
 }
 
-/// Step 2: the subject goes on beyond its border by its own mean, so that the border itself has no contrast and no halo.
+/// Step 2: the subject is extended beyond its border by its own mean, so that the border has no contrast and no halo.
 fn local_contrast(zones: &Zones, evened: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let weight = subject.map(|v| v + 1e-6);
     let beyond = zones.over_skin(evened, &weight, 0.1);
@@ -140,7 +141,7 @@ fn curve_of(zones: &Zones, contrasted: &Raster<f32>, base: &Raster<f32>) -> Curv
     ])
 }
 
-/// Step 5: light hair takes strands instead of bare paper.
+/// Step 5: light hair gets strands instead of bare paper.
 fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let above_chin = above_chin(face);
     let soft = fast_gaussian(hair, (0.015 * zones.width) as f32);
@@ -157,13 +158,13 @@ fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster
     mixed(tone, &held, &zone)
 }
 
-/// How high above the chin a place is, in heights of the face.
+/// Height of a point above the chin, in heights of the face.
 fn above_chin(face: &Landmarks) -> impl Fn(Point) -> f64 + Sync {
     let (chin, up) = (face.point(152), face.point(10) - face.point(152));
     move |p| (p - chin).dot(up) / up.hypot2().max(1e-9)
 }
 
-/// Step 6: eyes, brows and lips stand out against the skin round them.
+/// Step 6: eyes, brows and lips get more contrast against the surrounding skin.
 fn raised_features(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let weight = zones.skin.zip_map(subject, |skin, subject| (skin + 1e-4) * subject + 1e-6);
     let round = zones.over_skin(tone, &weight, 0.10);
@@ -171,7 +172,7 @@ fn raised_features(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> 
     tone.zip_map(&raised.zip_map(&zones.features, |raised, feature| raised * feature), |tone, more| tone + more)
 }
 
-/// Step 7: hair, beards and cloth keep holes of paper; thin dark lines stay.
+/// Step 7: hair, beards and cloth keep gaps of paper; thin dark lines stay.
 fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let clamped = tone.map(|v| v.clamp(0.0, 1.0));
     let mean = blurred_within(&clamped, &subject.map(|v| v + 1e-6), (zones.width / 40.0) as f32);
@@ -180,8 +181,8 @@ fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Ra
     tone.zip_map(&lift, |tone, lift| tone + lift)
 }
 
-/// Step 8: a face whose lights are small or scattered has bare paper too. Above the face's bright quarter the tone rises more steeply,
-/// by as little as takes its lights, as they are seen in print, to paper.
+/// Step 8: a face whose lights are small or scattered gets bare paper too. Above the face's bright quarter the curve is
+/// steepened, by the least amount that takes its lights, as seen in print, to paper.
 fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
     let seen = |tone: &Raster<f32>| fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), (SEEN * zones.width) as f32);
     let before = seen(tone);
@@ -207,7 +208,7 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
     raised(high)
 }
 
-/// Smoothed but for edges of more than a contrast: the guided filter with itself as its guide.
+/// The guided filter with the raster as its own guide: smooths, but keeps edges of a contrast above the root of `eps`.
 fn self_guided(raster: &Raster<f32>, radius: usize, eps: f32) -> Raster<f32> {
     let mean = |raster: &Raster<f32>| box_blur(&box_blur(raster, radius), (radius / 2).max(1));
     let means = mean(raster);
@@ -217,7 +218,7 @@ fn self_guided(raster: &Raster<f32>, radius: usize, eps: f32) -> Raster<f32> {
     mean(&slope).zip_map(raster, |a, v| a * v).zip_map(&offset, |av, b| av + b)
 }
 
-/// The first where the share is 0, the second where it is 1.
+/// Linear mix: the first where the share is 0, the second where it is 1.
 fn mixed(first: &Raster<f32>, second: &Raster<f32>, share: &Raster<f32>) -> Raster<f32> {
     let off = second.zip_map(first, |second, first| second - first).zip_map(share, |off, share| off * share);
     first.zip_map(&off, |first, off| first + off)

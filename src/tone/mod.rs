@@ -1,6 +1,7 @@
-//! The tone that ink must match where faces are drawn: exposure, contrast and local detail are set so that the *faces* use the paper.
+//! The tone that ink must match where faces are drawn: exposure, contrast and local detail are set so that the *faces* use the
+//! paper's range.
 //!
-//! In: a [`Portrait`] with faces, its subject and its masks of hair, headwear and clothing, where there are any. Out: its tone. Nothing
+//! In: a [`Portrait`] with faces, its subject and, if present, its masks of hair, headwear and clothing. Out: its tone. Nothing
 //! here knows of styles.
 //!
 //! ```text
@@ -9,7 +10,7 @@
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised -> large blacks opened
 //! ```
 //!
-//! Darker skin stays darker than lighter skin: the paper's tone for a face's median rises with it.
+//! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
 
 mod curve;
 mod face;
@@ -18,22 +19,22 @@ mod zones;
 use crate::raster::{Raster, box_blur, enlarge, fast_gaussian, reduce};
 use crate::source::{MaskRole, Portrait};
 
-/// The masks that it goes by beside the subject.
+/// The masks that are used besides the subject.
 pub const ROLES: &[MaskRole] = &[MaskRole::Hair, MaskRole::Headwear, MaskRole::Clothing];
 
-/// A face's width in pixels at which the tone is worked out; finer detail is taken over as it is. Half of it loses lids, twice as much
-/// costs four times the time and shows no difference (looked at on sixteen portraits).
+/// Width of a face in pixels at which the tone is computed; finer detail is copied unchanged. Half of it loses lids, twice as
+/// much costs four times the time and shows no difference (seen on sixteen portraits).
 const FACE_WIDTH: f64 = 240.0;
-/// Most faces that have a tone of their own, the largest first; the others take the nearest one's.
+/// Most faces with a tone of their own, largest first; other faces take the nearest one's.
 const MOST_FACES: usize = 6;
-/// Reach of a face's tone in its widths, where faces differ.
+/// Radius, in widths of a face, within which its own tone prevails if there are several faces.
 const REACH: f64 = 1.2;
-/// Taking the tone over to the full size: radius in pixels of the reduced grid, and the contrast (squared) from which edges count.
+/// Transfer of the tone to full size: radius in pixels of the reduced grid, and the squared contrast from which edges count.
 const TRANSFER_RADIUS: usize = 2;
 const TRANSFER_EPS: f32 = 1e-4;
 
-/// The tone of a portrait by its faces, 0 to 1; none where it has no face, or none with skin to count. `strength` from 0, the
-/// lightness as it is, to 1.
+/// The tone of a portrait by its faces, 0 to 1; `None` if it has no face, or no face has measurable skin. `strength` runs from 0
+/// (lightness unchanged) to 1.
 pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> {
     let widest = portrait.faces.first()?.width();
     let factor = ((widest / FACE_WIDTH).floor() as usize).max(1);
@@ -62,7 +63,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     Some(at_full_size(&tone, &lightness, &portrait.lightness, factor))
 }
 
-/// The tones of several faces, each by its weight.
+/// The weighted mean of the tones of several faces.
 fn blended(tones: &[(Raster<f32>, Raster<f32>)]) -> Option<Raster<f32>> {
     let (first, _) = tones.first()?;
     if tones.len() == 1 {
@@ -75,8 +76,8 @@ fn blended(tones: &[(Raster<f32>, Raster<f32>)]) -> Option<Raster<f32>> {
     Some(sum.zip_map(&total, |sum, total| sum / total))
 }
 
-/// The tone at the size of the portrait: in each window of the reduced grid it is a linear function of lightness, by least squares,
-/// and that function is taken to the full size (the guided filter's way: He and Sun 2015).
+/// The tone at the portrait's size: in each window of the reduced grid it is fitted as a linear function of lightness, by least
+/// squares, and that function is applied at full size (fast guided filter, He and Sun 2015).
 fn at_full_size(tone: &Raster<f32>, reduced: &Raster<f32>, full: &Raster<f32>, factor: usize) -> Raster<f32> {
     if factor == 1 {
         return tone.map(|v| v.clamp(0.0, 1.0));
@@ -86,7 +87,7 @@ fn at_full_size(tone: &Raster<f32>, reduced: &Raster<f32>, full: &Raster<f32>, f
     let spread = mean(&reduced.map(|v| v * v)).zip_map(&mean_in, |square, m| (square - m * m).max(0.0));
     let product = mean(&reduced.zip_map(tone, |a, b| a * b));
     let shared = product.zip_map(&mean_in.zip_map(&mean_out, |a, b| a * b), |ab, means| ab - means);
-    // Without contrast the slope is that of the detail, 1.
+    // Where there is no contrast, the slope is 1, so that detail is copied unchanged.
     let slope = shared.zip_map(&spread, |shared, spread| (shared + TRANSFER_EPS) / (spread + TRANSFER_EPS));
     let offset = mean_out.zip_map(&slope.zip_map(&mean_in, |a, m| a * m), |out, am| out - am);
     let large = |raster: &Raster<f32>| enlarge(raster, factor, full.width(), full.height());
@@ -94,7 +95,8 @@ fn at_full_size(tone: &Raster<f32>, reduced: &Raster<f32>, full: &Raster<f32>, f
     slope.zip_map(full, |a, v| a * v).zip_map(&offset, |av, b| (av + b).clamp(0.0, 1.0))
 }
 
-/// The mean of values round each pixel, by weights; where there are none, of what weighs next to nothing.
+/// The weighted Gaussian mean of values around each pixel. Callers add a tiny weight everywhere, which decides where there is no
+/// other.
 fn blurred_within(values: &Raster<f32>, weight: &Raster<f32>, sigma: f32) -> Raster<f32> {
     let sum = fast_gaussian(&values.zip_map(weight, |v, w| v * w), sigma);
     sum.zip_map(&fast_gaussian(weight, sigma), |sum, weight| sum / weight.max(1e-6))

@@ -1,33 +1,34 @@
-//! Where a face's skin and its features lie.
+//! The skin and the features of a face.
 
 use super::blurred_within;
 use crate::geometry::{Point, convex_hull};
 use crate::raster::{Raster, dilate, fast_gaussian, filled_polygon};
 use crate::source::{Landmarks, outlines};
 
-/// The face's border and its features are kept off skin by so many widths of the face: lashes and shadows at the hair are not skin.
+/// Distance of skin from the face's border and from its features, in widths of the face: lashes and shadows at the hair are not
+/// skin.
 const INSET: f64 = 0.04;
 const ROUND_FEATURES: f64 = 0.03;
-/// Features are raised with so much round them, and a soft edge.
+/// Margin around raised features, and the blur of their edge, in widths of the face.
 const WITH_FEATURES: f64 = 0.02;
 const SOFT: f64 = 0.018;
-/// Skin's tones lie within so many deviations of its median, and at least within this of L*/100.
+/// Skin's tones lie within this number of deviations of its median, but at least within this difference of L*/100.
 const DEVIATIONS: f32 = 2.2;
 const LEAST_SPREAD: f32 = 0.06;
-/// A normal distribution's standard deviation in median deviations.
+/// Ratio of a normal distribution's standard deviation to its median absolute deviation.
 const MEDIAN_DEVIATION: f32 = 1.4826;
-/// So often what lies far off is left out.
+/// Number of rounds in which outliers are removed.
 const ROUNDS: usize = 4;
 
-/// A face's zones on the grid that the tone is worked out on.
+/// A face's zones on the working grid of the tone.
 pub(super) struct Zones {
     /// Inside the outline of the face.
     pub oval: Raster<u8>,
-    /// Skin without features: where tones are counted.
+    /// Skin without features, where tones are measured.
     pub counted: Raster<u8>,
-    /// The part of it that has skin's tones, 0 or 1.
+    /// The part of `counted` with skin's tones, 0 or 1.
     pub skin: Raster<f32>,
-    /// Eyes, brows and lips, softly.
+    /// Eyes, brows and lips, with soft edges.
     pub features: Raster<f32>,
     /// Median of the skin's lightness.
     pub median: f32,
@@ -36,7 +37,7 @@ pub(super) struct Zones {
 }
 
 impl Zones {
-    /// None where the face has no pixels of skin.
+    /// `None` if the face has no pixels of skin.
     pub(super) fn new(face: &Landmarks, lightness: &Raster<f32>) -> Option<Self> {
         let (columns, rows) = (lightness.width(), lightness.height());
         let width = face.width();
@@ -54,25 +55,25 @@ impl Zones {
         Some(Self { oval, counted, skin, features, median, width })
     }
 
-    /// A value of the counted skin below which so many hundredths of it lie.
+    /// A percentile of the values over the counted skin.
     pub(super) fn percentile(&self, values: &Raster<f32>, hundredths: f64) -> f32 {
         let sorted = sorted_where(values, &self.counted);
         sorted[((hundredths / 100.0 * (sorted.len() - 1) as f64).round() as usize).min(sorted.len() - 1)]
     }
 
-    /// The median of values where skin has skin's tones.
+    /// The median of values over `skin`.
     pub(super) fn median_of(&self, values: &Raster<f32>) -> f32 {
         let sorted = sorted_where(values, &self.skin.map(|v| u8::from(v > 0.0)));
         sorted.get(sorted.len() / 2).copied().unwrap_or(self.median)
     }
 
-    /// Values blurred over skin alone, by so many widths of the face.
+    /// Values blurred over the weighted area only; `share` is sigma in widths of the face.
     pub(super) fn over_skin(&self, values: &Raster<f32>, weight: &Raster<f32>, share: f64) -> Raster<f32> {
         blurred_within(values, weight, (share * self.width) as f32)
     }
 }
 
-/// Median of the tones and how far they lie from it, without what lies far off: glasses, hair over the forehead, beards.
+/// Median and spread of the tones, without outliers: glasses, hair over the forehead, beards.
 fn skin_tones(lightness: &Raster<f32>, counted: &Raster<u8>) -> Option<(f32, f32)> {
     let all = sorted_where(lightness, counted);
     let mut kept = &all[..];

@@ -1,4 +1,4 @@
-//! Any style on any sheet, for tests that go through all of them.
+//! Any style on any sheet, for tests that go through all styles.
 #![allow(dead_code)]
 
 use drypoint::drawing::{Drawing, Mark, Page};
@@ -50,7 +50,7 @@ impl<'a> Order<'a> {
         portrait
     }
 
-    /// The drawing and what was warned of.
+    /// The drawing and its warnings.
     pub fn try_draw(&self) -> (Result<Drawing, StyleError>, String) {
         let notes = Notes::default();
         let drawing = find(self.style).unwrap().draw(&self.portrait(), &self.settings(), 0, &notes);
@@ -62,7 +62,7 @@ impl<'a> Order<'a> {
     }
 }
 
-/// Keeps the warnings.
+/// Collects the warnings.
 #[derive(Default)]
 pub struct Notes(Mutex<Vec<String>>);
 

@@ -1,4 +1,4 @@
-//! Fields of known direction, and how well dots keep to one.
+//! Fields of known direction, and a score of how well dots align with one.
 #![allow(dead_code)]
 
 use drypoint::field::{StripeLattice, StripeParameters, Wave, crossings, stripes};
@@ -7,7 +7,7 @@ use drypoint::raster::Raster;
 
 pub const PITCH: f64 = 6.0;
 
-/// A field's tangent at a place.
+/// A field's tangent at a point.
 pub type Field = Box<dyn Fn(Point) -> Vec2 + Sync>;
 
 pub fn turned(v: Vec2, degrees: f64) -> Vec2 {
@@ -33,7 +33,7 @@ pub fn known_fields(centre: Point) -> Vec<(String, Option<Point>, Field)> {
     fields
 }
 
-/// The defaults of the style, in pixels.
+/// The style's defaults, in pixels.
 pub const DEFAULTS: StripeParameters = StripeParameters { step: 0.5 * PITCH, window: 4.0, rounds: 5, levels: 5 };
 
 /// A random number from 0 to 1 for each node.
@@ -69,18 +69,18 @@ pub fn dots_of(families: &[StripeLattice; 2]) -> Vec<Point> {
     crossings(&families[0], &families[1], &|_| 0.6 * PITCH)
 }
 
-/// How dots keep to a field.
+/// How well dots align with a field.
 #[derive(Debug)]
 pub struct Score {
     /// Mean angle between the direction to a neighbour and the nearest of tangent and normal.
     pub degrees: f64,
     /// Coefficient of variation of the distances.
     pub variation: f64,
-    /// Dots that were counted.
+    /// Number of dots counted.
     pub count: usize,
 }
 
-/// Over pairs of dots closer than 1.6 pitch among the four nearest; the field is read half way between them.
+/// Over pairs of dots closer than 1.6 pitches among the four nearest; the field is sampled half way between them.
 pub fn score(dots: &[Point], pitch: f64, field: &dyn Fn(Point) -> Option<Vec2>, inside: &dyn Fn(Point) -> bool) -> Score {
     let (mut angles, mut distances, mut count) = (Vec::new(), Vec::new(), 0);
     let mut sorted = dots.to_vec();

@@ -1,4 +1,4 @@
-//! What the acceptance tests share: pictures with known tone, and the ink that a drawing really lays down.
+//! Helpers shared by the acceptance tests: pictures with known tone, and the ink that a drawing lays down.
 #![allow(dead_code)]
 
 use drypoint::drawing::{Drawing, Page};
@@ -114,7 +114,7 @@ pub fn dots(drawing: &Drawing) -> Vec<Point> {
         .collect()
 }
 
-/// Says that a check is left out, and why; where nothing may be left out (the gate says so), that is a failure.
+/// Reports a skipped check and the reason; fails if the gate forbids skipping.
 pub fn skip(reason: &str) {
     assert!(std::env::var_os("DRYPOINT_NOTHING_SKIPS").is_none(), "skipped where nothing may be: {reason}");
     println!("skipped: {reason}");

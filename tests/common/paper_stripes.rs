@@ -1,4 +1,4 @@
-//! The stripe update of Son et al. 2011, section 5.2, as it is printed: the yardstick of tests and benches.
+//! The stripe update of Son et al. 2011, section 5.2, as printed: the reference for tests and benches.
 #![allow(dead_code)]
 
 use drypoint::geometry::Point;
@@ -68,7 +68,7 @@ fn best_fit(w: &[f64], d: usize, r: isize) -> f32 {
     x.min(side - x) as f32
 }
 
-/// Where both distances are least: the local minima of `t0^2 + t1^2`, at the centre of weight of what is near 0 around them.
+/// Minima of both distances: the local minima of `t0^2 + t1^2`, at the centroid of the values near 0 around them.
 pub fn paper_dots(along: &Raster<f32>, across: &Raster<f32>, d: f64) -> Vec<Point> {
     let distance = along.zip_map(across, f32::hypot);
     let mut dots = Vec::new();

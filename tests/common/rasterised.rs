@@ -1,12 +1,12 @@
-//! A drawing's own ink as pixels, straight from the model: each mark's outline by scan lines, in painting order. It shares nothing with
-//! the writers, nor with what reads them.
+//! A drawing's ink as pixels, straight from the model: each mark's outline by scan lines, in painting order. It shares no code
+//! with the writers and readers.
 
 use super::any_style::ink_outline;
 use drypoint::drawing::{Colour, Drawing, Painted};
 use drypoint::geometry::{BezPath, Point};
 use kurbo::PathEl;
 
-/// Scan lines a pixel; along them coverage is exact.
+/// Scan lines per pixel; along them coverage is exact.
 const SUB: usize = 8;
 
 /// Red, green and blue from 0 to 1, row by row.
@@ -71,7 +71,7 @@ fn polygons(outline: &BezPath, scale: f64) -> Vec<Vec<Point>> {
     polygons
 }
 
-/// Where a side crosses the middles of scan lines.
+/// The points where a side crosses the middles of scan lines.
 fn cross(crossings: &mut [Vec<(f64, i32)>], first: usize, a: Point, b: Point) {
     let (top, bottom, winding) = if a.y < b.y { (a, b, 1) } else { (b, a, -1) };
     let line = |y: f64| ((y - first as f64) * SUB as f64 - 0.5).ceil().max(0.0) as usize;
@@ -81,7 +81,7 @@ fn cross(crossings: &mut [Vec<(f64, i32)>], first: usize, a: Point, b: Point) {
     }
 }
 
-/// Adds what of each pixel one scan line covers, by the nonzero rule.
+/// Adds the coverage of each pixel by one scan line, by the nonzero rule.
 fn cover_line(cover: &mut [f32], crossings: &mut [(f64, i32)]) {
     crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (mut winding, mut from) = (0, 0.0);

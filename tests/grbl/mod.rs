@@ -1,8 +1,8 @@
-//! A machine with GRBL 1.1, step by step: an independent and slow answer to how long a G-code file takes.
+//! A step-by-step simulation of a machine with GRBL 1.1: an independent and slow answer to how long a G-code file takes.
 //!
-//! The rules are the firmware's published ones (gnea/grbl 1.1: `gcode.c`, `motion_control.c`, `planner.c`, `stepper.c`, `config.h`), told
-//! anew; nothing here is shared with the library's own timing. Lines are parsed and planned in no time, so the block buffer is
-//! full whenever there is something to put into it; what is counted is the motors' timer ticks and the waits.
+//! The rules are the firmware's published ones (gnea/grbl 1.1: `gcode.c`, `motion_control.c`, `planner.c`, `stepper.c`,
+//! `config.h`), reimplemented; nothing is shared with the library's own timing. Parsing and planning take no time, so the block
+//! buffer is full whenever there is input; what is counted is the motors' timer ticks and the waits.
 #![allow(dead_code)]
 
 mod planner;
@@ -13,7 +13,7 @@ use planner::Planner;
 use program::{Command, Program};
 use stepper::Stepper;
 
-/// The firmware reckons in single precision, millimetres and minutes.
+/// The firmware computes in single precision, millimetres and minutes.
 type Real = f32;
 
 /// The firmware's `$` settings, for x, y and z.
@@ -40,14 +40,14 @@ pub enum Laser {
     On,
 }
 
-/// What a file took.
+/// Times of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elapsed {
-    /// Seconds in which motors ran.
+    /// Seconds in which the motors ran.
     pub motion: f64,
     /// Seconds waited.
     pub dwell: f64,
-    /// Seconds of that in which a last step was late by rounding.
+    /// Seconds of motion lost to a last step that rounding made late.
     pub late: f64,
     /// Steps of the leading axis.
     pub steps: u64,
@@ -61,7 +61,7 @@ impl Elapsed {
     }
 }
 
-/// Waits are counted in steps of so many seconds, rounded up.
+/// Waits are counted in steps of this many seconds, rounded up.
 const DWELL_STEP: f32 = 0.05;
 
 /// Runs a whole file.
@@ -95,12 +95,12 @@ pub fn run(text: &str, settings: &Settings) -> Elapsed {
 struct Machine {
     planner: Planner,
     stepper: Stepper,
-    /// Whether the motors run; while a file starts or goes on after a stop, blocks gather until the buffer is full.
+    /// Whether the motors run; at the start and after a stop, blocks are collected until the buffer is full.
     cycle: bool,
 }
 
 impl Machine {
-    /// Waits until a block has a place.
+    /// Waits until the buffer has room for a block.
     fn make_room(&mut self) {
         loop {
             if self.cycle {

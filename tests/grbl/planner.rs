@@ -1,12 +1,12 @@
-//! The block buffer: what speed each block may start with, worked out anew for every block that is added.
+//! The block buffer: the entry speed of each block, recomputed for every block that is added.
 
 use super::stepper::Stepper;
 use super::{Real, Settings};
 use std::collections::VecDeque;
 
-/// Places in the ring, of which one stays free.
+/// Size of the ring, of which one place stays free.
 const BLOCK_BUFFER_SIZE: usize = 16;
-/// Cosines nearer to 1 than this are a straight line or a reversal.
+/// Corners with cosines closer to 1 than this are a straight line or a reversal.
 const STRAIGHT: Real = 0.999_999;
 /// The slowest rate, mm/min.
 const MINIMUM_FEED_RATE: Real = 1.0;
@@ -16,18 +16,18 @@ const MINIMUM_FEED_RATE: Real = 1.0;
 pub struct Block {
     /// Steps of the axis with most of them.
     pub steps: u64,
-    /// What is left of it.
+    /// The remaining length.
     pub length: Real,
     pub acceleration: Real,
     pub nominal: Real,
     greatest_entry_squared: Real,
-    /// Of the running block: the square of its speed now, when last planned.
+    /// Squared entry speed; for the running block its speed when last planned.
     pub entry_squared: Real,
 }
 
 pub struct Planner {
     settings: Settings,
-    /// The first is the one that runs or will run next.
+    /// The first is the running or next block.
     blocks: VecDeque<Block>,
     position: [i64; 3],
     direction: [Real; 3],
@@ -51,12 +51,12 @@ impl Planner {
         self.blocks.pop_front();
     }
 
-    /// The square of the speed with which the first block is to end.
+    /// The squared speed at which the first block ends.
     pub fn exit_squared(&self) -> Real {
         self.blocks.get(1).map_or(0.0, |next| next.entry_squared)
     }
 
-    /// Puts a move into the buffer and plans anew; one that is no step long is nothing.
+    /// Adds a move to the buffer and replans; a move of no step is ignored.
     pub fn add(&mut self, target: [f32; 3], rate: Option<f64>, stepper: &mut Stepper) {
         let mut delta = [0.0; 3];
         let mut steps = 0;
@@ -89,8 +89,8 @@ impl Planner {
         self.settings.acceleration.map(|acceleration| (3600.0 * acceleration) as Real)
     }
 
-    /// A circle that touches both legs and passes the corner at the junction deviation; its centripetal acceleration is what the
-    /// axes can give in the direction of the change.
+    /// Squared corner speed: on a circle that touches both legs and passes the corner at the junction deviation, with the
+    /// centripetal acceleration that the axes can give in the direction of the change.
     fn corner_squared(&self, direction: [Real; 3]) -> Real {
         let before = self.direction;
         let cosine = -(0..3).map(|i| before[i] * direction[i]).sum::<Real>();
@@ -107,7 +107,7 @@ impl Planner {
         acceleration * self.settings.junction_deviation as Real * half_sine / (1.0 - half_sine)
     }
 
-    /// Backwards from rest at the end of the last block, then forwards from the running one, which alone is not touched.
+    /// Backwards from rest at the end of the last block, then forwards from the running one, the only one left unchanged.
     fn replan(&mut self) {
         let mut exit_squared = 0.0;
         for block in self.blocks.iter_mut().skip(1).rev() {
@@ -122,7 +122,7 @@ impl Planner {
     }
 }
 
-/// The greatest value along a direction with which no axis exceeds its own.
+/// The greatest value along a direction at which no axis exceeds its own limit.
 fn limited(values: [Real; 3], direction: [Real; 3]) -> Real {
     (0..3).filter(|&i| direction[i] != 0.0).map(|i| (values[i] / direction[i]).abs()).fold(Real::INFINITY, Real::min)
 }

@@ -1,14 +1,14 @@
-//! Lines of G-code to moves, stops and waits.
+//! Converts lines of G-code to moves, stops and waits.
 
 use super::{Laser, Settings};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Command {
-    /// A straight move to a place in mm; without a rate in mm/min as fast as the axes allow.
+    /// A straight move to a position in mm, at a rate in mm/min or, without one, as fast as the axes allow.
     Line { target: [f32; 3], rate: Option<f64> },
-    /// The motion comes to an end first.
+    /// Waits for the motion to end.
     Synchronize,
-    /// The same, and then a wait in seconds.
+    /// Waits for the motion to end, then for a number of seconds.
     Dwell(f32),
 }
 
@@ -20,7 +20,7 @@ enum MotionMode {
     Anticlockwise,
 }
 
-/// The parser's memory, and what it has still to give out.
+/// The parser's state, and its pending output.
 pub struct Program<'a> {
     lines: std::str::Lines<'a>,
     pending: std::collections::VecDeque<Command>,
@@ -102,7 +102,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// An arc in x and y as chords that leave it by no more than the tolerance, or thereabouts.
+    /// An arc in x and y as chords that deviate from it by about the tolerance at most.
     fn arc(&mut self, from: [f32; 3], offset: [f32; 2]) {
         let [i, j] = offset;
         let centre = [from[0] + i, from[1] + j];
@@ -118,7 +118,7 @@ impl<'a> Program<'a> {
         let chord = (tolerance * (2.0 * radius - tolerance)).sqrt();
         let chords = ((0.5 * turn * radius).abs() / chord).floor() as u32;
         let rise = self.at[2] - from[2];
-        // Each chord is the last one turned, with a sine and a cosine of the third order; every thirteenth is worked out anew.
+        // Each chord is the last one rotated, with sine and cosine to the third order; every thirteenth is computed exactly.
         let angle = turn / chords as f32;
         let (small_sine, small_cosine) = (angle * (1.0 - angle * angle / 6.0), 1.0 - 0.5 * angle * angle);
         let start = [-offset[0], -offset[1]];

@@ -1,4 +1,4 @@
-//! The segment buffer: the first block's speed profile, cut into pieces of a hundredth of a second and turned into timer ticks.
+//! The segment buffer: the first block's speed profile, cut into hundredths of a second and converted to timer ticks.
 
 use super::Real;
 use super::planner::Planner;
@@ -6,16 +6,16 @@ use std::collections::VecDeque;
 
 /// Minutes of a whole segment: 100 acceleration ticks a second.
 const SEGMENT: Real = 1.0 / (100.0 * 60.0);
-/// Places in the ring of segments, of which one stays free.
+/// Size of the ring of segments, of which one place stays free.
 const SEGMENT_BUFFER_SIZE: usize = 6;
-/// A segment covers at least so many steps, or the block's end.
+/// A segment covers at least this many steps, or ends with the block.
 const LEAST_STEPS: Real = 1.25;
-/// Where a block's end falls on a segment's, rounding may leave a trace of the way at a trace of the speed, and the last step then
-/// waits until this is covered, up to the timer's longest period. Less than so much of a step is such a trace.
+/// Where a block's end falls on a segment's, rounding may leave a tiny distance at a tiny speed; the last step then waits until
+/// it is covered, up to the timer's longest period. A distance below this fraction of a step counts as such a trace.
 const TRACE: Real = 0.01;
 /// Timer ticks a minute.
 const CLOCK: Real = 16e6 * 60.0;
-/// Above so many ticks a step, each step is made in 2, 4 and 8 parts.
+/// Above these numbers of ticks per step, each step is made in 2, 4 and 8 parts.
 const SMOOTHING: [u64; 3] = [2000, 4000, 8000];
 /// The timer's longest period.
 const LONGEST_PERIOD: u64 = 0xffff;
@@ -37,27 +37,27 @@ struct Profile {
     exit_speed: Real,
 }
 
-/// The block that is being cut up.
+/// The block that is being divided into segments.
 #[derive(Clone, Copy, Debug)]
 struct Loaded {
     speed: Real,
     whole_steps_left: Real,
     steps_per_mm: Real,
-    /// Time of a part of a step that the last segment could not make.
+    /// Time of the fraction of a step that the last segment could not make.
     time_owed: Real,
-    /// Minutes of this segment that a trace of the way took.
+    /// Minutes of this segment spent on a trace.
     late: Real,
-    /// None when it must be worked out anew.
+    /// `None` if it must be recomputed.
     profile: Option<Profile>,
 }
 
 #[derive(Default)]
 pub struct Stepper {
-    /// Seconds that the segments take which are ready; the first is being run.
+    /// Seconds of each segment that is ready; the first is running.
     segments: VecDeque<f64>,
     loaded: Option<Loaded>,
     pub clock: f64,
-    /// Seconds spent on traces of the way.
+    /// Seconds spent on traces.
     pub late: f64,
     pub steps: u64,
     pub top_speed: Real,
@@ -73,14 +73,14 @@ impl Stepper {
         }
     }
 
-    /// Lets the running segment end; false when there is none.
+    /// Ends the running segment; false if there is none.
     pub fn finish_segment(&mut self) -> bool {
         let duration = self.segments.pop_front();
         self.clock += duration.unwrap_or(0.0);
         duration.is_some()
     }
 
-    /// A new plan starts from the running block's speed and what is left of it, and may change how it ends.
+    /// A new plan starts from the running block's speed and remaining length, and may change how it ends.
     pub fn is_about_to_be_replanned(&mut self, planner: &mut Planner) {
         if let (Some(loaded), Some(block)) = (&mut self.loaded, planner.first()) {
             block.entry_squared = loaded.speed * loaded.speed;
@@ -150,8 +150,8 @@ fn profile(length: Real, entry_squared: Real, exit_squared: Real, nominal: Real,
     profile
 }
 
-/// Goes along the profile for the time of a segment, longer where that is less than a step, shorter where the block ends; returns
-/// the time and what is left of the block.
+/// Advances along the profile for the time of a segment, longer if that is less than a step, shorter if the block ends; returns
+/// the time and the remaining length.
 fn segment(loaded: &mut Loaded, profile: &mut Profile, length: Real, acceleration: Real) -> (Real, Real) {
     let at_least = (length - LEAST_STEPS / loaded.steps_per_mm).max(0.0);
     let (mut allowed, mut spent, mut left) = (SEGMENT, 0.0, length);
@@ -169,9 +169,9 @@ fn segment(loaded: &mut Loaded, profile: &mut Profile, length: Real, acceleratio
     }
 }
 
-/// Goes on for a time or to the end of the ramp, whichever is first; returns the time. Where a ramp up ends, the firmware takes the
-/// way from the segment's beginning, and the speed from here: after a segment had to be made longer, which is so at a start from
-/// rest, it counts the way before twice.
+/// Advances for a time or to the end of the ramp, whichever is first; returns the time. Where a ramp up ends, the firmware takes
+/// the distance from the segment's beginning, but the speed from here. So after a segment had to be extended, as at a start from
+/// rest, it counts the distance before twice.
 fn advance(
     loaded: &mut Loaded,
     profile: &mut Profile,
@@ -220,7 +220,7 @@ fn advance(
     }
 }
 
-/// Seconds of so many steps: ticks a step are whole, and slow steps are made in parts.
+/// Seconds of a number of steps: ticks per step are whole, and slow steps are made in parts.
 fn duration(steps: u64, minutes_per_step: Real) -> f64 {
     let ticks = (CLOCK * minutes_per_step).ceil() as u64;
     let parts = SMOOTHING.iter().filter(|&&slow| ticks >= slow).count();

@@ -1,4 +1,4 @@
-//! A face's own relief, from the depths of its points.
+//! A face's own relief, from the depths of its landmarks.
 
 use super::centre;
 use crate::field::{BSpline, Datum, multilevel_b_spline, nearest_seed};
@@ -7,23 +7,23 @@ use crate::raster::{Raster, filled_polygon};
 use crate::source::Landmarks;
 use crate::source::outlines::OVAL;
 
-/// Distance of the surface's finest knots in widths of the face. The points are a tenth apart on cheeks and brow: finer knots leave
+/// Spacing of the surface's finest knots in widths of the face. Landmarks are a tenth apart on cheeks and brow: finer knots leave
 /// a dimple at each.
 const FINEST: f64 = 0.07;
-/// Room round the outline, in the same measure.
+/// Margin around the outline, in widths of the face.
 const ROOM: f64 = 0.1;
-/// The relief sets in over so much of the face's width from its outline inwards.
+/// Width of the fade-in from the outline inwards, in widths of the face.
 const SEAM: f64 = 0.12;
-/// Slopes are bent towards this bound: a far cheek and the wings of a nose stand steeper, which tears lines.
+/// Limit of the slopes (soft): a far cheek and the wings of a nose are steeper, which tears lines.
 const STEEPEST: f32 = 1.6;
-/// A point is hidden behind one that is nearer by more than the second of these within the first of it, in widths of the face.
+/// A landmark is hidden if another within `BESIDE` is nearer by more than `BEHIND`, both in widths of the face.
 const BESIDE: f64 = 0.06;
 const BEHIND: f64 = 0.12;
 
 /// The relief of one face, in pixels.
 pub(super) struct FaceRelief {
     surface: BSpline,
-    /// Where it is known.
+    /// Where the relief is defined.
     bounds: Rect,
     oval: Vec<[f64; 2]>,
     seam: f64,
@@ -47,7 +47,8 @@ impl FaceRelief {
         Self { surface, bounds, oval, seam: SEAM * width }
     }
 
-    /// Adds what the slopes of `base` lack to be the face's: the difference to the pixel on the right, and to the one below.
+    /// Adds to `steps` the difference between the face's slopes and those of `base`: to the pixel on the right, and to the one
+    /// below.
     pub(super) fn lay(&self, base: &Raster<f32>, steps: &mut Raster<[f32; 2]>) {
         let (width, height) = (base.width(), base.height());
         let inside = filled_polygon(width, height, &self.oval);
@@ -80,7 +81,7 @@ impl FaceRelief {
     }
 }
 
-/// The points that no nearer part of the face hides.
+/// The landmarks that no nearer part of the face hides.
 fn seen(points: &[[f64; 3]], width: f64) -> impl Iterator<Item = [f64; 3]> {
     points
         .iter()
@@ -88,7 +89,7 @@ fn seen(points: &[[f64; 3]], width: f64) -> impl Iterator<Item = [f64; 3]> {
         .filter(move |[x, y, z]| !points.iter().any(|[a, b, c]| *c < z - BEHIND * width && (a - x).hypot(b - y) < BESIDE * width))
 }
 
-/// The same direction, never steeper than the bound.
+/// The slope in the same direction, limited to `STEEPEST`.
 fn bounded(slope: [f32; 2]) -> [f32; 2] {
     let factor = 1.0 / (1.0 + (slope[0].powi(2) + slope[1].powi(2)) / STEEPEST.powi(2)).sqrt();
     slope.map(|v| factor * v)

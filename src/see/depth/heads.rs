@@ -1,4 +1,4 @@
-//! How far behind the faces their bodies are, and one person behind another.
+//! How far bodies are behind their faces, and people behind each other.
 
 use super::centre;
 use crate::geometry::{Point, Vec2};
@@ -6,20 +6,20 @@ use crate::raster::{Raster, fast_gaussian, filled_polygon};
 use crate::source::Landmarks;
 use crate::source::outlines::OVAL;
 
-/// How far the body lies behind the head, in widths of the face: the neck behind the chin.
+/// Distance of the body behind the head, in widths of the face: the neck behind the chin.
 const BEHIND: f64 = 0.3;
-/// Where it falls back: round the face's outline, so many times as large, with the slope of a Gaussian of so many widths of the face.
-/// A fall that begins beyond the outline leaves a rim round the face, whose own slopes end before.
+/// Where the body falls back: around the face's outline scaled by `OUTLINE`, as a Gaussian step of sigma `FALL` widths of the
+/// face. A fall that begins farther out leaves a rim around the face, whose own slopes end before.
 const OUTLINE: f64 = 1.05;
 const FALL: f64 = 0.12;
-/// How much farther a face is than one of twice its width, in widths of the largest.
+/// Extra distance of a face of half the largest one's width, in widths of the largest.
 const FARTHER: f64 = 0.6;
 
 /// One head, in pixels.
 struct Head {
     chin: Point,
     centre: Point,
-    /// Towards the forehead, of length 1.
+    /// Unit vector towards the forehead.
     up: Vec2,
     /// Height of the ears above the chin.
     ears: f64,
@@ -54,14 +54,14 @@ impl Head {
         smooth_step((self.ears - height) / self.ears) * (1.0 - f64::from(self.face.get(x, y)))
     }
 
-    /// What it counts at a place between several: the inverse fourth power of the distance in widths of its face.
+    /// Weight at a point among several heads: the inverse fourth power of the distance in widths of the head's face.
     fn weight(&self, p: Point) -> f64 {
         ((p - self.centre).hypot2() / (self.width * self.width) + 0.01).powi(-2)
     }
 }
 
 impl Heads {
-    /// None without a face; `size` is that of the raster.
+    /// `None` without a face; `size` is the raster's.
     pub(super) fn new(faces: &[Landmarks], size: [usize; 2]) -> Option<Self> {
         let heads: Vec<Head> = faces.iter().map(|face| Head::new(face, size)).collect();
         let largest = heads.iter().map(|head| head.width).reduce(f64::max)?;
@@ -73,7 +73,7 @@ impl Heads {
         self.largest
     }
 
-    /// How far the bodies are behind the largest head, and smaller heads, which are farther away; 0 or more.
+    /// Distance behind the largest head, 0 or more: of bodies, and of smaller heads, which are farther away.
     pub(super) fn behind(&self, columns: usize, rows: usize) -> Raster<f32> {
         Raster::from_fn(columns, rows, |x, y| {
             let (mut sum, mut weights) = (0.0, 0.0);
@@ -88,7 +88,7 @@ impl Heads {
     }
 }
 
-/// From 0 to 1, without a bend in its slope.
+/// From 0 to 1, with continuous slope and curvature.
 fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * t * (t * (6.0 * t - 15.0) + 10.0)

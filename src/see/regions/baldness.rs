@@ -1,49 +1,49 @@
-//! Whether hair grows on the crown: somewhere between forehead and crown it begins, with a step into the dark, or out of the skin's
-//! colour. Shade and shine on a bare scalp come gradually, and keep the hue.
+//! Whether hair grows on the crown. Hair begins somewhere between forehead and crown, with a step into the dark or away from the
+//! skin's colour; shade and shine on a bare scalp come gradually and keep the hue.
 
 use super::plate::Plate;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::srgb_to_linear;
 
-/// The middle of the forehead's upper border, by which the profiles stand.
+/// The middle of the forehead's upper border, about which the profiles are centred.
 const TOP: usize = 10;
-/// Profiles run upwards from here, in `v`, in steps of this, until the person ends.
+/// Profiles start at `FROM` (in `v`) and run upwards in steps of `STEP` to the person's silhouette, at most `MOST` steps.
 const FROM: f64 = 0.7;
 const STEP: f64 = 0.02;
 const MOST: usize = 60;
-/// Profiles, and how far from the middle the outermost ones are, in `u`.
+/// Number of profiles, and the offset of the outermost ones from the middle, in `u`.
 const PROFILES: usize = 13;
 const ASIDE: f64 = 0.3;
-/// Samples before the silhouette that are left out, and the least that a profile needs.
+/// Samples dropped before the silhouette, and the fewest that a profile needs.
 const MARGIN: usize = 3;
 const LEAST: usize = 12;
-/// A profile must reach so high, in `v`: on a head that leans back the hair begins behind the edge.
+/// Least height that a profile must reach, in `v`: on a head that leans back the hair begins behind the edge.
 const HIGHEST: f64 = 1.15;
-/// Samples on either side of a step whose means are compared: a tenth of the face's height.
+/// Samples on either side of a step, whose means are compared: a tenth of the face's height.
 const HALF: usize = 5;
-/// Samples at either end whose hues are compared.
+/// Samples at either end, whose hues are compared.
 const END: usize = 8;
-/// Blur in working pixels, against single hairs and grain.
+/// Blur in working pixels, to suppress single hairs and grain.
 const BLUR: f32 = 1.2;
-/// What counts as hair: so great a fall of L*, so great a loss of colour, so great a fall of redness. On 41 faces (sixteen portraits,
-/// five samples, four of two men, sixteen of women in company) the greatest of the three, each over its limit, is at least 1.0 where
-/// there is hair (least: a fair fringe in soft light, 1.0) and 0.9 at most on the two bare heads and the cropped one.
+/// Signs of hair: drop of L*, relative loss of colour, drop of redness. On 41 faces (sixteen portraits, five samples, four of two
+/// men, sixteen of women in company) the greatest of the three, each divided by its limit, is at least 1.0 where there is hair
+/// (least: a fair fringe in soft light, 1.0) and at most 0.9 on the two bare heads and the cropped one.
 const DARKER: f32 = 15.0;
 const PALER: f32 = 0.25;
 const LESS_RED: f32 = 0.2;
-/// A lamp's mirror image on a bare scalp takes no colour away, it adds white, until the photograph is full: from this L* on.
+/// A lamp's reflection on a bare scalp only adds white, until the photograph clips: from this L* on colour loss is ignored.
 const SHINE: f32 = 92.0;
-/// Below this chroma a hue says nothing.
+/// Below this chroma hue is unreliable.
 const LEAST_CHROMA: f32 = 5.0;
 
-/// One place of a profile.
+/// One sample of a profile.
 #[derive(Clone, Copy)]
 struct Spot {
     lab: [f32; 3],
     light: [f32; 3],
 }
 
-/// Whether the crown is bare skin, as most profiles have it; with too little crown in the picture it is not.
+/// True if most profiles show bare skin on the crown; false if too little of the crown is in the picture.
 pub(super) fn is_bald(plate: &Plate) -> bool {
     let planes = |of: &(dyn Fn([f32; 3]) -> [f32; 3] + Sync), from: &Raster<[f32; 3]>| {
         let from = from.map(of);
@@ -62,7 +62,7 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
 }
 
-/// Colours from the forehead up to shortly before the silhouette.
+/// Colours from the forehead up to just below the silhouette.
 fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 3]) -> Option<Vec<Spot>> {
     let mut spots = Vec::with_capacity(MOST);
     for i in 0..MOST {
@@ -78,7 +78,7 @@ fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 
     (spots.len() >= LEAST && FROM + spots.len() as f64 * STEP >= HIGHEST).then_some(spots)
 }
 
-/// The strongest sign of hair on a profile, 1 where it is just enough.
+/// The strongest sign of hair on a profile; 1 is the threshold.
 fn hairiness(spots: &[Spot]) -> f32 {
     let usual = mean(&spots[..LEAST]).lab[0];
     let steps = (HALF..=spots.len() - HALF).map(|i| step(&spots[i - HALF..i], &spots[i..i + HALF], usual));
@@ -89,8 +89,8 @@ fn hairiness(spots: &[Spot]) -> f32 {
     step.max(hue)
 }
 
-/// How much like a hairline the change from one stretch to the next is; `usual` is the forehead's L*, above which the fall from a
-/// mirrored lamp back to plain skin does not count.
+/// How much the change from one stretch to the next resembles a hairline. `usual` is the forehead's L*: the fall from a
+/// reflection back to plain skin above it does not count.
 fn step(below: &[Spot], above: &[Spot], usual: f32) -> f32 {
     let is_shine = below.iter().chain(above).any(|spot| spot.lab[0] > SHINE);
     let (below, above) = (mean(below), mean(above));
@@ -110,12 +110,12 @@ fn chroma(spot: Spot) -> f32 {
     spot.lab[1].hypot(spot.lab[2])
 }
 
-/// Red less blue, in light: white that is added leaves it.
+/// Red minus blue, in linear light; unchanged by added white.
 fn colourfulness(spot: Spot) -> f32 {
     spot.light[0] - spot.light[2]
 }
 
-/// Where green lies between red (1) and blue (0): neither shade nor added white moves it.
+/// Position of green between blue (1) and red (0): unchanged by shade and by added white.
 fn redness(spot: Spot) -> f32 {
     let [r, g, b] = spot.light;
     (r - g) / (r - b).max(0.004)

@@ -6,9 +6,9 @@ use super::smoothing::Guide;
 use crate::raster::{Raster, components, dilate, gaussian_blur};
 use crate::source::outlines::{LIPS, MOUTH};
 
-/// Points under the cheekbones, which stay bare.
+/// Landmarks below the cheekbones, where no beard grows.
 const CHEEKS: [usize; 6] = [50, 101, 205, 280, 330, 425];
-/// The upper lip from the nose's wings to the mouth's corners, and the nose's own underside, whose shadow is no moustache.
+/// The upper lip from the nose's wings to the mouth's corners, and the nose's underside, whose shadow is no moustache.
 const MOUSTACHE: [usize; 8] = [98, 327, 2, 61, 291, 0, 37, 267];
 const UNDER_NOSE: [usize; 5] = [98, 97, 2, 326, 327];
 /// The chin below the lower lip.
@@ -17,30 +17,31 @@ const CHIN: [usize; 12] = [17, 84, 314, 181, 405, 152, 148, 377, 176, 400, 149, 
 const CHIN_END: usize = 152;
 /// The middle of the upper lip.
 const PHILTRUM: usize = 2;
-/// A zone counts as covered when in both of its halves (the nose's shadow falls on one) the median is darker than the cheeks by the
-/// first and as uneven as the second; or its colour is so much paler, and not black; or it is so much darker still. Tuned on sixteen
-/// portraits, four of them with beards or moustaches; stubble and shadow reach 0.83 and 0.74.
+/// A zone is covered if both of its halves (the nose's shadow falls on one) are covered: the median is below `DARK` times the
+/// cheeks' lightness and above `UNEVEN`; or its colour is below `PALE` of the cheeks' and L* above `BLACK`; or its lightness is
+/// below `DARKEST`. Tuned on sixteen portraits, four with beards or moustaches; stubble and shadow reach 0.83 and 0.74.
 const DARK: f32 = 0.8;
 const UNEVEN: f32 = 6.6;
 const PALE: f32 = 0.7;
 const BLACK: f32 = 18.0;
 const DARKEST: f32 = 0.45;
-/// How far a beard may hang below the chin, in `v`: a longer one is taken for clothing there, a shaded neck for beard if it may.
+/// Lowest extent of a beard below the chin, in `v`: a longer beard is taken for clothing there; with a lower limit a shaded neck
+/// is taken for beard.
 const BELOW_CHIN: f32 = -0.25;
-/// Fewer pixels say nothing of a half.
+/// Fewest pixels for which a half is measured.
 const LEAST_HALF: usize = 8;
 
 /// The wings of the nose, its tip and its underside.
 const NOSE: [usize; 12] = [4, 45, 275, 48, 278, 64, 294, 98, 327, 2, 97, 326];
-/// A pixel between the lips' borders is hair that hangs over them when it is so much darker than the cheeks.
+/// A pixel between the lips' borders that is below this fraction of the cheeks' lightness is hair hanging over them.
 const OVER_LIPS: f32 = 0.55;
 
-/// Lightness, colour and unevenness, each pixel against the cheeks'.
+/// Lightness, colour and unevenness of each pixel relative to the cheeks.
 struct Face<'a> {
     plate: &'a Plate,
-    /// L* over that of the cheeks.
+    /// L* divided by the cheeks'.
     light: Raster<f32>,
-    /// Chroma for the lightness, over that of the cheeks.
+    /// Chroma relative to lightness, divided by the cheeks'.
     colour: Raster<f32>,
     uneven: Raster<f32>,
     lips: Raster<bool>,
@@ -59,7 +60,7 @@ impl<'a> Face<'a> {
         Some(Self { plate, light: light.map(|v| v / light_there), colour: colour.map(|v| v / colour_there), uneven, lips })
     }
 
-    /// Whether both halves of a zone look covered with hair.
+    /// True if both halves of a zone look covered with hair.
     fn is_covered(&self, zone: &Raster<bool>) -> bool {
         let middle = self.plate.coordinates(self.plate.point(PHILTRUM))[0];
         let half = |sign: f32| self.plate.where_(|[u, _], i| zone.pixels()[i] && sign * (u - middle) > 0.01);
@@ -80,13 +81,13 @@ impl<'a> Face<'a> {
         !halves.is_empty() && halves.into_iter().all(|is| is)
     }
 
-    /// The pixels that are too dark for lips.
+    /// The pixels too dark for lips.
     fn over_lips(&self) -> Raster<bool> {
         let light = gaussian_blur(&self.light, 0.012 * self.plate.face_width);
         self.plate.where_(|_, i| light.pixels()[i] < OVER_LIPS)
     }
 
-    /// The pixels that look like hair on a face.
+    /// The pixels that look like facial hair.
     fn hairs(&self) -> Raster<bool> {
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
         let (light, colour, uneven) = (blur(&self.light, 0.012), blur(&self.colour, 0.012), blur(&self.uneven, 0.02));
@@ -101,16 +102,16 @@ impl<'a> Face<'a> {
 /// A beard, a moustache or both.
 pub(super) struct Beard {
     hairs: Raster<bool>,
-    /// Where hair on the face may be, whatever is worn below it.
+    /// Where facial hair may be, whatever is worn below it.
     allowed: Raster<bool>,
-    /// Where it must reach.
+    /// The zones that a piece of hair must reach.
     zones: Raster<bool>,
     /// Whether it covers the chin.
     pub is_full: bool,
 }
 
 impl Beard {
-    /// The facial hair that both halves of the upper lip or of the chin show.
+    /// The facial hair, if both halves of the upper lip or of the chin are covered.
     pub(super) fn found(plate: &Plate) -> Option<Self> {
         let face = Face::new(plate)?;
         let off_lips = |zone: Raster<bool>| zone.zip_map(&face.lips, |zone, lips| zone && !lips);
@@ -145,7 +146,7 @@ impl Beard {
         Some(Self { hairs, allowed, zones, is_full })
     }
 
-    /// How much of each pixel is beard or moustache; below the chin collars are none.
+    /// Share of beard or moustache in each pixel; collars below the chin are excluded.
     pub(super) fn shares(&self, plate: &Plate, shares: &Raster<Shares>) -> Raster<f32> {
         let middle = chin_middle(plate);
         let found = plate.where_(|_, i| {
@@ -162,12 +163,12 @@ impl Beard {
     }
 }
 
-/// Where the chin is across the head, in `u`.
+/// The chin's position across the head, in `u`.
 fn chin_middle(plate: &Plate) -> f32 {
     plate.coordinates(plate.point(CHIN_END))[0]
 }
 
-/// The pieces of at least so many pixels that reach into the zones.
+/// The pieces of more than `least` pixels that reach into the zones.
 fn large_pieces(found: &Raster<u8>, zones: &Raster<bool>, least: f32) -> Raster<f32> {
     let (labels, count) = components(found);
     let mut sizes = vec![(0.0_f32, false); count + 1];

@@ -1,4 +1,4 @@
-//! A head's own coordinates: across it in widths of the face, up it in heights of the face.
+//! A head's own coordinates: across in widths of the face, up in heights of the face.
 
 use crate::geometry::{Point, Vec2};
 use crate::source::{LEAST_FACE_WIDTH, Landmarks};
@@ -7,33 +7,33 @@ use crate::source::{LEAST_FACE_WIDTH, Landmarks};
 const FOREHEAD: usize = 10;
 const CHIN: usize = 152;
 const EARS: [usize; 2] = [234, 454];
-/// How far behind the face's width the middle of the skull lies, in widths: on a turned head it shows beside the face.
+/// Distance of the skull's middle behind the face's width line, in widths: on a turned head it shows beside the face.
 const BACK: f64 = 0.3;
-/// Least width and height in pixels, so that nothing is divided by nothing.
+/// Least width and height in pixels, to avoid division by zero.
 const LEAST: f64 = 1.0;
 
-/// A head in a picture. `u` grows to the picture's right, 0 in the middle of the skull, 0.5 about at the ears; `v` grows upwards, 0
-/// at the chin, 1 at the forehead's upper border.
+/// A head in a picture. `u` increases to the picture's right: 0 at the middle of the skull, about 0.5 at the ears. `v` increases
+/// upwards: 0 at the chin, 1 at the forehead's upper border.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Head {
     middle: Point,
     chin: Point,
     up: Vec2,
     across: Vec2,
-    /// From ear to ear in pixels, in the three dimensions of the points: a turned head is as wide as one seen from the front.
+    /// From ear to ear in pixels, in three dimensions, so that a turned head is as wide as a frontal one.
     pub width: f64,
     /// From chin to forehead in pixels of the picture.
     pub height: f64,
 }
 
 impl Head {
-    /// The head of a face that lies on the picture's pixels; none where its points are no face.
+    /// The head of a face in the picture's pixels; `None` if the landmarks are degenerate.
     pub(super) fn new(face: &Landmarks) -> Option<Self> {
         let [forehead, chin, right, left] = [FOREHEAD, CHIN, EARS[0], EARS[1]].map(|i| face.point(i));
         let rise = forehead - chin;
         let deep = |a: usize, b: usize| face.points[a][2] - face.points[b][2];
         let width = (left - right).hypot().hypot(deep(EARS[0], EARS[1]));
-        // The way from ear to ear leans into the picture as far as the head is turned.
+        // The line from ear to ear leans into the picture by the turn of the head.
         let turn = deep(EARS[0], EARS[1]) / width.max(LEAST);
         let up = rise / rise.hypot().max(f64::MIN_POSITIVE);
         let across = Vec2::new(-up.y, up.x);
@@ -48,20 +48,20 @@ impl Head {
         (rise.hypot() > 0.0 && head.middle.is_finite() && head.width.is_finite() && head.height.is_finite()).then_some(head)
     }
 
-    /// `u` and `v` of a place.
+    /// `u` and `v` of a point.
     pub(super) fn coordinates(&self, p: Point) -> [f32; 2] {
         let u = (p - self.middle).dot(self.across) / self.width;
         let v = (p - self.chin).dot(self.up) / self.height;
         [u as f32, v as f32]
     }
 
-    /// The place of `u` and `v`.
+    /// The point at `u` and `v`.
     pub(super) fn place(&self, u: f64, v: f64) -> Point {
         let sideways = (self.chin - self.middle).dot(self.across);
         self.chin + self.up * (v * self.height) + self.across * (u * self.width - sideways)
     }
 
-    /// How far a place is from the middle of the face, in widths of the face.
+    /// Distance of a point from the middle of the face, in widths of the face.
     pub(super) fn distance(&self, p: Point) -> f64 {
         (p - self.place(0.0, 0.5)).hypot() / self.width
     }

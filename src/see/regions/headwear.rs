@@ -1,4 +1,4 @@
-//! Hats, caps and scarves: what lies where hair would, in colours that hair has not, or black and white side by side.
+//! Hats, caps and scarves: pixels where hair would be, in colours that hair does not have, or in black and white side by side.
 
 use super::mixture::Mixture;
 use super::parting::{HAIR, Shares, greatest};
@@ -6,21 +6,22 @@ use super::plate::Plate;
 use super::smoothing::Guide;
 use crate::raster::{Raster, dilate, gaussian_blur};
 
-/// Hair's hues in degrees from red towards yellow, when it has chroma at all; redder than this it is dyed or no hair.
+/// Range of hair's hues in degrees from red towards yellow, for chroma above `LEAST_CHROMA`; a* above `REDDEST` is dyed or no
+/// hair.
 const HUES: (f32, f32) = (20.0, 105.0);
 const LEAST_CHROMA: f32 = 14.0;
 const REDDEST: f32 = 32.0;
 /// L* below and above which a pixel is black or white.
 const BLACK: f32 = 28.0;
 const WHITE: f32 = 72.0;
-/// A hat has so great a part of odd colours, or as great a part of black as of white. Grey hair has 0.08 of the lesser of both.
+/// Least fraction of odd colours in a hat, or least fraction of both black and white. Grey hair has 0.08 of the lesser of both.
 const ODD: f32 = 0.5;
 const BOTH: f32 = 0.12;
 
-/// Farther from the middle of the head than this, and higher than the mouth, there is brim rather than hair.
+/// Farther from the middle of the head than this (in `u`), and above the mouth, hair is taken for brim.
 const BRIM: f32 = 0.66;
 
-/// How much of each pixel is headwear, never more than its share of hair; none on a bare head.
+/// Share of headwear in each pixel, at most its share of hair; `None` on a bare head.
 pub(super) fn headwear(plate: &Plate, shares: &Raster<Shares>) -> Option<Raster<f32>> {
     let is_hair = shares.map(|s| greatest(s) == HAIR);
     if !is_hat(plate, &is_hair) {
@@ -45,7 +46,7 @@ pub(super) fn headwear(plate: &Plate, shares: &Raster<Shares>) -> Option<Raster<
     Some(smooth.zip_map(shares, |v, s| v * s[HAIR]))
 }
 
-/// Whether what lies above the forehead is no hair.
+/// True if what lies above the forehead is not hair.
 fn is_hat(plate: &Plate, is_hair: &Raster<bool>) -> bool {
     let smooth = gaussian_blur(&plate.lab.map(|c| c[0]), 0.02 * plate.face_width);
     let (mut all, mut odd, mut black, mut white) = (0.0_f32, 0.0_f32, 0.0_f32, 0.0_f32);

@@ -1,18 +1,18 @@
-//! Mixtures of Gaussians over colour and texture, fitted to samples, the same on every run.
+//! Mixtures of Gaussians over colour and texture, fitted deterministically to samples.
 
 use super::plate::Feature;
 
-/// Samples that a mixture is fitted to at most: more change nothing that can be seen.
+/// Most samples that a mixture is fitted to: more give no visible change.
 const MOST_SAMPLES: usize = 4000;
-/// Least samples for each component.
+/// Fewest samples per component.
 const LEAST_EACH: usize = 12;
-/// Rounds of k-means; later ones move no mean by more than a unit.
+/// Rounds of k-means; later ones move no mean by more than one unit.
 const ROUNDS: usize = 10;
-/// A new middle starts at the sample that so large a part of all lie nearer to a middle than: the farthest ones are stray.
+/// A new centre starts at the sample at this quantile of the distance to the nearest centre; the farthest samples are outliers.
 const FAR: f64 = 0.9;
-/// Added to every variance: a flat jacket must not be told from its own shade.
+/// Added to every variance: a flat jacket must not be distinguished from its own shade.
 const LEAST_VARIANCE: f64 = 12.0;
-/// Fewer samples than this say nothing of a spread.
+/// Up to this number of samples the covariance is replaced by `UNKNOWN_VARIANCE`.
 const LEAST_FOR_SPREAD: usize = 6;
 const UNKNOWN_VARIANCE: f64 = 50.0;
 
@@ -56,12 +56,12 @@ impl Gaussian {
     }
 }
 
-/// A mixture with the logarithms of its shares.
+/// A mixture: components with the logarithms of their weights.
 #[derive(Clone, Debug)]
 pub(super) struct Mixture(Vec<(f32, Gaussian)>);
 
 impl Mixture {
-    /// A mixture of at most `count` Gaussians; none without samples.
+    /// A mixture of at most `count` Gaussians; `None` without samples.
     pub(super) fn fitted(samples: &[Feature], count: usize) -> Option<Self> {
         let step = samples.len().div_ceil(MOST_SAMPLES).max(1);
         let samples: Vec<Feature> = samples.iter().step_by(step).copied().collect();
@@ -78,7 +78,7 @@ impl Mixture {
         Some(Self(parts.collect()))
     }
 
-    /// The logarithm of the density, less what all Gaussians of four dimensions have in common.
+    /// The logarithm of the density, without the constant of four-dimensional Gaussians.
     #[inline]
     pub(super) fn log_density(&self, f: Feature) -> f32 {
         let logs = self.0.iter().map(|(share, part)| share - part.half_log_determinant - 0.5 * part.distance(f));
@@ -97,7 +97,7 @@ pub(super) fn log_sum(logs: impl Iterator<Item = f32> + Clone) -> f32 {
     if greatest == f32::NEG_INFINITY { greatest } else { greatest + logs.map(|v| (v - greatest).exp()).sum::<f32>().ln() }
 }
 
-/// Middles and, for each sample, the number of the nearest.
+/// Centres and, for each sample, the index of the nearest.
 fn k_means(samples: &[Feature], count: usize) -> Option<(Vec<Feature>, Vec<usize>)> {
     let mut middles = vec![mean(samples)?];
     while middles.len() < count {
@@ -156,7 +156,7 @@ pub(super) fn add_diagonal(matrix: &mut Matrix, values: [f64; 4]) {
     }
 }
 
-/// The lower factor of a positive definite matrix.
+/// The lower Cholesky factor of a positive definite matrix.
 fn cholesky(matrix: Matrix) -> Matrix {
     let mut lower = [[0.0; 4]; 4];
     for i in 0..4 {

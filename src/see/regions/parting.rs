@@ -1,4 +1,5 @@
-//! Skin, hair and clothing: what each looks like is learned from where it surely is, and where it may be is known of heads.
+//! Segmentation into skin, hair and clothing: the appearance of each is learned where it certainly is, and its likely places are
+//! known from the shape of heads.
 
 use super::baldness::is_bald;
 use super::mixture::{Gaussian, Mixture, add_diagonal, covariance, log_sum, square};
@@ -7,31 +8,32 @@ use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
 use super::smoothing::Guide;
 use crate::raster::{Raster, dilate, gaussian_blur};
 
-/// Shares of a pixel: the background, skin, hair (of any kind, and hats), clothing.
+/// Shares of a pixel: background, skin, hair (of any kind, and hats), clothing.
 pub(super) type Shares = [f32; 4];
 pub(super) const SKIN: usize = 1;
 pub(super) const HAIR: usize = 2;
 pub(super) const CLOTHING: usize = 3;
 
-/// Points of the mesh on cheeks, nose and forehead, where no hair grows, and those of the forehead alone.
+/// Landmarks on cheeks, nose and forehead, where no hair grows, and the radius of the disc sampled at each, in widths of the
+/// face.
 const BARE: [usize; 20] = [50, 101, 205, 123, 36, 280, 330, 425, 352, 266, 6, 197, 195, 9, 8, 151, 108, 337, 69, 299];
 const BARE_REACH: f32 = 0.045;
-/// Those below the eyes, in light or shade, and those of the forehead, where a fringe may hang.
+/// Landmarks below the eyes, in light or shade, and those of the forehead, where a fringe may hang.
 const CHEEKS_AND_NOSE: [usize; 13] = [50, 101, 205, 123, 36, 280, 330, 425, 352, 266, 6, 197, 195];
 const FOREHEAD: [usize; 7] = [9, 8, 151, 108, 337, 69, 299];
-/// Greatest difference of a disc's colour in any light from that of the middle one; of its hue, in radians, where it is deeper.
+/// Greatest difference of a disc's shade-free colour from the median disc's; and of its hue, in radians, if its colour is deeper.
 const SAME_COLOUR: f32 = 0.1;
 const SAME_HUE: f32 = 0.2;
-/// L* of the middle disc from which most of the face shines.
+/// L* of the median disc from which most of the face is a highlight.
 const SHINING: f32 = 72.0;
-/// Greatest difference of a forehead's disc from one of the cheeks', and of their colours in any light.
+/// Greatest difference of a forehead disc's shade-free colour from a cheek disc's, and of its features.
 const FOREHEAD_HUE: f32 = 0.07;
 const FOREHEAD_LIKE_CHEEKS: f32 = 40.0;
-/// Texture of a forehead's disc above that of the cheeks from which it is a fringe.
+/// A forehead disc whose texture exceeds the cheeks' by this is a fringe.
 const FOREHEAD_ROUGHER: f32 = 2.0;
-/// Samples farther than this from their disc's median are brows, frames of glasses, lashes.
+/// Samples farther than this from their disc's median are brows, frames of glasses or lashes.
 const STRAY: f32 = 30.0;
-/// Skin of middling lightness, where no disc can be seen.
+/// Skin of medium lightness, used if no disc is visible.
 const ANY_SKIN: Feature = [130.0, 15.0, 18.0, 5.0];
 /// The middle of the forehead's upper border.
 const TOP: usize = 10;
@@ -39,34 +41,35 @@ const TOP: usize = 10;
 const BETWEEN_EYES: usize = 6;
 /// The cheek on the picture's left and on its right.
 const CHEEKS: [usize; 2] = [50, 280];
-/// A cheek of less than this part of the other's lightness lies in black shadow.
+/// A cheek below this fraction of the other's lightness may lie in black shadow.
 const SHADOW: f32 = 0.45;
-/// And is darker than this L*.
+/// It does if it is also darker than this L*.
 const DARK_CHEEK: f32 = 35.0;
-/// Texture up to which black is shadow rather than hair.
+/// Texture up to which black is taken for shadow, not hair.
 const SMOOTH: f32 = 14.0;
-/// Gaussians of skin (light and shade), hair and clothing.
+/// Number of Gaussians for skin (light and shade), hair and clothing.
 const SKINS: usize = 3;
 const HAIRS: usize = 4;
 const CLOTHS: usize = 5;
-/// Least pixels from which something is learned.
+/// Fewest pixels to learn a class from.
 const LEAST_SEEDS: usize = 40;
-/// Chroma from which hair is told from jackets.
+/// Chroma from which hair can be distinguished from jackets.
 const COLOURED: f32 = 10.0;
-/// Distance of the shoulders' median from the hair's from which they cannot be taken for one another.
+/// Distance of the shoulders' median from the hair's from which they cannot be confused.
 const UNLIKE: f32 = 15.0;
-/// Squared deviation of what is not looked at.
+/// Squared deviation of pixels outside the person.
 const FARTHEST: f32 = 1000.0;
-/// Squared deviation from which a pixel is surely no skin.
+/// Squared deviation from which a pixel is certainly not skin.
 const NO_SKIN: f32 = 9.0;
-/// Skin's a* and b* lie within so much of it, whatever its light.
+/// Deviation of skin's a* and b*, in any light.
 const SKIN_HUE: f32 = 9.0;
 
-/// L* from which a pixel may be a lamp's mirror image, and the part of a crown of other colours that is hair's.
+/// L* from which a pixel may be a lamp's reflection, and the least fraction of a crown in other colours than skin that makes it
+/// hair.
 const FULL: f32 = 88.0;
 const OTHER_CROWN: f32 = 0.6;
 
-/// Where a pixel lies, which tells how skin may look.
+/// Position of a pixel, which selects the model of skin.
 #[derive(Clone, Copy)]
 enum Place {
     Face,
@@ -74,18 +77,18 @@ enum Place {
     Elsewhere,
 }
 
-/// Skin that has less of the deepest skin's colour than this is a highlight.
+/// Skin with less than this fraction of the deepest skin colour is a highlight.
 const MATT: f32 = 0.6;
-/// Deviations of skin in shade: of hue, and of L*.
+/// Deviations of shaded skin: of hue, and of L*.
 const SHADE_HUE: f32 = 0.03;
 const SHADE_DEPTH: f32 = 35.0;
 
-/// What skin looks like.
+/// The appearance of skin.
 struct Skin {
     plain: Vec<Gaussian>,
-    /// With more room for shade, and without the face's own highlights, which look like white shirts: the neck's.
+    /// For the neck: wider for shade, and without the face's highlights, which look like white shirts.
     shaded: Vec<Gaussian>,
-    /// Without highlights.
+    /// Without highlights, with the plain spread.
     matt: Vec<Gaussian>,
     middle: Feature,
 }
@@ -132,7 +135,7 @@ impl Skin {
         Self { plain: all(&middles, spread), shaded: all(&matt, wide), matt: all(&matt, spread), middle }
     }
 
-    /// The squared deviation from skin.
+    /// Squared deviation from skin.
     fn distance(&self, f: Feature, place: Place) -> f32 {
         let parts = match place {
             Place::Face => &self.plain,
@@ -147,7 +150,7 @@ impl Skin {
         parts.iter().map(of).fold(f32::INFINITY, f32::min)
     }
 
-    /// The squared deviation from skin in shade: as dark as one likes, but of its hue, and as even.
+    /// Squared deviation from shaded skin: darker at little cost, but of the same hue and as smooth.
     fn shaded_distance(&self, f: Feature) -> f32 {
         let of = |part: &Gaussian| {
             let m = part.mean();
@@ -165,7 +168,8 @@ impl Skin {
     }
 }
 
-/// The colour that shade leaves: a* and b* over L* + 16 stay when light falls by a factor, as all three go with its cube root.
+/// The colour without shade: a* and b* divided by L* + 16. They are constant when light falls by a factor, since all three scale
+/// with its cube root.
 fn shadeless(f: Feature) -> [f32; 2] {
     let root = f[0] / LIGHTNESS_WEIGHT + 16.0;
     [f[1] / root, f[2] / root]
@@ -175,8 +179,8 @@ fn apart(a: [f32; 2], b: [f32; 2]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// The discs that show skin: of the middle one's colour in any light, or deeper in shade where most of the face shines. Beards,
-/// frames of glasses and stray hair are of another.
+/// The discs that show skin: those with the median disc's colour in any light, or with a deeper colour in shade if most of the
+/// face is a highlight. Beards, frames of glasses and stray hair have other colours.
 fn sound(discs: Vec<Vec<Feature>>) -> Vec<Vec<Feature>> {
     type Look = (f32, [f32; 2]);
     let looks = |disc: &[Feature]| median(disc).map(|f| (f[0], shadeless(f)));
@@ -195,48 +199,48 @@ fn sound(discs: Vec<Vec<Feature>>) -> Vec<Vec<Feature>> {
     discs.into_iter().filter(|disc| looks(disc).is_some_and(is_skin)).collect()
 }
 
-/// The samples of a disc without those far from its median.
+/// A disc's samples without those far from its median.
 fn near_median(disc: &[Feature]) -> Vec<Feature> {
     let Some(middle) = median(disc) else { return Vec::new() };
     disc.iter().filter(|f| square(**f, middle) < STRAY * STRAY).copied().collect()
 }
 
-/// What is known of a head before its pixels are shared out.
+/// What was learned about a head, from which its pixels are classified.
 pub(super) struct Parting<'a> {
     plate: &'a Plate,
     skin: Skin,
     pub is_bald: bool,
     /// Squared deviation of each pixel from skin.
     from_skin: Raster<f32>,
-    /// Cost of the way from the bare skin of the face.
+    /// Cost of the colour path from the bare skin of the face.
     path: Raster<f32>,
-    /// The sides of the face that lie in black shadow, where colour says nothing: on the picture's left, then right.
+    /// Sides of the face in black shadow, where colour is meaningless: the picture's left, then right.
     shadowed: [bool; 2],
-    /// The face's oval and, beside it, the ears.
+    /// The face's oval with the ears beside it.
     with_ears: Raster<bool>,
     hair: Option<Hair>,
     clothing: Option<Mixture>,
 }
 
-/// What hair looks like, and where it hangs down.
+/// The appearance of hair, and where it hangs down.
 struct Hair {
     mixture: Mixture,
     middle: Feature,
-    /// Whether what is worn on the shoulders looks quite different.
+    /// Whether the clothing on the shoulders looks clearly different.
     is_unlike_clothing: bool,
-    /// How much of the ground beside the jaw it covers: on the picture's left, then right.
+    /// Fraction of the area beside the jaw that it covers: the picture's left, then right.
     beside_jaw: [f32; 2],
 }
 
 impl Hair {
-    /// How far a pixel is from the hair's middle, lightness and texture counting little.
+    /// Distance of a pixel from the median hair, with lightness and texture weighted by `light` and `texture`.
     fn distance(&self, f: Feature, light: f32, texture: f32) -> f32 {
         let weights = [light, 1.0, 1.0, texture];
         (0..4).map(|k| (weights[k] * (f[k] - self.middle[k])).powi(2)).sum::<f32>().sqrt()
     }
 
-    /// Whether it hangs down on the side of `u`: hair that looks like the jacket must cover the ground beside the jaw,
-    /// of other hair some is enough.
+    /// True if hair hangs down on the side of `u`: hair that looks like the jacket must cover the area beside the jaw, of other
+    /// hair some is enough.
     fn hangs(&self, u: f32) -> bool {
         let is_coloured = self.middle[1].hypot(self.middle[2]) > COLOURED;
         self.beside_jaw(u) > if is_coloured || self.is_unlike_clothing { 0.25 } else { 0.6 }
@@ -247,14 +251,14 @@ impl Hair {
     }
 }
 
-/// The sides whose cheek is nearly black beside the other.
+/// The sides whose cheek is nearly black compared with the other.
 fn shadowed(plate: &Plate) -> [bool; 2] {
     let light = CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(0.0, |f| f[0]));
     let is_black = |own: f32, other: f32| own < SHADOW * other && own < DARK_CHEEK * LIGHTNESS_WEIGHT;
     [is_black(light[0], light[1]), is_black(light[1], light[0])]
 }
 
-/// Whether most of the crown has another colour than skin, however gradually it comes; full light is none.
+/// True if most of the crown has another colour than skin, however gradual the transition; highlights do not count.
 fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
     let middle = plate.coordinates(plate.point(TOP))[0];
     let crown = plate
@@ -318,7 +322,7 @@ impl<'a> Parting<'a> {
         self.plate.inside.pixels()[i] && !self.plate.oval.pixels()[i]
     }
 
-    /// Hair is learned beside the temples and on the crown, where there is no skin.
+    /// Learns hair beside the temples and on the crown, where there is no skin.
     fn hair_learned(&self) -> Option<Hair> {
         let plate = self.plate;
         let outside = plate.inside.map(|is| u8::from(!is));
@@ -357,7 +361,7 @@ impl<'a> Parting<'a> {
         Some(hair)
     }
 
-    /// Where clothing surely is: the shoulders, below the chin and along the picture's lower border, where there is no skin.
+    /// Where clothing certainly is: the shoulders, below the chin and along the picture's lower border, where there is no skin.
     fn shoulders(&self) -> Raster<bool> {
         let plate = self.plate;
         let (width, height) = (plate.width(), plate.height());
@@ -370,7 +374,7 @@ impl<'a> Parting<'a> {
         })
     }
 
-    /// Clothing is learned on the shoulders, where there is no hair.
+    /// Learns clothing on the shoulders, where there is no hair.
     fn clothing_learned(&self) -> Option<Mixture> {
         let plate = self.plate;
         let seeds = self.shoulders();
@@ -387,7 +391,7 @@ impl<'a> Parting<'a> {
         if samples.len() > LEAST_SEEDS { Mixture::fitted(&samples, CLOTHS) } else { None }
     }
 
-    /// How well each class suits a pixel, in logarithms.
+    /// Log score of each class at a pixel.
     fn suits(&self, i: usize) -> [f32; 4] {
         let plate = self.plate;
         if !plate.inside.pixels()[i] {
@@ -416,7 +420,7 @@ impl<'a> Parting<'a> {
         if is_core {
             e += 14.0;
         } else if is_face {
-            // The forehead may lie under a fringe.
+            // A fringe may cover the forehead.
             e += 9.0 - 7.0 * ((v - 0.68) / 0.17).clamp(0.0, 1.0);
         }
         let is_near = path < 2.0 && far < 5.0;
@@ -424,7 +428,7 @@ impl<'a> Parting<'a> {
             e += 4.0;
         }
         if v < 0.1 {
-            // The neck hangs together with the face by shade; skin-coloured clothing begins at an edge.
+            // Shade connects the neck to the face; skin-coloured clothing begins at an edge.
             e -= 0.8 * (path - 4.0).clamp(0.0, 6.0);
         }
         if a < 0.4 && v < 0.1 && v > -0.35 && self.from_skin.pixels()[i] < NO_SKIN {
@@ -446,7 +450,7 @@ impl<'a> Parting<'a> {
         e
     }
 
-    /// Whether a pixel is skin for all one can see: in the face, or where an ear is, on a side that lies in shadow.
+    /// True if a pixel may be skin in black shadow: in the face or at an ear, on a shadowed side.
     fn is_shadow(&self, i: usize) -> bool {
         let [u, v] = self.plate.at.pixels()[i];
         let side = usize::from(u > self.plate.coordinates(self.plate.point(BETWEEN_EYES))[0]);
@@ -523,17 +527,17 @@ impl<'a> Parting<'a> {
         shares
     }
 
-    /// Whether hair was found to learn from.
+    /// Whether there was hair to learn from.
     pub(super) const fn has_hair(&self) -> bool {
         self.hair.is_some()
     }
 
-    /// How far a piece is from skin in the mean.
+    /// Mean squared deviation of a piece from skin.
     pub(super) fn mean_from_skin(&self, pixels: &[usize]) -> f32 {
         pixels.iter().map(|&i| self.from_skin.pixels()[i].min(40.0)).sum::<f32>() / pixels.len().max(1) as f32
     }
 
-    /// Whether hair hangs beside the jaw, by its colour, on the side of `u`.
+    /// Whether hair hangs beside the jaw on the side of `u`.
     pub(super) fn is_long(&self, u: f32) -> bool {
         self.hair.as_ref().is_some_and(|hair| hair.hangs(u))
     }
@@ -549,7 +553,7 @@ pub(super) fn greatest(shares: Shares) -> usize {
     (1..4).fold(0, |best, k| if shares[k] > shares[best] { k } else { best })
 }
 
-/// The median of each part.
+/// The median of each component.
 fn median(samples: &[Feature]) -> Option<Feature> {
     let of = |k: usize| {
         let mut values: Vec<f32> = samples.iter().map(|s| s[k]).collect();

@@ -1,19 +1,20 @@
-//! How far a pixel is from the bare skin by steps of colour: shade comes gradually, hair and hats begin at an edge.
+//! Colour distance of pixels from the bare skin of the face along a path: shade changes gradually, hair and hats begin at an
+//! edge.
 
 use crate::raster::Raster;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// What a step of one pixel costs on flat ground: next to nothing, but among equals the short way wins.
+/// Cost of a step of one pixel in a flat area: almost nothing, but it makes the shortest path win.
 const GROUND: f32 = 0.02;
-/// A step of this colour difference costs 1, one of twice that 4.
+/// A step with this colour difference costs 1, with twice the difference 4.
 const UNIT: f32 = 3.0;
-/// Costs are counted in so small parts, so that the order of sums does not show.
+/// Fixed-point resolution of costs, so that the order of summation does not matter.
 const PARTS: f32 = 4096.0;
-/// Farther than this is not asked for.
+/// Paths that cost more than this are not followed.
 const FARTHEST: f32 = 40.0;
 
-/// The least cost of the way from any of the marked pixels through pixels that are `open`, infinite where there is none.
+/// The least cost of a path to each pixel from any marked pixel through `open` pixels; infinite where there is none.
 pub(super) fn path_from(colours: &Raster<[f32; 3]>, open: &Raster<bool>, from: &Raster<bool>) -> Raster<f32> {
     let (width, height) = (colours.width(), colours.height());
     let mut costs = Raster::filled(width, height, u32::MAX);

@@ -1,27 +1,28 @@
-//! What hangs together: hair with the head, clothing with the shoulders, skin with the face; stray pieces go to what they lie in.
+//! Connected pieces: hair belongs to the head, clothing to the shoulders, skin to the face; stray pieces join what surrounds
+//! them.
 
 use super::facial_hair::Beard;
 use super::parting::{CLOTHING, HAIR, Parting, SKIN, Shares, greatest};
 use super::plate::Plate;
 use crate::raster::{Raster, components};
 
-/// Pieces of fewer working pixels are nothing of their own.
+/// Smaller pieces, in working pixels, are not kept as pieces of their own.
 const LEAST: usize = 50;
-/// A piece of hair below this height of the face, all but this part of it inside the face's outline and smaller than this part of the
-/// square of its width, is a brow or a lid in shadow.
+/// A piece of hair is a brow or a shaded lid if its middle is below `BROW_HEIGHT`, more than `BROW_INSIDE` of it lies inside the
+/// face's outline, and it is smaller than `BROW_SIZE` times the squared width of the face.
 const BROW_HEIGHT: f32 = 0.85;
 const BROW_INSIDE: f32 = 0.8;
 const BROW_SIZE: f32 = 0.08;
 
-/// One piece of a class: the numbers of its pixels, and its middle height.
+/// A connected piece of a class: its pixel indices and its mean height.
 struct Piece {
     pixels: Vec<usize>,
     middle: f32,
-    /// Its mean distance from the middle of the head.
+    /// Its mean distance across from the middle of the head.
     aside: f32,
 }
 
-/// The shares with stray pieces given away and hair that ends at the jaw ended there.
+/// Reassigns stray pieces, and cuts off below the jaw hair that ends there.
 pub(super) fn hung_together(
     parting: &Parting,
     plate: &Plate,
@@ -88,7 +89,8 @@ fn give(shares: &mut Raster<Shares>, piece: &Piece, from: usize, to: usize) {
     }
 }
 
-/// What skin that does not touch the face turns out to be: what surrounds it, hair above the brow, clothing far below.
+/// The class of skin that does not touch the face: what surrounds it, hair above the brow, clothing far below; `None` if it is
+/// skin.
 fn home_of_skin(parting: &Parting, plate: &Plate, shares: &Raster<Shares>, piece: &Piece) -> Option<usize> {
     let is_ear = || piece.middle > 0.2 && piece.middle < 0.85 && parting.mean_from_skin(&piece.pixels) < 6.0;
     if piece.pixels.iter().any(|&i| plate.oval.pixels()[i]) || is_ear() {
@@ -116,9 +118,9 @@ fn home_of_skin(parting: &Parting, plate: &Plate, shares: &Raster<Shares>, piece
     }
 }
 
-/// Hair that is short beside the jaw does not go on below it.
+/// Hair that is short beside the jaw does not continue below it.
 fn end_at_jaw(parting: &Parting, plate: &Plate, shares: &mut Raster<Shares>, sign: f32, with_beard: bool) {
-    // A full beard covers the ground beside the jaw too: long hair shows farther out.
+    // A full beard covers the area beside the jaw too; long hair shows farther out.
     let from = if with_beard { 0.65 } else { 0.5 };
     let (mut hair, mut all) = (0_usize, 0_usize);
     for i in 0..plate.at.len() {

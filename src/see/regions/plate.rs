@@ -1,4 +1,4 @@
-//! What is looked at for one head: its surroundings at a working size, with colour, texture and places on the head.
+//! The surroundings of one head at a working size, with colour, texture and head coordinates.
 
 use super::head::Head;
 use crate::geometry::{Point, Rect, Vec2, convex_hull};
@@ -6,20 +6,21 @@ use crate::raster::{Raster, dilate, filled_polygon, gaussian_blur};
 use crate::source::outlines::OVAL;
 use crate::source::{Landmarks, lab, srgb_to_linear};
 
-/// Lightness, green to red, blue to yellow, and texture, so weighted that a unit of each is as telling.
+/// Lightness, green to red, blue to yellow, and texture, weighted so that a unit of each is equally significant.
 pub(super) type Feature = [f32; 4];
 
-/// Width of the face in working pixels: at 60 braids and brows melt, at 200 single hairs have a say and time grows fourfold.
+/// Width of the face in working pixels: at 60 braids and brows blur, at 200 single hairs matter and time grows fourfold.
 const FACE: f64 = 110.0;
-/// Longer side of the working picture at most.
+/// Most pixels on the longer side of the working picture.
 const LONGEST: f64 = 400.0;
-/// Room round the face, in widths to either side and in heights above and below the chin.
+/// Margin around the face, in widths to either side and in heights above and below the chin.
 const ASIDE: f64 = 2.6;
 const ABOVE: f64 = 2.4;
 const BELOW: f64 = 2.4;
-/// Weight of L* (0 to 100) against a* and b*.
+/// Weight of L* (0 to 100) relative to a* and b*.
 pub(super) const LIGHTNESS_WEIGHT: f32 = 2.2;
-/// Texture is the deviation from a blur of so many pixels, averaged over so many, on a logarithmic scale of this weight.
+/// Texture is the deviation from a blur of `TEXTURE_BLUR` pixels, averaged over `TEXTURE_REACH`, on a logarithmic scale of this
+/// weight.
 const TEXTURE_BLUR: f32 = 2.0;
 const TEXTURE_REACH: f32 = 2.5;
 const TEXTURE_WEIGHT: f32 = 9.0;
@@ -27,15 +28,15 @@ const TEXTURE_WEIGHT: f32 = 9.0;
 const LIPS_END: usize = 17;
 /// Width of the oval's rim, in widths of the face.
 const RIM: f32 = 0.05;
-/// From so much on a pixel is the subject's.
+/// Least share of the subject for a pixel to be inside.
 const SOLID: f32 = 0.5;
 
 /// A head's surroundings.
 pub(super) struct Plate {
     pub head: Head,
-    /// The part of the view that is shown, in its pixels.
+    /// The part of the view that the plate covers, in the view's pixels.
     pub part: Rect,
-    /// Working pixels for each of the view.
+    /// Working pixels per pixel of the view.
     pub scale: f64,
     /// The width of the face in working pixels.
     pub face_width: f32,
@@ -46,7 +47,7 @@ pub(super) struct Plate {
     pub features: Raster<Feature>,
     /// `u` and `v` of each pixel.
     pub at: Raster<[f32; 2]>,
-    /// Where this head's person is.
+    /// The pixels of this head's person.
     pub inside: Raster<bool>,
     /// The face's oval.
     pub oval: Raster<bool>,
@@ -56,7 +57,7 @@ pub(super) struct Plate {
 }
 
 impl Plate {
-    /// The surroundings of `heads[which]`; each pixel of the subject belongs to the nearest head.
+    /// The plate of `heads[which]`, `None` outside the picture; each pixel of the subject belongs to the nearest head.
     pub(super) fn new(
         pixels: &Raster<[u8; 3]>,
         subject: &Raster<u8>,
@@ -95,12 +96,12 @@ impl Plate {
         self.at.height()
     }
 
-    /// A point of the mesh in working pixels.
+    /// A landmark in working pixels.
     pub(super) fn point(&self, index: usize) -> Point {
         self.points[index]
     }
 
-    /// `u` and `v` of a place in working pixels.
+    /// `u` and `v` of a point in working pixels.
     pub(super) fn coordinates(&self, p: Point) -> [f32; 2] {
         self.head.coordinates(self.part.origin() + p.to_vec2() / self.scale)
     }
@@ -110,7 +111,7 @@ impl Plate {
         self.at.pixels()[i][1] < self.coordinates(self.point(LIPS_END))[1]
     }
 
-    /// The pixels within `radius` widths of the face of some points of the mesh, at least two pixels.
+    /// The pixels within `radius` widths of the face, and at least two pixels, of some landmarks.
     pub(super) fn round(&self, indices: &[usize], radius: f32) -> Raster<bool> {
         let radius = f64::from((radius * self.face_width).max(2.0));
         let mut marked = Raster::filled(self.width(), self.height(), false);
@@ -128,32 +129,32 @@ impl Plate {
         marked
     }
 
-    /// The pixels inside the convex hull of some points of the mesh.
+    /// The pixels inside the convex hull of some landmarks.
     pub(super) fn hull(&self, indices: &[usize]) -> Raster<bool> {
         let hull = convex_hull(indices.iter().map(|&i| self.point(i)).collect());
         let hull: Vec<[f64; 2]> = hull.iter().map(|p| [p.x, p.y]).collect();
         filled_polygon(self.width(), self.height(), &hull).map(|v| v != 0)
     }
 
-    /// The features of the pixels that are marked.
+    /// The features of the marked pixels.
     pub(super) fn samples(&self, marked: &Raster<bool>) -> Vec<Feature> {
         self.features.pixels().iter().zip(marked.pixels()).filter(|(_, marked)| **marked).map(|(f, _)| *f).collect()
     }
 
-    /// The pixels for which a rule of their place (`u`, `v`) and number holds.
+    /// The pixels for which `rule(coordinates (u, v), pixel index)` is true.
     pub(super) fn where_(&self, rule: impl Fn([f32; 2], usize) -> bool + Sync) -> Raster<bool> {
         let width = self.width();
         Raster::from_fn(width, self.height(), |x, y| rule(self.at.get(x, y), y * width + x))
     }
 }
 
-/// The number of the head that is nearest in widths of its face.
+/// The index of the head that is nearest in widths of its face.
 pub(super) fn owner(heads: &[Head], p: Point) -> Option<usize> {
     let nearest = heads.iter().enumerate().min_by(|a, b| a.1.distance(p).total_cmp(&b.1.distance(p)));
     nearest.map(|(i, _)| i)
 }
 
-/// The part of the view round a head, in whole pixels; none when it is out of the picture.
+/// The part of the view around a head, in whole pixels; `None` outside the picture.
 fn surroundings(head: &Head, width: f64, height: f64) -> Option<Rect> {
     let corners = [(-ASIDE, ABOVE), (ASIDE, ABOVE), (-ASIDE, -BELOW), (ASIDE, -BELOW)].map(|(u, v)| head.place(u, v));
     let round = corners.iter().fold(Rect::from_points(corners[0], corners[3]), |round, p| round.union_pt(*p));
@@ -161,7 +162,7 @@ fn surroundings(head: &Head, width: f64, height: f64) -> Option<Rect> {
     (part.width() >= 1.0 && part.height() >= 1.0).then_some(part)
 }
 
-/// Working pixels over a part of the view.
+/// The working pixels over a part of the view.
 struct Grid {
     part: Rect,
     x_step: f64,
@@ -169,17 +170,17 @@ struct Grid {
 }
 
 impl Grid {
-    /// The view's place of a working pixel's centre.
+    /// The centre of a working pixel, in the view's pixels.
     fn middle(&self, x: usize, y: usize) -> Point {
         self.part.origin() + Vec2::new((x as f64 + 0.5) * self.x_step, (y as f64 + 0.5) * self.y_step)
     }
 
-    /// The place in working pixels of a place in the view.
+    /// A point of the view in working pixels.
     fn inward(&self, p: Point) -> Point {
         Point::new((p.x - self.part.x0) / self.x_step, (p.y - self.part.y0) / self.y_step)
     }
 
-    /// The mean of the view's pixels that have their centres in a working pixel, at least one.
+    /// The mean of the view's pixels whose centres are in a working pixel, at least one pixel.
     fn mean<T: Copy + Send + Sync>(&self, raster: &Raster<T>, x: usize, y: usize, value: impl Fn(T) -> [f32; 3]) -> [f32; 3] {
         let range = |from: f64, step: f64, i: usize, count: usize| {
             let start = ((from + i as f64 * step).round() as usize).min(count - 1);

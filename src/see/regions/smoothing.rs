@@ -1,22 +1,22 @@
-//! Guided filtering of several planes over one picture (He, Sun and Tang 2010), and at a finer size than they were found (He and Sun
-//! 2015): what each place says of a colour is found on the small picture and asked of the large one's colours.
+//! Guided filtering of several planes by one picture (He, Sun and Tang 2010), also to a finer size (He and Sun 2015): the linear
+//! functions of colour are fitted on the small picture and evaluated at the large one's colours.
 
 use crate::raster::{Raster, box_blur};
 
-/// For each pixel the least squares' slopes for red, green and blue, then the offset.
+/// For each pixel the least-squares slopes for red, green and blue, then the offset.
 pub(super) type Lines = Raster<[f32; 4]>;
 
-/// A picture's colours in windows of one size.
+/// Window statistics of a picture's colours, for one window size.
 pub(super) struct Guide<'a> {
     colours: &'a Raster<[f32; 3]>,
     radius: usize,
     means: Raster<[f32; 3]>,
-    /// The inverse of the colours' covariance in the window: its upper triangle.
+    /// The upper triangle of the inverse covariance of the colours in the window.
     inverse: Raster<[f32; 6]>,
 }
 
 impl<'a> Guide<'a> {
-    /// Edges of a contrast well below the root of `eps` do not count; colours from 0 to 1.
+    /// Colours are 0 to 1. Edges of a contrast well below the root of `eps` are ignored.
     pub(super) fn new(colours: &'a Raster<[f32; 3]>, radius: usize, eps: f32) -> Self {
         let blur = |plane: Raster<f32>| box_blur(&plane, radius);
         let means = [0, 1, 2].map(|k| blur(colours.map(|c| c[k])));
@@ -34,7 +34,7 @@ impl<'a> Guide<'a> {
         Self { colours, radius, means, inverse }
     }
 
-    /// The linear functions of colour that are nearest to a plane, each averaged over the windows that hold the pixel.
+    /// The linear functions of colour closest to a plane, each averaged over the windows that contain the pixel.
     pub(super) fn lines(&self, plane: &Raster<f32>) -> Lines {
         let blur = |plane: &Raster<f32>| box_blur(plane, self.radius);
         let mean = blur(plane);
@@ -53,13 +53,13 @@ impl<'a> Guide<'a> {
         Raster::from_fn(plane.width(), plane.height(), |x, y| [0, 1, 2, 3].map(|k| smooth[k].get(x, y)))
     }
 
-    /// A plane of values from 0 to 1 that has taken the picture's edges.
+    /// A plane of values 0 to 1, smoothed along the picture's edges.
     pub(super) fn filtered(&self, plane: &Raster<f32>) -> Raster<f32> {
         self.lines(plane).zip_map(self.colours, value)
     }
 }
 
-/// What a line says of a colour, 0 to 1.
+/// The value of a linear function at a colour, clamped to 0 to 1.
 #[inline]
 pub(super) fn value(line: [f32; 4], colour: [f32; 3]) -> f32 {
     (line[0] * colour[0] + line[1] * colour[1] + line[2] * colour[2] + line[3]).clamp(0.0, 1.0)
@@ -72,7 +72,7 @@ fn joined(planes: &[Raster<f32>; 3]) -> Raster<[f32; 3]> {
     Raster::from_fn(planes[0].width(), planes[0].height(), |x, y| [0, 1, 2].map(|k| planes[k].get(x, y)))
 }
 
-/// The upper triangle of the inverse of a symmetric matrix, given alike.
+/// The upper triangle of the inverse of a symmetric matrix, from its upper triangle.
 fn inverse([rr, rg, rb, gg, gb, bb]: [f64; 6]) -> [f32; 6] {
     let cofactors = [gg * bb - gb * gb, gb * rb - rg * bb, rg * gb - gg * rb];
     let determinant = rr * cofactors[0] + rg * cofactors[1] + rb * cofactors[2];
