@@ -197,7 +197,7 @@ pub(super) fn place(
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<(Drawing, Turning), Failure> {
     if options.fit == PlotFit::Page && options.placing.at.is_some() {
-        return Err(Failure::Usage("--fit page fills the page, and --at has no room there; leave one of them away".to_owned()));
+        return Err(Failure::Usage("--fit page sets the position, which --at would change; leave one of them out".to_owned()));
     }
     let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
     let turning = Turning::asked(&options.placing, || fits_only_turned(drawing, sheet));
