@@ -261,7 +261,7 @@ fn a_plot_is_made_smaller_to_keep_to_its_time() {
     let kept = format!("{plot} --scale {} {limit}", figure.unwrap());
     assert!(json(&kept)["total"]["seconds"].as_f64().unwrap() <= 0.5 * whole + 1.0, "{kept}");
     let (status, message) = run_words(folder.path(), &format!("plot l.svg -o o.gcode --profile grbl-servo --fit page {limit}"));
-    assert!(status == 1 && message.contains("leave --fit away"), "{message}");
+    assert!(status == 1 && message.contains("leave out --fit"), "{message}");
 }
 
 #[test]

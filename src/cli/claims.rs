@@ -70,9 +70,7 @@ pub(super) fn is_no_input(output: &str) -> Result<(), Failure> {
     let Some(identity) = Identity::of_output(output) else { return Ok(()) };
     let shown = if output == "-" { "stdout" } else { output };
     read.iter().find(|(_, known)| *known == identity).map_or(Ok(()), |(input, _)| {
-        Err(Failure::Usage(format!(
-            "{shown} would overwrite the input {input}: they are the same file; choose another name"
-        )))
+        Err(Failure::Usage(format!("{shown} would overwrite the input {input}: they are the same file; choose another name")))
     })
 }
 

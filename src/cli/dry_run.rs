@@ -52,7 +52,7 @@ fn how(share: f64) -> String {
     if share >= 1.0 {
         "drawn in full, without the search for short travel".to_owned()
     } else {
-        format!("estimated from pictures of {:.1} % of its area, mostly within 10 %, charcoal and paint within a third", 100.0 * share)
+        format!("estimated from pictures of {:.1} % of its area, to about 10 %, charcoal and paint to a third", 100.0 * share)
     }
 }
 

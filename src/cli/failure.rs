@@ -49,7 +49,7 @@ impl Failure {
             io::ErrorKind::PermissionDenied => {
                 Self::Work(format!("{name} cannot be written: permission denied; choose another folder with -o"))
             }
-            io::ErrorKind::NotFound => Self::Work(format!("{name} cannot be written: its folder does not exist; create it first")),
+            io::ErrorKind::NotFound => Self::Work(format!("{name} cannot be written: its folder does not exist; make it first")),
             _ => Self::Work(format!("{name} cannot be written: {error}")),
         }
     }

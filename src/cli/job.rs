@@ -91,12 +91,8 @@ fn refused(error: JobError, options: &ToolpathOptions) -> Failure {
     match error {
         JobError::Interrupted => Failure::Interrupted,
         JobError::Misfit(error) => Failure::Misfit(error),
-        JobError::NoMachine(Wish::Drying) => {
-            Failure::Usage("--dry-time needs a machine's speeds; give --profile".to_owned())
-        }
-        JobError::NoMachine(_) => {
-            Failure::Usage("--frame and --pause-every make a machine wait; give --profile".to_owned())
-        }
+        JobError::NoMachine(Wish::Drying) => Failure::Usage("--dry-time needs a machine's speeds; give --profile".to_owned()),
+        JobError::NoMachine(_) => Failure::Usage("--frame and --pause-every make a machine wait; give --profile".to_owned()),
         JobError::OwnFrame { machine } => {
             Failure::Usage(format!("--frame: {machine} is driven by its own program; trace the outline there"))
         }

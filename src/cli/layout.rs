@@ -136,7 +136,7 @@ impl Sheet {
             (None, None) => USUAL_BOX,
         };
         if frame.0 <= 0.0 || frame.1 <= 0.0 {
-            return Err(Failure::Usage(format!("a margin of {} mm leaves nothing of the sheet; use a smaller --margin", self.margin)));
+            return Err(Failure::Usage(format!("a margin of {} mm leaves nothing of the sheet; make it smaller", self.margin)));
         }
         let turned = self.turning.size(frame);
         if let Some(Page { width, height, .. }) = self.page

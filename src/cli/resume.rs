@@ -1,4 +1,4 @@
-//! `drypoint resume`: the rest of a machine's file.
+//! `drypoint resume`: writes the rest of a machine's file.
 
 use super::arguments::ResumeOptions;
 use super::failure::Failure;
@@ -9,9 +9,9 @@ use crate::drawing::Layer;
 use crate::read::read_svg;
 use crate::resume::{Stop, resume_gcode, resume_hpgl};
 
-/// Plotter units a millimetre, near enough for how much is drawn again.
+/// HP-GL units per millimetre, accurate enough for the length that is drawn again.
 const HPGL_UNITS_PER_MM: f64 = 40.0;
-/// A file of many days' drawing, in bytes. Short instructions take thirty times their length in memory.
+/// Maximum file size in bytes: many days of drawing. Short instructions take thirty times their length in memory.
 const MOST_BYTES: u64 = 1 << 26;
 
 pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
@@ -19,11 +19,11 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
         (Some(line), None, None) => Stop::Line(line),
         (None, Some(byte), None) => Stop::Byte(byte),
         (None, None, Some(path)) => Stop::Path(path),
-        _ => return Err(Failure::Usage("say where the machine stopped: --line N, --byte N or --path N".to_owned())),
+        _ => return Err(Failure::Usage("give the place where the machine stopped: --line N, --byte N or --path N".to_owned())),
     };
     let shown = if options.file == "-" { "stdin" } else { &options.file };
     let text = String::from_utf8(output::read(&options.file, MOST_BYTES, "")?)
-        .map_err(|_| Failure::Work(format!("{shown} is neither HP-GL nor G-code: it is not plain text")))?;
+        .map_err(|_| Failure::Work(format!("{shown} is not HP-GL or G-code: it is not plain text")))?;
     if is_svg(&text) {
         return Err(Failure::Work(svg_advice(shown, &text)));
     }
@@ -44,7 +44,7 @@ fn is_svg(text: &str) -> bool {
     text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
 }
 
-/// An SVG is no machine's file: whoever drives the machine with it knows where it stopped.
+/// The message for an SVG: only the program that drives the machine knows where it stopped.
 fn svg_advice(shown: &str, text: &str) -> String {
     let imported = read_svg(text.as_bytes()).ok();
     let profile = imported.as_ref().and_then(|svg| Some(svg.speeds.as_ref()?.machine.clone()));
@@ -55,19 +55,20 @@ fn svg_advice(shown: &str, text: &str) -> String {
         String::new()
     } else {
         format!(
-            ". To plot it from a layer on, name those that are left, of {}: drypoint plot {shown} --layers {} --profile {} -o rest.svg",
+            ". To plot only the remaining layers, name them, out of {}: drypoint plot {shown} --layers {} --profile {} -o rest.svg",
             named.join(", "),
             left.join(","),
             profile.as_deref().unwrap_or("axidraw-v3")
         )
     };
     format!(
-        "{shown} is an SVG: the machine is driven by a program of its own, which alone knows where it stopped. Resume there: the AxiDraw's \
-         extension of Inkscape has a tab Resume, and axicli --mode res_plot goes on with the file that it wrote when it was paused{from_layer}"
+        "{shown} is an SVG: the machine is driven by a program of its own, and only that program knows where it stopped. Resume there: the \
+         AxiDraw extension for Inkscape has a tab Resume, and axicli --mode res_plot continues with the file that it wrote when \
+         paused{from_layer}"
     )
 }
 
-/// HP-GL begins with `IN;`, after escape sequences for the interface at most.
+/// True if the text begins with `IN` or with an escape sequence for the interface.
 fn is_hpgl(text: &str) -> bool {
     text.trim_start().starts_with('\u{1b}') || text.trim_start().starts_with("IN")
 }
