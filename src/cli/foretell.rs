@@ -195,7 +195,7 @@ fn extrapolated(small: &Foretold, large: &Foretold) -> Amounts {
 }
 
 impl Foretold {
-    /// Refuses what the drawing itself would be refused for: impossible pens, a picture beyond the machine's reach.
+    /// Refuses what the drawing itself would be refused for: pens that cannot be assigned, a picture beyond the machine's reach.
     pub(super) fn check(&self, teller: &mut Teller<'_>) -> Result<(), Failure> {
         teller.pens.assign(&mut self.drawing.clone(), teller.profile)?;
         let Some((profile, drawn)) = teller.profile.zip(self.drawing.bounding_box()) else { return Ok(()) };

@@ -23,7 +23,7 @@ pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<LayerFile> 
     let mut files: Vec<LayerFile> = Vec::new();
     for layer in &drawing.layers {
         let plain = file_part(&layer.name);
-        // Layers with the same name, or the same name as a file, must not overwrite each other.
+        // Layers whose names give the same file name must not overwrite each other.
         let numbered = (2..).map(|n| format!("{plain}-{n}"));
         let is_free = |part: &String| files.iter().all(|file| file.layer != *part);
         let part = std::iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);

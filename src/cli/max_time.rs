@@ -48,7 +48,7 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
         ))
     })?;
     if !options.reporting.quiet {
-        let why = if chosen.pitch > start { "chosen" } else { "as asked for" };
+        let why = if chosen.pitch > start { "chosen" } else { "as requested" };
         say!("pitch {} mm ({why}): about {} of {}", chosen.pitch, duration(chosen.seconds), duration(limit));
     }
     Ok(with_pitch(options, chosen.pitch))

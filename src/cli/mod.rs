@@ -69,7 +69,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Number of pens in the text of a `--pens` file, or the error message. Public only for fuzzing.
+/// Number of pens in the text of a `--pens` file, or the error message. Public only for tests and fuzzing.
 #[doc(hidden)]
 pub fn count_pens(text: &str) -> Result<usize, String> {
     pen_file::read_pens("pens.toml", text).map(|pens| pens.len()).map_err(|failure| failure.to_string())
