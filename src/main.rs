@@ -1,4 +1,4 @@
-//! The `drypoint` command: parses, runs and reports.
+//! The `drypoint` command.
 
 use std::process::ExitCode;
 

@@ -617,7 +617,7 @@ fn a_style_without_use_for_depth_refuses_it() {
     let refused = run(&["--depth", "samples/bust-depth.png"]);
     let message = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2), "{message}");
-    assert!(message.contains("hedcut has no use for a depth map; it is for engrave"), "{message}");
+    assert!(message.contains("hedcut does not use a depth map; it is for engrave"), "{message}");
     let other_size = run(&["--style", "engrave", "--depth", "samples/coffee.png"]);
     assert_eq!(other_size.status.code(), Some(1));
     assert!(String::from_utf8(other_size.stderr).unwrap().contains("600 x 400 px"));

@@ -99,7 +99,7 @@ fn plot_mirrors_and_puts_the_corner_where_it_is_told() {
         assert!((corner.x - x).abs() < 0.01 && (corner.y - y).abs() < 0.01, "{line}: {corner:?}");
     }
     let (status, message) = run_words(folder.path(), "plot f.svg -o out.svg --fit page --at 5,5");
-    assert!(status == 2 && message.contains("leave one of them away"), "{message}");
+    assert!(status == 2 && message.contains("leave one of them out"), "{message}");
 }
 
 #[test]
@@ -165,15 +165,15 @@ fn advice_works(folder: &Path, line: &str) -> usize {
     println!("{line}: {message}");
     assert!(status == 1 && !message.contains("panicked"), "{line}: {message}");
     let ways = if message.contains("larger than every sheet") {
-        let ways = ["choose one of them with --page, and --fit page", "choose a --size that one of them holds"];
+        let ways = ["choose one of them with --page, and --fit page", "choose a --size that fits on one of them"];
         assert!(ways.iter().any(|way| message.contains(way)), "{line}: {message}");
         vec![if line.starts_with("plot") { "--page a4 --fit page" } else { "--size 150x150mm" }.to_owned(); 2]
     } else {
-        remedies(&message.replace("put it elsewhere with --at, or leave --at away", "without --at: --threads 2"))
+        remedies(&message.replace("choose another --at, or leave it out", "without --at: --threads 2"))
     };
     assert!(ways.len() > 1, "{line}: {message} has no advice but --clip: {ways:?}");
     for remedy in &ways {
-        let gives_way = message.contains("without --at") || message.contains("leave --at away");
+        let gives_way = message.contains("without --at") || message.contains("choose another --at");
         let line = if gives_way { without_place(line) } else { line.to_owned() };
         let again = followed(&line, remedy);
         let (status, said) = run_words(folder, &again);
@@ -261,7 +261,7 @@ fn a_plot_is_made_smaller_to_keep_to_its_time() {
     let kept = format!("{plot} --scale {} {limit}", figure.unwrap());
     assert!(json(&kept)["total"]["seconds"].as_f64().unwrap() <= 0.5 * whole + 1.0, "{kept}");
     let (status, message) = run_words(folder.path(), &format!("plot l.svg -o o.gcode --profile grbl-servo --fit page {limit}"));
-    assert!(status == 1 && message.contains("leave --fit away"), "{message}");
+    assert!(status == 1 && message.contains("leave out --fit"), "{message}");
 }
 
 #[test]
@@ -273,7 +273,7 @@ fn a_dry_run_is_turned_and_refused_as_the_drawing_is() {
         ("draw wide.png --profile hp7475a --page a4 --rotate 90 -o o.hpgl --pitch 4", 0, "210.0 x 297.0 mm"),
         ("draw wide.png --profile hp7475a --page a4 --rotate auto --mirror -o o.hpgl --pitch 4", 0, "210.0 x 297.0 mm"),
         ("draw wide.png --profile hp7475a --size 160x80mm --rotate 90 -o o.hpgl --pitch 4", 0, "80.0 x 160.0 mm"),
-        ("draw wide.png --profile hp7475a --page a4 --at 150,10 -o o.hpgl --pitch 4", 1, "leave --at away"),
+        ("draw wide.png --profile hp7475a --page a4 --at 150,10 -o o.hpgl --pitch 4", 1, "choose another --at"),
         ("plot f.svg --profile hp7475a --page a4 -o o.hpgl", 1, "--rotate 90 --center"),
     ] {
         for line in [line.to_owned(), format!("{line} --dry-run")] {

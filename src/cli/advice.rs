@@ -1,4 +1,4 @@
-//! What would bring a drawing onto its machine, in the options of the command that refuses it.
+//! Advice for a drawing that does not fit its machine: the options of the refusing command that would make it fit.
 
 use super::arguments::{DrawOptions, PictureOptions, PlacingOptions, PlotFit, PlotOptions, Rotate};
 use super::draw::Task;
@@ -6,10 +6,10 @@ use super::failure::Failure;
 use super::layout::Layout;
 use crate::plot::{MountingError, Profile, Room};
 
-/// Least part of its scale that a drawing is offered.
+/// Smallest `--scale` that is suggested.
 const LEAST_SCALE: f64 = 0.01;
 
-/// A refusal of `plot`, whose drawing was turned by so many degrees.
+/// Adds advice to a refusal of `plot`; `degrees` is how far the drawing was turned.
 pub(super) fn for_plot(failure: Failure, options: &PlotOptions, degrees: u32) -> Failure {
     match failure {
         Failure::Misfit(error @ MountingError::PageTooLarge { .. }) => {
@@ -22,7 +22,7 @@ pub(super) fn for_plot(failure: Failure, options: &PlotOptions, degrees: u32) ->
     }
 }
 
-/// A refusal of `calibrate`, whose sheet is drawn to fit.
+/// Adds advice to a refusal of `calibrate`.
 pub(super) fn for_test_sheet(failure: Failure) -> Failure {
     match failure {
         Failure::Misfit(error) => Failure::Work(format!("{error}; choose another --page")),
@@ -38,7 +38,7 @@ fn plot_remedy(room: &Room, options: &PlotOptions, degrees: u32) -> String {
     if room.is_enough() {
         return format!("{without}--center");
     }
-    // With --page the sheet stays as it lies; without, it is turned with the drawing.
+    // With --page the sheet keeps its orientation; without, it turns with the drawing.
     let fits_turned = if options.page.is_some() { room.is_enough_across() } else { room.is_enough_turned() };
     if fits_turned {
         return format!("turned by 90 degrees it would fit, {without}{} --center", other_turn(degrees));
@@ -51,19 +51,19 @@ fn plot_remedy(room: &Room, options: &PlotOptions, degrees: u32) -> String {
     format!("{without}--fit page, or --scale {scale} --center")
 }
 
-/// The turn that lies across.
+/// The rotation option at right angles to the current rotation.
 const fn other_turn(degrees: u32) -> &'static str {
     if degrees % 180 == 90 { "--rotate 0" } else { "--rotate 90" }
 }
 
-/// A refusal of `draw`.
+/// Adds advice to a refusal of `draw`.
 pub(super) fn for_draw(failure: Failure, options: &DrawOptions, task: &Task<'_>, profile: Option<&Profile>) -> Failure {
     match (failure, profile) {
         (Failure::Misfit(error @ MountingError::PageTooLarge { .. }), _) => {
             let what = if options.picture.page.is_some() {
                 "choose one of them with --page"
             } else {
-                "choose a --size that one of them holds"
+                "choose a --size that fits on one of them"
             };
             Failure::Work(format!("{error}; {what}"))
         }
@@ -81,16 +81,16 @@ pub(super) fn for_draw(failure: Failure, options: &DrawOptions, task: &Task<'_>,
     }
 }
 
-/// Whether a picture with these options would lie where the machine draws.
+/// True if a picture with these options would lie within the machine's reach.
 type WouldFit<'a> = dyn Fn(&PictureOptions, &PlacingOptions) -> bool + 'a;
 
 fn draw_remedy(room: &Room, excess: f64, options: &DrawOptions, would_fit: &WouldFit<'_>, layout: &Layout) -> String {
     let (picture, placing) = (&options.picture, &options.placing);
     if placing.at.is_some() && would_fit(picture, &PlacingOptions { at: None, ..placing.clone() }) {
-        return "put it elsewhere with --at, or leave --at away".to_owned();
+        return "choose another --at, or leave it out".to_owned();
     }
     if would_fit(picture, placing) {
-        // Ink reaches over the picture's box; a sheet of the picture's own size grows with its margin.
+        // Ink extends beyond the picture's box. Without --page, the sheet grows with its margin.
         let margin = (picture.margin.unwrap_or(0.0) + excess).ceil();
         let what = if picture.page.is_some() { "the picture smaller" } else { "the sheet larger than the drawing" };
         return format!("--margin {margin}mm makes {what}");

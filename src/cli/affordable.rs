@@ -1,4 +1,4 @@
-//! Whether a drawing fits into memory, told before it is begun.
+//! Limits on memory and line length, checked before the work begins.
 
 use super::draw::Task;
 use super::failure::Failure;
@@ -7,14 +7,14 @@ use crate::drawing::{Drawing, Layer, Mixing};
 use crate::geometry::Rect;
 use crate::plot::{InkModel, Nibs};
 
-/// Bytes that a drawing may take: what a machine with 8 GB has to spare.
+/// Maximum memory of a drawing in bytes: what a machine with 8 GB can spare.
 const MOST_BYTES: f64 = 4e9;
-/// Millimetres of line in a plot at most: a week of drawing at 30 mm/s, and at the finest tolerance 3 GB of places.
+/// Maximum line in a plot, in millimetres: a week of drawing at 30 mm/s, and 3 GB of points at the finest tolerance.
 const MOST_LINE: f64 = 20e6;
-/// Halvings of what is not known of the pitch or the size that fits.
+/// Bisection steps in the search for a pitch or size that fits.
 const HALVINGS: usize = 30;
 
-/// Refuses a drawing that would take too much memory, and says what would fit.
+/// Refuses a drawing that would take too much memory; the message names a pitch and a size that fit.
 pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
     let cost = task.cost(&task.settings, task.layout.picture);
     if cost.bytes <= MOST_BYTES {
@@ -22,7 +22,7 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
     }
     let fits: Vec<String> = [pitch_that_fits(task), size_that_fits(task)].into_iter().flatten().collect();
     let advice = if fits.is_empty() {
-        "the photograph and its masks alone take more: scale them down first".to_owned()
+        "the photograph and its masks alone exceed that; scale them down first".to_owned()
     } else {
         format!("{} would fit", fits.join(", or "))
     };
@@ -35,15 +35,15 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
     )))
 }
 
-/// Refuses ink that would take more line than a plotter ever draws, before it is laid out: a drawing scaled by a thousand, or a poster
-/// filled with the finest nib. `times` is how many such drawings there are.
+/// Refuses ink that would take more line than a plotter can draw, before any line is laid out: a drawing scaled by a thousand, or a
+/// poster filled with the finest nib. `times` multiplies the drawing's line.
 pub(super) fn check_line(drawing: &Drawing, nibs: &Nibs, model: InkModel, times: f64) -> Result<(), Failure> {
     if model == InkModel::Lines {
         return Ok(());
     }
     let whole = drawing.bounding_box().map_or(0.0, |bounds| bounds.area());
     let of = |layer: &Layer| {
-        // What is covered is not drawn.
+        // Covered paint is not drawn.
         let ink = if layer.mixing == Mixing::Paint { layer.ink_mm2().min(whole) } else { layer.ink_mm2() };
         (ink / nibs.of(layer.pen), nibs.of(layer.pen))
     };
@@ -61,12 +61,12 @@ pub(super) fn check_line(drawing: &Drawing, nibs: &Nibs, model: InkModel, times:
     )))
 }
 
-/// Such as `2.3 GB` or `80 MB`.
+/// Formats a number of bytes, such as `2.3 GB` or `80 MB`.
 pub(super) fn memory(bytes: f64) -> String {
     if bytes >= 9.5e8 { format!("{:.1} GB", bytes / 1e9) } else { format!("{:.0} MB", (bytes / 1e7).ceil() * 10.0) }
 }
 
-/// The smallest larger pitch, in hundredths of a millimetre.
+/// The smallest larger pitch that fits, in hundredths of a millimetre, as an option.
 fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
     let fits = |pitch: f64| {
         let settings = task.settings_at(pitch);
@@ -83,7 +83,7 @@ fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
     Some(format!("--pitch {:.2}mm", (high * 100.0).ceil() / 100.0))
 }
 
-/// The largest smaller picture, in whole millimetres.
+/// The largest smaller picture that fits, in whole millimetres, as an option.
 fn size_that_fits(task: &Task<'_>) -> Option<String> {
     let picture = task.layout.picture;
     let fits = |share: f64| {

@@ -1,27 +1,27 @@
-//! Amounts of a drawing and of its plot, as numbers that are scaled and put together.
+//! Amounts of a drawing and its plot, as numbers that can be scaled and combined.
 
 use crate::drawing::Drawing;
 use crate::plot::{PenReport, PlotReport};
 
-/// What a drawing comes to.
+/// Marks and ink per layer, and the plot's report.
 #[derive(Clone, Debug)]
 pub(super) struct Amounts {
     pub layers: Vec<LayerAmounts>,
     pub plot: Option<PlotAmounts>,
 }
 
-/// One layer's marks.
+/// Amounts of one layer.
 #[derive(Clone, Debug)]
 pub(super) struct LayerAmounts {
     pub name: String,
     pub pen: u32,
     pub ink: String,
-    /// Dots, strokes and areas.
+    /// Numbers of dots, strokes and areas.
     pub counts: [f64; 3],
     pub ink_mm2: f64,
 }
 
-/// A plot's report, and what it was before ordering.
+/// A plot's report after ordering and before.
 #[derive(Clone, Debug)]
 pub(super) struct PlotAmounts {
     pub ordered: PlotReport,
@@ -40,7 +40,7 @@ impl Amounts {
         Self { layers: layers.collect(), plot }
     }
 
-    /// Every amount with the other's: `f(one, other)`; where the other has no such layer or pen, it is given this one twice.
+    /// Combines every amount with the other's as `f(one, other)`. If the other has no such layer or pen, both arguments are this one's.
     pub(super) fn with(&self, other: &Self, f: &impl Fn(f64, f64) -> f64) -> Self {
         let layers = self.layers.iter().map(|layer| {
             let twin = other.layers.iter().find(|other| other.name == layer.name).unwrap_or(layer);
@@ -54,7 +54,7 @@ impl Amounts {
         Self { layers: layers.collect(), plot }
     }
 
-    /// So many times as much; `fixed` seconds of each pen do not grow.
+    /// All amounts times `factor`, except `fixed` seconds of each pen.
     pub(super) fn scaled(&self, factor: f64, fixed: f64) -> Self {
         let mut scaled = self.with(self, &|amount, _| amount * factor);
         if let Some(plot) = &mut scaled.plot {
@@ -63,12 +63,12 @@ impl Amounts {
         scaled
     }
 
-    /// Dots, strokes and areas of all layers.
+    /// Numbers of dots, strokes and areas over all layers.
     pub(super) fn counts(&self) -> [f64; 3] {
         self.layers.iter().fold([0.0; 3], |sum, layer| [0, 1, 2].map(|i| sum[i] + layer.counts[i]))
     }
 
-    /// The plot's time in seconds; 0 without a machine.
+    /// Plotting time in seconds; 0 without a machine.
     pub(super) fn plot_seconds(&self) -> f64 {
         self.plot.as_ref().and_then(|plot| plot.ordered.total.seconds).unwrap_or(0.0)
     }
@@ -79,19 +79,19 @@ impl PlotAmounts {
         Self { ordered: together(&self.ordered, &other.ordered, f), before: together(&self.before, &other.before, f) }
     }
 
-    /// Two plots one after the other; pens of one name draw both parts.
+    /// The sum of two plots; pens with the same number are added up.
     pub(super) fn and(&self, other: &Self) -> Self {
         Self { ordered: joined(&self.ordered, &other.ordered), before: joined(&self.before, &other.before) }
     }
 
-    /// So many times as much.
+    /// All amounts times `factor`.
     pub(super) fn scaled(&self, factor: f64) -> Self {
         self.with(self, &|amount, _| amount * factor)
     }
 
     fn add_seconds(&mut self, seconds: f64) {
         for report in [&mut self.ordered, &mut self.before] {
-            // What does not grow is waiting: for a pen to be fetched or changed.
+            // The fixed time is waiting time: fetching or changing a pen.
             let pens = report.pens.iter_mut().flat_map(|pen| [&mut pen.seconds, &mut pen.waiting_seconds]).flatten();
             pens.for_each(|time| *time = (*time + seconds).max(0.0));
             report.total = total(&report.pens);

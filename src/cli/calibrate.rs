@@ -16,7 +16,7 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
     let mut profile = toolpaths::profile(&options.profile, &options.toolpaths)?;
     toolpaths::check_language(format, Some(&profile))?;
-    // Touches rest as long as their label says, and no longer.
+    // Touches rest exactly as long as their label says.
     profile.motion.touch_seconds = 0.0;
     let pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
@@ -29,7 +29,7 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
     let count = options.pen_count.unwrap_or(profile.pens.count);
     let sheet = calibration_sheet(&profile, page, drawable, options.pen, count)
         .map_err(|error| Failure::Work(format!("{}: {}", profile.name, advised(&error))))?;
-    // In the order of the sheet: what a trial shows must not depend on what was drawn before it.
+    // Keep the sheet's order: the result of a trial must not depend on what was drawn before it.
     let toolpath_options = super::arguments::ToolpathOptions { order: Order::None, ..options.toolpaths.clone() };
     let job = job::of_paths(sheet.plot, Some(&profile), &toolpath_options, &pens).map_err(advice::for_test_sheet)?;
     let head = SvgHead {

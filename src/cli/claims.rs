@@ -1,5 +1,5 @@
-//! No output is an input or another output: files are compared by device and inode, after links, and where there is none yet by
-//! their place.
+//! Checks that no output is an input or another output. Files are compared by device and inode after following links; files that
+//! do not exist yet are compared by path.
 
 use super::failure::Failure;
 use super::output::follow_links;
@@ -9,7 +9,7 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// What has been read so far.
+/// Files read so far.
 static READ: Mutex<Vec<(String, Identity)>> = Mutex::new(Vec::new());
 
 #[derive(Clone, Debug, PartialEq)]
@@ -17,12 +17,12 @@ enum Identity {
     /// Device and inode.
     #[cfg(unix)]
     Inode(u64, u64),
-    /// Where it will be made; where the system knows no inodes, where it is.
+    /// Path of a file that does not exist yet; on systems without inodes, of any file.
     Place(PathBuf),
 }
 
 impl Identity {
-    /// Of a file with bytes of its own: devices and pipes may be read and written as often as one likes.
+    /// The identity of a regular file; `None` for devices and pipes, which may be read and written at the same time.
     #[cfg(unix)]
     fn of(_: &Path, found: &Metadata) -> Option<Self> {
         found.is_file().then(|| Self::Inode(found.dev(), found.ino()))
@@ -47,7 +47,7 @@ impl Identity {
     }
 }
 
-/// Notes a file that is read: its name, and where it is.
+/// Records a file that is read.
 pub(super) fn reads(name: &str, path: &Path, found: &Metadata) {
     let Some(identity) = Identity::of(path, found) else { return };
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
@@ -56,7 +56,7 @@ pub(super) fn reads(name: &str, path: &Path, found: &Metadata) {
     }
 }
 
-/// Notes the file that stdin is, if it is one.
+/// Records stdin if it is a regular file.
 pub(super) fn reads_stdin() {
     let path = Path::new("/dev/stdin");
     if let Ok(found) = fs::metadata(path) {
@@ -70,20 +70,18 @@ pub(super) fn is_no_input(output: &str) -> Result<(), Failure> {
     let Some(identity) = Identity::of_output(output) else { return Ok(()) };
     let shown = if output == "-" { "stdout" } else { output };
     read.iter().find(|(_, known)| *known == identity).map_or(Ok(()), |(input, _)| {
-        Err(Failure::Usage(format!(
-            "{shown} would be written over {input}, which is read: they are one file; choose another name"
-        )))
+        Err(Failure::Usage(format!("{shown} would overwrite the input {input}: they are the same file; choose another name")))
     })
 }
 
-/// Refuses outputs that are inputs, and outputs that are one file.
+/// Refuses outputs that are inputs, and outputs that are the same file.
 pub(super) fn are_distinct<'a>(outputs: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
     let mut claimed: Vec<(&str, Identity)> = Vec::new();
     for output in outputs {
         is_no_input(output)?;
         let Some(identity) = Identity::of_output(output) else { continue };
         if let Some((other, _)) = claimed.iter().find(|(_, known)| *known == identity) {
-            return Err(Failure::Usage(format!("{other} and {output} would be one file; give one of them another name")));
+            return Err(Failure::Usage(format!("{other} and {output} are the same file; give one of them another name")));
         }
         claimed.push((output, identity));
     }

@@ -1,14 +1,14 @@
-//! The part of a photograph that is drawn: asked for in pixels or shares, or by the faces in it.
+//! The part of a photograph that is drawn: given in pixels or percent, or by the faces in it.
 
 use super::arguments::{CropNumber, CropPart, PictureOptions};
 use super::failure::Failure;
 use crate::geometry::Rect;
 use crate::source::{Crop, Landmarks, Photograph, outlines};
 
-/// Room round a face for the head and its shoulders: to either side in widths of the face from its middle, above the forehead and below
-/// the chin in its heights. High hair takes 0.57 above the forehead; the box has the proportions of a newspaper's half column.
+/// Margin around a face for head and shoulders: `side` in face widths from the face's middle, `above` the forehead and `below` the
+/// chin in face heights. High hair takes 0.57 above the forehead; the box has the proportions of a newspaper's half column.
 const HEAD: Room = Room { side: 1.1, above: 0.68, below: 0.57 };
-/// Room for the face alone.
+/// Margin for the face alone.
 const FACE: Room = Room { side: 0.66, above: 0.22, below: 0.12 };
 
 struct Room {
@@ -17,7 +17,7 @@ struct Room {
     below: f64,
 }
 
-/// The part of the photograph that is drawn; a pixel is forgiven a hundredth, for percents that do not quite add up.
+/// The part of the photograph that is drawn. It may exceed the photograph by 0.01 px, for percentages that do not quite add up.
 pub(super) fn part(options: &PictureOptions, photograph: &Photograph, faces: &[Landmarks]) -> Result<Crop, Failure> {
     let crop = match options.crop {
         None => Crop::all(photograph),
@@ -32,7 +32,7 @@ pub(super) fn part(options: &PictureOptions, photograph: &Photograph, faces: &[L
             [crop.x, crop.y, crop.width, crop.height].map(|px| format!("{}", (px * 100.0).round() / 100.0)).join(",")
         };
         return Err(Failure::Work(format!(
-            "--crop {} reaches beyond {}, which is {} x {} px; what lies in it is --crop {}",
+            "--crop {} reaches beyond {}, which is {} x {} px; the part inside it is --crop {}",
             shown(crop),
             if options.photo == "-" { "the photograph" } else { &options.photo },
             photograph.width(),
@@ -52,7 +52,7 @@ fn asked_for([x, y, w, h]: [CropNumber; 4], photograph: &Photograph) -> Crop {
     Crop { x: pixels(x, whole.width), y: pixels(y, whole.height), width: pixels(w, whole.width), height: pixels(h, whole.height) }
 }
 
-/// The box of all faces with room round each, as far as there is photograph.
+/// The box of all faces with a margin around each, clipped to the photograph.
 fn round_faces(
     room: &Room,
     name: &str,
@@ -73,7 +73,7 @@ fn round_faces(
     });
     let Some(all) = boxes.reduce(|a, b| a.union(b)) else {
         return Err(Failure::Work(format!(
-            "{}: no face is known in it, so there is none for --crop {name}; say the part with --crop X,Y,W,H",
+            "{}: no face is known in it, which --crop {name} needs; give the part with --crop X,Y,W,H",
             options.photo
         )));
     };

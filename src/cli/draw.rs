@@ -54,7 +54,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     toolpaths::check_language(format, profile.as_ref())?;
     press(options)?;
     if profile.is_none() && options.toolpaths.preview.is_some() {
-        return Err(Failure::Usage("--preview shows what a machine will do: it needs --profile".to_owned()));
+        return Err(Failure::Usage("--preview shows what a machine will do; it needs --profile".to_owned()));
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
@@ -95,12 +95,12 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     report(options, &drawing, &pens, (&files, &jobs), &seconds, watcher.elapsed())
 }
 
-/// What a machine reaches of a page.
+/// A function that gives the part of a page that the machine reaches.
 pub(super) fn reach_of(profile: Option<&Profile>) -> impl Fn(&Page) -> Option<Rect> {
     move |page| Some(mount(profile?, page).ok()?.reach_on_page())
 }
 
-/// The layers asked for, each with its ink and its pen, and the order in which their marks are painted.
+/// The selected layers, each with its ink and its pen, and the painting order of their marks.
 pub(super) fn drawing_of(
     task: &Task<'_>,
     options: &DrawOptions,
@@ -113,7 +113,7 @@ pub(super) fn drawing_of(
     Ok((drawing, painting))
 }
 
-/// The layers asked for, each with its ink, as the press needs them.
+/// The selected layers, each with its ink, compensated for the press.
 pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn Observer) -> Result<Drawing, Failure> {
     for layer in &mut drawing.layers {
         layer.ink = options.ink.clone();
@@ -126,7 +126,7 @@ pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn 
     Ok(drawing)
 }
 
-/// One file; gives back the job when it is a machine's.
+/// Writes one file; returns the job if the file is for a machine.
 fn write_one<'a>(
     file: &LayerFile,
     format: Format,
@@ -155,7 +155,7 @@ fn write_one<'a>(
     Ok(Some(job))
 }
 
-/// What a pen draws of a drawing: of opaque paint, not what other paint covers.
+/// The drawing without the parts of opaque paint that other paint covers.
 pub(super) fn uncovered<'a>(drawing: &'a Drawing, painting: &[Painted]) -> Result<Cow<'a, Drawing>, Failure> {
     if drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint) {
         Ok(Cow::Owned(occluded(drawing, painting, Hides::PaintOnOtherColours, interrupt())?))
@@ -164,7 +164,7 @@ pub(super) fn uncovered<'a>(drawing: &'a Drawing, painting: &[Painted]) -> Resul
     }
 }
 
-/// What the press does to ink, when something is to be done about it.
+/// The press to compensate for; `None` if no compensation is requested.
 fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
     if options.dot_gain == 0.0 && options.min_mark == 0.0 {
         return Ok(None);
@@ -175,13 +175,13 @@ fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
     Ok(Some(Press::new(options.dot_gain, options.dot_gain_screen, options.min_mark)))
 }
 
-/// Pitches across the short side of a picture below which no advice leads: of a face on fewer there is nothing left.
+/// Minimum number of pitches across the short side of a picture in advice: with fewer, nothing is left of a face.
 const LEAST_PITCHES: f64 = 25.0;
 
 /// A mask of the photograph.
 pub(super) struct RoleMask {
     pub role: MaskRole,
-    /// Its file; none when it was found in the photograph.
+    /// Its file; `None` if it was found in the photograph.
     pub file: Option<String>,
     pub mask: Photograph,
 }
@@ -192,7 +192,7 @@ impl RoleMask {
         self.role.name()
     }
 
-    /// Where it comes from.
+    /// Its origin, for the recipe.
     fn recipe(&self) -> Value {
         match &self.file {
             Some(file) => json!({ "file": file_name(file), "sha256": self.mask.info.sha256 }),
@@ -201,7 +201,7 @@ impl RoleMask {
     }
 }
 
-/// Everything that decides a drawing.
+/// Everything that determines a drawing.
 pub(super) struct Task<'a> {
     options: &'a PictureOptions,
     pub style: &'static dyn Style,
@@ -209,12 +209,12 @@ pub(super) struct Task<'a> {
     photograph: Photograph,
     known: Known,
     pub layout: Layout,
-    /// The parameters that were given.
+    /// The parameters given by the user.
     given: Vec<(String, String)>,
 }
 
 impl<'a> Task<'a> {
-    /// Where the picture lies of itself, which is all that a trial needs to know.
+    /// A task with the default placing.
     pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
         Self::placed(options, &PlacingOptions::default(), reach)
     }
@@ -240,14 +240,14 @@ impl<'a> Task<'a> {
         if options.depth.is_some() && !style.uses_depth() {
             let able: Vec<&str> = style::STYLES.iter().filter(|s| s.uses_depth()).map(|s| s.name()).collect();
             let able = able.join(", ");
-            return Err(Failure::Usage(format!("--depth: {} has no use for a depth map; it is for {able}", style.name())));
+            return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
         }
         let photograph = photograph(&options.photo)?;
         let painted = mask_files
             .into_iter()
             .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: self::photograph(file)? }));
         let mut known = known::of(options, style, &photograph, painted.collect::<Result<_, Failure>>()?)?;
-        // Marks stand on the picture's border and reach over it by less than a pitch.
+        // Marks on the picture's border extend beyond it by less than a pitch.
         let pitch = settings.number("pitch");
         let crop = crop::part(options, &photograph, &known.faces)?;
         let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
@@ -259,7 +259,7 @@ impl<'a> Task<'a> {
         Ok(task)
     }
 
-    /// Whether a picture of another size or place, and with it all its ink, would lie where the machine draws.
+    /// True if the picture with other options, including all its ink, would lie within the machine's reach.
     pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
         let Ok(crop) = crop::part(picture, &self.photograph, &self.known.faces) else { return false };
         let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
@@ -269,36 +269,36 @@ impl<'a> Task<'a> {
         drawable.is_ok_and(|drawable| drawable.union(layout.placed()) == drawable)
     }
 
-    /// Says what was decided by what was found, when the work is done: a failure has one message.
+    /// Prints the decisions made from what was found. Called after the work, so that a failure has a single message.
     pub(super) fn tell(&self, is_quiet: bool) {
         self.known.notices.iter().filter(|_| !is_quiet).for_each(|notice| say!("drypoint: {notice}"));
     }
 
-    /// What was seen of the photograph, by name.
+    /// Pictures of what was found in the photograph, by name.
     pub(super) fn seen(&self) -> Result<Vec<(&'static str, DynamicImage)>, Failure> {
         seen_stages::pictures(&self.photograph, &self.known).map_err(|error| Failure::about(&self.options.photo)(&error))
     }
 
-    /// The parameters with another pitch; none when the style has none like that.
+    /// The parameters with another pitch; `None` if the style does not accept it.
     pub(super) fn settings_at(&self, pitch: f64) -> Option<Settings> {
         let mut given = self.given.clone();
         given.push(("pitch".to_owned(), pitch.to_string()));
         Settings::resolve(self.style.name(), self.style.parameters(), &given).ok()
     }
 
-    /// The greatest pitch that the style takes and that leaves something of the picture.
+    /// The largest pitch that the style accepts and that leaves the picture recognisable.
     pub(super) fn sane_pitch(&self) -> f64 {
         let pitch = self.style.parameters().iter().find(|parameter| parameter.name == "pitch");
         let most = pitch.and_then(|parameter| parameter.kind.ends()).map_or(f64::INFINITY, |ends| ends[1]);
         most.min(self.layout.picture.width().min(self.layout.picture.height()) / LEAST_PITCHES)
     }
 
-    /// The least short side of a picture, in millimetres, that leaves something of it at this pitch.
+    /// The smallest short side, in millimetres, that leaves the picture recognisable at this pitch.
     pub(super) fn least_side(&self) -> f64 {
         LEAST_PITCHES * self.settings.number("pitch")
     }
 
-    /// What drawing a picture takes; its photographs are in memory already.
+    /// Memory and time for drawing a picture, including the photographs already in memory.
     pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
         let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
         let unused = &self.known.unused;
@@ -308,7 +308,7 @@ impl<'a> Task<'a> {
         Cost { bytes: cost.bytes + photographs as f64, ..cost }
     }
 
-    /// Working pixels a millimetre.
+    /// Working resolution in pixels per millimetre.
     pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
         let roles: Vec<MaskRole> = self.known.masks.iter().map(|mask| mask.role).collect();
         self.style.resolution(settings, &roles, picture)
@@ -322,7 +322,7 @@ impl<'a> Task<'a> {
         self.draw_in(&self.settings, Placement::new(picture, self.resolution(&self.settings, picture)), observer)
     }
 
-    /// Draws the picture elsewhere on the sheet, smaller, or with other parameters.
+    /// Draws the picture with other parameters or at another placement.
     pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
         observer.begin("photograph");
         let portrait = self.portrait(placement)?;
@@ -365,7 +365,7 @@ impl<'a> Task<'a> {
         Ok(portrait)
     }
 
-    /// All that is needed to make the picture again.
+    /// Everything needed to reproduce the picture.
     fn recipe(&self, options: &DrawOptions) -> Value {
         let set: serde_json::Map<String, Value> =
             self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
@@ -418,7 +418,7 @@ fn round(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
 
-/// The last part of a path: where a file lay on this machine is nobody's business.
+/// The last component of a path: recipes must not reveal folders of this machine.
 fn file_name(name: &str) -> &str {
     Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
 }
@@ -437,7 +437,7 @@ fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
     roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
 }
 
-/// Parameters from the file, then from --pitch, then from --set.
+/// Parameters from the file, then from --pitch, then from --set; later ones win.
 fn given(options: &PictureOptions) -> Result<Vec<(String, String)>, Failure> {
     let mut given = Vec::new();
     if let Some(path) = &options.params {
@@ -461,7 +461,7 @@ fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
             toml::Value::Integer(number) => Ok((key, number.to_string())),
             toml::Value::Float(number) => Ok((key, number.to_string())),
             toml::Value::Boolean(is_on) => Ok((key, if is_on { "on" } else { "off" }.to_owned())),
-            other => Err(Failure::Work(format!("{name}: {key} = {other} is neither a number nor a text"))),
+            other => Err(Failure::Work(format!("{name}: {key} = {other} is not a string, a number or a boolean"))),
         })
         .collect()
 }
@@ -480,10 +480,10 @@ pub(super) fn limit_threads(threads: Option<u16>) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(usize::from(threads))
         .build_global()
-        .map_err(|error| Failure::Work(format!("{threads} threads could not be started: {error}")))
+        .map_err(|error| Failure::Work(format!("cannot start {threads} threads: {error}")))
 }
 
-/// The layers asked for, in the drawing's order.
+/// The selected layers, in the drawing's order.
 fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> {
     if wanted.is_empty() {
         return Ok(layers);
@@ -561,7 +561,7 @@ fn report_json(drawing: &Drawing, pens: &PenSet, (files, jobs): (&[LayerFile], &
     value
 }
 
-/// A step that comes again, for the next file, takes the sum.
+/// Seconds by step; steps repeated for several files are summed.
 pub(super) fn seconds_of_steps(seconds: &[(String, f64)]) -> serde_json::Map<String, Value> {
     seconds.iter().fold(serde_json::Map::new(), |mut sums, (step, taken)| {
         let before = sums.get(step).and_then(Value::as_f64).unwrap_or(0.0);

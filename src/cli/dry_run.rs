@@ -1,4 +1,4 @@
-//! `draw --dry-run`: what a drawing and its plot will come to, in a second or two.
+//! `draw --dry-run`: an estimate of a drawing and its plot, in a second or two.
 
 use super::affordable::memory;
 use super::arguments::DrawOptions;
@@ -47,16 +47,16 @@ pub(super) fn run(task: &Task<'_>, options: &DrawOptions, profile: Option<&Profi
     Ok(())
 }
 
-/// What the estimate was made from.
+/// What the estimate is based on.
 fn how(share: f64) -> String {
     if share >= 1.0 {
-        "drawn, not searched for the shortest way".to_owned()
+        "drawn in full, without the search for short travel".to_owned()
     } else {
-        format!("estimated from pictures of {:.1} % of its area, mostly to a tenth, charcoal and paint to a third", 100.0 * share)
+        format!("estimated from pictures of {:.1} % of its area, to about 10 %, charcoal and paint to a third", 100.0 * share)
     }
 }
 
-/// Two figures and no more: an estimate has no third.
+/// Rounds to two significant figures.
 fn rounded(count: f64) -> f64 {
     if count < 100.0 {
         return count.round();

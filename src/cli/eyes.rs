@@ -1,16 +1,16 @@
-//! Whether a drawing is fine enough for the eyes in it.
+//! Checks that a drawing is fine enough for the eyes in it.
 
 use super::arguments::CropPart;
 use super::layout::Layout;
 use crate::source::Landmarks;
 
-/// Corners of the right and of the left eye.
+/// Landmark indices of the corners of the right and of the left eye.
 const CORNERS: [(usize, usize); 2] = [(33, 133), (362, 263)];
-/// Pitches in an eye's width below which it is a few dots: at 4 nobody is recognised, at 6 lids and pupil are apart (looked at in
-/// hedcuts of sixteen portraits, 90 mm to 20 mm wide).
+/// Minimum number of pitches across an eye. At 4 nobody is recognised; at 6 lids and pupil are distinct (judged on hedcuts of sixteen
+/// portraits, 90 mm to 20 mm wide).
 const LEAST_PITCHES: f64 = 5.0;
 
-/// What to say when the eyes of the largest face are too small for the pitch, with what would do.
+/// A notice if the eyes of the largest face are too small for the pitch, with the options that help.
 pub(super) fn too_small(faces: &[Landmarks], layout: &Layout, pitch: f64, crop: Option<CropPart>) -> Option<String> {
     let face = faces.first()?;
     let scale = layout.picture.width() / layout.crop.width;

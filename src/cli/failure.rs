@@ -1,4 +1,4 @@
-//! What went wrong, in the user's words, and the exit status it means.
+//! Errors as the user sees them, and their exit statuses.
 
 use super::remedies::advised;
 use std::io;
@@ -9,16 +9,16 @@ pub(super) enum Failure {
     /// The command line is wrong.
     #[error("{0}")]
     Usage(String),
-    /// It could not be done.
+    /// The work failed.
     #[error("{0}")]
     Work(String),
-    /// A drawing does not go onto its machine; what would help depends on the command.
+    /// A drawing does not fit its machine; the advice depends on the command.
     #[error("{0}")]
     Misfit(crate::plot::MountingError),
     /// The user stopped it.
-    #[error("interrupted; what was not finished is not written")]
+    #[error("interrupted; unfinished files are not written")]
     Interrupted,
-    /// Whoever read our output has gone.
+    /// The reader of our output has closed it.
     #[error("closed pipe")]
     ClosedPipe,
 }
@@ -33,21 +33,21 @@ impl Failure {
         }
     }
 
-    /// A failure about a file, named first.
+    /// A failure about a file; the message begins with its name.
     pub(super) fn about(name: &str) -> impl Fn(&dyn std::fmt::Display) -> Self {
         move |problem| Self::Work(format!("{name} {problem}"))
     }
 
-    /// What an error while writing means.
+    /// The failure for an error while writing.
     pub(super) fn writing(name: &str) -> impl Fn(io::Error) -> Self {
         move |error| match error.kind() {
             io::ErrorKind::BrokenPipe => Self::ClosedPipe,
             io::ErrorKind::Interrupted => Self::Interrupted,
             io::ErrorKind::StorageFull => {
-                Self::Work(format!("{name} cannot be written: the disk is full; free some space or choose another place"))
+                Self::Work(format!("{name} cannot be written: the disk is full; free some space or choose another folder"))
             }
             io::ErrorKind::PermissionDenied => {
-                Self::Work(format!("{name} cannot be written: permission denied; choose another place with -o"))
+                Self::Work(format!("{name} cannot be written: permission denied; choose another folder with -o"))
             }
             io::ErrorKind::NotFound => Self::Work(format!("{name} cannot be written: its folder does not exist; make it first")),
             _ => Self::Work(format!("{name} cannot be written: {error}")),

@@ -1,7 +1,7 @@
-//! More colours than the machine has pens, and no `--pens` that says what becomes of them.
+//! Assigns pens when a drawing has more colours than the machine has pens and no `--pens` is given.
 //!
-//! As many colours as there are pens, those that stand best for all, get a pen each; every other colour goes to the nearest of them
-//! (CIE L*a*b*). What became one is said.
+//! The most representative colours, one per pen, get a pen each; every other colour goes to the nearest of them (CIE L*a*b*). A
+//! warning names the colours that were merged.
 
 use super::messages::warning;
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
@@ -9,24 +9,24 @@ use crate::plot::{PenChange, Profile};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// Colours that a user can be asked to change pens for; more is a picture that was meant for a screen.
+/// Maximum number of colours for which the user changes pens by hand; more is a picture meant for a screen.
 const MOST_CHANGES: u32 = 12;
-/// Colours that are tried for a pen, those that draw the most; each is held against all that the drawing has.
+/// Number of candidate colours for pens, those that draw the most; each is compared with all colours of the drawing.
 const MOST_CANDIDATES: usize = 128;
-/// Colours that a message names; more says nothing to anyone.
+/// Maximum number of colours that a message lists in full.
 const MOST_NAMED: usize = 40;
-/// Of more, the first few.
+/// Number of colours listed when there are more than that.
 const FEW_NAMED: usize = 6;
 
-/// A drawing whose layers have their pens.
+/// The result of assigning pens to a drawing's layers.
 pub(super) struct HandedOut {
-    /// The marks in the order in which they were painted before.
+    /// The marks in their original painting order.
     pub painting: Vec<Painted>,
-    /// Which colours became one, in words.
+    /// A message naming the colours that were merged.
     pub became_one: Option<String>,
 }
 
-/// Brings a drawing's colours to the pens there are, if they are too many.
+/// Reduces a drawing's colours to the machine's pens, if there are too many.
 pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<HandedOut> {
     let most = match profile.pens.change {
         PenChange::Machine => profile.pens.count,
@@ -46,7 +46,7 @@ pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<Ha
     Some(HandedOut { painting: sorted.painting, became_one })
 }
 
-/// Says which layers have more than one colour, and yet one pen.
+/// Warns of layers with several colours but one pen.
 pub(super) fn warn_of_colours(drawing: &Drawing) {
     for layer in &drawing.layers {
         let colours: Vec<Colour> = colours_of(layer).collect::<BTreeSet<_>>().into_iter().collect();
@@ -61,7 +61,7 @@ fn colours_of(layer: &Layer) -> impl Iterator<Item = Colour> + '_ {
     layer.marks.iter().map(|mark| mark.colour().unwrap_or(layer.ink.colour()))
 }
 
-/// How much each colour draws: millimetres of line, and square millimetres of what is filled.
+/// Amount drawn in each colour: millimetres of line plus square millimetres of filled marks.
 fn amounts(drawing: &Drawing) -> BTreeMap<Colour, f64> {
     let mut amounts = BTreeMap::new();
     for layer in &drawing.layers {
@@ -73,13 +73,13 @@ fn amounts(drawing: &Drawing) -> BTreeMap<Colour, f64> {
     amounts
 }
 
-/// As many of the colours as there are pens, so that all others lie near one of them: each in turn is the one that brings what is
-/// drawn nearest to its pens, in the order in which the drawing first shows them.
+/// Chooses `count` colours so that all others lie near one of them. Greedy: each choice is the candidate that most reduces the total
+/// colour difference, weighted by amount. Returned in the order in which the drawing first shows them.
 fn palette(drawing: &Drawing, amounts: &BTreeMap<Colour, f64>, count: usize) -> Vec<Colour> {
     let mut candidates: Vec<(Colour, f64)> = amounts.iter().map(|(colour, amount)| (*colour, *amount)).collect();
     candidates.sort_by(|a, b| b.1.total_cmp(&a.1));
     candidates.truncate(MOST_CANDIDATES);
-    // How far each colour lies from each candidate, weighed by how much it draws.
+    // Difference of each colour from each candidate, weighted by the amount drawn in it.
     let cost = |pen: Colour| amounts.iter().map(|(colour, amount)| amount * colour.difference(pen)).collect::<Vec<f64>>();
     let costs: Vec<Vec<f64>> = candidates.iter().map(|(colour, _)| cost(*colour)).collect();
     let mut least = vec![f64::INFINITY; amounts.len()];
@@ -95,15 +95,15 @@ fn palette(drawing: &Drawing, amounts: &BTreeMap<Colour, f64>, count: usize) -> 
     drawing.layers.iter().flat_map(colours_of).filter(|colour| wanted.remove(colour)).collect()
 }
 
-/// A drawing by pens.
+/// A drawing with one layer per pen.
 struct Sorted {
     layers: Vec<Layer>,
-    /// The colours that each layer took besides its own.
+    /// The other colours merged into each layer.
     became: Vec<BTreeSet<Colour>>,
     painting: Vec<Painted>,
 }
 
-/// One layer for each colour of the palette, with the marks of the colours next to it.
+/// Makes one layer per palette colour, with the marks of all colours nearest to it.
 fn sorted(drawing: &Drawing, palette: &[Colour]) -> Sorted {
     let mut painting = Vec::new();
     let mut layers: Vec<Layer> = (1_u32..).zip(palette).map(|(pen, colour)| empty(drawing, pen, *colour)).collect();
@@ -133,15 +133,15 @@ fn empty(drawing: &Drawing, pen: u32, colour: Colour) -> Layer {
     Layer { mixing: like.map_or(layer.mixing, |like| like.mixing), ..layer }
 }
 
-/// Such as `25 colours and one pen on grbl-servo: all are drawn with it: #1f77b4, #ff7f0e, ...; --pens FILE tells ...`.
+/// The message about merged colours, such as `25 colours became one, the one pen of grbl-servo: #1f77b4, #ff7f0e, ...; --pens FILE ...`.
 fn told(count: usize, profile: &Profile, palette: &[Colour], became: &[BTreeSet<Colour>]) -> String {
-    let advice = "--pens FILE says otherwise (drypoint profiles --pens-example)";
+    let advice = "--pens FILE assigns them differently (drypoint profiles --pens-example)";
     if let ([first], [others]) = (palette, became) {
         let all: Vec<Colour> = std::iter::once(*first).chain(others.iter().copied()).collect();
         return format!("{count} colours became one, the one pen of {}: {}; {advice}", profile.name, named(&all));
     }
     let mut text = format!(
-        "{count} colours on the {pens} pens of {}: {pens} of them have a pen each, and every other goes to the nearest of these: ",
+        "{count} colours on the {pens} pens of {}: {pens} of them get a pen each, every other goes to the nearest of these: ",
         profile.name,
         pens = palette.len()
     );

@@ -1,10 +1,10 @@
-//! What a drawing and its plot will come to, before it is drawn: a smaller picture of the whole photograph is drawn at the same pitch,
-//! and a still smaller one, and those of the sheet follow from how the amounts fall with the side.
+//! Estimates a drawing and its plot before it is drawn. The whole photograph is drawn at the same pitch at two smaller sizes, and
+//! the amounts for the full size are extrapolated from how the amounts per area change with the side.
 //!
 //! ```text
-//!   amount for each mm2
-//!     |o                     a small picture has more outlines and more ends of lines for its area; what is too much falls
-//!     |   `o                 about with the root of the side
+//!   amount per mm2
+//!     |o                     a small picture has more outlines and line ends per area; the excess falls about with the root
+//!     |   `o                 of the side
 //!     |        ` - - - - x
 //!     +------------------+- side
 //! ```
@@ -24,23 +24,23 @@ use crate::source::Placement;
 use crate::style::{Observer, Picture, Settings, Silent};
 use std::time::{Duration, Instant};
 
-/// Seconds of work in the smaller picture and in the larger one; with both, and their plots, an estimate stays under a second.
+/// Seconds of work for the smaller and for the larger picture; with both, and their plots, an estimate stays under a second.
 const QUICK_SECONDS: f64 = 0.06;
 const CAREFUL_SECONDS: f64 = 0.3;
-/// Marks that are plotted in the smaller and in the larger picture: paint is cut by what lies over it, which takes nearly a millisecond
-/// a stroke.
+/// Maximum number of marks plotted in the smaller and in the larger picture. The limits for paint are lower: cutting a stroke by the
+/// paint over it takes nearly a millisecond.
 const MARKS: [f64; 2] = [2000.0, 8000.0];
 const PAINT: [f64; 2] = [200.0, 900.0];
-/// Least short side of a picture drawn for an estimate, in pitches: on less there is no face left.
+/// Minimum short side of a picture drawn for an estimate, in pitches; with less, no face is left.
 const LEAST_PITCHES: f64 = 12.0;
-/// The larger picture is given up after this, which only a machine much slower than the tables of cost, or a busy one, needs.
+/// Time limit for the larger picture. Only reached on a machine that is busy or much slower than the cost tables assume.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Seconds that the measuring of the ink takes for each path, and the full search for a short way besides: together 75 to 160
-/// microseconds on the astronaut in four styles.
+/// Seconds per path for measuring the ink, and for the full search for short travel: together 75 to 160 microseconds on the
+/// astronaut in four styles.
 const MEASURING: f64 = 5e-5;
 const FULL_ORDER: f64 = 8e-5;
 
-/// What is to be foretold.
+/// What to estimate.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub settings: Settings,
@@ -53,36 +53,36 @@ impl Plan {
     }
 }
 
-/// How well it is to be foretold.
+/// Accuracy of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Care {
     /// From one small picture: enough to compare two plans.
     Quick,
-    /// From two, as well as it goes.
+    /// From two pictures: as accurate as possible.
     Careful,
 }
 
-/// What is foretold.
+/// An estimate.
 pub(super) struct Foretold {
     pub amounts: Amounts,
-    /// Seconds until the file is there, on this machine.
+    /// Seconds until the file is written, on this machine.
     pub work_seconds: f64,
-    /// Part of the picture's area that was drawn for it; with 1 the amounts are exact.
+    /// Fraction of the picture's area drawn for the estimate; with 1 the amounts are exact.
     pub share: f64,
-    /// What was drawn for it.
+    /// The picture drawn for the estimate.
     pub drawing: Drawing,
 }
 
 /// A smaller picture of the photograph.
 struct Sample {
-    /// Its side as a share of the whole's.
+    /// Its side as a fraction of the full side.
     side: f64,
     drawing: Drawing,
     painting: Vec<Painted>,
     seconds: f64,
 }
 
-/// Who foretells.
+/// Makes estimates.
 pub(super) struct Teller<'a> {
     pub task: &'a Task<'a>,
     pub options: &'a DrawOptions,
@@ -96,7 +96,7 @@ impl Teller<'_> {
         let mut sample = self.sample(plan, self.side_within(plan, QUICK_SECONDS), None)?;
         let is_paint = self.profile.is_some() && sample.drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
         let [few, many] = if is_paint { PAINT } else { MARKS };
-        // The side on which so many marks have room.
+        // The side at which a picture has this many marks.
         let (side, marks) = (sample.side, sample.drawing.marks().count().max(1) as f64);
         let room = |most: f64| if self.profile.is_some() { side * (most / marks).sqrt() } else { 1.0 };
         let larger = room(many).min(self.side_within(plan, CAREFUL_SECONDS));
@@ -115,7 +115,7 @@ impl Teller<'_> {
         Ok(Foretold { amounts: extrapolated(&first, &second), ..second })
     }
 
-    /// The greatest side, as a share of the picture's, that takes at most so many seconds of work.
+    /// The largest side, as a fraction of the picture's, that takes at most `seconds` of work.
     pub(super) fn side_within(&self, plan: &Plan, seconds: f64) -> f64 {
         let work = |side: f64| self.cost(plan, side);
         if work(1.0) <= 1.5 * seconds {
@@ -130,7 +130,7 @@ impl Teller<'_> {
         low
     }
 
-    /// Seconds of work for a picture whose side is so much smaller, at the whole's resolution.
+    /// Seconds of work for a picture with this fraction of the side, at the full picture's resolution.
     fn cost(&self, plan: &Plan, side: f64) -> f64 {
         let resolution = self.task.resolution(&plan.settings, plan.picture);
         self.task.style.cost(&plan.settings, smaller(plan.picture, side), resolution).seconds
@@ -146,7 +146,7 @@ impl Teller<'_> {
         Ok(Sample { side, drawing, painting, seconds: begun.elapsed().as_secs_f64() })
     }
 
-    /// The whole's amounts as a sample has them, by area.
+    /// The full picture's amounts, scaled from a sample by area.
     fn told(&self, plan: &Plan, sample: &Sample) -> Result<Foretold, Failure> {
         let begun = Instant::now();
         let times = 1.0 / (sample.side * sample.side);
@@ -166,12 +166,12 @@ impl Teller<'_> {
     }
 }
 
-/// The picture smaller, in its place.
+/// The picture scaled about its centre.
 fn smaller(picture: Rect, side: f64) -> Rect {
     Rect::from_center_size(picture.center(), picture.size() * side)
 }
 
-/// The plot of a drawing, in an order that is quickly found; what it reaches beyond the machine is not looked at.
+/// The plot of a sample, ordered fast. Parts beyond the machine's reach are clipped.
 fn plotted(sample: &Sample, profile: &Profile, options: &ToolpathOptions, pens: &PenSet) -> Result<PlotAmounts, Failure> {
     let plot =
         lower(&*uncovered(&sample.drawing, &sample.painting)?, InkModel::Ink, pens.nibs(), options.tolerance, interrupt())?;
@@ -179,13 +179,13 @@ fn plotted(sample: &Sample, profile: &Profile, options: &ToolpathOptions, pens: 
     Ok(PlotAmounts { ordered: job.report().clone(), before: job.unordered().clone() })
 }
 
-/// The same tool paths in an order that is quickly found, cut where they do not fit.
+/// The same options with a fast order, clipping what does not fit.
 pub(super) fn quickly(options: &ToolpathOptions) -> ToolpathOptions {
     let order = if options.order == Order::Full { Order::Fast } else { options.order };
     ToolpathOptions { order, clip: true, ..options.clone() }
 }
 
-/// The amounts on the line through two samples', over the root of the side.
+/// Extrapolates the amounts linearly over the inverse root of the side.
 fn extrapolated(small: &Foretold, large: &Foretold) -> Amounts {
     let over_root = |share: f64| share.powf(-0.25);
     let (near, far) = (over_root(large.share), over_root(small.share));
@@ -195,7 +195,7 @@ fn extrapolated(small: &Foretold, large: &Foretold) -> Amounts {
 }
 
 impl Foretold {
-    /// Refuses what the drawing itself will be refused for: more colours than pens, a picture beyond the machine's reach.
+    /// Refuses what the drawing itself would be refused for: pens that cannot be assigned, a picture beyond the machine's reach.
     pub(super) fn check(&self, teller: &mut Teller<'_>) -> Result<(), Failure> {
         teller.pens.assign(&mut self.drawing.clone(), teller.profile)?;
         let Some((profile, drawn)) = teller.profile.zip(self.drawing.bounding_box()) else { return Ok(()) };
@@ -220,7 +220,7 @@ impl Foretold {
     }
 }
 
-/// Samples are not shown; they can be interrupted, and end when it is time.
+/// Observes a sample: shows nothing, stops on an interrupt or at a deadline.
 struct Unseen {
     until: Option<Instant>,
 }

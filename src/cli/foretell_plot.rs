@@ -1,9 +1,9 @@
-//! `plot --dry-run`: the plot of an SVG without the search for a short way. What is large is plotted as it is; of many small marks those
-//! in some windows are, and stand for the others.
+//! `plot --dry-run`: an estimate of an SVG's plot, without the search for short travel. Large marks are all plotted. If there are
+//! many small marks, only those in some windows are plotted, and stand for the others.
 //!
 //! ```text
 //!   +---+---+---+---+
-//!   | # | # | # | # |     the windows lie in the middle of cells all over the drawing, as large as the work allows
+//!   | # | # | # | # |     windows in the middle of cells all over the drawing, as large as the work allows
 //!   +---+---+---+---+
 //!   | # | # | # | # |
 //!   +---+---+---+---+
@@ -28,25 +28,25 @@ use crate::plot::{InkModel, Plot, Profile, Toolpath, lower, occluded_where};
 use crate::read::Imported;
 use serde_json::json;
 
-/// Strokes that are plotted at most, as lines and with their ink.
+/// Maximum number of strokes plotted, as lines and with their ink.
 const MOST_LINES: f64 = 40_000.0;
 const MOST_INKED: f64 = 6000.0;
-/// The same where fragments of marks join those of their neighbours, for the windows have margins. Of five paintings of 40 to 60 mm the time
-/// is told at 0.80 to 1.20 of the truth; with 6000 at 0.9 to 1.4.
+/// The same if fragments of marks join those of their neighbours: then the windows have margins. On five paintings of 40 to 60 mm the
+/// estimated time is 0.80 to 1.20 of the true one; with 6000 it is 0.9 to 1.4.
 const MOST_JOINED: f64 = 12_000.0;
-/// For how many strokes a mark counts that what hides it is cut out of.
+/// Extra work of a mark when hidden parts are cut out of it, in strokes.
 const CUT_WORK: f64 = 5.0;
-/// For how many strokes an area counts that is filled, and each nib of its width once more: discs of 0.6 mm and a nib of 0.3 mm take a
-/// millisecond, ten times as large ones fifteen.
+/// Work of a filled area, in strokes; half as much again is added per nib width across it. With a nib of 0.3 mm, discs of 0.6 mm
+/// take a millisecond, discs ten times as large fifteen.
 const AREA_WORK: f64 = 6.0;
-/// Cells a side, at most.
+/// Maximum number of cells per side.
 const CELLS: usize = 4;
-/// Margin of a window in lengths of a usual mark, where fragments of marks join those of their neighbours. Without one the time is told
-/// twice too long, with a whole length the windows are too small to stand for the rest (1.1 to 1.5 of the truth).
+/// Margin of a window, in median mark lengths, if fragments of marks join those of their neighbours. Without a margin the estimated
+/// time is twice too long; with 1 the windows are too small to be representative (1.1 to 1.5 of the true time).
 const MARGIN: f64 = 0.5;
-/// Share of a window with its margins that the window itself takes at least, by its side: for larger windows there are fewer.
+/// Minimum side of a window as a fraction of its side with margins. Below that, fewer and larger windows are used.
 const LEAST_INSIDE: f64 = 0.6;
-/// Share of the drawing's longer side from which a mark is large.
+/// A mark is large if it is longer than this fraction of the drawing's longer side.
 const LARGE: f64 = 1.0 / 8.0;
 
 /// Reports the estimate and writes nothing.
@@ -83,7 +83,7 @@ pub(super) fn dry_run(
         && let Some(seconds) = told.ordered.total.seconds.filter(|seconds| *seconds > limit)
     {
         warning!(
-            "about {}, longer than --max-time {}: without --dry-run a smaller size is sought",
+            "about {}, longer than --max-time {}; without --dry-run a smaller size is chosen",
             duration(seconds),
             duration(limit)
         );
@@ -101,17 +101,17 @@ pub(super) fn dry_run(
     if !options.reporting.quiet {
         say!("{shown}: about {}", toolpaths::summary(&told.ordered));
         let part = if share < 1.0 {
-            let accuracy = if options.occlude { "with --occlude to about 30 %" } else { "to about 10 %" };
+            let accuracy = if options.occlude { "with --occlude within about 30 %" } else { "within about 10 %" };
             format!("estimated from {:.1} % of its small marks, {accuracy}; ", 100.0 * share)
         } else {
             String::new()
         };
-        say!("{part}not searched for the shortest way; nothing is written");
+        say!("{part}without the search for short travel; nothing is written");
     }
     Ok(())
 }
 
-/// How many strokes' work a mark is.
+/// Work of a mark, in strokes.
 fn work(mark: &Mark, bounds: Rect, options: &PlotOptions, model: InkModel) -> f64 {
     let cut = if options.occlude { CUT_WORK } else { 0.0 };
     cut + match mark {
@@ -122,11 +122,11 @@ fn work(mark: &Mark, bounds: Rect, options: &PlotOptions, model: InkModel) -> f6
     }
 }
 
-/// Marks of a drawing that are plotted together, and how many each of them stands for.
+/// Marks of a drawing that are plotted together, and the number of marks each of them stands for.
 #[derive(Clone, Copy)]
 struct Stratum {
     bounds: Rect,
-    /// The box of the layers asked for, which says where the drawing is placed.
+    /// The box of the selected layers, by which the drawing is placed.
     placed: Rect,
     kind: Kind,
     weight: f64,
@@ -140,18 +140,18 @@ enum Kind {
     Windows(Windows),
 }
 
-/// Windows in the middle of cells, as many across as down.
+/// Windows in the middle of square-grid cells, as many across as down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Windows {
     cells: f64,
-    /// Share of a cell's side that a window takes.
+    /// Side of a window as a fraction of a cell's side.
     side: f64,
-    /// Millimetres around a window in which marks are plotted, too, but not counted: what of them joins what is inside is one path with
-    /// it.
+    /// Width in millimetres of the border around a window in which marks are plotted but not counted, so that fragments inside can
+    /// join them.
     margin: f64,
 }
 
-/// All marks, or the large ones and windows of the small.
+/// All marks as one stratum, or the large marks and windows of the small ones.
 fn strata(imported: &Imported, options: &PlotOptions, model: InkModel) -> Result<Vec<Stratum>, Failure> {
     let marks: Vec<(Rect, f64)> = imported
         .layers
@@ -183,7 +183,7 @@ fn strata(imported: &Imported, options: &PlotOptions, model: InkModel) -> Result
     Ok(vec![Stratum { kind: Kind::Large, ..all }, Stratum { weight: small.len() as f64 / held as f64, ..windows }])
 }
 
-/// Windows of which, with their margins, this share of their cells' sides may be plotted.
+/// Windows whose side, with margins, is at most `share` of a cell's side.
 fn windows(share: f64, small: &[(Rect, f64)], bounds: Rect, joins: bool) -> Windows {
     if !joins {
         return Windows { cells: CELLS as f64, side: share, margin: 0.0 };
@@ -201,7 +201,7 @@ fn is_large(mark: Rect, bounds: Rect) -> bool {
 }
 
 impl Windows {
-    /// Whether a place is in one of the windows, or so many millimetres around.
+    /// True if a point is in one of the windows or within `margin` millimetres of one.
     fn hold(&self, p: Point, bounds: Rect, margin: f64) -> bool {
         let is_near = |at: f64, low: f64, extent: f64| {
             let off_middle = ((at - low) / extent.max(1e-9) * self.cells).rem_euclid(1.0) - 0.5;
@@ -212,7 +212,7 @@ impl Windows {
 }
 
 impl Stratum {
-    /// Whether a mark of this box belongs to it.
+    /// True if a mark with this bounding box belongs to the stratum.
     fn holds(&self, mark: Rect) -> bool {
         match self.kind {
             Kind::All => true,
@@ -221,7 +221,7 @@ impl Stratum {
         }
     }
 
-    /// Whether a mark of this box is plotted with it, counted or not.
+    /// True if a mark with this bounding box is plotted with the stratum, counted or not.
     fn takes(&self, mark: Rect) -> bool {
         match self.kind {
             Kind::Windows(windows) => !is_large(mark, self.bounds) && windows.hold(mark.center(), self.bounds, windows.margin),
@@ -229,7 +229,7 @@ impl Stratum {
         }
     }
 
-    /// Leaves out the tool paths that begin in a window's margin; `placing` is where the drawing went on its sheet.
+    /// Removes the tool paths whose middle lies in a window's margin; `placing` maps the drawing to its place on the sheet.
     fn keep_inside(&self, plot: &mut Plot, placing: Affine) {
         let Kind::Windows(windows) = self.kind else { return };
         let back = placing.inverse();
@@ -237,7 +237,7 @@ impl Stratum {
         plot.pens.iter_mut().for_each(|pen| pen.paths.retain(is_inside));
     }
 
-    /// The drawing's marks of this stratum, what hides them cut away.
+    /// The drawing's marks of this stratum, without their hidden parts.
     fn of(&self, imported: &Imported, options: &PlotOptions, model: InkModel) -> Result<Imported, Failure> {
         let mut part = imported.clone();
         if options.occlude {
@@ -250,7 +250,7 @@ impl Stratum {
         Ok(part)
     }
 
-    /// A layer of three corners of the whole drawing's box: with it a part is placed as the whole is.
+    /// A layer with three corners of the whole drawing's box: it makes a part be placed as the whole would be.
     fn corners(&self) -> Layer {
         let mut layer = Layer::new("corners", 1);
         layer.marks = self.corner_points().map(|p| Mark::Dot(Dot::circle(p, 0.0))).to_vec();
@@ -261,7 +261,7 @@ impl Stratum {
         [self.placed.origin(), Point::new(self.placed.x1, self.placed.y0), Point::new(self.placed.x1, self.placed.y1)]
     }
 
-    /// Where these corners have taken the whole drawing.
+    /// The transform that took the whole drawing to the place of these corners.
     fn placing(&self, corners: &Layer) -> Affine {
         let frame = |[a, b, c]: [Point; 3]| {
             let (across, down) = (b - a, c - b);

@@ -1,4 +1,4 @@
-//! What a user should know before a long drawing or a long plot begins, and what would make it shorter.
+//! Warnings before a long drawing or a long plot, with advice that makes it shorter.
 
 use super::affordable::memory;
 use super::arguments::DrawOptions;
@@ -11,14 +11,14 @@ use super::toolpaths::{LONG_HOURS, duration};
 use crate::geometry::Rect;
 use crate::plot::Profile;
 
-/// Time that a warning names the pitch of, in seconds.
+/// Plotting time that the advised pitch or size aims for, in seconds.
 const USUAL_LIMIT: f64 = 2.0 * 3600.0;
-/// Seconds of work of a picture that is drawn as quickly as it is estimated.
+/// Seconds of work below which drawing a picture is as quick as estimating it.
 const AT_ONCE: f64 = 0.1;
-/// Seconds of drawing that are told beforehand.
+/// Drawing time above which it is announced, in seconds.
 const LONG_WORK: f64 = 60.0;
 
-/// Says before it begins what takes long: the drawing, and with a machine its plot. Whether the plot's time was told.
+/// Announces a long drawing, and with a machine warns of a long plot. Returns true if it warned of the plot.
 pub(super) fn of_a_long_wait(
     task: &Task<'_>,
     options: &DrawOptions,
@@ -47,12 +47,12 @@ pub(super) fn of_a_long_wait(
             Ok(true)
         }
         Err(Failure::Interrupted) => Err(Failure::Interrupted),
-        // What is wrong with it, the drawing itself will say.
+        // The drawing itself will report the error.
         Ok(None) | Err(_) => Ok(false),
     }
 }
 
-/// The estimate of a plot that takes long.
+/// The estimate of a plot, if it takes long.
 fn foretold_if_long(teller: &mut Teller<'_>, plan: &Plan, tell: &dyn Fn(f64)) -> Result<Option<Foretold>, Failure> {
     let quick = teller.foretell(plan, Care::Quick)?;
     tell(quick.work_seconds);
@@ -63,7 +63,7 @@ fn foretold_if_long(teller: &mut Teller<'_>, plan: &Plan, tell: &dyn Fn(f64)) ->
     Ok((careful.amounts.plot_seconds() > LONG_HOURS * 3600.0).then_some(careful))
 }
 
-/// The warning of a long plot, and what would make it shorter.
+/// Warns of a long plot, with advice.
 pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
     let seconds = foretold.amounts.plot_seconds();
     if seconds > LONG_HOURS * 3600.0 {
@@ -72,7 +72,7 @@ pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
     }
 }
 
-/// The pitch that takes two hours, or the size where such a pitch would leave nothing of the picture.
+/// The pitch that takes two hours; if that pitch would be too coarse for the picture, the size.
 fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
     let usual = format!("about {}", duration(USUAL_LIMIT));
     let shortened = Shortened::new(teller, seconds, USUAL_LIMIT);
@@ -85,14 +85,14 @@ fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
     }
 }
 
-/// The size, on the same sheet, whose plot takes so long.
+/// The size, on the same sheet, whose plot takes `limit` seconds, as options.
 pub(super) fn smaller_size(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<String> {
     Shortened::new(teller, seconds, limit)?.size(teller)
 }
 
-/// A plot that is to take less time; quick estimates are compared with each other alone.
+/// A plot to be shortened. Quick estimates are only compared with each other.
 struct Shortened {
-    /// How many times too long it takes.
+    /// Its time divided by the time wanted.
     times: f64,
     /// Its quick estimate in seconds.
     quick: f64,
@@ -104,7 +104,7 @@ impl Shortened {
         Some(Self { times: seconds / limit, quick })
     }
 
-    /// The pitch that does it, of those that leave something of the picture.
+    /// The pitch that reaches the time wanted, unless it is too coarse for the picture.
     fn pitch(&self, teller: &mut Teller<'_>) -> Option<f64> {
         let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.sane_pitch());
         let guess = pitch * self.times.sqrt();
@@ -117,7 +117,7 @@ impl Shortened {
         (power > 0.2 && wanted <= most).then_some(wanted)
     }
 
-    /// The size that does it, on the same sheet.
+    /// The size that reaches the time wanted, on the same sheet.
     fn size(&self, teller: &mut Teller<'_>) -> Option<String> {
         let picture = teller.task.layout.picture;
         let guess = 1.0 / self.times.sqrt();
@@ -125,7 +125,7 @@ impl Shortened {
         let pitch = finer_pitch(teller.task, smaller.width().min(smaller.height()));
         let settings = pitch.map_or_else(|| Some(teller.task.settings.clone()), |pitch| teller.task.settings_at(pitch))?;
         let after = quick(teller, &Plan { settings, picture: smaller })?;
-        // Small pictures take more for their area.
+        // Small pictures take more time per area.
         let side = guess * (self.quick / after / self.times).sqrt().min(1.0);
         let (width, height) = ((picture.width() * side).floor(), (picture.height() * side).floor());
         let pitch =
@@ -138,7 +138,7 @@ impl Shortened {
     }
 }
 
-/// The pitch that a picture so small needs, where its own would leave nothing of it.
+/// The pitch for a picture with this short side, if its own pitch is too coarse for it.
 fn finer_pitch(task: &Task<'_>, short: f64) -> Option<f64> {
     let share = short / task.least_side();
     (share < 1.0).then(|| (task.settings.number("pitch") * share * 100.0).floor() / 100.0)

@@ -1,4 +1,4 @@
-//! `drypoint inspect`: what is in a drawing.
+//! `drypoint inspect`: reports what is in a drawing.
 
 use super::arguments::InspectOptions;
 use super::failure::Failure;
@@ -36,14 +36,14 @@ pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
     output::print_json(&value)
 }
 
-/// Whether a file begins as gzip or UTF-16, which of all that is read only an SVG may be.
+/// True if a file begins as gzip or UTF-16. Of the formats read, only SVG may.
 fn is_encoded(bytes: &[u8]) -> bool {
     matches!(bytes, [0x1f, 0x8b, ..] | [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
 }
 
 fn inspect_text(shown: &str, bytes: &[u8], profile: Option<Profile>, budget: &mut Budget) -> Result<Value, Failure> {
     let text = std::str::from_utf8(bytes)
-        .map_err(|_| Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code: it is not text")))?;
+        .map_err(|_| Failure::Work(format!("{shown} is not SVG, HP-GL or G-code: it is not text")))?;
     Ok(match language_of(shown, text) {
         Some(Language::Svg) => inspect_svg(shown, bytes, profile.as_ref(), budget)?,
         Some(language) => {
@@ -54,7 +54,7 @@ fn inspect_text(shown: &str, bytes: &[u8], profile: Option<Profile>, budget: &mu
             let motion = profile.read(text, budget).map_err(|error| Failure::Work(format!("{shown}: {}", advised(&error))))?;
             inspect_motion(language.key(), &motion, &profile)?
         }
-        None => return Err(Failure::Work(format!("{shown} is neither SVG, HP-GL nor G-code"))),
+        None => return Err(Failure::Work(format!("{shown} is not SVG, HP-GL or G-code"))),
     })
 }
 
@@ -75,7 +75,7 @@ fn usual_profile(language: Language, text: &str) -> Result<Profile, Failure> {
     }
 }
 
-/// The built-in profile that the file names, else one whose pen commands it uses.
+/// The built-in profile named in the file, else one whose pen commands the file uses.
 fn gcode_profile(text: &str) -> Result<Profile, Failure> {
     let named = text.lines().take(3).find_map(|line| line.trim_start_matches(['(', ';', ' ']).strip_prefix("drypoint "));
     let name = named.and_then(|rest| rest.split(" for ").nth(1)).map(|name| name.trim_end_matches(')'));
@@ -90,7 +90,7 @@ fn gcode_profile(text: &str) -> Result<Profile, Failure> {
             return Ok(profile);
         }
     }
-    Err(Failure::Work("this G-code moves its pen in no way that a built-in profile does; name yours with --profile".to_owned()))
+    Err(Failure::Work("no built-in profile matches the pen commands of this G-code; pass --profile".to_owned()))
 }
 
 fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut Budget) -> Result<Value, Failure> {
@@ -119,7 +119,7 @@ fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut
         let plot = lower(&imported.drawing(), model, &Nibs::all(0.3), 0.02, interrupt())?;
         let mounting = mount(profile, &plot.page);
         if let Err(error) = &mounting {
-            warning!("no time: {error}");
+            warning!("no plotting time: {error}");
         }
         let mounting = mounting.ok();
         let home = home_of(mounting.as_ref(), &plot);
@@ -128,7 +128,7 @@ fn inspect_svg(name: &str, bytes: &[u8], profile: Option<&Profile>, budget: &mut
     Ok(value)
 }
 
-/// Motion in machine units as a report in millimetres.
+/// Reports motion in machine units in millimetres.
 fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Result<Value, Failure> {
     let bounds = motion.visited.iter().map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
     let mm = |p: Point| (p.to_vec2() / profile.units_per_mm).to_point();
@@ -147,7 +147,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Result<V
         let points = path.iter().map(|p| mm(*p)).collect();
         plot.pens.last_mut().expect("one was pushed").paths.push(Toolpath::new(points));
     }
-    // The file's places are the machine's own, and an HP-GL file ends at the far corner of its reach.
+    // The file has machine coordinates, and an HP-GL file ends at the far corner of the reach.
     let to_machine = Affine::scale(profile.units_per_mm);
     let mounting = Mounting::new(profile, to_machine, bounds);
     let size: Vec2 = mm(Point::new(bounds.x1, bounds.y1)) - mm(Point::new(bounds.x0, bounds.y0));
@@ -165,7 +165,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Result<V
     }))
 }
 
-/// A report without what a machine's file does not tell: nibs, and what was asked for before lowering and ordering.
+/// The report without what a machine's file does not contain: nibs, and amounts from before lowering and ordering.
 fn told(report: &PlotReport) -> Value {
     let mut value = json!(report);
     let strip = |amounts: &mut Value| {

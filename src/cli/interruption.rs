@@ -1,4 +1,4 @@
-//! Ctrl-C, SIGTERM and SIGHUP: the work is asked to end, and where it does not end soon the process does, leaving nothing behind.
+//! Ctrl-C, SIGTERM and SIGHUP: the work is asked to stop; if it does not stop soon, the process exits and leaves no temporary files.
 
 use super::failure::Failure;
 use super::messages::say;
@@ -22,34 +22,34 @@ use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tempfile::NamedTempFile;
 
-/// The signal that stopped the work; 0 while it goes on.
+/// The signal that stopped the work; 0 if none did.
 static STOPPED_BY: AtomicI32 = AtomicI32::new(0);
-/// What the library's long loops look at.
+/// Polled by the library's long loops.
 static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::new);
-/// Files that must not stay when the process ends.
+/// Temporary files to remove when the process exits.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// The time that the work has to end by itself: with what follows, less than a second.
+/// Time for the work to stop by itself; with the clean-up, exit takes less than a second.
 const GRACE: Duration = Duration::from_millis(600);
-/// How often signals are looked at where they cannot be waited for.
+/// Polling interval for signals on systems where they cannot be waited for.
 #[cfg(not(unix))]
 const LOOKING: Duration = Duration::from_millis(50);
-/// The time that a renaming under way is waited for.
+/// Time to wait for a rename in progress.
 const RENAMING: Duration = Duration::from_millis(200);
 
-/// The first signal asks the work to end and ends the process if it goes on; the second ends the process at once.
+/// Installs the handlers. The first signal asks the work to stop, and exits the process after a grace period; the second exits at once.
 #[cfg(unix)]
 pub(super) fn catch() {
     let hang_up = Some(SIGHUP).filter(|signal| !is_ignored(*signal));
     let caught = [SIGINT, SIGTERM].into_iter().chain(hang_up);
-    // Without a handler the process just ends, which is also right.
+    // Without a handler the process just exits, which is fine too.
     let Ok(mut signals) = Signals::new(caught) else { return };
     std::thread::spawn(move || {
         signals.forever().for_each(stopped_by);
     });
 }
 
-/// The same where signals cannot be waited for: they are looked at every now and then.
+/// Installs the handlers on systems where signals cannot be waited for: they are polled.
 #[cfg(not(unix))]
 pub(super) fn catch() {
     let flag = |signal: i32| {
@@ -77,8 +77,8 @@ fn stopped_by(signal: i32) {
     });
 }
 
-/// Whether whoever started us wants a signal ignored, as `nohup` wants of SIGHUP. (Shells ignore SIGINT for all that they start in the
-/// background, where nobody meant it for us.)
+/// True if the parent process set a signal to be ignored, as `nohup` does with SIGHUP. (SIGINT is not checked: shells set it to be
+/// ignored in all background jobs.)
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -87,12 +87,12 @@ fn is_ignored(signal: i32) -> bool {
     mask & (1 << (signal - 1)) != 0
 }
 
-/// What the library's long loops look at.
+/// The flag polled by the library's long loops.
 pub(super) fn interrupt() -> &'static Interrupt {
     &INTERRUPT
 }
 
-/// Whether the work should end.
+/// True if the work should stop.
 pub(super) fn is_interrupted() -> bool {
     INTERRUPT.is_raised()
 }
@@ -102,7 +102,7 @@ pub(super) fn exit_status() -> u8 {
     if matches!(STOPPED_BY.load(Ordering::SeqCst), 0 | SIGINT) { 130 } else { 143 }
 }
 
-/// Ends the process, whatever its threads do.
+/// Removes temporary files and exits the process, even if other threads are working.
 fn end() -> ! {
     let given_up = Instant::now() + RENAMING;
     let held = loop {
@@ -119,11 +119,11 @@ fn end() -> ! {
     std::process::exit(i32::from(exit_status()))
 }
 
-/// A file beside its target that goes when the process ends, unless it took its target's name before.
+/// A temporary file beside its target. It is removed on drop or exit unless it has replaced the target.
 pub(super) struct Temporary(Option<NamedTempFile>);
 
 impl Temporary {
-    /// With the permissions of the file that it replaces, else with those of any new file.
+    /// Creates the file with the permissions of the file to replace, else with those of a new file.
     pub(super) fn beside(path: &Path, replaced: Option<Permissions>) -> io::Result<Self> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut known = known();
@@ -143,7 +143,7 @@ impl Temporary {
         self.0.as_mut().expect("it is taken only at the end").as_file_mut()
     }
 
-    /// Takes the target's place, its bytes on the disk before its name.
+    /// Syncs the file to disk, then renames it to the target.
     pub(super) fn replace(mut self, target: &Path) -> io::Result<()> {
         self.file().sync_all()?;
         let mut known = known();

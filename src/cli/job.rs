@@ -1,4 +1,4 @@
-//! The library's plotting job in the words of the command line: options in, refusals out.
+//! Makes the library's plotting job from command-line options, and turns its errors into messages about options.
 
 use super::arguments::{DuplicatesOption, Order, SeamOption, StartCorner, ToolpathOptions};
 use super::failure::Failure;
@@ -12,7 +12,7 @@ use crate::plot::{
 };
 use crate::style::Observer;
 
-/// The job of a drawing, each step told to the observer.
+/// The job of a drawing; each step is reported to the observer.
 pub(super) fn of_drawing<'a>(
     drawing: &Drawing,
     model: InkModel,
@@ -48,7 +48,7 @@ fn asked(options: &ToolpathOptions, pens: &PenSet) -> JobOptions {
     }
 }
 
-/// The order that was asked for.
+/// The sequence options given by the user.
 fn sequence(options: &ToolpathOptions) -> Sequence {
     let corner = |corner: StartCorner| match corner {
         StartCorner::TopLeft => DrawingCorner::TopLeft,
@@ -86,31 +86,27 @@ fn sequence(options: &ToolpathOptions) -> Sequence {
     }
 }
 
-/// A refusal with the options that led to it, and those that lead out.
+/// The failure for a job error, naming the options that caused it and those that help.
 fn refused(error: JobError, options: &ToolpathOptions) -> Failure {
     match error {
         JobError::Interrupted => Failure::Interrupted,
         JobError::Misfit(error) => Failure::Misfit(error),
-        JobError::NoMachine(Wish::Drying) => {
-            Failure::Usage("--dry-time reckons with a machine's speeds: it needs --profile".to_owned())
-        }
-        JobError::NoMachine(_) => {
-            Failure::Usage("--frame and --pause-every tell a machine to wait: they need --profile".to_owned())
-        }
+        JobError::NoMachine(Wish::Drying) => Failure::Usage("--dry-time needs a machine's speeds; give --profile".to_owned()),
+        JobError::NoMachine(_) => Failure::Usage("--frame and --pause-every make a machine wait; give --profile".to_owned()),
         JobError::OwnFrame { machine } => {
-            Failure::Usage(format!("--frame: {machine} is driven by its own program, which has that"))
+            Failure::Usage(format!("--frame: {machine} is driven by its own program; trace the outline there"))
         }
         JobError::NoHandling { .. } => {
-            Failure::Work(format!("{error}; draw the layers one by one with --layers, or take ! and +D from its label"))
+            Failure::Work(format!("{error}; draw the layers one by one with --layers, or remove ! and +D from the layer's label"))
         }
         JobError::NoSuchPen { .. } => {
-            Failure::Work(format!("{error}; choose --layers, or give its layer a lower number or a slot with --pens"))
+            Failure::Work(format!("{error}; choose --layers, or give the layer a lower number, or a slot with --pens"))
         }
         JobError::NoPause { wish: Wish::Frame, machine } => no_pause("--frame", &machine),
         JobError::NoPause { wish: Wish::PauseEvery, machine } => no_pause("--pause-every", &machine),
         JobError::NoPause { .. } => Failure::Work(format!("{error}; write one file for each layer: -o 'name-{{layer}}.gcode'")),
         JobError::NoWait { seconds } => Failure::Work(format!(
-            "--dry-time {}: the machine would have to wait {} in all, for which its language has no word; ask for less",
+            "--dry-time {}: the machine would have to wait {} in total, and its language has no wait command; use a shorter time",
             options.dry_time.unwrap_or_default(),
             duration(seconds)
         )),
@@ -118,5 +114,5 @@ fn refused(error: JobError, options: &ToolpathOptions) -> Failure {
 }
 
 fn no_pause(option: &str, machine: &str) -> Failure {
-    Failure::Work(format!("{option} needs a pause, and {machine} has no word for one"))
+    Failure::Work(format!("{option} needs a pause, and {machine} has no pause command"))
 }

@@ -1,5 +1,5 @@
-//! What is known of a photograph before it is drawn: what a person painted, else what is in the folder of a sight, else what is found.
-//! One place decides, role by role; where no face is found nothing of it is used.
+//! What is known about a photograph before it is drawn. Decided here role by role: a mask given by the user, else one in the
+//! `--sight` folder, else what detection finds. If no face is found, nothing detected is used.
 
 use super::arguments::{Background, PictureOptions, Tone};
 use super::draw::{RoleMask, photograph};
@@ -12,46 +12,46 @@ use crate::source::{Landmarks, MaskRole, Photograph, ToneTarget};
 use crate::style::Style;
 use crate::tone;
 
-/// The word that stands for no sight at all, in the place of a folder.
+/// Value of `--sight` that turns detection off.
 const NOTHING: &str = "none";
 
-/// What a drawing is made of beside the photograph.
+/// The inputs of a drawing other than the photograph.
 pub(super) struct Known {
     pub masks: Vec<RoleMask>,
-    /// The people without the background, where the background is drawn and the tone goes by faces all the same.
+    /// Mask of the people if the background is drawn too; the portrait tone uses it.
     pub people: Option<RoleMask>,
     pub faces: Vec<Landmarks>,
     pub depth: Option<Depth>,
     pub tone: Wanted,
-    /// What was seen and this style has no use for; `stages` shows it.
+    /// What was found but this style does not use; `stages` shows it.
     pub unused: Seen,
-    /// What the user is told of it, and how to have the other.
+    /// Notices about these decisions, each with the option that reverses it.
     pub notices: Vec<String>,
 }
 
 /// A depth map of the photograph.
 pub(super) struct Depth {
-    /// Its file; none when it was found in the photograph.
+    /// Its file; `None` if it was found in the photograph.
     pub file: Option<String>,
     pub map: Photograph,
 }
 
-/// What the ink must match.
+/// The tone that the ink reproduces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wanted {
-    /// The photograph's own light.
+    /// The photograph's own tone.
     Own(ToneTarget),
-    /// A tone made for its faces, by so much.
+    /// The portrait tone, with its strength from 0 to 1.
     Portrait(f64),
 }
 
-/// What somebody or something has seen in the photograph.
+/// What was found in the photograph, or read from a `--sight` folder.
 #[derive(Default)]
 pub(super) struct Seen {
     pub masks: Vec<RoleMask>,
     pub faces: Vec<Landmarks>,
     pub depth: Option<Depth>,
-    /// Why there is no more of it, for a user.
+    /// Why nothing was found, for messages.
     pub lack: Option<String>,
 }
 
@@ -60,7 +60,7 @@ impl Seen {
         Self { lack: Some(lack.to_owned()), ..Self::default() }
     }
 
-    /// What was found, as pictures.
+    /// Converts the detected sight.
     fn found(sight: &Sight) -> Self {
         if sight.faces.is_empty() {
             return Self::nothing("no face found");
@@ -80,7 +80,7 @@ impl Seen {
     }
 }
 
-/// Decides; `painted` are the masks that were given.
+/// Makes the decisions; `painted` are the masks given by the user.
 pub(super) fn of(
     options: &PictureOptions,
     style: &dyn Style,
@@ -114,7 +114,7 @@ pub(super) fn of(
     Ok(known)
 }
 
-/// Looks, or reads what was seen.
+/// Runs detection, or reads the `--sight` folder.
 fn seen(options: &PictureOptions, photograph: &Photograph) -> Result<Seen, Failure> {
     match options.sight.as_deref() {
         Some(NOTHING) => Ok(Seen::nothing("--sight none")),
@@ -126,7 +126,7 @@ fn seen(options: &PictureOptions, photograph: &Photograph) -> Result<Seen, Failu
     }
 }
 
-/// By faces where there are any and nobody says otherwise.
+/// The portrait tone if there are faces, unless `--tone` says otherwise.
 fn wanted_tone(options: &PictureOptions, seen: &Seen) -> Result<Wanted, Failure> {
     let has_faces = !seen.faces.is_empty();
     match options.tone {
@@ -135,7 +135,7 @@ fn wanted_tone(options: &PictureOptions, seen: &Seen) -> Result<Wanted, Failure>
         Some(Tone::Portrait) if !has_faces => {
             let lack = seen.lack.as_deref().unwrap_or("there are no faces in sight.json");
             Err(Failure::Work(format!(
-                "{}: {lack}, so --tone portrait has none to go by; --tone lightness needs none",
+                "{}: {lack}, and --tone portrait needs a face; --tone lightness needs none",
                 options.photo
             )))
         }
@@ -148,7 +148,7 @@ fn depth(options: &PictureOptions) -> Result<Option<Depth>, Failure> {
     options.depth.as_ref().map(|file| Ok(Depth { map: photograph(file)?, file: Some(file.clone()) })).transpose()
 }
 
-/// Whether what is behind the people is drawn.
+/// Decides whether the background is drawn.
 fn decide_background(
     known: &mut Known,
     seen: &mut Seen,
@@ -184,7 +184,7 @@ fn decide_background(
         .unwrap_or_else(|| format!("there is no subject.png in {}", options.sight.as_deref().unwrap_or("the sight's folder")));
     if options.background == Background::None {
         return Err(Failure::Work(format!(
-            "{}: {lack}, so it is not known what --background none leaves out; say it with --mask subject=FILE",
+            "{}: {lack}, so --background none does not know what to leave out; give --mask subject=FILE",
             options.photo
         )));
     }
@@ -198,18 +198,18 @@ fn tell_of_tone(known: &mut Known, options: &PictureOptions) {
     }
 }
 
-/// Painted masks that only a tone made for faces goes by, where there is none.
+/// Adds a notice for each given mask that only the portrait tone uses, if the portrait tone is off.
 fn tell_of_idle_masks(known: &mut Known, style: &dyn Style) {
     if matches!(known.tone, Wanted::Portrait(_)) {
         return;
     }
     let idle = known.masks.iter().filter(|mask| mask.role != MaskRole::Subject && !style.masks().contains(&mask.role));
-    let told = idle.map(|mask| format!("--mask {} changes nothing here: only a tone made for faces goes by it", mask.name()));
+    let told = idle.map(|mask| format!("--mask {} changes nothing here: only the portrait tone uses it", mask.name()));
     let told: Vec<String> = told.collect();
     known.notices.extend(told);
 }
 
-/// What a photograph that could not be looked at means.
+/// The failure for a detection error.
 pub(super) fn failure(photo: &str, error: SeeError) -> Failure {
     match error {
         SeeError::Interrupted(stopped) => stopped.into(),

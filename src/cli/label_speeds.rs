@@ -1,17 +1,17 @@
-//! `+S` in a layer's label is a percentage of one machine's greatest speed; on another it is brought to the same speed.
+//! `+S` in a layer's label is a percentage of one machine's maximum speed; for another machine it is converted to the same speed.
 
 use super::messages::warning;
 use crate::plot::Profile;
 use crate::read::{Imported, LabelSpeeds};
 
-/// Percent of a machine's drawing speed that a label may ask for where it is a percentage of that.
+/// Maximum percentage in a label that is relative to the machine's drawing speed.
 const MOST_PERCENT: f64 = 200.0;
 
-/// Brings the speeds that a drawing's layers ask for to a machine.
+/// Converts the speeds in a drawing's layer labels to a machine.
 ///
-/// What drypoint wrote for a plotter says for which: a layer with that machine's usual speed gets this one's, and one with a speed of
-/// its own keeps it in mm/s. In other files a plotter whose own program reads the label takes it as this program does, and for the
-/// rest it is a percentage of the drawing speed.
+/// A file that drypoint wrote for a plotter names that plotter: a layer at its usual speed gets this machine's usual speed, and a layer
+/// with its own speed keeps it in mm/s. In other files, a plotter whose own program reads labels interprets them as that program
+/// does; for all other plotters the label is a percentage of the drawing speed.
 pub(super) fn fit_to_machine(imported: &mut Imported, profile: &Profile) {
     let written = imported.speeds.clone();
     for layer in &mut imported.layers {
@@ -28,13 +28,13 @@ pub(super) fn fit_to_machine(imported: &mut Imported, profile: &Profile) {
         let fastest = profile.motion.fastest_drawing();
         if asked > fastest {
             let (layer, name) = (&layer.layer.name, &profile.name);
-            warning!("layer '{layer}' asks for {asked:.0} mm/s with its +S, and {name} draws it at {fastest:.0}, its most");
+            warning!("layer '{layer}' asks for {asked:.0} mm/s with its +S; {name} draws it at {fastest:.0}, its maximum");
         }
         layer.layer.handling.speed_percent = Some(100.0 * asked.min(fastest) / profile.motion.draw_speed);
     }
 }
 
-/// Whether a layer has the speed that all layers had on the machine that the file was written for, and this is another one.
+/// True if a layer has the usual speed of the machine that the file was written for, and `profile` is another machine.
 fn is_usual(speeds: &LabelSpeeds, percent: f64, profile: &Profile) -> bool {
     speeds.machine != profile.name && (percent - speeds.usual_percent).abs() < 0.5
 }

@@ -1,19 +1,19 @@
-//! One file, or with `{layer}` in its name one for each layer.
+//! One output file, or with `{layer}` in its name one file per layer.
 
 use crate::drawing::Drawing;
 
-/// Stands for the layer in the names of outputs and previews.
+/// Placeholder for the layer in names of outputs and previews.
 const PLACEHOLDER: &str = "{layer}";
 
 /// A file and what it holds.
 pub(super) struct LayerFile {
     pub name: String,
-    /// What stands for `{layer}` in the preview's name too.
+    /// Replaces `{layer}` in the names of the output and the preview.
     pub layer: String,
     pub drawing: Drawing,
 }
 
-/// The whole drawing, or with `{layer}` in the name one drawing for each layer.
+/// The whole drawing, or with `{layer}` in the name one drawing per layer.
 pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<LayerFile> {
     if !output.contains(PLACEHOLDER) {
         // A preview may still be named after the first layer.
@@ -23,7 +23,7 @@ pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<LayerFile> 
     let mut files: Vec<LayerFile> = Vec::new();
     for layer in &drawing.layers {
         let plain = file_part(&layer.name);
-        // Layers of one name, or of names that a file cannot tell apart, do not overwrite each other.
+        // Layers whose names give the same file name must not overwrite each other.
         let numbered = (2..).map(|n| format!("{plain}-{n}"));
         let is_free = |part: &String| files.iter().all(|file| file.layer != *part);
         let part = std::iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);
@@ -33,13 +33,13 @@ pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<LayerFile> 
     files
 }
 
-/// A layer's name as a part of a file's: never a way to another folder.
+/// A layer's name as part of a file name; it never leads to another folder.
 fn file_part(name: &str) -> String {
     let part: String = name.chars().map(|c| if c == '/' || c == '\\' || c.is_control() { '_' } else { c }).collect();
     if part.is_empty() || part.starts_with('.') { format!("_{part}") } else { part }
 }
 
-/// The files, for a summary.
+/// The file names, for a summary.
 pub(super) fn names(files: &[LayerFile]) -> String {
     files.iter().map(|file| file.name.as_str()).collect::<Vec<_>>().join(", ")
 }

@@ -1,4 +1,4 @@
-//! Sheets and boxes: where the picture lies on the page.
+//! Sheets and boxes: the position of the picture on the page.
 
 use super::arguments::{Fit, PictureOptions, PlacingOptions};
 use super::failure::Failure;
@@ -21,11 +21,11 @@ const SHEETS: [(&str, f64, f64); 10] = [
     ("tabloid", 279.4, 431.8),
 ];
 
-/// The box of a picture without a sheet.
+/// Default box of a picture without a sheet, in millimetres.
 const USUAL_BOX: (f64, f64) = (90.0, 120.0);
 /// Least side of a picture, in millimetres.
 const LEAST_SIDE: f64 = 0.5;
-/// Margin kept on a named sheet.
+/// Default margin with `--page`, in millimetres.
 const USUAL_MARGIN: f64 = 10.0;
 
 /// A sheet by name or size.
@@ -53,17 +53,17 @@ pub(super) fn sheet(text: &str) -> Result<(f64, f64), Failure> {
 /// The page, the picture's box on it and the part of the photograph that fills it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// The sheet as it lies before the style, upright.
+    /// The sheet before turning, as the style sees it.
     pub page: Page,
     /// The picture on the upright sheet.
     pub picture: Rect,
     pub crop: Crop,
-    /// What is done with sheet and picture when it is drawn.
+    /// How sheet and picture are turned and mirrored when drawn.
     pub turning: Turning,
 }
 
 impl Layout {
-    /// Width and height of the sheet, turned.
+    /// Width and height of the turned sheet.
     pub(super) const fn sheet(&self) -> (f64, f64) {
         self.turning.size((self.page.width, self.page.height))
     }
@@ -74,7 +74,7 @@ impl Layout {
     }
 }
 
-/// Lays the picture out; `reach` is what a machine can draw of a page, which bounds the box that nobody chose.
+/// Lays the picture out. `reach` gives the part of a page that a machine can draw; it limits the default box.
 pub(super) fn lay_out(
     options: &PictureOptions,
     placing: &PlacingOptions,
@@ -94,12 +94,12 @@ pub(super) fn lay_out(
 /// The sheet that the turned picture lies on.
 struct Sheet {
     turning: Turning,
-    /// The turned sheet, where one was asked for.
+    /// The turned sheet, if `--page` is given.
     page: Option<Page>,
     margin: f64,
-    /// What the machine draws of it.
+    /// The part of the sheet that the machine reaches.
     reached: Rect,
-    /// What the margin leaves of that.
+    /// The part of `reached` inside the margin.
     free: Rect,
 }
 
@@ -112,12 +112,12 @@ impl Sheet {
     ) -> Result<Self, Failure> {
         let page = options.page.as_deref().map(sheet).transpose()?.map(|(width, height)| Page::new(width, height));
         if page.is_none() && placing.at.is_some() {
-            return Err(Failure::Usage("--at is a place on a sheet: give one with --page".to_owned()));
+            return Err(Failure::Usage("--at is a position on a sheet; give the sheet with --page".to_owned()));
         }
         let margin = options.margin.unwrap_or(if page.is_some() { USUAL_MARGIN } else { 0.0 });
         let rect = page.map_or(Rect::ZERO, |page| page.rect());
         let reached = page.and_then(|page| reach(&page)).map_or(rect, |reach| rect.intersect(reach));
-        // What the machine cannot reach is margin too.
+        // The part that the machine cannot reach counts as margin.
         let free = Rect { x0: margin, y0: margin, x1: rect.x1 - margin, y1: rect.y1 - margin };
         let free = Rect {
             x0: free.x0.max(reached.x0),
@@ -172,8 +172,8 @@ impl Sheet {
         Ok(Layout { page: upright, picture, crop, turning: self.turning })
     }
 
-    /// The turned picture's box on the sheet: where it was asked for, else in the middle of what is free, and where the machine
-    /// reaches it, if it can.
+    /// The turned picture's box on the sheet: at the position given, else in the middle of the free part, moved within the machine's
+    /// reach if it fits.
     fn place(&self, placing: &PlacingOptions, size: (f64, f64), page: &Page) -> Rect {
         if self.page.is_none() {
             return Rect::from_center_size(page.rect().center(), size);
@@ -184,7 +184,7 @@ impl Sheet {
     }
 }
 
-/// What to say when a box that was asked for stays empty by more than a twentieth of a side.
+/// A notice if the picture leaves more than a twentieth of a side of its `--size` box empty.
 pub(super) fn unfilled(options: &PictureOptions, layout: &Layout) -> Option<String> {
     let (width, height) = options.size.filter(|_| options.fit == Fit::Contain)?;
     let picture = layout.picture;

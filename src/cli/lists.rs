@@ -10,7 +10,7 @@ use crate::tone::ROLES;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The roles of masks that a style takes, or the tone that it draws, with their names.
+/// The mask roles that a style or the portrait tone takes, with their names.
 pub(super) fn roles_of(style: &dyn Style) -> impl Iterator<Item = (&'static str, MaskRole)> {
     MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role) || ROLES.contains(role))
 }
@@ -28,8 +28,8 @@ pub(super) fn styles_with_role(name: &str) -> impl Iterator<Item = &'static dyn 
 pub(super) fn mask_roles() -> String {
     let styles: Vec<String> = STYLES.iter().map(|style| format!("{} takes {}", style.name(), role_names(*style))).collect();
     format!(
-        "A region, white inside, of the photograph's proportions, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
-         --mask hair=hair.png; once for each role. Of the styles, {}; `drypoint styles NAME` says what each role is",
+        "A mask, white inside, with the photograph's proportions, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
+         --mask hair=hair.png; once per role. Of the styles, {}; `drypoint styles NAME` explains each role",
         styles.join("; ")
     )
 }

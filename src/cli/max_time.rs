@@ -1,4 +1,4 @@
-//! `--max-time`: the smallest pitch whose plot takes no longer, found by drawing and timing.
+//! `draw --max-time`: the smallest pitch whose plot takes no longer, found by trial drawings.
 
 use super::advice;
 use super::arguments::{DrawOptions, Order};
@@ -14,22 +14,22 @@ use super::toolpaths::{self, duration};
 use crate::plot::{InkModel, Job, Profile, lower};
 use crate::style::{Observer, Picture};
 
-/// Share of the time allowed that is near enough: the last trials would gain a pitch that no eye tells apart.
+/// Fraction of the allowed time that is near enough: further trials would not change the pitch visibly.
 const NEAR_ENOUGH: f64 = 0.97;
-/// Drawings made at most; each about halves what is not known of the pitch.
+/// Maximum number of trial drawings; each about halves the bracket of the pitch.
 const MOST_TRIALS: usize = 12;
 
-/// A pitch in millimetres and the plotting time that it gives, in seconds.
+/// A pitch in millimetres and its plotting time in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Trial {
     pitch: f64,
     seconds: f64,
 }
 
-/// The options with the smallest pitch, from the one asked for upwards, whose plot takes at most `limit` seconds.
+/// The options with the smallest pitch, not below the requested one, whose plot takes at most `limit` seconds.
 pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, Failure> {
     if options.picture.photo == "-" {
-        return Err(Failure::Usage("--max-time draws several times: give the photograph as a file, not as -".to_owned()));
+        return Err(Failure::Usage("--max-time draws several times; give the photograph as a file, not as -".to_owned()));
     }
     let mut trials = Trials::new(options)?;
     let (start, most) = (trials.task.settings.number("pitch"), trials.task.sane_pitch());
@@ -41,20 +41,20 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
         let smaller = trials.smaller_size(last.pitch, last.seconds, limit);
         let smaller = smaller.unwrap_or_else(|| "a smaller --size on the same --page".to_owned());
         Failure::Work(format!(
-            "--max-time {}: even with --pitch {}mm, beyond which nothing is left of the picture, the plot takes {}; {smaller} would take less",
+            "--max-time {}: even with --pitch {}mm, the coarsest that keeps the picture recognisable, the plot takes {}; {smaller} would take less",
             duration(limit),
             last.pitch,
             duration(last.seconds)
         ))
     })?;
     if !options.reporting.quiet {
-        let why = if chosen.pitch > start { "chosen" } else { "as asked for" };
+        let why = if chosen.pitch > start { "chosen" } else { "as requested" };
         say!("pitch {} mm ({why}): about {} of {}", chosen.pitch, duration(chosen.seconds), duration(limit));
     }
     Ok(with_pitch(options, chosen.pitch))
 }
 
-/// Says so when a finished plot takes longer than its trial, which is ordered by another way, promised.
+/// Warns if the finished plot takes longer than the limit. Its trial was shorter because it was ordered differently.
 pub(super) fn warn_if_longer(jobs: &[Job<'_>], limit: Option<f64>) {
     let seconds: f64 = jobs.iter().filter_map(|job| job.report().total.seconds).sum();
     if let Some(limit) = limit.filter(|limit| seconds > *limit) {
@@ -62,13 +62,13 @@ pub(super) fn warn_if_longer(jobs: &[Job<'_>], limit: Option<f64>) {
     }
 }
 
-/// Thousandths of a millimetre, upwards, so that the pitch that is named is the pitch that was drawn.
+/// Rounds up to thousandths of a millimetre, so that the reported pitch is exactly the pitch drawn.
 fn rounded(pitch: f64) -> f64 {
     (pitch * 1000.0 - 1e-6).ceil() / 1000.0
 }
 
-/// The smallest pitch that keeps to the limit, or the trial of the greatest if none does: brackets it, then narrows the bracket
-/// on the power law between its ends.
+/// The smallest pitch within the limit, or as an error the trial of the largest pitch if none is. Brackets the pitch, then narrows
+/// the bracket by a power law through its ends.
 fn search(
     start: f64,
     most: f64,
@@ -83,7 +83,7 @@ fn search(
     let mut high = None;
     for _ in 1..MOST_TRIALS {
         let Some(fits) = high else {
-            // Dots and lines thin out with the square of the pitch at most, so that the guess is a lower one: a little more.
+            // Time falls at most with the square of the pitch, so this guess is a lower bound; go a little beyond it.
             let next = at(rounded(1.05 * low.pitch * (low.seconds / limit).sqrt()).min(most))?;
             if next.seconds <= limit {
                 high = Some(next);
@@ -111,7 +111,7 @@ fn with_pitch(options: &DrawOptions, pitch: f64) -> DrawOptions {
     options
 }
 
-/// Drawings of several pitches, timed.
+/// Trial drawings at several pitches.
 struct Trials<'a> {
     options: &'a DrawOptions,
     task: Task<'a>,
@@ -128,7 +128,7 @@ impl<'a> Trials<'a> {
         Ok(Self { options, task, profile, pens })
     }
 
-    /// How long the plot with this pitch takes: drawn and ordered fast, or in a dry run estimated.
+    /// Plotting time with this pitch in seconds: drawn and ordered fast, or in a dry run estimated.
     fn seconds_at(&mut self, pitch: f64) -> Result<f64, Failure> {
         if self.options.dry_run {
             return self.estimate(pitch, Care::Quick);
@@ -152,7 +152,7 @@ impl<'a> Trials<'a> {
         Ok(self.teller().foretell(&plan, care)?.amounts.plot_seconds())
     }
 
-    /// What was found by quick estimates, put right by a careful one.
+    /// Corrects a pitch found by quick estimates with a careful one.
     fn carefully(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
         let careful = self.estimate(quick.pitch, Care::Careful)?;
         let start = self.task.settings.number("pitch");
@@ -163,7 +163,7 @@ impl<'a> Trials<'a> {
         search(start, most, NEAR_ENOUGH * limit, |pitch| Ok(ratio * self.estimate(pitch, Care::Quick)?))
     }
 
-    /// The size that keeps to the limit with a pitch, where there is one.
+    /// The size that keeps to the limit with a pitch, if there is one.
     fn smaller_size(&mut self, pitch: f64, seconds: f64, limit: f64) -> Option<String> {
         self.task.settings = self.task.settings_at(pitch)?;
         smaller_size(&mut self.teller(), seconds, limit)
@@ -174,7 +174,7 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Trials are not shown, but can be interrupted.
+/// Observes a trial: shows nothing, can be interrupted.
 struct Unseen;
 
 impl Observer for Unseen {
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn the_pitch_found_keeps_to_the_limit_and_is_near_it() {
-        // Time as a style of dots and as one of lines would have it, with steps where a row of dots falls out.
+        // Times like those of a style of dots and of a style of lines, with a ripple like that of a row of dots dropping out.
         for power in [2.0, 1.3, 1.0] {
             for limit in [3600.0, 7200.0, 30_000.0] {
                 let time = |pitch: f64| Ok(40_000.0 * (0.7 / pitch).powf(power) + 40.0 * (pitch * 37.0).sin());

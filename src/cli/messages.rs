@@ -1,16 +1,16 @@
-//! What is said on stderr, and the warnings kept for `--json`. A stderr that is full or closed changes nothing of the work.
+//! Messages on stderr, and the warnings kept for `--json`. Errors while writing to stderr are ignored.
 
 use std::io::{self, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static WARNED: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
-/// One line for the user.
+/// Prints one line for the user.
 macro_rules! say {
     ($($part:tt)*) => { $crate::cli::messages::line(&format!($($part)*)) };
 }
 
-/// One line that the user should see whatever was asked for.
+/// Prints a warning, even with `--quiet`.
 macro_rules! warning {
     ($($part:tt)*) => { $crate::cli::messages::warning_line(&format!($($part)*)) };
 }
@@ -21,7 +21,7 @@ pub(super) fn line(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// Warns, once of each thing: a search for a pitch draws again and again.
+/// Prints each warning once: a search for a pitch draws repeatedly.
 pub(super) fn warning_line(text: &str) {
     let mut warned = warned();
     if !warned.iter().any(|known| known == text) {
@@ -30,7 +30,7 @@ pub(super) fn warning_line(text: &str) {
     }
 }
 
-/// All that was warned of, in order.
+/// All warnings so far, in order.
 pub(super) fn warnings() -> Vec<String> {
     warned().clone()
 }

@@ -1,4 +1,4 @@
-//! The command line: the only place with files, stdout, progress and exit codes.
+//! The command line. Only this module opens files, writes to stdout, shows progress and sets exit codes.
 
 mod advice;
 mod affordable;
@@ -49,7 +49,8 @@ use std::process::ExitCode;
 
 /// Runs the command with the process's arguments.
 ///
-/// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted, 143 terminated. A closed pipe ends quietly.
+/// Exit status: 0 success, 1 the work failed, 2 the command line is wrong, 130 interrupted, 143 terminated. A closed pipe ends the
+/// process quietly with status 0.
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -68,7 +69,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// How many pens the text of a `--pens` file holds, or what is wrong with it; open for tests that try any text.
+/// Number of pens in the text of a `--pens` file, or the error message. Public only for tests and fuzzing.
 #[doc(hidden)]
 pub fn count_pens(text: &str) -> Result<usize, String> {
     pen_file::read_pens("pens.toml", text).map(|pens| pens.len()).map_err(|failure| failure.to_string())
@@ -98,7 +99,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// One page with every subcommand after the main one.
+/// Writes one manual page: the main command, then every subcommand.
 fn manual(text: &mut Vec<u8>) -> std::io::Result<()> {
     let command = Arguments::command();
     clap_mangen::Man::new(command.clone()).render(text)?;

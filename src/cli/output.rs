@@ -1,4 +1,4 @@
-//! Files appear whole or not at all.
+//! Reading inputs, and writing files atomically: an output appears whole or not at all.
 
 use super::claims;
 use super::failure::Failure;
@@ -7,19 +7,19 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Bytes of a TOML file beyond which it is not read: 2000 keys, where a machine's profile has 50. Each key's line is found from the
-/// file's start.
+/// Maximum size of a TOML file in bytes: about 2000 keys; a machine's profile has 50. Limited because the search for each key's line
+/// starts at the beginning of the file.
 const MOST_SETTINGS: u64 = 1 << 16;
 
-/// The bytes of a file, or of stdin for `-`, if there are no more than `most`; what never ends is not read to the end. `advice`
-/// goes behind the refusal.
+/// The bytes of a file, or of stdin for `-`, at most `most`; endless input is refused, not read on. `advice` is appended to the
+/// refusal.
 pub(super) fn read(name: &str, most: u64, advice: &str) -> Result<Vec<u8>, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
     let mut bytes = Vec::new();
     let taken = open(name)?.take(most.saturating_add(1)).read_to_end(&mut bytes);
     taken.map_err(|error| Failure::Work(format!("{shown} cannot be read: {error}")))?;
     if bytes.len() as u64 > most {
-        return Err(Failure::Work(format!("{shown} is longer than {most} bytes, the most that is read of it{advice}")));
+        return Err(Failure::Work(format!("{shown} is longer than {most} bytes, the maximum for this file{advice}")));
     }
     Ok(bytes)
 }
@@ -50,8 +50,7 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
     Ok(Box::new(file))
 }
 
-/// Writes a file by way of a temporary one beside it; `-` is stdout, and what is no regular file (a device, a pipe) is written in
-/// place.
+/// Writes a file through a temporary one beside it. `-` is stdout; devices and pipes are written in place.
 pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     claims::is_no_input(name)?;
     if name == "-" {
@@ -69,7 +68,7 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
             let mut out = io::BufWriter::new(file);
             return fill(&mut out).and_then(|()| out.flush()).map_err(fail);
         }
-        // A file that may not be written is not replaced behind its owner's back.
+        // A rename would replace a read-only file; respect its permissions.
         Ok(found) if found.permissions().readonly() => return Err(fail(io::ErrorKind::PermissionDenied.into())),
         Ok(found) => replaced = Some(found.permissions()),
         Err(_) => {}
@@ -86,13 +85,13 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     temporary.replace(path).map_err(fail)
 }
 
-/// What a chain of symbolic links leads to, whether it exists or not: the link stays, its target is replaced.
+/// The target of a chain of symbolic links, existing or not: writing replaces the target and keeps the links.
 pub(super) fn follow_links(path: &Path) -> PathBuf {
     let mut path = path.to_path_buf();
     for _ in 0..40 {
         let Ok(target) = fs::read_link(&path) else { break };
         let next = path.parent().unwrap_or(Path::new("")).join(target);
-        // An open pipe or socket (`/dev/stdout`) names no file; the link itself is what can be opened.
+        // The link of an open pipe or socket (`/dev/stdout`) does not lead to a file; open the link itself.
         if fs::metadata(&path).is_ok() && fs::symlink_metadata(&next).is_err() {
             break;
         }
@@ -101,7 +100,7 @@ pub(super) fn follow_links(path: &Path) -> PathBuf {
     path
 }
 
-/// The only date that may get into a file: seconds since 1970 from `SOURCE_DATE_EPOCH`.
+/// Seconds since 1970 from `SOURCE_DATE_EPOCH`, the only date ever written to a file.
 pub(super) fn source_date() -> Result<Option<u64>, Failure> {
     match std::env::var_os("SOURCE_DATE_EPOCH").filter(|text| !text.is_empty()) {
         None => Ok(None),

@@ -1,26 +1,26 @@
-//! What was seen, drawn over the photograph, to look at.
+//! The overlay: what was found, drawn over the photograph.
 
 use crate::geometry::{Point, Rect, resample};
 use crate::raster::Raster;
 use crate::source::{Crop, Landmarks, Photograph, SourceError, outlines};
 use image::{Rgb, RgbImage};
 
-/// Longer side of the overlay, at most: enough for eyes, and no burden for viewers.
+/// Maximum longer side of the overlay, in pixels: enough detail for eyes, and small enough for any viewer.
 const LONGEST: f64 = 1600.0;
-/// The colour that lies over what is not subject, and how much of the photograph shows through it.
+/// The colour laid over the background, and the fraction of the photograph that shows through.
 const BACKGROUND: [f32; 3] = [20.0, 160.0, 60.0];
 const SHOWS: f32 = 0.25;
-/// Half the width of a line, in longer sides of the overlay.
+/// Half the width of a line, as a fraction of the overlay's longer side.
 const LINE: f64 = 0.0008;
 
 /// A face to draw.
 pub(super) struct Overlaid<'a> {
     pub landmarks: &'a Landmarks,
-    /// The detector's box, where it is known.
+    /// The detector's box, if known.
     pub bounds: Option<Rect>,
 }
 
-/// The photograph with its background veiled and the lines of each face; `subject` is 255 inside and of the photograph's proportions.
+/// The photograph with a tinted background and the lines of each face. `subject` is 255 inside and has the photograph's proportions.
 pub(super) fn overlay(
     photograph: &Photograph,
     subject: Option<&Raster<u8>>,
@@ -78,7 +78,7 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Overlaid<'_>, scale: f64) {
     draw_line(pixels, &corners, scale, [255, 255, 255]);
 }
 
-/// A line of the photograph's pixels.
+/// Draws a line given in pixels of the photograph.
 fn draw_line(pixels: &mut Raster<[u8; 3]>, line: &[Point], scale: f64, colour: [u8; 3]) {
     let half = (LINE * pixels.width().max(pixels.height()) as f64).max(0.5);
     let line: Vec<Point> = line.iter().map(|p| (p.to_vec2() * scale).to_point()).collect();

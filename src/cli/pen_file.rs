@@ -1,4 +1,4 @@
-//! The file of `--pens`: one table for each pen.
+//! The file of `--pens`: one table per pen.
 
 use super::arguments::NIBS;
 use super::failure::Failure;
@@ -6,7 +6,7 @@ use crate::drawing::Colour;
 use crate::geometry::parse_length;
 use toml::de::{DeTable, DeValue};
 
-/// A file that works as it is, with every key explained; `drypoint profiles --pens-example` prints it.
+/// A working example with every key explained; `drypoint profiles --pens-example` prints it.
 pub(super) const EXAMPLE: &str = r##"# Pens for drypoint: one table for each.
 #
 # A table is named after the layer that its pen draws, or after the pen's number ([1], [2], ...). A layer that no table
@@ -26,7 +26,7 @@ speed = 30          # mm/s with the pen down; without it the machine's, or --spe
 # offset = [0, 0]   # how far its ink lies off, in mm along the machine's x and y: see docs/calibration.md
 "##;
 
-/// The keys of a pen and what each takes.
+/// The keys of a pen and the values that each takes.
 const KEYS: [(&str, &str); 6] = [
     ("width", "a length from 0.01 to 20 mm, such as \"0.3mm\" or 0.3"),
     ("slot", "a whole number from 1, such as 2"),
@@ -49,7 +49,7 @@ pub(super) struct PenEntry {
     pub offset: Option<[f64; 2]>,
 }
 
-/// Reads the file's text; `file` stands in messages.
+/// Reads the file's text; `file` is its name in messages.
 pub(super) fn read_pens(file: &str, text: &str) -> Result<Vec<PenEntry>, Failure> {
     let syntax = |error: toml::de::Error| {
         let line = error.span().map_or(1, |span| line_of(text, span.start));
@@ -79,11 +79,11 @@ impl Reader<'_> {
                 return Err(self.refuse(
                     name,
                     None,
-                    &format!("'{name}' is a list: each pen is a table of its own, such as [black]"),
+                    &format!("'{name}' is a list; each pen is a table of its own, such as [black]"),
                 ));
             }
             _ => {
-                let problem = format!("'{name}' stands outside of a pen: put the pen's table before it, such as [black]");
+                let problem = format!("'{name}' is outside any pen; put it under a pen's table, such as [black]");
                 return Err(self.refuse(name, None, &problem));
             }
         };
@@ -124,7 +124,7 @@ impl Reader<'_> {
         let known = KEYS.map(|(known, _)| known).join(", ");
         let problem = if value.is_table() {
             format!(
-                "[{name}.{key}] is a table within a table: a pen is named in one word, as in [{key}], or in quotes, as in [\"two words\"]"
+                "[{name}.{key}] is a table within a table; name a pen in one word, as in [{key}], or in quotes, as in [\"two words\"]"
             )
         } else {
             format!("[{name}] has no key '{key}'; it takes {known}")
@@ -132,7 +132,7 @@ impl Reader<'_> {
         self.refuse(name, Some(key), &problem)
     }
 
-    /// A fault at a pen's table, or at one of its keys.
+    /// An error with the line of a pen's table or of one of its keys.
     fn refuse(&self, name: &str, key: Option<&str>, problem: &str) -> Failure {
         let found = self.spans.iter().find(|(known, _)| *known.get_ref() == *name);
         let start = found.map_or(0, |(known, table)| {
@@ -143,11 +143,11 @@ impl Reader<'_> {
             inner.unwrap_or(known.span().start)
         });
         let (file, line) = (self.file, line_of(self.text, start));
-        Failure::Work(format!("{file}, line {line}: {problem} (drypoint profiles --pens-example prints a file that works)"))
+        Failure::Work(format!("{file}, line {line}: {problem} (drypoint profiles --pens-example prints a working file)"))
     }
 }
 
-/// Sets a value if there is one; whether there was.
+/// Sets `place` to `value`; returns true if there is a value.
 fn set<T>(place: &mut Option<T>, value: Option<T>) -> bool {
     let is_given = value.is_some();
     *place = value;
@@ -185,7 +185,7 @@ mod tests {
         for (key, _) in KEYS {
             assert!(EXAMPLE.contains(&format!("{key} = ")), "{key}");
         }
-        // What stands there as a comment works too.
+        // The keys that are commented out work too.
         let whole = EXAMPLE.replace("# dwell", "dwell").replace("# offset", "offset");
         assert_eq!(read_pens("example", &whole).unwrap()[1].dwell, Some(0.1));
     }
@@ -199,7 +199,7 @@ mod tests {
             ("[a]\nwidht = 0.3\n", "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, offset"),
             ("[pen.1]\nwidth = 0.3\n", "line 1: [pen.1] is a table within a table"),
             ("[[pen]]\nwidth = 0.3\n", "line 1: 'pen' is a list"),
-            ("slot = 1\n", "line 1: 'slot' stands outside of a pen"),
+            ("slot = 1\n", "line 1: 'slot' is outside any pen"),
             ("[a]\ncolour = \"purplish\"\n", "[a] colour takes a CSS colour"),
             ("[a]\nspeed = -1\n", "[a] speed takes mm/s above 0"),
             ("[a]\noffset = [1, 2]\n", "line 2: [a] needs a slot for its offset"),

@@ -1,13 +1,13 @@
-//! `--pens`: what is in each holder, and which layer or colour it draws.
+//! `--pens`: the pen in each holder, and the layer or colour that it draws.
 //!
 //! ```toml
 //! [dots]              # a layer's name, or its pen's number
 //! width = "0.3mm"     # of the nib
 //! slot = 2            # where the machine holds it
-//! colour = "navy"     # for previews; layers that no entry names go to the entry of the nearest colour
+//! colour = "navy"     # for previews; layers without an entry go to the entry with the nearest colour
 //! speed = 30          # mm/s
-//! dwell = 0.1         # seconds that a touch rests
-//! offset = [0.1, 0]   # how far its ink lies off, mm along the machine's axes
+//! dwell = 0.1         # seconds that the pen rests on a touch
+//! offset = [0.1, 0]   # offset of its ink, mm along the machine's axes
 //! ```
 
 use super::failure::Failure;
@@ -19,7 +19,7 @@ use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
 use crate::plot::{Nibs, PenSlot, Profile};
 use std::collections::BTreeMap;
 
-/// What `--pens` says, and what holds for pens that it does not name.
+/// The entries of `--pens`, and defaults for all other pens.
 #[derive(Debug)]
 pub(super) struct PenSet {
     entries: Vec<PenEntry>,
@@ -32,14 +32,14 @@ impl PenEntry {
         self.key == layer.name || self.key == layer.pen.to_string()
     }
 
-    /// Its slot, where that does not depend on the layer.
+    /// Its slot, if that does not depend on the layer.
     fn fixed_slot(&self) -> Option<u32> {
         self.slot.or_else(|| self.key.parse().ok())
     }
 }
 
 impl PenSet {
-    /// Reads `--pens`; `usual` is the nib of pens that it does not name. Calibrated offsets go into the profile.
+    /// Reads `--pens`; `usual` is the nib width of other pens. Calibrated offsets are set in the profile.
     pub(super) fn read(file: Option<&str>, usual: f64, profile: Option<&mut Profile>) -> Result<Self, Failure> {
         let mut set = Self { entries: Vec::new(), nibs: Nibs::all(usual), dwell: BTreeMap::new() };
         set.nibs.swell = profile.as_ref().and_then(|profile| profile.swell.clone());
@@ -57,8 +57,8 @@ impl PenSet {
         Ok(set)
     }
 
-    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, what the machine has, and says which
-    /// colours became one. Returns the marks in the order in which they were painted before they were sorted by pens.
+    /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, the machine's pens, with a warning
+    /// that names merged colours. Returns the marks in the painting order from before they were sorted by pens.
     pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
         let handed = self.hand_out(drawing, profile)?;
         if profile.is_some() {
@@ -68,7 +68,7 @@ impl PenSet {
         Ok(handed.painting)
     }
 
-    /// The same without a word about colours, for drawings that nobody gets to see.
+    /// The same without warnings, for trial drawings.
     pub(super) fn hand_out(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<HandedOut, Failure> {
         let painting = self.sort_by_colour(drawing);
         for entry in &self.entries {
@@ -88,17 +88,17 @@ impl PenSet {
         Ok(fitted.unwrap_or(HandedOut { painting, became_one: None }))
     }
 
-    /// Nibs by pen; a pen of which only the slot was told has the usual one.
+    /// Nib widths by pen; the default for pens without a width.
     pub(super) const fn nibs(&self) -> &Nibs {
         &self.nibs
     }
 
-    /// How long touches rest, for the pens of which it was told: seconds by pen.
+    /// Dwell of touches in seconds, for the pens that have one.
     pub(super) const fn dwell(&self) -> &BTreeMap<u32, f64> {
         &self.dwell
     }
 
-    /// Marks of layers that no entry names go to layers of the nearest colour's entry. Returns the order in which they were painted.
+    /// Moves marks of layers without an entry to the layer of the entry with the nearest colour. Returns the painting order.
     fn sort_by_colour(&self, drawing: &mut Drawing) -> Vec<Painted> {
         let palette: Vec<(&PenEntry, Colour)> = self.entries.iter().filter_map(|entry| Some((entry, entry.colour?))).collect();
         if palette.is_empty() {
@@ -156,7 +156,7 @@ impl PenEntry {
             let percent = 100.0 * speed / profile.motion.draw_speed;
             if !(1.0..=200.0).contains(&percent) {
                 return Err(Failure::Usage(format!(
-                    "--pens gives '{}' {speed} mm/s, and the machine draws at {} mm/s: it must be from 1 to 200 % of that; see --speed",
+                    "--pens gives '{}' {speed} mm/s, and the machine draws at {} mm/s; it must be from 1 to 200 % of that; see --speed",
                     self.key, profile.motion.draw_speed
                 )));
             }

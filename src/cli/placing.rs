@@ -1,19 +1,19 @@
-//! Where a drawing lies on its sheet: mirrored, turned, moved; the same for `draw` and `plot`.
+//! Position of a drawing on its sheet: mirrored, turned, moved. Shared by `draw` and `plot`.
 
 use super::arguments::{PlacingOptions, Rotate};
 use crate::drawing::{Drawing, Page};
 use crate::geometry::{Affine, Rect, Vec2};
 
-/// How a page is turned, and whether it is mirrored before.
+/// Rotation of a page, and whether it is mirrored first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turning {
-    /// Clockwise: 0, 90, 180 or 270.
+    /// Clockwise rotation: 0, 90, 180 or 270.
     pub degrees: u32,
     pub is_mirrored: bool,
 }
 
 impl Turning {
-    /// What is asked for; `quarter_helps` answers `--rotate auto`.
+    /// The turning given by the options; `quarter_helps` decides `--rotate auto`.
     pub(super) fn asked(options: &PlacingOptions, quarter_helps: impl FnOnce() -> bool) -> Self {
         let degrees = match options.rotate {
             Rotate::None => 0,
@@ -25,12 +25,12 @@ impl Turning {
         Self { degrees, is_mirrored: options.mirror }
     }
 
-    /// Width and height of what is turned.
+    /// Width and height after turning.
     pub(super) const fn size(self, (width, height): (f64, f64)) -> (f64, f64) {
         if self.degrees % 180 == 90 { (height, width) } else { (width, height) }
     }
 
-    /// From an upright page to the turned one, whose upper left corner is the origin again.
+    /// Transform from the upright page to the turned one; the origin of both is the upper left corner.
     pub(super) fn matrix(self, upright: &Page) -> Affine {
         let Page { width, height, .. } = *upright;
         let mirrored = if self.is_mirrored { Affine::new([-1.0, 0.0, 0.0, 1.0, width, 0.0]) } else { Affine::IDENTITY };
@@ -43,7 +43,7 @@ impl Turning {
         turned * mirrored
     }
 
-    /// The drawing with its page.
+    /// The drawing, turned together with its page.
     pub(super) fn turned(self, drawing: Drawing) -> Drawing {
         if self == Self::default() {
             return drawing;
@@ -54,7 +54,7 @@ impl Turning {
     }
 }
 
-/// How far a box is moved by `--at` or `--center`; `reach` is what the machine draws of the page.
+/// The move of a box by `--at` or `--center`; `reach` is the part of the page that the machine reaches.
 pub(super) fn asked_move(options: &PlacingOptions, drawn: Rect, page: &Page, reach: Option<Rect>) -> Vec2 {
     if let Some((x, y)) = options.at {
         return Vec2::new(x, y) - drawn.origin().to_vec2();
@@ -66,7 +66,7 @@ pub(super) fn asked_move(options: &PlacingOptions, drawn: Rect, page: &Page, rea
     centring + move_inside(drawn + centring, reach.map_or(page.rect(), |reach| reach.intersect(page.rect())))
 }
 
-/// The shortest way that brings a box inside another; what is too large for it comes to its middle, where least stands out.
+/// The shortest move that brings a box inside another. Along an axis where it is too large, it is centred.
 pub(super) fn move_inside(inner: Rect, outer: Rect) -> Vec2 {
     let along = |low: f64, high: f64, least: f64, most: f64| {
         if high - low > most - least {

@@ -1,4 +1,4 @@
-//! `drypoint plot`: any SVG to ordered tool paths.
+//! `drypoint plot`: turns any SVG into ordered tool paths.
 
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions};
 pub(super) use super::draw::reach_of;
@@ -22,8 +22,8 @@ use crate::style::Observer as _;
 use crate::write::SvgHead;
 use serde_json::json;
 
-/// How more of a file is read.
-pub(super) const MORE_WORK: &str = "; --most-work lifts it";
+/// Advice for a file that exceeds the work limit.
+pub(super) const MORE_WORK: &str = "; --most-work raises it";
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let format = toolpaths::format_of(&options.output, options.format)?;
@@ -53,7 +53,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     }
     let model = ink_model(options, &imported);
     let hides = options.occlude.then(|| hides(model));
-    // Pens are given when all marks are known to be drawn; the usual one is near enough for what they will cost.
+    // Pens are assigned only when all marks are known; the default nib is good enough to estimate the work.
     check_work(&imported.drawing(), model, pens.nibs(), hides, interrupt()).map_err(|error| too_much(shown, &error))?;
     if options.dry_run {
         return foretell_plot::dry_run(&imported, options, model, profile.as_ref(), &mut pens, shown);
@@ -132,7 +132,7 @@ fn report(
     Ok(())
 }
 
-/// Whether nothing of a drawing would be drawn.
+/// True if a drawing has no marks that would be drawn.
 fn is_blank(drawing: &Drawing, model: InkModel) -> bool {
     !drawing.marks().any(|mark| model == InkModel::Ink || matches!(mark, Mark::Stroke(_)))
 }
@@ -153,7 +153,7 @@ fn too_much(shown: &str, error: &TooMuch) -> Failure {
     }
 }
 
-/// What the painting order hides is not drawn.
+/// Removes what later marks in the painting order hide.
 fn leave_out_hidden(imported: &mut Imported, hides: Hides) -> Result<(), Failure> {
     let seen = occluded(&imported.drawing(), &imported.painting, hides, interrupt())?;
     for (layer, seen) in imported.layers.iter_mut().zip(seen.layers) {
@@ -162,7 +162,7 @@ fn leave_out_hidden(imported: &mut Imported, hides: Hides) -> Result<(), Failure
     Ok(())
 }
 
-/// What hides what: as ink, other colours; as lines, every fill.
+/// Which marks hide others: with ink, other colours; with lines, every fill.
 pub(super) const fn hides(model: InkModel) -> Hides {
     match model {
         InkModel::Ink => Hides::OtherColours,
@@ -184,20 +184,20 @@ pub(super) fn choose_layers(imported: &mut Imported, wanted: &[String]) -> Resul
     Ok(())
 }
 
-/// Under `lines`, fills are not drawn, but not lost in silence either.
+/// Counts fills as dropped: the `lines` model does not draw them.
 pub(super) fn count_fills(imported: &mut Imported) {
     let fills = imported.layers.iter().flat_map(|l| &l.layer.marks).filter(|m| !matches!(m, Mark::Stroke(_))).count();
     imported.dropped.add("fills", fills);
 }
 
-/// Turns, scales and moves the drawing on its sheet; with how it was turned.
+/// Turns, scales and moves the drawing on its sheet; also returns the turning.
 pub(super) fn place(
     drawing: &Drawing,
     options: &PlotOptions,
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<(Drawing, Turning), Failure> {
     if options.fit == PlotFit::Page && options.placing.at.is_some() {
-        return Err(Failure::Usage("--fit page fills the page, and --at has no room there; leave one of them away".to_owned()));
+        return Err(Failure::Usage("--fit page sets the position, which --at would change; leave one of them out".to_owned()));
     }
     let sheet = options.page.as_deref().map(layout::sheet).transpose()?;
     let turning = Turning::asked(&options.placing, || fits_only_turned(drawing, sheet));
@@ -215,23 +215,23 @@ pub(super) fn place(
     Ok((Drawing { page, ..moved }, turning))
 }
 
-/// What the margin and the machine leave of a page.
+/// The part of a page inside the margin and the machine's reach.
 fn free_of(page: &Page, margin: f64, reach: Option<Rect>) -> Result<Rect, Failure> {
     let free = page.rect().inset(-margin);
     let free = reach.map_or(free, |reach| free.intersect(reach));
     if free.width() > 0.0 && free.height() > 0.0 {
         return Ok(free);
     }
-    Err(Failure::Usage(format!("a margin of {margin} mm leaves nothing of the page")))
+    Err(Failure::Usage(format!("a margin of {margin} mm leaves nothing of the page; make it smaller")))
 }
 
-/// Scales a box evenly into the middle of another.
+/// The transform that fits a box into the middle of another, keeping its proportions.
 fn filling(bounds: Rect, frame: Rect) -> Affine {
     let factor = (frame.width() / bounds.width().max(1e-6)).min(frame.height() / bounds.height().max(1e-6));
     Affine::translate(frame.center().to_vec2()) * Affine::scale(factor) * Affine::translate(-bounds.center().to_vec2())
 }
 
-/// Whether the drawing's page goes onto the sheet only when it is turned by a quarter.
+/// True if the drawing's page fits the sheet only after a quarter turn.
 fn fits_only_turned(drawing: &Drawing, sheet: Option<(f64, f64)>) -> bool {
     let Page { width, height, .. } = drawing.page;
     let fits = |w: f64, h: f64| sheet.is_none_or(|(sw, sh)| w <= sw + 0.5 && h <= sh + 0.5);

@@ -1,4 +1,4 @@
-//! Progress on stderr, and the seconds of each step.
+//! Progress on stderr, and the time of each step.
 
 use super::interruption::is_interrupted;
 use super::messages;
@@ -9,12 +9,12 @@ use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// Shown after this much work.
+/// Delay before the bar is shown.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// How often its clock is drawn anew.
+/// Refresh interval of the bar's clock.
 const TICK: Duration = Duration::from_millis(250);
 
-/// Watches a style for the command line.
+/// The command line's observer of a style.
 pub(super) struct Watcher {
     bar: ProgressBar,
     started: Instant,
@@ -33,7 +33,7 @@ impl Watcher {
         Self { bar, started: Instant::now(), steps: Mutex::new(Vec::new()) }
     }
 
-    /// Ends the last step and gives the seconds of each.
+    /// Ends the last step; returns the seconds of each step.
     pub(super) fn finish(&self) -> Vec<(String, f64)> {
         self.bar.finish_and_clear();
         let mut steps = self.steps.lock().expect("no step panics while it holds the lock").clone();
@@ -46,7 +46,7 @@ impl Watcher {
     }
 }
 
-/// Shows the bar once the work has taken a while, with the step that is then running, whether or not it tells of its progress.
+/// Shows the bar after [`PATIENCE`] with the step then running, even if that step reports no progress.
 fn show_later(bar: ProgressBar) {
     std::thread::spawn(move || {
         std::thread::sleep(PATIENCE);

@@ -1,4 +1,4 @@
-//! An error of the library in the words of the command line: what was wrong, and the options that help.
+//! Turns errors of the library into messages of the command line: what was wrong, and the options that help.
 
 use crate::plot::{CalibrationError, KeyPlace, ProfileError, TooMuch};
 use crate::read::TooMuchWork;
@@ -6,7 +6,7 @@ use crate::source::SourceError;
 use crate::style::StyleError;
 use std::error::Error;
 
-/// The error, with what helps against it or against what caused it.
+/// The error's message, with advice for it or for the error that caused it.
 pub(super) fn advised(error: &(dyn Error + 'static)) -> String {
     if let Some(ProfileError::Syntax { place: KeyPlace::Set, .. } | ProfileError::Value { place: KeyPlace::Set, .. }) =
         error.downcast_ref()
@@ -23,20 +23,20 @@ pub(super) fn advised(error: &(dyn Error + 'static)) -> String {
 fn remedy(error: &(dyn Error + 'static)) -> Option<String> {
     if let Some(work) = error.downcast_ref::<TooMuchWork>() {
         let millions = work.lifted_by()?;
-        return Some(format!("; --most-work {millions:.0} or more lifts it, with memory to match"));
+        return Some(format!("; --most-work {millions:.0} or more allows it, and takes more memory"));
     }
     if let Some(SourceError::WorkTooLarge { .. }) = error.downcast_ref() {
         return Some("; use a larger --pitch or a smaller --size".to_owned());
     }
     let fixed = match (error.downcast_ref(), error.downcast_ref()) {
         (Some(TooMuch::Crossings { .. }), _) => {
-            ": draw the lines alone (--ink-model lines), leave out --occlude, or draw it in parts (--layers)"
+            ": draw only the lines (--ink-model lines), leave out --occlude, or draw it in parts (--layers)"
         }
         (Some(TooMuch::Length { .. }), _) => {
-            ": take a wider pen (--pen), make it smaller (--scale), or draw it in parts (--layers)"
+            ": use a wider pen (--pen), make it smaller (--scale), or draw it in parts (--layers)"
         }
         (_, Some(CalibrationError::NoRoom { .. })) => "; choose a larger --page",
-        (_, Some(CalibrationError::TooMuch { .. })) => "; choose a larger --page, a thinner --pen or fewer with --pen-count",
+        (_, Some(CalibrationError::TooMuch { .. })) => "; choose a larger --page, a thinner --pen or a smaller --pen-count",
         _ => return None,
     };
     Some(fixed.to_owned())

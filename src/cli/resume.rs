@@ -1,4 +1,4 @@
-//! `drypoint resume`: the rest of a machine's file.
+//! `drypoint resume`: writes the rest of a machine's file.
 
 use super::arguments::ResumeOptions;
 use super::failure::Failure;
@@ -17,11 +17,11 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
         (Some(line), None, None) => Stop::Line(line),
         (None, Some(byte), None) => Stop::Byte(byte),
         (None, None, Some(path)) => Stop::Path(path),
-        _ => return Err(Failure::Usage("say where the machine stopped: --line N, --byte N or --path N".to_owned())),
+        _ => return Err(Failure::Usage("give the place where the machine stopped: --line N, --byte N or --path N".to_owned())),
     };
     let shown = if options.file == "-" { "stdin" } else { &options.file };
     let text = String::from_utf8(output::read(&options.file, MOST_BYTES, "")?)
-        .map_err(|_| Failure::Work(format!("{shown} is neither HP-GL nor G-code: it is not plain text")))?;
+        .map_err(|_| Failure::Work(format!("{shown} is not HP-GL or G-code: it is not plain text")))?;
     let language = Language::of_text(&text).unwrap_or(Language::Gcode);
     let rest = language.resume(&text, stop, options.again).map_err(|error| match error {
         ResumeError::OwnProgram => Failure::Work(svg_advice(shown, &text)),
@@ -34,7 +34,7 @@ pub(super) fn run(options: &ResumeOptions) -> Result<(), Failure> {
     Ok(())
 }
 
-/// An SVG is no machine's file: whoever drives the machine with it knows where it stopped.
+/// The message for an SVG: only the program that drives the machine knows where it stopped.
 fn svg_advice(shown: &str, text: &str) -> String {
     let imported = read_svg(text.as_bytes()).ok();
     let profile = imported.as_ref().and_then(|svg| Some(svg.speeds.as_ref()?.machine.clone()));
@@ -45,14 +45,15 @@ fn svg_advice(shown: &str, text: &str) -> String {
         String::new()
     } else {
         format!(
-            ". To plot it from a layer on, name those that are left, of {}: drypoint plot {shown} --layers {} --profile {} -o rest.svg",
+            ". To plot only the remaining layers, name them, out of {}: drypoint plot {shown} --layers {} --profile {} -o rest.svg",
             named.join(", "),
             left.join(","),
             profile.as_deref().unwrap_or("axidraw-v3")
         )
     };
     format!(
-        "{shown} is an SVG: the machine is driven by a program of its own, which alone knows where it stopped. Resume there: the AxiDraw's \
-         extension of Inkscape has a tab Resume, and axicli --mode res_plot goes on with the file that it wrote when it was paused{from_layer}"
+        "{shown} is an SVG: the machine is driven by a program of its own, and only that program knows where it stopped. Resume there: the \
+         AxiDraw extension for Inkscape has a tab Resume, and axicli --mode res_plot continues with the file that it wrote when \
+         paused{from_layer}"
     )
 }

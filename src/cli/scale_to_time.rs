@@ -1,4 +1,4 @@
-//! `--max-time` of `plot`: the largest scale whose plot takes no longer, found by lowering and timing.
+//! `plot --max-time`: the largest scale whose plot takes no longer, found by trial plots.
 
 use super::arguments::{Order, PlotFit, PlotOptions};
 use super::failure::Failure;
@@ -11,12 +11,12 @@ use crate::drawing::Drawing;
 use crate::geometry::Affine;
 use crate::plot::{InkModel, Profile, lower};
 
-/// Least of the whole percents of the drawing's size that are tried: below, it is a blot.
+/// Smallest size tried, in percent of the drawing's size; below that it is a blot.
 const LEAST_PERCENT: u32 = 10;
 
-/// How the trials are plotted.
+/// Settings of the trial plots.
 pub(super) struct Trials<'a> {
-    /// Seconds that the plot may take.
+    /// Maximum plotting time in seconds.
     pub limit: f64,
     pub model: InkModel,
     pub profile: &'a Profile,
@@ -24,15 +24,15 @@ pub(super) struct Trials<'a> {
     pub options: &'a PlotOptions,
 }
 
-/// A drawing that keeps to the time, and the scale that it was made smaller by.
+/// A drawing within the time limit, and its scale factor.
 #[derive(Debug)]
 pub(super) struct Scaled {
     pub drawing: Drawing,
     pub scale: f64,
 }
 
-/// The drawing as it is, or smaller about its middle, so that its plot takes at most the time allowed. A size that was asked for is
-/// not changed but refused.
+/// The drawing, if needed scaled down about its middle, so that its plot keeps to the time limit. A size set by `--scale` or `--fit`
+/// is refused instead of changed.
 pub(super) fn scaled_to(drawing: &Drawing, trials: &Trials<'_>) -> Result<Scaled, Failure> {
     let whole = seconds_at(drawing, trials)?;
     let (limit, options) = (trials.limit, trials.options);
@@ -43,7 +43,7 @@ pub(super) fn scaled_to(drawing: &Drawing, trials: &Trials<'_>) -> Result<Scaled
     };
     let Some((percent, seconds)) = found else {
         return Err(Failure::Work(format!(
-            "--max-time {}: the plot takes {}, and longer than that even at {LEAST_PERCENT} % of its size; choose --layers, or a greater --speed",
+            "--max-time {}: the plot takes {}, and too long even at {LEAST_PERCENT} % of its size; choose --layers, or a higher --speed",
             duration(limit),
             duration(whole)
         )));
@@ -51,14 +51,14 @@ pub(super) fn scaled_to(drawing: &Drawing, trials: &Trials<'_>) -> Result<Scaled
     let is_sized = options.scale.is_some() || options.fit == PlotFit::Page;
     if percent < 100 && is_sized {
         return Err(Failure::Work(format!(
-            "--max-time {}: the plot takes {} at the size that {} asks for; {} % of it would take {}: {}",
+            "--max-time {}: the plot takes {} at the size set by {}; at {} % of it, it would take {}: {}",
             duration(limit),
             duration(whole),
             if options.fit == PlotFit::Page { "--fit page" } else { "--scale" },
             percent,
             duration(seconds),
             options.scale.filter(|_| options.fit != PlotFit::Page).map_or_else(
-                || "leave --fit away, and --max-time chooses the size, or use a larger --margin".to_owned(),
+                || "leave out --fit, and --max-time chooses the size, or use a larger --margin".to_owned(),
                 |scale| format!("--scale {}", (scale * f64::from(percent) * 1000.0).floor() / 100_000.0)
             )
         )));
@@ -71,12 +71,12 @@ pub(super) fn scaled_to(drawing: &Drawing, trials: &Trials<'_>) -> Result<Scaled
     Ok(Scaled { drawing: scaled(drawing, percent), scale: f64::from(percent) / 100.0 })
 }
 
-/// The largest percentage below the whole that takes at most `limit` seconds, with its time.
+/// The largest percentage below 100 that takes at most `limit` seconds, with its time.
 fn largest_percent(limit: f64, mut seconds: impl FnMut(u32) -> Result<f64, Failure>) -> Result<Option<(u32, f64)>, Failure> {
     let (mut too_long, mut found) = (100, None);
     let mut low = LEAST_PERCENT;
     while low < too_long {
-        // The time of most drawings lies between growing with their size and with its square, so that the middle is a good guess.
+        // The time of most drawings grows between linearly and quadratically with their size, so bisection works well.
         let percent = low.midpoint(too_long);
         let taken = seconds(percent)?;
         if taken <= limit {
@@ -99,7 +99,7 @@ fn scaled(drawing: &Drawing, percent: u32) -> Drawing {
     }
 }
 
-/// How long the plot takes, ordered fast.
+/// Plotting time in seconds, ordered fast.
 fn seconds_at(drawing: &Drawing, trials: &Trials<'_>) -> Result<f64, Failure> {
     if is_interrupted() {
         return Err(Failure::Interrupted);

@@ -1,4 +1,4 @@
-//! `drypoint see`: what is found in a photograph.
+//! `drypoint see`: finds faces, people and their parts in a photograph.
 
 use super::arguments::SeeOptions;
 use super::draw::{limit_threads, photograph};
@@ -12,7 +12,7 @@ use crate::see::{Sight, look};
 pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
     limit_threads(options.threads)?;
     if options.output.as_ref().is_some_and(|folder| folder.as_os_str() == "-") {
-        return Err(Failure::Usage("a sight is several files: give a folder with -o, or --json".to_owned()));
+        return Err(Failure::Usage("a sight is several files; give a folder with -o, or use --json".to_owned()));
     }
     let photograph = photograph(&options.photo)?;
     for warning in &photograph.info.warnings {
@@ -31,11 +31,11 @@ pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
     Ok(())
 }
 
-/// One line for the user.
+/// One line of summary for the user.
 fn summary(sight: &Sight) -> String {
     if sight.faces.is_empty() {
         return "no face found, so no subject; sight.json has an empty list".to_owned();
     }
     let scores: Vec<String> = sight.faces.iter().map(|face| format!("{:.2}", face.score)).collect();
-    format!("{} found (score {}), with its subject; look at overlay.png", counted(sight.faces.len(), "face"), scores.join(", "))
+    format!("{} found (score {}), and the subject; check overlay.png", counted(sight.faces.len(), "face"), scores.join(", "))
 }

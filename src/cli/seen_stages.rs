@@ -1,4 +1,4 @@
-//! What was seen of a photograph, or painted in its stead, as the first of the stages.
+//! The first stages: what was found in a photograph, or the given masks instead.
 
 use super::draw::RoleMask;
 use super::known::Known;
@@ -7,7 +7,7 @@ use crate::raster::Raster;
 use crate::source::{Crop, MaskRole, Photograph, SourceError};
 use image::{DynamicImage, GrayImage};
 
-/// The regions in the order in which they are shown.
+/// The regions in display order.
 const SHOWN: [MaskRole; 7] = [
     MaskRole::Subject,
     MaskRole::Skin,
@@ -18,7 +18,7 @@ const SHOWN: [MaskRole; 7] = [
     MaskRole::Detail,
 ];
 
-/// Each region by its role, the faces over the photograph, and the depth; nothing where there is no face.
+/// Each region by its role, the faces over the photograph, and the depth; empty if there is no face.
 pub(super) fn pictures(photograph: &Photograph, known: &Known) -> Result<Vec<(&'static str, DynamicImage)>, SourceError> {
     let mut pictures = Vec::new();
     if known.faces.is_empty() {
@@ -26,7 +26,7 @@ pub(super) fn pictures(photograph: &Photograph, known: &Known) -> Result<Vec<(&'
     }
     let mut subject = None;
     for role in SHOWN {
-        // A cut-out's alpha says what the subject is.
+        // In a cut-out, alpha is the subject.
         let Some(mask) = decided(known, role).filter(|_| role != MaskRole::Subject || !photograph.is_cut_out()) else { continue };
         let mask = grey(mask)?;
         if mask.pixels().iter().any(|v| *v > 0) {
@@ -44,7 +44,7 @@ pub(super) fn pictures(photograph: &Photograph, known: &Known) -> Result<Vec<(&'
     Ok(pictures)
 }
 
-/// The mask that this role has in the drawing, or would have if the style had a use for it.
+/// The mask of this role in the drawing, or the unused one if the style does not use the role.
 fn decided(known: &Known, role: MaskRole) -> Option<&Photograph> {
     let masks = known.masks.iter().chain(&known.people).chain(&known.unused.masks);
     masks.into_iter().find(|RoleMask { role: other, .. }| *other == role).map(|found| &found.mask)

@@ -1,5 +1,5 @@
-//! The folder that `see` writes and `draw --sight` reads: `sight.json`, a picture for each region, named by its role, the depth, and
-//! an overlay to look at.
+//! The folder that `see` writes and `draw --sight` reads: `sight.json`, a picture of each region, named by its role, the depth, and
+//! an overlay.
 
 use super::draw::{RoleMask, photograph};
 use super::failure::Failure;
@@ -20,15 +20,15 @@ const SIGHT: &str = "sight.json";
 const DEPTH: &str = "depth.png";
 const OVERLAY: &str = "overlay.png";
 
-/// The picture of a role.
+/// The file name of a role's picture.
 fn file_of(role: MaskRole) -> String {
     format!("{}.png", role.name())
 }
 
-/// Writes all that was found; what an earlier sight left there and this one has not is removed.
+/// Writes everything that was found. Files of an earlier sight that this one does not replace are removed.
 pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Result<(), Failure> {
     let name = folder.to_string_lossy();
-    std::fs::create_dir_all(folder).map_err(|error| Failure::Work(format!("{name} cannot be made: {error}")))?;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::Work(format!("{name} cannot be created: {error}")))?;
     let path = |file: &str| folder.join(file).to_string_lossy().into_owned();
     let masks: Vec<(String, &Raster<u8>)> = sight.masks().into_iter().map(|(role, mask)| (path(&file_of(role)), mask)).collect();
     let others = [SIGHT, DEPTH, OVERLAY].map(path);
@@ -60,13 +60,13 @@ pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Re
     output::write(json, |out| out.write_all(&text))
 }
 
-/// All that a folder holds, edited or not.
+/// Reads a folder, edited or not.
 pub(super) fn read(folder: &str, photograph: &Photograph) -> Result<Seen, Failure> {
     let path = |file: &str| Path::new(folder).join(file);
     let of_roles = || MaskRole::ALL.into_iter().map(|(_, role)| (role, path(&file_of(role))));
     if !path(SIGHT).exists() && !of_roles().any(|(_, file)| file.exists()) {
         return Err(Failure::Work(format!(
-            "{folder} holds no {SIGHT} and no picture named by a role such as subject.png; `drypoint see PHOTO -o {folder}` writes them"
+            "{folder} has no {SIGHT} and no picture named by a role, such as subject.png; `drypoint see PHOTO -o {folder}` writes them"
         )));
     }
     let masks = of_roles().filter(|(_, file)| file.exists()).map(|(role, file)| {
@@ -82,7 +82,7 @@ pub(super) fn read(folder: &str, photograph: &Photograph) -> Result<Seen, Failur
     Ok(Seen { masks, faces, depth: depth.transpose()?, lack: None })
 }
 
-/// `sight.json` as it is read again; the rest of it is for other programs.
+/// The part of `sight.json` that is read; the rest is for other programs.
 #[derive(Deserialize)]
 struct Written {
     photograph: WrittenSize,
@@ -113,7 +113,7 @@ struct WrittenIris {
     radius: f64,
 }
 
-/// The faces of a `sight.json`, in pixels of this photograph, which may have another size than the one that was looked at.
+/// The faces of a `sight.json`, in pixels of this photograph, which may differ in size from the one that was searched.
 fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure> {
     let bytes = output::read_settings(name)?;
     let written: Written = serde_json::from_str(&bytes).map_err(|error| Failure::Work(format!("{name} is no sight: {error}")))?;
@@ -122,7 +122,7 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
     let is_alike = x.is_finite() && y.is_finite() && x > 0.0 && (x / y - 1.0).abs() < 0.03;
     if !is_alike {
         return Err(Failure::Work(format!(
-            "{name} is of a photograph of {width} x {height} px, and this one has other proportions: {} x {} px",
+            "{name} is for a photograph of {width} x {height} px, and this one has other proportions: {} x {} px",
             photograph.width(),
             photograph.height()
         )));
@@ -131,7 +131,7 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
     let placed = written.faces.iter().map(|face| {
         let numbers = face.points.iter().flatten();
         if face.points.len() != POINTS || numbers.into_iter().any(|v| !v.is_finite() || v.abs() > 1e6) {
-            return Err(Failure::Work(format!("{name}: a face has {POINTS} points of three numbers each")));
+            return Err(Failure::Work(format!("{name}: each face must have {POINTS} points of three numbers")));
         }
         let irises = [iris(&face.irises.right), iris(&face.irises.left)];
         let landmarks = Landmarks { points: face.points.clone(), irises };
@@ -140,7 +140,7 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
     placed.collect()
 }
 
-/// What was found, in pixels of the photograph after its EXIF turn.
+/// What was found as JSON, in pixels of the photograph after its EXIF rotation.
 pub(super) fn as_json(sight: &Sight, photograph: &Photograph) -> Value {
     let of_roles = sight.masks().into_iter().map(|(role, _)| {
         let file = file_of(role);

@@ -1,4 +1,4 @@
-//! `drypoint stages`: what was seen and every intermediate result, numbered and named.
+//! `drypoint stages`: writes what was found and every intermediate result, numbered and named.
 
 use super::arguments::StagesOptions;
 use super::draw::{Task, limit_threads};
@@ -22,9 +22,9 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     let task = Task::new(&options.picture, |_| None)?;
     let folder = options.output.to_string_lossy().into_owned();
     if folder == "-" {
-        return Err(Failure::Usage("stages are many files: give a folder with -o".to_owned()));
+        return Err(Failure::Usage("stages are many files; give a folder with -o".to_owned()));
     }
-    std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be made: {error}")))?;
+    std::fs::create_dir_all(&options.output).map_err(|error| Failure::Work(format!("{folder} cannot be created: {error}")))?;
     let recorder =
         Recorder { watcher: Watcher::new(options.quiet), folder: options.output.clone(), taken: Mutex::new(Taken::default()) };
     for (name, picture) in task.seen()? {
@@ -44,7 +44,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes each picture as it comes.
+/// An observer that writes each picture.
 struct Recorder {
     watcher: Watcher,
     folder: PathBuf,
@@ -58,7 +58,7 @@ struct Taken {
 }
 
 impl Recorder {
-    /// One more picture; none after a failure.
+    /// Writes the next picture; does nothing after a failure.
     fn write(&self, name: &str, write: impl FnOnce(&str) -> Result<(), Failure>) {
         let mut taken = self.taken.lock().expect("no stage panics while it is written");
         if taken.failure.is_some() {
@@ -118,7 +118,7 @@ fn grey(raster: &Raster<f32>) -> image::DynamicImage {
     GrayImage::from_raw(raster.width() as u32, raster.height() as u32, pixels).expect("a raster's pixels fill it").into()
 }
 
-/// A colour for each number, neighbours far apart.
+/// A colour for each label; neighbouring labels get very different colours.
 fn coloured(raster: &Raster<i32>) -> image::DynamicImage {
     let pixels = raster.map(|label| {
         let hash = (label as u32).wrapping_mul(0x9e37_79b1);

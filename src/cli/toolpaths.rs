@@ -1,4 +1,4 @@
-//! What a machine's file is made of and with: its profile, its format, its preview, what is said of it.
+//! Profile, format, preview, warnings and summary of a machine's file.
 
 use super::arguments::{Format, PreviewTravel, ToolpathOptions};
 use super::claims;
@@ -11,7 +11,7 @@ use crate::plot::{Cut, Job, Language, PenChange, PenReport, PlotReport, Profile,
 use crate::write::SvgHead;
 use std::collections::BTreeSet;
 
-/// Plotting time above which the user is warned.
+/// Plotting time above which the user is warned, in hours.
 pub(super) const LONG_HOURS: f64 = 4.0;
 
 /// The format of an output file.
@@ -28,12 +28,12 @@ pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Fa
         "inkml" => Ok(Format::Inkml),
         _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, pdf, hpgl, gcode or inkml".to_owned())),
         _ => Err(Failure::Usage(format!(
-            "the format of {name} is not known by its extension; use .svg, .pdf, .hpgl, .plt, .gcode, .nc, .ngc or .inkml, or --format"
+            "the format of {name} is not known from its extension; use .svg, .pdf, .hpgl, .plt, .gcode, .nc, .ngc or .inkml, or --format"
         ))),
     }
 }
 
-/// A profile by name, or from a file when there is a path or a .toml ending, with keys set over it.
+/// A profile by name, or from a file if `name` has a `/` or the extension .toml; `set` overrides its keys.
 pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Profile, Failure> {
     let is_file = name.contains('/') || std::path::Path::new(name).extension().is_some_and(|e| e == "toml");
     if !is_file {
@@ -42,7 +42,7 @@ pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Prof
     Profile::parse_with(name, &output::read_settings(name)?, set).map_err(|error| Failure::Work(error.to_string()))
 }
 
-/// The profile with what the options say of its speeds.
+/// The profile with the speeds and the dwell given by the options.
 pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, Failure> {
     let mut profile = plain_profile(name, &options.set_profile)?;
     let fastest = [profile.motion.fastest_drawing(), profile.motion.fastest_travel()];
@@ -60,14 +60,14 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
     }
     if let Some(seconds) = options.dwell {
         if !profile.can_dwell() && seconds > 0.0 {
-            return Err(Failure::Usage(format!("--dwell: {} has no word for a wait at each touch", profile.name)));
+            return Err(Failure::Usage(format!("--dwell: {} has no command for a wait at each touch", profile.name)));
         }
         profile.motion.touch_seconds = seconds;
     }
     Ok(profile)
 }
 
-/// Refuses a speed above the machine's own greatest; `key` is where the profile says it.
+/// Refuses a speed above the machine's maximum; `key` is the profile's key for it.
 fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str, profile: &Profile) -> Result<(), Failure> {
     if speed <= fastest {
         return Ok(());
@@ -92,12 +92,12 @@ pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Resul
     let needed = match format {
         Format::Pdf if profile.is_some() => {
             return Err(Failure::Usage(
-                "PDF is for print, not for a plotter; leave out --profile, or write its own format".to_owned(),
+                "PDF is for print, not for a plotter; leave out --profile, or write the plotter's format".to_owned(),
             ));
         }
         Format::Inkml if profile.is_some() => {
             return Err(Failure::Usage(
-                "InkML holds a drawing's strokes, not a machine's tool paths; leave --profile out".to_owned(),
+                "InkML holds a drawing's strokes, not a machine's tool paths; leave out --profile".to_owned(),
             ));
         }
         Format::Svg | Format::Pdf | Format::Inkml => return Ok(()),
@@ -123,19 +123,19 @@ pub(super) fn write(name: &str, format: Format, job: &Job<'_>, head: &SvgHead) -
     })
 }
 
-/// One preview for each file, or for the one; no output is an input or another output.
+/// Checks that each file has its own preview, and that no output is an input or another output.
 pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(), Failure> {
     match &options.preview {
         Some(preview) if output.contains("{layer}") && !preview.contains("{layer}") => Err(Failure::Usage(
-            "-o writes one file for each layer, and --preview one picture: put {layer} into its name too".to_owned(),
+            "-o writes one file per layer, but --preview only one picture; put {layer} into its name too".to_owned(),
         )),
-        // Which files those are is known with the layers.
+        // The file names are only known once the layers are.
         _ if output.contains("{layer}") => Ok(()),
         preview => claims::are_distinct([output].into_iter().chain(preview.as_deref())),
     }
 }
 
-/// Refuses files for each layer of which two are one, or one is an input.
+/// Refuses files per layer if two of them are the same file, or one is an input.
 pub(super) fn check_layer_files(files: &[LayerFile], options: &ToolpathOptions) -> Result<(), Failure> {
     let preview = |file: &LayerFile| Some(preview_name(options.preview.as_ref()?, Some(&file.layer)));
     let previews: Vec<String> = files.iter().filter_map(preview).collect();
@@ -146,8 +146,7 @@ fn preview_name(name: &str, layer: Option<&str>) -> String {
     layer.map_or_else(|| name.to_owned(), |layer| name.replace("{layer}", layer))
 }
 
-/// Writes the picture of what the machine will do, where one is asked for; `{layer}` in its name stands for the same as in the
-/// output's.
+/// Writes the preview, if requested; `{layer}` in its name is replaced as in the output's.
 pub(super) fn write_preview_of(job: &Job<'_>, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
     let Some(name) = &options.preview else { return Ok(()) };
     let name = preview_name(name, layer);
@@ -159,8 +158,7 @@ pub(super) fn write_preview_of(job: &Job<'_>, options: &ToolpathOptions, layer: 
     output::write(&name, |out| job.write_preview(travel, out))
 }
 
-/// Warnings about the machine, shown whatever was asked for; `shorter` says what makes a long plot shorter, unless that was said
-/// before.
+/// Prints warnings about the plot, even with `--quiet`. `shorter` is the advice for a long plot; `None` if it was already given.
 pub(super) fn warn(job: &Job<'_>, shorter: Option<&str>) {
     let Cut { length, touches } = job.cut();
     if length > 0.0 || touches > 0 {
@@ -179,7 +177,7 @@ pub(super) fn warn(job: &Job<'_>, shorter: Option<&str>) {
     let numbers: BTreeSet<u32> = job.plot().pens.iter().map(|pen| pen.number).collect();
     if profile.pens.change == PenChange::Pause && numbers.len() as u32 > profile.pens.count {
         let (pens, count) = (counted(numbers.len(), "pen"), profile.pens.count);
-        warning!("{pens} on a machine with {count}: the file pauses for each change");
+        warning!("{pens} on a machine with {count}; the file pauses for each change");
     }
     for number in numbers {
         let drawn: f64 = job.report().pens.iter().filter(|pen| pen.pen == number).map(|pen| pen.pen_down_mm / 1000.0).sum();
@@ -189,10 +187,10 @@ pub(super) fn warn(job: &Job<'_>, shorter: Option<&str>) {
     }
 }
 
-/// Such as `2 h 14 min, 3 pens, 41.0 m of ink, 6.2 m of travel`.
+/// A summary such as `2 h 14 min, 3 pens, 41.0 m of ink, 6.2 m of travel`.
 pub(super) fn summary(report: &PlotReport) -> String {
     let time = report.total.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();
-    // A pen may come back for another part.
+    // A pen may be used several times.
     let numbers: BTreeSet<u32> = report.pens.iter().map(|pen| pen.pen).collect();
     format!(
         "{time}{}, {}, {:.1} m of ink, {:.1} m of travel ({:.1} m before ordering)",
@@ -204,7 +202,7 @@ pub(super) fn summary(report: &PlotReport) -> String {
     )
 }
 
-/// The report of several files as one: each file's pens, and all together. What is covered is told for one file only.
+/// The reports of several files combined: each file's pens, and the total. Coverage is only reported for a single file.
 pub(super) fn of_all<'a>(jobs: impl IntoIterator<Item = &'a Job<'a>>) -> Option<PlotReport> {
     let add = |mut sum: PlotReport, next: PlotReport| {
         let (total, more) = (&mut sum.total, next.total);
@@ -221,7 +219,7 @@ pub(super) fn of_all<'a>(jobs: impl IntoIterator<Item = &'a Job<'a>>) -> Option<
     jobs.into_iter().map(|job| job.report().clone()).reduce(add)
 }
 
-/// A line for each pen: time, ink and lifts, and in brackets what they were before ordering.
+/// A line per pen: time, ink and lifts, and in brackets their values before ordering.
 pub(super) fn pen_lines(job: &Job<'_>) -> Vec<String> {
     let amounts = |pen: &PenReport| {
         let time = pen.seconds.map(|s| format!("{}, ", duration(s))).unwrap_or_default();

@@ -1,6 +1,6 @@
 //! Numbers with their nouns.
 
-/// Such as `1 path`, `2 paths`, `0 touches`.
+/// A count with its noun, such as `1 path`, `2 paths`, `0 touches`.
 pub(super) fn counted(count: usize, noun: &str) -> String {
     let ending = match noun {
         _ if count == 1 => "",

@@ -1,26 +1,26 @@
-//! Options that choose one of a few.
+//! Options with a fixed set of values.
 
 use clap::ValueEnum;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Fit {
-    /// All of the photograph is inside the box.
+    /// The whole photograph fits inside the box.
     Contain,
-    /// The photograph fills the box; what stands out is cut.
+    /// The photograph fills the box and is cut at its border.
     Cover,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum PlotFit {
-    /// As it is.
+    /// The size stays.
     None,
-    /// To the page less its margin.
+    /// Scaled to the page less its margin.
     Page,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Background {
-    /// Left out by hedcut, grid and engrave where a face is found, else drawn.
+    /// Left out by hedcut, grid and engrave if a face is found, else drawn.
     Auto,
     /// Drawn, unless a mask or the photograph's alpha leaves it out.
     Keep,
@@ -30,7 +30,7 @@ pub(in crate::cli) enum Background {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Tone {
-    /// Made for the faces that are found: they take the whole range from paper to ink, and darker skin stays darker.
+    /// Adjusted to the faces found: they use the whole range from paper to ink, and darker skin stays darker.
     Portrait,
     /// CIE L*/100.
     Lightness,
@@ -48,15 +48,15 @@ pub(in crate::cli) enum Format {
     Hpgl,
     /// G-code.
     Gcode,
-    /// `InkML`: the strokes with force and time, for painting programs; of `draw` only.
+    /// `InkML`: strokes with force and time, for painting programs; `draw` only.
     Inkml,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Order {
-    /// The best.
+    /// The shortest travel found by a full search.
     Full,
-    /// Nearly as good, in a fraction of the time.
+    /// Nearly as short, in a fraction of the time.
     Fast,
     /// As in the file.
     None,
@@ -68,25 +68,25 @@ pub(in crate::cli) enum Order {
 pub(in crate::cli) enum SeamOption {
     /// Wherever the travel is shortest.
     Nearest,
-    /// Where they begin in the drawing.
+    /// Where the loops begin in the drawing.
     Drawn,
-    /// At their highest vertex on the page.
+    /// At the highest vertex on the page.
     Top,
-    /// At their lowest vertex.
+    /// At the lowest vertex.
     Bottom,
-    /// At their leftmost vertex.
+    /// At the leftmost vertex.
     Left,
-    /// At their rightmost vertex.
+    /// At the rightmost vertex.
     Right,
-    /// At their sharpest vertex.
+    /// At the sharpest vertex.
     Corner,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum DuplicatesOption {
-    /// Drawn once; how many went is reported.
+    /// Drawn once; the number left out is reported.
     Drop,
-    /// Drawn as often as they are there.
+    /// Drawn every time.
     Keep,
 }
 
@@ -104,7 +104,7 @@ pub(in crate::cli) enum StartCorner {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum InkModelOption {
-    /// Strokes' centre lines only.
+    /// Centre lines of strokes only.
     Lines,
     /// Widths and fills too.
     Ink,
@@ -114,7 +114,7 @@ pub(in crate::cli) enum InkModelOption {
 pub(in crate::cli) enum PreviewTravel {
     /// Not shown.
     Off,
-    /// A pale web under the ink.
+    /// Pale lines under the ink.
     Faint,
     /// Clear lines under the ink.
     Full,
@@ -126,15 +126,15 @@ pub(in crate::cli) enum Rotate {
     #[default]
     #[value(name = "0")]
     None,
-    /// A quarter, clockwise.
+    /// A quarter turn clockwise.
     #[value(name = "90")]
     Quarter,
-    /// A half.
+    /// A half turn.
     #[value(name = "180")]
     Half,
-    /// A quarter, anticlockwise.
+    /// A quarter turn anticlockwise.
     #[value(name = "270")]
     ThreeQuarters,
-    /// A quarter where the drawing fits only so; `draw` also where the picture gets larger so.
+    /// A quarter turn if the drawing fits only that way; for `draw` also if it makes the picture larger.
     Auto,
 }

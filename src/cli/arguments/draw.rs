@@ -29,45 +29,45 @@ pub(in crate::cli) struct PictureOptions {
     /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the picture's own size].
     #[arg(long, value_name = "NAME|WxH")]
     pub page: Option<String>,
-    /// Kept free on the sheet [default: 0, with --page 10mm].
+    /// Free border of the sheet [default: 0, with --page 10mm].
     #[arg(long, value_name = "LENGTH", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub margin: Option<f64>,
-    /// The box that the picture is fitted into, keeping its proportions: it fills the box only with --fit cover [default: what the
-    /// machine reaches of the sheet less its margin; without a sheet 90x120mm].
+    /// The box that the picture is fitted into, keeping its proportions; --fit cover fills it [default: the sheet less its margin,
+    /// as far as the machine reaches; without a sheet 90x120mm].
     #[arg(long, value_name = "WxH", value_parser = size_above_zero, allow_hyphen_values = true)]
     pub size: Option<(f64, f64)>,
     /// How the photograph fills the box.
     #[arg(long, value_enum, default_value_t = Fit::Contain)]
     pub fit: Fit,
-    /// The part of the photograph used: in pixels or %, lying inside it; or the head and shoulders, or the face, of all the people
-    /// whose faces are found.
+    /// The part of the photograph to draw: a box inside it, in pixels or %; or all faces found (face), with head and shoulders
+    /// (head).
     #[arg(long, value_name = "head|face|X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     pub crop: Option<CropPart>,
-    /// Distance of neighbouring dots or lines [default: the style's].
+    /// Distance between neighbouring dots or lines [default: the style's].
     #[arg(long, value_name = "LENGTH", value_parser = length_above_zero, allow_negative_numbers = true)]
     pub pitch: Option<f64>,
     #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
-    /// Use what `drypoint see` wrote into this folder, edited or not: its PNGs are the masks of their roles, except for roles given
-    /// with --mask. `none` uses nothing of what could be found.
+    /// Use the folder that `drypoint see` wrote, edited or not: each PNG is the mask of its role, unless --mask gives that role.
+    /// `none` turns detection off.
     #[arg(long, value_name = "DIR|none")]
     pub sight: Option<String>,
     /// What is behind the person.
     #[arg(long, value_enum, default_value_t = Background::Auto)]
     pub background: Background,
-    /// Depth map of 8 or 16 bits, of the photograph's proportions: white is near, 0 is unknown or background.
+    /// Depth map with 8 or 16 bits and the photograph's proportions: white is near, 0 is unknown or background.
     #[arg(long, value_name = "FILE")]
     pub depth: Option<String>,
-    /// In the depth map white is far.
+    /// White is far in the depth map.
     #[arg(long, requires = "depth")]
     pub depth_far_white: bool,
-    /// What the ink must match [default: portrait where a face is found, else lightness].
+    /// The tone that the ink reproduces [default: portrait if a face is found, else lightness].
     #[arg(long, value_enum)]
     pub tone: Option<Tone>,
-    /// How much of the portrait tone is used, the rest being lightness (0 to 1).
+    /// Share of the portrait tone; the rest is lightness (0 to 1).
     #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = fraction, allow_negative_numbers = true)]
     pub tone_strength: f64,
-    /// Middle tones: above 1 lightens (0.1 to 10).
+    /// Gamma of the middle tones; above 1 lightens (0.1 to 10).
     #[arg(long, value_name = "G", default_value_t = 1.0, value_parser = gamma, allow_negative_numbers = true)]
     pub gamma: f64,
     /// Tone that becomes full ink (0 to 1).
@@ -76,7 +76,7 @@ pub(in crate::cli) struct PictureOptions {
     /// Tone that becomes bare paper (0 to 1).
     #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = fraction, allow_negative_numbers = true)]
     pub white: f64,
-    /// All random choices follow from this number.
+    /// Seed of all random choices.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// Worker threads [default: all cores]; the bytes written do not depend on it.
@@ -90,46 +90,46 @@ pub(in crate::cli) struct DrawOptions {
     pub picture: PictureOptions,
     #[command(flatten)]
     pub placing: PlacingOptions,
-    /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout. `{layer}` in
-    /// it writes one file for each layer.
+    /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout. With
+    /// `{layer}` in the name, one file per layer.
     #[arg(long, short, value_name = "FILE")]
     pub output: String,
     /// The format, whatever the extension.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// Nib width (0.01 to 20 mm): for plotter output, and for lines that have no width of their own.
+    /// Nib width (0.01 to 20 mm), for plotter output and for lines without a width of their own.
     #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
-    /// Smallest dot and thinnest line that print may use; smaller marks are thinned out so that the tone stays. For newsprint 0.065mm
-    /// (Torstar Printing Group: tints below 5 % do not print; the dot of that tint at 40 lines per cm), for books 0.03mm (Printing
-    /// Industry Exchange: a 2 % dot holds at 60 lines per cm), for lines 0.07mm (Consolidated Press: never below 0.2 points).
+    /// Smallest dot and thinnest line that the press can print; smaller marks are thinned out, keeping the tone. Newsprint: 0.065mm
+    /// (Torstar Printing Group: tints below 5 % do not print; the dot of that tint at 40 lines per cm). Books: 0.03mm (Printing
+    /// Industry Exchange: a 2 % dot holds at 60 lines per cm). Lines: 0.07mm (Consolidated Press: never below 0.2 points).
     #[arg(long, value_name = "LENGTH", default_value = "0mm", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub min_mark: f64,
-    /// Ink spread of the press, compensated: what it adds to a 50 % screen tint (0 to 0.5). Aims of the standards: coated paper
-    /// 0.16, uncoated 0.22 (ISO 12647-2:2013, curves A and C), newsprint 0.26 with --dot-gain-screen 40 (ISO 12647-3:2013). Measured
-    /// or asked by printers: coated 0.22 for black (GATF, 35 sheetfed presses at 60 lines per cm), newsprint 0.25 (Torstar Printing
-    /// Group) to 0.33 (Telegram & Gazette). The same spread takes less from coarse marks than from that tint.
+    /// Dot gain of the press to compensate: what it adds to a 50 % screen tint (0 to 0.5). Standard aims: coated paper 0.16, uncoated
+    /// 0.22 (ISO 12647-2:2013, curves A and C), newsprint 0.26 with --dot-gain-screen 40 (ISO 12647-3:2013). Measured or required by
+    /// printers: coated 0.22 for black (GATF, 35 sheetfed presses at 60 lines per cm), newsprint 0.25 (Torstar Printing Group) to
+    /// 0.33 (Telegram & Gazette). Coarse marks are reduced less than that tint.
     #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = dot_gain, allow_negative_numbers = true)]
     pub dot_gain: f64,
-    /// The screen that --dot-gain is quoted for, in lines per cm (10 to 200).
+    /// Screen ruling for which --dot-gain is quoted, in lines per cm (10 to 200).
     #[arg(long, value_name = "N", default_value_t = 60.0, value_parser = screen, allow_negative_numbers = true)]
     pub dot_gain_screen: f64,
-    /// CSS colour, or k for the black plate only, or spot:NAME.
+    /// The ink: a CSS colour, k for the black plate only, or spot:NAME.
     #[arg(long, value_name = "COLOUR", default_value = "k", value_parser = ink)]
     pub ink: Ink,
     /// Write only these layers, by name, separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "LIST")]
     pub layers: Vec<String>,
-    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file. With .svg the tool paths are written.
+    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file. An .svg output then holds the tool paths.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
-    /// Choose a larger pitch, if need be, so that the plot takes at most this long, such as 2h, 90min or 1h30m.
+    /// Longest plotting time, such as 2h, 90min or 1h30m; if needed, a larger pitch is chosen.
     #[arg(long, value_name = "TIME", value_parser = duration, requires = "profile", allow_negative_numbers = true)]
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
-    /// Say what the drawing will come to, its marks, memory and time and with --profile the plot's, and write nothing: an estimate
-    /// from small pictures, in a second or two.
+    /// Estimate marks, memory and time of the drawing, and with --profile of the plot, and write nothing. Takes a second or two,
+    /// from small pictures.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]
@@ -140,7 +140,7 @@ pub(in crate::cli) struct DrawOptions {
 pub(in crate::cli) struct StagesOptions {
     #[command(flatten)]
     pub picture: PictureOptions,
-    /// The folder to write into; it is made if need be.
+    /// The folder to write into; created if missing.
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,
     /// No progress and no summary; warnings and errors are still shown.
@@ -152,8 +152,7 @@ pub(in crate::cli) struct StagesOptions {
 pub(in crate::cli) struct SeeOptions {
     /// The photograph: JPEG, PNG, WebP, TIFF, BMP or GIF; `-` for stdin.
     pub photo: String,
-    /// The folder to write sight.json, subject.png and overlay.png into; it is made if need be, and what an earlier `see` wrote there
-    /// is replaced.
+    /// The folder for sight.json, a PNG per region and overlay.png; created if missing. Files of an earlier `see` are replaced.
     #[arg(long, short, value_name = "DIR", required_unless_present = "json")]
     pub output: Option<PathBuf>,
     /// Worker threads [default: all cores]; the bytes written do not depend on it.

@@ -1,11 +1,11 @@
-//! How to report, and the options of the commands that read files and machines.
+//! Reporting options, and the options of `calibrate`, `inspect`, `resume`, `styles` and `profiles`.
 
 use super::choices::Format;
 use super::toolpaths::ToolpathOptions;
 use super::values::{length_from_zero, nib, work};
 use clap::Args;
 
-/// How to report.
+/// Reporting options.
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct Reporting {
     /// No progress and no summary; warnings and errors are still shown.
@@ -16,7 +16,7 @@ pub(in crate::cli) struct Reporting {
     pub json: bool,
 }
 
-/// What a photograph becomes.
+/// Options of `calibrate`.
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct CalibrateOptions {
     /// The plotter: a name (`drypoint profiles` lists them) or a TOML file.
@@ -28,10 +28,10 @@ pub(in crate::cli) struct CalibrateOptions {
     /// The format, whatever the extension.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
-    /// Nib width that is written on the pen (0.01 to 20 mm).
+    /// Nib width as marked on the pen (0.01 to 20 mm).
     #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,
-    /// How many pens draw a cross [default: as many as the machine holds].
+    /// Number of pens that draw a cross [default: as many as the machine holds].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
     pub pen_count: Option<u32>,
     /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the machine's first, else a4-landscape or
@@ -51,10 +51,10 @@ pub(in crate::cli) struct CalibrateOptions {
 pub(in crate::cli) struct InspectOptions {
     /// SVG, HP-GL or G-code; `-` for stdin.
     pub file: String,
-    /// Adds the time on this plotter.
+    /// Add the plotting time on this plotter: a name (`drypoint profiles` lists them) or a TOML file.
     #[arg(long, value_name = "NAME|FILE")]
     pub profile: Option<String>,
-    /// How much work the file may ask for, in millions of steps (up to 1000); 12 stay below 2 GB.
+    /// Limit of the work for reading the file, in millions of steps (up to 1000); 12 stay below 2 GB of memory.
     #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
     pub most_work: f64,
     /// Print one JSON object on stdout.
@@ -64,21 +64,21 @@ pub(in crate::cli) struct InspectOptions {
 
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ResumeOptions {
-    /// The HP-GL or G-code file that drypoint wrote; `-` for stdin.
+    /// An HP-GL or G-code file written by drypoint; `-` for stdin.
     pub file: String,
-    /// The line that was not finished, from 1, as a sender shows it.
+    /// The unfinished line, counted from 1, as a sender shows it.
     #[arg(long, value_name = "N")]
     pub line: Option<usize>,
-    /// The byte that was not taken, from 0, as HP-GL senders count.
+    /// The first byte not accepted, counted from 0, as HP-GL senders count.
     #[arg(long, value_name = "N")]
     pub byte: Option<usize>,
-    /// The pen-down path that was not finished, from 1 in the file's order; `inspect` says how many there are.
+    /// The unfinished pen-down path, counted from 1 in the file's order; `inspect` shows how many there are.
     #[arg(long, value_name = "N")]
     pub path: Option<usize>,
     /// No summary; errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
-    /// How much of the line before the stop is drawn again.
+    /// Length of line before the stop that is drawn again.
     #[arg(long, value_name = "LENGTH", default_value = "3mm", value_parser = length_from_zero, allow_negative_numbers = true)]
     pub again: f64,
     /// The file to write; `-` for stdout.
@@ -90,14 +90,14 @@ pub(in crate::cli) struct ResumeOptions {
 pub(in crate::cli) struct ProfilesOptions {
     #[command(flatten)]
     pub list: ListOptions,
-    /// Print a file for --pens that works as it is, with each key explained.
+    /// Print a working example file for --pens, with each key explained.
     #[arg(long, conflicts_with_all = ["name", "json"])]
     pub pens_example: bool,
 }
 
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ListOptions {
-    /// One of them.
+    /// Show only this one.
     pub name: Option<String>,
     /// Print one JSON object on stdout.
     #[arg(long)]

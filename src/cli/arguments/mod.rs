@@ -16,10 +16,10 @@ pub(super) use values::{CropNumber, CropPart, NIBS};
 
 use clap::{Parser, Subcommand};
 
-/// Turns a photograph into vector stroke art and takes it to ink.
+/// Turns a photograph into vector stroke art for print or a pen plotter.
 ///
 /// Lengths take mm (the default), cm, in or pt, and px where an SVG is read. `-` is stdin or stdout. Data goes to stdout, everything else to stderr.
-/// Exit status: 0 done, 1 it could not be done, 2 the command line is wrong, 130 interrupted.
+/// Exit status: 0 success, 1 the work failed, 2 the command line is wrong, 130 interrupted.
 #[derive(Debug, Parser)]
 #[command(name = "drypoint", version, max_term_width = 100)]
 pub(super) struct Arguments {
@@ -27,33 +27,33 @@ pub(super) struct Arguments {
     pub command: Command,
 }
 
-/// How a file comes to its machine.
+/// How to send a file to its machine.
 const SENDING: &str = "\
 Sending a file to its plotter:
-  HP-GL   The plotter takes a few hundred bytes at once and stops the sender by handshake; without one it loses lines. Pens of the
-          1980s raise DTR (pin 20), which the cable must bring to the computer's CTS:
+  HP-GL   The plotter buffers a few hundred bytes and pauses the sender by handshake; without a handshake it loses lines. Plotters of
+          the 1980s use DTR (pin 20), which the cable must connect to the computer's CTS:
               stty -F /dev/ttyUSB0 9600 cs8 -cstopb -parenb -ixon crtscts raw && cat drawing.hpgl > /dev/ttyUSB0
-          With a plain cable use a sender that asks the plotter for room (ESC.B), such as chiplotle's plot_hpgl_file, or put XON/XOFF
+          With a plain cable use a sender that asks for free buffer space (ESC.B), such as chiplotle's plot_hpgl_file, or put XON/XOFF
           into the file: --set-profile 'hpgl.preamble=\"\\u001B.I81;;17:\\u001B.N;19:\"' with stty ... ixon -crtscts.
-  G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; printers take it from their card.
-  SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order and those with ! wait.";
+  G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; 3D printers read it from their card.
+  SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order, with a pause before those marked !.";
 
-/// What a test sheet says; the long form is docs/calibration.md.
+/// How to read a test sheet; docs/calibration.md has the details.
 pub(super) const READING: &str = "\
-What to read off the sheet, and what to change (--set-profile KEY=VALUE, or the key in a TOML file that extends the profile):
-  square  Measure its sides, 100 mm where there is room. scale_x = scale_x * drawn / measured, along the side marked X; scale_y alike.
-  NIB     The first rung with white between its lines is wider than the nib: the one before it is --pen.
-  Z       The highest line, in mm above gcode.height.down, that has no gap: add it (towards up), less 0.2, to gcode.height.down.
-  DWELL   The shortest rest, in seconds, after which all touches are there and equally large: motion.touch_seconds.
-  FILL    The least overlap without white hairlines. 10 % is what areas are filled with; for another, --pen nib * (1 - overlap) / 0.9.
-  PENS    How far each cross lies off its ticks, in mm along the machine's X and Y: pen.N.offset = [x, y].
-  SPEED   The fastest squares with sharp, closed corners: motion.draw_speed; if even the slowest tremble, lower the acceleration.";
+What to measure on the sheet, and what to change (--set-profile KEY=VALUE, or the key in a TOML file that extends the profile):
+  square  Measure its sides (100 mm, less on a small sheet). scale_x = scale_x * drawn / measured along the side marked X; same for scale_y.
+  NIB     The last rung without white between its lines: its spacing is --pen.
+  Z       The highest line without a gap, in mm above gcode.height.down: add it (towards up), less 0.2, to gcode.height.down.
+  DWELL   The shortest rest, in seconds, at which all dots are present and equally large: motion.touch_seconds.
+  FILL    The smallest overlap without white hairlines. Areas are filled with 10 %; for another overlap, --pen nib * (1 - overlap) / 0.9.
+  PENS    The distance of each cross from its ticks, in mm along the machine's X and Y: pen.N.offset = [x, y].
+  SPEED   The fastest squares with sharp, closed corners: motion.draw_speed. If even the slowest are wavy, lower the acceleration.";
 
-// One of them is made, once.
+// Only one value is ever made, so its size does not matter.
 #[allow(clippy::large_enum_variant)]
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Draw a photograph: to SVG or PDF for print, or with --profile to a plotter's HP-GL or G-code.
+    /// Draw a photograph as SVG or PDF for print, or with --profile as a plotter's HP-GL or G-code.
     #[command(after_long_help = SENDING)]
     Draw(DrawOptions),
     /// Plot any SVG: ordered tool paths for a machine.
@@ -61,12 +61,11 @@ pub(super) enum Command {
     Plot(PlotOptions),
     /// Write every intermediate result of a style, numbered and named, as PNG or SVG.
     Stages(StagesOptions),
-    /// Say what is found in a photograph, faces and the person without the background, and write it as PNG and JSON for
-    /// `draw --sight`.
+    /// Find faces, people and their parts in a photograph, and write them as PNG and JSON for `draw --sight`.
     See(SeeOptions),
-    /// Say what is in a drawing: sheet, layers, pens, marks, lengths, time.
+    /// Show what is in a drawing: sheet, layers, pens, marks, lengths, time.
     Inspect(InspectOptions),
-    /// Write the rest of a plotter's file from where the machine stopped: state, pen and position restored.
+    /// Write the rest of a plotter's file from where the machine stopped, with state, pen and position restored.
     Resume(ResumeOptions),
     /// Draw a test sheet for a machine and its pens.
     #[command(after_help = READING)]

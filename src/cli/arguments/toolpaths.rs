@@ -1,4 +1,4 @@
-//! Options of `plot`, and of every tool path.
+//! Options of `plot`, and of tool paths in all commands.
 
 use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, PreviewTravel, SeamOption, StartCorner};
 use super::files::Reporting;
@@ -8,15 +8,15 @@ use super::values::{
 };
 use clap::Args;
 
-/// How tool paths are made.
+/// Options of tool paths.
 // Switches of a command line are booleans.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct ToolpathOptions {
-    /// Of flattening curves and of arcs (0.001 to 1 mm).
+    /// Largest deviation when curves are flattened or fitted with arcs (0.001 to 1 mm).
     #[arg(long, value_name = "LENGTH", default_value = "0.02mm", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: f64,
-    /// How hard to look for a short way; counted in work, so that the order is the same everywhere.
+    /// Effort of the search for short travel. It is limited by work, not by time, so the order is the same on every machine.
     #[arg(long, value_enum, default_value_t = Order::Full)]
     pub order: Order,
     /// Draw every path in its own direction.
@@ -25,7 +25,7 @@ pub(in crate::cli) struct ToolpathOptions {
     /// Where loops begin and end.
     #[arg(long, value_enum, default_value_t = SeamOption::Nearest)]
     pub seam: SeamOption,
-    /// Paths of one pen that repeat an earlier one within 0.005 mm, in either direction.
+    /// What happens to paths that repeat an earlier path of the same pen within 0.005 mm, in either direction.
     #[arg(long, value_enum, default_value_t = DuplicatesOption::Drop)]
     pub duplicates: DuplicatesOption,
     /// Draw the whole order backwards, from the last path to the first.
@@ -34,50 +34,50 @@ pub(in crate::cli) struct ToolpathOptions {
     /// The corner of the drawing where the order of each pen starts [default: the machine's home].
     #[arg(long, value_enum)]
     pub start_corner: Option<StartCorner>,
-    /// The random order that --order random takes (a whole number from 0).
+    /// Seed of --order random (a whole number from 0).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub order_seed: u64,
-    /// Join ends that lie this near, up to a turn of 90 degrees, or 150 where they coincide; 0 joins nothing.
+    /// Join path ends at most this far apart, with a turn of up to 90 degrees, or 150 where the ends coincide; 0 joins nothing.
     #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = drawn_length_from_zero, allow_negative_numbers = true)]
     pub merge: f64,
-    /// A wet line is not crossed or touched again for so many seconds: paths are put off, and where nothing else is left to draw
-    /// the machine waits (0 to 86400; G-code, and profiles whose language can wait).
+    /// Drying time of the ink in seconds (up to 86400): until then no path crosses or touches the line. Such paths are drawn later,
+    /// and if nothing else is left the machine waits (G-code, and other profiles with a wait command).
     #[arg(long, value_name = "SECONDS", value_parser = dry_time, allow_negative_numbers = true)]
     pub dry_time: Option<f64>,
-    /// Cut at the sheet and the machine's limits instead of refusing.
+    /// Cut the drawing at the sheet and the machine's limits instead of refusing it.
     #[arg(long)]
     pub clip: bool,
-    /// Drawing speed in mm/s, up to the machine's greatest [default: the profile's].
+    /// Drawing speed in mm/s, up to the machine's maximum [default: the profile's].
     #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Pen-up speed in mm/s, up to the machine's greatest [default: the profile's].
+    /// Pen-up speed in mm/s, up to the machine's maximum [default: the profile's].
     #[arg(long, value_name = "MM/S", value_parser = number_above_zero, allow_negative_numbers = true)]
     pub travel_speed: Option<f64>,
-    /// How long the pen rests on a touch, in seconds [default: the profile's].
+    /// Time that the pen rests when it touches the paper, in seconds (0 to 60; G-code) [default: the profile's].
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub dwell: Option<f64>,
-    /// A key of the profile, such as motion.acceleration=500 or paper.a4.zero=[10,206]. May be given several times.
+    /// Set a key of the profile, such as motion.acceleration=500 or paper.a4.zero=[10,206]. May be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set_profile: Vec<(String, String)>,
-    /// The pens, a TOML file: a table for each layer's name or pen's number, such as [black], with width = "0.3mm", slot = 1, colour =
-    /// "black", speed = 30 (mm/s), dwell = 0.1 (s) and offset = [0, 0] (mm), each where it is wanted. Layers that it does not name go to
-    /// the pen of the nearest colour; `drypoint profiles --pens-example` prints such a file. Without it each layer has the pen of its
-    /// number, and colours beyond the machine's pens go to the nearest of those that have one.
+    /// The pens, a TOML file with a table for each layer name or pen number, such as [black]. Its keys are all optional: width = "0.3mm",
+    /// slot = 1, colour = "black", speed = 30 (mm/s), dwell = 0.1 (s), offset = [0, 0] (mm). Other layers go to the pen of the nearest
+    /// colour; `drypoint profiles --pens-example` prints such a file. Without --pens each layer uses the pen of its number; if there
+    /// are more colours than pens, the others go to the pen of the nearest colour.
     #[arg(long, value_name = "FILE")]
     pub pens: Option<String>,
-    /// Trace the drawing's outline with the pen up, then wait, before anything is drawn.
+    /// Trace the drawing's bounding box with the pen up, then wait, before drawing.
     #[arg(long)]
     pub frame: bool,
-    /// Draw small crosses into the corners with every pen, to see how pens meet.
+    /// Draw small crosses in the corners with every pen, to check how the pens align.
     #[arg(long)]
     pub registration: bool,
-    /// Wait each time that a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
+    /// Wait whenever a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
     #[arg(long, value_name = "METRES", value_parser = metres, allow_negative_numbers = true)]
     pub pause_every: Option<f64>,
-    /// A picture of what the machine will do: sheet, reach, ink at nib width in a colour for each pen, travel, start and park.
+    /// Write a picture of what the machine will do: sheet, reach, ink at nib width in a colour per pen, travel, start and park.
     #[arg(long, value_name = "FILE.svg")]
     pub preview: Option<String>,
-    /// How the preview shows the ways of the raised pen.
+    /// How the preview shows pen-up travel.
     #[arg(long, value_enum, default_value_t = PreviewTravel::Faint, requires = "preview")]
     pub preview_travel: PreviewTravel,
 }
@@ -104,14 +104,14 @@ pub(in crate::cli) struct PlotOptions {
     /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the SVG's own size].
     #[arg(long, value_name = "NAME|WxH")]
     pub page: Option<String>,
-    /// Kept free on the sheet with --fit page.
+    /// Free border of the sheet with --fit page.
     #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = drawn_length_from_zero, allow_negative_numbers = true)]
     pub margin: f64,
-    /// lines: strokes' centre lines, fills are ignored and counted; ink: widths and fills are laid down with the nib. White is
-    /// never ink [default: ink for files that drypoint wrote, else lines].
+    /// lines: only the centre lines of strokes; fills are skipped and counted. ink: widths and fills are filled with the nib. White is
+    /// never ink [default: ink for files written by drypoint, else lines].
     #[arg(long, value_enum)]
     pub ink_model: Option<InkModelOption>,
-    /// Leave out what lies hidden under opaque ink of another colour or under white; with lines, what lies under any fill.
+    /// Leave out what is hidden under opaque ink of another colour or under white; with lines, what is hidden under any fill.
     #[arg(long)]
     pub occlude: bool,
     /// Scale the drawing to the page less its margin.
@@ -122,20 +122,20 @@ pub(in crate::cli) struct PlotOptions {
     pub scale: Option<f64>,
     #[command(flatten)]
     pub placing: PlacingOptions,
-    /// Make the drawing smaller about its middle, if need be, so that the plot takes at most this long, such as 2h, 90min or 1h30m.
-    /// With --fit or --scale a longer plot is refused, with the scale that would do.
+    /// Longest plotting time, such as 2h, 90min or 1h30m; if needed, the drawing is scaled down about its middle. With --fit or
+    /// --scale a longer plot is refused, and the message names a scale that fits.
     #[arg(long, value_name = "TIME", value_parser = duration, requires = "profile", allow_negative_numbers = true)]
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
-    /// How much work the drawing may ask for when it is read, in millions of steps (up to 1000): elements with all that is used,
-    /// segments, dashes. 12 stay below 2 GB.
+    /// Limit of the work for reading the drawing, in millions of steps (up to 1000): elements, counted once per use, segments and
+    /// dashes. 12 stay below 2 GB of memory.
     #[arg(long, value_name = "MILLIONS", default_value_t = 12.0, value_parser = work, allow_negative_numbers = true)]
     pub most_work: f64,
     /// Worker threads [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Say what the plot will come to and write nothing: an estimate, without the search for a short way.
+    /// Estimate the plot, without the search for short travel, and write nothing.
     #[arg(long)]
     pub dry_run: bool,
     #[command(flatten)]

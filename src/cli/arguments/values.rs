@@ -1,17 +1,17 @@
-//! Values as they are written: lengths, times, shares, crops.
+//! Parsers of option values: lengths, times, fractions, crops.
 
 use crate::drawing::Ink;
 use crate::geometry::{parse_drawn_length, parse_length, parse_size};
 use std::ops::RangeInclusive;
 
-/// Widths of nibs in millimetres: finer than any pen, and a broad brush.
+/// Nib widths in millimetres, from finer than any pen to a broad brush.
 pub(in crate::cli) const NIBS: RangeInclusive<f64> = 0.01..=20.0;
-/// Tolerances of curves in millimetres: below a step of any plotter files only grow, above it a letter loses its shape.
+/// Curve tolerances in millimetres. Less is below any plotter's step and only makes files larger; with more, letters lose their shape.
 const TOLERANCES: RangeInclusive<f64> = 0.001..=1.0;
-/// Factors of a drawing's size, from a sheet that becomes a dot to a stamp that becomes a wall.
+/// Scale factors of a drawing.
 const SCALES: RangeInclusive<f64> = 0.001..=1000.0;
 
-/// A border of the crop.
+/// One number of a crop box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::cli) enum CropNumber {
     Pixels(f64),
@@ -56,7 +56,7 @@ pub(super) fn work(text: &str) -> Result<f64, String> {
     millions.ok_or_else(|| format!("must be a number of millions above 0, up to {}", crate::read::MOST_WORK))
 }
 
-/// A length of a drawing that is read, in pixels too.
+/// A length for a drawing that is read; it may be in pixels.
 pub(super) fn drawn_length_from_zero(text: &str) -> Result<f64, String> {
     let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
     if (0.0..=100_000.0).contains(&mm) { Ok(mm) } else { Err("must be from 0 to 100 m".to_owned()) }
@@ -86,7 +86,7 @@ pub(super) fn size_above_zero(text: &str) -> Result<(f64, f64), String> {
     if sound(width) && sound(height) { Ok((width, height)) } else { Err("both sides must be from 1 mm to 100 m".to_owned()) }
 }
 
-/// A place on the sheet, across and down; a unit at the end holds for both, as in `2,3.5cm`.
+/// A position on the sheet, x and y in millimetres. A unit at the end applies to both, as in `2,3.5cm`.
 pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
     let refuse = || "write it as X,Y, such as 20,35mm".to_owned();
     let (x, y) = text.split_once(',').ok_or_else(refuse)?;
@@ -124,7 +124,7 @@ pub(super) fn duration(text: &str) -> Result<f64, String> {
             "s" => 1.0,
             _ => return Err(refuse()),
         };
-        // Larger units come first, and each once.
+        // Larger units come first, each at most once.
         if size >= last {
             return Err(refuse());
         }
@@ -133,7 +133,7 @@ pub(super) fn duration(text: &str) -> Result<f64, String> {
     if seconds > 0.0 && seconds <= 1e7 { Ok(seconds) } else { Err(refuse()) }
 }
 
-/// A length in metres, or with another unit, in millimetres.
+/// A length in metres unless another unit is given; returns millimetres.
 pub(super) fn metres(text: &str) -> Result<f64, String> {
     let trimmed = text.trim();
     let (number, unit) = match trimmed.strip_suffix('m') {
