@@ -7,7 +7,7 @@ use crate::geometry::{Point, Rect, Vec2, half_plane};
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Sites in a uniform grid of about one site a cell.
+/// Sites in a uniform grid of about one site per cell.
 pub struct Sites<'a> {
     points: &'a [Point],
     cell: f64,

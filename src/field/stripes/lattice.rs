@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 /// Nodes beyond the raster's border on each side, so that lines reach it.
 pub(super) const MARGIN: f64 = 2.0;
 
-/// The wave that the stripes should be: direction across them, cycles a pixel; of either sign.
+/// The wave that the stripes should be: direction across them, cycles per pixel; of either sign.
 pub type Wave = [f32; 2];
 
 /// A lattice of nodes over a raster and a little beyond; node `(i, j)` lies at `((i + 0.5) step - margin, (j + 0.5) step - margin)`
@@ -76,7 +76,7 @@ impl StripeLattice {
         CellPhases::new(self, i, j).at(x - i as f64, y - j as f64).0
     }
 
-    /// How dense the stripes really are at each node, in cycles a pixel.
+    /// How dense the stripes really are at each node, in cycles per pixel.
     pub fn frequency(&self) -> Raster<f32> {
         let (width, height) = (self.phase.width(), self.phase.height());
         Raster::from_fn(width, height, |i, j| {

@@ -2,7 +2,7 @@
 //! section 5, with the phase carried as a complex number in the place of the folded distance).
 //!
 //! ```text
-//!   wave      at each node, across the stripes, cycles a pixel; of either sign
+//!   wave      at each node, across the stripes, cycles per pixel; of either sign
 //!   edges     the phase that a wave gains from a node to its neighbour
 //!   levels    nodes 8, 4, 2, 1 steps apart; each begins with what the coarser one found
 //!   rounds    each node becomes the mean of what its neighbourhood foretells, then of length 1

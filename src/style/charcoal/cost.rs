@@ -4,7 +4,7 @@ use super::parameters::Charcoaling;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes and microseconds a pixel: 50 MB and 0.22 s at 10 mm, where 0.36 megapixels hold hardly a mark.
+/// Bytes and microseconds per pixel: 50 MB and 0.22 s at 10 mm, where 0.36 megapixels hold hardly a mark.
 const BYTES: f64 = 90.0;
 const MICROSECONDS: f64 = 0.6;
 /// Of each place for a grain of the smudged tone: 1.8 kB and 19 microseconds at 250 mm (0.7 million of them), 2 kB and 22 at 100 mm

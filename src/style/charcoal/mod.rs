@@ -67,7 +67,7 @@ impl Style for Charcoal {
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
-        // Four pixels a pitch: the thesis's 600 pixels on the default 90 mm.
+        // Four pixels per pitch: the thesis's 600 pixels on the default 90 mm.
         4.0 / settings.number("pitch")
     }
 

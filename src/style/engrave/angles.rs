@@ -8,7 +8,7 @@ use rand::RngExt;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-/// Kang's window of 5 pixels at the papers' 6 pixels a pitch, and rounds.
+/// Kang's window of 5 pixels at the papers' 6 pixels per pitch, and rounds.
 const FLOW_RADIUS: usize = 5;
 const FLOW_ROUNDS: u32 = 3;
 /// A region whose mean direction is weaker than this part of the strongest takes its neighbours'.

@@ -4,11 +4,11 @@ use super::parameters::Engraving;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes a pixel: 109 at 100 mm (1 megapixel), 95 at 250 mm (6.3), 90 at 25 x 30 mm and a pitch of 0.05 mm (10.8); no look needs more.
+/// Bytes per pixel: 109 at 100 mm (1 megapixel), 95 at 250 mm (6.3), 90 at 25 x 30 mm and a pitch of 0.05 mm (10.8); no look needs more.
 const BYTES: f64 = 100.0;
 /// More where outlines are looked for: 138 at 250 mm.
 const OUTLINE_BYTES: f64 = 43.0;
-/// Microseconds a pixel: 0.43 at 1 and at 6.3 megapixels.
+/// Microseconds per pixel: 0.43 at 1 and at 6.3 megapixels.
 const MICROSECONDS: f64 = 0.45;
 /// More with superpixels: 1.04 at 250 mm.
 const SUPERPIXEL_MICROSECONDS: f64 = 0.6;

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Courses are read at this many places a pitch.
+/// Courses are read at this many places per pitch.
 pub(super) const READINGS: f64 = 8.0;
 /// Readings of tone from a line to the border of its strip.
 const DEPTHS: usize = 3;

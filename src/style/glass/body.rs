@@ -62,7 +62,7 @@ impl Body {
         self.nodes.len() - 1
     }
 
-    /// The part from one node to another as a stroke on the page, of `scale` millimetres a pixel.
+    /// The part from one node to another as a stroke on the page, of `scale` millimetres per pixel.
     pub(super) fn stroke(&self, first: usize, last: usize, scale: f64, to_page: impl Fn(Point) -> Point) -> Stroke {
         let nodes: Vec<Point> = self.nodes[first..=last].iter().map(|p| to_page(*p)).collect();
         let widths = self.widths[first..=last].iter().map(|w| w * scale).collect();

@@ -4,7 +4,7 @@ use super::parameters::{Manner, Painting};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes a pixel, for the picture's and for each pixel of the strokes' length: 480 at 250 mm and 430 at 400 mm with a length of 18 px,
+/// Bytes per pixel, for the picture's and for each pixel of the strokes' length: 480 at 250 mm and 430 at 400 mm with a length of 18 px,
 /// 820 at 100 mm with one of 357 px.
 const BYTES: f64 = 470.0;
 const LENGTH_BYTES: f64 = 1.0;
@@ -14,7 +14,7 @@ const RIBBON_BYTES: f64 = 80.0;
 const HAIR_BYTES: f64 = 90.0;
 /// Without colours: 220 with one pen, 290 with points, at 250 mm.
 const PLAIN_BYTES: f64 = 290.0;
-/// Microseconds a pixel, for each of the length and for each step: 4.1 at 400 mm, 11.3 with sixteen steps at 250 mm, 17 at 100 mm with
+/// Microseconds per pixel, for each of the length and for each step: 4.1 at 400 mm, 11.3 with sixteen steps at 250 mm, 17 at 100 mm with
 /// a length of 357 px.
 const MICROSECONDS: f64 = 1.7;
 const LENGTH_MICROSECONDS: f64 = 0.04;

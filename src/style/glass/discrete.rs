@@ -30,7 +30,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
     Ok(layer)
 }
 
-/// One point a pitch squared, in millimetres.
+/// One point per squared pitch, in millimetres.
 fn points(drawer: &Drawer<'_>, picture: Rect) -> Vec<Point> {
     let count = (picture.area() / drawer.parameters.pitch_mm.powi(2)).round().max(1.0) as usize;
     let mut random = random::stream(drawer.seed, "points", 0);
@@ -87,7 +87,7 @@ impl<'a> Mover<'a> {
         })
     }
 
-    /// Millimetres a unit of time.
+    /// Millimetres per unit of time.
     fn velocity(&self, p: Point) -> Vec2 {
         let laid = self.drawer.parameters.transform.velocity(p - self.centre, self.half);
         laid.unwrap_or_else(|| self.photograph(p) * self.drawer.parameters.length_mm)

@@ -23,7 +23,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         name: "pitch",
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 50.0 },
         meaning: "approximate width of a stroke; the lengths below default to multiples of it. Also the distance between the points of a discrete pattern",
-        source: "Table 7.1 at 0.28 mm a pixel",
+        source: "Table 7.1 at 0.28 mm per pixel",
         needs: &[],
     },
     Parameter {

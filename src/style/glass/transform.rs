@@ -7,7 +7,7 @@ use crate::geometry::Vec2;
 const NONLINEAR_REACH: f64 = 2.5;
 
 impl Transform {
-    /// Millimetres a unit of time at a place so far from the picture's middle, whose shorter side is twice `half`; none where the
+    /// Millimetres per unit of time at a place so far from the picture's middle, whose shorter side is twice `half`; none where the
     /// photograph's own flow counts.
     pub(super) fn velocity(self, from_centre: Vec2, half: f64) -> Option<Vec2> {
         let Vec2 { x, y } = from_centre;

@@ -1,18 +1,18 @@
-//! What a structure grid takes, as measured.
+//! Measured cost of a structure grid.
 
 use super::parameters::{Gridding, Primitive};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes a pixel: 112 at 100 mm (1 megapixel), 99 at 250 mm (6.3), 95 at 25 x 30 mm and a pitch of 0.05 mm (10.8).
+/// Bytes per pixel: 112 at 100 mm (1 megapixel), 99 at 250 mm (6.3), 95 at 25 x 30 mm and a pitch of 0.05 mm (10.8).
 const BYTES: f64 = 105.0;
 /// With tiles as hatched outlines: 204 at 250 mm.
 const TILE_LINES_BYTES: f64 = 210.0;
-/// More where dots and lines stand closer, for the share that they do: 163 at 250 mm and 0.6.
+/// Additional bytes with `adaptive`, in proportion to it: 163 in all at 250 mm and 0.6.
 const ADAPTIVE_BYTES: f64 = 100.0;
-/// Microseconds a pixel: 1.5 at 1, 1.6 at 6.3 megapixels.
+/// Microseconds per pixel: 1.5 at 1, 1.6 at 6.3 megapixels.
 const MICROSECONDS: f64 = 1.5;
-/// Of each small step by which stripes become regular: 3470 of them (a window of 10 mm) took 5 s on 1 megapixel.
+/// For each small step that makes the stripes regular: 3470 of them (a window of 10 mm) took 5 s on 1 megapixel.
 const STEP_MICROSECONDS: f64 = 0.0015;
 
 pub(super) fn cost(parameters: &Gridding, picture: Rect, pixels_per_mm: f64) -> Cost {

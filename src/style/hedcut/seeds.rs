@@ -43,7 +43,7 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
     Ok(sites)
 }
 
-/// Wanted dots a pitch squared: 1 in the subject, more in detail regions, 0 outside.
+/// Wanted dots per squared pitch: 1 in the subject, more in detail regions, 0 outside.
 fn density(drawer: &Drawer<'_>) -> Raster<f32> {
     let subject = &drawer.portrait.subject;
     match drawer.detail() {

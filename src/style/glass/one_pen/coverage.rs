@@ -3,7 +3,7 @@
 use crate::geometry::{Point, distance_to_segment};
 use crate::raster::{Raster, fast_gaussian};
 
-/// Sub-pixels a line's width: finer changes the measured ink by less than 0.002.
+/// Sub-pixels per line's width: finer changes the measured ink by less than 0.002.
 const FINE: f64 = 6.0;
 /// Shares of ink for which the spacing is found one by one.
 const TONES: usize = 20;
