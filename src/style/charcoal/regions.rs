@@ -34,7 +34,7 @@ const BACKGROUND_STEP: f32 = 0.012;
 const BACKGROUND_SPREAD: f32 = 0.3;
 /// Range of shares of the picture in which a flooded background is accepted.
 const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
-/// Colour distance to the hair's colour, compared with that to the skin's: the nearer one decides.
+/// Minimum of the colour distance within which a pixel is hair, if it is nearer to the hair's colour than to the skin's.
 const HAIR_REACH: f32 = 0.16;
 /// Minimum colour distance between hair and skin, and the distance from which colour alone identifies hair. On the dark bust it is
 /// smaller, and half of the face would become hair; blond hair has half as much, and only its crown and the hair hanging from it are
