@@ -8,7 +8,7 @@ const TALLEST: f64 = 0.34;
 /// Added to the lightness before dividing by it, so that black does not turn into noise.
 const NOISE: f32 = 0.02;
 
-/// A lightness with its thin dark places filled, and its ratio to the original.
+/// A lightness with its thin dark places filled, and the ratio of the original to it.
 pub(super) struct DarkRelief {
     /// The lightness after a vertical closing: features are gone, hair and shadows stay.
     pub filled: Raster<f32>,

@@ -44,7 +44,7 @@ pub(super) fn coverage(lines: &[Vec<Point>], width: f64, like: &Raster<f32>) -> 
     })
 }
 
-/// Correction of the line spacing by ink: factor by which lines stand closer than width / ink.
+/// Correction of the line spacing: a factor on `width / ink`, by ink.
 pub(super) struct Calibration {
     factors: [f32; TONES + 1],
     /// For each tone, the logarithms of the tried factors and of the resulting ink.
