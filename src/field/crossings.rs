@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// A length in pixels that differs from place to place.
+/// A length in pixels that depends on the place.
 pub type LocalLength<'a> = &'a (dyn Fn(Point) -> f64 + Sync);
 
 /// The points where both phases are 0, no two nearer than `least` pixels (at the later one's place).

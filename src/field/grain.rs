@@ -14,7 +14,7 @@ pub fn grain_areas(tone: &Raster<f32>, texture: &Raster<f32>) -> Vec<Vec<Curve>>
     // A bare rim of one pixel closes every outline.
     let rise = Raster::from_fn(width + 2, height + 2, |x, y| {
         let is_rim = x == 0 || y == 0 || x == width + 1 || y == height + 1;
-        // A white place stays white even where the texture is at its very top.
+        // A white place stays white even at the texture's maximum.
         if is_rim || tone.get(x - 1, y - 1) >= 1.0 { -1.0 } else { texture.get(x - 1, y - 1) - tone.get(x - 1, y - 1) }
     });
     let (labels, count) = components(&rise.map(|v| u8::from(v > 0.0)));

@@ -32,7 +32,7 @@ pub enum HoughForm {
     /// A round window; counts in excess of those expected from the density of points, squared. Error of 0.6 degrees on clean lines, 1.2
     /// with a fifth of the pixels flipped.
     Round,
-    /// As printed: a square window and plain counts, which lean towards the window's diagonals.
+    /// As printed: a square window and plain counts, which are biased towards the window's diagonals.
     Thesis,
 }
 

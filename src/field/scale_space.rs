@@ -123,7 +123,7 @@ impl Tree {
             let mut parts: Vec<Vec<(f64, f64)>> = vec![Vec::new(); above.len()];
             let mut fresh = Vec::new();
             for &hill in hills {
-                // Inflections move little between two scales, so a hill's middle lies in the hill that it came from.
+                // Inflections move little between two scales, so a hill's middle lies inside its parent hill.
                 let holder = (0..above.len()).find(|&i| {
                     let span = tree.nodes[above[i]].span;
                     (span.0..=span.1).contains(&middle(hill))

@@ -5,7 +5,7 @@
 //!   . . . o-.-.> .         2. a step of 3 along the direction predicts the next point
 //!   . o o . .[. .].        3. the edge pixel nearest to it in a 5 x 5 window is the next vertex
 //!   o . . . .[. x].        4. the direction is averaged with the step just made; pixels passed are marked as visited
-//!   . . . . .[. .].        5. lines whose ends are alike in place and direction are linked
+//!   . . . . .[. .].        5. lines whose ends agree in place and direction are linked
 //! ```
 //!
 //! The thesis stops at a crossing that an earlier line has marked. This tracer looks one window further in the same direction, so that

@@ -1,7 +1,7 @@
 //! Cost of a drawing, estimated from its size and parameters before any work is done.
 //!
-//! Each style has its own figures, measured with `time -v` on the astronaut of the samples: the peak of memory, and the user's seconds
-//! on two cores of about 3 GHz. They should be right to about a third, and rather high than low.
+//! Each style has its own figures, measured with `time -v` on the sample astronaut: peak memory, and user seconds on two cores of about
+//! 3 GHz. They should be right to about a third, and rather high than low.
 
 use crate::geometry::Rect;
 

@@ -26,7 +26,7 @@ use crate::geometry::Rect;
 use crate::source::{MaskRole, Portrait};
 use thiserror::Error;
 
-/// One way of drawing.
+/// A drawing style.
 pub trait Style: Sync {
     /// Its name on the command line.
     fn name(&self) -> &'static str;

@@ -36,27 +36,27 @@ pub enum Kind {
     Length {
         /// The default.
         default: Default,
-        /// Least value in millimetres.
+        /// Minimum in millimetres.
         least: f64,
-        /// Greatest value in millimetres.
+        /// Maximum in millimetres.
         most: f64,
     },
     /// A plain number.
     Number {
         /// The default.
         default: f64,
-        /// Least value.
+        /// Minimum.
         least: f64,
-        /// Greatest value.
+        /// Maximum.
         most: f64,
     },
     /// A whole number.
     Count {
         /// The default.
         default: u32,
-        /// Least value.
+        /// Minimum.
         least: u32,
-        /// Greatest value.
+        /// Maximum.
         most: u32,
     },
     /// One of these words; the first is the default.

@@ -37,7 +37,7 @@ pub(super) struct ReversedCell {
     pub polygon: Vec<Point>,
     /// Outline around the centre; empty if there is no hole.
     pub hole: BezPath,
-    /// Part of it lies outside the subject, or the hole may reach beyond it.
+    /// True if part of it lies outside the subject, or the hole may extend beyond the cell.
     pub is_open: bool,
 }
 

@@ -90,7 +90,7 @@ impl Style for Charcoal {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Charcoaling,

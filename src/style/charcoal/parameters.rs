@@ -88,7 +88,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "sketch_offset",
         kind: Kind::Length { default: Default::Pitches(0.8), least: 0.0, most: 50.0 },
-        meaning: "maximum displacement of the ends of those strokes",
+        meaning: "maximum displacement of the ends of the displaced strokes",
         source: "Wong 6.3.2",
         needs: &[Need::Above("sketch_passes", 0.0)],
     },

@@ -189,7 +189,7 @@ impl Drawer<'_> {
         })
     }
 
-    /// The background without a wavering margin.
+    /// The background without an irregular margin.
     fn ragged(&self, subject: &Raster<f32>) -> Raster<f32> {
         let (width, height) = self.size();
         let margin = 0.05 * width.min(height) as f64;

@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn alike_neighbours_are_one_region() {
         let labels = Raster::from_fn(40, 10, |x, _| x as i32 / 10 + 1);
-        // The first two are alike across the turn at 90 degrees, the last is like the second but does not touch it.
+        // The first two are similar across the wrap at 90 degrees; the last is similar to the second but does not touch it.
         let (joined, angles) = join_alike(&labels, &[86.0, -88.0, 30.0, -89.0]);
         assert_eq!(joined, [1, 1, 3, 4]);
         assert!((angles[0] - 89.0).abs() < 1e-6 && (angles[2] - 30.0).abs() < 1e-6, "{angles:?}");

@@ -1,4 +1,4 @@
-//! Parallel lines displaced by depth (Galarza 2017, sections 3.5 and 3.6), kept in order and apart.
+//! Parallel lines displaced by depth (Galarza 2017, sections 3.5 and 3.6), kept in order and at a minimum distance.
 
 use crate::geometry::{Gap, Point, Rect, Vec2};
 use rayon::prelude::*;

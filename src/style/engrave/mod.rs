@@ -88,7 +88,7 @@ impl Style for Engrave {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Engraving,

@@ -74,7 +74,7 @@ impl Family {
         }
     }
 
-    /// The lines between two curves whose first column is `first`, in order.
+    /// Tapered lines between two curves whose first column is `first`, in order.
     fn between(&self, first: usize, below: &[f64], above: &[f64], levels: usize) -> Vec<Line> {
         // Shortcut: most pairs are nowhere too far apart.
         if levels == 0 || below.iter().zip(above).all(|(a, b)| b - a <= OPEN * self.pitch) {

@@ -3,7 +3,7 @@
 //! ```text
 //!      rim  ______________________________________________
 //!             _____------------------------------|   |         a line that runs along the rim is as wide there as the
-//!           --------                             | <-|  ends   room on both sides of its middle; one that comes to
+//!           --------                             | <-|  ends   room on both sides of its middle; one that meets
 //!                   ----------___________________|   |         the rim ends where its square end's corner touches
 //! ```
 

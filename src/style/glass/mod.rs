@@ -83,7 +83,7 @@ impl Glass {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Painting,

@@ -22,7 +22,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "pitch",
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 50.0 },
-        meaning: "approximate width of a stroke; the lengths below default to multiples of it. Also the distance between the points of a discrete pattern",
+        meaning: "approximate width of a stroke; most lengths below default to multiples of it. Also the distance between the points of a discrete pattern",
         source: "Table 7.1 at 0.28 mm per pixel",
         needs: &[],
     },
@@ -236,7 +236,7 @@ impl Painting {
 
     /// Working pixels per millimetre.
     pub(super) fn pixels_per_mm(&self) -> f64 {
-        // Only a painting has grain; lines and points are as fine as it would be by default.
+        // Only a painting has grain; lines and points use the resolution of the default grain.
         let grain = if self.manner == Manner::Painting { self.grain_mm } else { self.pitch_mm * DEFAULT_GRAIN };
         (DEFAULT_GRAIN_MM / grain).max(1.0) / MM_PER_PIXEL
     }

@@ -21,7 +21,7 @@ pub(super) fn cost(parameters: &Gridding, picture: Rect, pixels_per_mm: f64) -> 
     // Nodes stand half a pitch apart, closer where stripes do; each small step widens the window by two fifths of a node's square.
     let window = 2.0 * closer * parameters.window_mm / parameters.pitch_mm;
     let steps = f64::from(parameters.rounds) * (0.625 * window * window).max(1.0);
-    // Detail regions are a small part of a picture: 109 bytes a pixel on A3 with a face.
+    // Detail regions are a small part of a picture: 109 bytes per pixel on A3 with a face.
     let bytes = if parameters.primitive == Primitive::TileLines { TILE_LINES_BYTES } else { BYTES };
     let microseconds = MICROSECONDS * (1.0 + 2.0 * adaptive * closer) + STEP_MICROSECONDS * steps * closer * closer;
     Cost::each(pixels(picture, pixels_per_mm), bytes + ADAPTIVE_BYTES * f64::from(parameters.adaptive), microseconds)

@@ -22,7 +22,7 @@ pub(super) struct Features {
 
 /// Minimum brightness of a hand-made line; low, since thin lines grow faint when the mask is scaled down.
 const LINE_BRIGHTNESS: f32 = 0.25;
-/// Width of a line that was drawn by hand or is the subject's border, in pitches.
+/// Width of hand-drawn lines and of the subject's border, in pitches.
 const PLAIN_WIDTH: f64 = 0.25;
 
 impl Drawer<'_> {

@@ -80,7 +80,7 @@ impl Style for Grid {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Gridding,

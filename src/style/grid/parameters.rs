@@ -39,7 +39,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "blend",
         kind: Kind::Number { default: 0.1, least: 0.001, most: 0.5 },
-        meaning: "range of tone on either side of that limit over which lines replace dots",
+        meaning: "range of tone on either side of the size_max limit over which lines replace dots",
         source: "Son 6.3, without its sudden border",
         needs: &[MIXED, HAS_LINES, Need::Above("size_max", 0.0)],
     },

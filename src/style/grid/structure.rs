@@ -24,8 +24,8 @@ const LEAST_DISTANCE: f64 = 0.6;
 /// Radius of an empty place that gets an extra dot, in pitches; an even grid has 0.71. At 0.85 dots crowd where rows end, at 1.1 white
 /// spots show there.
 const HOLE: f64 = 0.95;
-/// Blur of a detail region's border, in pitches: rows end one by one over it, and no border was seen on six portraits at full size. Eyes
-/// in a portrait of 90 mm are five pitches high; a wider blur would leave little of them.
+/// Blur of a detail region's border, in pitches: rows end one by one over it, and no border was visible on six portraits at full size.
+/// Eyes in a portrait of 90 mm are five pitches high; a wider blur would leave little of them.
 const DETAIL_BLUR: f64 = 1.0;
 /// How strongly a row is held at its place beside a feature line; at 1 rows break beside short lines.
 const HOLD: f64 = 0.25;

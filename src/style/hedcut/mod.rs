@@ -65,7 +65,7 @@ impl Style for Hedcut {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Hedcutting,
