@@ -52,8 +52,8 @@ impl Mixing {
         }
     }
 
-    /// Width at which lines alone make the ink `1 - tone`, for families of `density` lines per pixel: the remaining white is `(1 - h f0)
-    /// (1 - h f1)`, or `1 - h f` with one family (for equal spacing d: `h = d (1 - sqrt(b))` and `d (1 - b)`).
+    /// Width at which lines alone make the ink `1 - tone`, for families of `density` lines per pixel: the remaining white is
+    /// `(1 - h f0) (1 - h f1)`, or `1 - h f` with one family (for equal spacing d: `h = d (1 - sqrt(b))` and `d (1 - b)`).
     pub(super) fn full_width(&self, tone: f64, density: [f64; 2]) -> f64 {
         let ink = (1.0 - tone).clamp(0.0, 1.0);
         match self.hatching {
