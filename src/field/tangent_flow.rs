@@ -19,8 +19,8 @@ pub struct EdgeTangentFlow {
 
 /// The edge tangent flow of a grey raster, 0 to 1.
 ///
-/// Each round replaces the direction at `x` by the sum over the window (`radius` pixels, mu = 5) of `sign(t(x).t(y)) t(y) w_m w_d`, `w_d
-/// = |t(x).t(y)|`, `w_m = (1 + tanh(g(y) - g(x))) / 2`. Kang's value: 2 to 3 rounds.
+/// Each round replaces the direction at `x` by the sum over the window (`radius` pixels, mu = 5) of `sign(t(x).t(y)) t(y) w_m w_d`,
+/// `w_d = |t(x).t(y)|`, `w_m = (1 + tanh(g(y) - g(x))) / 2`. Kang's value: 2 to 3 rounds.
 pub fn edge_tangent_flow(grey: &Raster<f32>, radius: usize, rounds: u32) -> EdgeTangentFlow {
     let gradient = sobel(grey);
     let magnitude = gradient.map(|[x, y]| x.hypot(y));
