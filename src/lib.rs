@@ -9,19 +9,20 @@
 //! | module | in | out |
 //! |---|---|---|
 //! | [`source`] | bytes of an image | [`source::Portrait`]: light, tone, masks at a style's working resolution |
-//! | [`see`] | a photograph | [`see::Sight`]: faces, their points, the person without the background, its regions, how near each part is |
-//! | [`tone`] | a portrait with faces | the tone that its ink must match |
-//! | [`raster`] | rasters | rasters: filters that know of nothing else |
+//! | [`see`] | a photograph | [`see::Sight`]: faces, their points, the person without the background, its regions, depth |
+//! | [`tone`] | a portrait with faces | the target tone for its ink |
+//! | [`raster`] | rasters | rasters: filters without other dependencies |
 //! | [`field`] | rasters, curves | edges, isophotes, distances, lanes, Voronoi cells, traced lines |
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
-//! | [`press`] | a drawing, a press's dot gain and smallest mark | the drawing to print, so that the tone comes out |
+//! | [`press`] | a drawing, a press's dot gain and smallest mark | the drawing to print, compensated to keep the tone |
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
 //! | [`mod@write`] | a drawing or a plot | bytes |
 //! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
-//! | `cli` (cargo feature) | arguments | the only place with files, stdout and exit codes |
-//! | [`mod@interrupt`] | | a request to stop, which long loops everywhere look at |
+//! | [`resume`] | a plotter's file and where it stopped | the rest of the file |
+//! | `cli` (cargo feature) | arguments | the only module that uses files, stdout and exit codes |
+//! | [`mod@interrupt`] | | a request to stop, checked by all long loops |
 //!
 //! The page is in millimetres, x right, y down, from the sheet's upper left corner; pixels exist only left of [`style`]. Tone is
 //! the fraction of paper left white. The same input, options and seed give the same bytes on any number of threads.

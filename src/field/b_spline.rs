@@ -3,18 +3,18 @@
 use crate::geometry::Point;
 use rayon::prelude::*;
 
-/// A place, a value of three components, and how much it counts against others nearby (above 0).
+/// A measured value of three components at a place, with a weight relative to its neighbours' (above 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Datum {
     /// Where, in pixels.
     pub position: Point,
-    /// What was measured there.
+    /// The measured value.
     pub value: [f32; 3],
     /// Its weight.
     pub weight: f32,
 }
 
-/// A surface of uniform cubic B-splines; control point `(i, j)` rules around `((i - 1) cell, (j - 1) cell)`.
+/// A surface of uniform cubic B-splines; control point `(i, j)` lies at `((i - 1) cell, (j - 1) cell)`.
 #[derive(Clone, Debug)]
 pub struct BSpline {
     cell: f64,
@@ -23,8 +23,8 @@ pub struct BSpline {
     control: Vec<[f32; 3]>,
 }
 
-/// Fits a surface over `width` x `height` pixels: a lattice of one cell first, then of cells half as large on what is left, down
-/// to cells no smaller than `finest` pixels; all in one lattice at the end. Cost is linear in the data for each level.
+/// Fits a surface over `width` x `height` pixels: first a lattice of one cell, then lattices with cells half as large on the residuals,
+/// down to cells no smaller than `finest` pixels; finally all are merged into one lattice. Cost is linear in the data for each level.
 #[expect(clippy::missing_panics_doc, reason = "at least one level is fitted")]
 pub fn multilevel_b_spline(data: &[Datum], width: f64, height: f64, finest: f64) -> BSpline {
     let mut residual = data.to_vec();
@@ -60,7 +60,7 @@ impl BSpline {
         Self { cell, columns, rows, control: vec![[0.0; 3]; columns * rows] }
     }
 
-    /// One level: each control point takes what its data ask for, weighted by the squares of their influence.
+    /// One level: each control point is the mean of the values its data require, weighted by the squares of their influence.
     fn fitted(data: &[Datum], width: f64, height: f64, cell: f64) -> Self {
         let mut surface = Self::empty(width, height, cell);
         let mut weights = vec![0.0_f32; surface.control.len()];
@@ -86,7 +86,7 @@ impl BSpline {
         surface
     }
 
-    /// The first control point that rules at a place, and the basis both ways.
+    /// The first control point with influence at a place, and the basis in both directions.
     fn place(&self, p: Point) -> (usize, usize, [f32; 4], [f32; 4]) {
         let along = |v: f64, count: usize| {
             let t = (v / self.cell).clamp(0.0, (count - 3) as f64);
@@ -97,7 +97,7 @@ impl BSpline {
         (i, j, across, down)
     }
 
-    /// The surface at a place in pixels; beyond the border, at the border.
+    /// The surface at a place in pixels; places beyond the border are clamped to it.
     pub fn at(&self, p: Point) -> [f32; 3] {
         let (i, j, across, down) = self.place(p);
         let mut sum = [0.0_f32; 3];
@@ -111,8 +111,8 @@ impl BSpline {
         sum
     }
 
-    /// The same surface on the finer lattice, plus that lattice's own: knots are halved, so a new control point on an old one
-    /// takes 1, 6, 1 eighths and one between takes halves.
+    /// This surface on the finer lattice, plus that lattice's own. Knots are halved: a new control point on an old one takes 1, 6, 1
+    /// eighths, one between two takes halves.
     fn refined(&self, finer: &Self) -> Self {
         let mut out = finer.clone();
         let taps = |index: usize, count: usize| {

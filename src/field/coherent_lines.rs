@@ -1,5 +1,5 @@
-//! From the pixels of coherent lines to curves with a width (Son et al. 2011, section 4.1, asks for the lines; Bruehl 2023,
-//! section 4.3.1, wishes for them in the place of Canny's).
+//! From the pixels of coherent lines to curves with a width (lines as in Son et al. 2011, section 4.1; Bruehl 2023, section 4.3.1,
+//! suggests them instead of Canny's edges).
 
 use super::distance::nearest_seed;
 use super::flow_dog::FlowLines;
@@ -14,7 +14,7 @@ pub struct CoherentLine {
     pub curve: Curve,
     /// One for each point.
     pub widths: Vec<f64>,
-    /// Difference of the grey on it and to both sides, the mean along it, 0 to 1.
+    /// Mean difference of grey between the line and both sides, 0 to 1.
     pub contrast: f64,
 }
 
@@ -29,11 +29,11 @@ pub struct CoherentLines {
     pub lines: Vec<CoherentLine>,
 }
 
-/// Distance of a curve's points in pixels.
+/// Distance between a curve's points in pixels.
 const SPACING: f64 = 1.5;
 
-/// Thins, traces and smooths (`smoothing` pixels along the line); lines shorter than `least` pixels are left out. A line's width
-/// is twice the distance to what is not line, along its middle. `grey` is what they were found in.
+/// Thins, traces and smooths (`smoothing` pixels along the line); lines shorter than `least` pixels are left out. A line's width is
+/// twice the distance from its middle to the nearest pixel off the line. `grey` is the raster in which they were found.
 pub fn coherent_lines(found: &FlowLines, grey: &Raster<f32>, smoothing: f64, least: f64) -> CoherentLines {
     let kept = without_short(&found.line, least);
     let skeleton = thin(&kept);
@@ -85,7 +85,7 @@ fn widths(curve: &Curve, kept: &Raster<u8>, outside: Option<&Raster<u32>>, smoot
         .collect()
 }
 
-/// Pixels beside a line at which its surroundings are read, beyond its half width.
+/// Distance beyond its half width at which a line's surroundings are read, in pixels.
 const BESIDE: f64 = 2.0;
 
 fn contrast(curve: &Curve, widths: &[f64], grey: &Raster<f32>) -> f64 {
@@ -103,7 +103,7 @@ fn contrast(curve: &Curve, widths: &[f64], grey: &Raster<f32>) -> f64 {
     sum / (last + 1) as f64
 }
 
-/// A line one pixel wide lies a pixel from what is beside it, one two pixels wide likewise or two.
+/// Width at a place: in a line one pixel wide the nearest outside pixel is one pixel away, in a line two pixels wide one or two.
 fn width_at(p: Point, kept: &Raster<u8>, outside: &Raster<u32>, columns: usize) -> f64 {
     let x = (p.x.max(0.0) as usize).min(kept.width() - 1);
     let y = (p.y.max(0.0) as usize).min(kept.height() - 1);

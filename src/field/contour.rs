@@ -5,8 +5,8 @@ use crate::geometry::Point;
 use crate::raster::Raster;
 use std::collections::HashMap;
 
-/// The lines along which the raster, bilinear between pixel centres, equals `level`; greater values on their left
-/// (seen with y up; on the right with y down). Lines end only at the raster's border.
+/// The lines along which the raster, bilinear between pixel centres, equals `level`; greater values on their left (seen with y up; on
+/// the right with y down). Open lines end at the raster's border.
 pub fn contours(raster: &Raster<f32>, level: f32) -> Vec<Curve> {
     let mut next: HashMap<EdgeKey, (EdgeKey, Point)> = HashMap::new();
     let mut starts: Vec<EdgeKey> = Vec::new();
@@ -29,7 +29,7 @@ struct EdgeKey {
     down: bool,
 }
 
-/// Where the level is crossed on a side.
+/// The point where the level is crossed on a side.
 fn crossing(raster: &Raster<f32>, side: EdgeKey, level: f32) -> Point {
     let (x, y) = (side.x as usize, side.y as usize);
     let a = raster.get(x, y);
@@ -79,7 +79,7 @@ fn cell_segments(raster: &Raster<f32>, x: usize, y: usize, level: f32) -> impl I
     pieces.into_iter().flatten()
 }
 
-/// Follows the pieces from side to side: first those that begin at the border, then the loops.
+/// Follows the pieces from side to side: first lines that begin at the border, then loops.
 fn chain(raster: &Raster<f32>, starts: &[EdgeKey], mut next: HashMap<EdgeKey, (EdgeKey, Point)>, level: f32) -> Vec<Curve> {
     let entered: std::collections::HashSet<EdgeKey> = next.values().map(|(to, _)| *to).collect();
     let mut curves = Vec::new();

@@ -1,42 +1,42 @@
 //! Strokes along an orientation field that cover a region evenly and make its tone (Wong 1999, sections 6.3.3 and 8).
 //!
-//! The thesis starts its strokes anywhere and trusts to their number. Here each stroke starts where ink is still wanted, and the
-//! ink that it lays down is taken off what is wanted round it: even cover, denser where darker.
+//! The thesis starts its strokes at random places and relies on their number. Here each stroke starts where ink is still missing, and
+//! its ink is subtracted from the target around it: the cover is even, and denser where darker.
 
 use super::orientation::OrientationField;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use rand::{Rng, RngExt};
 
-/// How a region is covered; lengths in working pixels.
+/// Parameters of a covering; lengths in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covering {
     /// Width of a stroke.
     pub width: f64,
     /// Mean length of a stroke, along its centre line.
     pub length: f64,
-    /// How far lengths vary, as a fraction.
+    /// Variation of the lengths, as a fraction.
     pub length_spread: f64,
-    /// Greatest angle between a stroke and the field, in radians; each stroke has its own (thesis: pi/12).
+    /// Maximum angle between a stroke and the field, in radians; each stroke has its own angle (thesis: pi/12).
     pub turn: f64,
-    /// Radius over which ink is averaged: about the distance of neighbouring strokes.
+    /// Radius over which ink is averaged: about the distance between neighbouring strokes.
     pub reach: f64,
 }
 
 /// Length of a step along the field in pixels.
 const STEP: f64 = 1.5;
-/// Ink that must be wanted where a stroke starts, in passes of a stroke. A stroke goes on while half a pass is wanted, so that what
-/// it lays down is as often too much as too little; starting at half a pass too made everything a quarter too dark.
+/// Missing ink that a stroke's start requires, in passes of a stroke. A stroke continues while half a pass is missing, so that its ink
+/// is as often too much as too little; starting at half a pass, too, made everything a quarter too dark.
 const START: f32 = 0.7;
-/// How much of half its length a stroke runs on over ground that has its ink; a hand does not stop at each crossing.
+/// Share of half its length that a stroke may continue over places that already have their ink; a hand does not stop at each crossing.
 const OVERDRAWN: f64 = 0.15;
-/// A stroke that is shorter than this many widths is a speck and is left out.
+/// Strokes shorter than this many widths are specks and are left out.
 const LEAST_WIDTHS: f64 = 4.0;
 
 /// Strokes inside the region (at least 0.5) whose ink adds up to `ink` (0 to 1), in drawing order.
 ///
-/// Starting places are tried in a random order, one for each square of a stroke's width; time grows with the region and with the
-/// strokes' lengths times `reach` squared.
+/// Starting places are tried in random order, one per square of a stroke's width. Time grows with the region's area and with the total
+/// length of strokes times `reach` squared.
 pub fn cover(
     field: &OrientationField,
     region: &Raster<f32>,
@@ -87,10 +87,10 @@ fn starts(region: &Raster<f32>, square: f64, random: &mut impl Rng) -> Vec<Point
     starts
 }
 
-/// The ink that is still wanted.
+/// The ink that is still missing.
 struct Bed {
     wanted: Raster<f32>,
-    /// What a step of a stroke takes off, for each pixel of a square round it.
+    /// Ink that a step of a stroke removes from each pixel of the square around it.
     splat: Vec<f32>,
     reach: isize,
 }
@@ -99,7 +99,7 @@ fn splat_reach(covering: Covering) -> isize {
     (2.5 * covering.reach).ceil().clamp(1.0, 60.0) as isize
 }
 
-/// A Gaussian that holds the ink of one step.
+/// A Gaussian with the ink of one step.
 fn splat(covering: Covering) -> Vec<f32> {
     let reach = splat_reach(covering);
     let weight = |dx: isize, dy: isize| (-0.5 * ((dx * dx + dy * dy) as f64) / covering.reach.max(0.3).powi(2)).exp();
@@ -113,7 +113,7 @@ impl Bed {
         self.wanted.sample(p.x, p.y)
     }
 
-    /// What one straight stroke takes off along its own line.
+    /// Ink that one straight stroke removes along its own line.
     fn of_one_pass(&self) -> f32 {
         let side = 2 * self.reach as usize + 1;
         let middle: f32 = self.splat[side * self.reach as usize..side * (self.reach as usize + 1)].iter().sum();
@@ -135,7 +135,7 @@ impl Bed {
     }
 }
 
-/// One stroke's way.
+/// Tracing of one stroke.
 struct Run<'a> {
     field: &'a OrientationField,
     region: &'a Raster<f32>,
@@ -144,8 +144,8 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Points from a start (not included) in one direction until the length is used up, the region ends, the field ends or turns
-    /// back, or the paper has all its ink.
+    /// Points from a start (not included) in one direction until the length is used up, the region ends, the field ends or turns back,
+    /// or no ink is missing.
     fn follow(&self, bed: &Bed, start: Point, sign: f64) -> Vec<Point> {
         let mut points = Vec::new();
         let Some(first) = self.direction(start) else { return points };
@@ -169,7 +169,7 @@ impl Run<'_> {
             points.push(next);
             (here, heading) = (next, next_heading);
         }
-        // What it has overdrawn at its end it need not have drawn.
+        // Removes the overdrawn end.
         points.truncate(points.len() - (overdrawn / STEP) as usize);
         points
     }

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// A length in pixels that differs from place to place.
+/// A length in pixels that depends on the place.
 pub type LocalLength<'a> = &'a (dyn Fn(Point) -> f64 + Sync);
 
-/// Where both phases are 0, no two nearer than `least` pixels at the later one's place.
+/// The points where both phases are 0, no two nearer than `least` pixels (at the later one's place).
 ///
-/// Within each cell both phases are bilinear; each pair of whole cycles in the cell's range is sought by Newton's method.
+/// Within each cell both phases are bilinear; each pair of whole cycles in the cell's range is solved by Newton's method.
 ///
 /// # Panics
 /// If the lattices differ in size.
@@ -35,8 +35,8 @@ pub fn crossings(along: &StripeLattice, across: &StripeLattice, least: LocalLeng
     apart(Vec::new(), &by_row.concat(), least)
 }
 
-/// Places for more points where none is within `reach` pixels, which is `farthest` at most: rows that end leave holes. At the corners
-/// of Voronoi cells, which are the farthest from all points.
+/// Places for extra points with no other within `reach` pixels (at most `farthest`): rows that end leave holes. They lie at corners of
+/// Voronoi cells, which are farthest from all points.
 pub fn holes(points: &[Point], field: Rect, reach: LocalLength<'_>, farthest: f64) -> Vec<Point> {
     if points.is_empty() {
         return Vec::new();
@@ -56,7 +56,7 @@ pub fn holes(points: &[Point], field: Rect, reach: LocalLength<'_>, farthest: f6
     apart(points.to_vec(), &candidates, reach).split_off(points.len())
 }
 
-/// How far outside a cell a crossing still counts, so that none on a border is lost; twins are dropped later.
+/// Tolerance for crossings outside a cell, so that none on a border is lost; duplicates are dropped later.
 const SLACK: f64 = 1e-6;
 
 fn in_cell(a: &CellPhases, b: &CellPhases, mut found: impl FnMut(f64, f64)) {
@@ -95,7 +95,7 @@ fn solve(a: &CellPhases, b: &CellPhases, first: f64, second: f64) -> Option<(f64
     (inside.contains(&u) && inside.contains(&v)).then_some((u, v))
 }
 
-/// The kept points and those of the others that are no nearer than `least` to one before them.
+/// The kept points, and those of the others that are at least `least` from all points before them.
 fn apart(kept: Vec<Point>, others: &[Point], least: LocalLength<'_>) -> Vec<Point> {
     let side = others.iter().map(|p| least(*p)).fold(f64::MIN_POSITIVE, f64::max);
     let cell = |p: &Point| ((p.x / side).floor() as i64, (p.y / side).floor() as i64);

@@ -1,33 +1,34 @@
-//! Dark places that are thin from top to bottom, as a face's features are and a fringe, a cap or a shaded cheek is not.
+//! Dark places that are thin from top to bottom, such as a face's features, but not a fringe, a cap or a shaded cheek.
 
 use crate::raster::{Raster, gaussian_blur};
 
-/// Blur, and the height of the tallest feature, in distances of the eyes: taller than an eye or a parted mouth, less tall than hair.
+/// Blur, and the height of the tallest feature, in eye distances: taller than an eye or a parted mouth, but less than hair.
 const BLUR: f64 = 0.03;
 const TALLEST: f64 = 0.34;
-/// Added to the lightness before it is divided by, so that black is not all noise.
+/// Added to the lightness before dividing by it, so that black does not turn into noise.
 const NOISE: f32 = 0.02;
 
-/// A lightness with its thin dark places filled, and what share of that light they leave.
+/// A lightness with its thin dark places filled, and the ratio of the original to it.
 pub(super) struct DarkRelief {
-    /// The lightness closed downwards: features are gone, hair and shadows stay.
+    /// The lightness after a vertical closing: features are gone, hair and shadows stay.
     pub filled: Raster<f32>,
     /// The lightness divided by the filled one: 1 where nothing was thin and dark.
     pub relief: Raster<f32>,
 }
 
-/// The relief of features of a face whose eyes are so many pixels apart.
+/// The relief of a face's features; `eye_distance` in pixels.
 pub(super) fn dark_relief(lightness: &Raster<f32>, eye_distance: f64) -> DarkRelief {
     let fine = gaussian_blur(lightness, (BLUR * eye_distance) as f32);
     let height = ((TALLEST * eye_distance) as isize).max(1);
     let raised = extreme_of_columns(&fine, height, f32::max);
-    // Looked for the other way, so that the two windows meet where they began.
+    // In the opposite direction, so that the two windows end where they began.
     let filled = extreme_of_columns(&raised, -height, f32::min);
     let relief = fine.zip_map(&filled, |fine, filled| (fine + NOISE) / (filled + NOISE));
     DarkRelief { filled, relief }
 }
 
-/// The extreme of `|reach|` pixels from each one on, downwards or, when negative, upwards: windows double until they are long enough.
+/// The extreme over `|reach|` pixels starting at each pixel, downwards or, if negative, upwards; windows double until they are long
+/// enough.
 fn extreme_of_columns(raster: &Raster<f32>, reach: isize, pick: fn(f32, f32) -> f32) -> Raster<f32> {
     let step = reach.signum();
     let with = |raster: &Raster<f32>, by: isize| {

@@ -10,7 +10,7 @@ use crate::raster::{Raster, gaussian_blur};
 pub struct DirectionField {
     /// Unit vectors along the features.
     pub tangent: Raster<[f32; 2]>,
-    /// Where there is no direction, since it turns by half a circle or more around.
+    /// Points without a direction, since it turns by half a circle or more around them.
     pub singularities: Vec<Singularity>,
 }
 
@@ -19,41 +19,41 @@ pub struct DirectionField {
 pub struct Singularity {
     /// In pixels.
     pub position: Point,
-    /// Turns of the direction in one way round: 1/2 (a loop's end), -1/2 (a triple point); 1 and -1 show as pairs of these.
+    /// Turns of the direction along a circuit: 1/2 (a loop's end), -1/2 (a triple point); 1 and -1 appear as pairs of these.
     pub index: f32,
 }
 
-/// Lines that steer the field, and how much they count.
+/// Lines that steer the field, and their weight.
 #[derive(Clone, Copy, Debug)]
 pub struct Guides<'a> {
     /// In pixels.
     pub curves: &'a [Curve],
-    /// Against other guides at the same place.
+    /// Weight relative to other guides at the same place.
     pub weight: f32,
 }
 
-/// Distance of the data read from a line, in pixels: a third of the shortest stripe's pitch in use.
+/// Distance between data samples along a line, in pixels: a third of the smallest stripe pitch in use.
 const DATUM_SPACING: f64 = 2.0;
 
-/// How the field between the lines is made; lengths in pixels.
+/// Parameters of the field; lengths in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldParameters {
     /// The finest cells of the splines.
     pub finest: f64,
-    /// Standard deviation of the calming: where lines disagree, the direction turns over this length and not at a wall.
+    /// Standard deviation of the calming: where lines disagree, the direction turns over this length instead of abruptly.
     pub calm: f64,
 }
 
-/// Nodes in the finest cell at which the field is worked out; between them it is bilinear.
+/// Nodes per finest cell at which the field is evaluated; between them it is bilinear.
 const NODES_PER_CELL: f64 = 6.0;
 /// Rounds of calming. One leaves walls where the splines' tensor passes through 0.
 const CALM_ROUNDS: usize = 2;
 
-/// The directions of the lines' tangents, as tensors `(c^2, cs, s^2)`, interpolated by multi-level B-splines, and the
-/// eigenvector of the larger eigenvalue. Without lines the field is the diagonal's, as a printer's screen.
+/// The directions of the lines' tangents, as tensors `(c^2, cs, s^2)`, interpolated by multi-level B-splines, and the eigenvector of the
+/// larger eigenvalue. Without lines the field is diagonal, like a printer's screen.
 ///
-/// Splines alone turn abruptly along lines where the tensor is nearly round. Calming makes every tensor equally long before it is
-/// averaged with its neighbours, so that the turn spreads.
+/// Splines alone turn abruptly where the tensor is nearly isotropic. Calming normalises every tensor before averaging it with its
+/// neighbours, so that the turn spreads.
 pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, parameters: FieldParameters) -> DirectionField {
     let data: Vec<Datum> =
         guides.iter().flat_map(|guide| guide.curves.iter().flat_map(|curve| tensors(curve, guide.weight))).collect();
@@ -75,14 +75,14 @@ pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, param
     }
     let planes = [0, 1].map(|c| nodes.map(|d| d[c]));
     let tangent = Raster::from_fn(width, height, |x, y| {
-        // Nodes lie at whole steps from the corner; a raster's pixels half a pixel further.
+        // Nodes lie at whole steps from the corner, pixel centres half a pixel further.
         let (u, v) = ((x as f64 + 0.5) / step + 0.5, (y as f64 + 0.5) / step + 0.5);
         eigenvector([planes[0].sample(u, v), planes[1].sample(u, v)])
     });
     DirectionField { tangent, singularities }
 }
 
-/// Doubled angles of length 1; none where there is no direction.
+/// Doubled angles normalised to length 1; zero where there is no direction.
 fn unit([x, y]: [f32; 2]) -> [f32; 2] {
     let length = x.hypot(y);
     if length < 1e-12 { [0.0, 0.0] } else { [x / length, y / length] }
@@ -124,7 +124,7 @@ fn eigenvector([x, y]: [f32; 2]) -> [f32; 2] {
     [cosine, if y < 0.0 { -sine } else { sine }]
 }
 
-/// Squares of `side` nodes around which the doubled angle makes a turn; places in nodes.
+/// Squares of `side` nodes around which the doubled angle makes a full turn; positions in nodes.
 fn singularities(deviator: &Raster<[f32; 2]>, side: usize) -> Vec<Singularity> {
     let mut found = Vec::new();
     for y in (0..deviator.height().saturating_sub(side)).step_by(side) {

@@ -5,12 +5,12 @@ use crate::geometry::{Point, resample};
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Pieces of a curve on either side of the one that was found: its pixel may be two away from the nearest one's.
+/// Pieces of a curve searched on either side of the one found: the nearest piece may be two pixels away from it.
 const NEIGHBOURS: usize = 3;
 /// No seed anywhere.
 const NONE: u32 = u32::MAX;
 
-/// For each pixel, the index of the nearest marked one (exact, by pixel centres); none when nothing is marked.
+/// For each pixel, the index of the nearest marked pixel (exact, by pixel centres); none if nothing is marked.
 ///
 /// Two passes: the nearest in the column by two sweeps, then along each row the lower envelope of the parabolas
 /// `(p - q)^2 + f(q)`, which carries the seed along. Linear in the pixels.
@@ -70,7 +70,7 @@ impl Envelope {
 
     fn scan(&mut self, rows: &[u32], y: usize, width: usize, out: &mut [u32]) {
         let height_of = |q: usize| (f64::from(rows[q]) - y as f64).powi(2);
-        // Where the parabolas rooted at r < q meet; the paper's formula with its bracket restored.
+        // Where the parabolas rooted at r < q meet; the paper's formula with its missing bracket.
         let meet = |r: usize, q: usize| {
             ((height_of(q) + (q * q) as f64) - (height_of(r) + (r * r) as f64)) / (2.0 * (q as f64 - r as f64))
         };
@@ -104,14 +104,14 @@ impl Envelope {
 /// Distance of each pixel's centre to the nearest of some curves, and on which side of it the pixel lies.
 #[derive(Clone, Debug)]
 pub struct FeatureDistance {
-    /// In pixels; exact to the curve's own geometry, not to its pixels.
+    /// In pixels; exact for the curve's geometry, not for its rasterised pixels.
     pub distance: Raster<f32>,
     /// 1 to the left of the curve's direction (on a page with y down: where `tangent x offset` is positive), else -1.
     pub side: Raster<i8>,
 }
 
-/// Distances to curves at sub-pixel accuracy: an exact transform finds the nearest drawn pixel, which leads to the pieces of
-/// curve that passed there. None when there is no curve.
+/// Distances to curves at sub-pixel accuracy: an exact transform finds the nearest rasterised pixel, which gives the pieces of curve
+/// that pass there. None if there is no curve.
 pub fn distance_to_curves(curves: &[Curve], width: usize, height: usize) -> Option<FeatureDistance> {
     let pieces: Vec<[Point; 2]> = curves.iter().flat_map(segments).collect();
     let drawn = draw(&pieces, width, height);
@@ -125,9 +125,9 @@ pub fn distance_to_curves(curves: &[Curve], width: usize, height: usize) -> Opti
     Some(FeatureDistance { distance: pairs.map(|p| p.0), side: pairs.map(|p| p.1) })
 }
 
-/// Squared distance and signed side of the nearest piece that is reached from `piece` by walking along the curve downhill.
+/// Squared distance and signed side of the nearest piece, found by descending along the curve from `piece`.
 ///
-/// Near a curve's centre of curvature the transform, which knows pixels only, may start this far from the true nearest.
+/// Near a curve's centre of curvature the transform, which only knows pixels, may start that far from the true nearest piece.
 fn descend(pieces: &[[Point; 2]], piece: usize, p: Point) -> (f64, f64) {
     let offset = |[a, b]: [Point; 2]| {
         let d = b - a;
@@ -146,7 +146,7 @@ fn descend(pieces: &[[Point; 2]], piece: usize, p: Point) -> (f64, f64) {
     }
 }
 
-/// The curve in even pieces about a pixel long, in order.
+/// The curve in equal pieces about a pixel long, in order.
 fn segments(curve: &Curve) -> Vec<[Point; 2]> {
     let mut points = curve.points.clone();
     if curve.closed
@@ -156,13 +156,13 @@ fn segments(curve: &Curve) -> Vec<[Point; 2]> {
     }
     let mut pieces: Vec<[Point; 2]> = resample(&points, 1.0).windows(2).map(|w| [w[0], w[1]]).collect();
     if curve.closed {
-        // The first pieces once more, so that the seam has neighbours on both sides.
+        // Repeats the first pieces, so that the seam has neighbours on both sides.
         pieces.extend_from_within(..pieces.len().min(2 * NEIGHBOURS));
     }
     pieces
 }
 
-/// For each pixel that a piece passes, the piece; later ones win.
+/// For each pixel that a piece passes, the index of the piece; later ones win.
 fn draw(pieces: &[[Point; 2]], width: usize, height: usize) -> Raster<u32> {
     let mut drawn = Raster::filled(width, height, NONE);
     for (i, [a, b]) in pieces.iter().enumerate() {

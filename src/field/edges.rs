@@ -4,12 +4,12 @@ use super::trace::{Curve, trace};
 use crate::geometry::smooth_polyline;
 use crate::raster::{Raster, Thresholds, canny, components, dilate, gaussian_blur, majority, remove_components, thin};
 
-/// How edges are found; lengths in working pixels.
+/// Parameters of edge detection; lengths in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeParameters {
     /// Standard deviation of the blur before Canny.
     pub blur: f32,
-    /// Canny's thresholds on lightness 0 to 1, a pixel.
+    /// Canny's thresholds, in lightness (0 to 1) per pixel.
     pub thresholds: Thresholds,
     /// Edges whose skeleton has fewer pixels are removed.
     pub least_length: f32,
@@ -52,7 +52,7 @@ fn remove_short(edges: &Raster<u8>, least: f32) -> Raster<u8> {
     remove_components(edges, &labels, |label| length[label as usize] as f32 >= least)
 }
 
-/// The lines of a skeleton as smooth curves, those shorter than `least` left out.
+/// The lines of a skeleton as smooth curves, without those shorter than `least`.
 pub fn lines_of(skeleton: &Raster<u8>, smoothing: f32, least: f32) -> Vec<Curve> {
     trace(skeleton)
         .into_iter()

@@ -1,4 +1,4 @@
-//! Where a face is, by the pattern of its dark places (the template matching that Wong 1999, chapter 8 asks for).
+//! Face detection by the pattern of dark places (the template matching suggested in Wong 1999, chapter 8).
 //!
 //! ```text
 //!      (--)   (--)      brows    -0.36        dark places are compared with light ones; the unit is the
@@ -17,24 +17,24 @@ use rayon::prelude::*;
 /// A face's place and size in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceFrame {
-    /// The middle between the eyes.
+    /// The midpoint between the eyes.
     pub between_eyes: Point,
-    /// Distance of the eyes' middles.
+    /// Distance between the eyes' middles.
     pub eye_distance: f64,
-    /// How much taller than the template the face is, about 1.
+    /// Height of the face relative to the template, about 1.
     pub stretch: f64,
     /// The tilt of the line through the eyes, in radians.
     pub tilt: f64,
-    /// How far the pattern stands out, 0 (not at all) to about 1.
+    /// How clearly the pattern stands out, 0 (not at all) to about 1.
     pub score: f64,
-    /// Where each feature lies, in the order of [`super::FacialFeature::ALL`].
+    /// Window of each feature, in the order of [`super::FacialFeature::ALL`].
     pub windows: [FeatureWindow; 6],
 }
 
-/// Where a feature may lie, in eye distances from between the eyes: its middle across and down, half its sizes across and down.
+/// Window of a feature, in eye distances from the midpoint between the eyes: its middle across and down, half its sizes across and down.
 pub type FeatureWindow = [f64; 4];
 
-/// The windows of a face of which no more is known: brows, eyes, nose, mouth.
+/// Default windows of a face: brows, eyes, nose, mouth.
 pub const USUAL_WINDOWS: [FeatureWindow; 6] = [
     [-0.5, -0.36, 0.45, 0.17],
     [0.5, -0.36, 0.45, 0.17],
@@ -44,9 +44,9 @@ pub const USUAL_WINDOWS: [FeatureWindow; 6] = [
     [0.0, 1.06, 0.52, 0.22],
 ];
 
-/// The template in units of the eyes' distance: place and weight; the weights of the dark and of the light places add up to one
-/// each. Tuned on the busts and portraits: with less on the brows they pass for the eyes of a dark face; without the upper lip, the
-/// shadow under the nose passes for the mouth.
+/// The template in units of the eye distance: place and weight. The weights of the dark places sum to one, as do those of the light
+/// places. Tuned on the busts and portraits: with less weight on the brows they pass for the eyes of a dark face; without the upper lip,
+/// the shadow under the nose passes for the mouth.
 const DARK: [(f64, f64, f64); 7] = [
     (-0.5, 0.0, 0.23),
     (0.5, 0.0, 0.23),
@@ -68,43 +68,43 @@ const LIGHT: [(f64, f64, f64); 10] = [
     (-0.45, 0.85, 0.08),
     (0.45, 0.85, 0.08),
 ];
-/// The least relief that counts: a black cap's edge is no darker than a brow.
+/// Lower limit of the relief: a black cap's edge counts no darker than a brow.
 const LEAST_RELIEF: f32 = 0.55;
-/// What a face loses for light places of unequal tone, as logarithms, up to a limit. Tuned on the busts and portraits in even light and
-/// with the light falling to half: without it hair over the brow passes for a forehead; with twice as much the lit side of a face does
-/// not agree with the dark one.
+/// Penalty for light places of unequal tone, as logarithms, and its limit. Tuned on the busts and portraits in even light and with the
+/// light falling to half: without it hair over the brow passes for a forehead; with twice as much the lit side of a face no longer
+/// agrees with the dark one.
 const UNEVEN: f64 = 0.3;
 const UNEVEN_LIMIT: f64 = 0.5;
-/// Shares of the light places that must be skin, for a score of 0 and for the full score.
+/// Shares of the light places that are skin for a score of 0 and for the full score.
 const SKIN_SHARE: (f64, f64) = (0.45, 0.85);
 const STRETCHES: [f64; 5] = [0.8, 0.9, 1.0, 1.1, 1.2];
 const TILTS: [f64; 5] = [-0.12, -0.06, 0.0, 0.06, 0.12];
-/// What a face loses that is one of its expectation's tolerances off; a good face scores 0.3.
+/// Penalty for a face that is one tolerance off its expectation; a good face scores 0.3.
 const SURPRISE: f64 = 0.04;
-/// Tolerance of the eyes' distance, as a logarithm, and the sizes that are searched, in steps of 8 %: much hair makes a head wide.
+/// Tolerance of the eye distance, as a logarithm, and the searched sizes, in steps of 8 %: much hair makes a head wide.
 const SIZE_TOLERANCE: f64 = 0.25;
 const SIZES: std::ops::RangeInclusive<i32> = -7..=3;
 
-/// Where a face is looked for, in working pixels.
+/// The expected place and size of a face, in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceExpectation {
-    /// Where the middle between the eyes is likely to be.
+    /// Expected midpoint between the eyes.
     pub between_eyes: Point,
-    /// How far off it may well be, across and down; two and a half times that is searched.
+    /// Tolerance of that point, across and down; 2.5 times as much is searched.
     pub tolerance: Vec2,
-    /// The eyes' likely distance; from three fifths to five quarters of it are searched.
+    /// Expected eye distance; the search covers three fifths to five quarters of it.
     pub eye_distance: f64,
 }
 
 impl FaceFrame {
-    /// A place of the template on the page's raster: `across` and `down` in eye distances from between the eyes.
+    /// A place of the template on the page's raster: `across` and `down` in eye distances from the midpoint between the eyes.
     pub fn place(&self, across: f64, down: f64) -> Point {
         let along = Vec2::from_angle(self.tilt);
         let downwards = Vec2::new(-along.y, along.x);
         self.between_eyes + along * (across * self.eye_distance) + downwards * (down * self.eye_distance * self.stretch)
     }
 
-    /// A place of the raster in eye distances from between the eyes: across and down.
+    /// Converts a place of the raster to eye distances from the midpoint between the eyes: across and down.
     pub fn relative(&self, p: Point) -> (f64, f64) {
         let along = Vec2::from_angle(self.tilt);
         let offset = p - self.between_eyes;
@@ -113,7 +113,7 @@ impl FaceFrame {
     }
 }
 
-/// The face in `lightness` (0 to 1) on `skin` (0 to 1) that is most like the template and the expectation; none where nothing is.
+/// The face in `lightness` (0 to 1) on `skin` (0 to 1) that best matches the template and the expectation; none if nothing matches.
 pub fn find_face(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation) -> Option<FaceFrame> {
     let sizes: Vec<f64> = SIZES.map(|i| expected.eye_distance * 1.08_f64.powi(i)).filter(|size| *size >= 4.0).collect();
     let best: Vec<Option<FaceFrame>> = sizes.par_iter().map(|size| best_of_size(lightness, skin, expected, *size)).collect();
@@ -125,10 +125,10 @@ pub fn find_face(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExp
 }
 
 fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation, size: f64) -> Option<FaceFrame> {
-    // In shares of the light around, so that the dark side of a face and dark skin count alike.
+    // Relative to the surrounding light, so that the dark side of a face and dark skin are treated equally.
     let relief = dark_relief(lightness, size).relief.map(|relief| relief.clamp(LEAST_RELIEF, 1.0));
     let tone = gaussian_blur(lightness, (0.08 * size) as f32).map(|tone| (tone + 0.02).ln());
-    // A feature may lie a little off its place.
+    // A feature may lie slightly off its place.
     let darkest = least_around(&relief, (0.08 * size) as usize);
     let likeness = Likeness { relief: &relief, darkest: &darkest, tone: &tone, skin };
     let step = (0.06 * size).max(1.0);
@@ -156,7 +156,7 @@ fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpe
     best.filter(|best| best.score > 0.0)
 }
 
-/// The least value in a square of `2 radius + 1` pixels.
+/// Minimum over a square of `2 radius + 1` pixels.
 fn least_around(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
     let along = |raster: &Raster<f32>| {
         let reach = radius as isize;
@@ -167,7 +167,7 @@ fn least_around(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
     along(&along(raster).transposed()).transposed()
 }
 
-/// What a face is compared with.
+/// Input of the comparison with the template.
 struct Likeness<'a> {
     relief: &'a Raster<f32>,
     darkest: &'a Raster<f32>,
@@ -177,7 +177,7 @@ struct Likeness<'a> {
 }
 
 impl Likeness<'_> {
-    /// How much lighter the light places are than the dark ones; both sides must agree, and the light places be skin of one tone.
+    /// How much lighter the light places are than the dark ones. Both sides must agree, and the light places must be skin of one tone.
     fn of(&self, frame: &FaceFrame, surprise: f64) -> f64 {
         let value = |raster: &Raster<f32>, across: f64, down: f64| {
             let p = frame.place(across, down);
@@ -187,7 +187,7 @@ impl Likeness<'_> {
             places.iter().map(|&(across, down, weight)| weight * value(raster, across, down)).sum()
         };
         let odd = (value(self.darkest, -0.5, 0.0) - value(self.darkest, 0.5, 0.0)).abs();
-        // Equal darkness decides for the plain face.
+        // Ties go to the upright, unstretched face.
         let strange = 0.1 * (frame.stretch - 0.97).abs() + 0.2 * frame.tilt.abs();
         let share = sum(self.skin, &LIGHT);
         let on_skin = ((share - SKIN_SHARE.0) / (SKIN_SHARE.1 - SKIN_SHARE.0)).clamp(0.0, 1.0);

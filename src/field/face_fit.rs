@@ -1,4 +1,4 @@
-//! A face's frame fitted to the dark clusters that lie most like its features, all of them judged together.
+//! A face's frame fitted to the dark clusters that best match its features, all judged together.
 //!
 //! ```text
 //!   clusters -> every pair that may be the eyes -> a frame -> the best cluster for each other feature -> the likeliest of all
@@ -9,15 +9,14 @@ use super::face::FaceFrame;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, components};
 
-/// Shares of the face that are taken as dark; each gives its own clusters, since one threshold joins brows to eyes and another loses
-/// brows.
+/// Shares of the face taken as dark. Each gives its own clusters, since one threshold joins brows to eyes and another loses brows.
 const DARK_SHARES: [f64; 8] = [0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.22];
 /// Relief above which nothing is dark.
 const FAINTEST: f32 = 0.94;
-/// Least area of a cluster in squared distances of the eyes.
+/// Minimum area of a cluster in squared eye distances.
 const LEAST_AREA: f64 = 0.004;
-/// Where the other features lie, how far off they may be, how wide they are, in distances of the eyes (down: stretched), and their
-/// weights. Proportions of the drawing schools: the mouth a little more than an eye distance down and wider than the nose between.
+/// The other features: position, tolerance and width in eye distances (down: stretched), and weight. Proportions from drawing manuals:
+/// the mouth a little more than an eye distance down and wider than the nose between.
 const OTHERS: [[f64; 6]; 4] = [
     [-0.5, -0.33, 0.16, 0.1, 0.6, 0.6],
     [0.5, -0.33, 0.16, 0.1, 0.6, 0.6],
@@ -27,21 +26,21 @@ const OTHERS: [[f64; 6]; 4] = [
 /// Tolerance of a feature's width, as a logarithm: without it a smile passes for the nose of a longer face.
 const WIDTH_TOLERANCE: f64 = 0.5;
 const EYES_WEIGHT: f64 = 1.2;
-/// Greatest width and height of an eye with its lids and shadow.
+/// Maximum width and height of an eye with its lids and shadow.
 const LARGEST_EYE: (f64, f64) = (0.75, 0.5);
-/// Darkness (area times depth, in squared distances of the eyes) at which a cluster counts for nearly all that it can.
+/// Darkness (area times depth, in squared eye distances) at which a cluster has nearly full weight.
 const DARK_ENOUGH: f64 = 0.02;
-/// Limits and tolerances of the fitted frame against the first one: tilt of the eyes, share of their distance, offset.
+/// Limits and tolerances of the fitted frame relative to the first one: tilt of the eyes, share of their distance, offset.
 const STEEPEST: f64 = 0.25;
 const SIZES: (f64, f64) = (0.7, 1.4);
 const TOLERANCES: (f64, f64, f64) = (0.12, 0.2, 0.2);
-/// Costs of a surprising frame, of unlike eyes and of a stretch that is not the first one or is unusual.
+/// Costs of a surprising frame, of unequal eyes, and of a stretch that differs from the first frame's or is unusual.
 const COSTS: (f64, f64, f64) = (0.15, 0.15, 0.3);
-/// Total below which the first frame is kept: both eyes alone give 2.4.
+/// Total score below which the first frame is kept: both eyes alone give 2.4.
 const LEAST_TOTAL: f64 = 1.2;
 const STRETCHES: [f64; 5] = [0.8, 0.9, 1.0, 1.1, 1.2];
 
-/// A dark cluster: its middle, its darkness, and its width and height in distances of the eyes.
+/// A dark cluster: middle, darkness, and width and height in eye distances.
 #[derive(Clone, Copy, Debug)]
 struct Cluster {
     middle: Point,
@@ -49,7 +48,7 @@ struct Cluster {
     size: (f64, f64),
 }
 
-/// The frame that the clusters under `first` speak for; `first` itself when they do not make a face.
+/// The frame that best fits the clusters under `first`; `first` itself if they do not form a face.
 pub(super) fn fitted(first: &FaceFrame, lightness: &Raster<f32>, skin: &Raster<f32>) -> FaceFrame {
     let relief = dark_relief(lightness, first.eye_distance).relief;
     let best = DARK_SHARES
@@ -59,7 +58,7 @@ pub(super) fn fitted(first: &FaceFrame, lightness: &Raster<f32>, skin: &Raster<f
     best.1
 }
 
-/// Clusters of the darkest share of the face's middle.
+/// Clusters of the darkest `share` of the face's middle.
 fn clusters(first: &FaceFrame, relief: &Raster<f32>, skin: &Raster<f32>, share: f64) -> Vec<Cluster> {
     let zone = Raster::from_fn(relief.width(), relief.height(), |x, y| {
         let (across, down) = first.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
@@ -102,7 +101,7 @@ fn gathered(labels: &Raster<u32>, count: usize, relief: &Raster<f32>, unit: f64)
         .collect()
 }
 
-/// The likeliest frame over all pairs of clusters as eyes, with its total.
+/// The best frame over all pairs of clusters as eyes, with its total score.
 fn best_frame(first: &FaceFrame, clusters: &[Cluster]) -> Option<(f64, FaceFrame)> {
     let mut best: Option<(f64, FaceFrame)> = None;
     for (i, left) in clusters.iter().enumerate() {
@@ -121,7 +120,7 @@ fn best_frame(first: &FaceFrame, clusters: &[Cluster]) -> Option<(f64, FaceFrame
     best
 }
 
-/// How well two clusters do as eyes, and the frame that they make; none when they cannot be eyes.
+/// Score of two clusters as eyes, and their frame; none if they cannot be eyes.
 fn eyes(first: &FaceFrame, left: &Cluster, right: &Cluster) -> Option<(f64, FaceFrame)> {
     let along = right.middle - left.middle;
     let (distance, tilt) = (along.hypot(), along.atan2());
@@ -138,7 +137,7 @@ fn eyes(first: &FaceFrame, left: &Cluster, right: &Cluster) -> Option<(f64, Face
     Some((EYES_WEIGHT * (weight(left) + weight(right)) - surprise, frame))
 }
 
-/// The sum over the other features of how well their best cluster lies.
+/// Sum of the scores of the best cluster for each other feature.
 fn likeness(frame: &FaceFrame, clusters: impl Iterator<Item = Cluster>) -> f64 {
     let mut most = [0.0_f64; OTHERS.len()];
     for cluster in clusters {
@@ -152,7 +151,7 @@ fn likeness(frame: &FaceFrame, clusters: impl Iterator<Item = Cluster>) -> f64 {
     most.iter().zip(OTHERS).map(|(most, [.., weight])| weight * most).sum()
 }
 
-/// How much a cluster counts: 0 to 1.
+/// Weight of a cluster, 0 to 1.
 fn weight(cluster: &Cluster) -> f64 {
     1.0 - (-cluster.darkness / DARK_ENOUGH).exp()
 }

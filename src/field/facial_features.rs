@@ -30,7 +30,7 @@ impl FacialFeature {
     /// All six, in the order of their labels from 1.
     pub const ALL: [Self; 6] = [Self::LeftEyebrow, Self::RightEyebrow, Self::LeftEye, Self::RightEye, Self::Nose, Self::Mouth];
 
-    /// What it is called.
+    /// The feature's name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::LeftEyebrow => "left eyebrow",
@@ -43,47 +43,47 @@ impl FacialFeature {
     }
 }
 
-/// Where the skin's own tone is read.
+/// Source of the skin's own tone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SkinTone<'a> {
-    /// As the median skin by column.
+    /// The median skin of each column.
     Found,
-    /// Round these places, in working pixels; at least one.
+    /// Around these places, in working pixels; at least one.
     Given(&'a [Point]),
 }
 
-/// What was found in a face.
+/// The detected features of a face.
 #[derive(Clone, Debug)]
 pub struct FacialFeatures {
-    /// 0 outside, else the place in [`FacialFeature::ALL`] plus 1.
+    /// 0 outside, otherwise the index in [`FacialFeature::ALL`] plus 1.
     pub labels: Raster<u8>,
     /// The face's lightness divided by its skin's: 1 is skin.
     pub normalised: Raster<f32>,
     /// The skin's lightness in each column.
     pub skin: Vec<f32>,
-    /// How many clusters the thresholded face had before small ones were given to their neighbours and joined ones divided.
+    /// Number of clusters of the thresholded face, before small ones went to their neighbours and joined ones were divided.
     pub clusters: usize,
-    /// Those of the six that were found.
+    /// The features that were found.
     pub found: Vec<FacialFeature>,
 }
 
-/// The share of the features' windows that is taken as dark: half of the brows' and eyes', less of nose and mouth. With less,
-/// light brows go missing; with more, cheeks join the mouth.
+/// Share of the features' windows taken as dark: half of the brows' and eyes', less of nose and mouth. With less, light brows are lost;
+/// with more, cheeks join the mouth.
 const DARK_SHARE: f64 = 0.22;
-/// Columns of skin between which the light is interpolated (section 5.1).
+/// Number of skin columns between which the light is interpolated (section 5.1).
 const SKIN_POINTS: usize = 5;
 /// A cluster smaller than this, in squared eye distances, is a speck: its pixels go to the nearest large cluster.
 const LEAST_CLUSTER: f64 = 0.004;
-/// What lies farther from its window's middle than this many half sizes belongs to no feature.
+/// Pixels farther from their window's middle than this many half sizes belong to no feature.
 const WINDOW_REACH: f64 = 1.25;
-/// A window's darkest place must be darker than skin by this share, else there is no feature in it.
+/// A window has a feature only if its darkest place is darker than skin by this share.
 const LEAST_DEPTH: f32 = 0.06;
 
-/// Share of the largest cluster's pixels, counted by how near to the window's middle they are, from which another one belongs to it.
+/// Share of the largest cluster's pixels, weighted by nearness to the window's middle, from which another cluster joins it.
 const JOINED: f64 = 0.3;
-/// Breadth of the face's border in which no brow lies, in distances of the eyes.
+/// Width of the face's border in which no brow lies, in eye distances.
 const RIM: f64 = 0.08;
-/// Radius round a given skin point that is averaged, in distances of the eyes.
+/// Radius averaged around a given skin point, in eye distances.
 const SKIN_RADIUS: f64 = 0.06;
 
 /// Finds the features of a face whose pattern lies at `frame`, inside `face` (0 to 1), in `lightness` (0 to 1).
@@ -91,7 +91,7 @@ pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &Face
     let skin = skin_tone(lightness, face, frame, tone);
     let fine = gaussian_blur(lightness, (0.02 * frame.eye_distance) as f32);
     let normalised = Raster::from_fn(fine.width(), fine.height(), |x, y| (fine.get(x, y) / skin[x].max(0.02)).min(2.0));
-    // Darker than skin and than what lies above and below: shadows and hair over the brow are no features.
+    // Darker than skin and than the pixels above and below: shadows and hair over the brow are not features.
     let depth = normalised.zip_map(&dark_relief(lightness, frame.eye_distance).relief, f32::max);
     let windows = windows(frame, face);
     let threshold = threshold(&depth, &windows);
@@ -104,8 +104,8 @@ pub fn facial_features(lightness: &Raster<f32>, face: &Raster<f32>, frame: &Face
     FacialFeatures { labels, normalised, skin, clusters, found }
 }
 
-/// The skin's lightness in each column, interpolated between places across the face (section 5.1): those pointed out by hand, as in the
-/// thesis, or the medians round five columns.
+/// The skin's lightness in each column, interpolated between places across the face (section 5.1): those given by hand, as in the
+/// thesis, or the medians around five columns.
 pub(super) fn skin_tone(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame, tone: SkinTone<'_>) -> Vec<f32> {
     let places = match tone {
         SkinTone::Found => skin_columns(lightness, face, frame),
@@ -119,7 +119,7 @@ pub(super) fn skin_tone(lightness: &Raster<f32>, face: &Raster<f32>, frame: &Fac
     (0..lightness.width()).map(|x| interpolated(&places, x as f64 + 0.5)).collect()
 }
 
-/// The median skin of five columns of a face: where, and how light.
+/// The median skin of five columns of a face: position and lightness.
 fn skin_columns(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) -> Vec<(f64, f32)> {
     let place = |i: usize| -0.95 + 1.9 * (i as f64 + 0.5) / SKIN_POINTS as f64;
     let half = 0.95 / SKIN_POINTS as f64;
@@ -140,7 +140,7 @@ fn skin_columns(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) 
         .filter(|(_, values)| !values.is_empty())
         .map(|(x, mut values)| {
             values.sort_by(f32::total_cmp);
-            // A little above the median, since features darken their columns.
+            // Slightly above the median, since features darken their columns.
             (x, values[values.len() * 3 / 5])
         })
         .collect()
@@ -158,7 +158,7 @@ fn interpolated(points: &[(f64, f32)], x: f64) -> f32 {
     }
 }
 
-/// For each pixel of the face the feature in whose window it lies: its place plus 1, the nearest where windows overlap.
+/// For each pixel of the face, the feature in whose window it lies (its index plus 1); the nearest where windows overlap.
 fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
     let rim = dilate(&face.map(|face| u8::from(face < 0.5)), (RIM * frame.eye_distance).round() as usize);
     Raster::from_fn(face.width(), face.height(), |x, y| {
@@ -171,13 +171,13 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
             ((across - cx) / hx).hypot((down - cy) / hy)
         };
         let nearest = (0..6).min_by(|a, b| off(*a).total_cmp(&off(*b)));
-        // What is dark at the face's upper border is hair that comes down to it, not a brow.
+        // Dark pixels at the face's upper border are hair, not a brow.
         let is_hairline = |i: usize| i < 2 && rim.get(x, y) != 0;
         nearest.filter(|i| off(*i) <= WINDOW_REACH && !is_hairline(*i)).map_or(0, |i| i as u8 + 1)
     })
 }
 
-/// The depth below which the wanted share of the windows lies.
+/// The depth below which the target share of the windows lies.
 fn threshold(depth: &Raster<f32>, windows: &Raster<u8>) -> f32 {
     let mut values: Vec<f32> = depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w != 0).map(|(n, _)| *n).collect();
     values.sort_by(f32::total_cmp);
@@ -211,7 +211,7 @@ fn named(dark: &Raster<u8>, windows: &Raster<u8>, depth: &Raster<f32>, frame: &F
     labels
 }
 
-/// Each cluster's pixels, those near the window's middle counting most.
+/// Number of pixels of each cluster, weighted by nearness to the window's middle.
 fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) -> Vec<f64> {
     let [cx, cy, hx, hy] = frame.windows[usize::from(name) - 1];
     let mut weights = vec![0.0; count + 1];
@@ -223,7 +223,7 @@ fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) ->
     weights
 }
 
-/// Where the common threshold finds nothing: the darkest seventh of the window, if it is darker than the rest of it.
+/// Fallback if the common threshold finds nothing: the darkest seventh of the window, if darker than the rest of it.
 fn darkest_of(depth: &Raster<f32>, windows: &Raster<u8>, name: u8) -> Raster<u8> {
     let mut values: Vec<f32> =
         depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w == name).map(|(n, _)| *n).collect();

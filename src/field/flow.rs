@@ -6,9 +6,9 @@ use crate::raster::{Raster, fast_gaussian};
 /// Squared gradient (per pixel, of values 0 to 1) below which a pixel has no direction: rounding in the blur makes up to 1e-13,
 /// the faintest sky that 16 bits can hold 1e-9.
 const LEAST_SQUARED_GRADIENT: f32 = 1e-10;
-/// The luminance gradient must be at least this share of the colour gradient to give it a sign.
+/// Minimum luminance gradient, as a share of the colour gradient, that gives it a sign.
 const LEAST_LUMINANCE_SHARE: f32 = 0.05;
-/// Blurs, in pixels, by which signs and directions are taken from farther and farther away.
+/// Blurs, in pixels, that spread signs and directions over growing distances.
 const SPREADING_BLURS: [f32; 5] = [1.0, 4.0, 16.0, 64.0, 256.0];
 
 /// Unit vectors at the pixels' centres, zero where there is no direction.
@@ -31,9 +31,8 @@ impl Flow {
         }))
     }
 
-    /// The direction of the steepest change of a colour picture: the eigenvector of the structure tensor's larger eigenvalue
-    /// (equation 7.14), turned to the side where luminance grows. Where luminance does not change along it, the side is that of
-    /// the pixels around.
+    /// The direction of steepest change of a colour picture: the eigenvector of the structure tensor's larger eigenvalue (equation
+    /// 7.14), pointing to growing luminance. Where luminance does not change along it, the sign comes from the surrounding pixels.
     pub fn steepest(tensor: &Raster<[f32; 3]>, luminance: &Raster<[f32; 2]>) -> Self {
         let axes = tensor.map(principal_axis);
         let mut signed = axes.zip_map(luminance, |axis, slope| {
@@ -41,7 +40,7 @@ impl Flow {
             let is_clear = along.abs() > LEAST_LUMINANCE_SHARE * (axis[0] * axis[0] + axis[1] * axis[1]);
             if is_clear { [axis[0] * along.signum(), axis[1] * along.signum()] } else { [0.0; 2] }
         });
-        // Where signs are missing, those of a growing neighbourhood decide; where there are none at all, the axis stays as it is.
+        // Missing signs come from a growing neighbourhood; if there are none at all, the axis stays as it is.
         for sigma in SPREADING_BLURS {
             let is_missing = |(axis, s): (&[f32; 2], &[f32; 2])| *axis != [0.0; 2] && *s == [0.0; 2];
             if !axes.pixels().iter().zip(signed.pixels()).any(is_missing) {
@@ -57,20 +56,20 @@ impl Flow {
         Self::new(&signed.zip_map(&axes, |signed, axis| if signed == [0.0; 2] { axis } else { signed }))
     }
 
-    /// Every vector turned by an angle in radians, from x towards y.
+    /// The field with every vector turned by an angle in radians, from x towards y.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Self {
         let (sin, cos) = (angle.sin() as f32, angle.cos() as f32);
         Self { directions: self.directions.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]) }
     }
 
-    /// No direction outside a region (where its value is below one half).
+    /// The field without directions outside a region (where its value is below 0.5).
     #[must_use]
     pub fn within(&self, region: &Raster<f32>) -> Self {
         Self { directions: self.directions.zip_map(region, |d, r| if r < 0.5 { [0.0; 2] } else { d }) }
     }
 
-    /// A direction everywhere: where there is none, the mean of those around, of farther and farther ones.
+    /// The field with a direction everywhere: missing ones are the mean over a growing neighbourhood.
     #[must_use]
     pub fn completed(&self) -> Self {
         let mut directions = self.directions.clone();
@@ -102,8 +101,8 @@ impl Flow {
         &self.directions
     }
 
-    /// The unit vector at a place in pixels, bilinear between centres; the nearest pixel's where its neighbours disagree, zero
-    /// where that has none.
+    /// The unit vector at a place in pixels, bilinear between centres; the nearest pixel's where neighbours disagree, zero if that has
+    /// none.
     pub fn at(&self, p: Point) -> Vec2 {
         let (fx, fy) = (p.x - 0.5, p.y - 0.5);
         let (x, y) = (fx.floor(), fy.floor());
@@ -121,13 +120,13 @@ impl Flow {
         if mean.dot(nearest) > 0.3 { mean.normalize() } else { nearest }
     }
 
-    /// Whether a place lies on the raster.
+    /// True if a place lies on the raster.
     pub fn contains(&self, p: Point) -> bool {
         p.x >= 0.0 && p.y >= 0.0 && p.x < self.directions.width() as f64 && p.y < self.directions.height() as f64
     }
 
-    /// Points `step` pixels apart along the field from `from` (included) until `length` has been gone or the field ends; upstream
-    /// when `length` is negative. Each step goes in the direction found half a step ahead.
+    /// Points `step` pixels apart along the field from `from` (included) until `length` is covered or the field ends; upstream if
+    /// `length` is negative. Each step takes the direction half a step ahead (midpoint method).
     pub fn streamline(&self, from: Point, length: f64, step: f64) -> Vec<Point> {
         let count = (length.abs() / step).ceil().max(1.0);
         let stride = length / count;
@@ -153,7 +152,7 @@ fn unit([x, y]: [f32; 2]) -> [f32; 2] {
     if length > 1e-12 { [x / length, y / length] } else { [0.0; 2] }
 }
 
-/// The eigenvector of the larger eigenvalue, as long as the root of the eigenvalues' difference; zero where they are equal.
+/// The eigenvector of the larger eigenvalue, with the root of the eigenvalues' difference as its length; zero if they are equal.
 fn principal_axis([xx, xy, yy]: [f32; 3]) -> [f32; 2] {
     let (across, along) = (xx - yy, 2.0 * xy);
     let gap = across.hypot(along);

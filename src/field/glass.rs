@@ -6,8 +6,8 @@ use crate::raster::Raster;
 /// Euler step in pixels. At 1 the finest noise (sigma 0.7) loses peaks between two samples; below 0.5 nothing changes.
 const STEP: f32 = 0.5;
 
-/// Places along an arc are whole numbers of this share of a pixel: whole part and remainder are then had without rounding calls, which
-/// took a third of the time.
+/// Fractional bits of fixed-point positions along an arc: whole part and remainder then need no rounding calls, which took a third of
+/// the time.
 const BITS: u32 = 16;
 const UNIT: f32 = (1 << BITS) as f32;
 
@@ -37,11 +37,11 @@ pub fn line_integral_convolution(noise: &Raster<f32>, flow: &Flow, length: f32) 
     })
 }
 
-/// What is needed to go along arcs.
+/// Precomputed data for walking along arcs.
 struct Arcs {
     /// The noise within a frame of one pixel, so that every place on the raster lies between four samples.
     framed: Raster<f32>,
-    /// The way to go at each pixel in `UNIT`s of a pixel.
+    /// The step at each pixel, in `UNIT`s of a pixel.
     strides: Raster<[i32; 2]>,
     count: usize,
 }
@@ -54,7 +54,7 @@ impl Arcs {
         Self { framed: noise.framed(1), strides, count: count as usize }
     }
 
-    /// Visits the noise along an arc from a pixel's centre, that pixel left out.
+    /// Visits the noise along an arc from a pixel's centre, without that pixel.
     #[inline]
     fn walk(&self, (x, y): (usize, usize), sign: i64, mut visit: impl FnMut(f32)) {
         let centre = |at: usize| ((at as i64) << BITS) + (1 << (BITS - 1));
@@ -63,7 +63,7 @@ impl Arcs {
         for _ in 0..self.count {
             px += sign * i64::from(dx);
             py += sign * i64::from(dy);
-            // A place left of or above the raster is far beyond its other end as an unsigned number.
+            // As an unsigned number, a position left of or above the raster is far beyond its other end.
             let (column, row) = ((px >> BITS) as usize, (py >> BITS) as usize);
             if column >= self.strides.width() || row >= self.strides.height() || (dx, dy) == (0, 0) {
                 return;

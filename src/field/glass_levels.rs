@@ -1,24 +1,25 @@
-//! At which heights of the noise the ribbons of a continuous Glass pattern are cut, and how light they are.
+//! The noise levels at which ribbons of a continuous Glass pattern are cut, and the ribbons' lightness.
 
 use super::Ribbon;
 use crate::raster::{Raster, sorted};
 
-/// How much of the equalised pattern (0 to 1) lies between a lone ribbon's outline and its crest. Lower and the ground shows between
-/// ribbons, higher and they lie over what is lighter than their rims; correlation with the raster pattern is flat from 0.25 to 0.35,
-/// and lower by 0.02 at 0.45 (fields of figures 7.1 to 7.3 and two photographs).
+/// Share of the equalised pattern (0 to 1) between a single ribbon's outline and its crest. If lower, the ground shows between ribbons;
+/// if higher, they cover places lighter than their rims. Correlation with the raster pattern is flat from 0.25 to 0.35, and lower by
+/// 0.02 at 0.45 (fields of figures 7.1 to 7.3 and two photographs).
 const LONE_DEPTH: f32 = 0.3;
 
-/// Levels by the pattern's own ranks.
+/// Levels from the ranks of the pattern's values.
 #[derive(Clone, Debug)]
 pub struct GlassLevels {
     /// The pattern's values in ascending order.
     sorted: Vec<f32>,
-    /// Levels shared by all maxima, ascending, the first below all noise; one alone stands for a level of each maximum's own.
+    /// Levels shared by all maxima, ascending, the first below all noise; a single level means that each maximum has its own.
     shared: Vec<f32>,
 }
 
 impl GlassLevels {
-    /// `count` levels at equal shares of the pattern, or, for one, a ribbon for each maximum with an outline and a lightness of its own.
+    /// `count` levels at equal shares of the pattern; with a count of one, each maximum has one ribbon with its own outline and
+    /// lightness.
     pub fn new(pattern: &Raster<f32>, count: usize) -> Self {
         let sorted = sorted(pattern);
         let level = |i: usize| if i == 0 { f32::MIN } else { sorted[i * sorted.len() / count] };
@@ -36,7 +37,7 @@ impl GlassLevels {
         if height > self.sorted[0] { vec![level] } else { Vec::new() }
     }
 
-    /// A ribbon's equalised value, -1/2 to 1/2: the middle of what it stands for.
+    /// A ribbon's equalised value, -1/2 to 1/2: the middle of its range.
     pub fn value(&self, ribbon: &Ribbon) -> f32 {
         if self.shared.len() > 1 {
             let share = self.shared.partition_point(|level| *level < ribbon.level);

@@ -5,16 +5,16 @@ use super::trace::Curve;
 use crate::geometry::Point;
 use crate::raster::{Raster, components};
 
-/// The areas where the paper's `texture` (even over 0 to 1) stands above `tone` (0 to 1, the white fraction wanted), each as its
-/// outlines: an outer border with its holes, wound the other way round. The mean ink of a place is 1 - tone.
+/// The areas where the paper's `texture` (uniform over 0 to 1) is above `tone` (0 to 1, the target white fraction), each as its
+/// outlines: an outer border and its holes, wound the opposite way. The mean ink of a place is 1 - tone.
 ///
-/// Both rasters are of one size and as fine as the grain needs: five pixels from hill to hill.
+/// Both rasters have the same size, and the resolution that the grain needs: five pixels from hill to hill.
 pub fn grain_areas(tone: &Raster<f32>, texture: &Raster<f32>) -> Vec<Vec<Curve>> {
     let (width, height) = (tone.width(), tone.height());
     // A bare rim of one pixel closes every outline.
     let rise = Raster::from_fn(width + 2, height + 2, |x, y| {
         let is_rim = x == 0 || y == 0 || x == width + 1 || y == height + 1;
-        // A white place stays white even where the texture is at its very top.
+        // A white place stays white even at the texture's maximum.
         if is_rim || tone.get(x - 1, y - 1) >= 1.0 { -1.0 } else { texture.get(x - 1, y - 1) - tone.get(x - 1, y - 1) }
     });
     let (labels, count) = components(&rise.map(|v| u8::from(v > 0.0)));
@@ -28,7 +28,7 @@ pub fn grain_areas(tone: &Raster<f32>, texture: &Raster<f32>) -> Vec<Vec<Curve>>
     areas.into_iter().skip(1).filter(|outlines| !outlines.is_empty()).collect()
 }
 
-/// The label of the inked one of the two pixels between which an outline's vertex lies.
+/// An outline's vertex lies between two pixels: the label of the inked one.
 fn inked_beside(labels: &Raster<u32>, p: Point) -> u32 {
     let (x, y) = (p.x - 0.5, p.y - 0.5);
     let one = labels.clamped(x.floor() as isize, y.floor() as isize);

@@ -1,4 +1,4 @@
-//! Hair and headgear that reach into a face, told by tone: darker than the skin, too tall for a feature, in one piece with the crown.
+//! Hair and headgear that extend into a face, detected by tone: darker than the skin, too tall for a feature, connected with the crown.
 
 use super::dark_relief::dark_relief;
 use super::face::FaceFrame;
@@ -6,26 +6,26 @@ use super::facial_features::{SkinTone, skin_tone};
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, remove_components};
 
-/// Lightness against the skin's below which a place may be hair: blond hair has 0.6, a cheek turned from a 2:1 light 0.85.
+/// Lightness relative to the skin's below which a place may be hair: blond hair has 0.6, a cheek turned away from a 2:1 light 0.85.
 const HAIR_TONE: f32 = 0.8;
-/// Of hair whose crown is darker than this, only what is this much of the way from the crown's lightness to the skin's: dark hair leaves a
-/// shaded cheek and an ear to the face, while a blond fringe goes over into skin.
+/// If the crown is darker than this, the limit lies this far from the crown's lightness towards the skin's: a shaded cheek and an ear
+/// beside dark hair stay face, while a blond fringe blends into skin.
 const DARK_HAIR: f32 = 0.58;
 const HAIR_SPREAD: f32 = 0.2;
-/// Inside an oval from the brows to the chin nothing is taken for hair, since what is dark there is a shadow or a feature: half its
-/// breadth, its middle and half its height, in distances of the eyes.
+/// Inside an oval from the brows to the chin nothing counts as hair, since dark places there are shadows or features: half its width,
+/// its middle and half its height, in eye distances.
 const CORE: [f64; 3] = [0.95, 0.5, 0.97];
-/// Gaps of the hair that are closed, half their breadth in distances of the eyes: a lit crown is as light as skin.
+/// Half the width of gaps in the hair that are closed, in eye distances: a lit crown is as light as skin.
 const GAP: f64 = 0.2;
-/// Where the crown begins, and the zone round a head that is looked at.
+/// Where the crown begins, and the searched zone around a head.
 const CROWN: f64 = -0.75;
 const ZONE: [f64; 3] = [2.2, -2.4, 1.5];
-/// Skin between brow and mouth that tells the tone of all of it.
+/// Box of skin between brow and mouth that gives the skin's tone.
 const CHEEKS: [f64; 3] = [0.75, -0.2, 0.95];
-/// The border's blur, in distances of the eyes, which belongs to the hair.
+/// Width of the border's blur, which belongs to the hair, in eye distances.
 const BORDER: f64 = 0.05;
 
-/// 1 where hair or headgear of the subject comes down over a face whose pattern lies at `frame`.
+/// 1 where hair or headgear of the subject covers a face whose pattern lies at `frame`.
 pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
     let relative = |x: usize, y: usize| frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let within =
@@ -55,7 +55,7 @@ pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &Fa
     dilate(&grown, pixels(GAP)).map(|free| 1 - free)
 }
 
-/// The median lightness, against the skin's, of the subject's crown where it is darker than skin; 1 where nothing is.
+/// Median lightness, relative to the skin's, of the subject's crown where it is darker than skin; 1 if nothing is.
 fn crown_tone(filled: &Raster<f32>, subject: &Raster<f32>, skin: &[f32], frame: &FaceFrame) -> f32 {
     let mut tones = Vec::new();
     for y in 0..filled.height() {

@@ -7,32 +7,32 @@
 //!     / . / . .               |   . # . .            would give, top 5 %    summed
 //! ```
 //!
-//! `rho` is anchored to the page, not to the window: a pixel then falls into the same cells whatever window looks at it, and a
-//! window that moves on by one pixel only takes in the points on its one rim and drops those on the other.
+//! `rho` is anchored to the page, not to the window: a pixel then falls into the same cells for every window, and a window that moves by
+//! one pixel only adds the points on one rim and drops those on the other.
 
 use super::orientation::OrientationField;
 use crate::raster::Raster;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Fractional bits of the fixed-point sines and cosines; places may then run to 60,000 pixels either way.
+/// Fractional bits of the fixed-point sines and cosines; positions may then reach 60,000 pixels in either direction.
 const FRACTION_BITS: u32 = 14;
-/// Places of a window's centre within a cell that the table of expected counts tells apart.
+/// Number of positions of a window's centre within a cell in the table of expected counts.
 const CENTRE_STEPS: usize = 8;
-/// The share of all cells that counts (Wong 1999, section 4.3).
+/// The share of the highest cells that counts (Wong 1999, section 4.3).
 const TOP_SHARE: f64 = 0.05;
-/// Steps of the excess over the expected count in which the top cells are ranked, a count.
+/// Ranks per count of excess over the expected count.
 const RANKS_A_COUNT: f32 = 4.0;
-/// Greatest ranked excess; more ties with it.
+/// Maximum rank; larger excesses tie with it.
 const RANKS: usize = 256;
 
-/// How cells become an orientation.
+/// The form of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HoughForm {
-    /// A round window; counts less those expected from the density of points, squared. 0.6 degrees on clean lines, 1.2 with a
-    /// fifth of the pixels flipped.
+    /// A round window; counts in excess of those expected from the density of points, squared. Error of 0.6 degrees on clean lines, 1.2
+    /// with a fifth of the pixels flipped.
     Round,
-    /// As printed: a square window and plain counts, which lean towards the window's diagonals.
+    /// As printed: a square window and plain counts, which are biased towards the window's diagonals.
     Thesis,
 }
 
@@ -43,27 +43,27 @@ pub struct HoughFilter {
     radius: usize,
     /// Half the window's width in each of its rows, from the uppermost.
     half_widths: Vec<usize>,
-    /// Fixed-point cosine and sine of each angle of a line's normal, from -90 degrees up.
+    /// Fixed-point cosine and sine of each normal's angle, from -90 degrees up.
     normals: Vec<(i32, i32)>,
     /// Cosine and sine of twice the angle of the lines themselves.
     doubled: Vec<[f32; 2]>,
     /// Cells that a window can touch at one angle.
     cells: usize,
-    /// Cells kept at one angle, a power of two; `rho` wraps round.
+    /// Cells stored per angle, a power of two; `rho` wraps around.
     ring: usize,
-    /// For each place of the centre within its cell, the share of a window's points expected in each cell.
+    /// For each position of the centre within its cell, the expected share of a window's points in each cell.
     expected: Vec<f32>,
 }
 
-/// One window's points: how many, and how many in each cell.
+/// One window's points: their number in total and in each cell.
 struct Accumulator {
     counts: Vec<u16>,
     points: u32,
 }
 
 impl HoughFilter {
-    /// A window of `2 radius + 1` pixels and `angles` steps of 180 degrees; cells are one pixel wide in `rho`. The thesis makes
-    /// the accumulator about as large as the window; `radius` 10 and 36 angles do well from 3 to 9 pixels between lines.
+    /// A window of `2 radius + 1` pixels and `angles` steps of 180 degrees; cells are one pixel wide in `rho`. The thesis makes the
+    /// accumulator about as large as the window; `radius` 10 and 36 angles work well for 3 to 9 pixels between lines.
     pub fn new(form: HoughForm, radius: usize, angles: usize) -> Self {
         let reach = radius as isize;
         let half_width = |dy: isize| match form {
@@ -115,7 +115,7 @@ impl HoughFilter {
         (x as i32 * cos + y as i32 * sin) >> FRACTION_BITS
     }
 
-    /// The orientation of the lines round each pixel of `region`, as doubled-angle vectors whose length is the strength of the
+    /// The orientation of the lines around each pixel of `region`, as doubled-angle vectors whose length is the strength of the
     /// response; 0 outside the region and where there is no line. Time grows with the region and with its line pixels.
     pub fn orientations(&self, lines: &Raster<u8>, region: &Raster<u8>) -> OrientationField {
         let width = lines.width();
@@ -139,7 +139,7 @@ impl HoughFilter {
         OrientationField::new(field)
     }
 
-    /// The counts of the window round a pixel, angle by angle, as a window that slid there along its row holds them.
+    /// The counts of the window around a pixel, angle by angle, as held by a window that slid there along its row.
     pub fn counts(&self, lines: &Raster<u8>, x: usize, y: usize) -> Vec<u16> {
         let mut accumulator = self.empty();
         self.fill(&mut accumulator, lines, 0, y);
@@ -151,7 +151,7 @@ impl HoughFilter {
         Accumulator { counts: vec![0; self.normals.len() * self.ring], points: 0 }
     }
 
-    /// A window's whole content.
+    /// Fills the accumulator with a window's whole content.
     fn fill(&self, accumulator: &mut Accumulator, lines: &Raster<u8>, x: usize, y: usize) {
         accumulator.counts.fill(0);
         accumulator.points = 0;
@@ -165,7 +165,7 @@ impl HoughFilter {
         }
     }
 
-    /// From the window round `(x - 1, y)` to that round `(x, y)`.
+    /// Moves from the window around `(x - 1, y)` to that around `(x, y)`.
     fn slide(&self, accumulator: &mut Accumulator, lines: &Raster<u8>, x: usize, y: usize) {
         for (row, py) in self.rows(lines, y) {
             let half = self.half_widths[row];
@@ -178,7 +178,7 @@ impl HoughFilter {
         }
     }
 
-    /// The window's rows that the raster has.
+    /// The window's rows that lie on the raster.
     fn rows(&self, lines: &Raster<u8>, y: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
         let (radius, height) = (self.radius, lines.height());
         (0..=2 * radius).filter_map(move |row| (y + row).checked_sub(radius).filter(|py| *py < height).map(|py| (row, py)))
@@ -213,7 +213,7 @@ impl HoughFilter {
             let expected = &self.expected[place * self.cells..(place + 1) * self.cells];
             let counts = self.window_cells(accumulator, angle, x, y);
             for ((rank, count), share) in ranks.iter_mut().zip(counts).zip(expected) {
-                // Rounded down to 0 when negative: a cell emptier than expected says nothing.
+                // The cast makes negative values 0: a cell emptier than expected carries no information.
                 *rank = ((f32::from(count) - points * share) * RANKS_A_COUNT) as u8;
                 histogram[usize::from(*rank)] += 1;
             }
@@ -234,7 +234,7 @@ impl HoughFilter {
     }
 }
 
-/// The least rank, at least 1, that `wanted` cells or fewer reach.
+/// The lowest rank, at least 1, reached by at most `wanted` cells.
 fn least_of_the_top(histogram: &[u32], wanted: u32) -> u8 {
     let mut above = 0;
     for rank in (1..RANKS).rev() {
@@ -251,7 +251,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Each window counted afresh from the definition.
+    /// Each window counted anew from the definition.
     fn plain_counts(filter: &HoughFilter, lines: &Raster<u8>, x: usize, y: usize) -> Vec<u16> {
         let mut counts = vec![0; filter.normals.len() * filter.cells];
         for angle in 0..filter.normals.len() {

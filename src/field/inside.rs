@@ -1,13 +1,13 @@
-//! Lines cut to a region that is given as a raster.
+//! Clipping of lines to a region given as a raster.
 
 use crate::geometry::{Point, resample};
 use crate::raster::Raster;
 
-/// Steps of bisection at a border: a thousandth of a pixel.
+/// Bisection steps at a border, to a thousandth of a pixel.
 const BISECTIONS: usize = 9;
 
 /// The pieces of a polyline inside the region (at least 0.5, bilinear), in order; nothing outside the raster is inside. The line is
-/// looked at every half pixel.
+/// sampled every half pixel.
 pub fn pieces_inside(points: &[Point], region: &Raster<f32>) -> Vec<Vec<Point>> {
     let is_inside = |p: Point| {
         (0.0..=region.width() as f64).contains(&p.x)

@@ -16,10 +16,10 @@ pub struct IsophoteSteps {
     pub lines: Vec<Curve>,
 }
 
-/// Smooths, posterises to `levels` steps and outlines the lightest `lightest` of them, each step's border a line.
+/// Smooths, posterises to `levels` steps and outlines the `lightest` lightest of them, one line per step border.
 ///
-/// The border of a posterised step is the contour of the smoothed lightness at that value, so it is taken from there, at
-/// sub-pixel accuracy. `smoothing` (pixels) serves the bilateral filter and the lines; lines shorter than `least` are dropped.
+/// A step's border is taken as the contour of the smoothed lightness at that value, at sub-pixel accuracy. `smoothing` (pixels) applies
+/// to the bilateral filter and the lines; lines shorter than `least` are dropped.
 pub fn detect_isophotes(lightness: &Raster<f32>, levels: u32, lightest: u32, smoothing: f32, least: f32) -> IsophoteSteps {
     let smoothed = bilateral(&bilateral(lightness, smoothing, 0.08), smoothing, 0.08);
     let steps = levels as f32;

@@ -3,27 +3,27 @@
 use super::distance::FeatureDistance;
 use crate::raster::Raster;
 
-/// How lanes are laid; lengths in working pixels.
+/// Parameters of lanes; lengths in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneParameters {
     /// Width of a lane.
     pub pitch: f32,
     /// Width of a lane in detail regions.
     pub detail_pitch: f32,
-    /// Weight of the edges; a greater weight lets a feature rule farther.
+    /// Weight of the edges; a larger weight extends a feature's influence.
     pub edge_weight: f32,
     /// Weight of the isophotes.
     pub isophote_weight: f32,
 }
 
-/// Lanes and what they were made from.
+/// Lanes and the distances behind them.
 #[derive(Clone, Debug)]
 pub struct Lanes {
-    /// Unweighted distance to the feature that rules each pixel, in pixels; infinite without features.
+    /// Unweighted distance from each pixel to its governing feature, in pixels; infinite without features.
     pub distance: Raster<f32>,
-    /// The lane of each pixel; two pixels of one lane have equal numbers.
+    /// The number of each pixel's lane.
     pub lane: Raster<i32>,
-    /// Marks the lines one pixel wide between lanes.
+    /// Marks the offset lines between lanes, one pixel wide.
     pub line: Raster<u8>,
 }
 
@@ -37,11 +37,11 @@ impl Lanes {
 /// Width of an offset line in pixels (`w0` of the thesis).
 const LINE_WIDTH: f32 = 1.0;
 
-/// Lays lanes around edges and isophotes.
+/// Computes lanes around edges and isophotes.
 ///
-/// The weighted distances `min(D_e / w_e, D_i / w_i)` choose which feature rules a pixel; its lane counts the plain distance to
-/// that feature, since a weighted one would make lanes two pitches wide with two rows of dots (measured). An offset line is
-/// centred on its lane border. The two sides of a feature are different lanes.
+/// The weighted distances `min(D_e / w_e, D_i / w_i)` choose the governing feature of a pixel; its lane follows from the plain distance
+/// to that feature, since a weighted one would make lanes two pitches wide with two rows of dots (measured). An offset line is centred
+/// on its lane border. The two sides of a feature are different lanes.
 pub fn offset_lanes(
     edges: Option<&FeatureDistance>,
     isophotes: Option<&FeatureDistance>,
@@ -69,7 +69,7 @@ pub fn offset_lanes(
             return region;
         }
         let number = (distance / pitch) as i32;
-        // Only next to the feature can the two sides touch.
+        // The two sides can touch only next to the feature.
         let sided = if number == 0 && side < 0 { -1 } else { number };
         2 * sided + region
     });

@@ -1,6 +1,6 @@
-//! Fields: what a style reads from a portrait. Each file computes one field.
+//! Fields that a style computes from a portrait. Each file computes one field.
 //!
-//! In: rasters and curves in working pixels. Out: one field each. Nothing here knows of styles, pages or files.
+//! In: rasters and curves in working pixels. Out: one field each. This module knows nothing of styles, pages or files.
 
 mod b_spline;
 mod coherent_lines;

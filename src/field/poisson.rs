@@ -1,4 +1,4 @@
-//! Poisson's equation on a raster with some pixels given, by multigrid.
+//! Multigrid solver for Poisson's equation on a raster with some given pixels.
 
 use crate::raster::Raster;
 use rayon::prelude::*;
@@ -10,21 +10,22 @@ const COARSEST_SWEEPS: usize = 60;
 /// Coarsest side in pixels.
 const COARSEST: usize = 6;
 
-/// One grid: heights sought, the right hand side times the grid's squared pixel, and which pixels are given.
+/// One grid: unknown heights, the right-hand side times the grid's squared pixel, and a mask of the given pixels.
 struct Level {
     z: Raster<f32>,
     source: Raster<f32>,
     is_given: Raster<u8>,
-    /// What is taken off the Laplacian for each unit of height, times the grid's squared pixel.
+    /// Screening term: subtracted from the Laplacian per unit of height, times the grid's squared pixel.
     screening: f32,
 }
 
-/// The heights with `laplacian(z) = source` (per squared pixel) where nothing is given, and `z = given` where there is; at the
-/// raster's border the slope is 0. After `cycles` V-cycles; each takes off about nine tenths of the error, so 8 are plenty.
+/// Solves `laplacian(z) = source` (per squared pixel) with `z = given` at given pixels and slope 0 at the raster's border. Runs `cycles`
+/// V-cycles; each removes about nine tenths of the error, so 8 are enough.
 pub fn poisson(source: &Raster<f32>, given: &Raster<Option<f32>>, cycles: usize) -> Raster<f32> {
     let mut level = Level::new(source, given, 0.0);
     if level.is_given.pixels().iter().all(|&g| g == 0) {
-        // Without a given height any constant may be added: the mean of the source must vanish, then the first pixel is 0.
+        // Without a given height the solution is defined up to a constant: the source's mean is removed, and the first pixel is set to
+        // 0.
         let mean = source.pixels().iter().map(|&v| f64::from(v)).sum::<f64>() / source.len().max(1) as f64;
         level.source = source.map(|v| v - mean as f32);
     }
@@ -34,8 +35,8 @@ pub fn poisson(source: &Raster<f32>, given: &Raster<Option<f32>>, cycles: usize)
     level.z
 }
 
-/// The heights with `laplacian(z) - z / reach^2 = source` where nothing is given; else like [`poisson`]. What is given is felt about
-/// `reach` pixels (above 0) far; farther away the heights tend to `-source * reach^2`.
+/// Solves `laplacian(z) - z / reach^2 = source`; otherwise like [`poisson`]. Given heights have influence over about `reach` pixels
+/// (above 0); farther away the heights tend to `-source * reach^2`.
 pub fn screened_poisson(source: &Raster<f32>, given: &Raster<Option<f32>>, reach: f32, cycles: usize) -> Raster<f32> {
     let mut level = Level::new(source, given, 1.0 / (reach * reach));
     for _ in 0..cycles {
@@ -85,7 +86,7 @@ impl Level {
         (sum, count)
     }
 
-    /// One round of red-black Gauss-Seidel; each colour reads only the other, so rows may run at once.
+    /// One round of red-black Gauss-Seidel; each colour reads only the other, so rows can run in parallel.
     fn sweep(&mut self) {
         let width = self.z.width();
         for colour in 0..2 {
@@ -114,8 +115,8 @@ impl Level {
         self.source.get(x, y) - (sum - (count + self.screening) * self.z.get(x, y))
     }
 
-    /// The equation for the error on a grid of half the size. A coarse pixel is given where any of its four is, so that thin
-    /// walls between regions hold.
+    /// The equation for the error on a grid of half the size. A coarse pixel is given if any of its four children is, so that thin walls
+    /// between regions persist.
     fn restricted(&self) -> Self {
         let (width, height) = (self.z.width().div_ceil(2), self.z.height().div_ceil(2));
         let children = |x: usize, y: usize| {
@@ -125,12 +126,12 @@ impl Level {
                 .filter(|(x, y)| *x < self.z.width() && *y < self.z.height())
         };
         let is_given = Raster::from_fn(width, height, |x, y| u8::from(children(x, y).any(|(x, y)| self.is_given.get(x, y) != 0)));
-        // The sum over the children: the mean, times the four squared pixels that a coarse one holds.
+        // The sum over the children: their mean times the four fine pixels in a coarse one.
         let source = Raster::from_fn(width, height, |x, y| children(x, y).map(|(x, y)| self.residual(x, y)).sum());
         Self { z: Raster::filled(width, height, 0.0), source, is_given, screening: 4.0 * self.screening }
     }
 
-    /// Adds the coarse grid's error, bilinear.
+    /// Adds the coarse grid's error, interpolated bilinearly.
     fn correct(&mut self, error: &Raster<f32>) {
         let is_given = &self.is_given;
         let corrected = Raster::from_fn(self.z.width(), self.z.height(), |x, y| {

@@ -1,4 +1,4 @@
-//! Depth guessed from regions and shading (Galarza 2017, sections 4.4 and 5.2).
+//! Depth estimated from regions and shading (Galarza 2017, sections 4.4 and 5.2).
 
 use super::distance::nearest_seed;
 use super::poisson::poisson;
@@ -7,15 +7,15 @@ use crate::raster::{Raster, gaussian_blur};
 /// V-cycles of the solver.
 const CYCLES: usize = 8;
 
-/// Standard deviation of the smoothing of the load, as a fraction of the greatest distance from a border: with none the distances'
-/// ridges stay, with much more a region's arms lose their own height.
+/// Standard deviation of the smoothing of the load, as a fraction of the maximum distance from a border: with none the ridges of the
+/// distance remain, with much more a region's arms lose their own height.
 const RIDGE_SMOOTHING: f32 = 0.15;
 
-/// Bulges each region (labels above 0) into a cushion that is round at its border and 0 on it; in pixels.
+/// Inflates each region (labels above 0) into a cushion with a round rim, 0 on the region's border; in pixels.
 ///
-/// From the distance `d` to the region's border, at most `R` in it, the square of a height is `d (2 R - d)`, which makes a disc a
-/// hemisphere but leaves a ridge wherever two sides meet. Its Laplacian, smoothed, is the load of Poisson's equation with the
-/// borders at 0, whose solution has none. A raster without any border stays flat.
+/// With the distance `d` to the region's border and its maximum `R`, the squared height is `d (2 R - d)`. This makes a disc a hemisphere
+/// but leaves a ridge wherever two sides meet. Its smoothed Laplacian is the load of Poisson's equation with the borders at 0, whose
+/// solution has no ridges. A raster without any border stays flat.
 pub fn inflate(labels: &Raster<i32>) -> Raster<f32> {
     let is_border = Raster::from_fn(labels.width(), labels.height(), |x, y| {
         let label = labels.get(x, y);
@@ -34,7 +34,7 @@ pub fn inflate(labels: &Raster<i32>) -> Raster<f32> {
             squared.clamped(x - 1, y) + squared.clamped(x + 1, y) + squared.clamped(x, y - 1) + squared.clamped(x, y + 1);
         if is_border.clamped(x, y) > 0 { 0.0 } else { beside - 4.0 * squared.clamped(x, y) }
     });
-    // Only what is inside counts, so that nothing leaks from one region into the next.
+    // Only the inside counts, so that nothing leaks from one region into the next.
     let deepest = distance.pixels().iter().copied().fold(0.0, f32::max);
     let blurred = |raster: &Raster<f32>| gaussian_blur(raster, (RIDGE_SMOOTHING * deepest).max(0.5));
     let share = blurred(&is_border.map(|border| 1.0 - f32::from(border)));
@@ -42,7 +42,7 @@ pub fn inflate(labels: &Raster<i32>) -> Raster<f32> {
     poisson(&load, &is_border.map(|border| (border > 0).then_some(0.0)), CYCLES).map(|z| z.max(0.0).sqrt())
 }
 
-/// Distance in pixels from each pixel to the one named.
+/// Distance from each pixel to its nearest one, in pixels.
 fn distances(nearest: &Raster<u32>) -> Raster<f32> {
     let width = nearest.width();
     Raster::from_fn(width, nearest.height(), |x, y| {
@@ -51,7 +51,7 @@ fn distances(nearest: &Raster<u32>) -> Raster<f32> {
     })
 }
 
-/// `d (2 R - d)` with each region's own greatest distance.
+/// `d (2 R - d)` with each region's own maximum distance.
 fn squared_heights(labels: &Raster<i32>, distance: &Raster<f32>) -> Raster<f32> {
     let count = labels.pixels().iter().copied().max().unwrap_or(0).max(0) as usize;
     let mut greatest = vec![0.0_f32; count + 1];
@@ -62,9 +62,9 @@ fn squared_heights(labels: &Raster<i32>, distance: &Raster<f32>) -> Raster<f32> 
     labels.zip_map(distance, |label, d| d * (2.0 * greatest[label.max(0) as usize] - d))
 }
 
-/// Bends a relief (`base`, in pixels) until its slopes towards the light agree with the shading: shape from shading with the
-/// linear reflectance of Pentland 1990, `lightness = mean - slope / gain` along `light` (a vector of the page towards the lamp),
-/// integrated by Poisson's equation. `shading` is the lightness less its local mean; what is outside the labels stays at 0.
+/// Bends a relief (`base`, in pixels) until its slopes towards the light agree with the shading: shape from shading with the linear
+/// reflectance of Pentland 1990, `lightness = mean - slope / gain` along `light` (a vector of the page towards the lamp), integrated by
+/// Poisson's equation. `shading` is the lightness less its local mean; pixels outside the labels stay at 0.
 pub fn bend_by_shading(
     base: &Raster<f32>,
     shading: &Raster<f32>,

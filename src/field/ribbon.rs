@@ -1,8 +1,8 @@
 //! A continuous Glass pattern as geometry: ribbons painted in ascending order.
 //!
-//! A noise value shows at every point whose downstream arc passes it, so the pattern is the set of upstream arcs of all noise
-//! samples, the higher over the lower. What the noise has above a level `c` around one of its maxima is a small blob; swept
-//! upstream by the arc's length it is a ribbon, and the pattern above `c` is the union of those ribbons:
+//! A noise value shows at every point whose downstream arc passes it, so the pattern consists of the upstream arcs of all noise samples,
+//! higher ones over lower ones. Around a maximum, the noise above a level `c` is a small blob. Swept upstream by the arc's length it is
+//! a ribbon, and the pattern above `c` is the union of these ribbons:
 //!
 //! ```text
 //!         tail                                    blob          s: along the flow from the maximum
@@ -11,8 +11,8 @@
 //!        '-------------------------------------'-...-'
 //! ```
 //!
-//! The blob says how far a ribbon goes; how wide it is at each place is read off the pattern, so that it holds where the flow
-//! spreads, gathers and turns.
+//! The blob gives a ribbon's extent along the flow. Its width at each place is read from the pattern, so that it is right where the flow
+//! spreads, converges and turns.
 
 mod blob;
 mod sweep;
@@ -27,31 +27,31 @@ use sweep::Sweep;
 /// One ribbon, in pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ribbon {
-    /// Nodes of the middle line, from its downstream end (where the blob is) to its upstream end; at least two.
+    /// Nodes of the centre line, from its downstream end (where the blob is) to its upstream end; at least two.
     pub nodes: Vec<Point>,
     /// Full width at each node; beyond the first and last node the ribbon ends in half discs.
     pub widths: Vec<f64>,
-    /// The noise level above which the blob was taken.
+    /// The noise level that bounds the blob.
     pub level: f32,
     /// The noise at the maximum.
     pub height: f32,
-    /// Which maximum it belongs to, in row order.
+    /// Index of its maximum, in row order.
     pub maximum: u32,
 }
 
-/// How ribbons are fitted to the pattern.
+/// Method of fitting ribbons to the pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RibbonFit {
-    /// As a brush would: hardly wider than the blob, and along the maximum's own streamline but where the flow parts.
+    /// Like a brush: hardly wider than the blob, and along the maximum's own streamline unless the flow parts.
     Brush,
-    /// As near to the pattern as may be: wider, along the best of seven streamlines.
+    /// As close to the pattern as possible: wider, along the best of seven streamlines.
     Faithful,
 }
 
 impl RibbonFit {
-    /// A cross-section ends at this many times the blob's reach to the side, even if the region goes on: it is another ribbon's
-    /// there. Brushes of 1.5 run into one another and lose their form (looked at on the astronaut); with 2.5 and 4 the faithful's
-    /// correlation with the pattern is 0.006 lower for one ribbon a maximum, for nested ones.
+    /// Limit of a cross-section, as a multiple of the blob's reach to the side: beyond it the region belongs to another ribbon. Brushes
+    /// of 1.5 run into one another and lose their form (judged on the astronaut). With 2.5 the faithful fit's correlation with the
+    /// pattern is 0.006 lower for one ribbon per maximum; so it is with 4 for nested ones.
     const fn reach(self) -> f64 {
         match self {
             Self::Brush => 1.0,
@@ -59,8 +59,8 @@ impl RibbonFit {
         }
     }
 
-    /// Where across the blob other middle lines begin, to either side, as shares of its reach. Near a saddle of the flow the
-    /// ribbon goes on to one side only, which the maximum's own line may miss.
+    /// Starts of other centre lines across the blob, to either side, as shares of its reach. Near a saddle of the flow the ribbon
+    /// continues on one side only, which the maximum's own line may miss.
     const fn other_starts(self) -> &'static [f64] {
         match self {
             Self::Brush => &[0.5],
@@ -70,11 +70,11 @@ impl RibbonFit {
 }
 
 /// The ribbons of all maxima of the noise, in painting order: by level, then by height, then by maximum. `pattern` is the noise's
-/// [`super::glass_pattern`] for arcs of `length` pixels; `levels` gives a maximum's levels, ascending, for its height.
+/// [`super::glass_pattern`] for arcs of `length` pixels; `levels` returns the ascending levels of a maximum for its height.
 ///
-/// Noise blurred by `sigma` has `0.046 / sigma^2` maxima a pixel (`1 / (4 sqrt(3) pi sigma^2)`). Painted from the top down, a ribbon
-/// hides what is lower within its length times its width, so that the number that shows grows with the page, falls with `sigma`
-/// (measured on photographs: its power 1.1) and hardly with `length` (power 0.3, since longer ribbons hide each other only in part).
+/// Noise blurred by `sigma` has `0.046 / sigma^2` maxima per pixel (`1 / (4 sqrt(3) pi sigma^2)`). A ribbon hides lower ones within its
+/// length times its width. So the number of visible ribbons grows with the page, falls with `sigma` (measured on photographs: to the
+/// power 1.1) and only slightly with `length` (power 0.3, since longer ribbons hide each other only in part).
 pub fn glass_ribbons(
     noise: &Raster<f32>,
     pattern: &Raster<f32>,
@@ -104,7 +104,7 @@ pub fn glass_ribbons(
     ribbons
 }
 
-/// Pixels higher than all around them; of equal neighbours the first in row order.
+/// Pixels higher than all their neighbours; of equal ones the first in row order.
 fn maxima(noise: &Raster<f32>) -> Vec<(usize, usize)> {
     let is_maximum = |x: usize, y: usize| {
         let here = noise.get(x, y);

@@ -1,5 +1,5 @@
-//! Scale-space filtering of a histogram (Witkin 1983; Lim and Lee 1990; Wong 1999, section 6.1.1): its features without a width
-//! chosen beforehand.
+//! Scale-space filtering of a histogram (Witkin 1983; Lim and Lee 1990; Wong 1999, section 6.1.1): finds its features without a preset
+//! width.
 //!
 //! ```text
 //!   sigma ^   \      /          two inflections bound a hill; as the histogram is blurred, pairs vanish;
@@ -8,35 +8,35 @@
 //!         +------------> grey
 //! ```
 
-/// A feature of a histogram: a hill that stays while the histogram is blurred.
+/// A feature of a histogram: a hill that persists while the histogram is blurred.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
-    /// Where its top is, in bins; a bin's middle is at a whole number.
+    /// Position of its top, in bins; a bin's middle is at a whole number.
     pub at: f64,
-    /// The inflections on either side when it is followed down to the finest scale that keeps it, in bins.
+    /// The inflections on either side at the finest scale that keeps it, in bins.
     pub span: (f64, f64),
     /// Samples nearer to this mode than to any other.
     pub samples: u32,
 }
 
-/// Least and greatest blur of the stack, in bins. Below 1.5, 20,000 samples in 256 bins show hills of mere counting noise; the
-/// greatest leaves at most one or two hills.
+/// Minimum and maximum blur of the stack, in bins. Below 1.5, 20,000 samples in 256 bins show hills of mere counting noise; the maximum
+/// leaves at most one or two hills.
 const SCALES: (f64, f64) = (1.5, 64.0);
-/// Blurs in the stack: steps of 5 % let inflections be matched by place.
+/// Number of blurs in the stack: steps of 5 % allow matching inflections by position.
 const STEPS: usize = 78;
-/// Blur, in bins, of the curve on which the tops of hills are read and compared.
+/// Blur, in bins, of the curve used to read and compare the tops of hills.
 const FINE: f64 = 2.0;
-/// A hill must stand above the valley to its neighbour by this share of its height, and by this many times the counting noise that is
-/// left at the fine blur (0.38 of the height's root). Without it 42 of 100 mixtures of Gaussians came back right, the others with
-/// ripples of their tails; with it 99.
+/// Minimum rise of a hill above the valley to its neighbour: a share of its height, and a multiple of the counting noise left at the
+/// fine blur (0.38 of the height's root). Without it 42 of 100 mixtures of Gaussians were recovered, the others had ripples in their
+/// tails; with it 99.
 const LEAST_RISE: f64 = 0.15;
 const NOISE_RISE: f64 = 4.0 * 0.38;
 
-/// The features of a histogram with at least `least_samples` samples, in order of place.
+/// The features of a histogram with at least `least_samples` samples, in order of position.
 ///
-/// The inflections bound hills at every scale; hills that lie within one another from scale to scale form the interval tree, whose
-/// length is counted in the logarithm of the scale. A hill is kept in place of those it splits into when it lasts longer than they
-/// do on the average (section 6.1.1).
+/// The inflections bound hills at every scale; hills nested from scale to scale form the interval tree, whose branch lengths are
+/// measured in the logarithm of the scale. A hill is kept instead of those it splits into if it lasts longer than their average (section
+/// 6.1.1).
 pub fn histogram_modes(histogram: &[u32], least_samples: u32) -> Vec<Mode> {
     if histogram.iter().all(|count| *count == 0) {
         return Vec::new();
@@ -72,7 +72,7 @@ fn blurred(histogram: &[u32], sigma: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The spans between two inflections where the curve bends downwards, as (rising, falling) places in bins.
+/// The spans between two inflections where the curve is concave, as (rising, falling) positions in bins.
 fn hills(curve: &[f64]) -> Vec<(f64, f64)> {
     let at = |i: isize| if i < 0 { 0.0 } else { curve.get(i as usize).copied().unwrap_or(0.0) };
     let bend = |i: isize| at(i - 1) - 2.0 * at(i) + at(i + 1);
@@ -89,7 +89,7 @@ fn hills(curve: &[f64]) -> Vec<(f64, f64)> {
         {
             let falling = crossing();
             let middle = at((0.5 * (rising + falling)).round() as isize);
-            // A bend in the far tail is rounding, not a hill.
+            // A bend in the far tail is rounding error, not a hill.
             if middle > 1e-6 * tallest {
                 hills.push((rising, falling));
             }
@@ -104,16 +104,17 @@ struct Tree {
 }
 
 struct Node {
-    /// At its finest scale.
+    /// Its span at the finest scale.
     span: (f64, f64),
-    /// Steps of the stack that it lasts.
+    /// Number of the stack's steps that it lasts.
     lasts: usize,
     parent: Option<usize>,
     children: Vec<usize>,
 }
 
 impl Tree {
-    /// From the coarsest scale down: a hill that contains one hill of the next finer scale goes on, one that contains several ends.
+    /// Builds the tree from the coarsest scale down: a hill that contains one hill of the next finer scale continues, one that contains
+    /// several ends.
     fn new(stack: &[Vec<(f64, f64)>]) -> Self {
         let mut tree = Self { nodes: Vec::new() };
         let mut above: Vec<usize> = Vec::new();
@@ -122,7 +123,7 @@ impl Tree {
             let mut parts: Vec<Vec<(f64, f64)>> = vec![Vec::new(); above.len()];
             let mut fresh = Vec::new();
             for &hill in hills {
-                // Inflections move little between two scales, so a hill's middle lies in the hill that it came from.
+                // Inflections move little between two scales, so a hill's middle lies inside its parent hill.
                 let holder = (0..above.len()).find(|&i| {
                     let span = tree.nodes[above[i]].span;
                     (span.0..=span.1).contains(&middle(hill))
@@ -160,7 +161,7 @@ impl Tree {
         (0..self.nodes.len()).filter(|i| self.nodes[*i].parent.is_none())
     }
 
-    /// The hills of greatest stability in a branch.
+    /// The most stable hills in a branch.
     fn stable_under(&self, node: usize, stable: &mut Vec<usize>) {
         let Node { lasts, children, .. } = &self.nodes[node];
         let total: usize = children.iter().map(|child| self.nodes[*child].lasts).sum();
@@ -174,7 +175,7 @@ impl Tree {
     }
 }
 
-/// The top that is reached uphill from the highest place of a span, between bins by a parabola.
+/// The top reached uphill from the highest place of a span, interpolated between bins by a parabola.
 fn summit(curve: &[f64], span: (f64, f64)) -> f64 {
     let last = curve.len() - 1;
     let (from, to) = ((span.0.max(0.0) as usize).min(last), (span.1.ceil().max(0.0) as usize).min(last));
@@ -193,7 +194,7 @@ fn summit(curve: &[f64], span: (f64, f64)) -> f64 {
     best as f64 + if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 }
 }
 
-/// Modes that the valleys between them set apart; of two neighbours that none does the lower goes, the least set apart first.
+/// Modes separated by sufficient valleys; of two neighbours without one, the lower is removed, the least separated first.
 fn standing_out(mut modes: Vec<Mode>, curve: &[f64]) -> Vec<Mode> {
     modes.sort_by(|a, b| a.at.total_cmp(&b.at));
     loop {
@@ -212,7 +213,7 @@ fn standing_out(mut modes: Vec<Mode>, curve: &[f64]) -> Vec<Mode> {
     }
 }
 
-/// Samples go to the nearest mode; modes with too few give theirs up, the poorest first.
+/// Assigns samples to the nearest mode; removes modes with too few, the smallest first.
 fn counted(mut modes: Vec<Mode>, histogram: &[u32], least_samples: u32) -> Vec<Mode> {
     loop {
         for mode in &mut modes {

@@ -1,11 +1,11 @@
-//! SLIC superpixels: clusters of like colour and place (Achanta et al. 2012), each one connected piece.
+//! SLIC superpixels: connected clusters of similar colour and position (Achanta et al. 2012).
 
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Bands in which centres are summed up: fixed, so that sums do not depend on the number of threads.
+/// Bands in which centres are summed: a fixed number, so that sums do not depend on the number of threads.
 const SUM_BANDS: usize = 8;
-/// Pieces smaller than this part of a superpixel's usual area join a neighbour.
+/// Pieces smaller than a superpixel's usual area divided by this join a neighbour.
 const LEAST_SHARE: usize = 4;
 
 /// A cluster's mean colour and place.
@@ -16,15 +16,15 @@ struct Centre {
     y: f32,
 }
 
-/// Colour channels as planes, so that distances are reckoned several pixels at a time.
+/// Colour channels as planes, so that distances are computed for several pixels at a time.
 struct Planes {
     width: usize,
     height: usize,
     channels: [Vec<f32>; 3],
 }
 
-/// Labels 0, 1, 2, ... of superpixels about `size` pixels wide. A step of `compactness` in colour (in the colours' own unit;
-/// for CIE Lab 10 is usual) counts like a distance of `size`; `rounds` of clustering, 10 are usual.
+/// Labels 0, 1, 2, ... of superpixels about `size` pixels wide. A colour difference of `compactness` (in the colours' own unit; for CIE
+/// Lab 10 is usual) counts like a distance of `size`. `rounds` is the number of clustering rounds; 10 is usual.
 pub fn superpixels(colours: &Raster<[f32; 3]>, size: usize, compactness: f32, rounds: u32) -> Raster<i32> {
     let (width, height) = (colours.width(), colours.height());
     if colours.is_empty() {
@@ -141,7 +141,7 @@ fn move_centres(planes: &Planes, labels: &[i32], centres: &mut [Centre]) {
     }
 }
 
-/// New labels for the connected pieces; those of fewer than `least` pixels take the label of the piece met before.
+/// New labels for the connected pieces; those of fewer than `least` pixels take the label of the preceding piece.
 fn connected(labels: &Raster<i32>, least: usize) -> Raster<i32> {
     let (width, height) = (labels.width(), labels.height());
     let old = labels.pixels();

@@ -1,11 +1,11 @@
-//! Edge tangent flow (Kang, Lee and Chui 2007): directions along the edges, smoothed so that the strong ones rule.
+//! Edge tangent flow (Kang, Lee and Chui 2007): directions along the edges, smoothed so that strong edges dominate.
 //!
-//! In its separable form: the window is summed along the rows, then along the columns.
+//! Uses the separable form: the window is summed along the rows, then along the columns.
 
 use crate::raster::{Raster, sobel};
 use rayon::prelude::*;
 
-/// Gradients below this (grey 0 to 1, a pixel) have no direction: a tenth of the rounding of 8-bit grey.
+/// Gradients below this (grey 0 to 1, per pixel) have no direction: a tenth of the rounding of 8-bit grey.
 const NO_GRADIENT: f32 = 4e-4;
 
 /// The direction of the nearby edges at each pixel.
@@ -19,8 +19,8 @@ pub struct EdgeTangentFlow {
 
 /// The edge tangent flow of a grey raster, 0 to 1.
 ///
-/// Each round replaces the direction at `x` by the sum over the window (`radius` pixels, mu = 5) of
-/// `sign(t(x).t(y)) t(y) w_m w_d`, `w_d = |t(x).t(y)|`, `w_m = (1 + tanh(g(y) - g(x))) / 2`. Kang's figures: 2 to 3 rounds.
+/// Each round replaces the direction at `x` by the sum over the window (`radius` pixels, mu = 5) of `sign(t(x).t(y)) t(y) w_m w_d`,
+/// `w_d = |t(x).t(y)|`, `w_m = (1 + tanh(g(y) - g(x))) / 2`. Kang's value: 2 to 3 rounds.
 pub fn edge_tangent_flow(grey: &Raster<f32>, radius: usize, rounds: u32) -> EdgeTangentFlow {
     let gradient = sobel(grey);
     let magnitude = gradient.map(|[x, y]| x.hypot(y));
@@ -44,7 +44,7 @@ fn unit([x, y]: [f32; 2]) -> [f32; 2] {
     if length < NO_GRADIENT { [0.0, 0.0] } else { [x / length, y / length] }
 }
 
-/// The flow's components in planes of their own, which the compiler can take four or eight at a time.
+/// The flow's components as separate planes, which the compiler can vectorise.
 struct Planes {
     x: Raster<f32>,
     y: Raster<f32>,

@@ -5,26 +5,26 @@
 //!   . . . o-.-.> .         2. a step of 3 along the direction predicts the next point
 //!   . o o . .[. .].        3. the edge pixel nearest to it in a 5 x 5 window is the next vertex
 //!   o . . . .[. x].        4. the direction is averaged with the step just made; pixels passed are marked as visited
-//!   . . . . .[. .].        5. lines whose ends are alike in place and direction are linked
+//!   . . . . .[. .].        5. lines whose ends agree in place and direction are linked
 //! ```
 //!
-//! Where the thesis stops at a crossing that an earlier line has marked, this tracer looks one window further along the same
-//! direction, so that crossings give continuous lines.
+//! The thesis stops at a crossing that an earlier line has marked. This tracer looks one window further in the same direction, so that
+//! lines continue across crossings.
 
 use crate::geometry::{Point, Vec2, distance_to_segment};
 use crate::raster::Raster;
 
-/// Radius within which the first directions are read, in pixels (Wong: 3).
+/// Radius for reading the first directions, in pixels (Wong: 3).
 const SEED_RADIUS: f64 = 3.0;
 /// Length of a step, in pixels (Wong: 3).
 const STEP: f64 = 3.0;
 /// Half the side of the search window, in pixels (Wong: a 5 x 5 window).
 const WINDOW: isize = 2;
-/// Edge pixels this near to a traced segment belong to it: the acceptance of every line is 2 px.
+/// Edge pixels within this distance of a traced segment belong to it: lines must be accurate to 2 px.
 const MARK_DISTANCE: f64 = 1.9;
-/// Ends nearer than this are linked when their directions agree: a window and a step.
+/// Ends nearer than this are linked if their directions agree: a window plus a step.
 const LINK_DISTANCE: f64 = 6.0;
-/// Cosine of the greatest turn at a link or across a crossing, 50 degrees.
+/// Cosine of the maximum turn at a link or across a crossing, 50 degrees.
 const LINK_COSINE: f64 = 0.64;
 
 /// A line in working pixels (`0.5, 0.5` is the centre of the first pixel).
@@ -32,12 +32,12 @@ const LINK_COSINE: f64 = 0.64;
 pub struct Curve {
     /// Vertices; a closed curve does not repeat its first.
     pub points: Vec<Point>,
-    /// Whether the last vertex is joined to the first.
+    /// True if the last vertex is joined to the first.
     pub closed: bool,
 }
 
 impl Curve {
-    /// Length in pixels, the closing segment included.
+    /// Length in pixels, including the closing segment.
     pub fn length(&self) -> f64 {
         let open: f64 = self.points.windows(2).map(|w| w[0].distance(w[1])).sum();
         match (self.points.first(), self.points.last()) {
@@ -51,7 +51,7 @@ impl Curve {
 pub fn trace(edges: &Raster<u8>) -> Vec<Curve> {
     let mut tracer = Tracer { edges, visited: edges.map(|_| false) };
     let mut lines = Vec::new();
-    // Crossings fail in the first scan; what is left of them is taken up in the second, by their most opposite directions.
+    // Crossings fail in the first scan; the second takes up their remains, by their most opposite directions.
     for attempt in [Attempt::PlainLines, Attempt::Remains] {
         for y in 0..edges.height() {
             for x in 0..edges.width() {
@@ -90,7 +90,7 @@ impl Tracer<'_> {
         self.is_edge(x, y) && !self.visited.get(x as usize, y as usize)
     }
 
-    /// The line through a seed pixel, or none when it is alone or at a crossing.
+    /// The line through a seed pixel; none if the pixel is isolated or at a crossing.
     fn line_through(&mut self, x: isize, y: isize, attempt: Attempt) -> Option<Vec<Point>> {
         let seed = centre(x, y);
         let directions = self.initial_directions(x, y);
@@ -126,7 +126,7 @@ impl Tracer<'_> {
         let on_rim = |&(px, py): &(isize, isize)| (px - x).abs().max((py - y).abs()) == reach;
         let mut rim: Vec<(isize, isize)> = connected.iter().copied().filter(on_rim).collect();
         if rim.is_empty() && connected.len() > 1 {
-            // A short remnant: its farthest pixel shows the way.
+            // A short remnant: its farthest pixel gives the direction.
             rim = connected[1..]
                 .iter()
                 .copied()
@@ -178,7 +178,7 @@ impl Tracer<'_> {
         Self::window(predicted).any(|(x, y)| self.is_edge(x, y))
     }
 
-    /// Marks the edge pixels that a segment stands for.
+    /// Marks the edge pixels that belong to a segment.
     fn mark_along(&mut self, a: Point, b: Point) {
         let reach = MARK_DISTANCE.ceil() as isize;
         let (x0, x1) = (a.x.min(b.x) as isize - reach, a.x.max(b.x) as isize + reach);
@@ -223,11 +223,11 @@ fn most_opposite(directions: &[Vec2]) -> Vec<Vec2> {
     best.1
 }
 
-/// Joins lines whose ends lie close and point at each other, the closest pairs first, and closes loops.
+/// Joins lines whose ends are close and point at each other, closest pairs first, and closes loops.
 fn link(lines: Vec<Vec<Point>>) -> Vec<Curve> {
     let mut chains: Vec<Option<Vec<Point>>> = lines.into_iter().map(Some).collect();
     let mut closed = vec![false; chains.len()];
-    // Which chain holds the end that line i had first and last, and at which side.
+    // The index of the chain that holds each line.
     let mut holder: Vec<usize> = (0..chains.len()).collect();
     for (_, a, b) in candidate_links(&chains) {
         let (ca, cb) = (find(&holder, a.line), find(&holder, b.line));
@@ -298,7 +298,7 @@ fn ends_are(chain: &[Point], a: Point, b: Point) -> bool {
     (first == a && last == b) || (first == b && last == a)
 }
 
-/// Two chains in one, joined at the given ends; none when an end is no longer free.
+/// Joins two chains at the given ends; none if an end is no longer free.
 fn joined(first: Option<&Vec<Point>>, a: Point, second: Option<&Vec<Point>>, b: Point) -> Option<Vec<Point>> {
     let oriented = |chain: &Vec<Point>, end: Point, at_end: bool| -> Option<Vec<Point>> {
         let has_last = chain.last() == Some(&end);

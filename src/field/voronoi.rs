@@ -1,13 +1,13 @@
-//! Voronoi cells of many sites: which site is nearest to each pixel, and a site's exact cell.
+//! Voronoi cells of many sites: the nearest site of each pixel, and a site's exact cell.
 //!
-//! A label-carrying distance transform costs the same for any number of sites; with one site in some 36 pixels it is faster to
-//! look into a uniform grid, with the same exact result. (`benches/` compares both.)
+//! A label-carrying distance transform costs the same for any number of sites; with one site per 36 pixels or so, a uniform grid is
+//! faster and gives the same exact result. (`benches/` compares both.)
 
 use crate::geometry::{Point, Rect, Vec2, half_plane};
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Sites in a uniform grid of about one site a cell.
+/// Sites in a uniform grid of about one site per cell.
 pub struct Sites<'a> {
     points: &'a [Point],
     cell: f64,
@@ -18,7 +18,7 @@ pub struct Sites<'a> {
 }
 
 impl<'a> Sites<'a> {
-    /// Sorts sites in a field of `width` x `height` pixels into cells of side `cell`; sites outside count to the border cells.
+    /// Sorts sites in a field of `width` x `height` pixels into cells of side `cell`; sites outside go to the border cells.
     pub fn new(points: &'a [Point], width: f64, height: f64, cell: f64) -> Self {
         let columns = (width / cell).ceil().max(1.0) as usize;
         let rows = (height / cell).ceil().max(1.0) as usize;
@@ -75,11 +75,11 @@ impl<'a> Sites<'a> {
         any
     }
 
-    /// Every site that can be nearest to some point within `radius` of `centre`, appended to `out`.
+    /// Appends to `out` every site that can be nearest to some point within `radius` of `centre`.
     fn candidates(&self, centre: Point, radius: f64, out: &mut Vec<u32>) {
         let mut best = f64::INFINITY;
         let mut ring = 0;
-        // A ring's sites are at least (ring - 1) cells plus something away; stop once none can beat the best.
+        // A ring's sites are at least (ring - 1) cells plus something away; stops once none can beat the best.
         while (ring as f64 - 1.0) * self.cell <= best {
             let found = self.for_ring(centre, ring, |i| best = best.min(self.points[i as usize].distance(centre)));
             if !found {
@@ -96,7 +96,7 @@ impl<'a> Sites<'a> {
     }
 
     /// The nearest site of each pixel's centre; equal distances go to the lower number. Tiles of pixels in which `wanted` is 0
-    /// everywhere are left out and hold `u32::MAX`.
+    /// everywhere are skipped and hold `u32::MAX`.
     ///
     /// # Panics
     /// If there is no site.
@@ -152,7 +152,7 @@ fn label_tile(out: &mut [u32], width: usize, columns: std::ops::Range<usize>, ca
 
 /// The Voronoi cell of site `index` inside a rectangle and within `reach` of the site (a square), as a convex polygon.
 ///
-/// Sites at the very same place share a cell: the one with the lower number gets it, the other an empty one.
+/// Of sites at the same place, the one with the lower number gets the cell, the others an empty one.
 pub fn cell_polygon(sites: &Sites<'_>, index: usize, field: Rect, reach: f64) -> Vec<Point> {
     let site = sites.points[index];
     let bounds = field.intersect(Rect::from_center_size(site, (2.0 * reach, 2.0 * reach)));

@@ -3,11 +3,11 @@
 use crate::raster::Raster;
 use std::collections::VecDeque;
 
-/// Heights told apart.
+/// Number of distinct heights.
 const LEVELS: usize = 256;
 
-/// Floods `relief` (0 low to 1 high, such as gradient magnitude) from the markers (above 0) until every pixel has a marker's
-/// label; basins meet on the ridges. Pixels stay 0 only when there is no marker.
+/// Floods `relief` (0 low to 1 high, such as gradient magnitude) from the markers (above 0) until every pixel has a marker's label;
+/// basins meet on the ridges. Pixels stay 0 only if there is no marker.
 pub fn watershed(relief: &Raster<f32>, markers: &Raster<i32>) -> Raster<i32> {
     let mut labels = markers.map(|label| label.max(0));
     let (width, height) = (relief.width(), relief.height());

@@ -1,11 +1,11 @@
-//! What a drawing will take, foretold from its size and its parameters before any work is done.
+//! Cost of a drawing, estimated from its size and parameters before any work is done.
 //!
-//! Each style has its own figures, measured with `time -v` on the astronaut of the samples: the peak of memory, and the user's seconds
-//! on two cores of about 3 GHz. They are meant to be right to a third or so, and high rather than low.
+//! Each style has its own figures, measured with `time -v` on the sample astronaut: peak memory, and user seconds on two cores of about
+//! 3 GHz. They should be right to about a third, and rather high than low.
 
 use crate::geometry::Rect;
 
-/// The memory and the work of one drawing.
+/// Memory and time of one drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
     /// Working pixels.
@@ -17,12 +17,12 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// So many bytes and microseconds for each working pixel.
+    /// `bytes` and `microseconds` for each of `pixels` working pixels.
     pub(super) fn each(pixels: f64, bytes: f64, microseconds: f64) -> Self {
         Self { pixels, bytes: pixels * bytes, seconds: 1e-6 * pixels * microseconds }
     }
 
-    /// With so many things more that are no pixels.
+    /// Adds `count` items, other than pixels, of `bytes` and `microseconds` each.
     #[must_use]
     pub(super) fn and(self, count: f64, bytes: f64, microseconds: f64) -> Self {
         Self { bytes: self.bytes + count * bytes, seconds: self.seconds + 1e-6 * count * microseconds, ..self }

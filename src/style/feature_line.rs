@@ -1,11 +1,11 @@
-//! A feature line as a stroke, as wide as it was found, tapering at its ends.
+//! A feature line as a stroke of its detected width, tapering at both ends.
 
 use crate::drawing::{Mark, Stroke, Width};
 use crate::field::CoherentLine;
 use crate::geometry::catmull_rom;
 use crate::source::Placement;
 
-/// Every so many points of a line become a node of its stroke: 4.5 pixels, less than a pitch.
+/// One in this many points of a line becomes a node of its stroke: 4.5 pixels, less than a pitch.
 const STRIDE: usize = 3;
 /// Share of a line at each end over which it tapers.
 const TAPER: f64 = 0.25;

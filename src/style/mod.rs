@@ -26,7 +26,7 @@ use crate::geometry::Rect;
 use crate::source::{MaskRole, Portrait};
 use thiserror::Error;
 
-/// One way of drawing.
+/// A drawing style.
 pub trait Style: Sync {
     /// Its name on the command line.
     fn name(&self) -> &'static str;
@@ -38,26 +38,26 @@ pub trait Style: Sync {
     fn parameters(&self) -> &'static [Parameter];
     /// The mask roles that it uses; the others are refused.
     fn masks(&self) -> &'static [MaskRole];
-    /// Whether it can use a depth map; else one is refused.
+    /// True if it uses a depth map; otherwise one is refused.
     fn uses_depth(&self) -> bool {
         false
     }
-    /// Whether what is behind a person is left out when nobody says otherwise: newspapers print heads on bare paper.
+    /// True if the background behind a person is left out by default, as newspapers print heads on bare paper.
     fn leaves_out_background(&self) -> bool {
         false
     }
-    /// Working pixels a millimetre, given the masks at hand.
+    /// Working pixels per millimetre with the given masks.
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
-    /// Working pixels a millimetre for a picture of this size on the page; for most styles the size does not matter.
+    /// Working pixels per millimetre for a picture of this size on the page; for most styles the size does not matter.
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
-    /// What drawing a picture of this size takes at this resolution, foretold from figures that were measured.
+    /// Estimated cost of a picture of this size at this resolution, from measured figures.
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
-    /// Makes the marks, which may reach over the picture's border.
+    /// Makes the marks, which may extend beyond the picture's border.
     fn sketch(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer)
     -> Result<Drawing, StyleError>;
-    /// Draws the portrait, all of its ink inside the picture's box on the page; says which settings change nothing.
+    /// Draws the portrait with all ink inside the picture's box on the page; warns of settings that have no effect.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
         settings.idle(self.parameters(), portrait).iter().for_each(|sentence| observer.warn(sentence));
         let drawing = self.sketch(portrait, settings, seed, observer)?.held_in(portrait.placement.picture);
@@ -83,13 +83,13 @@ pub enum StyleError {
     /// The user stopped it.
     #[error("interrupted")]
     Interrupted,
-    /// Nothing calls for ink.
+    /// No part of the picture needs ink.
     #[error("there is nothing to draw: {0}")]
     NothingToDraw(String),
-    /// A setting keeps all of it away from ink.
+    /// A setting suppresses all ink.
     #[error("there is nothing to draw: {why}; {setting} draws it")]
     NothingLeft {
-        /// What keeps it away.
+        /// What suppresses it.
         why: &'static str,
         /// The parameter and the value that would draw it.
         setting: &'static str,

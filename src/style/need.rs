@@ -1,17 +1,17 @@
-//! What a parameter needs to have an effect: other settings, a mask, no depth map. One table and one place that reads it, so that a new
-//! style's users hear of what does nothing without a line of its own.
+//! Conditions for a parameter to have an effect: other settings, a mask, no depth map. They stand in the parameter tables and are
+//! checked in one place, so that a new style warns of idle settings without code of its own.
 
 use super::Settings;
 use crate::source::{MaskRole, Portrait};
 
-/// One thing that a parameter needs.
+/// One condition of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Need {
     /// A choice is one of these words.
     Word(&'static str, &'static [&'static str]),
     /// A number, a count or a length in millimetres lies above this.
     Above(&'static str, f64),
-    /// A length lies below so many pitches.
+    /// A length lies below this number of pitches.
     BelowPitches(&'static str, f64),
     /// A number or a length is not 0.
     Nonzero(&'static str),
@@ -23,12 +23,12 @@ pub enum Need {
     Without(MaskRole),
     /// No depth map is given.
     WithoutDepth,
-    /// All of one of these lists.
+    /// All conditions of at least one of these lists.
     AnyOf(&'static [&'static [Self]]),
 }
 
 impl Need {
-    /// Whether a drawing of this portrait with these settings has it.
+    /// True if this portrait and these settings meet it.
     pub fn is_met(&self, settings: &Settings, portrait: &Portrait) -> bool {
         let has = |role: &MaskRole| match role {
             MaskRole::Scribbles => portrait.scribbles.is_some(),
@@ -47,7 +47,7 @@ impl Need {
         }
     }
 
-    /// What would meet it.
+    /// The condition in words.
     pub fn text(&self) -> String {
         match self {
             Self::Word(name, words) => format!("{name}={}", words.join(" or ")),
@@ -55,15 +55,15 @@ impl Need {
             Self::BelowPitches(name, most) => format!("{name} below {} pitches", (most * 100.0).round() / 100.0),
             Self::Nonzero(name) => format!("{name} other than 0"),
             Self::Zero(name) => format!("{name}=0"),
-            Self::With(role) => format!("a mask {}", role.name()),
-            Self::Without(role) => format!("no mask {}", role.name()),
+            Self::With(role) => format!("the {} mask", role.name()),
+            Self::Without(role) => format!("no {} mask", role.name()),
             Self::WithoutDepth => "no depth map".to_owned(),
             Self::AnyOf(lists) => lists.iter().map(|all| all_text(all)).collect::<Vec<_>>().join(", or "),
         }
     }
 }
 
-/// All of a list, in words.
+/// All conditions of a list, in words.
 pub(super) fn all_text(needs: &[Need]) -> String {
     needs.iter().map(Need::text).collect::<Vec<_>>().join(" and ")
 }

@@ -1,4 +1,4 @@
-//! Who watches a style work: progress bars, `stages`, timings and tests.
+//! Observers of a style at work: progress bars, `stages`, timings and tests.
 
 use crate::drawing::Drawing;
 use crate::raster::Raster;
@@ -17,25 +17,25 @@ pub enum Picture {
     Drawing(Box<Drawing>),
 }
 
-/// Told of each step as it happens. All methods may be called from the drawing thread at any time.
+/// Receives each step as it happens. All methods may be called from the drawing thread at any time.
 pub trait Observer: Sync {
-    /// A step begins; the one before is over.
+    /// A step begins; the previous one has ended.
     fn begin(&self, step: &str);
     /// How much of the step is done, 0 to 1.
     fn progress(&self, fraction: f64);
-    /// An intermediate result, made only when somebody wants it.
+    /// An intermediate result; `make` is called only if it is used.
     fn picture(&self, name: &str, make: &dyn Fn() -> Picture);
-    /// Something the user should know although the drawing goes on.
+    /// A warning; the drawing continues.
     fn warn(&self, message: &str);
-    /// The same, where a mask of this role would mend it.
+    /// A warning that a mask of this role would resolve.
     fn want_mask(&self, role: MaskRole, message: &str) {
-        self.warn(&format!("{message}; a mask of the role {} says where it is", role.name()));
+        self.warn(&format!("{message}; a mask of the role {} marks it", role.name()));
     }
-    /// Whether the work should stop.
+    /// True if the work should stop.
     fn is_interrupted(&self) -> bool;
 }
 
-/// Nobody watches.
+/// Ignores everything and never interrupts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

@@ -18,12 +18,12 @@ pub struct Parameter {
     pub meaning: &'static str,
     /// Where it comes from.
     pub source: &'static str,
-    /// What it needs to have an effect: all of these.
+    /// Conditions for it to have an effect; all must hold.
     pub needs: &'static [Need],
 }
 
 impl Parameter {
-    /// What it needs to have an effect, in words; empty when it always has one.
+    /// Its conditions in words; empty if it always has an effect.
     pub fn needs_text(&self) -> String {
         all_text(self.needs)
     }
@@ -34,36 +34,36 @@ impl Parameter {
 pub enum Kind {
     /// A length on the page in millimetres.
     Length {
-        /// When it is not set.
+        /// The default.
         default: Default,
-        /// Least value in millimetres.
+        /// Minimum in millimetres.
         least: f64,
-        /// Greatest value in millimetres.
+        /// Maximum in millimetres.
         most: f64,
     },
     /// A plain number.
     Number {
-        /// When it is not set.
+        /// The default.
         default: f64,
-        /// Least value.
+        /// Minimum.
         least: f64,
-        /// Greatest value.
+        /// Maximum.
         most: f64,
     },
     /// A whole number.
     Count {
-        /// When it is not set.
+        /// The default.
         default: u32,
-        /// Least value.
+        /// Minimum.
         least: u32,
-        /// Greatest value.
+        /// Maximum.
         most: u32,
     },
-    /// One of some words; the first is the default.
+    /// One of these words; the first is the default.
     Choice(&'static [&'static str]),
     /// Places in the picture; none by default.
     Places {
-        /// How many at most, up to [`Places::MOST`].
+        /// Maximum number, up to [`Places::MOST`].
         most: usize,
     },
 }
@@ -77,7 +77,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// The most that a parameter can ask for.
+    /// Maximum number of places of any parameter.
     pub const MOST: usize = 8;
 
     /// Across and down, 0 to 1 of the picture's width and height.
@@ -113,17 +113,17 @@ impl Places {
 pub enum Default {
     /// In millimetres.
     Millimetres(f64),
-    /// In pitches, so that it follows the pitch.
+    /// As a multiple of the pitch.
     Pitches(f64),
 }
 
-/// Why parameters could not be used.
+/// Why settings were refused.
 #[derive(Debug, Error, PartialEq)]
 pub enum ParameterError {
     /// No such key.
-    #[error("'{key}' is not a parameter of {style}; it has {known}{hint}")]
+    #[error("'{key}' is not a parameter of {style}; its parameters are {known}{hint}")]
     Unknown {
-        /// What was given.
+        /// The text as given.
         key: String,
         /// The style.
         style: String,
@@ -133,11 +133,11 @@ pub enum ParameterError {
         hint: String,
     },
     /// A value of the wrong kind or out of range.
-    #[error("{key}={value} cannot be used: {expected}")]
+    #[error("{key}={value} is not valid; expected {expected}")]
     Value {
         /// The key.
         key: String,
-        /// What was given.
+        /// The text as given.
         value: String,
         /// What would be accepted.
         expected: String,
@@ -159,7 +159,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Resolves what a user gave (later ones win) and the defaults.
+    /// Resolves the user's values (later ones win) and the defaults.
     pub fn resolve(style: &str, parameters: &'static [Parameter], given: &[(String, String)]) -> Result<Self, ParameterError> {
         let mut values = BTreeMap::new();
         for (key, text) in given {
@@ -182,8 +182,8 @@ impl Settings {
         Ok(Self { values })
     }
 
-    /// A sentence for each parameter that is set to other than its default and does nothing in a drawing of this portrait: what it
-    /// needs, and what would switch it on. A default is nobody's wish, even if a recipe spells it out.
+    /// One sentence per parameter that differs from its default but has no effect on this portrait, with the conditions it lacks. A
+    /// value equal to the default is never reported, even if a recipe spells it out.
     pub fn idle(&self, parameters: &[Parameter], portrait: &Portrait) -> Vec<String> {
         let pitch = match self.values.get("pitch") {
             Some(Value::Number(pitch)) => *pitch,
@@ -199,7 +199,7 @@ impl Settings {
                 let missing: Vec<Need> = parameter.needs.iter().filter(|need| !need.is_met(self, portrait)).copied().collect();
                 let value = self.entries().find(|(name, _)| *name == parameter.name)?.1;
                 (!missing.is_empty())
-                    .then(|| format!("{}={value} changes nothing here: it needs {}", parameter.name, all_text(&missing)))
+                    .then(|| format!("{}={value} has no effect here: it needs {}", parameter.name, all_text(&missing)))
             })
             .collect()
     }
@@ -207,7 +207,7 @@ impl Settings {
     /// A length in millimetres, a number or a count.
     ///
     /// # Panics
-    /// If the style has no such parameter: a fault of the style, not of its user.
+    /// If the style has no such parameter, which is a bug in the style.
     pub fn number(&self, name: &str) -> f64 {
         match self.values.get(name) {
             Some(Value::Number(number)) => *number,
@@ -218,7 +218,7 @@ impl Settings {
     /// A choice.
     ///
     /// # Panics
-    /// If the style has no such choice: a fault of the style, not of its user.
+    /// If the style has no such choice, which is a bug in the style.
     pub fn word(&self, name: &str) -> &'static str {
         match self.values.get(name) {
             Some(Value::Word(word)) => word,
@@ -229,7 +229,7 @@ impl Settings {
     /// Places in the picture.
     ///
     /// # Panics
-    /// If the style has no such parameter: a fault of the style, not of its user.
+    /// If the style has no such parameter, which is a bug in the style.
     pub fn places(&self, name: &str) -> Places {
         match self.values.get(name) {
             Some(Value::Places(places)) => *places,
@@ -237,7 +237,7 @@ impl Settings {
         }
     }
 
-    /// Every key and value as text that `--set` would take.
+    /// Every key with its value in the form that `--set` accepts.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, String)> {
         self.values.iter().map(|(name, value)| {
             let text = match value {
@@ -270,7 +270,7 @@ impl Kind {
         }
     }
 
-    /// The nearest number in its range: a default that follows the pitch does not leave it either.
+    /// Clamps a number to the range; defaults in pitches need it too.
     fn within(&self, number: f64) -> f64 {
         match *self {
             Self::Length { least, most, .. } | Self::Number { least, most, .. } => number.clamp(least, most),
@@ -279,7 +279,7 @@ impl Kind {
         }
     }
 
-    /// Its two ends as `--set` would take them; none for choices and places.
+    /// Minimum and maximum in the form that `--set` accepts; none for choices and places.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
             Self::Length { least, most, .. } | Self::Number { least, most, .. } => Some([least, most]),

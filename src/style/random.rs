@@ -1,11 +1,11 @@
-//! Random numbers split by stage and element, so that they do not depend on threads or the order of work.
+//! Random streams by stage and element, so that results do not depend on threads or the order of work.
 
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
 /// The stream of one element (a dot, a line, a cell) in one stage.
 pub(super) fn stream(seed: u64, stage: &str, element: u64) -> ChaCha8Rng {
-    // FNV-1a: stages differ by name, not by the order in which they were written.
+    // FNV-1a hash of the name: the order of stages in the code does not matter.
     let stage =
         stage.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ stage);

@@ -1,10 +1,10 @@
-//! Reversed stipple, as on scraperboard: where dots or lines would close up, black with even white holes in the place of the slivers
-//! of all sizes that overlapping marks leave.
+//! Reversed stipple, as on scraperboard: where dots or lines would close up, black with even white holes instead of the irregular
+//! slivers that overlapping marks leave.
 //!
 //! ```text
-//!   cells      each dark cell is black but for a hole of the white that its tone asks for
-//!   regions    only where dark cells make a region; a pupil or an eyebrow stays as it is
-//!   tiles      the cells of a few pitches together are one area, so that plotters fill them in short order
+//!   cells      each dark cell is black except for a hole with the white of its tone
+//!   regions    only where dark cells form a wide region; a pupil or an eyebrow stays as it is
+//!   tiles      cells are grouped into areas a few pitches wide, which a plotter fills one at a time
 //! ```
 
 use crate::drawing::{Area, Mark};
@@ -16,28 +16,28 @@ use kurbo::Shape;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Half the width of the narrowest region that is reversed, in pitches. At 1 single specks stand in eyes and eyebrows, at 2.5 strands
-/// of hair stay black dots beside it.
+/// Half the width of the narrowest region that is reversed, in pitches. At 1, specks appear in eyes and eyebrows; at 2.5, strands of
+/// hair beside it stay black dots.
 const NARROWEST: f64 = 1.5;
-/// How far a cell reaches under its dark neighbours, in pitches, so that no seam shows between two tiles; the holes begin at 0.25.
+/// Overlap of a cell with its dark neighbours, in pitches, so that no seam shows between two tiles; the holes begin at 0.25.
 const OVERLAP: f64 = 0.1;
 /// Side of a tile in pitches, tuned on Grace Hopper plotted with 0.3 mm: at 6 a nib of two thirds of the pitch leaves 1.9 % bare along
 /// the seams, at 16 there are too few tiles for two threads (5.9 s against 3.9 s at 9).
 const TILE: f64 = 9.0;
-/// Flattening where holes are cut out, in pixels.
+/// Flattening tolerance where holes are cut out, in pixels.
 const TOLERANCE: f64 = 0.02;
 
 /// Radius below which there is no hole, in pitches: 0.5 % white, which ink closes; smaller ones look like dust on a black helmet.
 pub(super) const LEAST_HOLE: f64 = 0.04;
 
-/// A cell that is black but for a hole; in working pixels.
+/// A black cell with a hole, in working pixels.
 #[derive(Clone, Debug)]
 pub(super) struct ReversedCell {
     pub centre: Point,
     pub polygon: Vec<Point>,
-    /// Around the centre; empty for none.
+    /// Outline around the centre; empty if there is no hole.
     pub hole: BezPath,
-    /// Part of it lies outside the subject, or the hole may reach beyond it.
+    /// True if part of it lies outside the subject, or the hole may extend beyond the cell.
     pub is_open: bool,
 }
 
@@ -50,10 +50,11 @@ pub(super) struct Chosen {
 }
 
 impl Chosen {
-    /// The dark cells that make regions wide enough. `nearest` is each pixel's cell, `u32::MAX` outside the subject; `pitch` in pixels.
+    /// Chooses the dark cells that form wide enough regions. `nearest` is each pixel's cell, `u32::MAX` outside the subject; `pitch` in
+    /// pixels.
     pub(super) fn new(nearest: &Raster<u32>, is_dark: &[bool], pitch: f64) -> Self {
         let reach = (NARROWEST * pitch).round() as usize;
-        // What lies outside narrows no region.
+        // The outside does not narrow a region.
         let bare = nearest.map(|cell| u8::from(cell != u32::MAX && !is_dark[cell as usize]));
         let wide = dilate(&dilate(&bare, reach).map(|near| 1 - near), reach);
         let mut pixels = vec![[0_u32; 2]; is_dark.len()];
@@ -67,14 +68,14 @@ impl Chosen {
         Self { is_reversed, mask }
     }
 
-    /// Where other marks give way: the pixels `reach` inside the reversed regions.
+    /// Where other marks are left out: pixels at least `reach` inside the reversed regions.
     pub(super) fn inside(&self, subject: &Raster<f32>, reach: usize) -> Raster<u8> {
         let bare = self.mask.zip_map(subject, |reversed, subject| u8::from(reversed == 0 && subject >= 0.5));
         dilate(&bare, reach).zip_map(&self.mask, |near_bare, reversed| reversed & (1 - near_bare))
     }
 }
 
-/// The reversed cells as areas on the page, a tile each; `mask` as in [`Chosen`], `pitch` in pixels.
+/// The reversed cells as areas on the page, one per tile; `mask` as in [`Chosen`], `pitch` in pixels.
 pub(super) fn areas(cells: &[ReversedCell], mask: &Raster<u8>, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
     let mut tiles: BTreeMap<(i64, i64), Vec<&ReversedCell>> = BTreeMap::new();
     let side = TILE * pitch;
@@ -120,7 +121,7 @@ fn tile_outline(cells: &[&ReversedCell], mask: &Raster<u8>, subject: Option<&Reg
     let mut outline = untangled(&black, Winding::NonZero, TOLERANCE);
     let holes = || cells.iter().map(|cell| &cell.hole).filter(|hole| !hole.elements().is_empty());
     if let Some(subject) = subject.filter(|_| cells.iter().any(|cell| cell.is_open)) {
-        // At the subject's border a hole may be cut.
+        // At the subject's border a hole may be clipped.
         let mut all = BezPath::new();
         holes().for_each(|hole| all.extend(hole.iter()));
         let inside = Region::new(&subject.clip_area(&Region::new(&outline, TOLERANCE)), TOLERANCE);
@@ -135,7 +136,7 @@ fn tile_outline(cells: &[&ReversedCell], mask: &Raster<u8>, subject: Option<&Reg
     outline
 }
 
-/// The cell's polygon, all of them turning one way, and a strip over each side that it shares with another reversed cell.
+/// Appends the cell's polygon, always with the same winding, and a strip over each side shared with another reversed cell.
 fn append_cell(path: &mut BezPath, cell: &ReversedCell, mask: &Raster<u8>, overlap: f64) {
     let corners = turning_one_way(&cell.polygon);
     append(path, corners.iter().copied());
@@ -152,7 +153,7 @@ fn turning_one_way(polygon: &[Point]) -> Vec<Point> {
     corners
 }
 
-/// The sides of a polygon beyond which a reversed cell lies, with their outward direction.
+/// The sides of a polygon that border on a reversed cell, with their outward direction.
 fn shared_sides<'a>(corners: &'a [Point], mask: &'a Raster<u8>) -> impl Iterator<Item = (Point, Point, Vec2)> + 'a {
     let sides = corners.iter().enumerate().map(|(i, &a)| (a, corners[(i + 1) % corners.len()]));
     sides.filter(|(a, b)| a.distance(*b) > 1e-9).filter_map(|(a, b)| {
@@ -163,12 +164,11 @@ fn shared_sides<'a>(corners: &'a [Point], mask: &'a Raster<u8>) -> impl Iterator
     })
 }
 
-/// Distance in pitches of a cell's ink from its middle above which the cell holds the edge of the dark: half black it is 0.25.
+/// Distance in pitches of a cell's ink from its middle above which the edge of the dark runs through it; 0.25 for a half-black cell.
 const EDGE: f64 = 0.08;
 
-/// A cell beside reversed ones through which the edge of the dark runs: its ink lies all on the dark side, up to a straight cut, since a
-/// dot in the middle would leave a white sliver before the dark. `ink_middle` is where the cell's wanted ink has its centre of weight,
-/// `ink` its area.
+/// A cell beside reversed ones through which the edge of the dark runs: its ink lies on the dark side, up to a straight cut. A dot in
+/// the middle would leave a white sliver beside the dark. `ink_middle` is the centroid of the cell's target ink, `ink` its area.
 pub(super) fn edge_cell(polygon: &[Point], ink_middle: Point, ink: f64, mask: &Raster<u8>, pitch: f64) -> Option<ReversedCell> {
     let corners = turning_one_way(polygon);
     let middle = middle(&corners)?;
@@ -179,7 +179,7 @@ pub(super) fn edge_cell(polygon: &[Point], ink_middle: Point, ink: f64, mask: &R
     let towards = towards.normalize();
     let reach = corners.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
     let (mut low, mut high, mut cut) = (-reach, reach, Vec::new());
-    // 24 halvings of a cell of some pixels end far below what is written.
+    // 24 halvings of a cell of a few pixels end far below the output precision.
     for _ in 0..24 {
         let at = 0.5 * (low + high);
         half_plane(&corners, middle + towards * at, -towards, &mut cut);
@@ -188,7 +188,7 @@ pub(super) fn edge_cell(polygon: &[Point], ink_middle: Point, ink: f64, mask: &R
     (cut.len() > 2).then(|| ReversedCell { centre: middle, polygon: cut, hole: BezPath::new(), is_open: false })
 }
 
-/// A convex polygon's centre of weight.
+/// Centroid of a convex polygon.
 fn middle(corners: &[Point]) -> Option<Point> {
     let first = *corners.first()?;
     let (mut sum, mut twice) = (Vec2::ZERO, 0.0);
@@ -207,7 +207,7 @@ fn append(path: &mut BezPath, points: impl Iterator<Item = Point>) {
     path.close_path();
 }
 
-/// Whether a round hole of this radius at the centre lies well inside a cell.
+/// True if a round hole of this radius at the centre lies well inside the cell.
 pub(super) fn holds(polygon: &[Point], centre: Point, radius: f64) -> bool {
     (0..polygon.len()).all(|i| distance_to_segment(centre, polygon[i], polygon[(i + 1) % polygon.len()]) > 1.05 * radius)
 }

@@ -17,14 +17,14 @@ use rayon::prelude::*;
 use stencil::Stencils;
 use streamline::Streamlines;
 
-/// How coherent lines are found; lengths in pixels.
+/// Parameters of line detection; lengths in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineParameters {
     /// Standard deviation of the inner Gaussian across the line (Kang: `sigma_c` = 1): the lines' width.
     pub width: f32,
-    /// Standard deviation along the line (Kang: `sigma_m` = 3): how far a line is carried over gaps.
+    /// Standard deviation along the line (Kang: `sigma_m` = 3): how far a line continues over gaps.
     pub length: f32,
-    /// Weight of the outer Gaussian (Kang: `rho` = 0.99); less finds fewer lines.
+    /// Weight of the outer Gaussian (Kang: `rho` = 0.99); lower values find fewer lines.
     pub contrast: f32,
     /// Lines are where `1 + tanh(H)` is below this, 0 to 1 (Kang: `tau` = 0.5).
     pub threshold: f32,
@@ -32,14 +32,14 @@ pub struct LineParameters {
     pub rounds: u32,
 }
 
-/// The outer Gaussian's standard deviation in inner ones.
+/// Standard deviation of the outer Gaussian, as a multiple of the inner one.
 const OUTER: f32 = 1.6;
-/// Where Gaussians are cut, in standard deviations: beyond lies 1.2 % of their weight.
+/// Cut-off of the Gaussians, in standard deviations: 1.2 % of their weight lies beyond.
 const CUT: f32 = 2.5;
-/// The filter's response is for grey from 0 to 255 (errata): in 0 to 1 no line would appear.
+/// The filter's response assumes grey from 0 to 255 (errata): with 0 to 1 no line would appear.
 const GREY_LEVELS: f32 = 255.0;
 
-/// What the filter found.
+/// Result of the filter.
 #[derive(Clone, Debug)]
 pub struct FlowLines {
     /// The last round's response `H`, negative on dark lines.
@@ -50,7 +50,7 @@ pub struct FlowLines {
 
 /// Finds the coherent lines of a grey raster, 0 to 1.
 ///
-/// Only what a round has darkened, and what lies within reach of it, is worked out again in the next.
+/// Each round recomputes only the pixels within reach of those that the previous round darkened.
 pub fn flow_lines(grey: &Raster<f32>, flow: &EdgeTangentFlow, parameters: LineParameters) -> FlowLines {
     let nothing = grey.map(|_| 0.0);
     let mut found = FlowLines { response: nothing.clone(), line: grey.map(|_| 0_u8) };
@@ -105,7 +105,7 @@ fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, 
     });
 }
 
-/// Works out again the pixels that are `stale`.
+/// Recomputes the pixels that are `stale`.
 fn renew(out: &mut Raster<f32>, stale: &Raster<u8>, value: impl Fn(usize, usize) -> f32 + Sync) {
     let width = out.width();
     out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
@@ -117,10 +117,10 @@ fn renew(out: &mut Raster<f32>, stale: &Raster<u8>, value: impl Fn(usize, usize)
     });
 }
 
-/// Side of the tiles that are left out when nothing near them could become a line.
+/// Side of the tiles that are skipped if nothing near them can become a line.
 const TILE: usize = 8;
 
-/// Step 2 where `stale`. Where no response within reach is below `least`, no average can be: those tiles stay 0.
+/// Step 2 where `stale`. Tiles without a response below `least` within reach stay 0, since no average can be below it.
 fn along_flow(differences: &Raster<f32>, along: &Streamlines, least: f32, stale: &Raster<u8>, out: &mut Raster<f32>) {
     let lowest = lowest_by_tile(differences, along.margin().div_ceil(TILE));
     let columns = differences.width().div_ceil(TILE);
@@ -128,7 +128,7 @@ fn along_flow(differences: &Raster<f32>, along: &Streamlines, least: f32, stale:
     renew(out, stale, |x, y| if lowest[y / TILE * columns + x / TILE] < least { along.mean(&padded, x, y) } else { 0.0 });
 }
 
-/// The least value of each tile and its neighbours within `reach` tiles.
+/// Minimum over each tile and its neighbours within `reach` tiles.
 fn lowest_by_tile(raster: &Raster<f32>, reach: usize) -> Vec<f32> {
     let (columns, rows) = (raster.width().div_ceil(TILE), raster.height().div_ceil(TILE));
     let mut own = vec![f32::INFINITY; columns * rows];

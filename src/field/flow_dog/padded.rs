@@ -3,7 +3,7 @@
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// A raster with its border repeated outwards, so that what is read near it needs no test.
+/// A raster with its border repeated outwards, so that reads near the border need no bounds check.
 pub(super) struct Padded<T> {
     pub data: Vec<T>,
     pub stride: usize,

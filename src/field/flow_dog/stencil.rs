@@ -1,9 +1,9 @@
-//! A kernel across the flow as weights of pixels, ready for each direction.
+//! A kernel across the flow as pixel weights, precomputed for each direction.
 
 use super::padded::Padded;
 use std::collections::BTreeMap;
 
-/// Slopes that are told apart in each half of the directions; at the stencil's end neighbours lie a twentieth of a pixel apart.
+/// Number of distinct slopes in each half of the directions; at the stencil's end neighbouring slopes are a twentieth of a pixel apart.
 const SLOPES: usize = 64;
 
 /// The kernel across the flow for each direction, its bilinear samples gathered into weights of whole pixels.
@@ -12,11 +12,11 @@ pub(super) struct Stencils {
     taps: Vec<Vec<Tap>>,
     /// Weight of the middle pixel.
     centre: f32,
-    /// Pixels that it reaches to each side.
+    /// Reach to each side in pixels.
     pub reach: usize,
 }
 
-/// A weight for the two pixels so far before and behind the middle one.
+/// A weight for the two pixels at an offset before and behind the middle one.
 #[derive(Clone, Copy)]
 struct Tap {
     offset: isize,

@@ -6,19 +6,19 @@ use super::padded::Padded;
 
 /// Length of a step along a streamline in pixels: half the standard deviation of the shortest Gaussian in use.
 const STEP: f32 = 1.5;
-/// Bits behind the point of a place on a streamline: whole numbers are quicker than a float's rounding.
+/// Fractional bits of a position on a streamline: fixed point is faster than rounding floats.
 const BITS: i32 = 14;
 const PIXEL: i32 = 1 << BITS;
 
-/// The flow, ready to be followed.
+/// The flow, prepared for tracing.
 pub(super) struct Streamlines {
     /// One step at each pixel.
     steps: Padded<[i16; 2]>,
-    /// Of the middle and of each step to either side.
+    /// Weights of the middle and of each step to either side.
     weights: Vec<f32>,
 }
 
-/// A place on a streamline, measured from where it began, and the step that leads on.
+/// A position on a streamline relative to its start, and the next step.
 struct Walker {
     place: [i32; 2],
     step: [i32; 2],
@@ -32,12 +32,12 @@ impl Streamlines {
         Self { steps: Padded::new(&steps, margin), weights }
     }
 
-    /// How far they are followed, and a little more.
+    /// How far streamlines are followed, plus a small margin.
     pub(super) const fn margin(&self) -> usize {
         self.steps.margin
     }
 
-    /// The weighted mean of what lies along the streamline through a pixel.
+    /// Weighted mean of the responses along the streamline through a pixel.
     pub(super) fn mean(&self, responses: &Padded<f32>, x: usize, y: usize) -> f32 {
         let here = (y + self.margin()) * responses.stride + x + self.margin();
         let step = self.steps.data[here].map(i32::from);
@@ -50,7 +50,7 @@ impl Streamlines {
         sum
     }
 
-    /// One step on; what lies there, bilinear.
+    /// Takes one step and returns the bilinear response there.
     fn advance(&self, walker: &mut Walker, responses: &Padded<f32>, here: usize) -> f32 {
         let Walker { place: [x, y], step: [dx, dy] } = walker;
         (*x, *y) = (*x + *dx, *y + *dy);

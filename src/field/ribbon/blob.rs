@@ -1,16 +1,16 @@
-//! What the noise has above a level around one of its maxima.
+//! The noise above a level around one of its maxima.
 
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use std::f64::consts::TAU;
 
-/// Rays by which a blob is measured.
+/// Number of rays that measure a blob.
 const RAYS: usize = 12;
 /// Distance of samples along a ray, in pixels.
 const RAY_STEP: f64 = 0.25;
-/// Samples along a ray at most: a blob of coarse noise (sigma 12 px) ends long before.
+/// Maximum number of samples along a ray: a blob of coarse noise (sigma 12 px) ends long before.
 const RAY_SAMPLES: usize = 240;
-/// Rise along a ray, as a share of its fall so far, that is no valley's other side.
+/// Rise along a ray, as a share of its fall so far, that is ignored as a ripple and not taken as the far side of a valley.
 const RIPPLE: f32 = 0.03;
 
 /// A blob's reach from its maximum, in pixels.
@@ -21,7 +21,7 @@ pub(super) struct Blob {
     /// Downstream and upstream.
     pub front: f64,
     pub back: f64,
-    /// To the two sides, the second that of the flow turned by 90 degrees.
+    /// To the two sides; `high` is the side of the flow turned by 90 degrees.
     pub low: f64,
     pub high: f64,
 }
@@ -44,7 +44,7 @@ impl Blob {
     }
 }
 
-/// How far the noise stays above a level and falls; a ripple on the way (of bilinear interpolation) does not end it.
+/// Distance over which the noise stays above a level and falls; a ripple (of bilinear interpolation) does not end it.
 fn reach_above(noise: &Raster<f32>, from: Point, direction: Vec2, level: f32) -> f64 {
     let top = noise.sample(from.x, from.y);
     if top <= level {

@@ -1,4 +1,4 @@
-//! A ribbon's middle line and widths: cross-sections of the pattern's region above a level, all along a streamline.
+//! A ribbon's centre line and widths, from cross-sections of the pattern's region above a level along a streamline.
 
 use super::RibbonFit;
 use super::blob::Blob;
@@ -6,28 +6,28 @@ use crate::field::Flow;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 
-/// Cosine of the angle between the flow on the line (in its middle and at its end) and beside it, from which on a brush tries no
-/// other lines: they would go the same way. To try them always takes four times as long and cannot be seen.
+/// Cosine of the angle between the flow on the line (in its middle and at its end) and beside it, from which a brush tries no other
+/// lines, since they would go the same way. Always trying them takes four times as long without a visible difference.
 const SAME_WAY: f64 = 0.98;
-/// Distance of cross-sections along the streamline, and of samples along a cross-section, in pixels.
+/// Distance between cross-sections along the streamline, and between samples along a cross-section, in pixels.
 const STEP: f64 = 1.0;
 const SAMPLE_STEP: f64 = 0.5;
-/// A side may open by this much a pixel along the line. At 2 and at 0.4 the correlation with the
-/// pattern is about 0.015 lower: outlines get horns where other ribbons branch off, or ends are cut off.
+/// Maximum widening of a side per pixel along the line. At 2 and at 0.4 the correlation with the pattern is about 0.015 lower: outlines
+/// get horns where other ribbons branch off, or ends are cut off.
 const MOST_SLOPE: f64 = 1.0;
-/// An end's half disc stands at this share of its radius from where the region ends: less than 1, for the region ends more squarely.
-/// At 1 the correlation with the pattern is 0.02 lower, at 0.25 no higher.
+/// Distance of an end's half disc from the region's end, as a share of its radius: less than 1, since the region ends more squarely. At
+/// 1 the correlation with the pattern is 0.02 lower, at 0.25 no higher.
 const END_INSET: f64 = 0.35;
-/// Greatest width in radii of the line's turn; at 2 the inner side shrinks to a point.
+/// Maximum width in radii of the line's curvature; at 2 the inner side shrinks to a point.
 const WIDEST_TURN: f64 = 1.9;
-/// Nodes are left out that lie this near to the line between their neighbours, or nearer to one than this share of the greatest
-/// width (without which wide ribbons have rugged sides).
+/// Nodes are dropped within this distance of the line between their neighbours, or nearer to a neighbour than this share of the maximum
+/// width (otherwise wide ribbons have rugged sides).
 const TOLERANCE: f64 = 0.15;
 const LEAST_SPACING: f64 = 0.4;
-/// Greatest distance of nodes, in cross-sections.
+/// Maximum distance between nodes, in cross-sections.
 const MOST_SPACING: usize = 8;
 
-/// What is needed to sweep one blob, all in pixels.
+/// Input for sweeping one blob, in pixels.
 pub(super) struct Sweep<'a> {
     pub pattern: &'a Raster<f32>,
     pub flow: &'a Flow,
@@ -47,13 +47,13 @@ type Outline = (Vec<Point>, Vec<f64>);
 struct Section {
     at: Point,
     beside: Vec2,
-    /// From where to where beside the place.
+    /// Extent on the low and the high side of the place.
     low: f64,
     high: f64,
 }
 
 impl Sweep<'_> {
-    /// Nodes and widths of the ribbon that covers most of the region and least beyond it; none where the flow ends at once.
+    /// Nodes and widths of the ribbon that covers most of the region and least beyond it; none if the flow ends at once.
     pub(super) fn best(&self) -> Option<Outline> {
         let line = self.line(0.0);
         let own = self.ribbon(&line);
@@ -67,7 +67,7 @@ impl Sweep<'_> {
         all.map(with_gain).reduce(|best, other| if other.0 > best.0 { other } else { best }).map(|best| best.1)
     }
 
-    /// Whether the flow beside a line, by these distances, goes as it does on the line.
+    /// True if the flow at these distances beside a line has the same direction as on the line.
     fn goes_one_way(&self, line: &[Point], beside: &[f64]) -> bool {
         let at = |p: Point| {
             let way = self.flow.at(p);
@@ -76,7 +76,7 @@ impl Sweep<'_> {
         at(line[line.len() / 2]) && at(line[line.len() - 1])
     }
 
-    /// The streamline that passes `beside` the maximum, from the blob's front to where its back is swept to.
+    /// The streamline at distance `beside` from the maximum, from the blob's front to the swept end of its back.
     fn line(&self, beside: f64) -> Vec<Point> {
         let from = self.blob.maximum + self.blob.along.turn_90() * beside;
         let mut line = self.flow.streamline(from, self.blob.front.max(0.1), STEP);
@@ -105,7 +105,7 @@ impl Sweep<'_> {
         Some((nodes, widths))
     }
 
-    /// From the first place where there is something of the region to the last.
+    /// Sections from the first to the last place inside the region.
     fn sections(&self, line: &[Point]) -> Vec<Section> {
         let mut sections = Vec::with_capacity(line.len());
         for &at in line {
@@ -135,7 +135,7 @@ impl Sweep<'_> {
         Some(Section { at, beside, low, high })
     }
 
-    /// How far the region goes on from a place inside, but not beyond the raster nor to where nothing flows.
+    /// How far the region extends from a place inside, limited to the raster and to places with flow.
     fn extent(&self, from: Point, direction: Vec2, most: f64) -> f64 {
         let mut before = self.value(from);
         for i in 1..=(most / SAMPLE_STEP).ceil() as usize {
@@ -157,8 +157,8 @@ impl Sweep<'_> {
         self.pattern.sample(p.x, p.y)
     }
 
-    /// The area inside the region less that outside, by samples about a pixel apart along the ribbon and half of that across;
-    /// what is higher than the blob is another ribbon's, which lies over this one, and counts for nothing.
+    /// The area inside the region less that outside, by samples about a pixel apart along the ribbon and half a pixel across. Places
+    /// higher than the blob belong to another ribbon on top of this one and do not count.
     fn gain(&self, (nodes, widths): &Outline) -> f64 {
         let mut gain = 0.0;
         for (p, w) in nodes.windows(2).zip(widths.windows(2)) {
@@ -185,7 +185,7 @@ impl Sweep<'_> {
     }
 }
 
-/// Narrows what opens too fast along the line, never widens.
+/// Narrows sections that widen too fast along the line; never widens them.
 fn smooth(sections: &mut [Section]) {
     let narrow = |sections: &mut [Section], i: usize, next: usize| {
         let most = MOST_SLOPE * sections[i].at.distance(sections[next].at);
@@ -201,7 +201,7 @@ fn smooth(sections: &mut [Section]) {
     }
 }
 
-/// Shortens the end so that its half disc has room.
+/// Shortens the end to make room for its half disc.
 fn end(stations: &mut Vec<(Point, f64)>) {
     let tip = stations[stations.len() - 1].0;
     let room = |station: &(Point, f64)| tip.distance(station.0);
@@ -213,7 +213,7 @@ fn end(stations: &mut Vec<(Point, f64)>) {
     }
 }
 
-/// The fewest stations, from each one the farthest to which the straight way passes near all between.
+/// Thins the stations: from each one, goes to the farthest whose straight connection passes near all between.
 fn thinned(stations: &[(Point, f64)]) -> Vec<(Point, f64)> {
     let widest = stations.iter().map(|s| s.1).fold(0.0, f64::max);
     let least = ((LEAST_SPACING * widest / STEP) as usize).max(1);
@@ -235,7 +235,8 @@ fn thinned(stations: &[(Point, f64)]) -> Vec<(Point, f64)> {
     kept
 }
 
-/// Where the line turns on less than the ribbon's width, the width gives way: an outline beyond its own centre has holes.
+/// Narrows the ribbon where the line's radius of curvature is smaller than its width allows: an outline beyond its own centre of
+/// curvature has holes.
 fn narrow_turns(nodes: &[Point], widths: &mut [f64]) {
     for (triple, width) in nodes.windows(3).zip(&mut widths[1..]) {
         let (a, b) = (triple[1] - triple[0], triple[2] - triple[1]);

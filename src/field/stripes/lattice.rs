@@ -1,4 +1,4 @@
-//! Nodes with waves and phases, and how a phase is carried from one to another.
+//! Nodes with waves and phases, and the transport of phase between nodes.
 
 use super::lines::CellPhases;
 use crate::geometry::{Point, Vec2};
@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 /// Nodes beyond the raster's border on each side, so that lines reach it.
 pub(super) const MARGIN: f64 = 2.0;
 
-/// The wave that the stripes should be: direction across them, cycles a pixel; of either sign.
+/// The target wave of the stripes: direction across them, cycles per pixel; of either sign.
 pub type Wave = [f32; 2];
 
 /// A lattice of nodes over a raster and a little beyond; node `(i, j)` lies at `((i + 0.5) step - margin, (j + 0.5) step - margin)`
@@ -17,9 +17,9 @@ pub type Wave = [f32; 2];
 pub struct StripeLattice {
     /// Distance of neighbouring nodes in pixels.
     pub step: f64,
-    /// How far it reaches beyond the raster on each side, in pixels.
+    /// Margin beyond the raster on each side, in pixels.
     pub margin: f64,
-    /// The wanted wave at each node.
+    /// The target wave at each node.
     pub wave: Raster<Wave>,
     /// The stripes' phase at each node as a complex number; it grows along the node's wave.
     pub phase: Raster<[f32; 2]>,
@@ -31,7 +31,7 @@ impl StripeLattice {
         Point::new((i as f64 + 0.5) * self.step - self.margin, (j as f64 + 0.5) * self.step - self.margin)
     }
 
-    /// Phase gained from one node to another in radians, and whether their waves point opposite ways; by the mean of both waves.
+    /// Phase gained from one node to another in radians, by the mean of both waves; and whether the waves point in opposite directions.
     pub fn gain(&self, from: (usize, usize), to: (usize, usize)) -> (f64, bool) {
         let (a, b) = (vector(self.wave.get(from.0, from.1)), vector(self.wave.get(to.0, to.1)));
         let turned = a.dot(b) < 0.0;
@@ -46,8 +46,8 @@ impl StripeLattice {
         f64::from(im).atan2(f64::from(re))
     }
 
-    /// How much the phase really grows from one node to its neighbour, seen with the first one's wave: the wanted gain and the
-    /// remainder that brings it to the neighbour's phase, at most half a cycle.
+    /// Actual growth of the phase from one node to its neighbour, seen with the first node's wave: the target gain, and the remainder to
+    /// the neighbour's phase, at most half a cycle.
     pub fn step_between(&self, from: (usize, usize), to: (usize, usize)) -> (f64, f64) {
         let (gain, turned) = self.gain(from, to);
         let there = self.angle(to.0, to.1);
@@ -76,7 +76,7 @@ impl StripeLattice {
         CellPhases::new(self, i, j).at(x - i as f64, y - j as f64).0
     }
 
-    /// How dense the stripes really are at each node, in cycles a pixel.
+    /// Actual density of the stripes at each node, in cycles per pixel.
     pub fn frequency(&self) -> Raster<f32> {
         let (width, height) = (self.phase.width(), self.phase.height());
         Raster::from_fn(width, height, |i, j| {
@@ -99,7 +99,7 @@ impl StripeLattice {
         })
     }
 
-    /// A raster of one value a node, read at a place in pixels.
+    /// Reads a raster with one value per node at a place in pixels.
     pub fn read(&self, nodes: &Raster<f32>, p: Point) -> f32 {
         nodes.sample((p.x + self.margin) / self.step, (p.y + self.margin) / self.step)
     }

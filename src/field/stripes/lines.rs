@@ -14,7 +14,7 @@ pub type StripeLine = Curve;
 pub(crate) struct CellPhases {
     /// In radians, in the order upper left, upper right, lower right, lower left.
     pub corners: [f64; 4],
-    /// The side that the unwrapping could not close (a line ends there), if there is one: 0 top, 1 right, 2 bottom, 3 left.
+    /// The side that unwrapping could not close (a line ends there), if any: 0 top, 1 right, 2 bottom, 3 left.
     pub broken: Option<usize>,
 }
 
@@ -24,7 +24,7 @@ impl CellPhases {
     /// The cell whose upper left corner is node `(i, j)`.
     pub(crate) fn new(lattice: &StripeLattice, i: usize, j: usize) -> Self {
         let node = |k: usize| (i + CORNERS[k % 4].0, j + CORNERS[k % 4].1);
-        // Each side's real growth in the frame of its first corner, and whether the frame turns.
+        // Each side's actual growth in the frame of its first corner, and whether the frame turns.
         let mut growth = [0.0; 4];
         let mut strain = [0.0_f64; 4];
         let mut turned = [false; 4];
@@ -47,7 +47,7 @@ impl CellPhases {
             return Self { corners: [first, a, b, b + sign[2] * growth[2]], broken: None };
         }
         let worst = (0..4).max_by(|&a, &b| strain[a].total_cmp(&strain[b])).unwrap_or(0);
-        // From the first corner both ways round, up to the side that breaks.
+        // From the first corner in both directions, up to the side that breaks.
         let mut corners = [first; 4];
         for k in 0..worst {
             if k + 1 < 4 {
@@ -79,7 +79,7 @@ impl CellPhases {
     }
 }
 
-/// A side of the lattice: its first node and whether it runs down (or right); and which of the crossings on it.
+/// A crossing on a side of the lattice: the side's first node, whether it runs down (or right), and the crossing's index on it.
 type Key = (u32, u32, bool, u8);
 
 /// The lines of phase 0, in pixels.
@@ -107,9 +107,9 @@ pub fn stripe_lines(lattice: &StripeLattice) -> Vec<StripeLine> {
     chain(&order, &links, &points)
 }
 
-/// Where the phase passes a whole number of cycles on a side of the cell, by the level as the cell counts it.
+/// The points where the phase passes a whole number of cycles on a side of the cell, with the level as the cell counts it.
 fn crossings(lattice: &StripeLattice, (i, j): (usize, usize), side: usize, from: f64, to: f64) -> Vec<(i64, Key, Point)> {
-    // Sides are always looked at in one direction, so that both cells find the same points.
+    // Sides are always processed in one direction, so that both cells find the same points.
     let forward = side < 2;
     let (low, high) = if from < to { (from, to) } else { (to, from) };
     let levels: Vec<i64> = ((low / TAU).ceil() as i64..=(high / TAU).floor() as i64).collect();
@@ -158,7 +158,7 @@ fn cell_links(lattice: &StripeLattice, i: usize, j: usize, points: &mut HashMap<
     links
 }
 
-/// Follows the links from the ends first, then round the loops.
+/// Follows the links, first from open ends, then around loops.
 fn chain(order: &[Key], links: &HashMap<Key, [Option<Key>; 2]>, points: &HashMap<Key, Point>) -> Vec<StripeLine> {
     let mut used: std::collections::HashSet<Key> = std::collections::HashSet::new();
     let mut lines = Vec::new();

@@ -1,4 +1,4 @@
-//! From coarse to fine, in rounds: each node becomes what its neighbourhood foretells.
+//! Relaxation in rounds, from coarse to fine: each node becomes the prediction of its neighbourhood.
 
 use super::lattice::{MARGIN, StripeLattice, Wave, vector};
 use crate::geometry::{Point, Vec2};
@@ -6,7 +6,7 @@ use crate::raster::Raster;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// How stripes are made.
+/// Parameters of stripes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StripeParameters {
     /// Distance of neighbouring nodes in pixels: half a pitch, at most 0.6 of the narrowest stripe.
@@ -22,11 +22,11 @@ pub struct StripeParameters {
 /// Share of each of the four neighbours in one small step; above 0.25 steps overshoot.
 const SHARE: f32 = 0.2;
 
-/// The phase, in cycles, that a node begins with: its number, its place in pixels and its wave.
+/// Initial phase of a node, in cycles, from its number, its place in pixels and its wave.
 pub type Start<'a> = &'a (dyn Fn(u64, Point, Wave) -> f32 + Sync);
 
-/// Stripes along `wave` (full size, in pixels), begun on the coarsest level from the given phases. An anchor holds a phase (a complex
-/// number, its length the strength, 0 for none) at each node of the finest level.
+/// Stripes along `wave` (full size, in pixels), starting on the coarsest level from the given phases. An anchor pulls each node of the
+/// finest level to a phase (a complex number whose length is the strength, 0 for none).
 #[expect(clippy::missing_panics_doc, reason = "there is at least one level")]
 pub fn stripes(
     wave: &Raster<Wave>,
@@ -65,7 +65,7 @@ fn sampled(wave: &Raster<Wave>, step: f64, margin: f64, (width, height): (usize,
     Raster::from_fn(width, height, |i, j| wave_at(wave, (i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin))
 }
 
-/// The wave between pixels (or nodes, with coordinates in their unit), those of the opposite sign turned round.
+/// The wave between pixels (or nodes, with coordinates in their unit); waves of opposite sign are flipped.
 fn wave_at(wave: &Raster<Wave>, x: f64, y: f64) -> Wave {
     let (x, y) = (x - 0.5, y - 0.5);
     let (x0, y0) = (x.floor(), y.floor());
@@ -77,12 +77,12 @@ fn wave_at(wave: &Raster<Wave>, x: f64, y: f64) -> Wave {
         let weight = if wx * first[0] + wy * first[1] < 0.0 { -weight } else { weight } as f32;
         sum = [sum[0] + weight * wx, sum[1] + weight * wy];
     }
-    // Opposite directions shorten the mean; the stripes' frequency must not fall for that.
+    // Averaging different directions shortens the mean; the stripes' frequency must not fall for that reason.
     let (length, wanted) = (sum[0].hypot(sum[1]), first[0].hypot(first[1]));
     if length > 1e-12 { [sum[0] * wanted / length, sum[1] * wanted / length] } else { first }
 }
 
-/// Phase gained along a straight way, beginning with the wave `first`; and the wave at its end, of the sign carried there.
+/// Phase gained along a straight path that begins with the wave `first`; and the wave at its end, with the sign carried there.
 fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64, Vec2) {
     let way = to - from;
     let pieces = (way.hypot() / fine.step).ceil().max(1.0) as usize;
@@ -96,7 +96,7 @@ fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64
     (TAU * sum, carried)
 }
 
-/// The start of a level: what the four coarser nodes around each node foretell.
+/// The start of a level: the prediction of the four coarser nodes around each node.
 fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
     Raster::from_fn(waves.width(), waves.height(), |i, j| {
         let here = Point::new((i as f64 + 0.5) * step - fine.margin, (j as f64 + 0.5) * step - fine.margin);
@@ -123,7 +123,7 @@ fn rotated([re, im]: [f32; 2], angle: f32) -> [f32; 2] {
     [re * cos - im * sin, re * sin + im * cos]
 }
 
-/// Length 1; a value of no length, which foretells nothing, becomes 1.
+/// Normalises to length 1; a value of zero length, which predicts nothing, becomes 1.
 fn unit([re, im]: [f32; 2]) -> [f32; 2] {
     let length = re.hypot(im);
     if length > 1e-20 { [re / length, im / length] } else { [1.0, 0.0] }
@@ -138,13 +138,13 @@ struct Edge {
 }
 
 impl Edge {
-    /// What the far node foretells for the near one.
+    /// The far node's prediction for the near one.
     fn back(self, [re, im]: [f32; 2]) -> [f32; 2] {
         let im = self.sign * im;
         [re * self.cos + im * self.sin, im * self.cos - re * self.sin]
     }
 
-    /// What the near node foretells for the far one.
+    /// The near node's prediction for the far one.
     fn ahead(self, [re, im]: [f32; 2]) -> [f32; 2] {
         [re * self.cos - im * self.sin, self.sign * (re * self.sin + im * self.cos)]
     }
@@ -182,7 +182,7 @@ impl Edges {
     }
 }
 
-/// Rounds of small steps; after each round every phase is of length 1 again, so that no patch fades into no stripe at all.
+/// Rounds of small steps; each round ends by normalising every phase to length 1, so that no patch of stripes fades away.
 fn relax(lattice: &mut StripeLattice, edges: &Edges, parameters: StripeParameters, anchor: Option<&Raster<[f32; 2]>>) {
     // Each step adds 2 SHARE to the window's variance.
     let steps = ((0.5 * parameters.window).powi(2) / f64::from(2.0 * SHARE)).round().max(1.0) as usize;

@@ -1,14 +1,14 @@
-//! What a charcoal takes, as measured.
+//! Measured cost of a charcoal.
 
 use super::parameters::Charcoaling;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes and microseconds a pixel: 50 MB and 0.22 s at 10 mm, where 0.36 megapixels hold hardly a mark.
+/// Bytes and microseconds per pixel: 50 MB and 0.22 s at 10 mm, where 0.36 megapixels hold hardly a mark.
 const BYTES: f64 = 90.0;
 const MICROSECONDS: f64 = 0.6;
-/// Of each place for a grain of the smudged tone: 1.8 kB and 19 microseconds at 250 mm (0.7 million of them), 2 kB and 22 at 100 mm
-/// with grain=0.1 (1 million), 1.9 kB on a dark bust.
+/// For each place of a grain of the smudged tone: 1.8 kB and 19 microseconds at 250 mm (0.7 million of them), 2 kB and 22 at 100 mm with
+/// grain=0.1 (1 million), 1.9 kB on a dark bust.
 const GRAIN_BYTES: f64 = 2600.0;
 const GRAIN_MICROSECONDS: f64 = 24.0;
 

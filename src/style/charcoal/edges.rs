@@ -16,17 +16,17 @@ use std::f64::consts::TAU;
 
 /// Brightness of the keep mask above which an edge is kept.
 const KEPT: f32 = 0.25;
-/// Pixels by which an edge may lie beside the keep mask's.
+/// Tolerance in pixels between an edge and the keep mask.
 const KEPT_REACH: usize = 2;
-/// Length of a displaced segment as a share of its line, and how far neighbours overlap.
+/// Length of a displaced segment as a share of its line, and the overlap of neighbours.
 const SEGMENT: (f64, f64) = (0.3, 0.7);
 const OVERLAP: f64 = 0.3;
 /// Pressures of the displaced segments and of the line itself, which is emphasised (section 6.3.2).
 const SKETCH_PRESSURE: f64 = 0.25;
 const LINE_PRESSURE: f64 = 0.9;
-/// Width of an edge as a share of the stick's: contours stay lighter than the features.
+/// Width of an edge as a share of the stick's: contours must stay lighter than the features.
 const LINE_WIDTH: f64 = 0.8;
-/// Lengths of line, in pitches, over which the hand's pressure wanders, and how far.
+/// Length of line, in pitches, over which the hand's pressure wanders, and its amplitude.
 const WANDER: (f64, f64) = (9.0, 0.35);
 
 impl Drawer<'_> {
@@ -57,7 +57,7 @@ impl Drawer<'_> {
         marks
     }
 
-    /// Edges, less the image mask and the specks, by the user's keep mask; with the subject's own border.
+    /// Edges without the image mask and the specks, chosen by the user's keep mask; plus the subject's border.
     fn edge_lines(&self, regions: &Regions, features: &Features) -> Vec<Curve> {
         let parameters = self.edge_parameters();
         let steps = detect_edges(&self.portrait.on_white(&self.portrait.lightness), parameters);
@@ -73,13 +73,13 @@ impl Drawer<'_> {
         let drawn = self.drawn_by_hand(&wanted, &kept);
         let kept = kept.zip_map(&near, |edge, keep| edge & keep).zip_map(&drawn, |edge, drawn| edge | drawn);
         self.observer.picture("edges-kept", &|| Picture::Mask(kept.clone()));
-        // What the user kept is no speck, however short.
+        // Lines kept by the user are not specks, however short.
         let found = lines_of(&kept, parameters.smoothing, self.pixels(self.parameters.pitch_mm) as f32);
         let hidden = hidden.zip_map(&near, |hidden, near| hidden | (1 - near));
         self.with_silhouette(found, regions, &hidden)
     }
 
-    /// The lines of a keep mask that no found edge follows, thinned; broad strokes of the mask only choose among the edges.
+    /// Thinned lines of a keep mask that follow no detected edge; broad strokes of the mask only select edges.
     fn drawn_by_hand(&self, wanted: &Raster<u8>, found: &Raster<u8>) -> Raster<u8> {
         let pitch = self.pixels(self.parameters.pitch_mm).round().max(1.0) as usize;
         let outside = dilate(&wanted.map(|v| 1 - v), pitch);
@@ -101,8 +101,8 @@ impl Drawer<'_> {
         }
     }
 
-    /// The image mask: what other steps draw. The background gives way by a few pixels, since the subject's border is an edge; hair
-    /// takes its own border, which needs no line.
+    /// The image mask: regions that other steps draw. The background is inset by a few pixels, since the subject's border is an edge;
+    /// hair includes its border, which needs no line.
     fn hidden(&self, regions: &Regions, features: &Features) -> Raster<u8> {
         let margin = self.pixels(self.parameters.pitch_mm).round().max(1.0) as usize;
         let near_subject = dilate(&regions.subject.map(|v| u8::from(v >= 0.5)), margin);
@@ -112,7 +112,7 @@ impl Drawer<'_> {
         hidden.zip_map(&drawn, |hidden, drawn| hidden | drawn)
     }
 
-    /// The subject's border is its contour, exactly; edges found beside it give way.
+    /// Adds the subject's exact contour and removes detected edges beside it.
     fn with_silhouette(&self, found: Vec<Curve>, regions: &Regions, hidden: &Raster<u8>) -> Vec<Curve> {
         if !regions.has_background {
             return found;
@@ -136,7 +136,7 @@ impl Drawer<'_> {
         silhouette.into_iter().chain(apart).collect()
     }
 
-    /// How firmly an edge is drawn at each of its points: by the step of tone that it marks there, and as a hand wanders.
+    /// Pressure along an edge: by the step of tone at each point, with the wander of a hand.
     fn firmness(&self, points: &[Point], random: &mut impl Rng) -> Vec<f64> {
         let reach = self.pixels(1.5 * self.parameters.pitch_mm);
         let lightness = &self.portrait.lightness;
@@ -156,7 +156,7 @@ impl Drawer<'_> {
         running_mean(&firm, (4.0 * self.pixels(self.parameters.pitch_mm)) as usize)
     }
 
-    /// Overlapping pieces of a line, each with its ends displaced at random.
+    /// Overlapping pieces of a line, each with randomly displaced ends.
     fn sketched(&self, points: &[Point], random: &mut impl Rng) -> Vec<Vec<Point>> {
         let length = polyline_length(points);
         let offset = self.pixels(self.parameters.sketch_offset_mm);
@@ -184,7 +184,7 @@ impl Drawer<'_> {
 fn open_pieces(line: &Curve, is_out: impl Fn(&Point) -> bool) -> Vec<Vec<Point>> {
     let mut points = line.points.clone();
     if line.closed {
-        // Begun where it is out, so that no run is cut at the seam.
+        // Starts at a point that is out, so that no run is cut at the seam.
         let start = points.iter().position(&is_out).unwrap_or(0);
         points.rotate_left(start);
         points.push(points[0]);
@@ -197,7 +197,7 @@ fn nearest(points: &[Point], p: Point) -> usize {
     (0..points.len()).min_by(|a, b| points[*a].distance_squared(p).total_cmp(&points[*b].distance_squared(p))).unwrap_or(0)
 }
 
-/// Each value's mean with its `reach` neighbours on either side.
+/// Mean of each value and its `reach` neighbours on either side.
 fn running_mean(values: &[f64], reach: usize) -> Vec<f64> {
     let mut sums = vec![0.0; values.len() + 1];
     for (i, value) in values.iter().enumerate() {
@@ -210,7 +210,7 @@ fn running_mean(values: &[f64], reach: usize) -> Vec<f64> {
     (0..values.len()).map(mean).collect()
 }
 
-/// The part of a polyline between two lengths along it.
+/// The part of a polyline between two arc lengths.
 fn between(points: &[Point], from: f64, to: f64) -> Vec<Point> {
     let mut part = Vec::new();
     let mut travelled = 0.0;

@@ -1,4 +1,4 @@
-//! Eyes, nose and mouth: taken out of the smudge (section 3.1.5), their tones told apart by scale-space filtering (section 6.1.1), and
+//! Eyes, nose and mouth: removed from the smudge (section 3.1.5), their tones separated by scale-space filtering (section 6.1.1), and
 //! each drawn finely, as dark against its skin as in the photograph.
 
 use super::Drawer;
@@ -9,48 +9,48 @@ use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
 use std::f64::consts::PI;
 
-/// An eye with its lids, a nose's underside and a mouth: half sizes across and down in those of their windows; beyond is skin. Smaller
-/// loses the outer lashes of an eye that is found a little aside, larger takes in the brow.
+/// Ovals of an eye with its lids, a nose's underside and a mouth: half sizes across and down as shares of their windows' half sizes;
+/// beyond is skin. Smaller loses the outer lashes of an eye found slightly off its place, larger takes in the brow.
 const EYE: Oval = Oval { half: (1.0, 0.2 / 0.17), has_white: true, sharp: SHARP };
 const NOSE: Oval = Oval { half: (0.4 / 0.36, 1.3), has_white: false, sharp: SHARP };
 const MOUTH: Oval = Oval { half: (0.56 / 0.52, 0.3 / 0.22), has_white: false, sharp: SOFT };
-/// How far inside its oval (1 in its middle) a feature is drawn, from the first on and wholly from the second, and where there may be
-/// white of the eye: farther out, what is lighter than skin is skin that shines.
+/// Depth inside its oval (1 in its middle) at which a feature starts to be drawn and at which it is drawn fully. White of the eye is
+/// accepted in the same range: farther out, places lighter than skin are shining skin.
 const DRAWN: (f32, f32) = (0.0, 0.25);
 const WHITES: (f32, f32) = (0.3, 0.45);
-/// Tone against skin's from which a place may be white of the eye, from the first on and wholly from the second.
+/// Tone relative to skin's at which a place starts to count as white of the eye, and at which it counts fully.
 const LIGHT: (f32, f32) = (1.05, 1.25);
-/// The tone at which a feature ends and its skin begins lies between these, by the tones that it has; and how gradually it ends.
+/// Range of the tone at which a feature ends and its skin begins, found from the feature's tones; and the softness of that end.
 const LIMITS: (f32, f32) = (0.75, 0.92);
 const GRADUAL: f32 = 0.08;
-/// Tone against that around (blurred by so many distances of the eyes) from which a place is drawn, from the first on and wholly from the
-/// second: soft shadows stay in the smudge, for hatched they stand out as patches of their own.
+/// Tone relative to the surroundings (blurred by `AROUND` eye distances) at which a place starts to be drawn, and at which it is drawn
+/// fully. Soft shadows stay in the smudge: hatched, they stand out as separate patches.
 const AROUND: f64 = 0.1;
 const SHARP: (f32, f32) = (0.97, 0.82);
 /// The same for a mouth, whose lips are paler than an eye's lids.
 const SOFT: (f32, f32) = (1.0, 0.88);
-/// Blur of what is drawn, in distances of the eyes: a third of a lid's thickness.
+/// Blur of the drawn ink, in eye distances: a third of a lid's thickness.
 const BLUR: f64 = 0.006;
-/// Tone against skin's of the darkest place when a face has none darker: pale features stay pale.
+/// Maximum tone, relative to skin's, that is taken as a face's darkest: pale features stay pale.
 const DARKEST: f32 = 0.5;
-/// The share of the features' places that is at least as dark as their darkest tone.
+/// Share of the features' pixels that are at least as dark as their darkest tone.
 const DARKEST_SHARE: f64 = 0.01;
-/// Bins of the histogram of tones, and the tone against skin's that fills it.
+/// Bins of the histogram of tones, and the tone relative to skin's at its end.
 const BINS: usize = 256;
 const LIGHTEST_TONE: f32 = 1.25;
-/// A tone of a feature with fewer of its places than this share is no tone of its own (section 6.1.1).
+/// Minimum share of a feature's pixels for a tone to count as a separate tone (section 6.1.1).
 const LEAST_SHARE: f64 = 0.02;
-/// Direction of the strokes, and of those that cross them in the darkest places, in degrees.
+/// Direction of the strokes, and of the cross strokes in the darkest places, in degrees.
 const ORIENT: f64 = -35.0;
 const CROSSING: f64 = -12.0;
-/// Ink that is not drawn: a stroke at its lightest has twice as much.
+/// Ink below which nothing is drawn: a stroke at its lightest has twice as much.
 const FAINTEST: f32 = 0.2;
-/// Ink from which strokes are crossed: those of one direction leave slits.
+/// Ink from which strokes are crossed: strokes of one direction leave slits.
 const CROSSED: f32 = 0.8;
-/// Distance of strokes in widths, and their length in distances of the eyes.
+/// Distance of strokes in widths, and their length in eye distances.
 const SPACING: f64 = 0.9;
 const LENGTH: f64 = 0.7;
-/// Width of a stroke in distances of the eyes: a fifteenth of an eye's opening.
+/// Width of a stroke in eye distances: a fifteenth of an eye's opening.
 const WIDTH: f64 = 0.01;
 
 /// Where a feature is drawn.
@@ -60,13 +60,13 @@ struct Oval {
     sharp: (f32, f32),
 }
 
-/// What is drawn of the eyes, the nose and the mouth.
+/// Drawn tones of the eyes, the nose and the mouth.
 pub(super) struct FeatureTones {
-    /// How far each pixel is theirs and not the smudge's, 0 to 1.
+    /// Share of each pixel that is drawn here instead of by the smudge, 0 to 1.
     pub share: Raster<f32>,
     /// Their own ink, 0 to 1.
     pub ink: Raster<f32>,
-    /// How far each pixel of the face is darker than what is around it, 0 to 1: hair and lids are, soft shadows are not.
+    /// How much darker each pixel of the face is than its surroundings, 0 to 1: hair and lids are, soft shadows are not.
     pub sharp: Raster<f32>,
 }
 
@@ -92,7 +92,7 @@ impl Drawer<'_> {
                 let dark = ramp(inside, DRAWN) * sharp * ramp(n, (limit + GRADUAL, limit - GRADUAL));
                 let light = if oval.has_white { ramp(inside, WHITES) * ramp(n, LIGHT) } else { 0.0 };
                 let depth = ((1.0 - n) / (1.0 - darkest)).clamp(0.0, 1.0);
-                // What the skin has, and of what that leaves white the more the darker the place.
+                // The ink of the skin, plus a share of the remaining white that grows with the darkness of the place.
                 let skin = self.washed(1.0 - found.skin[i % tone.width()].min(1.0));
                 let (share, ink) = (&mut tones.share.pixels_mut()[i], &mut tones.ink.pixels_mut()[i]);
                 *share = share.max(dark).max(light);
@@ -102,7 +102,7 @@ impl Drawer<'_> {
         tones
     }
 
-    /// Strokes as wide as the ink asks, crossed where it is black.
+    /// Strokes with widths that make the ink, crossed where it is black.
     pub(super) fn draw_tones(&self, tones: &FeatureTones, frame: &FaceFrame) -> Vec<Mark> {
         let ink = &tones.ink;
         let width = self.feature_width(frame);
@@ -123,7 +123,7 @@ impl Drawer<'_> {
         marks
     }
 
-    /// The stroke's width in a face: a hand takes the stick's edge, so that an eye's lids and pupil keep their shapes.
+    /// Width of a stroke in a face: an artist uses the stick's edge, so that an eye's lids and pupil keep their shapes.
     pub(super) fn feature_width(&self, frame: &FaceFrame) -> f64 {
         let eye_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
         self.parameters.stroke_width_mm.min(WIDTH * eye_mm).max(0.2 * self.parameters.stroke_width_mm)
@@ -141,7 +141,7 @@ impl Oval {
     }
 }
 
-/// The oval of a feature that is drawn by its tones.
+/// The oval of a feature, if it is drawn by its tones.
 const fn oval_of(feature: FacialFeature) -> Option<Oval> {
     match feature {
         FacialFeature::LeftEye | FacialFeature::RightEye => Some(EYE),
@@ -151,7 +151,7 @@ const fn oval_of(feature: FacialFeature) -> Option<Oval> {
     }
 }
 
-/// 0 at the first value, 1 at the second.
+/// Linear from 0 at the first limit to 1 at the second.
 fn ramp(value: f32, (none, all): (f32, f32)) -> f32 {
     ((value - none) / (all - none)).clamp(0.0, 1.0)
 }
@@ -160,7 +160,7 @@ fn bin(tone: f32) -> usize {
     ((tone / LIGHTEST_TONE * BINS as f32) as usize).min(BINS - 1)
 }
 
-/// The tone between skin and what is darker in a feature, as its histogram's tones part (section 6.1.1).
+/// The tone that separates skin from the darker parts of a feature, from the modes of its histogram (section 6.1.1).
 fn limit(tone: &Raster<f32>, inside: &Raster<f32>) -> f32 {
     let mut histogram = vec![0_u32; BINS];
     tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).for_each(|(n, _)| histogram[bin(*n)] += 1);
@@ -171,7 +171,7 @@ fn limit(tone: &Raster<f32>, inside: &Raster<f32>) -> f32 {
     f32::midpoint(1.0, darker).clamp(LIMITS.0, LIMITS.1)
 }
 
-/// The tone, against skin's, of the features' darkest places.
+/// Tone of the features' darkest places, relative to skin's.
 fn darkest(tone: &Raster<f32>, ovals: &[Option<Raster<f32>>]) -> f32 {
     let of = |inside: &Raster<f32>| -> Vec<f32> {
         tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).map(|(n, _)| *n).collect()

@@ -30,9 +30,9 @@ struct SeenFeatures {
 const EYEBROW_ORIENT: f64 = -58.0;
 /// Eyebrows are shaded this much wider (6.3.4).
 const EYEBROW_SPACING: f64 = 1.7;
-/// Tone of the darkest lashes against skin's when a face has nothing darker: pale features stay pale.
+/// Maximum tone, relative to skin's, that is taken as the darkest brow: pale features stay pale.
 const DARKEST: f64 = 0.55;
-/// The least share of the pressure in a feature, and the tone against skin's from which it is left to the smudge.
+/// Minimum share of the pressure in a feature, and the tone relative to skin's from which it is left to the smudge.
 const FAINTEST: f64 = 0.08;
 
 impl Drawer<'_> {
@@ -81,14 +81,14 @@ impl Drawer<'_> {
         }
     }
 
-    /// Eyebrows in one tone, opposed to each other; the rest by its tones.
+    /// Eyebrows in one tone with mirrored strokes; the other features by their tones.
     pub(super) fn draw_features(&self, features: &Features) -> Vec<Mark> {
         (0_u64..).zip(&features.found).flat_map(|(face, one)| self.draw_face(face, one)).collect()
     }
 
     fn draw_face(&self, face: u64, SeenFeatures { features: found, frame, tones }: &SeenFeatures) -> Vec<Mark> {
         let darkest = darkest_brow(found);
-        // Firmer where it is darker.
+        // Firmer in darker places.
         let press = |p: Point| ((1.0 - f64::from(found.normalised.sample(p.x, p.y))) / (1.0 - darkest)).clamp(FAINTEST, 1.0);
         let brows = [(FacialFeature::LeftEyebrow, EYEBROW_ORIENT), (FacialFeature::RightEyebrow, -180.0 - EYEBROW_ORIENT)];
         let mut marks = Vec::new();
@@ -116,7 +116,7 @@ impl Drawer<'_> {
     }
 }
 
-/// The tone, against skin's, that a fiftieth of the features stays below.
+/// Tone relative to skin's below which a fiftieth of the features lies.
 fn darkest_brow(found: &FacialFeatures) -> f64 {
     let mut tones: Vec<f32> =
         found.normalised.pixels().iter().zip(found.labels.pixels()).filter(|(_, label)| **label != 0).map(|(n, _)| *n).collect();

@@ -10,17 +10,17 @@ use crate::raster::{Raster, gaussian_blur, ridges};
 use crate::style::Picture;
 use crate::style::random::stream;
 
-/// Blur before lines are sought, in pixels (section 3.1.2).
+/// Blur before line detection, in pixels (section 3.1.2).
 const LINE_BLUR: f32 = 2.0;
-/// Share of the hair's pixels that the curvature of a line must outdo: with fewer lines bald patches arise, with more the noise of
-/// the photograph counts.
+/// Quantile of the hair's curvature that a line must exceed: with fewer lines bald patches appear, with more the photograph's noise
+/// counts.
 const LINE_QUANTILE: f64 = 0.5;
-/// Width of a strand at full pressure as a share of the stick's: with the whole of it hair looks cut in wood.
+/// Width of a strand at full pressure as a share of the stick's: at full width hair looks cut in wood.
 const HAIR_WIDTH: f64 = 0.7;
-/// Median darkness of hair that is light altogether, and from which it is no more: light hair in the photograph's own tone is bare
-/// paper (looked at on white and blond hair).
+/// Median darkness at which hair counts as fully light, and at which it no longer does: in the photograph's own tone light hair is bare
+/// paper (judged on white and blond hair).
 const LIGHT_HAIR: (f32, f32) = (0.25, 0.45);
-/// Ink of the shaded side of a lock in light hair, and a lock's breadth.
+/// Ink of the shaded side of a lock in light hair, and the width of a lock.
 const LOCK_INK: f32 = 0.45;
 const LOCK_MM: f64 = 2.5;
 /// Angles of the Hough accumulator.
@@ -78,7 +78,7 @@ impl Drawer<'_> {
         field
     }
 
-    /// The curvature that a share of the hair's pixels stay below.
+    /// The curvature at `LINE_QUANTILE` of the hair's pixels.
     fn line_strength(blurred: &Raster<f32>, region: &Raster<u8>) -> f32 {
         let fine = gaussian_blur(blurred, 1.6 * LINE_BLUR);
         let contrast = blurred.zip_map(&fine, |a, b| (a - b).abs());
@@ -90,8 +90,8 @@ impl Drawer<'_> {
         strengths.get(at).map_or(0.0, |c| c / (0.8 * LINE_BLUR * LINE_BLUR))
     }
 
-    /// Ink of the strokes: the photograph's, with the lights and darks of the hair pulled apart so that strands show; light hair takes
-    /// few of them, along its shaded locks.
+    /// Ink of the strokes: the photograph's, with the hair's contrast increased so that strands show; light hair gets few strokes, along
+    /// its shaded locks.
     fn hair_ink(&self, darkness: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
         let [light, middle, dark] = levels_inside(darkness, hair, [0.03, 0.5, 0.97]);
         let spread = (dark - light).max(0.08);
@@ -105,7 +105,7 @@ impl Drawer<'_> {
         plain.zip_map(&locks, |plain, lock| plain.max(is_light * lock))
     }
 
-    /// The shaded sides of locks, 0 to 1: where the photograph is darker than the hair around.
+    /// The shaded sides of locks, 0 to 1: places darker than the hair around them.
     fn locks(&self, hair: &Raster<f32>) -> Raster<f32> {
         let fine = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
         let around = self.pixels(LOCK_MM) as f32;
@@ -117,7 +117,7 @@ impl Drawer<'_> {
     }
 }
 
-/// Values inside the hair below which these shares of it lie.
+/// Quantiles of the values inside the hair.
 fn levels_inside(values: &Raster<f32>, hair: &Raster<f32>, shares: [f64; 3]) -> [f32; 3] {
     let mut inside: Vec<f32> = values.pixels().iter().zip(hair.pixels()).filter(|(_, h)| **h >= 0.5).map(|(v, _)| *v).collect();
     inside.sort_by(f32::total_cmp);

@@ -1,8 +1,8 @@
-//! The charcoal portrait (Wong 1999): smudged tone, sketchy contours, hair that flows, features and background shaded by hand.
+//! The charcoal portrait (Wong 1999): smudged tone, sketchy contours, flowing hair, features and background shaded by hand.
 //!
 //! ```text
-//!   regions -> hair -> edges -> features -> tone      the order of work: each region is visited once
-//!   tone, shading, edges, hair, features, background   the order of drawing: a layer each
+//!   regions -> hair -> edges -> features -> tone      the order of processing: each region is visited once
+//!   tone, shading, edges, hair, features, background   the order of drawing: one layer each
 //! ```
 
 mod cost;
@@ -27,7 +27,7 @@ use parameters::Charcoaling;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
 const SHORT_SIDE: f64 = 600.0;
-/// Working pixels at most, those of a picture twice as long as wide: a strip whose short side is blown up to 600 would take minutes.
+/// Maximum working pixels: those of a picture twice as long as wide. A strip whose short side is scaled up to 600 would take minutes.
 const MOST_PIXELS: f64 = 2.0 * SHORT_SIDE * SHORT_SIDE;
 
 /// The style.
@@ -67,7 +67,7 @@ impl Style for Charcoal {
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
-        // Four pixels a pitch: the thesis's 600 pixels on the default 90 mm.
+        // Four pixels per pitch: the thesis's 600 pixels on the default 90 mm.
         4.0 / settings.number("pitch")
     }
 
@@ -90,7 +90,7 @@ impl Style for Charcoal {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Charcoaling,
@@ -158,7 +158,7 @@ impl Drawer<'_> {
         (self.portrait.placement.columns, self.portrait.placement.rows)
     }
 
-    /// Wanted ink, 0 to 1, whatever region it lies in.
+    /// Target ink, 0 to 1, over all regions.
     fn darkness(&self) -> Raster<f32> {
         self.portrait.tone.map(|tone| 1.0 - tone)
     }

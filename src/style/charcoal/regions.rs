@@ -1,4 +1,4 @@
-//! Step 1 (section 3.1): background, hair, face and what is left; each pixel belongs to one of them.
+//! Step 1 (section 3.1): background, hair, face and the rest; each pixel belongs to one of them.
 
 use super::Drawer;
 use super::seen_face;
@@ -9,56 +9,58 @@ use crate::raster::{Raster, components, dilate, flood_from_border, gaussian_blur
 use crate::source::MaskRole;
 use crate::style::Picture;
 
-/// The regions, each 0 to 1, in working pixels; at most one of them holds any pixel.
+/// The regions, each 0 to 1, in working pixels; they do not overlap.
 pub(super) struct Regions {
     pub subject: Raster<f32>,
     pub hair: Raster<f32>,
     pub face: Raster<f32>,
-    /// Where the faces' patterns lie, of those that were found.
+    /// Frames of the faces whose pattern was found.
     pub frames: Vec<FaceFrame>,
-    /// Clothing, when it was given; else all that is neither hair nor face.
+    /// Clothing if given; otherwise everything that is neither hair nor face.
     pub clothing: Raster<f32>,
     pub has_background: bool,
 }
 
-/// Least score of a face that nobody has pointed out. The search in whole pictures finds faces in suits and coffee with scores as
-/// good as a face's own, so it keeps to the head of a silhouette.
+/// Minimum score of a face found by search. In whole pictures the search finds faces in suits and coffee with scores as good as a real
+/// face's, so it is limited to the head of a silhouette.
 const LEAST_SCORE: f64 = 0.12;
-/// Where the eyes are in the box of a face (brow to chin) and of a head with its hair: how far down, the tolerances across and down,
-/// and the eyes' distance, as shares of the box.
+/// Position of the eyes in the box of a face (brow to chin) and of a head with its hair: how far down, the tolerances across and down,
+/// and the eye distance, as shares of the box.
 const IN_FACE: [f64; 4] = [0.39, 0.08, 0.07, 0.44];
 const IN_HEAD: [f64; 4] = [0.64, 0.1, 0.12, 0.36];
-/// Greatest colour step between neighbours within a plain background, in encoded light; a blurred edge of a person is steeper.
+/// Maximum colour step between neighbours within a plain background, in encoded light; even a blurred edge of a person is steeper.
 const BACKGROUND_STEP: f32 = 0.012;
-/// Greatest colour distance of a plain background from its border's median: a lit backdrop varies by a third.
+/// Maximum colour distance of a plain background from its border's median: a lit backdrop varies by a third.
 const BACKGROUND_SPREAD: f32 = 0.3;
-/// Shares of the picture between which a flooded background is believed.
+/// Range of shares of the picture in which a flooded background is accepted.
 const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
-/// Colour distance to the hair's own colour against that to the skin's: nearer to hair is hair.
+/// Minimum of the colour distance within which a pixel is hair, if it is nearer to the hair's colour than to the skin's.
 const HAIR_REACH: f32 = 0.16;
-/// Least colour distance between hair and skin at all, and that from which colour alone tells hair: on the dark bust it is less, and
-/// half of the face would become hair; blond hair has half as much, and only its crown and what hangs from it are taken.
+/// Minimum colour distance between hair and skin, and the distance from which colour alone identifies hair. On the dark bust it is
+/// smaller, and half of the face would become hair; blond hair has half as much, and only its crown and the hair hanging from it are
+/// taken.
 const LEAST_CONTRAST: f32 = 0.12;
 const CLEAR_CONTRAST: f32 = 0.3;
-/// Shares of its encoded light that skin has from its lit to its shaded side: hair is unlike all of them.
+/// Shares of its encoded light that skin has from its lit to its shaded side; hair differs from all of them.
 const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
-/// Shares of its encoded light below which nothing is shaded skin, and the colour distance to skin of any light from which a colour is
-/// none. Tuned on the busts and the portraits: a shaved head's shaded side has 0.72 and 0.08, a bald forehead's gleam 1.12 and 0.05;
+/// Share of its encoded light below which nothing is shaded skin, and the colour distance to skin in any light from which a colour is
+/// not skin. Tuned on the busts and the portraits: a shaved head's shaded side has 0.72 and 0.08, a bald forehead's gleam 1.12 and 0.05;
 /// black and brown hair has 0.3 to 0.57, white and grey hair 0.13 to 0.22.
 const DARKEST_SKIN: f32 = 0.62;
 const LEAST_STRANGE: f32 = 0.1;
-/// Breadth of a strand in distances of the eyes, and the texture from which a region of skin's colours is hair, in cheeks': two bald
-/// heads have 1.2 and 1.6, curls as light as skin 4.4. Cheeks in photographs have 0.024 to 0.08 of their light; drawn ones next to none.
+/// Width of a strand in eye distances, and the texture from which a skin-coloured region is hair, relative to the cheeks: two bald heads
+/// have 1.2 and 1.6, curls as light as skin 4.4. Cheeks in photographs have a texture of 0.024 to 0.08 of their light; drawn ones almost
+/// none.
 const STRAND: f64 = 0.03;
 const ROUGH: f64 = 2.5;
 const LEAST_TEXTURE: f64 = 0.02;
 /// Why no hair is drawn.
 const NO_HAIR: &str = "no hair was found: it is drawn like the rest, not in strokes";
-const LIKE_SKIN: &str = "what lies above the brow is too like the skin, in light or shade, to be called hair: it is drawn like the rest, not in strokes";
-/// How far down hair hangs beside a face, and where the crown begins, in distances of the eyes.
+const LIKE_SKIN: &str = "the area above the brow is too like the skin, in light or shade, to count as hair: it is drawn like the rest, not in strokes";
+/// How far down hair hangs beside a face, and where the crown begins, in eye distances.
 const LOWEST_FRINGE: f64 = 0.75;
 const CROWN: f64 = -0.85;
-/// Half the breadth of a gap in the crown that is closed: a lit parting is as light as skin.
+/// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
 const CLOSED: f64 = 0.3;
 
 impl Drawer<'_> {
@@ -106,13 +108,13 @@ impl Drawer<'_> {
         regions
     }
 
-    /// The rest of a person without neck and hands, which the smudge alone draws, like the face.
+    /// The rest of a person without neck and hands; like the face, those are drawn by the smudge alone.
     fn not_skin(&self, rest: &Raster<f32>) -> Raster<f32> {
         let skin = gaussian_blur(&may_be_skin(&self.portrait.light), 2.0);
         rest.zip_map(&skin, |rest, skin| rest * (1.0 - skin))
     }
 
-    /// From the mask or alpha; else what a plain background leaves; else everything.
+    /// From the mask or alpha; otherwise the complement of a plain background; otherwise everything.
     fn subject(&self) -> (Raster<f32>, bool) {
         if self.portrait.subject.pixels().iter().any(|s| *s < 0.5) {
             return (self.portrait.subject.clone(), true);
@@ -121,7 +123,7 @@ impl Drawer<'_> {
             let soft = gaussian_blur(&background.map(f32::from), 1.0);
             return (soft.map(|b| 1.0 - b), true);
         }
-        let why = "the background is not plain enough to be told from the subject, and there is no alpha channel: all is drawn";
+        let why = "the background is not plain enough to be separated from the subject, and there is no alpha channel: everything is drawn";
         self.observer.want_mask(MaskRole::Subject, why);
         (self.portrait.subject.clone(), false)
     }
@@ -158,7 +160,7 @@ impl Drawer<'_> {
         channel(0).zip_map(&channel(1), |r, g| [r, g]).zip_map(&channel(2), |[r, g], b| [r, g, b])
     }
 
-    /// The face's pattern: inside the given mask; else in the head, which only a silhouette tells.
+    /// The face's pattern: inside the given mask; otherwise in the head, which is known only from a silhouette.
     fn frame(&self, subject: &Raster<f32>, head: Option<Rect>, given: Option<&Raster<f32>>) -> Option<FaceFrame> {
         let lightness = &self.portrait.lightness;
         if let Some(face) = given {
@@ -173,12 +175,12 @@ impl Drawer<'_> {
         frame
     }
 
-    /// The oval of a face round its pattern, less the hair that hangs into it.
+    /// The oval of a face around its pattern, less the hair that hangs into it.
     fn found_face(&self, frame: &FaceFrame, fringe: &Raster<u8>) -> Raster<f32> {
         let (width, height) = self.size();
         Raster::from_fn(width, height, |x, y| {
             let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            // Brow to chin is wider above than below, as an egg is.
+            // Egg-shaped: wider at the brow than at the chin.
             let breadth = if down < 0.3 { 1.12 } else { 1.12 - 0.2 * (down - 0.3) };
             let reach = ((across / breadth).powi(2) + ((down - 0.42) / 1.28).powi(2)).sqrt();
             let inside = ((1.0 - reach) as f32 * frame.eye_distance as f32 + 0.5).clamp(0.0, 1.0);
@@ -186,8 +188,8 @@ impl Drawer<'_> {
         })
     }
 
-    /// What lies round the upper head, nearer in colour to the crown than to the skin, with what hangs from it over the face; or why
-    /// there is none.
+    /// Pixels around the upper head that are nearer in colour to the crown than to the skin, with the hair hanging from them over the
+    /// face; or the reason why there is none.
     fn found_hair(
         &self,
         subject: &Raster<f32>,
@@ -210,7 +212,7 @@ impl Drawer<'_> {
             let c = colour.get(x, y);
             let hangs = fringe.get(x, y) != 0 && down < LOWEST_FRINGE;
             let is_hair = distance(c, hair) < reach && SHADE.iter().all(|s| distance(c, hair) < distance(c, skin.map(|v| s * v)));
-            // Above the brow nothing but hair or skin is in a head.
+            // Above the brow a head has only hair or skin.
             let is_crown = down < CROWN && distance(c, hair) < distance(c, skin);
             u8::from(zone && (hangs || is_crown || (!is_face && is_hair && contrast >= CLEAR_CONTRAST)))
         });
@@ -226,12 +228,12 @@ impl Drawer<'_> {
         if area <= 0.3 * frame.eye_distance.powi(2) {
             return Err(NO_HAIR);
         }
-        // A shaved head's shade and a bald one's gleam make regions too.
+        // The shade of a shaved head and the gleam of a bald one also form regions.
         let is_hair = is_unlike_skin(hair, skin) || self.is_rough(&whole, frame);
         if is_hair { Ok(gaussian_blur(&whole.map(f32::from), 1.0)) } else { Err(LIKE_SKIN) }
     }
 
-    /// Whether a region has strands: its texture, in shares of its light, against that of the cheeks, away from its border.
+    /// True if a region has strands: compares its texture, relative to its light and away from its border, with that of the cheeks.
     fn is_rough(&self, region: &Raster<u8>, frame: &FaceFrame) -> bool {
         let lightness = &self.portrait.lightness;
         let size = frame.eye_distance;
@@ -252,13 +254,13 @@ impl Drawer<'_> {
         hair >= ROUGH * skin.max(LEAST_TEXTURE)
     }
 
-    /// The colours of the crown and of the skin; none where the subject has nothing above its brow but skin.
+    /// The colours of the crown and of the skin; none if the subject has only skin above its brow.
     fn hair_and_skin(colour: &Raster<[f32; 3]>, subject: &Raster<f32>, frame: &FaceFrame) -> Option<([f32; 3], [f32; 3])> {
         let at = |p: Point| colour.clamped(p.x as isize, p.y as isize);
         let inside = |p: Point| subject.contains(p.x as isize, p.y as isize) && subject.sample(p.x, p.y) >= 0.5;
         let cheeks = [(0.0, -0.25), (0.4, 0.5), (-0.4, 0.5), (0.0, 0.3), (0.3, 0.4), (-0.3, 0.4)];
         let skin = median(&cheeks.map(|(across, down)| at(frame.place(across, down))));
-        // Upwards from the brow until the subject ends: the far half of what is not skin is hair.
+        // Upwards from the brow to the subject's end: the far half of the pixels that are not skin is hair.
         let crown: Vec<[f32; 3]> = (-3..=3)
             .flat_map(|column| (0..60).map(move |i| (0.2 * f64::from(column), -0.6 - 0.03 * f64::from(i))))
             .map(|(across, down)| frame.place(across, down))
@@ -270,7 +272,7 @@ impl Drawer<'_> {
     }
 }
 
-/// What either mask marks.
+/// Union of two masks.
 fn joined(a: Option<Raster<f32>>, b: Option<Raster<f32>>) -> Option<Raster<f32>> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.zip_map(&b, f32::max)),
@@ -278,7 +280,7 @@ fn joined(a: Option<Raster<f32>>, b: Option<Raster<f32>>) -> Option<Raster<f32>>
     }
 }
 
-/// Whether a colour is that of no skin of this colour in more or less light.
+/// True if a colour differs from this skin's colour in any light.
 fn is_unlike_skin(hair: [f32; 3], skin: [f32; 3]) -> bool {
     let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
     let share = dot(hair, skin) / dot(skin, skin).max(1e-6);
@@ -298,7 +300,7 @@ impl Regions {
         })
     }
 
-    /// What no other step draws: 1 inside the subject where there is no hair (the image mask's complement).
+    /// Pixels that no other step draws: 1 inside the subject where there is no hair (the image mask's complement).
     pub(super) fn unmasked(&self) -> Raster<f32> {
         self.subject.zip_map(&self.hair, |s, hair| s.min(1.0 - hair))
     }
@@ -325,7 +327,7 @@ fn median(colours: &[[f32; 3]]) -> [f32; 3] {
     })
 }
 
-/// The box round a silhouette's head: from its top to where it has narrowed to a neck; none when it never does.
+/// The box around a silhouette's head, from its top to where it narrows to a neck; none if it never does.
 fn head(subject: &Raster<f32>) -> Option<Rect> {
     let extent = |y: usize| {
         let inside = |x: &usize| subject.get(*x, y) >= 0.5;
@@ -356,7 +358,7 @@ fn expected_in(bounds: Rect, [down, across_tolerance, down_tolerance, distance]:
     }
 }
 
-/// The box round a region; none when it is empty.
+/// The box around a region; none if it is empty.
 fn bounds(region: &Raster<f32>) -> Option<Rect> {
     let inside = region.pixels().iter().enumerate().filter(|(_, v)| **v >= 0.5);
     inside

@@ -1,29 +1,29 @@
-//! A face whose points are known: its frame, its features' windows and its outline, in the place of a search.
+//! A face with known landmarks: its frame, its features' windows and its outline, without a search.
 
 use crate::field::{FaceFrame, FeatureWindow};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, filled_polygon, gaussian_blur};
 use crate::source::{Landmarks, outlines};
 
-/// The mesh's points round the underside of the nose.
+/// The mesh's points around the underside of the nose.
 const NOSTRILS: [usize; 7] = [129, 98, 97, 2, 326, 327, 358];
 /// The lips' middle, where they meet.
 const LIPS_MEET: (usize, usize) = (13, 14);
-/// How far down the mouth lies in the template, in distances of the eyes, and the stretches that a nod or a long face give.
+/// How far down the mouth lies in the template, in eye distances, and the range of stretch from a nod or a long face.
 const MOUTH_DOWN: f64 = 1.06;
 const STRETCHES: (f64, f64) = (0.75, 1.5);
-/// Of a face turned to the side the eyes come near to each other: their distance counts at least this part of the face's width.
+/// Minimum eye distance as a share of the face's width: in a face turned to the side the eyes come close together.
 const LEAST_DISTANCE: f64 = 0.4;
-/// Room round the points of a feature, across and down, in distances of the eyes: brows grow beyond theirs, lids have lashes, a nose
-/// has its shadow.
+/// Room around the points of a feature, across and down, in eye distances: brows grow beyond their points, lids have lashes, a nose has
+/// its shadow.
 const ROUND_BROW: [f64; 2] = [0.1, 0.1];
 const ROUND_EYE: [f64; 2] = [0.12, 0.1];
 const ROUND_NOSE: [f64; 2] = [0.06, 0.14];
 const ROUND_MOUTH: [f64; 2] = [0.1, 0.08];
-/// Softness of the outline, in distances of the eyes.
+/// Softness of the outline, in eye distances.
 const SOFT: f64 = 0.02;
 
-/// The frame of a face that was found, with its own windows.
+/// The frame of a detected face, with its own windows.
 pub(super) fn frame(face: &Landmarks) -> FaceFrame {
     let [right, left] = face.irises.map(|iris| iris.centre);
     let across = left - right;

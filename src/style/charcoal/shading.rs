@@ -17,28 +17,28 @@ pub(super) struct Patch {
     pub region: Raster<f32>,
     pub width_mm: f64,
     pub spacing_mm: f64,
-    /// Greatest length of an arc; a narrower region has shorter ones.
+    /// Maximum length of an arc; narrower regions have shorter arcs.
     pub length_mm: f64,
     pub orientation: f64,
     pub pressure: f64,
-    /// How far inside the region's border the middle of a stroke stays.
+    /// Inset of a stroke's centre line from the region's border.
     pub inset_mm: f64,
     pub pressing: Pressing,
 }
 
-/// How the hand presses while it swings to and fro.
+/// Pressure of the hand as it swings to and fro.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pressing {
-    /// Evenly: a small form is filled.
+    /// Even, to fill a small form.
     Filling,
-    /// Firm in the swing's middle, light at its turns, where the hand often lifts: open hatching.
+    /// Firm in the middle of a swing, light at its turns, where the hand often lifts: open hatching.
     Hatching,
 }
 
-/// Neighbouring swaths overlap by this share of an arc, as a hand's do.
+/// Overlap of neighbouring swaths, as a share of an arc.
 const SWATH_OVERLAP: f64 = 0.2;
-/// Arcs that a hand draws before it is set down anew, a little to the side, and how far aside, along and askew (shares of an arc's
-/// length, radians). Without it the turns of all chains stand in rows, and the background is one wave repeated.
+/// Arcs drawn before the hand is set down anew, slightly displaced; and the displacement aside, along (shares of an arc's length) and in
+/// angle (radians). Without it the turns of all chains line up, and the background is one repeated wave.
 const ARCS_A_GROUP: std::ops::Range<usize> = 7..24;
 const ASIDE: f64 = 0.2;
 const LONGER: std::ops::Range<f64> = 0.8..1.2;
@@ -49,15 +49,15 @@ const KEPT_TURNS: f64 = 0.2;
 const TURN: f64 = 0.3;
 /// Pieces shorter than this many widths are specks.
 const LEAST_WIDTHS: f64 = 1.5;
-/// Pressure of the background's strokes, and their width then as a share of the full one: lighter than anything in the portrait.
+/// Pressure of the background's strokes, and their width at it as a share of the full width: lighter than anything in the portrait.
 const BACKGROUND_PRESSURE: f64 = 0.3;
 const BACKGROUND_WIDTH: f64 = 0.44;
-/// Its stroke's width as a share of the stick's.
+/// Width of a background stroke as a share of the stick's.
 const BACKGROUND_STROKE: f64 = 0.7;
-/// Pressure of the background far from the subject, as a share of that beside it, and how far it takes to fall, in sheets' widths.
+/// Pressure of the background far from the subject, as a share of that beside it, and the distance over which it falls, in sheet widths.
 const FAR_PRESSURE: f64 = 0.35;
 const FALL: f64 = 0.22;
-/// Tones of clothing lighter than this are left to the smudge.
+/// Clothing lighter than this tone is left to the smudge.
 const LIGHT_CLOTH: f64 = 0.5;
 
 impl Drawer<'_> {
@@ -83,7 +83,7 @@ impl Drawer<'_> {
         marks
     }
 
-    /// Strokes that cover the region's bounds, turned to its orientation: groups of arcs, one below another in swaths.
+    /// Strokes that cover the region's bounds in its orientation: groups of arcs, one below another in swaths.
     fn chains(&self, patch: &Patch, random: &mut impl Rng) -> Vec<Vec<Point>> {
         let along = Vec2::from_angle(patch.orientation);
         let across = Vec2::new(-along.y, along.x);
@@ -95,7 +95,7 @@ impl Drawer<'_> {
         let length = (swath / (1.0 - SWATH_OVERLAP)).max(2.0 * spacing);
         let radius = self.pixels(self.parameters.arc_radius_mm).min(4.0 * length);
         let mut strokes = Vec::new();
-        // A form that one swing spans is filled in one go.
+        // A form that one swing spans is filled without interruption.
         let is_regular = patch.pressing == Pressing::Filling;
         for i in 0..swaths as usize {
             let mut down = bounds.y0 - spacing * random.random_range(1.0..4.0);
@@ -123,8 +123,8 @@ impl Drawer<'_> {
         strokes
     }
 
-    /// Dark clothing, and all that is neither face nor hair: its tones by scale-space filtering, the darker ones shaded over the
-    /// lighter ones, each a little turned.
+    /// Dark clothing and everything that is neither face nor hair: tones found by scale-space filtering, darker ones shaded over lighter
+    /// ones, each slightly turned.
     pub(super) fn shading(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
         if !self.parameters.has_shading {
             return Vec::new();
@@ -152,7 +152,7 @@ impl Drawer<'_> {
         marks
     }
 
-    /// Section 6.3.5, firmer where the photograph is darker, with a ragged end some way from the sheet's border.
+    /// Section 6.3.5: firmer where the photograph is darker, with a ragged end before the sheet's border.
     pub(super) fn background(&self, regions: &Regions) -> Vec<Mark> {
         if !self.parameters.has_background || !regions.has_background || self.parameters.background_ink <= 0.0 {
             return Vec::new();
@@ -164,7 +164,7 @@ impl Drawer<'_> {
         let patch = Patch {
             region,
             width_mm,
-            // The ink of a stroke at the pressure below, spread over its spacing.
+            // Spreads a stroke's ink, at the pressure below, over its spacing.
             spacing_mm: BACKGROUND_WIDTH * width_mm / self.parameters.background_ink,
             length_mm: self.parameters.arc_length_mm,
             orientation: self.parameters.arc_orient,
@@ -176,7 +176,7 @@ impl Drawer<'_> {
         self.shade_patch(&patch, "background", 0, |p| f64::from(nearness.sample(p.x, p.y)))
     }
 
-    /// How hard the background is pressed at a place: the subject is set off, and the sheet's border left airy.
+    /// Pressure of the background at a place: sets off the subject and leaves the sheet's border airy.
     fn nearness(&self, subject: &Raster<f32>) -> Raster<f32> {
         let (width, height) = self.size();
         let reach = (FALL * width.min(height) as f64) as f32;
@@ -189,7 +189,7 @@ impl Drawer<'_> {
         })
     }
 
-    /// The background without a wavering margin.
+    /// The background without an irregular margin.
     fn ragged(&self, subject: &Raster<f32>) -> Raster<f32> {
         let (width, height) = self.size();
         let margin = 0.05 * width.min(height) as f64;
@@ -203,7 +203,7 @@ impl Drawer<'_> {
     }
 }
 
-/// The arcs as strokes: one for all, or in open hatching a new one after most turns.
+/// The arcs as strokes: a single one or, in open hatching, a new one after most turns.
 fn lifted(arcs: &[Vec<Point>], pressing: Pressing, random: &mut impl Rng) -> Vec<Vec<Point>> {
     let mut strokes: Vec<Vec<Point>> = Vec::new();
     for arc in arcs {
@@ -216,7 +216,7 @@ fn lifted(arcs: &[Vec<Point>], pressing: Pressing, random: &mut impl Rng) -> Vec
     strokes
 }
 
-/// A region less a border of this many pixels.
+/// A region inset by a number of pixels.
 fn inset(region: &Raster<f32>, by: f64) -> Raster<f32> {
     if by <= 0.0 {
         return region.clone();
@@ -225,11 +225,11 @@ fn inset(region: &Raster<f32>, by: f64) -> Raster<f32> {
         return region.clone();
     };
     let within = region.zip_map(&outside.distance, |inside, distance| if inside >= 0.5 { distance } else { -distance });
-    // Half where the border is `by` away, so that the border of the inset lies there.
+    // 0.5 at distance `by` from the border, so that the inset's border lies there.
     within.map(|distance| (0.5 + distance - by as f32).clamp(0.0, 1.0))
 }
 
-/// Bounds of a region along and across a direction, or none when it is empty.
+/// Bounds of a region along and across a direction; none if it is empty.
 fn turned_bounds(region: &Raster<f32>, along: Vec2, across: Vec2) -> Option<Rect> {
     let mut bounds: Option<Rect> = None;
     for y in 0..region.height() {
@@ -243,7 +243,7 @@ fn turned_bounds(region: &Raster<f32>, along: Vec2, across: Vec2) -> Option<Rect
     bounds
 }
 
-/// The dark tones of a region, the lightest first: the tone below which each is shaded, and its own.
+/// The dark tones of a region, lightest first: the tone below which each is shaded, and the tone itself.
 fn dark_levels(tone: &Raster<f32>, region: &Raster<f32>) -> Vec<(f64, f64)> {
     let mut histogram = vec![0_u32; 256];
     for (t, _) in tone.pixels().iter().zip(region.pixels()).filter(|(_, r)| **r >= 0.5) {

@@ -1,13 +1,13 @@
-//! What may be skin, by colour.
+//! Pixels that may be skin, by colour.
 
 use crate::raster::Raster;
 
-/// Differences of encoded red, green and blue (0 to 1) that skin has in white light, from dark to light: redder than green, not
-/// bluer than green, and never as strong as dyed cloth. Tuned on the busts, whose skins run from light to very dark, and the
-/// portraits; lower upper limits lose cheeks in warm light; an orange suit passes these, so only places in a head are asked.
+/// Ranges of differences of encoded red, green and blue (0 to 1) for dark to light skin in white light: redder than green, not bluer
+/// than green, and less saturated than dyed cloth. Tuned on the busts, whose skins run from light to very dark, and the portraits; lower
+/// upper limits lose cheeks in warm light; an orange suit passes these, so only places in a head are tested.
 const RED_OVER_GREEN: (f32, f32) = (0.012, 0.28);
 const GREEN_OVER_BLUE: (f32, f32) = (-0.02, 0.22);
-/// A photograph whose mean spread of the colours is below this is black and white.
+/// Mean spread of the colours below which a photograph is black and white.
 const COLOURLESS: f32 = 0.01;
 
 /// 1 where a colour may be skin, 0 elsewhere; 1 everywhere in a black and white photograph.

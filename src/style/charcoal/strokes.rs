@@ -1,22 +1,22 @@
-//! A stroke of the stick: where it goes, how hard it is pressed, when.
+//! A stroke of the stick: path, pressure and time.
 
 use super::Drawer;
 use crate::drawing::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{Point, catmull_rom, polyline_length, resample};
 
-/// Width at no pressure as a share of that at full pressure: a stick never draws a hair line.
+/// Width at zero pressure as a share of that at full pressure: a stick never draws a hairline.
 const LIGHTEST: f64 = 0.3;
-/// Millimetres a second that a sketching hand draws, and moves between strokes; seconds it takes to lift and set down.
+/// Speed of a sketching hand in millimetres per second while drawing and between strokes; seconds to lift and set down.
 const DRAWING_SPEED: f64 = 80.0;
 const MOVING_SPEED: f64 = 250.0;
 const LIFT: f64 = 0.15;
 
-/// How a hand presses along one stroke.
+/// Pressure along one stroke.
 #[derive(Clone, Copy)]
 pub(super) struct Touch {
     /// Width at full pressure in millimetres.
     pub width_mm: f64,
-    /// Greatest pressure, 0 to 1.
+    /// Maximum pressure, 0 to 1.
     pub pressure: f64,
     /// Share of the stroke at either end over which the pressure grows or falls.
     pub taper: f64,
@@ -46,12 +46,12 @@ impl Drawer<'_> {
     }
 }
 
-/// The pressure at which a stroke is this share of its full width, below 0 where it would be thinner than at none.
+/// The pressure at which a stroke has this share of its full width; below 0 if the width is smaller than at zero pressure.
 pub(super) fn pressure_for(width: f64) -> f64 {
     (width - LIGHTEST) / (1.0 - LIGHTEST)
 }
 
-/// Start, swell and lift: pressure along a stroke, 0 to 1; the start is firmer than the lift.
+/// Pressure along a stroke, 0 to 1: start, swell and lift; the start is firmer than the lift.
 fn swell(along: f64, taper: f64) -> f64 {
     let ramp = |distance: f64, least: f64| {
         let t = (distance / taper.max(1e-6)).min(1.0);
@@ -60,7 +60,7 @@ fn swell(along: f64, taper: f64) -> f64 {
     ramp(along, 0.35).min(ramp(1.0 - along, 0.05))
 }
 
-/// Gives every stroke the times at its nodes, in drawing order.
+/// Sets the times at the nodes of every stroke, in drawing order.
 pub(super) fn time(drawing: &mut Drawing) {
     let (mut now, mut at) = (0.0, Point::ORIGIN);
     for stroke in drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks) {

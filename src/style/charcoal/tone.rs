@@ -9,14 +9,14 @@ use crate::geometry::{BezPath, Point, simplify};
 use crate::raster::{Raster, gaussian_blur, paper_texture};
 use std::f32::consts::PI;
 
-/// Pixels from grain to grain: with fewer, small grains lose their shape, more cost time and bytes.
+/// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
 const PIXELS_A_GRAIN: f64 = 5.0;
-/// The coarser texture that the thesis blends with, in grains: clumps of two or three grains make a middle tone gritty.
+/// Scale of the coarser texture that the thesis blends in, in grains: clumps of two or three grains make a middle tone gritty.
 const CLUMP: f32 = 2.0;
-/// How far a grain's outline may be off, in grains.
+/// Tolerance of a grain's outline, in grains.
 const OUTLINE_TOLERANCE: f64 = 0.04;
-/// What `brighten` takes off at most: ink everywhere, so that lit skin is bare paper, and a share of the rest. Tuned on the busts:
-/// with less lifted, light skin is grey all over; with more, dark skin is washed away.
+/// Maximum effect of `brighten`: ink removed everywhere, so that lit skin is bare paper, and a share of the rest. Tuned on the busts:
+/// with less lifted, light skin is grey all over; with more, dark skin is washed out.
 const LIFTED: f32 = 0.3;
 const THINNED: f32 = 0.4;
 /// Ink below which paper is left clean, as smudging does; half a grain in a hundred would look like dust.
@@ -60,14 +60,14 @@ impl Drawer<'_> {
         gaussian_blur(&washed, 0.5 * blur).zip_map(&features.tones.share, |ink, theirs| 1.0 - ink * (1.0 - theirs))
     }
 
-    /// Ink as the smudge has it, brightened.
+    /// Brightened ink of the smudge.
     pub(super) fn washed(&self, ink: f32) -> f32 {
         let wash = self.parameters.brighten;
         (ink - LIFTED * wash).max(0.0) * (1.0 - THINNED * wash)
     }
 }
 
-/// The tone `d(s, t)` of section 6.3.1, with the texture moved so that its mean is `s`, and with it the mean of `d` (errata).
+/// The tone `d(s, t)` of section 6.3.1, with the texture shifted so that its mean, and with it the mean of `d`, is `s` (errata).
 fn on_texture(s: f32, t: f32, bias: f32) -> f32 {
     let weight = f32::midpoint(1.0, (2.0 * PI * (s - 0.5)).cos());
     let t = t - 0.5 + s;
@@ -78,7 +78,7 @@ fn on_texture(s: f32, t: f32, bias: f32) -> f32 {
 fn area(outlines: &[Curve], tolerance: f64, place: impl Fn(&Point) -> Point) -> Option<Mark> {
     let mut outline = BezPath::new();
     for curve in outlines {
-        // Closed once more, so that the simplification keeps the whole ring.
+        // The first point is repeated so that the simplification keeps the whole ring.
         let mut ring = curve.points.clone();
         ring.push(*curve.points.first()?);
         let mut ring = simplify(&ring, tolerance);

@@ -1,17 +1,16 @@
-//! Regions that are one because their lines have nearly the same direction.
+//! Merging of regions whose lines have nearly the same direction.
 
 use super::angles::{neighbours, upright};
 use crate::geometry::Vec2;
 use crate::raster::Raster;
 use std::collections::BTreeSet;
 
-/// Superpixels whose directions differ by less than this many degrees are one region: lines of two regions may not run side by
-/// side within 15, and a seam between lines that are nearly parallel looks like a flaw. Much more, and forms lose their own
-/// directions.
+/// Superpixels whose directions differ by less than this many degrees are merged: lines of two regions must not run side by side within
+/// 15 degrees, and a seam between nearly parallel lines looks like a flaw. With much more, forms lose their own directions.
 const ALIKE: f64 = 18.0;
 
-/// Neighbouring regions whose directions differ by less than [`ALIKE`] made one, the most alike first: for each old label the
-/// new one, and the direction of each label that is left, the mean by area.
+/// Merges neighbouring regions whose directions differ by less than [`ALIKE`], the most similar first. Returns the new label of each old
+/// one, and the direction of each remaining label, averaged by area.
 pub(super) fn join_alike(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec<f64>) {
     let mut area = vec![0.0_f64; angles.len()];
     labels.pixels().iter().filter(|label| **label > 0).for_each(|&label| area[label as usize - 1] += 1.0);
@@ -43,8 +42,8 @@ pub(super) fn join_alike(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec
     (owner.into_iter().map(|i| i as i32 + 1).collect(), sums.iter().map(angle).collect())
 }
 
-/// The neighbour whose direction differs least, by less than [`ALIKE`]; of equals the pair of the lowest numbers, so that the most
-/// alike pair of all is each other's choice.
+/// The neighbour whose direction differs least, by less than [`ALIKE`]; ties go to the pair with the lowest numbers, so that the most
+/// similar pair choose each other.
 fn most_alike(i: usize, touching: &BTreeSet<usize>, sums: &[Vec2]) -> Option<usize> {
     let apart = |j: usize| 0.5 * sums[i].cross(sums[j]).atan2(sums[i].dot(sums[j])).abs().to_degrees();
     let candidates = touching.iter().map(|&j| (apart(j), i.min(j), i.max(j), j)).filter(|c| c.0 < ALIKE);
@@ -58,7 +57,7 @@ mod tests {
     #[test]
     fn alike_neighbours_are_one_region() {
         let labels = Raster::from_fn(40, 10, |x, _| x as i32 / 10 + 1);
-        // The first two are alike across the turn at 90 degrees, the last is like the second but does not touch it.
+        // The first two are similar across the wrap at 90 degrees; the last is similar to the second but does not touch it.
         let (joined, angles) = join_alike(&labels, &[86.0, -88.0, 30.0, -89.0]);
         assert_eq!(joined, [1, 1, 3, 4]);
         assert!((angles[0] - 89.0).abs() < 1e-6 && (angles[2] - 30.0).abs() < 1e-6, "{angles:?}");

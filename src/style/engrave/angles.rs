@@ -8,10 +8,10 @@ use rand::RngExt;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-/// Kang's window of 5 pixels at the papers' 6 pixels a pitch, and rounds.
+/// Kang's window of 5 pixels, at the papers' 6 pixels per pitch, and number of rounds.
 const FLOW_RADIUS: usize = 5;
 const FLOW_ROUNDS: u32 = 3;
-/// A region whose mean direction is weaker than this part of the strongest takes its neighbours'.
+/// A region whose mean direction is weaker than this share of the strongest takes its neighbours'.
 const WEAK: f64 = 0.05;
 /// Rounds of filling weak regions from their neighbours.
 const FILL_ROUNDS: usize = 200;
@@ -30,7 +30,7 @@ impl Drawer<'_> {
         }
     }
 
-    /// Half the hue of each scribble; grey ones take the angle given.
+    /// Half the hue of each scribble; grey scribbles take the parameter `angle`.
     fn hue_angles(&self, count: i32) -> Vec<f64> {
         let colours = self.portrait.scribbles.as_ref().map_or(&[][..], |s| &s.colours);
         let angle =
@@ -38,8 +38,8 @@ impl Drawer<'_> {
         (0..count as usize).map(angle).collect()
     }
 
-    /// The mean of the edge tangent flow in each region, by doubled angles weighted by the edges' strength; weak ones are
-    /// filled from their neighbours.
+    /// The mean of the edge tangent flow in each region, by doubled angles weighted by edge strength; weak regions are filled from their
+    /// neighbours.
     fn flow_angles(&self, labels: &Raster<i32>, count: i32) -> Vec<f64> {
         let flow = edge_tangent_flow(&self.portrait.lightness, FLOW_RADIUS, FLOW_ROUNDS);
         let mut sums = vec![[0.0_f64; 3]; count as usize + 1];
@@ -80,7 +80,7 @@ fn hue([r, g, b]: [u8; 3]) -> Option<f64> {
     Some((60.0 * sixth).rem_euclid(360.0))
 }
 
-/// Which regions touch, each pair both ways.
+/// The neighbours of each region.
 pub(super) fn neighbours(labels: &Raster<i32>, count: i32) -> Vec<Vec<usize>> {
     let mut touching = vec![BTreeSet::new(); count as usize];
     for y in 0..labels.height() {
@@ -97,7 +97,7 @@ pub(super) fn neighbours(labels: &Raster<i32>, count: i32) -> Vec<Vec<usize>> {
     touching.into_iter().map(|set| set.into_iter().collect()).collect()
 }
 
-/// Replaces weak doubled directions by the mean of their neighbours', again and again, until they have spread.
+/// Repeatedly replaces weak doubled directions by the mean of their neighbours', until all are filled.
 fn fill_weak(directions: &mut [[f64; 2]], neighbours: &[Vec<usize>]) {
     let strongest = directions.iter().map(|d| d[0].hypot(d[1])).fold(0.0, f64::max);
     let is_weak: Vec<bool> = directions.iter().map(|d| d[0].hypot(d[1]) < WEAK * strongest).collect();

@@ -1,4 +1,4 @@
-//! Where a line is interrupted: dashes and dots in the light, white crossing lines in an engraving, with the ink kept.
+//! Interruptions of a line that keep its ink: dashes and dots in light tones, white crossing lines in an engraving.
 
 use super::ground::Grid;
 use super::lines::Family;
@@ -9,38 +9,38 @@ use crate::raster::Raster;
 
 /// Dashes shorter than this become dots, in pitches.
 const LEAST_DASH: f64 = 0.5;
-/// Width of a dash's end as a fraction of its own.
+/// Width of a dash's end as a fraction of the dash's width.
 const END_WIDTH: f64 = 0.25;
 /// Longest taper of a dash, in pitches.
 const DASH_TAPER: f64 = 0.6;
-/// The golden section, which spreads where lines begin to count.
+/// The golden section, which spreads the starting phases of lines.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// How a family's lines are interrupted.
+/// Interruption of a family's lines.
 #[derive(Clone, Copy)]
 pub(super) struct Breaking<'a> {
     /// Dashes stand midway between the lines of this family.
     pub between: &'a Family,
-    /// How many of those lines from one dash to the next.
+    /// Number of those lines from one dash to the next.
     pub period: f64,
-    /// Whether every second line's dashes stand half a period on.
+    /// True if the dashes of every second line are shifted by half a period.
     pub is_staggered: bool,
-    /// The share of the paper that the other layer's lines take; dashes stand in what they leave free.
+    /// Share of the paper that the other layer's lines cover; dashes stand in the gaps.
     pub cover: Option<&'a Raster<f32>>,
     pub grid: Grid,
-    /// Width below which a line in full spacing breaks, in millimetres.
+    /// Width below which a line at full spacing breaks, in millimetres.
     pub thinnest: f64,
-    /// Ink from which lines of an engraving are whole, and the greatest share of their length that is cut out of them.
+    /// Ink from which lines of an engraving are unbroken, and the maximum share of their length that is cut out.
     pub interruption: Option<(f64, f64)>,
-    /// Only dots.
+    /// True if only dots are drawn.
     pub is_stippled: bool,
     pub dot_min: f64,
 }
 
-/// A piece of a line, by place along.
+/// A piece of a line, by position along it.
 #[derive(Clone, Debug)]
 pub(super) enum Piece {
-    /// A stroke through the places given, with the full width at each.
+    /// A stroke through the given positions, with the full width at each.
     Dash {
         places: Vec<(f64, f64)>,
         tapers: [f64; 2],
@@ -51,7 +51,7 @@ pub(super) enum Piece {
     },
 }
 
-/// A line's readings in one span.
+/// One reading of a line in a span.
 struct Reading {
     at: f64,
     /// Width of the whole line.
@@ -63,11 +63,11 @@ struct Reading {
     duty: f64,
     /// Share of the line's ink that the dashes carry.
     carried: f64,
-    /// Place in the pattern: dashes are centred on half numbers.
+    /// Position in the dash pattern: dashes are centred on half-integers.
     phase: f64,
 }
 
-/// A stretch that is drawn.
+/// A drawn stretch of a line.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     from: f64,
@@ -80,7 +80,7 @@ impl Reading {
         if self.duty >= 1.0 { 1.0 } else { self.duty - 2.0 * (self.phase.rem_euclid(1.0) - 0.5).abs() }
     }
 
-    /// Ink of the line for each millimetre along.
+    /// Ink of the line per millimetre of length.
     fn ink(&self) -> f64 {
         self.width * self.carried * self.stretch
     }
@@ -96,7 +96,7 @@ impl Breaking<'_> {
     pub(super) fn pieces(&self, courses: &Courses<'_>, k: usize) -> Vec<Piece> {
         let course = &courses.lines[k];
         let mut pieces = Vec::new();
-        // What is too little for a dot waits for the next one.
+        // Ink too small for a dot is carried over to the next one.
         let least_dot = std::f64::consts::FRAC_PI_4 * self.dot_min * self.dot_min;
         let mut carry = (k as f64 * GOLDEN).fract() * least_dot;
         for &span in &course.spans {
@@ -107,7 +107,7 @@ impl Breaking<'_> {
                 let before = i.checked_sub(1).map_or(span.from, |i| 0.5 * (runs[i].to + run.from));
                 let after = runs.get(i + 1).map_or(span.to, |next| 0.5 * (run.to + next.from));
                 let mut wanted = ink.between(before, after) + carry;
-                // What is left free before a border gives its ink to the piece beside it.
+                // Ink of the gap left before a border goes to the adjacent piece.
                 if i == 0 {
                     wanted += span.lacking[0] * readings[0].ink();
                 }
@@ -167,7 +167,7 @@ impl Breaking<'_> {
             let t = ((whole - ink) / (0.5 * whole).max(1e-6)).clamp(0.0, 1.0);
             duty = duty.min(1.0 - most * t * t * (3.0 - 2.0 * t));
         }
-        // Dashes in what the other layer leaves free do not lie on its lines, so they need less ink.
+        // Dashes in the gaps of the other layer do not overlap its lines, so they need less ink.
         if duty < 1.0 { (duty * (1.0 - cover), 1.0 - cover) } else { (1.0, 1.0) }
     }
 
@@ -177,7 +177,7 @@ impl Breaking<'_> {
         index / self.period + shift
     }
 
-    /// Drawn stretches in order, with one of no length at each place where there is only a dot.
+    /// Drawn stretches in order; a dot is a stretch of zero length.
     fn runs(&self, readings: &[Reading], family: &Family) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         let mut open: Option<f64> = (readings[0].excess() > 0.0).then_some(readings[0].at);
@@ -220,8 +220,8 @@ impl Breaking<'_> {
     }
 }
 
-/// Sets the places of a line's stipples, those of every second line half a place on, as far apart as the line is from its
-/// neighbours: at the crossings of another family they would run together wherever the two are sheared.
+/// Sets the phases of a line's stipples: as far apart as the line is from its neighbours, those of every second line shifted by half. At
+/// the crossings of another family they would run together wherever the two families are sheared.
 fn space_stipples(readings: &mut [Reading], k: usize, pitch: f64) {
     let spaces = |r: &Reading| r.stretch / r.strip.clamp(0.5 * pitch, 2.0 * pitch);
     readings[0].phase = readings[0].at / pitch + 0.5 * (k % 2) as f64;
@@ -232,14 +232,14 @@ fn space_stipples(readings: &mut [Reading], k: usize, pitch: f64) {
     }
 }
 
-/// Where between two readings the middle of a dash would be.
+/// Position of a dash's middle between two readings, if there is one.
 fn centre(a: &Reading, b: &Reading) -> Option<f64> {
     let (low, high) = (a.phase.min(b.phase), a.phase.max(b.phase));
     let middle = (low - 0.5).floor() + 1.5;
     (middle <= high && high - low < 0.9).then(|| a.at + (b.at - a.at) * (middle - a.phase) / (b.phase - a.phase))
 }
 
-/// A dash over a run whose ink is `wanted`, as far as there is room.
+/// A dash over a run with `wanted` ink, as far as there is room.
 fn dash(readings: &[Reading], run: Run, span: Span, wanted: f64, pitch: f64) -> Piece {
     let length = run.to - run.from;
     let taper = (0.45 * length).min(DASH_TAPER * pitch);
@@ -266,13 +266,13 @@ fn dash(readings: &[Reading], run: Run, span: Span, wanted: f64, pitch: f64) -> 
     Piece::Dash { places, tapers }
 }
 
-/// What a dash's ends leave of its width.
+/// Share of its width that a dash keeps near its ends.
 pub(super) fn taper_at(u: f64, from: f64, to: f64, tapers: [f64; 2]) -> f64 {
     let rise = |away: f64, length: f64| {
         if length <= 0.0 || away >= length {
             return 1.0;
         }
-        // A cubic from the end's width, steep there and level at the full width.
+        // A cubic: steep at the end's width and level at the full width.
         let t = (away / length).max(0.0);
         let (t2, t3) = (t * t, t * t * t);
         let (low, slope) = (END_WIDTH, 1.0 - END_WIDTH);
@@ -287,7 +287,7 @@ fn between(values: &[f64], x: f64) -> f64 {
     values[i] * (1.0 - t) + values[(i + 1).min(values.len() - 1)] * t
 }
 
-/// Between the readings that are there; beyond them the nearest.
+/// Interpolates between existing readings; beyond them takes the nearest.
 fn interpolate(course: &Course, values: &[f32], x: f64) -> f64 {
     let last = values.len() - 1;
     let i = (x.max(0.0) as usize).min(last);
@@ -300,7 +300,7 @@ fn interpolate(course: &Course, values: &[f32], x: f64) -> f64 {
     }
 }
 
-/// Ink along a span, summed up.
+/// Cumulative ink along a span.
 struct Ink {
     at: Vec<f64>,
     sum: Vec<f64>,

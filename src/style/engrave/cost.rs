@@ -1,18 +1,18 @@
-//! What an engraving takes, as measured.
+//! Measured cost of an engraving.
 
 use super::parameters::Engraving;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes a pixel: 109 at 100 mm (1 megapixel), 95 at 250 mm (6.3), 90 at 25 x 30 mm and a pitch of 0.05 mm (10.8); no look needs more.
+/// Bytes per pixel: 109 at 100 mm (1 megapixel), 95 at 250 mm (6.3), 90 at 25 x 30 mm and a pitch of 0.05 mm (10.8); no look needs more.
 const BYTES: f64 = 100.0;
-/// More where outlines are looked for: 138 at 250 mm.
+/// Additional bytes with outlines: 138 in all at 250 mm.
 const OUTLINE_BYTES: f64 = 43.0;
-/// Microseconds a pixel: 0.43 at 1 and at 6.3 megapixels.
+/// Microseconds per pixel: 0.43 at 1 and at 6.3 megapixels.
 const MICROSECONDS: f64 = 0.45;
-/// More with superpixels: 1.04 at 250 mm.
+/// Additional with superpixels: 1.04 in all at 250 mm.
 const SUPERPIXEL_MICROSECONDS: f64 = 0.6;
-/// More with outlines: 0.65 at 250 mm.
+/// Additional with outlines: 0.65 in all at 250 mm.
 const OUTLINE_MICROSECONDS: f64 = 0.25;
 
 pub(super) fn cost(parameters: &Engraving, picture: Rect, pixels_per_mm: f64) -> Cost {

@@ -1,4 +1,4 @@
-//! Depth where no map is given (Galarza 2017, sections 4.4 and 5.2), and the light on one.
+//! Depth without a depth map (Galarza 2017, sections 4.4 and 5.2), and the lighting of a relief.
 
 use super::Drawer;
 use super::parameters::DepthFrom;
@@ -7,17 +7,17 @@ use crate::field::{bend_by_shading, inflate};
 use crate::geometry::Vec2;
 use crate::raster::{Raster, bilateral, enlarge, gaussian_blur, reduce};
 
-/// Smoothing of a photograph before its light is taken for depth, in pitches: finer detail is texture, not form.
+/// Smoothing of a photograph before its light is used as depth, in pitches: finer detail is texture, not form.
 const PHOTO_SMOOTHING: f64 = 1.5;
 /// Difference of lightness that this smoothing keeps as an edge.
 const PHOTO_EDGE: f32 = 0.15;
-/// Shorter side of the raster on which forms are reckoned, in pixels, at least.
+/// Minimum shorter side of the raster on which forms are computed, in pixels.
 const FORM_SIDE: usize = 200;
-/// What is brighter or darker over this part of the picture's shorter side is colour, not shading.
+/// Scale, as a share of the picture's shorter side, above which changes of brightness are colour, not shading.
 const LOCAL: f64 = 0.12;
 /// Slope for a full step of lightness.
 const SHADING_GAIN: f32 = 2.0;
-/// How much of the height is the light itself, since in faces and still lifes what is near catches it.
+/// Share of the height taken from the lightness itself: in faces and still lifes near parts catch the light.
 const NEAR_IS_LIGHT: f32 = 0.35;
 
 impl Drawer<'_> {
@@ -33,7 +33,7 @@ impl Drawer<'_> {
         }
     }
 
-    /// Forms are smooth, so they are reckoned on a smaller raster, of the great regions and the lightness.
+    /// Computes a form on a smaller raster of the main regions and the lightness, since forms are smooth.
     fn at_form_scale(&self, lightness: &Raster<f32>, form: impl Fn(&Raster<i32>, &Raster<f32>) -> Raster<f32>) -> Raster<f32> {
         let (width, height) = (lightness.width(), lightness.height());
         let factor = (width.min(height) / FORM_SIDE).max(1);
@@ -53,7 +53,7 @@ impl Drawer<'_> {
         unit(&bent).zip_map(lightness, |form, light| ((1.0 - NEAR_IS_LIGHT) * form + NEAR_IS_LIGHT * light).max(1e-4))
     }
 
-    /// The tone of the relief under a lamp far away (Lambert): the cosine between the surface's normal and the light.
+    /// Tone of the relief under a distant lamp (Lambert): the cosine between the surface's normal and the light.
     pub(super) fn lit(&self, relief: &Relief) -> Raster<f32> {
         let height = self.pixels(self.parameters.relief) as f32;
         let (sin, cos) = self.parameters.light_height.to_radians().sin_cos();
@@ -69,7 +69,7 @@ impl Drawer<'_> {
     }
 }
 
-/// A single region that fills the picture with the picture's rim as its border; others as they are.
+/// If a single region fills the picture, makes the picture's rim its border; other labels are unchanged.
 fn framed(regions: &Raster<i32>) -> Raster<i32> {
     let first = regions.get(0, 0);
     if regions.pixels().iter().any(|&label| label != first) {

@@ -1,17 +1,17 @@
-//! The regions as places on the page: how far inside its region a point lies, and what a raster says there.
+//! The regions on the page: how far inside its region a point lies, and raster values there.
 
 use super::lines::{FIT_ROOM, Frame};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::Placement;
 
-/// Lines end this far within the picture: the room that their curves have, so that none bulges over the rim, is cut there and
-/// comes too near to itself.
+/// Lines end this far inside the picture: the tolerance of their curves, so that no curve bulges over the rim, is cut there and comes
+/// too close to itself.
 const RIM: f64 = FIT_ROOM;
-/// What distances to curved borders, read between pixels, may be off, in pixels.
+/// Error of distances to curved borders interpolated between pixels, in pixels.
 const BORDER_ERROR: f64 = 0.25;
 
-/// Working rasters read at places on the page, in millimetres.
+/// Reads working rasters at places on the page, in millimetres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     picture: Rect,
@@ -44,7 +44,7 @@ impl Grid {
         (p.x - r.x0).min(r.x1 - p.x).min((p.y - r.y0).min(r.y1 - p.y)) - RIM
     }
 
-    /// The same for the upright and the level sides each.
+    /// The same, separately for the vertical and the horizontal sides.
     pub(super) fn inside_sides(&self, p: Point) -> [f64; 2] {
         let r = self.picture;
         [(p.x - r.x0).min(r.x1 - p.x) - RIM, (p.y - r.y0).min(r.y1 - p.y) - RIM]
@@ -57,7 +57,7 @@ pub(super) struct Region {
     pub label: i32,
     /// Direction of its lines in degrees, anticlockwise from the right.
     pub angle: f64,
-    /// Around it, on the page.
+    /// Bounding box on the page.
     pub bounds: Rect,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct Region {
 #[derive(Clone, Debug)]
 pub(super) struct Ground {
     pub grid: Grid,
-    /// The region of each pixel; 0 is left bare.
+    /// The region of each pixel; 0 stays bare.
     pub labels: Raster<i32>,
     /// Distance to the nearest border of a region, in millimetres.
     pub border: Raster<f32>,
@@ -74,28 +74,28 @@ pub(super) struct Ground {
     pub angles: Vec<f64>,
     /// How far lines are displaced, in millimetres.
     pub displacement: Raster<f32>,
-    /// How far lines run on into another region, in millimetres.
+    /// How far lines extend into another region, in millimetres.
     pub overlap: f64,
-    /// Least distance of lines, in millimetres.
+    /// Minimum distance of lines, in millimetres.
     pub gap: f64,
-    /// Nearer to a border than this it matters what is beyond, in millimetres.
+    /// Distance to a border below which the region beyond it matters, in millimetres.
     pub near: f64,
 }
 
-/// Least angle of two regions' lines where they meet, in degrees, for them to overlap: at less they would run side by side.
-/// With that of the lines before they are displaced, a photograph's superpixels had pairs side by side for two and a half pitches.
+/// Minimum angle between two regions' lines where they meet, in degrees, for them to overlap; at smaller angles they would run side by
+/// side. With the angle before displacement, a photograph's superpixels had pairs side by side for two and a half pitches.
 const LEAST_ANGLE: f64 = 30.0;
-/// Rounds in which the place is found that a displaced line comes from; it moves by less than the last of them at most slopes.
+/// Fixed-point rounds that find the origin of a displaced line; on most slopes the origin hardly moves in the last round.
 const BACK_ROUNDS: usize = 3;
 
-/// Between two lines, in degrees, 0 to 90.
+/// Angle between two lines, in degrees, 0 to 90.
 pub(super) fn angle_between(a: f64, b: f64) -> f64 {
     let apart = (a - b).rem_euclid(180.0);
     apart.min(180.0 - apart)
 }
 
 impl Ground {
-    /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is no border.
+    /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is not a border.
     pub(super) fn inside_region(&self, label: i32, p: Point) -> f64 {
         let pixel = self.grid.pixel(p);
         let (fx, fy) = (pixel.x - 0.5, pixel.y - 0.5);
@@ -111,8 +111,9 @@ impl Ground {
         top * (1.0 - ty) + bottom * ty
     }
 
-    /// How far a region's lines, turned by `turn` degrees for those that cross, may run on beyond the border that is nearest to a place: the overlap into a region whose lines
-    /// have another direction, a little less than to the border of one whose lines have nearly the same, which would meet them.
+    /// How far a region's lines may extend beyond the border nearest to a place; `turn` is the angle of cross lines in degrees. They
+    /// overlap a region with another line direction, and end just before the border of a region with nearly the same direction, whose
+    /// lines would meet them.
     fn leave(&self, label: i32, turn: f64, p: Point, inside: f64) -> f64 {
         if !self.has_neighbours() || inside > self.near || inside < -self.overlap - self.gap {
             return 0.0;
@@ -123,7 +124,7 @@ impl Ground {
         };
         let pixel = self.grid.pixel_mm();
         let (here, other) = if inside > 0.0 { (label, across(-inside - pixel)) } else { (across(pixel - inside), across(0.0)) };
-        // Outside, the nearest border may be one between two other regions.
+        // Outside, the nearest border may lie between two other regions.
         if other <= 0 || other == label || here != label {
             0.0
         } else if self.overlap > 0.0 && self.angle_of_lines([label, other], turn, p) >= LEAST_ANGLE {
@@ -133,40 +134,40 @@ impl Ground {
         }
     }
 
-    /// How far inside what a region's lines may reach a place lies, and inside the picture; below 0 outside. And what of that is
-    /// beyond the region's border, or lacks to it.
+    /// How far inside the reach of a region's lines, and inside the picture, a place lies; below 0 outside. The second value is the part
+    /// of that beyond the region's border, negative if the lines end before it.
     pub(super) fn reach(&self, label: i32, turn: f64, p: Point) -> (f64, f64) {
         let inside = self.inside_region(label, p);
         let leave = self.leave(label, turn, p, inside);
         ((inside + leave).min(self.grid.inside_picture(p)), leave)
     }
 
-    /// How far inside what a region's ink may cover a place lies; the picture's rim is no border.
+    /// How far inside the area that a region's ink may cover a place lies; the picture's rim is not a border.
     pub(super) fn cover(&self, label: i32, turn: f64, p: Point) -> f64 {
         let inside = self.inside_region(label, p);
         inside + self.leave(label, turn, p, inside).max(0.0)
     }
 
-    /// Between two regions' lines at a place, in degrees: as they are laid, or as they are displaced, whichever is less.
+    /// Angle between two regions' lines at a place, in degrees: before or after displacement, whichever is smaller.
     fn angle_of_lines(&self, labels: [i32; 2], turn: f64, p: Point) -> f64 {
         let laid = labels.map(|label| self.angles[label as usize - 1] + turn);
         let [a, b] = laid.map(|angle| angle + self.bend(angle, p));
         angle_between(a, b).min(angle_between(laid[0], laid[1]))
     }
 
-    /// How far displacement turns lines of a direction at a place, in degrees anticlockwise.
+    /// Angle by which displacement turns lines of a direction at a place, in degrees anticlockwise.
     fn bend(&self, degrees: f64, p: Point) -> f64 {
         let frame = Frame::new(degrees);
         let displacement = |p: Point| f64::from(self.grid.read(&self.displacement, p));
         let (u, v) = frame.place(p);
-        // Lines are displaced by what is read at the place that they come from.
+        // A line is displaced by the value at its undisplaced place.
         let origin = (0..BACK_ROUNDS).fold(v, |origin, _| v - displacement(frame.to_page(u, origin)));
         let step = self.grid.pixel_mm();
         let rise = displacement(frame.to_page(u + step, origin)) - displacement(frame.to_page(u - step, origin));
         (0.5 * rise / step).atan().to_degrees()
     }
 
-    /// Towards the inside of a region.
+    /// Direction towards the inside of a region.
     pub(super) fn inwards(&self, label: i32, p: Point) -> Vec2 {
         let h = 0.5 * self.grid.pixel_mm();
         let along = |step: Vec2| self.inside_region(label, p + step) - self.inside_region(label, p - step);

@@ -1,9 +1,9 @@
-//! Parallel lines displaced by depth (Galarza 2017, sections 3.5 and 3.6), kept in order and apart.
+//! Parallel lines displaced by depth (Galarza 2017, sections 3.5 and 3.6), kept in order and at a minimum distance.
 
 use crate::geometry::{Gap, Point, Rect, Vec2};
 use rayon::prelude::*;
 
-/// Axes along and across the lines of one direction, in page millimetres; across points to the left of along as seen on the page.
+/// Axes along and across the lines of one direction, in page millimetres; across points to the left of along on the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     along: Vec2,
@@ -35,24 +35,24 @@ impl Frame {
     }
 }
 
-/// One line: heights at every column, and how far it is there.
+/// One line: its height and presence at every column.
 #[derive(Clone, Debug)]
 pub(super) struct Line {
     /// Its first column.
     pub first: usize,
     /// Heights across, in millimetres, from its first column on.
     pub heights: Vec<f64>,
-    /// 1 where it is drawn in full, 0 where it is not there, between where it tapers.
+    /// 1 where it is drawn in full, 0 where it is absent, between where it tapers.
     pub presence: Vec<f32>,
 }
 
-/// How the lines of one family are laid, in millimetres.
+/// Layout of one family's lines, in millimetres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Laying {
     pub pitch: f64,
     pub sampling: f64,
     pub min_gap: f64,
-    /// Least and greatest displacement anywhere.
+    /// Minimum and maximum displacement.
     pub displaced: (f64, f64),
 }
 
@@ -60,31 +60,31 @@ pub(super) struct Laying {
 #[derive(Clone, Debug)]
 pub(super) struct Family {
     pub frame: Frame,
-    /// Where the first column stands, along.
+    /// Position of the first column along the lines.
     pub first: f64,
-    /// Distance of columns.
+    /// Distance between columns.
     pub step: f64,
     pub columns: usize,
     pub pitch: f64,
     pub gap: Gap,
     pub lines: Vec<Line>,
-    /// Which of the lines are base lines, those a pitch apart before they are displaced.
+    /// Indices of the base lines, which are one pitch apart before displacement.
     pub bases: Vec<usize>,
-    /// The number of the lowest base line, counted from the page's origin.
+    /// Number of the lowest base line, counted from the page's origin.
     pub first_base: i64,
 }
 
-/// Room for the fit of curves to the lines, on either side, in millimetres.
+/// Tolerance of the curves fitted to the lines, on either side, in millimetres.
 pub(super) const FIT_ROOM: f64 = 0.005;
 
 impl Family {
-    /// The base lines over a part of the page, each moved across by `displacement` at the place where it would be without.
+    /// The base lines over a part of the page, each moved across by `displacement` at its undisplaced place.
     pub(super) fn new(frame: Frame, page: Rect, laying: Laying, displacement: impl Fn(Point) -> f64 + Sync) -> Self {
         let bounds = frame.bounds(page);
         let gap = Gap::new(laying.min_gap + 2.0 * FIT_ROOM);
         let first = ((bounds.x0 - laying.pitch) / gap.step).floor() * gap.step;
         let columns = ((bounds.x1 + laying.pitch - first) / gap.step).ceil() as usize + 1;
-        // From so far outside that displacement leaves no margin empty.
+        // Starts so far outside that displacement leaves no margin empty.
         let first_base = ((bounds.y0 - laying.displaced.1) / laying.pitch).floor() as i64 - 1;
         let last_base = ((bounds.y1 - laying.displaced.0) / laying.pitch).ceil() as i64 + 1;
         let wanted: Vec<Vec<f64>> = (first_base..=last_base)
@@ -100,7 +100,7 @@ impl Family {
         Self { frame, first, step: gap.step, columns, pitch: laying.pitch, gap, lines, bases, first_base }
     }
 
-    /// Which base line passes at a place, with the fraction of the way to the next; `hint` is an index near to it, which is moved.
+    /// Index of the base line at a place, with the fraction of the way to the next; `hint` is a nearby index and is updated.
     pub(super) fn index_at(&self, p: Point, hint: &mut usize) -> f64 {
         let (u, v) = self.frame.place(p);
         let column = (((u - self.first) / self.step).round().max(0.0) as usize).min(self.columns - 1);
@@ -119,7 +119,7 @@ impl Family {
     }
 }
 
-/// Heights at every column of the Catmull-Rom spline through those at every `sampling`.
+/// Heights at every column, from a Catmull-Rom spline through the heights at every `sampling`.
 fn displaced(first: f64, step: f64, columns: usize, sampling: f64, height: impl Fn(f64) -> f64) -> Vec<f64> {
     let start = (first / sampling).floor() - 1.0;
     let end = ((first + step * columns as f64) / sampling).ceil() + 2.0;

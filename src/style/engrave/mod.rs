@@ -1,5 +1,5 @@
-//! The engraving: parallel lines that depth bends over the form, that swell with the dark, cross where it is darkest and break
-//! into dots where it is light (Galarza 2017).
+//! The engraving: parallel lines, bent over the form by depth, that swell in dark tones, cross in the darkest and break into dots in
+//! light ones (Galarza 2017).
 
 mod alike;
 mod angles;
@@ -33,8 +33,8 @@ use relief::Relief;
 use tones::Layers;
 use widths::{Courses, Wanted};
 
-/// An engraving's lines are whole from this part of the ink at which they are crossed: at 1 the cuts begin beside the crossings
-/// and cloth at half tone is speckled with both.
+/// An engraving's lines are unbroken from this share of the ink at which they are crossed: at 1 the cuts begin beside the crossings and
+/// cloth at half tone is speckled with both.
 const WHOLE_LINES: f64 = 0.75;
 
 /// The style.
@@ -88,7 +88,7 @@ impl Style for Engrave {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Engraving,
@@ -96,17 +96,17 @@ struct Drawer<'a> {
     observer: &'a dyn Observer,
 }
 
-/// Marks of the lines and of those that cross them.
+/// Marks of the lines and of the cross lines.
 type Marks = [Vec<Mark>; 2];
 
 impl Drawer<'_> {
-    /// The thesis' steps in its order.
+    /// The thesis' steps in order.
     fn draw(&self) -> Result<Drawing, StyleError> {
         let relief = self.relief();
         let ink = self.ink(&relief);
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
-            let why = "the picture, or the part inside the subject mask and with a known depth, asks for no ink anywhere";
+            let why = "the picture, or the part inside the subject mask and with a known depth, needs no ink anywhere";
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         let layers = tones::layers(&ink, self.parameters.look, self.parameters.threshold);
@@ -135,7 +135,7 @@ impl Drawer<'_> {
         if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
     }
 
-    /// The wanted ink; on black paper the lines are the light.
+    /// The target ink; on black paper the lines are the light.
     fn ink(&self, relief: &Relief) -> Raster<f32> {
         let tone = if self.parameters.is_lit { self.lit(relief) } else { self.portrait.on_white(&self.portrait.tone) };
         let ink = if self.parameters.is_on_black { tone } else { tone.map(|t| 1.0 - t) };
@@ -201,7 +201,7 @@ impl Drawer<'_> {
         let p = &self.parameters;
         let (look, grid) = (p.look, ground.grid);
         let (thinnest, dot_min, threshold) = (p.thinnest, p.dot_min, p.threshold);
-        // Stipples stand as near to each other along a line as across.
+        // Stipples have the same spacing along a line as across.
         let (cut_out, period) = (p.cut_out, if look == Look::Stipple { 1.0 } else { (p.dash / p.pitch).max(0.25) });
         move |between| Breaking {
             between,

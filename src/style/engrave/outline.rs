@@ -6,10 +6,10 @@ use crate::field::{Curve, LineParameters, edge_tangent_flow, flow_lines, lines_o
 use crate::geometry::{catmull_rom, resample};
 use crate::raster::{gaussian_blur, thin};
 
-/// Kang's window and rounds.
+/// Kang's window radius and number of rounds.
 const FLOW_RADIUS: usize = 5;
 const FLOW_ROUNDS: u32 = 3;
-/// Shortest outline and the distance of its nodes, in pitches.
+/// Minimum length of an outline and the distance of its nodes, in pitches.
 const LEAST_LENGTH: f64 = 5.0;
 const NODE_SPACING: f64 = 1.5;
 

@@ -3,48 +3,48 @@
 use crate::source::MaskRole;
 use crate::style::{Default, Kind, Need, Parameter, Settings};
 
-/// Working pixels a pitch.
+/// Working pixels per pitch.
 pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
 
-/// Depth bends the lines, or is the picture.
+/// Depth bends the lines or gives the tone.
 const DEPTH_COUNTS: Need = Need::AnyOf(&[&[Need::Nonzero("displacement")], &[Need::Word("tone_from", &["depth"])]]);
 /// Lines that can break.
 const NOT_STIPPLED: Need = Need::Word("look", &["crosshatch", "engraving", "hatch", "net", "contour"]);
 
-/// All that a user can set.
+/// All parameters of the style.
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "pitch",
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
-        meaning: "distance of neighbouring lines where the depth is flat",
+        meaning: "distance between neighbouring lines where the depth is flat",
         source: "Galarza 3.5.1, delta_y",
         needs: &[],
     },
     Parameter {
         name: "look",
         kind: Kind::Choice(&["crosshatch", "engraving", "hatch", "net", "stipple", "contour"]),
-        meaning: "crosshatch: swelling lines, crossed in the dark, dots in the light; engraving: the same, and white lines cut through them in the half light; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in the shade only",
+        meaning: "crosshatch: swelling lines, crossed in dark tones, dots in light tones; engraving: the same, with white lines cut through them in half tones; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in shadows only",
         source: "Galarza 4.1 and 4.4",
         needs: &[],
     },
     Parameter {
         name: "displacement",
         kind: Kind::Length { default: Default::Pitches(14.0), least: -1000.0, most: 1000.0 },
-        meaning: "how far the nearest depth moves a line to its left (up, at angle 0)",
+        meaning: "how far the nearest depth shifts a line to its left (up at angle 0)",
         source: "Galarza 3.5.1, phi, equation 3.5",
         needs: &[],
     },
     Parameter {
         name: "sampling",
         kind: Kind::Length { default: Default::Pitches(0.5), least: 0.01, most: 100.0 },
-        meaning: "distance of the depths that a line is bent by; larger draws rounder, simpler lines",
+        meaning: "distance between the depth samples that bend a line; larger draws rounder, simpler lines",
         source: "Galarza 3.5.1, delta_x",
         needs: &[],
     },
     Parameter {
         name: "width_max",
         kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 100.0 },
-        meaning: "greatest width of a line; too little loses the darkest tones",
+        meaning: "maximum width of a line; too small a value loses the darkest tones",
         source: "Galarza 3.7, f_w",
         needs: &[],
     },
@@ -69,7 +69,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "cross_angle",
         kind: Kind::Number { default: 90.0, least: 10.0, most: 170.0 },
-        meaning: "from the lines to those that cross them, in degrees",
+        meaning: "angle from the lines to the crossing lines, in degrees",
         source: "Galarza 3.6, alpha",
         needs: &[Need::AnyOf(&[
             &[Need::Word("look", &["crosshatch", "engraving", "net"])],
@@ -79,7 +79,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "regions",
         kind: Kind::Choice(&["auto", "one", "superpixels"]),
-        meaning: "what has lines of its own direction: auto is the scribbles where a mask scribbles is given, else one; superpixels are small regions of like colour",
+        meaning: "regions with a line direction of their own: auto takes the scribbles mask if given, else one region; superpixels are small regions of similar colour",
         source: "Galarza 3.3",
         needs: &[],
     },
@@ -93,14 +93,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "angles",
         kind: Kind::Choice(&["auto", "given", "flow", "random", "hue"]),
-        meaning: "direction in each region: the angle given; along the edges' flow; random; hue: half the hue of its scribble (red 0, yellow 30, green 60, cyan 90, blue 120, magenta 150 degrees); auto is flow for superpixels, hue for scribbles, else given",
+        meaning: "line direction in each region: given is the angle parameter; flow follows the edges; random; hue is half the hue of its scribble (red 0, yellow 30, green 60, cyan 90, blue 120, magenta 150 degrees); auto is flow for superpixels, hue for scribbles, else given",
         source: "Galarza 3.3.1 and 3.4",
         needs: &[],
     },
     Parameter {
         name: "overlap",
         kind: Kind::Length { default: Default::Millimetres(0.0), least: 0.0, most: 100.0 },
-        meaning: "how far lines run on into a region whose lines have another direction; 0.2 mm closes most seams, and lines cross there",
+        meaning: "how far lines extend into a region with another line direction; 0.2 mm closes most seams, but lines cross there",
         source: "Galarza 3.7, dilation of the masks",
         needs: &[Need::AnyOf(&[
             &[Need::Word("regions", &["superpixels"])],
@@ -110,35 +110,35 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "min_gap",
         kind: Kind::Length { default: Default::Pitches(0.25), least: 0.001, most: 50.0 },
-        meaning: "least distance of neighbouring lines of a layer, centre to centre; at least a tenth of the pitch, at most three quarters",
+        meaning: "minimum distance between neighbouring lines of a layer, centre to centre; limited to between a tenth and three quarters of the pitch",
         source: "the thesis lists crossing lines as its limit (4.2.2)",
         needs: &[],
     },
     Parameter {
         name: "smoothing",
         kind: Kind::Length { default: Default::Pitches(0.6), least: 0.0, most: 100.0 },
-        meaning: "smoothing of the depth within its edges",
+        meaning: "edge-preserving smoothing of the depth",
         source: "Galarza 5.1 asks for depth without noise",
         needs: &[DEPTH_COUNTS],
     },
     Parameter {
         name: "depth_from",
         kind: Kind::Choice(&["shape", "inflate", "luminance"]),
-        meaning: "without a depth map: shape bulges the regions and bends them by their shading, for portraits; inflate only bulges the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance takes light for near, for textures and reliefs",
+        meaning: "source of depth without a depth map: shape inflates the regions and bends them by their shading, for portraits; inflate only inflates the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance treats light as near, for textures and reliefs",
         source: "Galarza 4.4 and 5.2",
         needs: &[Need::WithoutDepth, DEPTH_COUNTS],
     },
     Parameter {
         name: "tone_from",
         kind: Kind::Choice(&["photo", "depth"]),
-        meaning: "depth: the tone is the depth map lit by a lamp, for when there is no photograph",
+        meaning: "source of the tone: photo is the photograph; depth is the depth map lit by a lamp, for use without a photograph",
         source: "Galarza 3.2",
         needs: &[],
     },
     Parameter {
         name: "light_azimuth",
         kind: Kind::Number { default: 135.0, least: -360.0, most: 360.0 },
-        meaning: "where the lamp stands: degrees anticlockwise from the right (135: upper left); also the light that depth_from=shape assumes",
+        meaning: "direction of the lamp: degrees anticlockwise from the right (135: upper left); also the light that depth_from=shape assumes",
         source: "Galarza 3.2",
         needs: &[Need::AnyOf(&[
             &[Need::Word("tone_from", &["depth"])],
@@ -148,7 +148,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "light_height",
         kind: Kind::Number { default: 45.0, least: 5.0, most: 90.0 },
-        meaning: "how high the lamp stands, in degrees above the page",
+        meaning: "height of the lamp, in degrees above the page",
         source: "Galarza 3.2",
         needs: &[Need::Word("tone_from", &["depth"])],
     },
@@ -162,42 +162,42 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "thinnest",
         kind: Kind::Length { default: Default::Pitches(0.14), least: 0.0, most: 50.0 },
-        meaning: "width below which a line breaks into dashes and dots; 0 never",
+        meaning: "width below which a line breaks into dashes and dots; 0 for never",
         source: "the engraver's dotted ends",
         needs: &[NOT_STIPPLED],
     },
     Parameter {
         name: "dash",
         kind: Kind::Length { default: Default::Pitches(1.5), least: 0.01, most: 1000.0 },
-        meaning: "from one dash to the next along a line that is interrupted",
+        meaning: "distance from one dash to the next along a broken line",
         source: "Galarza 4.1",
         needs: &[NOT_STIPPLED, Need::AnyOf(&[&[Need::Word("look", &["engraving"])], &[Need::Above("thinnest", 0.0)]])],
     },
     Parameter {
         name: "cut_out",
         kind: Kind::Number { default: 0.3, least: 0.0, most: 0.9 },
-        meaning: "with look=engraving: how much of a line's length the white crossing lines take out of it in the light",
+        meaning: "with look=engraving: share of a line's length that the white crossing lines remove in light tones",
         source: "Galarza 4.1: hatching less thick crosshatching",
         needs: &[Need::Word("look", &["engraving"])],
     },
     Parameter {
         name: "dot_min",
         kind: Kind::Length { default: Default::Pitches(0.12), least: 0.0, most: 50.0 },
-        meaning: "diameter of the smallest dot; what asks for less has fewer dots",
+        meaning: "diameter of the smallest dot; lighter tones have fewer dots instead of smaller ones",
         source: "",
         needs: &[],
     },
     Parameter {
         name: "ground",
         kind: Kind::Choice(&["white", "black"]),
-        meaning: "black: white lines on black paper",
+        meaning: "paper colour; black draws white lines on black paper",
         source: "Galarza 4.4, figure 4.14",
         needs: &[],
     },
     Parameter {
         name: "outline",
         kind: Kind::Choice(&["off", "on"]),
-        meaning: "draw the photograph's coherent lines on top; their ink comes on top of the tone",
+        meaning: "draw the photograph's coherent lines on top; their ink adds to the tone",
         source: "Galarza 5.2; Kang et al. 2007",
         needs: &[],
     },
@@ -210,7 +210,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
 ];
 
-/// How lines are laid.
+/// How lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Look {
     Engraving,
@@ -221,7 +221,7 @@ pub(super) enum Look {
     Contour,
 }
 
-/// Where depth comes from when no map is given.
+/// Source of depth without a depth map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DepthFrom {
     Shape,

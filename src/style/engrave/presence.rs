@@ -1,25 +1,25 @@
-//! More lines where displacement opens the spacing, fewer where it closes it: both taper.
+//! More lines where displacement widens the spacing, fewer where it narrows it; their ends taper.
 
 use super::lines::{Family, Line};
 use rayon::prelude::*;
 
-/// Spacing above which a line is put between two, in pitches.
+/// Spacing above which a line is inserted between two, in pitches.
 const OPEN: f64 = 1.5;
-/// Spacing at which it ends, so that it does not come and go.
+/// Spacing below which it ends; the hysteresis keeps it from coming and going.
 const OPEN_ENOUGH: f64 = 1.3;
 /// Mean spacing below which every second line ends, in pitches: at 0.4 dark hollows fill up, at 0.7 the ends show as a seam.
 const CLOSED: f64 = 0.5;
-/// Mean spacing above which it goes on.
+/// Mean spacing above which it continues.
 const CLOSED_NO_MORE: f64 = 0.6;
-/// Least length of an inserted line or of an interruption, in pitches.
+/// Minimum length of an inserted line or of an interruption, in pitches.
 const LEAST_LENGTH: f64 = 3.0;
-/// Over which a line tapers, in pitches.
+/// Length over which a line tapers, in pitches.
 const TAPER: f64 = 2.0;
-/// How often lines may double or halve.
+/// Maximum number of times that lines double or halve.
 const LEVELS: usize = 5;
 
 impl Family {
-    /// Ends every second line where lines are pressed together, and every second of the rest where that is not enough.
+    /// Ends every second line where lines are pressed together, and repeats with every second of the rest where that is not enough.
     pub(super) fn thin_out(&mut self) {
         for level in 1..=LEVELS {
             let apart = 1_i64 << (level - 1);
@@ -38,7 +38,7 @@ impl Family {
         }
     }
 
-    /// The presence of base line `k`, given those `reach` below and above; none when it is there all along.
+    /// The presence of base line `k`, given those `reach` below and above; none if it is present everywhere.
     fn ends_between(&self, k: usize, reach: usize) -> Option<Vec<f32>> {
         let (below, above) = (&self.lines[k - reach].heights, &self.lines[k + reach].heights);
         let limit = |of: f64| 2.0 * of * self.pitch;
@@ -60,7 +60,7 @@ impl Family {
         Some(presence)
     }
 
-    /// Puts tapered lines between those that are too far apart.
+    /// Inserts tapered lines between those that are too far apart.
     pub(super) fn fill_in(&mut self) {
         let bases = std::mem::take(&mut self.lines);
         let between: Vec<Vec<Line>> =
@@ -74,9 +74,9 @@ impl Family {
         }
     }
 
-    /// The lines between two curves whose first column is `first`, in order.
+    /// Tapered lines between two curves whose first column is `first`, in order.
     fn between(&self, first: usize, below: &[f64], above: &[f64], levels: usize) -> Vec<Line> {
-        // Most pairs are nowhere too far apart.
+        // Shortcut: most pairs are nowhere too far apart.
         if levels == 0 || below.iter().zip(above).all(|(a, b)| b - a <= OPEN * self.pitch) {
             return Vec::new();
         }
@@ -104,8 +104,8 @@ impl Family {
         raised == heights && sunk == heights
     }
 
-    /// Presence of an inserted line of so many columns; what ends at the first or last column of all does not taper there. Its
-    /// neighbours were looked at between its ends only, so it is not there so near to them that what is beyond could matter.
+    /// Presence of an inserted line of `columns` columns; it does not taper at the family's first or last column. Its neighbours are
+    /// known only between its ends, so it is absent close to its ends.
     fn tapered(&self, columns: usize, first: usize, end: usize) -> Vec<f32> {
         let taper = (TAPER * self.pitch / self.step).max(1.0);
         let seen = |columns: usize| columns.saturating_sub(self.gap.reach()) as f64;
@@ -118,7 +118,7 @@ impl Family {
             .collect()
     }
 
-    /// Runs of columns for which `holds`, given the distance of two curves across their direction and whether it held before.
+    /// Runs of columns for which `holds` is true, given the perpendicular distance of two curves and whether it held before.
     fn spaced(&self, below: &[f64], above: &[f64], holds: impl Fn(f64, bool) -> bool) -> Vec<(usize, usize)> {
         let mut runs = Vec::new();
         let mut start = None;
@@ -141,7 +141,7 @@ impl Family {
     }
 }
 
-/// Runs with those nearer than `least` made one, so that no line ends beside the start of the next.
+/// Runs, those nearer than `least` merged, so that no line ends beside the start of the next.
 fn joined(runs: Vec<(usize, usize)>, least: usize) -> Vec<(usize, usize)> {
     let mut joined: Vec<(usize, usize)> = Vec::with_capacity(runs.len());
     for run in runs {

@@ -1,4 +1,4 @@
-//! Step 3: regions, each with lines of a direction of its own (Galarza 2017, sections 3.3 and 3.4).
+//! Step 3: regions, each with its own line direction (Galarza 2017, sections 3.3 and 3.4).
 
 use super::Drawer;
 use super::alike::join_alike;
@@ -10,9 +10,9 @@ use crate::geometry::{Rect, Vec2};
 use crate::raster::{Raster, gaussian_blur, sobel};
 use rayon::prelude::*;
 
-/// Distance to a border where there is none, in millimetres.
+/// Distance used if there is no border, in millimetres.
 const NO_BORDER: f32 = 1e6;
-/// Standard deviation of the smoothing of regions' borders, in pitches: less leaves the pixels' stairs, more rounds off corners.
+/// Standard deviation of the smoothing of regions' borders, in pitches: less leaves pixel stairs, more rounds off corners.
 const BORDER_SMOOTHING: f64 = 0.5;
 /// SLIC's compactness for CIE Lab from 0 to 100, and its rounds (Achanta et al. 2012).
 const COMPACTNESS: f32 = 10.0;
@@ -33,7 +33,7 @@ impl Drawer<'_> {
         curves.extend(silhouette);
         let border = distance_to_curves(&curves, placement.columns, placement.rows)
             .map_or_else(|| labels.map(|_| NO_BORDER), |field| field.distance.map(|d| d * scale));
-        // A single region has no neighbour to run into.
+        // A single region has no neighbour to overlap.
         let overlap = if angles.len() > 1 { self.parameters.overlap } else { 0.0 };
         let regions = bounds_of(&labels, angles.len() as i32)
             .into_iter()
@@ -49,7 +49,7 @@ impl Drawer<'_> {
         Ground { grid: Grid::new(placement), labels, border, regions, angles, displacement, overlap, gap, near }
     }
 
-    /// Labels from 1, none for a single region, and the direction of each; superpixels of nearly the same direction are one.
+    /// Labels from 1, none for a single region, and the direction of each; superpixels of nearly the same direction are merged.
     fn directed_parts(&self, cover: &Raster<f32>) -> (Option<Raster<i32>>, Vec<f64>) {
         let Some(parts) = self.parts() else {
             return (None, self.angles(&cover.map(|_| 1).zip_map(cover, drawn_label), 1));
@@ -83,11 +83,11 @@ impl Drawer<'_> {
         let smoothed = gaussian_blur(&self.portrait.lightness, 1.5);
         let slope = sobel(&smoothed).map(|[x, y]| x.hypot(y));
         let steepest = slope.pixels().iter().copied().fold(1e-6, f32::max);
-        // The root tells faint edges apart, which most of a face's are.
+        // The root separates faint edges, which most of a face's are.
         Some(watershed(&slope.map(|s| (s / steepest).sqrt()), &scribbles.labels))
     }
 
-    /// The regions that bulge when there is no depth map: those scribbled, else the subject; 0 is background.
+    /// Regions to inflate without a depth map: the scribbles' regions, otherwise the subject; 0 is background.
     pub(super) fn great_regions(&self) -> Raster<i32> {
         let parts = self.flooded_scribbles().unwrap_or_else(|| self.portrait.subject.map(|_| 1));
         parts.zip_map(&self.portrait.subject, |label, subject| if subject >= 0.5 { label } else { 0 })
@@ -102,12 +102,12 @@ impl Drawer<'_> {
     }
 }
 
-/// The label of a pixel that is drawn, 0 of one that is not.
+/// The label of a drawn pixel; 0 if it is not drawn.
 fn drawn_label(label: i32, cover: f32) -> i32 {
     if cover >= 0.5 { label } else { 0 }
 }
 
-/// Regions with smooth borders: each pixel goes to the region whose blurred area is greatest there; and the borders as curves.
+/// Regions with smooth borders: each pixel goes to the region whose blurred area is largest there. Also returns the borders as curves.
 fn smooth_borders(labels: &Raster<i32>, sigma: f32) -> (Raster<i32>, Vec<Curve>) {
     let count = labels.pixels().iter().copied().max().unwrap_or(0);
     let pad = (3.5 * sigma).ceil() + 1.0;
@@ -120,7 +120,7 @@ fn smooth_borders(labels: &Raster<i32>, sigma: f32) -> (Raster<i32>, Vec<Curve>)
             Some(Patch { area: gaussian_blur(&patch.area, sigma), ..patch })
         })
         .collect();
-    // The greatest and the second greatest area at each pixel, and whose the greatest is.
+    // The largest and second largest area at each pixel, and the label of the largest.
     let mut best = labels.map(|_| (0.0_f32, 0.0_f32, 0_i32));
     for (i, patch) in blurred.iter().enumerate() {
         let Some(patch) = patch else { continue };
@@ -136,7 +136,7 @@ fn smooth_borders(labels: &Raster<i32>, sigma: f32) -> (Raster<i32>, Vec<Curve>)
     (best.map(|(_, _, label)| label), curves.collect())
 }
 
-/// A region's own part of the raster.
+/// The part of the raster around a region.
 struct Patch {
     left: usize,
     top: usize,
@@ -159,7 +159,7 @@ impl Patch {
         }
     }
 
-    /// Where the region's area equals the greatest of the others'.
+    /// Curves where the region's blurred area equals the largest of the others'.
     fn borders(&self, best: &Raster<(f32, f32, i32)>, label: i32) -> Vec<Curve> {
         let lead = Raster::from_fn(self.area.width(), self.area.height(), |x, y| {
             let (first, second, owner) = best.get(self.left + x, self.top + y);
@@ -171,7 +171,7 @@ impl Patch {
     }
 }
 
-/// For labels 1 to `count` the smallest rectangle around each, in pixels; none where a label is not there.
+/// The bounding box of each label from 1 to `count`, in pixels; none if the label does not occur.
 fn bounds_of(labels: &Raster<i32>, count: i32) -> Vec<Option<Rect>> {
     let mut bounds: Vec<Option<Rect>> = vec![None; count.max(0) as usize];
     for y in 0..labels.height() {

@@ -1,24 +1,24 @@
-//! Step 1: the depth that bends the lines, known everywhere and smooth, and what of the page is drawn.
+//! Step 1: the depth that bends the lines, smooth and continued everywhere, and the drawn part of the page.
 
 use super::Drawer;
 use crate::field::nearest_seed;
 use crate::raster::{Raster, bilateral, fast_gaussian, gaussian_blur};
 use crate::style::Picture;
 
-/// Difference of depth beyond which smoothing sees an edge, as a fraction of the whole range.
+/// Difference of depth that smoothing keeps as an edge, as a fraction of the whole range.
 const DEPTH_EDGE: f32 = 0.06;
-/// Blur of the known area's border, which is a staircase, in pixels.
+/// Blur of the known area's stair-stepped border, in pixels.
 const BORDER_BLUR: f32 = 0.8;
 
-/// Smoothing of the depth that is continued beyond what is known, reached at the same distance, in pitches: with half of it a curl's
-/// teeth still show, with twice it lines turn away before a silhouette.
+/// Smoothing of the depth continued beyond the known area, reached at the same distance, in pitches: with half of it the jags of a curl
+/// still show, with twice it lines turn away before a silhouette.
 const CONTINUED: f64 = 2.0;
 
-/// What bends the lines.
+/// The relief that bends the lines.
 pub(super) struct Relief {
-    /// Nearness, 0 to 1, continued beyond what is known.
+    /// Nearness, 0 to 1, continued beyond the known area.
     pub nearness: Raster<f32>,
-    /// How far each pixel is drawn, 0 to 1.
+    /// Share of each pixel that is drawn, 0 to 1.
     pub cover: Raster<f32>,
 }
 
@@ -39,7 +39,7 @@ impl Drawer<'_> {
         Relief { nearness, cover }
     }
 
-    /// Smoothed within its edges, then a little across them, so that no line has a corner.
+    /// Smooths within edges, then slightly across them, so that no line has a corner.
     fn smoothed(&self, depth: &Raster<f32>) -> Raster<f32> {
         let sigma = self.pixels(self.parameters.smoothing) as f32;
         if sigma <= 0.0 {
@@ -49,8 +49,8 @@ impl Drawer<'_> {
     }
 }
 
-/// Depth where there is none: that of the nearest place inside that has one, smoother the farther away. Lines are bent by what is
-/// read where they come from, which at a silhouette is outside: its teeth would show in them.
+/// Continues depth to unknown places: takes that of the nearest known place inside, smoother with distance. Lines are bent by the depth
+/// at their undisplaced place, which at a silhouette lies outside, so its jags would show in them.
 fn continued(depth: &Raster<f32>, cover: &Raster<f32>, smoothing: f32) -> Raster<f32> {
     let is_known = depth.zip_map(cover, |d, c| u8::from(d > 0.0 && c >= 0.5));
     let Some(nearest) = nearest_seed(&is_known) else { return depth.clone() };

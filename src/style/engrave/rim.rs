@@ -1,9 +1,9 @@
-//! The picture's rim: no ink reaches over it, by half a line's width neither.
+//! The picture's rim: no ink extends over it, not even half a line's width.
 //!
 //! ```text
 //!      rim  ______________________________________________
 //!             _____------------------------------|   |         a line that runs along the rim is as wide there as the
-//!           --------                             | <-|  ends   room on both sides of its middle; one that comes to
+//!           --------                             | <-|  ends   room on both sides of its middle; one that meets
 //!                   ----------___________________|   |         the rim ends where its square end's corner touches
 //! ```
 
@@ -11,16 +11,16 @@ use super::lines::{Family, Line};
 use super::widths::Courses;
 use crate::geometry::Vec2;
 
-/// Half the width in pitches that a line must have room for where it runs along the rim: with less it would be a hair that leaves
-/// its strip white, with more the strip beside the rim stays white.
+/// Minimum room in pitches, as half a line's width, for a line along the rim: with less it would be a hairline that leaves its strip
+/// white, with more the strip beside the rim stays white.
 const ALONG: f64 = 0.25;
-/// How much of a line's half width points at a side of the picture: up to the first it ends flat before it, with room for its greatest
-/// width (a narrowing would be a spike); from the second it runs along it.
+/// Share of a line's half width that points at a side of the picture: up to the first value the line ends flat before the side, with
+/// room for its maximum width (narrowing would leave a spike); from the second it runs along the side.
 const ENDS: f64 = 0.35;
 const RUNS: f64 = 0.7;
-/// Greatest width that is kept room for, in pitches; wider lines grow narrower at the rim.
+/// Maximum width for which room is kept, in pitches; wider lines narrow at the rim.
 const WIDEST: f64 = 1.5;
-/// What the fit of widths and ends may be off, in pitches.
+/// Tolerance of the fit of widths and ends, in pitches.
 const FITTED: f64 = 0.03;
 
 /// The rim as a line meets it.
@@ -28,7 +28,7 @@ const FITTED: f64 = 0.03;
 pub(super) struct Rim {
     /// Width in millimetres at which its ink touches the rim.
     pub width: f64,
-    /// How far the line is inside what it may be drawn in, in millimetres; below 0 outside.
+    /// How far the line is inside the drawable area, in millimetres; below 0 outside.
     pub inside: f64,
 }
 

@@ -1,25 +1,26 @@
-//! Where a line is inside its region: its spans from border to border (step 4 of the style).
+//! The spans of a line inside its region, from border to border (step 4 of the style).
 
 use super::lines::{Family, Line};
 use super::widths::{Course, Courses, READINGS};
 
-/// Nearer than this to a border with another region, in pitches, and along it, a line is left out: the other region's lines do
-/// the same, so that the two stay half a pitch apart.
+/// A line that runs along a border with another region, nearer than this (in pitches), is left out. The other region's lines do the
+/// same, so that the two stay half a pitch apart.
 const BORDER_ROOM: f64 = 0.26;
-/// Sine of the angle to a border below which a line runs along it: 20 degrees, since two lines may be 15 degrees apart.
+/// Sine of the angle to a border below which a line counts as running along it: 20 degrees, since two lines may be 15 degrees apart.
 const ALONG_BORDER: f64 = 0.34;
-/// Least sine of a line's angle to a border for what is left free there: at less a long end would give its ink to what is left.
+/// Minimum sine of a line's angle to a border when the gap before the border is computed: at smaller angles a long end would give all
+/// its ink to the rest.
 const MOST_LACKING: f64 = 0.3;
-/// A place this far beyond the rim, in millimetres, was cut there.
+/// A place no farther beyond the rim than this, in millimetres, was cut there.
 const ON_RIM: f64 = 1e-9;
-/// How far a line runs on over a border at least, if the overlap allows, in pitches: two that do so from both sides stay below
+/// Minimum length that a line extends over a border, if the overlap allows, in pitches: two lines that do so from both sides stay below
 /// two pitches together.
 const BESIDE: f64 = 0.9;
 /// Pieces shorter than this are left out, in pitches.
 const STUB: f64 = 0.5;
 
-/// A piece of a line inside its region, by place along; whether its two ends are cut by the border, and how much of the line
-/// is left free between each and the border.
+/// A piece of a line inside its region, by position along it; whether each end is cut by the border, and the length left free between
+/// each end and the border.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub from: f64,
@@ -29,7 +30,7 @@ pub(super) struct Span {
 }
 
 impl Courses<'_> {
-    /// Where a line is inside its region, and there.
+    /// The readings of a line where it is present and inside its region.
     pub(super) fn find(&self, line: &Line) -> Course {
         let first = line.first.div_ceil(self.stride);
         let end = (line.first + line.heights.len() - 1) / self.stride + 1;
@@ -47,7 +48,7 @@ impl Courses<'_> {
             .unzip();
         let mut is_in: Vec<bool> = inside.iter().map(|&s| s > 0.0).collect();
         if ground.has_neighbours() {
-            // Less what may be run over, more what is to be left free.
+            // Less the allowed overlap, plus the gap to leave free.
             let own: Vec<f64> = inside.iter().zip(&leave).map(|(inside, leave)| inside - leave).collect();
             self.leave_borders(line, first, &own, &mut is_in);
             if ground.overlap > 0.0 {
@@ -66,13 +67,13 @@ impl Courses<'_> {
         course
     }
 
-    /// Whether a line is absent at a reading and on both sides of it.
+    /// True if a line is absent at a reading and on both sides of it.
     fn is_gone(&self, line: &Line, r: usize) -> bool {
         let at = r * self.stride - line.first;
         line.presence[at.saturating_sub(1)] == 0.0 && line.presence[(at + 1).min(line.presence.len() - 1)] == 0.0
     }
 
-    /// Takes out what runs along a border for more than a pitch.
+    /// Removes readings that run along a border for more than a pitch.
     fn leave_borders(&self, line: &Line, first: usize, inside: &[f64], is_in: &mut [bool]) {
         let label = self.wanted.region.label;
         let room = BORDER_ROOM * self.family.pitch;
@@ -92,11 +93,11 @@ impl Courses<'_> {
         }
     }
 
-    /// Takes out what a line that crosses a border slantwise runs on too far beside the lines over there.
+    /// Shortens a line that crosses a border at a slant and extends too far beside the other region's lines.
     fn shorten_overlaps(&self, line: &Line, first: usize, own: &[f64], is_in: &mut [bool]) {
         let most = self.wanted.ground.overlap.max(BESIDE * self.family.pitch);
         let way = |i: usize| (self.point(line, first + i) - self.point(line, first + i - 1)).hypot();
-        // How far the line has run since it was inside, from either side.
+        // Length of line since it was inside, from either side.
         let mut away = vec![f64::INFINITY; own.len()];
         for i in 0..own.len() {
             away[i] = if own[i] > 0.0 { 0.0 } else { i.checked_sub(1).map_or(f64::INFINITY, |before| away[before] + way(i)) };
@@ -110,7 +111,7 @@ impl Courses<'_> {
     fn spans(&self, line: &Line, first: usize, inside: &[f64], leave: &[f64], is_in: &[bool]) -> Vec<Span> {
         let mut spans: Vec<Span> = Vec::new();
         for run in runs(is_in) {
-            // To where the border is crossed between two readings.
+            // Position at which the border is crossed between two readings.
             let crossing = |within: usize, beyond: Option<usize>| match beyond.filter(|&b| b < inside.len()) {
                 Some(b) if inside[b] <= 0.0 && inside[b] > -1.0 => {
                     let t = inside[within] / (inside[within] - inside[b]);
@@ -118,7 +119,7 @@ impl Courses<'_> {
                 }
                 _ => self.place(first + within),
             };
-            // What is left free before a border, along the line.
+            // Length left free before a border, along the line.
             let lacking = |within: usize, beyond: Option<usize>| match beyond.filter(|&b| b < inside.len()) {
                 Some(b) if inside[b] <= 0.0 && inside[b] > -1.0 => {
                     (-leave[b]).max(0.0) * self.step() / (inside[within] - inside[b]).max(MOST_LACKING * self.step())
@@ -135,7 +136,7 @@ impl Courses<'_> {
             spans.push(span);
         }
         let mut spans: Vec<Span> = spans.into_iter().flat_map(|span| self.on_page(line, span)).collect();
-        // A line that leaves its region and comes back keeps the gap to itself.
+        // A line that leaves its region and comes back leaves the gap without compensation.
         for i in 1..spans.len() {
             let short = 0.5 * (self.family.gap.distance - (spans[i].from - spans[i - 1].to)).max(0.0);
             spans[i - 1].to -= short;
@@ -145,8 +146,8 @@ impl Courses<'_> {
         spans
     }
 
-    /// The parts of a span that are inside the picture, looked at in every column: over noise a line may leave it and come back
-    /// between two readings.
+    /// The parts of a span inside the picture, checked at every column: over noise a line may leave it and come back between two
+    /// readings.
     fn on_page(&self, line: &Line, span: Span) -> Vec<Span> {
         let Family { first, step, .. } = *self.family;
         let column = |u: f64| (u - first) / step;
@@ -158,7 +159,7 @@ impl Courses<'_> {
         let mut open = (before.1 >= -ON_RIM).then_some(span);
         for u in places.chain(std::iter::once(span.to)) {
             let here = (u, inside(u));
-            // Where the rim is crossed, at the latest.
+            // Last position at which the rim can be crossed.
             let crossing = || before.0 + (here.0 - before.0) * (before.1 / (before.1 - here.1)).clamp(0.0, 1.0);
             match (open, here.1 >= -ON_RIM) {
                 (None, true) => {
@@ -185,7 +186,7 @@ impl Courses<'_> {
     }
 }
 
-/// Runs of what is true.
+/// Runs of true flags.
 fn runs(flags: &[bool]) -> Vec<std::ops::Range<usize>> {
     let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
     for (i, _) in flags.iter().enumerate().filter(|(_, flag)| **flag) {

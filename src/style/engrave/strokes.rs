@@ -5,14 +5,14 @@ use super::lines::{FIT_ROOM, Family, Line};
 use crate::drawing::{Dot, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, FitTolerance, Graph, GraphNode};
 
-/// Longest piece of a stroke's curve, in millimetres: longer ones are halved on nearly any form.
+/// Maximum length of a piece of a stroke's curve, in millimetres: longer ones are halved on nearly any form.
 const LONGEST_PIECE: f64 = 8.0;
-/// Greatest error of the width, as a fraction of the pitch; the ink is exact in the mean whatever this is.
+/// Maximum error of the width, as a fraction of the pitch; the mean ink is exact regardless.
 const WIDTH_TOLERANCE: f64 = 0.03;
-/// Widths below this are no ink, in millimetres.
+/// Widths below this draw no ink, in millimetres.
 const NO_INK: f64 = 1e-4;
 
-/// The mark of a piece; none when it has no ink.
+/// The mark of a piece; none if it has no ink.
 pub(super) fn mark(family: &Family, line: &Line, piece: &Piece) -> Option<Mark> {
     let graph = Graph { first: family.first + line.first as f64 * family.step, step: family.step, heights: &line.heights };
     match piece {

@@ -1,4 +1,4 @@
-//! The width that each line must have so that its ink is the tone's (step 6 of the style).
+//! The width of each line so that its ink makes the tone (step 6 of the style).
 
 use super::ground::{Ground, Region};
 use super::lines::{Family, Line};
@@ -7,42 +7,42 @@ use crate::geometry::Point;
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Courses are read at this many places a pitch.
+/// Readings per pitch along a line.
 pub(super) const READINGS: f64 = 8.0;
-/// Readings of tone from a line to the border of its strip.
+/// Tone samples from a line to the border of its strip.
 const DEPTHS: usize = 3;
-/// Farthest that a line answers for tone where it has no neighbour, in pitches: with less the picture's rim is too light, with
-/// more lines that end at a slanting border end in knobs.
+/// Maximum half-width of a line's strip on a side without a neighbour, in pitches: with less the picture's rim is too light, with more,
+/// lines that end at a slanted border end in knobs.
 const REACH: f64 = 0.7;
-/// A line farther away than this, in pitches, is no neighbour.
+/// Maximum distance of a neighbouring line, in pitches.
 const NEIGHBOURHOOD: f64 = 4.0;
-/// Rounds of smoothing of the widths along a line, each over a quarter of a pitch: without it fine texture makes lines shiver,
-/// with many it is lost.
+/// Rounds of smoothing the widths along a line, each over a quarter of a pitch: with none fine texture makes lines shiver, with many the
+/// texture is lost.
 const SMOOTHING_ROUNDS: usize = 2;
-/// Least share of a line's side that a border takes: along a border it is half the distance that counts.
+/// Minimum share of a line's side that a border takes: along a border half the distance counts.
 const LEAST_ACROSS: f64 = 0.1;
 
-/// What a family is to draw.
+/// Target of a family: its region, turn and ink.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'a> {
     pub ground: &'a Ground,
     pub region: Region,
-    /// How far the family's lines are turned against the region's own, in degrees anticlockwise.
+    /// Angle from the region's own lines to the family's, in degrees anticlockwise.
     pub turn: f64,
     /// Ink, 0 to 1, as a fraction of the paper.
     pub ink: &'a Raster<f32>,
     pub width_max: f64,
 }
 
-/// One line read at every few columns.
+/// Readings of one line at every few columns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
     /// The first reading; readings are numbered from the family's first column.
     pub first: usize,
     pub spans: Vec<Span>,
-    /// How far inside the region, in millimetres.
+    /// Distance inside the region, in millimetres.
     pub inside: Vec<f32>,
-    /// How far the line is there, 0 to 1.
+    /// Presence of the line, 0 to 1.
     pub weight: Vec<f32>,
     /// Ink of its strip, 0 to 1.
     pub ink: Vec<f32>,
@@ -50,7 +50,7 @@ pub(super) struct Course {
     pub width: Vec<f32>,
     /// Width at which it touches a neighbour.
     pub room: Vec<f32>,
-    /// Length of the line for each millimetre along.
+    /// Length of the line per millimetre along the axis.
     pub stretch: Vec<f32>,
     /// Width of its strip, halfway to its neighbours on both sides, in millimetres.
     pub strip: Vec<f32>,
@@ -60,7 +60,7 @@ pub(super) struct Course {
 pub(super) struct Courses<'a> {
     pub family: &'a Family,
     pub wanted: Wanted<'a>,
-    /// Columns from one reading to the next.
+    /// Columns per reading.
     pub stride: usize,
     /// One for each line of the family.
     pub lines: Vec<Course>,
@@ -84,12 +84,12 @@ impl<'a> Courses<'a> {
         courses
     }
 
-    /// Distance of readings.
+    /// Distance between readings.
     pub(super) fn step(&self) -> f64 {
         self.stride as f64 * self.family.step
     }
 
-    /// Where a reading stands, along.
+    /// Position of a reading along the lines.
     pub(super) fn place(&self, reading: usize) -> f64 {
         self.family.first + (reading * self.stride) as f64 * self.family.step
     }
@@ -102,7 +102,7 @@ impl<'a> Courses<'a> {
         self.family.frame.to_page(self.place(reading), self.height(line, reading))
     }
 
-    /// The ink of each line's strip as a width.
+    /// Sets each line's width from the ink of its strip.
     fn demand(&mut self) {
         let sides = self.sides();
         let step = self.step();
@@ -146,7 +146,7 @@ impl<'a> Courses<'a> {
             let slice = extent / DEPTHS as f64;
             for i in 0..DEPTHS {
                 let p = self.family.frame.to_page(u, height + side * slice * (i as f64 + 0.5));
-                // Deep inside, which most of a region is, there is nothing to look up.
+                // Shortcut deep inside a region, which is the usual case.
                 let inside = if inside > extent + soft {
                     1.0
                 } else {
@@ -161,7 +161,7 @@ impl<'a> Courses<'a> {
         (area, within)
     }
 
-    /// For every reading of every line what lies below and above.
+    /// The neighbours below and above, for every reading of every line.
     fn sides(&self) -> Vec<Vec<Sides>> {
         let mut sides: Vec<Vec<Sides>> = self.lines.iter().map(|c| vec![Sides::default(); c.weight.len()]).collect();
         let columns = self.family.columns / self.stride + 1;
@@ -191,8 +191,7 @@ impl<'a> Courses<'a> {
         sides
     }
 
-    /// The width at which a line's side meets a border that runs slanting to it: its end is a point there, not a square one that
-    /// stands out.
+    /// Width at which a line's side touches a slanted border: the line ends there in a point, not in a protruding square end.
     fn border_room(&self, line: &Line, course: &Course, i: usize) -> f32 {
         let Wanted { ground, region, turn, width_max, .. } = self.wanted;
         if f64::from(course.inside[i]) > ground.near.max(0.5 * width_max) {
@@ -209,7 +208,7 @@ impl<'a> Courses<'a> {
         (2.0 * ground.cover(region.label, turn, here).max(0.0) / across) as f32
     }
 
-    /// Widths at which neighbours touch at most.
+    /// Limits widths so that neighbours at most touch.
     fn limit(&mut self) {
         let sides = self.sides();
         let borders: Vec<Vec<f32>> = self
@@ -226,7 +225,7 @@ impl<'a> Courses<'a> {
                 .map(|i| {
                     let (own, side, stretch) = (course.width[i], sides[i], course.stretch[i]);
                     let room = |j: usize| {
-                        // The gap is shared in the proportion of what both ask for.
+                        // The gap is shared in proportion to both target widths.
                         let share = if own + side.width[j] > 0.0 { own / (own + side.width[j]) } else { 0.5 };
                         2.0 * side.neighbour[j] / stretch * share
                     };
@@ -238,7 +237,7 @@ impl<'a> Courses<'a> {
     }
 }
 
-/// One round of 1-2-1 smoothing among the readings that are there; the sum stays.
+/// One round of 1-2-1 smoothing among existing readings; the sum is preserved.
 fn smooth(values: &mut [f32], weight: &[f32]) {
     let mut carried = 0.0;
     for i in 1..values.len() {

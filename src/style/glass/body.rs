@@ -1,29 +1,30 @@
-//! A stroke's middle line and width in working pixels.
+//! A stroke's centre line and width in working pixels.
 
 use crate::drawing::{Stroke, Width};
 use crate::field::Ribbon;
 use crate::geometry::{Point, catmull_rom};
 use kurbo::ParamCurve;
 
-/// Steps between two nodes where a stroke is stamped on the canvas; nodes are at most 5 pixels apart.
+/// Steps between two nodes when a stroke is stamped on the canvas; nodes are at most 5 pixels apart.
 const STEPS: usize = 4;
-/// Greatest width in radii of the line's curve; at 2 the inner side shrinks to a point.
+/// Maximum width in radii of the line's curvature; at 2 the inner side shrinks to a point.
 const WIDEST_TURN: f64 = 1.7;
-/// Share of its width that a stroke keeps at its tip: a brush's last hairs.
+/// Share of its width that a stroke keeps at its tip, like a brush's last hairs.
 const TIP: f64 = 0.25;
 
-/// A stroke before it has a colour, in framed pixels.
+/// A stroke without a colour yet, in framed pixels.
 pub(super) struct Body {
     pub nodes: Vec<Point>,
     pub widths: Vec<f64>,
-    /// Places closely along it with the width there.
+    /// Closely spaced places along it, with the width there.
     pub fine: Vec<(Point, f64)>,
-    /// For each step of `fine`, between which nodes it lies.
+    /// For each step of `fine`, the stretch between nodes that contains it.
     pub stretch_of: Vec<usize>,
 }
 
 impl Body {
-    /// Where the line turns on less than the stroke's width, the width gives way: an outline beyond its own centre has holes.
+    /// Narrows the stroke where the line's radius of curvature is smaller than its width allows: an outline beyond its own centre of
+    /// curvature has holes.
     pub(super) fn new(nodes: Vec<Point>, mut widths: Vec<f64>) -> Self {
         for (triple, width) in nodes.windows(3).zip(&mut widths[1..]) {
             let (a, b) = (triple[1] - triple[0], triple[2] - triple[1]);
@@ -42,7 +43,7 @@ impl Body {
         Self { nodes, widths, fine, stretch_of }
     }
 
-    /// A ribbon whose upstream part (`taper`, a share of its length) runs out to a tip.
+    /// A ribbon whose upstream part (`taper`, a share of its length) tapers to a tip.
     pub(super) fn of_ribbon(ribbon: &Ribbon, taper: f64) -> Self {
         let length: f64 = ribbon.nodes.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         let taper = taper * length;
@@ -57,12 +58,12 @@ impl Body {
         Self::new(ribbon.nodes.clone(), widths)
     }
 
-    /// Stretches between nodes.
+    /// Number of stretches between nodes.
     pub(super) fn stretches(&self) -> usize {
         self.nodes.len() - 1
     }
 
-    /// The part from one node to another as a stroke on the page, of `scale` millimetres a pixel.
+    /// The part from one node to another as a stroke on the page, of `scale` millimetres per pixel.
     pub(super) fn stroke(&self, first: usize, last: usize, scale: f64, to_page: impl Fn(Point) -> Point) -> Stroke {
         let nodes: Vec<Point> = self.nodes[first..=last].iter().map(|p| to_page(*p)).collect();
         let widths = self.widths[first..=last].iter().map(|w| w * scale).collect();

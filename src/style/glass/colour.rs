@@ -1,9 +1,9 @@
-//! The photograph in the encoding in which strokes are mixed.
+//! The photograph in the encoding used for mixing strokes.
 
 use crate::drawing::Colour;
 use crate::raster::Raster;
 
-/// Red, green and blue in sRGB's encoding, 0 to 1, in which equal steps look about equal and the paper's figures hold.
+/// Red, green and blue in sRGB encoding, 0 to 1: equal steps look about equal, and the paper's values apply.
 pub(super) fn planes(light: &Raster<[f32; 3]>) -> Vec<Raster<f32>> {
     (0..3).map(|channel| light.map(|rgb| encoded(rgb[channel]))).collect()
 }

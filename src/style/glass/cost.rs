@@ -1,25 +1,25 @@
-//! What a painting takes, as measured; pixels are counted with the frame that strokes come in from.
+//! Measured cost of a painting; pixels include the frame in which strokes start.
 
 use super::parameters::{Manner, Painting};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes a pixel, for the picture's and for each pixel of the strokes' length: 480 at 250 mm and 430 at 400 mm with a length of 18 px,
-/// 820 at 100 mm with one of 357 px.
+/// Bytes per pixel, plus those for each pixel of the strokes' length: 480 at 250 mm and 430 at 400 mm with a length of 18 px, 820 at 100
+/// mm with one of 357 px.
 const BYTES: f64 = 470.0;
 const LENGTH_BYTES: f64 = 1.0;
-/// More for each step of lightness beyond three: 1500 at 250 mm and sixteen.
+/// Additional bytes for each step of lightness beyond three: 1500 in all at 250 mm and sixteen steps.
 const RIBBON_BYTES: f64 = 80.0;
-/// More with brush hairs: 570 at 250 mm.
+/// Additional bytes with brush hairs: 570 in all at 250 mm.
 const HAIR_BYTES: f64 = 90.0;
-/// Without colours: 220 with one pen, 290 with points, at 250 mm.
+/// Bytes without colours: 220 with one pen, 290 with points, at 250 mm.
 const PLAIN_BYTES: f64 = 290.0;
-/// Microseconds a pixel, for each of the length and for each step: 4.1 at 400 mm, 11.3 with sixteen steps at 250 mm, 17 at 100 mm with
-/// a length of 357 px.
+/// Microseconds per pixel, plus those for each pixel of the strokes' length and for each step of lightness: 4.1 at 400 mm, 11.3 with
+/// sixteen steps at 250 mm, 17 at 100 mm with a length of 357 px.
 const MICROSECONDS: f64 = 1.7;
 const LENGTH_MICROSECONDS: f64 = 0.04;
 const RIBBON_MICROSECONDS: f64 = 0.55;
-/// More with diffusion: 12 at 250 mm.
+/// Additional with diffusion: 12 in all at 250 mm.
 const DIFFUSION_MICROSECONDS: f64 = 8.0;
 
 pub(super) fn cost(parameters: &Painting, picture: Rect, pixels_per_mm: f64) -> Cost {

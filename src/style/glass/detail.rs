@@ -9,13 +9,13 @@ use crate::raster::Raster;
 
 /// Width of a fine stroke in grains: two thirds of a broad one's.
 const WIDTH: f64 = 2.0;
-/// Its greatest length, as a share of the others'.
+/// Its maximum length as a share of a broad one's.
 const LENGTH: f64 = 0.4;
-/// Change of colour at which it ends, as a share of the difference that called for it.
+/// Change of colour at which it ends, as a share of the difference that triggered it.
 const COLOUR_CHANGE: f32 = 0.5;
 
-/// Strokes where the painting's colours (of its strokes, by owner) are farther from the picture's than the parameter `detail`; the
-/// farthest on top.
+/// Strokes where the painting's colours (`colours`, by owner of the canvas) differ from the picture's by more than the parameter
+/// `detail`; the largest differences on top.
 pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colours: &[[f32; 3]]) -> Vec<Mark> {
     let least = drawer.parameters.detail;
     let picture = |x: usize, y: usize| [0, 1, 2].map(|i| ground.smoothed[i].get(x, y));
@@ -55,7 +55,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
     marks
 }
 
-/// Points a pixel apart through a seed, as far as the colour stays and a stroke is called for.
+/// Points one pixel apart through a seed, as long as the colour holds and a stroke is needed.
 fn arc(drawer: &Drawer<'_>, ground: &Ground, missing: &Raster<f32>, seed: Point) -> Vec<Point> {
     let reach = 0.5 * LENGTH * drawer.pixels(drawer.parameters.length_mm);
     let at = |p: Point| [0, 1, 2].map(|i: usize| ground.smoothed[i].get(p.x as usize, p.y as usize));

@@ -1,4 +1,5 @@
-//! Discrete Glass patterns: points and where a flow takes them (Papari 2009, section 7.2.1), as dots whose ink is the tone.
+//! Discrete Glass patterns: points and their positions after a flow moved them (Papari 2009, section 7.2.1), as dots whose ink makes the
+//! tone.
 
 use super::{Drawer, Ground};
 use crate::drawing::{Dot, Layer, Mark};
@@ -7,9 +8,9 @@ use crate::raster::Raster;
 use crate::style::{StyleError, random};
 use rand::RngExt;
 
-/// Random points of which the most evenly spread one is kept: with fewer the pattern looks random, with more it only costs time.
+/// Random candidates per point, of which the most evenly spread is kept: with fewer the pattern looks random, more only cost time.
 const CHOICE: usize = 4;
-/// Steps of the integration; a turn of half a circle is then off by 1e-6 of its radius.
+/// Integration steps; the error of half a turn is then 1e-6 of its radius.
 const STEPS: u32 = 32;
 /// Smallest ink that gets a dot.
 const LEAST_INK: f64 = 0.004;
@@ -30,7 +31,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
     Ok(layer)
 }
 
-/// One point a pitch squared, in millimetres.
+/// One point per squared pitch, in millimetres.
 fn points(drawer: &Drawer<'_>, picture: Rect) -> Vec<Point> {
     let count = (picture.area() / drawer.parameters.pitch_mm.powi(2)).round().max(1.0) as usize;
     let mut random = random::stream(drawer.seed, "points", 0);
@@ -48,7 +49,7 @@ fn points(drawer: &Drawer<'_>, picture: Rect) -> Vec<Point> {
     }
 }
 
-/// A dot with half of the ink that a pitch squared asks for there, the other half being its partner's.
+/// A dot with half of the ink of a squared pitch at its place; its partner has the other half.
 fn dot(drawer: &Drawer<'_>, ink: &Raster<f32>, at: Point) -> Option<Mark> {
     let placement = drawer.portrait.placement;
     let (x, y) = (at.x - placement.picture.x0, at.y - placement.picture.y0);
@@ -60,7 +61,7 @@ fn dot(drawer: &Drawer<'_>, ink: &Raster<f32>, at: Point) -> Option<Mark> {
     (ink > LEAST_INK).then_some(Mark::Dot(Dot::circle(at, radius)))
 }
 
-/// The flow of equation 7.2 for one time.
+/// The flow of equation 7.2 for a given time.
 struct Mover<'a> {
     drawer: &'a Drawer<'a>,
     ground: &'a Ground,
@@ -87,7 +88,7 @@ impl<'a> Mover<'a> {
         })
     }
 
-    /// Millimetres a unit of time.
+    /// Millimetres per unit of time.
     fn velocity(&self, p: Point) -> Vec2 {
         let laid = self.drawer.parameters.transform.velocity(p - self.centre, self.half);
         laid.unwrap_or_else(|| self.photograph(p) * self.drawer.parameters.length_mm)

@@ -1,4 +1,4 @@
-//! The marks of the brush's hairs: fine lines on top of the strokes, along the same flow (Papari 2009, figures 7.15 and 7.16).
+//! Bristle marks: fine lines on top of the strokes, along the same flow (Papari 2009, figures 7.15 and 7.16).
 
 use super::{Drawer, Ground, colour, noise};
 use crate::drawing::{Layer, Mark, Mixing, Stroke, Width};
@@ -11,11 +11,11 @@ use rayon::prelude::*;
 
 /// A hair's width in grains (figure 7.15: `sigma_z` falls from 3 to 0.6).
 const WIDTH: f64 = 0.3;
-/// A hair mark's length in strokes' lengths (figure 7.15: a falls from 24 to 6).
+/// A hair's length as a share of the strokes' length (figure 7.15: a falls from 24 to 6).
 const LENGTH: f64 = 0.4;
 /// Distance of hairs across the stroke, in their widths; at 2 they cover the strokes and hide their edges, at 5 they look stray.
 const SPACING: f64 = 3.0;
-/// Share of the finer pattern's extremes that shows as hairs; the middle would be the stroke's own colour.
+/// Minimum magnitude of the finer pattern that shows as a hair; smaller values would be the stroke's own colour.
 const LEAST_VALUE: f32 = 0.15;
 
 pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground, pattern: &Raster<f32>) -> Layer {
@@ -30,7 +30,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground, pattern: &Raster<f32>)
     let below = equalised(pattern).framed(ground.margin);
     let hairs = Hairs { drawer, ground, values: &values, below: &below, length, width: WIDTH * grain };
     let (margin, across) = (ground.margin as f64, SPACING * hairs.width);
-    // One seed a cell as long as a hair and as wide as its spacing, wherever in the cell.
+    // One random seed per cell; a cell has the area of a hair's length times its spacing.
     let side = (across * length).sqrt();
     let columns = ((width as f64 - 2.0 * margin) / side).ceil() as usize;
     let rows = ((height as f64 - 2.0 * margin) / side).ceil() as usize;

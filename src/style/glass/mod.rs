@@ -22,11 +22,11 @@ use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, f
 use crate::source::{MaskRole, Portrait, luminance};
 use parameters::{Manner, Painting};
 
-/// Change of colour a pixel across which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes
-/// whirl in every pore; at three times it the astronaut's collar loses its corners.
+/// Change of colour per pixel at which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes whirl in
+/// every pore; at three times it the astronaut's collar loses its corners.
 const DIFFUSION_CONTRAST: f32 = 0.024;
 
-/// Blur before the gradient that fine strokes follow, as a share of the others'.
+/// Blur before the gradient that fine strokes follow, as a share of that for the others.
 const FINE_FORMS: f32 = 0.35;
 
 /// The style.
@@ -74,8 +74,8 @@ impl Style for Glass {
 }
 
 impl Glass {
-    /// The values for a picture: no stroke is longer than its diagonal, for the frame that strokes come in from is as wide as they
-    /// are long.
+    /// The values for a picture. No stroke is longer than its diagonal, since the frame in which strokes start is as wide as they are
+    /// long.
     fn painting(settings: &Settings, picture: Rect) -> Painting {
         let mut painting = Painting::new(settings);
         painting.length_mm = painting.length_mm.min(picture.width().hypot(picture.height()));
@@ -83,7 +83,7 @@ impl Glass {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Painting,
@@ -91,7 +91,7 @@ struct Drawer<'a> {
     observer: &'a dyn Observer,
 }
 
-/// What all manners of drawing start from, with a frame around the picture so that strokes can come in from beyond its border.
+/// Common input of all manners of drawing, with a frame around the picture so that strokes can start beyond its border.
 struct Ground {
     /// Pixels of the frame on each side.
     margin: usize,
@@ -99,15 +99,15 @@ struct Ground {
     smoothed: Vec<Raster<f32>>,
     /// The subject, framed.
     subject: Raster<f32>,
-    /// The direction of strokes, framed; none outside the subject, and in flat parts that of the parts around.
+    /// The direction of strokes, framed; none outside the subject; flat parts take that of their surroundings.
     flow: Flow,
-    /// That of fine strokes, along small forms too.
+    /// The direction of fine strokes, which also follow small forms.
     fine_flow: Flow,
 }
 
 impl Ground {
-    /// Whether a disc around a place, in framed pixels, lies inside the subject: a dab on its border would stick out, in the
-    /// background's colour.
+    /// True if a disc around a place, in framed pixels, lies inside the subject: a dab on its border would stick out in the background's
+    /// colour.
     fn holds(&self, middle: Point, radius: f64) -> bool {
         (0..8).all(|i| {
             let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
@@ -118,7 +118,7 @@ impl Ground {
 }
 
 impl Drawer<'_> {
-    /// The chapter's steps in its order.
+    /// The chapter's steps in order.
     fn draw(&self) -> Result<Drawing, StyleError> {
         if self.portrait.subject.pixels().iter().all(|&s| s < 0.5) {
             return Err(StyleError::NothingToDraw(
@@ -139,7 +139,7 @@ impl Drawer<'_> {
         if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
     }
 
-    /// Edge preserving smoothing and the flow (section 7.3).
+    /// Edge-preserving smoothing and the flow (section 7.3).
     fn ground(&self) -> Ground {
         self.observer.begin("smoothing");
         let planes = colour::planes(&self.portrait.light);
@@ -160,7 +160,7 @@ impl Drawer<'_> {
         Ground { margin, smoothed, subject, flow, fine_flow }
     }
 
-    /// A transform's flow in the place of the photograph's (figure 7.4), none with `transform=photo`.
+    /// A transform's flow instead of the photograph's (figure 7.4); none with `transform=photo`.
     fn laid_flow(&self, framed: &Raster<f32>, margin: usize) -> Option<Flow> {
         let picture = self.portrait.placement.picture;
         let half = 0.5 * picture.width().min(picture.height());
@@ -201,20 +201,20 @@ impl Drawer<'_> {
         mm / self.portrait.placement.mm_per_pixel()
     }
 
-    /// The page's place of one in framed pixels.
+    /// Converts framed pixels to the page.
     fn to_page(&self, ground: &Ground, p: Point) -> Point {
         let margin = ground.margin as f64;
         self.portrait.placement.to_page(Point::new(p.x - margin, p.y - margin))
     }
 
-    /// A layer that every manner of drawing begins with.
+    /// The initial layer of every manner of drawing.
     fn empty_layer(&self, name: &str) -> Layer {
         self.observer.begin(name);
         Layer::new(name, 1)
     }
 }
 
-/// Luminance's weights on the encoded channels.
+/// Luminance weights applied to the encoded channels.
 fn grey(planes: &[Raster<f32>]) -> Raster<f32> {
     match planes {
         [r, g, b] => Raster::from_fn(r.width(), r.height(), |x, y| luminance([r.get(x, y), g.get(x, y), b.get(x, y)])),

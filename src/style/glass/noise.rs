@@ -5,8 +5,8 @@ use crate::style::random;
 use rand::RngExt;
 use rayon::prelude::*;
 
-/// Noise blurred by `sigma` pixels, from one stream a row. Before the blur it is a sum of four even numbers, which the blur's dozen
-/// neighbours make Gaussian.
+/// Noise blurred by `sigma` pixels, with one random stream per row. Before the blur each value is a sum of four uniform numbers; summed
+/// over the blur's dozen neighbours it is Gaussian.
 pub(super) fn noise(width: usize, height: usize, sigma: f32, seed: u64, stage: &str) -> Raster<f32> {
     let mut white = Raster::filled(width, height, 0.0_f32);
     white.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {

@@ -1,5 +1,5 @@
-//! One pen: streamline arcs of one width, as close to each other as the tone asks (evenly spaced streamlines after Jobard and
-//! Lefer 1997, with the spacing set by measured ink).
+//! One pen: streamline arcs of one width, as close to each other as the tone requires (evenly spaced streamlines after Jobard and Lefer
+//! 1997, with the spacing set by measured ink).
 
 mod arcs;
 mod coverage;
@@ -11,9 +11,9 @@ use crate::style::{Picture, StyleError};
 use arcs::{Arcs, Wanted};
 use coverage::Calibration;
 
-/// Rounds of drawing and measuring; each brings the ink of every tone nearer to what it should be.
+/// Rounds of drawing and measuring; each brings the ink of every tone closer to its target.
 const ROUNDS: usize = 5;
-/// Distance of a curve's nodes in pixels.
+/// Distance between a curve's nodes in pixels.
 const NODE_SPACING: f64 = 2.0;
 
 pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, StyleError> {
@@ -42,7 +42,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
     Ok(layer)
 }
 
-/// An arc as a line of one width; the hand's pressure runs out at its ends, for machines that can press.
+/// An arc as a line of constant width; pressure fades at its ends, for machines with pressure.
 fn mark(drawer: &Drawer<'_>, line: &[Point]) -> Mark {
     let nodes: Vec<Point> = resample(line, NODE_SPACING).into_iter().map(|p| drawer.portrait.placement.to_page(p)).collect();
     let mut stroke = Stroke::new(catmull_rom(&nodes, false), Width::Constant(drawer.parameters.line_mm));

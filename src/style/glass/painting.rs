@@ -10,18 +10,18 @@ use crate::raster::Raster;
 use crate::style::StyleError;
 use rayon::prelude::*;
 
-/// Least area of a stroke that shows, in working pixels: smaller flecks are not seen and make half of the strokes.
+/// Minimum visible area of a stroke, in working pixels: smaller flecks cannot be seen and make up half of the strokes.
 const LEAST_SHOWN: f64 = 1.0;
-/// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a fresh one begins. At 0.05
-/// skin falls into scales, at 0.2 eyes and lips are drawn out over the face (looked at on the astronaut and Grace Hopper).
+/// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a new one begins. At 0.05 skin
+/// breaks into scales, at 0.2 eyes and lips smear over the face (judged on the astronaut and Grace Hopper).
 const COLOUR_CHANGE: f32 = 0.1;
-/// Width of the strokes that fill what the pattern leaves bare, in grains.
+/// Width of the filling strokes in places that the pattern leaves bare, in grains.
 const FILLING_WIDTH: f64 = 4.0;
-/// Their value, that of the pattern's lowest third: darker, they stand out as cracks and the painting comes out too dark.
+/// Their value, that of the pattern's lowest third: if darker, they stand out as cracks and the painting becomes too dark.
 const FILLING_VALUE: f32 = -0.35;
-/// Their length, as a share of the others'.
+/// Their length as a share of the other strokes'.
 const FILLING_LENGTH: f64 = 0.5;
-/// Cosine of the angle by which they may turn from their middle.
+/// Cosine of the maximum angle by which they turn away from their middle.
 const MOST_FILLING_TURN: f64 = 0.7;
 
 pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>, StyleError> {
@@ -47,7 +47,7 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     Ok(layers)
 }
 
-/// Part of a stroke in one colour: which nodes, and what shows of it.
+/// A single-coloured part of a stroke: its nodes and its visible part.
 struct Part {
     first: usize,
     last: usize,
@@ -61,7 +61,8 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// From the top down, so that what is hidden is never kept; then in painting order, and what is missing on top.
+    /// Works from the top down, so that hidden strokes are never kept; then puts the marks in painting order, with the fine strokes on
+    /// top.
     fn paint(&self, ribbons: &[Ribbon]) -> Vec<Mark> {
         let bodies: Vec<Body> = ribbons.par_iter().map(|ribbon| Body::of_ribbon(ribbon, self.drawer.parameters.taper)).collect();
         let mut canvas = Canvas::new(&pictured(self.ground), self.ground.margin);
@@ -82,7 +83,7 @@ impl Painter<'_> {
         marks
     }
 
-    /// Strokes under all others where these leave the canvas bare, which is where noise has saddles and the flow begins.
+    /// Strokes under all others where these leave the canvas bare: at saddles of the noise and where the flow begins.
     fn filling(&self, canvas: &mut Canvas, colours: &mut Vec<[f32; 3]>) -> Vec<Mark> {
         let width = FILLING_WIDTH * self.drawer.pixels(self.drawer.parameters.grain_mm);
         let length = FILLING_LENGTH * self.drawer.pixels(self.drawer.parameters.length_mm);
@@ -118,7 +119,7 @@ impl Painter<'_> {
     }
 }
 
-/// Along the flow both ways as long as it keeps about its direction, so that the stroke surely covers the place.
+/// Follows the flow both ways as long as it roughly keeps its direction, so that the stroke is sure to cover the place.
 fn filling_line(flow: &Flow, p: Point, reach: f64) -> Vec<Point> {
     let along = flow.at(p);
     let half = |length: f64| {
@@ -134,7 +135,7 @@ fn filling_line(flow: &Flow, p: Point, reach: f64) -> Vec<Point> {
     if nodes.len() < 2 { vec![p, p + Vec2::new(0.1, 0.0)] } else { nodes }
 }
 
-/// Covers what a stroke covers; the parts of it that show, each the owner of what it covers under its colour's number.
+/// Covers the canvas with a stroke and returns its visible parts; each part owns its sub-pixels under the number of its colour.
 fn cover(canvas: &mut Canvas, body: &Body, planes: &[Raster<f32>], colours: &mut Vec<[f32; 3]>) -> Vec<Part> {
     let (fresh, shown) = canvas.cover(body, planes);
     let parts = parts(&shown);
@@ -144,7 +145,7 @@ fn cover(canvas: &mut Canvas, body: &Body, planes: &[Raster<f32>], colours: &mut
     parts
 }
 
-/// The stretches that show, joined to parts of about one colour; from the downstream end, where the brush is set down.
+/// Joins visible stretches to parts of similar colour, from the downstream end, where the brush is set down.
 fn parts(shown: &[Shown]) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for (i, stretch) in shown.iter().enumerate().filter(|(_, stretch)| stretch.area() > 0.0) {

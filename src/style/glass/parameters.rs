@@ -2,12 +2,12 @@
 
 use crate::style::{Default, Kind, Need, Parameter, Settings};
 
-/// Working resolution in millimetres a pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
-/// millimetres are Table 7.1's in pixels.
+/// Working resolution in millimetres per pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
+/// millimetres match those of Table 7.1 in pixels.
 const MM_PER_PIXEL: f64 = 0.28;
 /// Grain below which the working resolution grows with it, in millimetres: Table 7.1's 0.7 px.
 const DEFAULT_GRAIN_MM: f64 = 0.2;
-/// Grain in pitches.
+/// Default grain in pitches.
 const DEFAULT_GRAIN: f64 = 1.0 / 3.0;
 
 /// Strokes, not points.
@@ -17,26 +17,26 @@ const COLOURED: Need = Need::Word("colors", &["photo"]);
 /// The photograph's own flow.
 const PHOTO_FLOW: Need = Need::Word("transform", &["photo"]);
 
-/// All that a user can set.
+/// All parameters of the style.
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "pitch",
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 50.0 },
-        meaning: "about the width of a stroke; the lengths below follow it. Also the distance of the points of a discrete pattern",
-        source: "Table 7.1 at 0.28 mm a pixel",
+        meaning: "approximate width of a stroke; most lengths below default to multiples of it. Also the distance between the points of a discrete pattern",
+        source: "Table 7.1 at 0.28 mm per pixel",
         needs: &[],
     },
     Parameter {
         name: "colors",
         kind: Kind::Choice(&["photo", "mono"]),
-        meaning: "photo paints opaque strokes in the photograph's colours; mono draws for one pen, as dense as the tone asks",
+        meaning: "photo paints opaque strokes in the photograph's colours; mono draws lines for one pen, as dense as the tone requires",
         source: "",
         needs: &[CONTINUOUS],
     },
     Parameter {
         name: "pattern",
         kind: Kind::Choice(&["continuous", "discrete"]),
-        meaning: "continuous paints strokes; discrete draws points and where the flow takes them, as dots",
+        meaning: "continuous paints strokes; discrete draws points, and where the flow moves them, as dots",
         source: "Papari 7.2",
         needs: &[],
     },
@@ -50,7 +50,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "grain",
         kind: Kind::Length { default: Default::Pitches(DEFAULT_GRAIN), least: 0.03, most: 20.0 },
-        meaning: "blur of the noise that the strokes grow from; a stroke is about three times as wide. By default, pieces and fine ones on top counted, a sheet of 100 by 100 mm has 10,000 to 25,000 strokes, by how much there is to see; half the grain about doubles them",
+        meaning: "blur of the noise that the strokes grow from; a stroke is about three times as wide. By default a sheet of 100 by 100 mm has 10,000 to 25,000 strokes, depending on its detail, counting pieces and the fine strokes on top; half the grain about doubles them",
         source: "Papari 7.8, sigma_z = 0.7 px",
         needs: &[CONTINUOUS, COLOURED],
     },
@@ -64,28 +64,28 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "angle",
         kind: Kind::Number { default: 90.0, least: -180.0, most: 180.0 },
-        meaning: "between the strokes and the steepest change, in degrees: 90 follows contours and whirls, 0 crosses them in stars",
+        meaning: "angle between the strokes and the gradient, in degrees: 90 follows contours and whirls, 0 crosses them in stars",
         source: "Papari 7.10, theta_0",
         needs: &[PHOTO_FLOW],
     },
     Parameter {
         name: "gradient",
         kind: Kind::Choice(&["gaussian", "diffusion"]),
-        meaning: "how the picture is blurred before its gradient is taken; diffusion keeps strokes from cutting corners, and is slow",
+        meaning: "how the picture is blurred before its gradient is taken; diffusion keeps strokes from cutting corners but is slow",
         source: "Papari figure 7.14",
         needs: &[PHOTO_FLOW],
     },
     Parameter {
         name: "smoothing",
         kind: Kind::Length { default: Default::Pitches(0.6), least: 0.0, most: 50.0 },
-        meaning: "reach of the smoothing that takes out texture and sharpens edges; 0 for none",
+        meaning: "reach of the smoothing that removes texture and sharpens edges; 0 for none",
         source: "Papari appendix A, sigma",
         needs: &[Need::AnyOf(&[&[CONTINUOUS, COLOURED], &[PHOTO_FLOW]])],
     },
     Parameter {
         name: "sharpness",
         kind: Kind::Number { default: 4.0, least: 0.0, most: 16.0 },
-        meaning: "how sharp that smoothing leaves edges: 0 blurs them, 16 makes them hard",
+        meaning: "how sharp the smoothing leaves edges: 0 blurs them, 16 makes them hard",
         source: "Papari appendix A, q",
         needs: &[Need::Above("smoothing", 0.0), Need::AnyOf(&[&[CONTINUOUS, COLOURED], &[PHOTO_FLOW]])],
     },
@@ -99,62 +99,62 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "ribbons",
         kind: Kind::Count { default: 3, least: 1, most: 16 },
-        meaning: "steps of lightness in which each stroke is built up",
+        meaning: "number of lightness steps in which each stroke is built up",
         source: "",
         needs: &[CONTINUOUS, COLOURED],
     },
     Parameter {
         name: "taper",
         kind: Kind::Number { default: 0.35, least: 0.0, most: 1.0 },
-        meaning: "part of a stroke over which it runs out to a tip; 0 leaves its end round",
+        meaning: "share of a stroke that tapers to a tip; 0 leaves its end round",
         source: "",
         needs: &[CONTINUOUS],
     },
     Parameter {
         name: "detail",
         kind: Kind::Number { default: 0.08, least: 0.01, most: 2.0 },
-        meaning: "difference of colour from which a fine stroke is set on top of the broad ones; 2 for none",
+        meaning: "colour difference from which fine strokes are painted over the broad ones; 2 for none",
         source: "",
         needs: &[CONTINUOUS, COLOURED],
     },
     Parameter {
         name: "hairs",
         kind: Kind::Number { default: 0.0, least: 0.0, most: 1.0 },
-        meaning: "strength of the brush hairs' marks on top of the strokes; 0 for none",
+        meaning: "strength of bristle marks on top of the strokes; 0 for none",
         source: "Papari figures 7.15 and 7.16",
         needs: &[CONTINUOUS, COLOURED],
     },
     Parameter {
         name: "line",
         kind: Kind::Length { default: Default::Millimetres(0.3), least: 0.05, most: 5.0 },
-        meaning: "with colors=mono: width of the lines, best that of the pen",
+        meaning: "with colors=mono: width of the lines, ideally that of the pen",
         source: "",
         needs: &[CONTINUOUS, Need::Word("colors", &["mono"])],
     },
     Parameter {
         name: "transform",
         kind: Kind::Choice(&["photo", "rotation", "scaling", "hyperbolic", "spiral", "translation", "nonlinear"]),
-        meaning: "what the strokes follow, or moves the points of a discrete pattern: photo is the photograph's own flow, the others are laid over the picture's middle",
+        meaning: "flow that the strokes follow, or that moves the points of a discrete pattern: photo is the photograph's own flow, the others are centred on the picture",
         source: "Papari figures 7.1 to 7.4",
         needs: &[],
     },
     Parameter {
         name: "time",
         kind: Kind::Number { default: 0.087_266, least: -10.0, most: 10.0 },
-        meaning: "with pattern=discrete: how long the points move; 0.0873 (5 degrees) turns them by that in a rotation",
+        meaning: "with pattern=discrete: how long the points move; in a rotation this is the angle in radians (0.0873 is 5 degrees)",
         source: "Papari 7.3, t",
         needs: &[Need::Word("pattern", &["discrete"])],
     },
     Parameter {
         name: "points",
         kind: Kind::Choice(&["blue", "poisson"]),
-        meaning: "with pattern=discrete: evenly spread points, or wholly random ones",
+        meaning: "with pattern=discrete: blue spreads the points evenly; poisson places them independently at random",
         source: "Papari 7.2.1",
         needs: &[Need::Word("pattern", &["discrete"])],
     },
 ];
 
-/// What strokes follow and points are moved by.
+/// The flow that strokes follow and that moves points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Transform {
     Photograph,
@@ -234,9 +234,9 @@ impl Painting {
         }
     }
 
-    /// Working pixels a millimetre.
+    /// Working pixels per millimetre.
     pub(super) fn pixels_per_mm(&self) -> f64 {
-        // Only a painting has grain; lines and points are as fine as it would be by default.
+        // Only a painting has grain; lines and points use the resolution of the default grain.
         let grain = if self.manner == Manner::Painting { self.grain_mm } else { self.pitch_mm * DEFAULT_GRAIN };
         (DEFAULT_GRAIN_MM / grain).max(1.0) / MM_PER_PIXEL
     }

@@ -1,14 +1,15 @@
-//! Flows that are laid over a picture in the place of its own (Papari 2009, figures 7.1 to 7.4).
+//! Flows that replace a picture's own (Papari 2009, figures 7.1 to 7.4).
 
 use super::parameters::Transform;
 use crate::geometry::Vec2;
 
-/// Half the picture's shorter side in the units of the nonlinear field: its two singular points at y = -1 and 1 and some way around.
+/// Half the picture's shorter side in units of the nonlinear field: shows its two singular points at y = -1 and 1 and their
+/// surroundings.
 const NONLINEAR_REACH: f64 = 2.5;
 
 impl Transform {
-    /// Millimetres a unit of time at a place so far from the picture's middle, whose shorter side is twice `half`; none where the
-    /// photograph's own flow counts.
+    /// Velocity in millimetres per unit of time at an offset `from_centre` from the picture's middle; the shorter side is twice `half`.
+    /// None for the photograph's own flow.
     pub(super) fn velocity(self, from_centre: Vec2, half: f64) -> Option<Vec2> {
         let Vec2 { x, y } = from_centre;
         Some(match self {

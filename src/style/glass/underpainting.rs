@@ -1,4 +1,4 @@
-//! Flat strokes under all others, so that no paper shows through the slivers that these leave between them.
+//! Flat strokes under all others, so that no paper shows through the slivers between them.
 
 use super::{Drawer, Ground, colour};
 use crate::drawing::{Mark, Stroke, Width};
@@ -7,12 +7,12 @@ use rayon::prelude::*;
 
 /// Width of a stroke in grains.
 const WIDTH: f64 = 4.0;
-/// Change of colour (root of the channels' summed squares, of values 0 to 1) at which a fresh stroke begins.
+/// Change of colour (root of the channels' summed squares, of values 0 to 1) at which a new stroke begins.
 const COLOUR_CHANGE: f32 = 0.1;
-/// By how many pixels strokes run over their neighbours: where they only touch, renderers let the paper through.
+/// Overlap of neighbouring strokes in pixels: where they only touch, renderers let the paper show through.
 const OVERLAP: f64 = 0.5;
 
-/// Strokes in rows, wherever a row is wholly inside the subject.
+/// Strokes in rows, wherever a row is fully inside the subject.
 pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground) -> Vec<Mark> {
     let rows = (WIDTH * drawer.pixels(drawer.parameters.grain_mm)).round().max(2.0) as usize;
     let last = ground.subject.height() - ground.margin;
@@ -26,7 +26,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground) -> Vec<Mark> {
         .collect()
 }
 
-/// Columns of one row with about one colour.
+/// Columns of one row with similar colour.
 struct Run {
     first: usize,
     last: usize,

@@ -1,34 +1,34 @@
-//! What of each stroke shows, and over what colours it lies: the painting is gone through from the top.
+//! The visible part of each stroke and the picture's colours under it; strokes are visited from the top down.
 
 use super::body::Body;
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 
-/// Sub-pixels a working pixel each way: slivers narrower than half a pixel are nobody's loss.
+/// Sub-pixels per working pixel in each direction: slivers narrower than half a pixel do not matter.
 const FINE: usize = 2;
-/// Nothing lies there.
+/// Not covered by anything.
 const BARE: u32 = u32::MAX;
 /// Beyond the picture or the subject.
 const OUTSIDE: u32 = u32::MAX - 1;
-/// Just covered, and not yet said by what.
+/// Just covered; the owner is not yet set.
 const TAKEN: u32 = u32::MAX - 2;
 
-/// The canvas at twice the working resolution: for each sub-pixel the number of what lies on top.
+/// The canvas at twice the working resolution: for each sub-pixel, the number of its topmost owner.
 pub(super) struct Canvas {
     owner: Raster<u32>,
-    /// The picture without its frame: what runs outside is cut off along its middle line, and covers nothing.
+    /// The picture without its frame: strokes are cut off along their centre line outside it, and cover nothing there.
     picture: Rect,
 }
 
-/// What a part of a stroke shows of itself.
+/// The visible part of a stretch of a stroke.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shown {
     count: u32,
-    /// Sums of the picture's colours there.
+    /// Sum of the picture's colours over it.
     sum: [f64; 3],
 }
 
-/// The sub-pixels that a stroke was the first to cover, each with the stretch between two nodes that it belongs to.
+/// The sub-pixels newly covered by a stroke, each with its stretch between two nodes.
 pub(super) type Fresh = Vec<(u32, u32)>;
 
 impl Shown {
@@ -37,19 +37,19 @@ impl Shown {
         f64::from(self.count) / (FINE * FINE) as f64
     }
 
-    /// The mean colour of what shows.
+    /// Mean colour of the visible part.
     pub(super) fn colour(&self) -> [f32; 3] {
         self.sum.map(|sum| (sum / f64::from(self.count.max(1))) as f32)
     }
 
-    /// Both together.
+    /// The union of two visible parts.
     pub(super) fn with(&self, other: &Self) -> Self {
         Self { count: self.count + other.count, sum: [0, 1, 2].map(|i| self.sum[i] + other.sum[i]) }
     }
 }
 
 impl Canvas {
-    /// Nothing is covered yet, but what lies outside the region (below one half) never shows.
+    /// An empty canvas; sub-pixels outside the region (below 0.5) never show.
     pub(super) fn new(region: &Raster<f32>, margin: usize) -> Self {
         let (width, height) = (region.width() * FINE, region.height() * FINE);
         let framed = Rect::new(0.0, 0.0, region.width() as f64, region.height() as f64);
@@ -57,7 +57,7 @@ impl Canvas {
         Self { owner: Raster::from_fn(width, height, bare), picture: framed.inset(-(margin as f64)) }
     }
 
-    /// Covers what a stroke covers (in working pixels) and tells what of it had been bare; [`Canvas::settle`] must follow.
+    /// Covers the canvas with a stroke (in working pixels) and returns the sub-pixels that were bare; [`Canvas::settle`] must follow.
     pub(super) fn cover(&mut self, body: &Body, planes: &[Raster<f32>]) -> (Fresh, Vec<Shown>) {
         let mut fresh = Fresh::new();
         let picture = self.picture;
@@ -80,30 +80,30 @@ impl Canvas {
         (fresh, shown)
     }
 
-    /// Says what the fresh sub-pixels belong to, by stretch; those of nothing become bare again.
+    /// Sets the owner of the fresh sub-pixels by stretch; those without an owner become bare again.
     pub(super) fn settle(&mut self, fresh: &Fresh, owner: impl Fn(usize) -> Option<usize>) {
         for &(at, stretch) in fresh {
             self.owner.pixels_mut()[at as usize] = owner(stretch as usize).map_or(BARE, |owner| owner as u32);
         }
     }
 
-    /// Places in working pixels in one row of sub-pixels that nothing covers.
+    /// Bare places in one row of sub-pixels, in working pixels.
     pub(super) fn bare(&self, y: usize) -> impl Iterator<Item = Point> + '_ {
         let middle = move |x: usize| Point::new((x as f64 + 0.5) / FINE as f64, (y as f64 + 0.5) / FINE as f64);
         (0..self.owner.width()).filter(move |&x| self.owner.get(x, y) == BARE).map(middle)
     }
 
-    /// Rows of sub-pixels.
+    /// Number of rows of sub-pixels.
     pub(super) const fn rows(&self) -> usize {
         self.owner.height()
     }
 
-    /// Whether the sub-pixel at a place in working pixels is bare.
+    /// True if the sub-pixel at a place in working pixels is bare.
     pub(super) fn is_bare(&self, p: Point) -> bool {
         self.owner.clamped((p.x * FINE as f64) as isize, (p.y * FINE as f64) as isize) == BARE
     }
 
-    /// The mean colour on top of a working pixel, given that of each owner; none outside.
+    /// Mean visible colour of a working pixel, given the colour of each owner; none outside.
     pub(super) fn colour(&self, x: usize, y: usize, colours: &[[f32; 3]]) -> Option<[f32; 3]> {
         let mut sum = [0.0; 3];
         for i in 0..FINE * FINE {
@@ -114,7 +114,7 @@ impl Canvas {
         Some(sum)
     }
 
-    /// A piece between two discs, by the distance of each sub-pixel from it.
+    /// Covers a piece between two discs, by the distance of each sub-pixel from it.
     fn cover_piece(&mut self, ends: [Point; 2], widths: [f64; 2], stretch: u32, fresh: &mut Fresh) {
         let [a, b] = ends.map(|p| Point::new(p.x * FINE as f64, p.y * FINE as f64));
         let [ra, rb] = widths.map(|w| 0.5 * w * FINE as f64);

@@ -1,4 +1,4 @@
-//! The crossings' own cells: their outline, area and the ink that they call for.
+//! The Voronoi cells of the crossings: outline, area and target ink.
 
 use super::Drawer;
 use super::features::Features;
@@ -8,11 +8,10 @@ use crate::geometry::{Point, Rect, Vec2, polygon_area};
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// Farthest that a cell is counted from its crossing, in pitches; at singular points and beyond the subject's border cells are
-/// open.
+/// Maximum reach of a cell from its crossing, in pitches; cells are open at singular points and beyond the subject's border.
 const CELL_REACH: f64 = 1.5;
 
-/// One crossing with what surrounds it; in working pixels.
+/// One crossing and its cell, in working pixels.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub centre: Point,
@@ -21,19 +20,19 @@ pub(super) struct Cell {
     /// The Voronoi cell.
     pub polygon: Vec<Point>,
     pub area: f64,
-    /// Wanted ink in square pixels, less what the feature lines put there.
+    /// Target ink in square pixels, less the ink of the feature lines.
     pub ink: f64,
-    /// Part of it lies under a feature line or beyond the subject.
+    /// True if part of it lies under a feature line or outside the subject.
     pub is_cut: bool,
-    /// It fills a hole in the grid: no line runs through it.
+    /// True if it fills a hole in the grid: no line runs through it.
     pub is_filler: bool,
-    /// Wanted ink as a share, 0 to 1.
+    /// Target ink as a share, 0 to 1.
     pub darkness: f64,
-    /// More than half of it belongs to the subject.
+    /// True if more than half of it belongs to the subject.
     pub is_subject: bool,
-    /// In a cell that lies partly outside the subject, what the tone leaves white inside, in square pixels.
+    /// For a cell partly outside the subject: the white that the tone leaves inside, in square pixels.
     pub open_white: Option<f64>,
-    /// Wanted ink as a share of the subject's pixels in it.
+    /// Target ink as a share of its pixels of the subject.
     pub subject_darkness: f64,
     /// Mean linear light of the photograph.
     pub light: [f32; 3],
@@ -72,7 +71,7 @@ pub(super) fn cells_of(
         .collect()
 }
 
-/// What the pixels of one cell ask for.
+/// Sums over the pixels of one cell.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     pixels: f64,
@@ -81,12 +80,12 @@ struct Sum {
     covered: f64,
     light: [f64; 3],
     subject: f64,
-    /// Part of the cell lies outside the subject, so that its polygon is larger than what is drawn.
+    /// True if part of the cell lies outside the subject, so that its polygon is larger than the drawn part.
     is_open: bool,
 }
 
 impl Sum {
-    /// Ink area in a cell of this area: its mean tone's share, or, at the subject's border, what its pixels ask for.
+    /// Ink area for a cell of area `cell`: the share of its mean tone or, at the subject's border, the sum over its pixels.
     fn ink(&self, cell: f64) -> f64 {
         let wanted = (self.ink - self.covered).max(0.0);
         if self.is_open || self.pixels == 0.0 { wanted } else { wanted / self.pixels * cell }

@@ -1,7 +1,7 @@
-//! The darks: where lines and dots would close up, black with a white hole in the middle of each mesh of the grid.
+//! Reversed dark regions: where lines and dots would close up, black with a white hole in the middle of each mesh of the grid.
 //!
-//! Between crossing lines the meshes leave white squares; where lines end, slivers of all sizes. Here the meshes' middles, which are the
-//! crossings of both families half a pitch on, get the holes directly, each with the white that its own cell asks for.
+//! Crossing lines leave white squares in the meshes, but slivers of all sizes where lines end. Here each mesh's middle, a crossing of
+//! both families shifted by half a pitch, gets a hole directly, with the white of its own cell.
 
 use super::Drawer;
 use super::cells::{Cell, cells_of};
@@ -16,17 +16,18 @@ use crate::style::reversed::{self, Chosen, ReversedCell};
 use kurbo::Shape;
 use std::f64::consts::PI;
 
-/// Blur of the ink by which cells are called dark, in pitches, so that grain does not mix reversed cells with others.
+/// Blur of the ink that decides which cells are dark, in pitches, so that grain does not mix reversed cells with others.
 const DARK_BLUR: f64 = 0.8;
-/// How much darker than asked for a cell must be to be reversed whatever surrounds it, and how much lighter it may be in the dark.
+/// Hysteresis around the threshold: how much darker a cell must be to be reversed regardless of its surroundings, and how much lighter
+/// it may be in dark surroundings.
 const DARK_BAND: f64 = 0.04;
-/// How far lines and dots reach into reversed regions, in pitches: there they run between the holes.
+/// How far lines and dots extend into reversed regions, in pitches: there they run between the holes.
 const REACH: f64 = 0.5;
 
 /// The reversed regions.
 pub(super) struct Darks {
     pub areas: Vec<Mark>,
-    /// 1 where no other mark is needed.
+    /// 1 where reversed areas alone make the ink.
     inside: Option<Raster<u8>>,
 }
 
@@ -34,7 +35,7 @@ impl Darks {
     pub(super) fn new(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>) -> Self {
         let (from, mixing) = (drawer.parameters.reversed_from, Mixing::new(drawer));
         let nothing = Self { areas: Vec::new(), inside: None };
-        // Lines one way leave slits, and these are even; the paper's dots are there to be compared.
+        // Lines in one direction leave even slits; the paper's dots are kept for comparison.
         if from >= 1.0 || drawer.parameters.overlap == Overlap::Paper || !mixing.closes_up(1.0 - from) {
             return nothing;
         }
@@ -67,7 +68,7 @@ impl Darks {
         Self { areas, inside: Some(chosen.inside(&drawer.portrait.subject, (REACH * pitch).round() as usize)) }
     }
 
-    /// Whether the reversed regions alone make the ink here.
+    /// True if the reversed regions alone make the ink at this place.
     pub(super) fn cover(&self, p: Point) -> bool {
         let (x, y) = (p.x.floor() as isize, p.y.floor() as isize);
         self.inside.as_ref().is_some_and(|inside| inside.contains(x, y) && inside.get(x as usize, y as usize) == 1)
@@ -96,7 +97,7 @@ fn reversed_cell(cell: Cell, mixing: &Mixing, pitch: f64) -> ReversedCell {
     ReversedCell { centre: cell.centre, polygon: cell.polygon, hole, is_open }
 }
 
-/// What crossing lines leave, turned as they are.
+/// The square that crossing lines leave white, turned with them.
 fn square(cell: &Cell, half: f64) -> BezPath {
     let (a, b) = (cell.tangent * half, cell.tangent.turn_90() * half);
     let mut path = BezPath::new();

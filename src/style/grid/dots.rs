@@ -1,4 +1,4 @@
-//! Dots at the crossings (Son et al. 2011, section 6.1), with exactly the ink that their cells call for.
+//! Dots at the crossings (Son et al. 2011, section 6.1), with exactly the ink of their cells.
 
 use super::Drawer;
 use super::cells::Cell;
@@ -15,8 +15,8 @@ use rayon::prelude::*;
 
 /// Radius in pitches below which a dot is left out: 0.001 % ink.
 const LEAST_RADIUS: f64 = 0.002;
-/// The same for what a feature line or the subject's border has left of a dot: smaller ones look like dirt beside the line (seen on
-/// faces), larger ones carry the row across it.
+/// The same for a dot cut by a feature line or the subject's border: smaller ones look like dirt beside the line (seen on faces), larger
+/// ones continue the row across it.
 const LEAST_CUT_RADIUS: f64 = 0.16;
 
 pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], darks: &Darks, ink: &Raster<f32>) -> Layer {
@@ -36,7 +36,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], d
     layer
 }
 
-/// The radius in pixels; 0 for no dot.
+/// Radius in pixels; 0 for no dot.
 fn radius(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, cell: &Cell, ink: &Raster<f32>) -> f64 {
     let tone = 1.0 - f64::from(ink.sample(cell.centre.x, cell.centre.y));
     let share = if cell.is_filler { 0.0 } else { mixing.line_share(tone) };
@@ -54,8 +54,8 @@ fn radius(drawer: &Drawer<'_>, grid: &StructureGrid, mixing: &Mixing, cell: &Cel
     beside_lines(cell, half)
 }
 
-/// The radius of the disc that, together with lines of these half widths through the cell's centre (along and across), covers
-/// the cell's ink: the disc counts in the four corners that the lines leave.
+/// The radius of the disc that, together with lines of these half widths through the cell's centre (along and across), covers the cell's
+/// ink: the disc counts only in the four corners beside the lines.
 fn beside_lines(cell: &Cell, half: [f64; 2]) -> f64 {
     let corners = corners(cell, half);
     let white: f64 = corners.iter().map(|corner| polygon_area(corner).abs()).sum();
@@ -66,7 +66,7 @@ fn beside_lines(cell: &Cell, half: [f64; 2]) -> f64 {
     let covered = |radius: f64| corners.iter().map(|corner| disc_area_in(corner, cell.centre, radius)).sum::<f64>();
     let farthest = cell.polygon.iter().map(|p| p.distance(cell.centre)).fold(0.0, f64::max);
     let (mut low, mut high) = (0.0, farthest);
-    // 30 halvings leave a thousandth of a millionth of the cell.
+    // 30 halvings leave a billionth of the cell.
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
         if covered(middle) < missing { low = middle } else { high = middle }
@@ -74,11 +74,11 @@ fn beside_lines(cell: &Cell, half: [f64; 2]) -> f64 {
     high
 }
 
-/// What is left of the cell beside two crossing lines.
+/// The four corners of the cell beside two crossing lines.
 fn corners(cell: &Cell, half: [f64; 2]) -> [Vec<Point>; 4] {
     let (along, across) = (cell.tangent, cell.tangent.turn_90());
     [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b): (f64, f64)| {
-        // Beside the line along the features: farther than its half width across them; and the other way round.
+        // Beside the line along the features: farther across them than its half width; and vice versa.
         let once = beyond(&cell.polygon, cell.centre, across * a, half[0]);
         beyond(&once, cell.centre, along * b, half[1])
     })

@@ -11,18 +11,18 @@ use crate::raster::{Raster, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
 
-/// The lines that steer the grid, and the field that they make; in working pixels.
+/// The lines that steer the grid and their direction field, in working pixels.
 pub(super) struct Features {
-    /// Those that are drawn.
+    /// Lines that are drawn.
     pub lines: Vec<CoherentLine>,
-    /// Those of them that are long enough to steer.
+    /// Lines long and strong enough to steer the grid.
     pub guides: Vec<Curve>,
     pub field: DirectionField,
 }
 
-/// Brightness of a hand-made line above which it counts; low, since a thin line grows faint when the mask is reduced.
+/// Minimum brightness of a hand-made line; low, since thin lines grow faint when the mask is scaled down.
 const LINE_BRIGHTNESS: f32 = 0.25;
-/// Width of a line that was drawn by hand or is the subject's border, in pitches.
+/// Width of hand-drawn lines and of the subject's border, in pitches.
 const PLAIN_WIDTH: f64 = 0.25;
 
 impl Drawer<'_> {
@@ -49,7 +49,7 @@ impl Drawer<'_> {
         Features { lines, guides, field }
     }
 
-    /// The lines long and strong enough to steer.
+    /// The lines long and strong enough to steer the grid.
     fn steering(&self, lines: &[CoherentLine]) -> Vec<Curve> {
         let least = self.pixels(self.parameters.steer_least_mm);
         let steers = |line: &&CoherentLine| line.curve.length() >= least && line.contrast >= self.parameters.steer_contrast;
@@ -74,7 +74,7 @@ impl Drawer<'_> {
         }
     }
 
-    /// Section 4.1: the flow along edges, and the lines that it carries.
+    /// Section 4.1: the edge tangent flow and the coherent lines along it.
     fn found_lines(&self, lightness: &Raster<f32>) -> Vec<CoherentLine> {
         let parameters = &self.parameters;
         let reach = self.pixels(parameters.flow_reach_mm).round() as usize;
@@ -104,7 +104,7 @@ impl Drawer<'_> {
         }
     }
 
-    /// The subject's own border is a line, exactly; lines found beside it would double it.
+    /// Adds the subject's exact border as a line and removes detected lines beside it, which would double it.
     fn with_silhouette(&self, lines: Vec<CoherentLine>) -> Vec<CoherentLine> {
         let smoothing = self.pixels(self.parameters.smoothing_mm).max(1.0);
         let least = self.pixels(self.parameters.line_least_mm);
@@ -122,13 +122,13 @@ impl Drawer<'_> {
         self.plain(silhouette).into_iter().chain(apart).collect()
     }
 
-    /// Lines of one width.
+    /// Curves as lines of constant width.
     fn plain(&self, curves: Vec<Curve>) -> Vec<CoherentLine> {
         let width = PLAIN_WIDTH * self.pitch();
         curves.into_iter().map(|curve| CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }).collect()
     }
 
-    /// Section 4.1: the borders between levels of lightness.
+    /// Section 4.1: borders between levels of lightness.
     fn found_isophotes(&self, lightness: &Raster<f32>) -> Vec<Curve> {
         if self.parameters.isophotes < 2 {
             return Vec::new();
@@ -142,14 +142,14 @@ impl Drawer<'_> {
         steps.lines
     }
 
-    /// The centre lines of white lines on black.
+    /// Centre lines of white lines on black.
     fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
         let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
         self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
         lines_of(&thin(&marked), self.pixels(self.parameters.smoothing_mm).min(3.0) as f32, 0.5 * self.pitch() as f32)
     }
 
-    /// The field as short strokes two pitches apart, and its singular points: open rings where it turns one way, dots the other.
+    /// The field as short strokes two pitches apart, and its singular points as rings, one layer per sign.
     fn field_layers(&self, field: &DirectionField) -> Vec<Layer> {
         let step = 2.0 * self.pitch();
         let ring = |centre: Point| {
@@ -203,7 +203,7 @@ impl Drawer<'_> {
     }
 }
 
-/// The parts of a line whose points all satisfy a condition, with their widths.
+/// The runs of a line's points that satisfy a condition, with their widths.
 fn runs(line: &CoherentLine, keeps: impl Fn(&Point) -> bool) -> Vec<CoherentLine> {
     let kept: Vec<bool> = line.curve.points.iter().map(keeps).collect();
     if kept.iter().all(|&keep| keep) {

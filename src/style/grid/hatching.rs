@@ -1,4 +1,4 @@
-//! Hatching lines along the grid's lines, as wide as the tone asks (Son et al. 2011, section 6.2; errata).
+//! Hatching along the grid's lines, with widths that make the tone (Son et al. 2011, section 6.2; errata).
 
 use super::Drawer;
 use super::darks::Darks;
@@ -12,9 +12,9 @@ use rayon::prelude::*;
 
 /// Distance of a stroke's nodes in pitches: half a cell, so that its width can follow the tone from dot to dot.
 const NODE_SPACING: f64 = 0.5;
-/// Width in pitches below which there is no line.
+/// Width in pitches below which no line is drawn.
 const LEAST_WIDTH: f64 = 0.002;
-/// Width in pitches from which a line's end is no hair.
+/// Width in pitches from which a line's end does not look like a hair.
 const WHISKER: f64 = 0.25;
 
 pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, ink: &Raster<f32>) -> Layer {
@@ -36,7 +36,7 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curv
         points.push(points[0]);
     }
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
-    // The blurred ink reaches beyond the subject, where a hair line would run around it.
+    // Blurred ink extends beyond the subject and would draw a hairline around it.
     let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
     let widths: Vec<f64> = nodes.iter().map(|p| if is_bare(*p) { 0.0 } else { width(grid, &mixing, *p, ink) }).collect();
     let least = LEAST_WIDTH * drawer.pitch();
@@ -59,8 +59,8 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curv
     out
 }
 
-/// A run of nodes without the ends where the width falls to less than half from one node to the next: at the border of a dark
-/// shape such ends stand out like hairs.
+/// A run of nodes without ends where the width falls by more than half from one node to the next: such ends stand out like hairs at the
+/// border of a dark shape.
 fn without_whiskers(widths: &[f64], mut run: std::ops::Range<usize>, thin: f64) -> std::ops::Range<usize> {
     let is_whisker = |end: f64, inner: f64| end < thin && end < 0.5 * inner;
     while run.len() > 1 && is_whisker(widths[run.start], widths[run.start + 1]) {

@@ -1,11 +1,11 @@
-//! The feature lines on top, as wide as they were found (Son et al. 2011, section 3).
+//! The feature lines on top, in their detected width (Son et al. 2011, section 3).
 
 use super::Drawer;
 use super::features::Features;
 use crate::drawing::Layer;
 use crate::style::feature_line::feature_stroke;
 
-/// Most of a line's end that tapers, in pitches.
+/// Maximum length of a line's taper, in pitches.
 const LONGEST_TAPER: f64 = 4.0;
 
 pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {

@@ -1,19 +1,19 @@
-//! Where dots end and lines begin, and how wide lines must be (Son et al. 2011, sections 6.2 and 6.3; errata).
+//! The transition from dots to lines, and line widths (Son et al. 2011, sections 6.2 and 6.3; errata).
 //!
 //! ```text
 //!   tone   1 ........ border + blend ........ border - blend ........ 0
-//!   ink      dots     dots and thin lines     lines that have
-//!                     through them            swallowed the dots
+//!   ink      dots     dots and thin lines     lines only;
+//!                     through them            dots are inside them
 //! ```
 
 use super::Drawer;
 use super::parameters::Hatching;
 use crate::geometry::{Point, disc_area_in};
 
-/// How a tone is shared between dots and lines.
+/// Share of a tone between dots and lines.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mixing {
-    /// Tone at which a dot is as large as it may be.
+    /// Tone at which a dot reaches its maximum size.
     border: f64,
     blend: f64,
     hatching: Hatching,
@@ -26,7 +26,7 @@ impl Mixing {
         Self { border, blend: parameters.blend, hatching: parameters.hatching }
     }
 
-    /// How much of its full width a line has at a tone: 0 where there are only dots, 1 where there are only lines.
+    /// Share of its full width that a line has at a tone: 0 if there are only dots, 1 if there are only lines.
     pub(super) fn line_share(&self, tone: f64) -> f64 {
         if self.border >= 1.0 {
             return 1.0;
@@ -38,12 +38,12 @@ impl Mixing {
         t * t * (3.0 - 2.0 * t)
     }
 
-    /// Whether marks of this tone leave nothing but meshes: dots or lines both ways.
+    /// True if marks of this tone leave only meshes: dots, or lines in both directions.
     pub(super) fn closes_up(&self, tone: f64) -> bool {
         self.hatching == Hatching::Both || self.line_share(tone) == 0.0
     }
 
-    /// Whether the lines of a family (0 along, 1 across) are drawn.
+    /// True if the lines of a family (0 along, 1 across) are drawn.
     pub(super) fn hatches(&self, family: usize) -> bool {
         match self.hatching {
             Hatching::Both => true,
@@ -52,7 +52,7 @@ impl Mixing {
         }
     }
 
-    /// The width of the lines that alone make the ink `1 - tone`, for families with so many lines a pixel: the white left is
+    /// Width at which lines alone make the ink `1 - tone`, for families of `density` lines per pixel: the remaining white is
     /// `(1 - h f0) (1 - h f1)`, or `1 - h f` with one family (for equal spacing d: `h = d (1 - sqrt(b))` and `d (1 - b)`).
     pub(super) fn full_width(&self, tone: f64, density: [f64; 2]) -> f64 {
         let ink = (1.0 - tone).clamp(0.0, 1.0);
@@ -67,7 +67,7 @@ impl Mixing {
     }
 }
 
-/// The tone of a square cell of side 1 with a dot of this radius: exact, overlaps counted once.
+/// Exact tone of a square cell of side 1 with a dot of this radius; overlaps count once.
 fn border(radius: f64) -> f64 {
     let cell = [Point::new(-0.5, -0.5), Point::new(0.5, -0.5), Point::new(0.5, 0.5), Point::new(-0.5, 0.5)];
     if radius <= 0.0 {
@@ -77,8 +77,7 @@ fn border(radius: f64) -> f64 {
     if tone < 1e-9 { 0.0 } else { tone }
 }
 
-/// The paper's dot radius for a tone on a square cell of side `pitch` (section 6.1; appendix B as corrected in print's stead:
-/// `s = sqrt(k^2 + (d/2)^2)`).
+/// The paper's dot radius for a tone on a square cell of side `pitch` (section 6.1; appendix B, corrected: `s = sqrt(k^2 + (d/2)^2)`).
 pub(super) fn paper_radius(tone: f64, pitch: f64) -> f64 {
     use std::f64::consts::PI;
     let ink = 1.0 - tone;

@@ -23,8 +23,8 @@ use darks::Darks;
 use parameters::{Gridding, Primitive};
 use structure::StructureGrid;
 
-/// Working pixels above which detail regions are drawn at the resolution of the rest: an A1 face at the default pitch would take more than
-/// the 4 GB that a drawing may.
+/// Working pixels above which detail regions get the resolution of the rest: an A1 face at the default pitch would otherwise exceed a
+/// drawing's limit of 4 GB.
 const MOST_DETAILED_PIXELS: f64 = 25e6;
 
 /// The style.
@@ -80,7 +80,7 @@ impl Style for Grid {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Gridding,
@@ -88,11 +88,11 @@ struct Drawer<'a> {
     observer: &'a dyn Observer,
 }
 
-/// Blur of the tone that widths follow, in pitches: a line's width cannot show more than its own neighbourhood.
+/// Blur of the tone that sets line widths, in pitches: a width cannot show finer detail.
 const TONE_BLUR: f32 = 0.3;
 
 impl Drawer<'_> {
-    /// The paper's steps in its order.
+    /// The paper's steps in order.
     fn draw(&self) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
@@ -112,7 +112,7 @@ impl Drawer<'_> {
         };
         layers.retain(|layer| !layer.marks.is_empty());
         if layers.is_empty() {
-            let why = "the subject is smaller than one dot; a smaller pitch or a whiter mask would hold some";
+            let why = "the subject is smaller than one dot; use a smaller pitch or a whiter mask";
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         if self.parameters.has_lines {
@@ -124,7 +124,7 @@ impl Drawer<'_> {
         Ok(Drawing { page: self.portrait.page, layers })
     }
 
-    /// Section 6: lines, dots, and the darks among the lines or, where there are none, among the dots.
+    /// Section 6: lines and dots; reversed areas join the lines, or the dots if there are no lines.
     fn mixed_layers(&self, grid: &StructureGrid, cells: &[Cell], ink: &Raster<f32>) -> Vec<Layer> {
         let darks = Darks::new(self, grid, ink);
         let blurred = gaussian_blur(ink, TONE_BLUR * self.pitch() as f32);

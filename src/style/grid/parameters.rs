@@ -3,65 +3,64 @@
 use crate::source::MaskRole;
 use crate::style::{Default, Kind, Need, Parameter, Settings};
 
-/// Working pixels a pitch, as in the paper (`d = 6`).
+/// Working pixels per pitch, as in the paper (`d = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;
-/// The same with closer dots somewhere: four for each of these.
+/// The same if dots stand closer in detail regions: four for each of their closer pitches.
 const PIXELS_PER_PITCH_WITH_DETAIL: f64 = 7.0;
 
-/// How many times closer rows stand in detail regions, where three times the dots stay in square cells.
+/// How many times closer rows stand in detail regions: sqrt(3), so that three times the dots stay in square cells.
 pub(super) const DETAIL_CLOSENESS: f32 = 1.732_050_8;
 
 /// Dots and hatching, not tiles.
 const MIXED: Need = Need::Word("primitive", &["mixed"]);
-/// Beyond the half diagonal of a cell all are dots.
+/// From half a cell's diagonal on there are only dots.
 const HAS_LINES: Need = Need::BelowPitches("size_max", std::f64::consts::FRAC_1_SQRT_2);
-/// Lines that are found, not drawn by hand.
+/// Lines are detected, not drawn by hand.
 const FOUND: Need = Need::Without(MaskRole::Edges);
-/// Greatest reach of the window in pitches. The work grows with its square: 17 take 7 s on 100 x 100 mm, ten times as many would take
-/// minutes.
+/// Maximum reach of the window in pitches. The work grows with its square: 17 pitches take 7 s on 100 x 100 mm, 170 would take minutes.
 const WIDEST_WINDOW: f64 = 20.0;
 
-/// All that a user can set.
+/// All parameters of the style.
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "pitch",
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
-        meaning: "distance of neighbouring dots and of hatching lines",
+        meaning: "distance between neighbouring dots and between hatching lines",
         source: "Son 5.1, d",
         needs: &[],
     },
     Parameter {
         name: "size_max",
         kind: Kind::Length { default: Default::Pitches(0.5), least: 0.0, most: 50.0 },
-        meaning: "dots that would be larger than this radius become lines; 0 hatches everywhere, from 0.71 pitches on all are dots",
+        meaning: "largest dot radius; darker tones become lines. 0 hatches everywhere; from 0.71 pitches on there are only dots",
         source: "Son 6.3, s_max",
         needs: &[MIXED],
     },
     Parameter {
         name: "blend",
         kind: Kind::Number { default: 0.1, least: 0.001, most: 0.5 },
-        meaning: "tones on either side of that change over which lines swell while dots give way",
+        meaning: "range of tone on either side of the size_max limit over which lines replace dots",
         source: "Son 6.3, without its sudden border",
         needs: &[MIXED, HAS_LINES, Need::Above("size_max", 0.0)],
     },
     Parameter {
         name: "hatching",
         kind: Kind::Choice(&["both", "along", "across"]),
-        meaning: "the lines that hatch: along the features, across them, or both",
+        meaning: "hatching direction: along the features, across them, or both",
         source: "Son 6.2",
         needs: &[MIXED, HAS_LINES],
     },
     Parameter {
         name: "reversed_from",
         kind: Kind::Number { default: 0.88, least: 0.5, most: 1.0 },
-        meaning: "ink from which dark regions are black with a white hole in each mesh of the grid; 1 leaves lines and dots, which close up there",
+        meaning: "ink from which dark regions are drawn black with a white hole in each mesh of the grid; 1 keeps lines and dots, which close up there",
         source: "",
         needs: &[MIXED, Need::Word("overlap", &["exact"])],
     },
     Parameter {
         name: "overlap",
         kind: Kind::Choice(&["exact", "paper"]),
-        meaning: "dot size: exact puts the tone's ink into each dot's own cell; paper is the square cell's formula, too light where dots overlap",
+        meaning: "dot size: exact matches the tone's ink in each dot's own cell; paper is the formula for a square cell, too light where dots overlap",
         source: "Son 6.1 and appendix B, corrected",
         needs: &[MIXED],
     },
@@ -75,14 +74,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "dot_shape",
         kind: Kind::Number { default: 0.0, least: 0.0, most: 1.0 },
-        meaning: "how far a dot takes the shape of the bent grid around it: 0 circles, 1 all of the grid's distances",
+        meaning: "how far a dot takes the shape of the bent grid around it: 0 draws circles, 1 follows the grid's distances fully",
         source: "Son 6.4, w",
         needs: &[MIXED, Need::Zero("blob")],
     },
     Parameter {
         name: "primitive",
         kind: Kind::Choice(&["mixed", "tile", "tile-lines"]),
-        meaning: "what is drawn: dots and hatching; coloured tiles; or tiles as outlines hatched by tone, for a pen",
+        meaning: "what is drawn: mixed is dots and hatching; tile is coloured tiles; tile-lines is tile outlines hatched by tone, for a pen",
         source: "Son 7.3",
         needs: &[],
     },
@@ -103,49 +102,49 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "line_width",
         kind: Kind::Length { default: Default::Pitches(1.2 / 6.0), least: 0.01, most: 50.0 },
-        meaning: "how fine the lines are that are looked for: standard deviation across them",
+        meaning: "width of the lines to detect: standard deviation across them",
         source: "Kang et al. 2007, sigma_c",
         needs: &[FOUND],
     },
     Parameter {
         name: "line_length",
         kind: Kind::Length { default: Default::Pitches(4.5 / 6.0), least: 0.01, most: 50.0 },
-        meaning: "how far lines are carried over gaps: standard deviation along them",
+        meaning: "how far lines continue over gaps: standard deviation along them",
         source: "Kang et al. 2007, sigma_m",
         needs: &[FOUND],
     },
     Parameter {
         name: "line_contrast",
         kind: Kind::Number { default: 0.99, least: 0.5, most: 1.0 },
-        meaning: "lower finds fewer lines, only those with more contrast",
+        meaning: "lower values find fewer lines, only those with more contrast",
         source: "Kang et al. 2007, rho",
         needs: &[FOUND],
     },
     Parameter {
         name: "line_threshold",
         kind: Kind::Number { default: 0.5, least: 0.01, most: 0.99 },
-        meaning: "higher makes lines thicker and finds more of them",
+        meaning: "higher values find more and thicker lines",
         source: "Kang et al. 2007, tau",
         needs: &[FOUND],
     },
     Parameter {
         name: "line_rounds",
         kind: Kind::Count { default: 2, least: 1, most: 10 },
-        meaning: "how often lines are sought, each time helped by those found",
+        meaning: "rounds of line detection; each builds on the lines found so far",
         source: "Kang et al. 2007: 2 to 3",
         needs: &[FOUND],
     },
     Parameter {
         name: "line_least",
         kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 1000.0 },
-        meaning: "lines shorter than this are not drawn; eyes need short ones",
+        meaning: "lines shorter than this are not drawn; eyes need short lines",
         source: "Bruehl 2.1.1, threshold",
         needs: &[FOUND],
     },
     Parameter {
         name: "line_widest",
         kind: Kind::Length { default: Default::Pitches(0.45), least: 0.01, most: 50.0 },
-        meaning: "width beyond which lines are not drawn any wider",
+        meaning: "maximum width of a drawn line",
         source: "",
         needs: &[FOUND, Need::Word("lines", &["on"])],
     },
@@ -159,28 +158,28 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "draw_contrast",
         kind: Kind::Number { default: 0.05, least: 0.0, most: 1.0 },
-        meaning: "difference of lightness across a line below which it is not drawn",
+        meaning: "minimum difference of lightness across a line that is drawn",
         source: "",
         needs: &[FOUND],
     },
     Parameter {
         name: "steer_contrast",
         kind: Kind::Number { default: 0.07, least: 0.0, most: 1.0 },
-        meaning: "difference of lightness across a line below which it does not steer the grid",
+        meaning: "minimum difference of lightness across a line that steers the grid",
         source: "",
         needs: &[FOUND],
     },
     Parameter {
         name: "flow_reach",
         kind: Kind::Length { default: Default::Pitches(5.0 / 6.0), least: 0.0, most: 50.0 },
-        meaning: "window in which directions of edges are smoothed",
+        meaning: "reach of the window in which edge directions are smoothed",
         source: "Kang et al. 2007, mu = 5 px",
         needs: &[FOUND, Need::Above("flow_rounds", 0.0)],
     },
     Parameter {
         name: "flow_rounds",
         kind: Kind::Count { default: 3, least: 0, most: 20 },
-        meaning: "rounds of that smoothing",
+        meaning: "rounds of smoothing the edge directions",
         source: "Kang et al. 2007: 2 to 3",
         needs: &[FOUND],
     },
@@ -194,63 +193,63 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "isophotes",
         kind: Kind::Count { default: 3, least: 0, most: 16 },
-        meaning: "levels of lightness whose borders steer the grid too, to show round forms; 0 or 1 for none",
+        meaning: "number of lightness levels; their borders also steer the grid, to show round forms; 0 or 1 for none",
         source: "Son 4.1, 0 to 4 quantization levels",
         needs: &[Need::Without(MaskRole::Isophotes)],
     },
     Parameter {
         name: "isophote_weight",
         kind: Kind::Number { default: 0.5, least: 0.001, most: 100.0 },
-        meaning: "how much isophotes count where feature lines run close by",
+        meaning: "weight of isophotes relative to nearby feature lines",
         source: "Son 4.1 counts both alike",
         needs: &[Need::AnyOf(&[&[Need::Above("isophotes", 1.0)], &[Need::With(MaskRole::Isophotes)]])],
     },
     Parameter {
         name: "field_detail",
         kind: Kind::Length { default: Default::Pitches(3.0), least: 0.1, most: 1000.0 },
-        meaning: "finest cell of the feature field: smaller follows every line, larger flows more calmly",
+        meaning: "finest cell of the feature field: smaller follows every line, larger gives a calmer flow",
         source: "Son 4.2; Lee et al. 1997",
         needs: &[],
     },
     Parameter {
         name: "field_calm",
         kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 1000.0 },
-        meaning: "length over which the field turns where lines disagree; 0 leaves walls there",
+        meaning: "length over which the field turns where lines disagree; 0 leaves abrupt borders there",
         source: "",
         needs: &[],
     },
     Parameter {
         name: "window",
         kind: Kind::Length { default: Default::Pitches(2.0), least: 0.1, most: 100.0 },
-        meaning: "reach of the window in which stripes are made regular; at most 20 pitches",
+        meaning: "reach of the window in which the stripes are made regular; at most 20 pitches",
         source: "Son 5.2, r",
         needs: &[],
     },
     Parameter {
         name: "rounds",
         kind: Kind::Count { default: 5, least: 1, most: 200 },
-        meaning: "rounds of that, on each of the lattices from coarse to fine",
+        meaning: "rounds of making the stripes regular, on each lattice from coarse to fine",
         source: "Son 5.2, 3 to 8 iterations",
         needs: &[],
     },
     Parameter {
         name: "adaptive",
         kind: Kind::Number { default: 0.0, least: 0.0, most: 0.6 },
-        meaning: "how much closer dots and lines stand where it is dark: 0 even everywhere, 0.5 half the pitch at full ink",
+        meaning: "how much closer dots and lines stand in dark regions: 0 is even everywhere, 0.5 is half the pitch at full ink",
         source: "Son 5.2, scale factor of the window",
         needs: &[],
     },
     Parameter {
         name: "detail",
         kind: Kind::Choice(&["auto", "off"]),
-        meaning: "dots and lines in detail regions, which are those of a mask detail, else the eyes, brows, noses and mouths that are found: auto sets them sqrt(3) as close, so that there are three times as many; off as everywhere",
+        meaning: "dots and lines in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto places them sqrt(3) times closer, so that there are three times as many dots; off leaves them as everywhere",
         source: "Son 5.2, scale factor of the window; Bruehl 4.3.2",
         needs: &[Need::With(MaskRole::Detail)],
     },
     Parameter {
         name: "feature_rows",
         kind: Kind::Choice(&["beside", "on", "free"]),
-        meaning: "the rows nearest to a feature line run half a pitch beside it, or on it, or where they fall",
+        meaning: "rows nearest to a feature line: beside keeps them half a pitch away, on puts one on the line, free leaves them where they fall",
         source: "Son 5.2 begins on it",
         needs: &[],
     },
@@ -377,18 +376,18 @@ impl Gridding {
         }
     }
 
-    /// The least spacing anywhere, in pitches.
+    /// The smallest spacing in the picture, in pitches.
     pub(super) fn narrowest(&self, is_given_detail: bool) -> f64 {
         let in_detail = if self.has_detail && is_given_detail { f64::from(DETAIL_CLOSENESS) } else { 1.0 };
         f64::from(1.0 - self.adaptive) / in_detail
     }
 
-    /// Whether a picture has this resolution for the sake of its detail regions.
+    /// True if this resolution is the one for detail regions.
     pub(super) fn is_for_detail(&self, pixels_per_mm: f64) -> bool {
         pixels_per_mm * self.pitch_mm > 0.5 * (PIXELS_PER_PITCH + PIXELS_PER_PITCH_WITH_DETAIL)
     }
 
-    /// Working pixels a pitch.
+    /// Working pixels per pitch.
     pub(super) const fn pixels_per_pitch(&self, is_given_detail: bool) -> f64 {
         if self.has_detail && is_given_detail { PIXELS_PER_PITCH_WITH_DETAIL } else { PIXELS_PER_PITCH }
     }

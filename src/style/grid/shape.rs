@@ -1,7 +1,7 @@
 //! Dots that take the shape of the bent grid (Son et al. 2011, section 6.4).
 //!
-//! The paper blends two distances from a dot's centre: `G`, straight, and `G'`, along the grid's own lines. Here the outline is
-//! where the blend is the dot's radius, scaled to the area that the tone asks for.
+//! The paper blends two distances from a dot's centre: `G`, straight, and `G'`, along the grid's own lines. Here the outline is where
+//! the blend is the dot's radius, scaled to the area for the tone.
 
 use super::Drawer;
 use super::cells::Cell;
@@ -10,10 +10,10 @@ use crate::geometry::{Affine, BezPath, Point, Vec2, catmull_rom};
 use kurbo::Shape;
 use std::f64::consts::{PI, TAU};
 
-/// Nodes of an outline: enough for a rounded square.
+/// Nodes of an outline; enough for a rounded square.
 const NODES: u32 = 12;
 
-/// The outline on the page of a dot of this radius (pixels).
+/// Outline on the page of a dot of this radius (pixels).
 pub(super) fn grid_shape(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell, radius: f64) -> BezPath {
     let blend = drawer.parameters.dot_shape;
     let base = cell.tangent.atan2();
@@ -32,7 +32,7 @@ pub(super) fn grid_shape(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell,
     Affine::translate(centre) * Affine::scale(scale) * Affine::translate(-centre) * outline
 }
 
-/// How far the outline lies in one direction, found by halving; at most twice the radius.
+/// Distance of the outline in one direction, found by bisection; at most 1.6 times the radius.
 fn reach(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell, way: Vec2, radius: f64, blend: f64) -> f64 {
     let bent = |r: f64| {
         let p = cell.centre + way * r;

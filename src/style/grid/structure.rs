@@ -14,22 +14,22 @@ use crate::style::{Picture, random};
 use rand::RngExt;
 use std::f64::consts::TAU;
 
-/// Nodes of the lattice in the narrowest pitch: with fewer a stripe between two nodes could be lost.
+/// Lattice nodes per narrowest pitch: with fewer, a stripe between two nodes could be lost.
 const NODES_PER_PITCH: f64 = 2.0;
-/// Levels from coarse to fine: the coarsest nodes are eight pitches apart. With three levels parallel rows keep breaks (0.7
-/// degrees in place of 0.2); more change nothing on faces.
+/// Levels from coarse to fine: the coarsest nodes are eight pitches apart. With three levels parallel rows keep breaks (0.7 degrees
+/// instead of 0.2); more than five change nothing on faces.
 const LEVELS: u32 = 5;
-/// No two dots are nearer than this, in pitches. At 0.5 twins stand at the ends of rows, at 0.7 holes show there.
+/// Minimum distance of two dots, in pitches. At 0.5 twin dots appear at the ends of rows, at 0.7 holes show there.
 const LEAST_DISTANCE: f64 = 0.6;
-/// Radius of a place without any dot that gets one, in pitches; in an even grid it is 0.71. At 0.85 dots crowd where rows end, at
-/// 1.1 white spots show there.
+/// Radius of an empty place that gets an extra dot, in pitches; an even grid has 0.71. At 0.85 dots crowd where rows end, at 1.1 white
+/// spots show there.
 const HOLE: f64 = 0.95;
-/// Blur of a detail region's border, in pitches: rows end one by one over it, and no border was seen on six portraits at full size. Eyes
-/// are five pitches high in a portrait of 90 mm, of which a wider blur would leave little.
+/// Blur of a detail region's border, in pitches: rows end one by one over it, and no border was visible on six portraits at full size.
+/// Eyes in a portrait of 90 mm are five pitches high; a wider blur would leave little of them.
 const DETAIL_BLUR: f64 = 1.0;
-/// How strongly a row is held where a feature line says it should run; at 1 rows break beside short lines.
+/// How strongly a row is held at its place beside a feature line; at 1 rows break beside short lines.
 const HOLD: f64 = 0.25;
-/// Distance from a feature line at which the hold is let go, in pitches.
+/// Distance from a feature line at which the hold ends, in pitches.
 const HOLD_REACH: f64 = 1.5;
 
 /// Both families: 0 runs along the features, 1 across them. In working pixels.
@@ -37,34 +37,34 @@ pub(super) struct StructureGrid {
     pub stripes: [StripeLattice; 2],
     /// Lines of each family, smooth.
     pub lines: [Vec<Curve>; 2],
-    /// Density of each family at the lattice's nodes, lines a pixel.
+    /// Density of each family at the lattice's nodes, lines per pixel.
     pub density: [Raster<f32>; 2],
-    /// Where lines of both families cross, then the points that fill holes between them.
+    /// Crossings of both families, followed by the points that fill holes between them.
     pub crossings: Vec<Point>,
-    /// How many of them are crossings.
+    /// How many of `crossings` are true crossings.
     pub true_crossings: usize,
     pub field: DirectionField,
     pub spacing: Spacing,
 }
 
-/// How far apart dots and lines are to stand.
+/// Target spacing of dots and lines.
 #[derive(Clone)]
 pub(super) struct Spacing {
-    /// How many times closer than a pitch, at each pixel.
+    /// Factor by which the spacing is closer than a pitch, at each pixel.
     closeness: Raster<f32>,
     /// The pitch in pixels.
     pitch: f64,
 }
 
 impl Spacing {
-    /// Pixels from one to the next at a place.
+    /// Spacing at a place in pixels.
     pub(super) fn at(&self, p: Point) -> f64 {
         self.pitch / f64::from(self.closeness.clamped(p.x.floor() as isize, p.y.floor() as isize))
     }
 }
 
 impl StructureGrid {
-    /// Lines a pixel of one family at a place.
+    /// Lines per pixel of one family at a place.
     pub(super) fn density_at(&self, family: usize, p: Point) -> f64 {
         f64::from(self.stripes[family].read(&self.density[family], p)).max(1e-6)
     }
@@ -96,7 +96,7 @@ impl Drawer<'_> {
         grid
     }
 
-    /// Section 5.2: the stripes along the features, begun with the distance from them, and those across, from random phases.
+    /// Section 5.2: the stripes along the features start from the distance to them, those across from random phases.
     fn families(&self, features: &Features, closeness: &Raster<f32>) -> [StripeLattice; 2] {
         let parameters = self.stripe_parameters();
         let by_chance = |stage: &'static str| move |node: u64| random::stream(self.seed, stage, node).random::<f32>();
@@ -131,7 +131,7 @@ impl Drawer<'_> {
         }
     }
 
-    /// The waves of both families: the one along the features has its wave across them.
+    /// The waves of both families; the wave of the family along the features points across them.
     fn waves(&self, features: &Features, closeness: &Raster<f32>) -> [Raster<Wave>; 2] {
         let pitch = self.pitch() as f32;
         let across =
@@ -140,7 +140,7 @@ impl Drawer<'_> {
         [across, along]
     }
 
-    /// Where two families cross, then the points that fill holes between these; and how many of them are crossings.
+    /// Crossings of two families, followed by the points that fill holes between them; and the number of true crossings.
     pub(super) fn points(&self, along: &StripeLattice, across: &StripeLattice, spacing: &Spacing) -> (Vec<Point>, usize) {
         let (width, height) = self.size();
         let least = |p: Point| LEAST_DISTANCE * spacing.at(p);
@@ -156,7 +156,7 @@ impl Drawer<'_> {
         p.x >= 0.0 && p.y >= 0.0 && p.x < width as f64 && p.y < height as f64
     }
 
-    /// How many times closer than a pitch lines stand at each pixel.
+    /// Factor by which lines stand closer than a pitch, at each pixel.
     fn closeness(&self, ink: &Raster<f32>) -> Raster<f32> {
         let adaptive = self.parameters.adaptive;
         let by_tone = if adaptive == 0.0 {
@@ -170,7 +170,7 @@ impl Drawer<'_> {
         by_tone.zip_map(&detail, |closeness, detail| closeness * (1.0 + (DETAIL_CLOSENESS - 1.0) * detail.clamp(0.0, 1.0)))
     }
 
-    /// The phase that the nodes near feature lines are held to, so that rows run along them.
+    /// The phases at which nodes near feature lines are held, so that rows run along them.
     fn hold(
         &self,
         distance: &FeatureDistance,
@@ -225,7 +225,7 @@ impl Drawer<'_> {
         });
     }
 
-    /// The distance from the nearest line, black on it (Son et al. 2011, figure 5).
+    /// Distance from the nearest line, black on the line (Son et al. 2011, figure 5).
     fn stripe_picture(&self, family: &StripeLattice) -> Raster<f32> {
         let (width, height) = self.size();
         Raster::from_fn(width, height, |x, y| {
@@ -235,12 +235,12 @@ impl Drawer<'_> {
     }
 }
 
-/// The held phase at one place: the distance from the feature line in cycles, grown along the wave; nothing far away, nor where
-/// the field runs across the line.
+/// The held phase at one place: the distance from the feature line in cycles, growing along the wave. Zero far away and where the field
+/// runs across the line.
 fn held(distance: &FeatureDistance, wave: Wave, p: Point, spacing: f64, offset: f64) -> [f32; 2] {
     let away = distance.distance.sample(p.x, p.y);
     let strength = HOLD * (1.0 - f64::from(away) / (HOLD_REACH * spacing));
-    // The distance grows by one a pixel straight across the line; 0.8 is 37 degrees off.
+    // The distance grows by one per pixel straight across the line; 0.8 is 37 degrees off.
     if strength <= 0.0 || slope_along(distance, wave, p).abs() < 0.8 {
         return [0.0, 0.0];
     }
@@ -254,13 +254,13 @@ fn side_distance(distance: &FeatureDistance, p: Point) -> f64 {
     f64::from(distance.distance.clamped(x, y)) * f64::from(distance.side.clamped(x, y))
 }
 
-/// How it grows a pixel along the wave's direction.
+/// Growth of that distance per pixel along the wave's direction.
 fn slope_along(distance: &FeatureDistance, wave: Wave, p: Point) -> f64 {
     let along = Vec2::new(f64::from(wave[0]), f64::from(wave[1])).normalize();
     0.25 * (side_distance(distance, p + along * 2.0) - side_distance(distance, p - along * 2.0))
 }
 
-/// The distance that grows along the wave (Son et al. 2011, section 5.2, begin with the distance, without its sign).
+/// Distance signed to grow along the wave (Son et al. 2011, section 5.2, start with the unsigned distance).
 fn signed_distance(distance: &FeatureDistance, wave: Wave, p: Point) -> f64 {
     slope_along(distance, wave, p).signum() * side_distance(distance, p)
 }

@@ -21,7 +21,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, cells: &[Cell]) -> Layer {
     layer
 }
 
-/// Tiles as outlines with hatching across them, as dense as the tone asks.
+/// Tiles as outlines, hatched to make the tone.
 pub(super) fn line_layer(drawer: &Drawer<'_>, cells: &[Cell]) -> Layer {
     drawer.observer.begin("tiles");
     let width = PEN * drawer.parameters.pitch_mm;
@@ -36,12 +36,12 @@ pub(super) fn line_layer(drawer: &Drawer<'_>, cells: &[Cell]) -> Layer {
     layer
 }
 
-/// A tile stands where the subject is.
+/// Cells with a tile: those of the subject.
 fn inked(cells: &[Cell]) -> impl Iterator<Item = &Cell> {
     cells.iter().filter(|cell| cell.area > 0.0 && cell.is_subject)
 }
 
-/// The square of side `sqrt(cell) - gap`, cut to its own cell less half the gap, so that no two tiles meet.
+/// The square of side `sqrt(cell) - gap`, clipped to its own cell less half the gap, so that no two tiles touch.
 fn tile(drawer: &Drawer<'_>, cell: &Cell) -> Option<Vec<Point>> {
     let gap = drawer.pixels(drawer.parameters.tile_gap_mm);
     let half = 0.5 * (cell.area.sqrt() - gap);
@@ -64,7 +64,7 @@ fn tile(drawer: &Drawer<'_>, cell: &Cell) -> Option<Vec<Point>> {
     (square.len() > 2 && polygon_area(&square).abs() > 0.05 * half * half).then_some(square)
 }
 
-/// Lines across a tile whose ink, with the outline's, is the cell's.
+/// Lines across a tile whose ink, together with the outline's, is the cell's.
 fn hatched(tile: &[Point], cell: &Cell, width: f64) -> Vec<Vec<Point>> {
     let around: f64 = (0..tile.len()).map(|i| tile[i].distance(tile[(i + 1) % tile.len()])).sum();
     let missing = cell.darkness * cell.area - around * width;

@@ -1,18 +1,18 @@
-//! What a hedcut takes, as measured.
+//! Measured cost of a hedcut.
 
 use super::parameters::Hedcutting;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
-/// Bytes a pixel: 78 at 100 mm (1 megapixel), 73 at 250 mm (6.3), 80 at 25 x 30 mm and a pitch of 0.05 mm (10.8).
+/// Bytes per pixel: 78 at 100 mm (1 megapixel), 73 at 250 mm (6.3), 80 at 25 x 30 mm and a pitch of 0.05 mm (10.8).
 const BYTES: f64 = 80.0;
-/// More of them where every dot has an outline of its own: 90 at 250 mm.
+/// Additional bytes if every dot has an outline of its own: 90 in all at 250 mm.
 const BLOB_BYTES: f64 = 18.0;
-/// Microseconds a pixel: 1.6 at 1, 1.7 at 6.3, 1.7 at 10.8 megapixels, with 40 rounds.
+/// Microseconds per pixel: 1.6 at 1, 1.7 at 6.3, 1.7 at 10.8 megapixels, with 40 rounds.
 const MICROSECONDS: f64 = 1.1;
-/// Of each round of relaxation: 1000 rounds took 1.1 s on 0.075 megapixels.
+/// For each round of relaxation: 1000 rounds took 1.1 s on 0.075 megapixels.
 const ROUND_MICROSECONDS: f64 = 0.015;
-/// Of the lines that are looked for, for each pixel of their width, when it is more than the default's 1.2.
+/// For line detection, per pixel of line width above the default of 1.2.
 const WIDTH_MICROSECONDS: f64 = 0.5;
 
 pub(super) fn cost(parameters: &Hedcutting, picture: Rect, pixels_per_mm: f64) -> Cost {

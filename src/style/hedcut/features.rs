@@ -1,4 +1,4 @@
-//! Steps 1, 2 and 12: edges and isophotes, found or hand-made.
+//! Steps 1, 2 and 12: edges and isophotes, detected or drawn by hand.
 
 use super::Drawer;
 use crate::field::{
@@ -13,20 +13,20 @@ use crate::style::Picture;
 /// The lines that steer the dots, in working pixels.
 pub(super) struct Features {
     pub edges: Vec<Curve>,
-    /// The coherent lines as found, with widths to draw them in; none of them where edges come from elsewhere.
+    /// The coherent lines with their widths; empty if edges come from another source.
     pub drawn: Vec<CoherentLine>,
     pub isophotes: Vec<Curve>,
     /// Lightness of the subject on white, smoothed within regions.
     pub smoothed: Raster<f32>,
 }
 
-/// Brightness of a hand-made line above which it counts; low, since a thin line grows faint when the mask is reduced.
+/// Minimum brightness of a hand-made line; low, since thin lines grow faint when the mask is scaled down.
 const LINE_BRIGHTNESS: f32 = 0.25;
 
-/// Kang's figures for the edge tangent flow: the window's radius in pixels, and rounds.
+/// Kang's values for the edge tangent flow: window radius in pixels, and rounds.
 const FLOW_RADIUS: usize = 5;
 const FLOW_ROUNDS: u32 = 3;
-/// Kang's `sigma_m` in `sigma_c`.
+/// Kang's `sigma_m` as a multiple of `sigma_c`.
 const LINE_LENGTH: f32 = 3.0;
 /// Coherent lines shorter than this, in pitches, are specks; an eyelid is three long.
 const LEAST_LINE: f64 = 2.0;
@@ -34,7 +34,7 @@ const LEAST_LINE: f64 = 2.0;
 impl Drawer<'_> {
     pub(super) fn features(&self) -> Features {
         self.observer.begin("edges");
-        // The background is taken out first, so that the subject's silhouette is an edge and nothing beyond it is.
+        // The background is removed first, so that the silhouette is an edge and nothing beyond it is.
         let lightness = self.portrait.on_white(&self.portrait.lightness);
         let (edges, drawn) = match self.portrait.masks.get(&MaskRole::Edges) {
             Some(mask) => (self.hand_made(mask), Vec::new()),
@@ -73,8 +73,8 @@ impl Drawer<'_> {
         lines_of(&steps.skeleton, parameters.smoothing, 0.5 * parameters.least_length)
     }
 
-    /// Coherent lines in the place of Canny's edges (Bruehl 2023, section 4.3.1, wishes for them): those long enough to steer, and
-    /// all of them, of which the outline takes the longest.
+    /// Coherent lines instead of Canny's edges (suggested in Bruehl 2023, section 4.3.1): the lines long enough to steer, and all lines,
+    /// of which the outline takes the longest.
     fn coherent_edges(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Vec<CoherentLine>) {
         let width = self.pixels(self.parameters.line_width_mm) as f32;
         let flow = edge_tangent_flow(lightness, FLOW_RADIUS, FLOW_ROUNDS);
@@ -94,8 +94,8 @@ impl Drawer<'_> {
         (self.with_silhouette(long), drawn)
     }
 
-    /// The subject's own border is its silhouette, exactly; edges found beside it (a pixel or two off) would leave a strip too
-    /// narrow for a row of dots, so those parts of them give way.
+    /// Adds the subject's exact border as an edge. Detected edges beside it (a pixel or two off) would leave a strip too narrow for a
+    /// row of dots, so those parts are removed.
     fn with_silhouette(&self, edges: Vec<Curve>) -> Vec<Curve> {
         let smoothing = self.pixels(self.parameters.smoothing_mm).max(1.0);
         let least = self.pixels(self.parameters.edge_length_mm);
@@ -127,7 +127,7 @@ impl Drawer<'_> {
         (steps.lines, steps.smoothed)
     }
 
-    /// The centre lines of white lines on black.
+    /// Centre lines of white lines on black.
     fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
         let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
         self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));

@@ -1,6 +1,6 @@
 //! Step 7: bare highlights with a fade (Bruehl 2023, sections 4.3.2 and 4.4).
 //!
-//! Over the fade dots shrink; those that would become specks keep a visible size and thin out in blue-noise order, so that no
+//! Dots shrink over the fade; those that would become specks keep a visible size and are thinned out in blue-noise order, so that no
 //! border shows.
 
 use super::features::Features;
@@ -9,17 +9,17 @@ use crate::geometry::{Point, blue_noise_order};
 use crate::raster::{Raster, gaussian_blur};
 use std::borrow::Cow;
 
-/// Radius below which a fading dot is thinned out instead of shrunk, in pitches: 0.14 is 6 % ink. At 0.1 the fade ends in dust
-/// that print loses; at 0.2 single dots stand out on a cheek (looked at on the astronaut and Grace Hopper).
+/// Radius below which a fading dot is thinned out instead of shrunk, in pitches: 0.14 is 6 % ink. At 0.1 the fade ends in dust that
+/// print loses; at 0.2 single dots stand out on a cheek (judged on the astronaut and Grace Hopper).
 const LEAST_FADING_RADIUS: f64 = 0.14;
 
-/// Ink of a tone that was made for faces below which paper stays bare, and from which the fade has ended: that tone has set its whites
-/// itself. With 0.14 and 0.24, as by the levels of a plain photograph, foreheads are blown out; without a fade they end in dust (looked
-/// at on sixteen portraits).
+/// With a tone made for faces: ink below which paper stays bare, and ink at which the fade ends. That tone sets its own whites. With
+/// 0.14 and 0.24, as from the levels of a plain photograph, foreheads are blown out; without a fade they end in dust (judged on sixteen
+/// portraits).
 const PORTRAIT_BARE: f32 = 0.05;
 const PORTRAIT_FADE: f32 = 0.13;
 
-/// The ink field with highlights taken out: none in the lightest steps, rising to all of it over the fade.
+/// The ink without highlights: 0 in the lightest levels, rising to the full ink over the fade.
 pub(super) fn fade_ink(drawer: &Drawer<'_>, ink: &Raster<f32>, features: &Features) -> Raster<f32> {
     if !drawer.parameters.has_highlights {
         return ink.clone();
@@ -43,7 +43,7 @@ pub(super) fn thin_out(drawer: &Drawer<'_>, dots: Vec<SizedDot>, features: &Feat
     let centres: Vec<Point> = specks.iter().map(|dot| dot.centre).collect();
     let count = centres.len() as f64;
     for (rank, i) in blue_noise_order(&centres).into_iter().enumerate() {
-        // The speck's share of a least dot is the chance to stand for its neighbours; its rank is the throw of the dice.
+        // A speck's area as a share of the smallest dot is its chance to be kept; its blue-noise rank decides.
         let share = (specks[i].radius / least).powi(2);
         if (rank as f64 + 0.5) / count < share {
             kept.push(SizedDot { centre: centres[i], radius: least });
@@ -52,13 +52,13 @@ pub(super) fn thin_out(drawer: &Drawer<'_>, dots: Vec<SizedDot>, features: &Feat
     kept
 }
 
-/// How much of its ink a light keeps.
+/// The share of ink kept by lightness.
 struct Fade<'a> {
-    /// What is faded by: the photograph's lightness, or the tone that was made for its faces.
+    /// Lightness that controls the fade: the photograph's, or that of the tone made for its faces.
     light: Cow<'a, Raster<f32>>,
     /// Ink below which paper stays bare.
     bare: f32,
-    /// Ink from which all of it is drawn.
+    /// Ink at which all of it is drawn.
     full: f32,
 }
 
@@ -74,7 +74,7 @@ impl<'a> Fade<'a> {
         Self { light: Cow::Borrowed(&features.smoothed), bare, full: bare + width }
     }
 
-    /// The share of its ink that is left: what is drawn is linear in the ink asked for, from none to all of it.
+    /// The share of ink that is kept; the drawn ink rises linearly with the target ink, from none to all of it.
     fn share(&self, light: f32) -> f32 {
         let ink = 1.0 - light;
         if ink >= self.full {

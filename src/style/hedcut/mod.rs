@@ -65,7 +65,7 @@ impl Style for Hedcut {
     }
 }
 
-/// One drawing in the making.
+/// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
     parameters: Hedcutting,
@@ -81,7 +81,7 @@ struct SizedDot {
 }
 
 impl Drawer<'_> {
-    /// The thesis' steps in its order.
+    /// The thesis' steps in order.
     fn draw(&self) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
@@ -141,7 +141,7 @@ impl Drawer<'_> {
         lanes
     }
 
-    /// Step 11 and the change from pixels to millimetres.
+    /// Step 11 and the conversion from pixels to millimetres.
     fn dot_layer(&self, dots: &[SizedDot]) -> Layer {
         self.observer.begin("dots");
         let scale = self.portrait.placement.mm_per_pixel();

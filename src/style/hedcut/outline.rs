@@ -1,5 +1,5 @@
 //! Step 8: the longest edges alone as strokes that swell in the middle and taper at the ends (Bruehl 2023, section 4.3.2); coherent
-//! lines as wide as they were found.
+//! lines keep their detected width.
 
 use super::Drawer;
 use super::features::Features;
@@ -11,7 +11,7 @@ use crate::style::feature_line::feature_stroke;
 /// Distance of an outline's nodes in pitches: far enough for long smooth arcs, near enough for the corner of an eye.
 const NODE_SPACING: f64 = 1.2;
 
-/// Most of a coherent line's end that tapers, in pitches.
+/// Maximum length of a coherent line's taper, in pitches.
 const LONGEST_TAPER: f64 = 4.0;
 
 pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {

@@ -3,34 +3,34 @@
 use crate::source::MaskRole;
 use crate::style::{Default, Kind, Need, Parameter, Settings};
 
-/// Working pixels a pitch, as in the papers (`l = 6`).
+/// Working pixels per pitch, as in the papers (`l = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;
-/// Least pixels in a lane of a detail region: with fewer, rows break up (errata).
+/// Minimum width in pixels of a lane in a detail region: with fewer, rows break up (errata).
 const LEAST_LANE_PIXELS: f64 = 4.0;
 
-/// Weights compare edges with isophotes.
+/// Weights matter only if isophotes steer besides edges.
 const BOTH_STEER: Need = Need::AnyOf(&[&[Need::Above("isophotes", 0.0)], &[Need::With(MaskRole::Isophotes)]]);
 
-/// All that a user can set.
+/// All parameters of the style.
 pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "pitch",
         kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.05, most: 50.0 },
-        meaning: "distance of neighbouring dots; smaller gives finer detail and more of them",
+        meaning: "distance between neighbouring dots; smaller gives finer detail and more dots",
         source: "Bruehl 3.2, l",
         needs: &[],
     },
     Parameter {
         name: "size",
         kind: Kind::Choice(&["exact", "paper"]),
-        meaning: "dot size: exact puts the tone's ink into each dot's own cell; paper is s_max (1 - T)^gamma",
+        meaning: "dot size: exact matches the tone's ink in each dot's own cell; paper is s_max (1 - T)^gamma",
         source: "Bruehl 3.4 and 4.4",
         needs: &[],
     },
     Parameter {
         name: "size_max",
         kind: Kind::Length { default: Default::Pitches(0.56), least: 0.01, most: 50.0 },
-        meaning: "with size=paper: radius of the dot for full ink",
+        meaning: "with size=paper: radius of a dot at full ink",
         source: "Bruehl 3.4, s_max",
         needs: &[Need::Word("size", &["paper"])],
     },
@@ -44,50 +44,50 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "reversed_from",
         kind: Kind::Number { default: 0.76, least: 0.5, most: 1.0 },
-        meaning: "with size=exact: ink from which dark regions are black with white holes, as on scraperboard; 1 leaves dots everywhere, which close up there",
+        meaning: "with size=exact: ink from which dark regions are drawn black with white holes, as on scraperboard; 1 keeps dots everywhere, which close up there",
         source: "",
         needs: &[Need::Word("size", &["exact"])],
     },
     Parameter {
         name: "lines",
         kind: Kind::Choice(&["coherent", "canny"]),
-        meaning: "how edges are found: coherent lines along the edges' flow, drawn as wide as they are, or Canny's detector",
+        meaning: "edge detector: coherent finds lines along the edge tangent flow and draws them at their own width; canny is Canny's detector",
         source: "Bruehl 2.1 and 4.3.1; Kang et al. 2007",
         needs: &[Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "line_width",
-        // Wider lines take minutes, since they are sought three times as far along as across.
+        // Wider lines take minutes: the filter is three times as long along a line as across.
         kind: Kind::Length { default: Default::Pitches(0.2), least: 0.01, most: 10.0 },
-        meaning: "with lines=coherent: how fine the lines are that are looked for, standard deviation across them",
+        meaning: "with lines=coherent: width of the lines to detect, standard deviation across them",
         source: "Kang et al. 2007, sigma_c",
         needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "line_contrast",
         kind: Kind::Number { default: 0.07, least: 0.0, most: 1.0 },
-        meaning: "with lines=coherent: difference of lightness across a line below which it does not count",
+        meaning: "with lines=coherent: minimum difference of lightness across a line",
         source: "",
         needs: &[Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_blur",
         kind: Kind::Length { default: Default::Pitches(0.4), least: 0.0, most: 50.0 },
-        meaning: "with lines=canny: blur before edges are sought; larger finds only the great forms",
+        meaning: "with lines=canny: blur before edge detection; larger finds only the large forms",
         source: "Bruehl 2.1",
         needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_high",
         kind: Kind::Number { default: 0.30, least: 0.0, most: 5.0 },
-        meaning: "with lines=canny: an edge needs somewhere this change of lightness (0 to 1) a pitch",
+        meaning: "with lines=canny: an edge must somewhere reach this change of lightness (0 to 1) per pitch",
         source: "Bruehl 2.1, maxVal",
         needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)],
     },
     Parameter {
         name: "edge_low",
         kind: Kind::Number { default: 0.12, least: 0.0, most: 5.0 },
-        meaning: "with lines=canny: an edge ends where the change a pitch falls below this",
+        meaning: "with lines=canny: an edge ends where the change per pitch falls below this",
         source: "Bruehl 2.1, minVal",
         needs: &[Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)],
     },
@@ -108,7 +108,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "levels",
         kind: Kind::Count { default: 8, least: 2, most: 64 },
-        meaning: "steps of lightness between which isophotes run",
+        meaning: "number of lightness levels; isophotes run between them",
         source: "Bruehl 2.2",
         needs: &[Need::AnyOf(&[
             &[Need::Word("highlights", &["on"])],
@@ -118,28 +118,28 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "isophotes",
         kind: Kind::Count { default: 3, least: 0, most: 63 },
-        meaning: "how many of the lightest steps are outlined by isophotes; 0 for none",
+        meaning: "how many of the lightest levels are outlined by isophotes; 0 for none",
         source: "Bruehl 2.2, t",
         needs: &[Need::Without(MaskRole::Isophotes)],
     },
     Parameter {
         name: "edge_weight",
         kind: Kind::Number { default: 1.0, least: 0.01, most: 100.0 },
-        meaning: "how far edges rule against isophotes",
+        meaning: "weight of edges relative to isophotes",
         source: "Bruehl 3.1.2, w_e",
         needs: &[BOTH_STEER],
     },
     Parameter {
         name: "isophote_weight",
         kind: Kind::Number { default: 2.0, least: 0.01, most: 100.0 },
-        meaning: "how far isophotes rule against edges",
+        meaning: "weight of isophotes relative to edges",
         source: "Bruehl 3.1.2, w_i",
         needs: &[BOTH_STEER],
     },
     Parameter {
         name: "flow_reach",
         kind: Kind::Length { default: Default::Pitches(100.0 / 6.0), least: 0.01, most: 10_000.0 },
-        meaning: "distance from a feature at which rows dissolve into even scatter",
+        meaning: "distance from a feature at which rows dissolve into an even scatter",
         source: "Kim et al. 2008, D_w = 100 px",
         needs: &[Need::Above("flow_rounds", 0.0)],
     },
@@ -153,7 +153,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "flow_rounds",
         kind: Kind::Count { default: 30, least: 0, most: 1000 },
-        meaning: "rounds that draw the dots into rows, every second one, and spread them, the others",
+        meaning: "further rounds, alternately pulling the dots into rows and spreading them",
         source: "Kim et al. 2008, t2",
         needs: &[],
     },
@@ -167,14 +167,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "highlight_steps",
         kind: Kind::Number { default: 1.0, least: 0.0, most: 64.0 },
-        meaning: "how many of the lightest of the levels are left bare",
+        meaning: "how many of the lightest levels are left bare",
         source: "Bruehl 4.3.2",
         needs: &[Need::Word("highlights", &["on"])],
     },
     Parameter {
         name: "highlight_fade",
         kind: Kind::Number { default: 0.12, least: 0.0, most: 1.0 },
-        meaning: "lightness over which dots shrink and thin out towards a bare highlight",
+        meaning: "range of lightness over which dots shrink and thin out towards a bare highlight",
         source: "Bruehl 4.4 asks for a fade",
         needs: &[Need::Word("highlights", &["on"])],
     },
@@ -188,7 +188,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "outline_length",
         kind: Kind::Length { default: Default::Pitches(16.0), least: 0.0, most: 1000.0 },
-        meaning: "lines at least this long are drawn, no shorter ones; the rows follow those too",
+        meaning: "minimum length of a drawn line; rows also follow shorter ones",
         source: "Bruehl 4.3.2",
         needs: &[Need::Word("outline", &["on"])],
     },
@@ -202,7 +202,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "detail",
         kind: Kind::Choice(&["auto", "even", "thesis", "off"]),
-        meaning: "lanes in detail regions, which are those of a mask detail, else the eyes, brows, noses and mouths that are found: auto and even make them sqrt(3) as dense, so that three times the dots stay in square cells; thesis three times; off as everywhere",
+        meaning: "lanes in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto and even make them sqrt(3) times as dense, so that three times the dots stay in square cells; thesis makes them three times as dense; off leaves them as everywhere",
         source: "Bruehl 4.3.2, corrected",
         needs: &[Need::With(MaskRole::Detail)],
     },
@@ -251,7 +251,7 @@ pub(super) struct Hedcutting {
     pub has_outline: bool,
     pub outline_length_mm: f64,
     pub outline_width_mm: f64,
-    /// Lanes of a detail region in the place of one; none where detail is off.
+    /// Number of lanes per ordinary lane in a detail region; none if detail is off.
     pub detail_lanes: Option<f64>,
     pub blob: f64,
 }
@@ -295,7 +295,7 @@ impl Hedcutting {
         }
     }
 
-    /// Working pixels a pitch: the papers' six, more where detail lanes would become too narrow.
+    /// Working pixels per pitch: six as in the papers, more if detail lanes would be too narrow.
     pub(super) fn pixels_per_pitch(&self, has_detail: bool) -> f64 {
         let lanes = self.detail_lanes.filter(|_| has_detail).unwrap_or(1.0);
         if lanes > 1.0 { PIXELS_PER_PITCH.max(LEAST_LANE_PIXELS * lanes) } else { PIXELS_PER_PITCH }

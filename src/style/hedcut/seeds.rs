@@ -8,7 +8,7 @@ use crate::style::{StyleError, random};
 use rand::RngExt;
 use rayon::prelude::*;
 
-/// Bands of rows in which centres of gravity are summed; fixed, so that sums do not depend on the number of threads.
+/// Bands of rows in which centroids are summed; a fixed number, so that sums do not depend on the number of threads.
 const BANDS: usize = 16;
 /// Density of dots in a detail region (Bruehl 4.3.2: three times).
 const DETAIL_DENSITY: f32 = 3.0;
@@ -20,12 +20,13 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
     let mut sites = scatter(drawer, lanes, &density);
     if sites.is_empty() {
         return Err(StyleError::NothingToDraw(
-            "the subject is smaller than one dot, or its mask is nowhere more than half white; a smaller pitch or a whiter mask would hold some".to_owned(),
+            "the subject is smaller than one dot, or its mask is nowhere more than half white; use a smaller pitch or a whiter mask".to_owned(),
         ));
     }
     drawer.observer.picture("seeds", &|| drawer.dot_picture(&sites));
     drawer.observer.begin("relaxation");
-    // A cell's size in a relaxed pattern goes with the square root of the weight (Du et al. 1999), so the weight is the square.
+    // The density of cells in a relaxed pattern is proportional to the square root of the weight (Du et al. 1999), so the weight is the
+    // square.
     let weight = density.map(|d| d * d);
     let reach = drawer.pixels(drawer.parameters.flow_reach_mm) as f32;
     let rounds = drawer.parameters.plain_rounds + drawer.parameters.flow_rounds;
@@ -43,7 +44,7 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
     Ok(sites)
 }
 
-/// Wanted dots a pitch squared: 1 in the subject, more in detail regions, 0 outside.
+/// Target dots per squared pitch: 1 in the subject, more in detail regions, 0 outside.
 fn density(drawer: &Drawer<'_>) -> Raster<f32> {
     let subject = &drawer.portrait.subject;
     match drawer.detail() {
@@ -53,8 +54,8 @@ fn density(drawer: &Drawer<'_>) -> Raster<f32> {
     }
 }
 
-/// Random seeds with the wanted mean density: each cell of one pitch gets its share, rounded so that what is left over goes to
-/// the next cell, at random pixels that lie on no offset line where there are enough of them.
+/// Random seeds with the target mean density. Each cell of one pitch gets its share; the rounding error carries over to the next cell.
+/// Seeds are random pixels, off the offset lines if there are enough of them.
 fn scatter(drawer: &Drawer<'_>, lanes: &Lanes, density: &Raster<f32>) -> Vec<Point> {
     let (width, height) = drawer.size();
     let pitch = drawer.pitch();
@@ -87,7 +88,7 @@ fn scatter(drawer: &Drawer<'_>, lanes: &Lanes, density: &Raster<f32>) -> Vec<Poi
     sites
 }
 
-/// What binds a dot to its lane in a constrained round.
+/// The constraint that keeps a dot in its lane in a constrained round.
 #[derive(Clone, Copy)]
 struct Constraint<'a> {
     lanes: &'a Lanes,
@@ -96,8 +97,8 @@ struct Constraint<'a> {
 }
 
 impl Constraint<'_> {
-    /// The weight of a pixel for a dot in `lane`: 1 in its own lane, 0 in another, on offset lines `min(D / D_w, 1)`. The border
-    /// of a detail region is no lane border: a wall there would leave a bare ring (seen).
+    /// The weight of a pixel for a dot in `lane`: 1 in its own lane, 0 in another, `min(D / D_w, 1)` on offset lines. The border of a
+    /// detail region is not a lane border: a wall there leaves a bare ring (seen).
     fn weight(&self, pixel: usize, lane: i32) -> f32 {
         if self.lanes.line.pixels()[pixel] != 0 {
             (self.lanes.distance.pixels()[pixel] / self.reach).min(1.0)
@@ -108,7 +109,7 @@ impl Constraint<'_> {
     }
 }
 
-/// One round: every site moves to the weighted centre of gravity of its Voronoi cell (equation of Bruehl 3.3.2).
+/// One round: every site moves to the weighted centroid of its Voronoi cell (equation of Bruehl 3.3.2).
 fn towards_centres(sites: &[Point], weight: &Raster<f32>, constraint: Option<Constraint<'_>>, pitch: f64) -> Vec<Point> {
     let (width, height) = (weight.width(), weight.height());
     let nearest = Sites::new(sites, width as f64, height as f64, pitch).nearest(weight);

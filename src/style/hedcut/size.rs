@@ -1,4 +1,4 @@
-//! Step 6: the size of each dot, and of the holes in the black that stand in dots' place where these would close up.
+//! Step 6: the size of each dot, and of the holes in black regions where dots would close up.
 
 use super::{Drawer, SizedDot};
 use crate::drawing::Mark;
@@ -11,12 +11,13 @@ use kurbo::Shape;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Farthest that a dot's cell is counted from its site, in pitches; beyond the subject's border cells are open.
+/// Maximum reach of a dot's cell from its site, in pitches; cells are open beyond the subject's border.
 const CELL_REACH: f64 = 2.5;
 
-/// Blur of the ink by which cells are called dark, in pitches, so that grain does not mix reversed cells with others.
+/// Blur of the ink that decides which cells are dark, in pitches, so that grain does not mix reversed cells with others.
 const DARK_BLUR: f64 = 0.8;
-/// How much darker than asked for a cell must be to be reversed whatever surrounds it, and how much lighter it may be in the dark.
+/// Hysteresis around the threshold: how much darker a cell must be to be reversed regardless of its surroundings, and how much lighter
+/// it may be in dark surroundings.
 const DARK_BAND: f64 = 0.06;
 
 /// The dots of a drawing and the reversed areas between them.
@@ -25,9 +26,8 @@ pub(super) struct Sized {
     pub reversed: Vec<Mark>,
 }
 
-/// The radius at which the disc, clipped to the dot's own Voronoi cell, covers the ink that the cell's tone asks for
-/// (Bruehl 2023, section 4.4; errata). Dots that would cover nothing are left out; dark cells are black with a hole of the white that
-/// the tone asks for.
+/// The radius at which the disc, clipped to the dot's own Voronoi cell, covers the ink of the cell's tone (Bruehl 2023, section 4.4;
+/// errata). Dots that would cover nothing are left out; dark cells are black with a hole for the white of the tone.
 pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> Sized {
     drawer.observer.begin("sizes");
     let (width, height) = drawer.size();
@@ -57,7 +57,7 @@ pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
     Sized { dots, reversed: reversed::areas(&cells, &chosen.mask, drawer.portrait, drawer.pitch()) }
 }
 
-/// Which cells are so dark that their dots would close up.
+/// True for each cell so dark that its dots would close up.
 fn dark(drawer: &Drawer<'_>, sites: &[Point], wanted: &[CellInk], ink: &Raster<f32>) -> Vec<bool> {
     let from = drawer.parameters.reversed_from;
     if from >= 1.0 {
@@ -100,26 +100,26 @@ pub(super) fn paper(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
     Sized { dots, reversed: Vec::new() }
 }
 
-/// What the pixels of one cell ask for.
+/// Sums over the pixels of one cell.
 #[derive(Clone, Copy, Default)]
 struct CellInk {
     pixels: f64,
     ink: f64,
-    /// Pixels of the subject, its soft border in part.
+    /// Pixels of the subject; its soft border counts in part.
     subject: f64,
-    /// Sum of the pixels' places, each as often as it has ink.
+    /// Sum of the pixels' positions, weighted by ink.
     place: Vec2,
-    /// Part of the cell lies outside the subject, so that its polygon is larger than what is drawn.
+    /// True if part of the cell lies outside the subject, so that its polygon is larger than the drawn part.
     is_open: bool,
 }
 
 impl CellInk {
-    /// Ink area in a cell of this area: its mean tone's share, or, at the subject's border, what its pixels ask for.
+    /// Ink area for a cell of area `cell`: the share of its mean tone or, at the subject's border, the sum over its pixels.
     fn area(self, cell: f64) -> f64 {
         if self.is_open || self.pixels == 0.0 { self.ink } else { self.share() * cell }
     }
 
-    /// The ink's centre of weight.
+    /// Centroid of the ink.
     fn middle(self) -> Option<Point> {
         (self.ink > 0.0).then(|| (self.place / self.ink).to_point())
     }

@@ -7,28 +7,28 @@ use crate::style::random;
 use rand::RngExt;
 use std::collections::VecDeque;
 
-/// Distance of an arc's points in pixels.
+/// Distance between an arc's points in pixels.
 const STEP: f64 = 0.5;
-/// A growing arc stops where it comes nearer to another than this share of the spacing there. At 0.5 arcs pinch and the spacing
-/// varies, at 0.9 they break up into dashes (Jobard and Lefer: 0.5 to 0.8).
+/// Share of the local spacing at which a growing arc stops before another one. At 0.5 arcs pinch and the spacing varies, at 0.9 they
+/// break up into dashes (Jobard and Lefer: 0.5 to 0.8).
 const LEAST_SHARE: f64 = 0.75;
-/// Arcs never come nearer than this share of their width; with what smoothing moves them they then overlap by less than half of it.
+/// Minimum distance of arcs as a share of their width; after smoothing moves them, they overlap by less than half of it.
 const LEAST_WIDTHS: f64 = 0.75;
-/// Cosine of the greatest turn in one step, a curve of two pixels' radius: tighter whirls would be blots.
+/// Cosine of the maximum turn in one step, a radius of two pixels: tighter whirls would be blots.
 const MOST_TURN: f64 = 0.969;
-/// Shortest arc, as a share of the length asked for; shorter ones look like dirt.
+/// Shortest arc, as a share of the target length; shorter ones look like dirt.
 const LEAST_LENGTH: f64 = 0.12;
 
-/// What is to be drawn; lengths in pixels.
+/// The target of a drawing; lengths in pixels.
 pub(super) struct Wanted<'a> {
     pub flow: &'a Flow,
     /// Share of ink, 0 to 1.
     pub ink: &'a Raster<f32>,
-    /// Distance of neighbouring arcs, infinite where there are none.
+    /// Distance between neighbouring arcs; infinite where there are none.
     pub spacing: &'a Raster<f32>,
     /// Width of an arc.
     pub width: f64,
-    /// Length of an arc, about.
+    /// Approximate length of an arc.
     pub length: f64,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Arcs<'a> {
 }
 
 impl<'a> Arcs<'a> {
-    /// First beside arcs that are there, at the right distance, as long as any such place is free; then wherever a gap is left.
+    /// Draws arcs beside existing ones at the right distance as long as such a place is free, then wherever a gap is left.
     pub(super) fn draw(wanted: &'a Wanted<'a>, seed: u64) -> Vec<Vec<Point>> {
         let cell = 2.0 * wanted.width;
         let columns = (wanted.ink.width() as f64 / cell).ceil() as usize + 1;
@@ -58,7 +58,7 @@ impl<'a> Arcs<'a> {
         arcs.lines
     }
 
-    /// Places all over the picture, one in each cell, in an order that does not run along rows.
+    /// One random place in each cell of the picture, in random order.
     fn starts(&self) -> Vec<Point> {
         let mut random = random::stream(self.seed, "arc starts", 0);
         let mut starts: Vec<(u64, Point)> = (0..self.columns * self.rows)
@@ -72,7 +72,7 @@ impl<'a> Arcs<'a> {
         starts.into_iter().map(|start| start.1).collect()
     }
 
-    /// Grows arcs beside the last one, then beside those, until there is no more room.
+    /// Grows arcs beside the last one, then beside the new ones, until there is no more room.
     fn surround(&mut self) {
         let mut queue = VecDeque::from([self.lines.len() - 1]);
         while let Some(line) = queue.pop_front() {
@@ -142,14 +142,14 @@ impl<'a> Arcs<'a> {
         (p.y / self.cell) as usize * self.columns + (p.x / self.cell) as usize
     }
 
-    /// Whether a place lies on the picture, wants ink and is far enough from all arcs, and from the earlier part of its own.
+    /// True if a place lies on the picture, needs ink and is far enough from all arcs and from the earlier part of its own.
     fn is_free(&self, p: Point, own: &[Point]) -> bool {
         let spacing = self.spacing(p);
         if !self.wanted.flow.contains(p) || !spacing.is_finite() {
             return false;
         }
         let distance = (LEAST_SHARE * spacing).max(LEAST_WIDTHS * self.wanted.width);
-        // The points within reach along the arc are near by nature.
+        // Skips the points that are near along the arc itself.
         let skipped = (2.0 * distance / STEP) as usize + 2;
         let earlier = own.len().saturating_sub(skipped);
         if own[..earlier].iter().any(|q| q.distance_squared(p) < distance * distance) {

@@ -1,21 +1,21 @@
-//! The ink that lines lay down, measured, and the spacing that gives each tone its ink.
+//! Measured ink of lines, and the spacing that gives each tone its ink.
 
 use crate::geometry::{Point, distance_to_segment};
 use crate::raster::{Raster, fast_gaussian};
 
-/// Sub-pixels a line's width: finer changes the measured ink by less than 0.002.
+/// Sub-pixels per line width: finer changes the measured ink by less than 0.002.
 const FINE: f64 = 6.0;
-/// Shares of ink for which the spacing is found one by one.
+/// Number of tones for which the spacing is found separately.
 const TONES: usize = 20;
-/// Pixels of a tone from which it is corrected.
+/// Minimum number of a tone's pixels for it to be corrected.
 const LEAST_PIXELS: f64 = 200.0;
-/// Weight of each earlier try against the one after it: the first ones are far from the tone.
+/// Weight of each try relative to the next one: the first tries are far from the tone.
 const FORGETTING: f64 = 0.6;
-/// Greatest change of a factor's logarithm at once.
+/// Maximum change of a factor's logarithm per round.
 const MOST_STEP: f64 = 0.4;
-/// Least variance of the tried factors' logarithms that tells a slope.
+/// Minimum variance of the tried factors' logarithms for a slope to be fitted.
 const LEAST_SPREAD: f64 = 1e-3;
-/// Blur of the ink before it is sorted by tone, in pixels: tones at the foot of an edge are not those of the lines there.
+/// Blur of the ink before it is sorted by tone, in pixels: the tones at the foot of an edge differ from those of the lines there.
 const BLUR: f32 = 2.0;
 
 /// Share of each pixel that lines of this width (in pixels) with round ends cover.
@@ -44,10 +44,10 @@ pub(super) fn coverage(lines: &[Vec<Point>], width: f64, like: &Raster<f32>) -> 
     })
 }
 
-/// How much closer than their width over the ink lines must stand, by ink.
+/// Correction of the line spacing: a factor on `width / ink`, by ink.
 pub(super) struct Calibration {
     factors: [f32; TONES + 1],
-    /// For each tone the logarithms of the factors tried and of the ink that came of them.
+    /// For each tone, the logarithms of the tried factors and of the resulting ink.
     tried: [Vec<(f64, f64)>; TONES + 1],
 }
 
@@ -58,7 +58,7 @@ impl Default for Calibration {
 }
 
 impl Calibration {
-    /// Distance of neighbouring lines in pixels; none (infinite) where hardly any ink is wanted.
+    /// Distance of neighbouring lines in pixels; infinite where hardly any ink is needed.
     pub(super) fn spacing(&self, ink: &Raster<f32>, width: f32) -> Raster<f32> {
         ink.map(|ink| if ink < 0.01 { f32::INFINITY } else { self.factor(ink) * width / ink })
     }
@@ -69,7 +69,7 @@ impl Calibration {
         self.factors[i] + (self.factors[i + 1] - self.factors[i]) * (at - i as f32)
     }
 
-    /// Corrects the factors by the ink that was laid down where each tone was wanted.
+    /// Corrects the factors by the ink drawn for each tone.
     pub(super) fn learn(&mut self, ink: &Raster<f32>, laid: &Raster<f32>) {
         let (ink, laid) = (fast_gaussian(ink, BLUR), fast_gaussian(laid, BLUR));
         let mut sums = [[0.0_f64; 3]; TONES + 1];
@@ -87,7 +87,7 @@ impl Calibration {
             if count < LEAST_PIXELS || wanted <= 0.0 {
                 continue;
             }
-            // Lines that come close cover like 1 - exp(-1 / spacing), so that the uncovered part is what is compared.
+            // Close lines cover like 1 - exp(-1 / spacing), so the uncovered part is compared.
             let depth = |ink: f64| (-(1.0 - (ink / count).clamp(0.002, 0.99)).ln()).ln();
             tried.push((f64::from(*factor).ln(), depth(laid)));
             let (middle, slope) = trend(tried);
@@ -98,8 +98,8 @@ impl Calibration {
     }
 }
 
-/// The weighted middle of all tries and the slope through them; ink falls as the factor grows, about in proportion. One drawing's ink
-/// differs from the next one's by up to 0.03 at the same factor, so that the last try alone is a poor guide.
+/// Weighted mean of all tries and the slope through them; ink falls about in proportion as the factor grows. At the same factor the ink
+/// of two drawings differs by up to 0.03, so the last try alone is a poor guide.
 fn trend(tried: &[(f64, f64)]) -> ((f64, f64), f64) {
     let weight = |i: usize| FORGETTING.powi((tried.len() - 1 - i) as i32);
     let mean = |value: &dyn Fn(&(f64, f64)) -> f64| {
