@@ -17,10 +17,9 @@
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
 //! | [`press`] | a drawing, a press's dot gain and smallest mark | the drawing to print, compensated to keep the tone |
-//! | [`plot`] | a drawing, a machine's profile | [`plot::Plot`]: ordered tool paths |
-//! | [`mod@write`] | a drawing or a plot | bytes |
-//! | [`read`] | SVG, HP-GL, G-code | a drawing, or motion |
-//! | [`resume`] | a plotter's file and where it stopped | the rest of the file |
+//! | [`plot`] | a drawing, a machine's profile | [`plot::Job`]: ordered tool paths, checked; the machine's file, read back and resumed |
+//! | [`mod@write`] | a drawing | bytes |
+//! | [`read`] | SVG | a drawing |
 //! | `cli` (cargo feature) | arguments | the only module that uses files, stdout and exit codes |
 //! | [`mod@interrupt`] | | a request to stop, checked by all long loops |
 //!

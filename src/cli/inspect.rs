@@ -42,8 +42,8 @@ fn is_encoded(bytes: &[u8]) -> bool {
 }
 
 fn inspect_text(shown: &str, bytes: &[u8], profile: Option<Profile>, budget: &mut Budget) -> Result<Value, Failure> {
-    let text = std::str::from_utf8(bytes)
-        .map_err(|_| Failure::Work(format!("{shown} is not SVG, HP-GL or G-code: it is not text")))?;
+    let text =
+        std::str::from_utf8(bytes).map_err(|_| Failure::Work(format!("{shown} is not SVG, HP-GL or G-code: it is not text")))?;
     Ok(match language_of(shown, text) {
         Some(Language::Svg) => inspect_svg(shown, bytes, profile.as_ref(), budget)?,
         Some(language) => {
