@@ -49,9 +49,9 @@ fn at_best(runs: usize, run: impl Fn() -> Vec<(String, f64)>) -> Vec<(String, f6
 
 /// When each step began.
 #[derive(Default)]
-struct Clock(Mutex<Vec<(String, Instant)>>);
+struct PenTime(Mutex<Vec<(String, Instant)>>);
 
-impl Observer for Clock {
+impl Observer for PenTime {
     fn begin(&self, step: &str) {
         self.0.lock().expect("no other thread fails").push((step.to_owned(), Instant::now()));
     }
@@ -75,7 +75,7 @@ fn style_seconds(width: f64, height: f64) -> Vec<(String, f64)> {
     let style = find("grid").expect("the style is there");
     let given = [("pitch".to_owned(), "1".to_owned())];
     let settings = Settings::resolve("grid", style.parameters(), &given).expect("they are sound");
-    let clock = Clock::default();
+    let clock = PenTime::default();
     black_box(style.draw(&portrait, &settings, 0, &clock).expect("it draws"));
     let end = Instant::now();
     let begun = clock.0.into_inner().expect("no other thread fails");

@@ -31,7 +31,7 @@ fn run(program: &str, arguments: &[&str]) -> Option<(i32, String)> {
 fn plotted() -> Plot {
     let drawing = Sheet { set: &[("pitch", "1.2")], ..Sheet::new(&sample("chelsea.png"), (60.0, 39.911)) }.draw();
     let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
-    plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
+    plot.order_paths(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }
 

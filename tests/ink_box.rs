@@ -193,7 +193,7 @@ fn path_box(points: impl Iterator<Item = Point>) -> Option<Rect> {
 /// Pen-down moves in the files for two machines.
 fn toolpath_boxes(drawing: &Drawing) -> Vec<Rect> {
     let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.01, &drypoint::interrupt::Interrupt::never()).unwrap();
-    plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.01);
+    plot.order_paths(Point::ORIGIN, Effort::Fast, Direction::Either, 0.01);
     if plot.pens.iter().all(|pen| pen.paths.is_empty()) {
         return Vec::new();
     }

@@ -4,7 +4,8 @@ use drypoint::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, 
 use drypoint::geometry::{BezPath, Point};
 use drypoint::interrupt::{Interrupt, Interrupted};
 use drypoint::plot::{
-    Effort, Hides, InkModel, Nibs, PenPaths, Plot, Profile, Sequence, Toolpath, coverage, let_dry, lower, mount, occluded, report,
+    Effort, Hides, InkModel, Nibs, PenPaths, Plot, Profile, Sequence, Toolpath, coverage, delay_for_drying, lower, mount,
+    occluded, report,
 };
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -127,6 +128,6 @@ fn the_clock_of_a_long_file_and_the_wait_for_ink_stop() {
     let mounting = mount(&profile, &Page::new(200.0, 200.0)).unwrap();
     stops_at_once("clock", &[0.02, 0.2], |interrupt| report(&plot, Point::ORIGIN, Some((&profile, &mounting)), None, interrupt));
     stops_at_once("drying", &[0.3, 2.0], |interrupt| {
-        let_dry(&mut plot.clone(), 600.0, Point::ORIGIN, &profile.motion, interrupt)
+        delay_for_drying(&mut plot.clone(), 600.0, Point::ORIGIN, &profile.motion, interrupt)
     });
 }

@@ -39,7 +39,7 @@ fn hedcut() -> Drawing {
 
 fn plotted(drawing: &Drawing) -> Plot {
     let mut plot = lower(drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
-    plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
+    plot.order_paths(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }
 

@@ -14,7 +14,7 @@ use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{
-    Clock, Direction, Effort, InkModel, Nibs, PenPaths, Plot, Profile, Toolpath, built_in, clock, lower, mount,
+    Direction, Effort, InkModel, Nibs, PenPaths, PenTime, Plot, Profile, Toolpath, built_in, clock, lower, mount,
 };
 use grbl::{Elapsed, Laser, Settings, run};
 use machine_file::written;
@@ -44,8 +44,8 @@ fn profile(changes: &[(&str, &str)]) -> Profile {
 fn compare(name: &str, plot: &Plot, profile: &Profile, settings: &Settings) -> [f64; 2] {
     let mounting = mount(profile, &plot.page).unwrap();
     let clocks = clock(plot, profile, &mounting, &Interrupt::never()).unwrap();
-    let motion: f64 = clocks.iter().map(Clock::motion).sum();
-    let total: f64 = clocks.iter().map(Clock::total).sum();
+    let motion: f64 = clocks.iter().map(PenTime::motion).sum();
+    let total: f64 = clocks.iter().map(PenTime::total).sum();
     let machine: Elapsed = run(&written(plot, profile).unwrap(), settings);
     let waiting: f64 = clocks.iter().map(|c| c.waiting).sum();
     assert!((waiting - machine.dwell).abs() < 1e-3 * (1.0 + machine.dwell), "{name}: waits {waiting} s for {} s", machine.dwell);
@@ -206,7 +206,7 @@ fn sample_plot(name: &str, width: f64, profile: &Profile) -> Plot {
     let drawing = Sheet::new(&photo, (width, width * f64::from(size.height()) / f64::from(size.width()))).draw();
     let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     let mounting = mount(profile, &plot.page).unwrap();
-    plot.ordered(mounting.to_machine.inverse() * Point::ORIGIN, Effort::Fast, Direction::Either, 0.1);
+    plot.order_paths(mounting.to_machine.inverse() * Point::ORIGIN, Effort::Fast, Direction::Either, 0.1);
     plot
 }
 

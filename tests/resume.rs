@@ -27,7 +27,7 @@ fn plot() -> Plot {
     let layers = layers.into_iter().map(|(pen, marks)| Layer { marks: marks.to_vec(), ..Layer::new("part", pen) });
     let drawing = Drawing { layers: layers.collect(), ..drawing.clone() };
     let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
-    plot.ordered(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
+    plot.order_paths(Point::ORIGIN, Effort::Fast, Direction::Either, 0.05);
     plot
 }
 

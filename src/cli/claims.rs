@@ -57,7 +57,7 @@ pub(super) fn reads(name: &str, path: &Path, found: &Metadata) {
 }
 
 /// Records stdin if it is a regular file.
-pub(super) fn reads_stdin() {
+pub(super) fn record_stdin() {
     let path = Path::new("/dev/stdin");
     if let Ok(found) = fs::metadata(path) {
         reads("stdin", path, &found);
@@ -65,7 +65,7 @@ pub(super) fn reads_stdin() {
 }
 
 /// Refuses an output that is an input.
-pub(super) fn is_no_input(output: &str) -> Result<(), Failure> {
+pub(super) fn check_not_input(output: &str) -> Result<(), Failure> {
     let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     let Some(identity) = Identity::of_output(output) else { return Ok(()) };
     let shown = if output == "-" { "stdout" } else { output };
@@ -75,10 +75,10 @@ pub(super) fn is_no_input(output: &str) -> Result<(), Failure> {
 }
 
 /// Refuses outputs that are inputs, and outputs that are the same file.
-pub(super) fn are_distinct<'a>(outputs: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
+pub(super) fn check_distinct<'a>(outputs: impl IntoIterator<Item = &'a str>) -> Result<(), Failure> {
     let mut claimed: Vec<(&str, Identity)> = Vec::new();
     for output in outputs {
-        is_no_input(output)?;
+        check_not_input(output)?;
         let Some(identity) = Identity::of_output(output) else { continue };
         if let Some((other, _)) = claimed.iter().find(|(_, known)| *known == identity) {
             return Err(Failure::Usage(format!("{other} and {output} are the same file; give one of them another name")));

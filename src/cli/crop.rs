@@ -21,7 +21,7 @@ struct Room {
 pub(super) fn part(options: &PictureOptions, photograph: &Photograph, faces: &[Landmarks]) -> Result<Crop, Failure> {
     let crop = match options.crop {
         None => Crop::all(photograph),
-        Some(CropPart::Box(numbers)) => asked_for(numbers, photograph),
+        Some(CropPart::Box(numbers)) => requested_crop(numbers, photograph),
         Some(CropPart::Head) => return round_faces(&HEAD, "head", options, photograph, faces),
         Some(CropPart::Face) => return round_faces(&FACE, "face", options, photograph, faces),
     };
@@ -43,7 +43,7 @@ pub(super) fn part(options: &PictureOptions, photograph: &Photograph, faces: &[L
     Ok(within)
 }
 
-fn asked_for([x, y, w, h]: [CropNumber; 4], photograph: &Photograph) -> Crop {
+fn requested_crop([x, y, w, h]: [CropNumber; 4], photograph: &Photograph) -> Crop {
     let whole = Crop::all(photograph);
     let pixels = |number: CropNumber, of: f64| match number {
         CropNumber::Pixels(pixels) => pixels,

@@ -7,13 +7,13 @@ use super::crop;
 use super::dry_run;
 use super::eyes;
 use super::failure::Failure;
-use super::forewarn;
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
 use super::known::{self, Known, Wanted};
 use super::layer_files::{self, LayerFile, split_by_layer};
 use super::layout::{self, Layout, lay_out};
 use super::lists::{role_names, roles_of, styles_with_role};
+use super::long_waits;
 use super::max_time;
 use super::messages::{self, say};
 use super::output;
@@ -59,14 +59,14 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
-    let notice = layout::unfilled(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
+    let notice = layout::empty_box_notice(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
     let tell = || notice.iter().for_each(|notice| say!("drypoint: {notice}"));
     if options.dry_run {
         task.tell(options.reporting.quiet);
         let told = dry_run::run(&task, options, profile.as_ref(), &mut pens);
         return told.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref())).inspect(|()| tell());
     }
-    let is_warned = forewarn::of_a_long_wait(&task, options, profile.as_ref(), &mut pens)?;
+    let is_warned = long_waits::warn_if_long(&task, options, profile.as_ref(), &mut pens)?;
     let watcher = Watcher::new(options.reporting.quiet);
     let (drawing, painting) = drawing_of(&task, options, profile.as_ref(), &mut pens, &watcher)?;
     let visible = match profile {
@@ -252,7 +252,7 @@ impl<'a> Task<'a> {
         let crop = crop::part(options, &photograph, &known.faces)?;
         let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
         if style.leaves_out_background() {
-            known.notices.extend(eyes::too_small(&known.faces, &layout, pitch, options.crop));
+            known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
         let task = Self { options, style, settings, photograph, known, layout, given };
         affordable::check(&task)?;
@@ -287,14 +287,14 @@ impl<'a> Task<'a> {
     }
 
     /// The largest pitch that the style accepts and that leaves the picture recognisable.
-    pub(super) fn sane_pitch(&self) -> f64 {
+    pub(super) fn largest_useful_pitch(&self) -> f64 {
         let pitch = self.style.parameters().iter().find(|parameter| parameter.name == "pitch");
         let most = pitch.and_then(|parameter| parameter.kind.ends()).map_or(f64::INFINITY, |ends| ends[1]);
         most.min(self.layout.picture.width().min(self.layout.picture.height()) / LEAST_PITCHES)
     }
 
     /// The smallest short side, in millimetres, that leaves the picture recognisable at this pitch.
-    pub(super) fn least_side(&self) -> f64 {
+    pub(super) fn smallest_useful_side(&self) -> f64 {
         LEAST_PITCHES * self.settings.number("pitch")
     }
 
@@ -552,7 +552,7 @@ fn report_json(drawing: &Drawing, pens: &PenSet, (files, jobs): (&[LayerFile], &
         "layers": layers,
         "seconds": seconds_of_steps(seconds),
     });
-    if let Some(report) = toolpaths::of_all(jobs) {
+    if let Some(report) = toolpaths::combined_report(jobs) {
         value["pens"] = json!(report.pens);
         value["total"] = json!(report.total);
         value["duplicates"] = json!(jobs.iter().map(Job::duplicates).sum::<usize>());

@@ -3,21 +3,21 @@
 use super::affordable::memory;
 use super::arguments::DrawOptions;
 use super::draw::Task;
+use super::estimate::{Care, DrawingEstimate, Estimator, Plan};
 use super::failure::Failure;
-use super::foretell::{Care, Foretold, Plan, Teller};
 use super::messages::{self, say};
 use super::pens::PenSet;
 use super::toolpaths::{self, duration};
-use super::{forewarn, output};
+use super::{long_waits, output};
 use crate::plot::Profile;
 use serde_json::{Value, json};
 
 /// Reports the estimate and writes nothing.
 pub(super) fn run(task: &Task<'_>, options: &DrawOptions, profile: Option<&Profile>, pens: &mut PenSet) -> Result<(), Failure> {
-    let mut teller = Teller { task, options, profile, pens };
+    let mut teller = Estimator { task, options, profile, pens };
     let foretold = teller.foretell(&Plan::of(task), Care::Careful)?;
     foretold.check(&mut teller)?;
-    forewarn::warn(&mut teller, &foretold);
+    long_waits::warn(&mut teller, &foretold);
     let bytes = task.cost(&task.settings, task.layout.picture).bytes;
     if options.reporting.json {
         return output::print_json(&as_json(&foretold, teller.pens, bytes));
@@ -65,7 +65,7 @@ fn rounded(count: f64) -> f64 {
     (count / unit).round() * unit
 }
 
-fn as_json(foretold: &Foretold, pens: &PenSet, bytes: f64) -> Value {
+fn as_json(foretold: &DrawingEstimate, pens: &PenSet, bytes: f64) -> Value {
     let whole = |count: f64| count.round() as u64;
     let layers: Vec<Value> = foretold
         .amounts

@@ -11,7 +11,7 @@ const CORNERS: [(usize, usize); 2] = [(33, 133), (362, 263)];
 const LEAST_PITCHES: f64 = 5.0;
 
 /// A notice if the eyes of the largest face are too small for the pitch, with the options that help.
-pub(super) fn too_small(faces: &[Landmarks], layout: &Layout, pitch: f64, crop: Option<CropPart>) -> Option<String> {
+pub(super) fn eyes_notice(faces: &[Landmarks], layout: &Layout, pitch: f64, crop: Option<CropPart>) -> Option<String> {
     let face = faces.first()?;
     let scale = layout.picture.width() / layout.crop.width;
     let eye = |(a, b): (usize, usize)| (face.point(b) - face.point(a)).hypot() * scale;

@@ -19,15 +19,15 @@ const MOST_NAMED: usize = 40;
 const FEW_NAMED: usize = 6;
 
 /// The result of assigning pens to a drawing's layers.
-pub(super) struct HandedOut {
+pub(super) struct PenAssignment {
     /// The marks in their original painting order.
     pub painting: Vec<Painted>,
     /// A message naming the colours that were merged.
-    pub became_one: Option<String>,
+    pub merge_notice: Option<String>,
 }
 
 /// Reduces a drawing's colours to the machine's pens, if there are too many.
-pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<HandedOut> {
+pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<PenAssignment> {
     let most = match profile.pens.change {
         PenChange::Machine => profile.pens.count,
         PenChange::Pause => profile.pens.count.max(MOST_CHANGES),
@@ -41,9 +41,9 @@ pub(super) fn fit_to_pens(drawing: &mut Drawing, profile: &Profile) -> Option<Ha
     }
     let palette = palette(drawing, &amounts, profile.pens.count as usize);
     let sorted = sorted(drawing, &palette);
-    let became_one = Some(told(amounts.len(), profile, &palette, &sorted.became));
+    let merge_notice = Some(told(amounts.len(), profile, &palette, &sorted.became));
     drawing.layers = sorted.layers;
-    Some(HandedOut { painting: sorted.painting, became_one })
+    Some(PenAssignment { painting: sorted.painting, merge_notice })
 }
 
 /// Warns of layers with several colours but one pen.
@@ -116,7 +116,7 @@ fn sorted(drawing: &Drawing, palette: &[Colour]) -> Sorted {
                 became[at].insert(colour);
             }
             painting.push(Painted::Mark { layer: at, mark: layers[at].marks.len() });
-            layers[at].marks.push(super::pens::in_layer_s_ink(mark));
+            layers[at].marks.push(super::pens::without_own_colour(mark));
         }
     }
     Sorted { layers, became, painting }

@@ -7,8 +7,8 @@ use super::pens::PenSet;
 use super::toolpaths::duration;
 use crate::drawing::Drawing;
 use crate::plot::{
-    Beyond, Course, Direction, DrawingCorner, Duplicates, Effort, InkModel, Job, JobError, JobOptions, PlacingMarks, Plot,
-    Profile, Seam, Sequence, Wish,
+    Course, Direction, DrawingCorner, Duplicates, Effort, InkModel, Job, JobError, JobOptions, MachineFeature, PlacingMarks,
+    Plot, Profile, ReachPolicy, Seam, Sequence,
 };
 use crate::style::Observer;
 
@@ -40,7 +40,7 @@ fn asked(options: &ToolpathOptions, pens: &PenSet) -> JobOptions {
     JobOptions {
         sequence: sequence(options),
         tolerance: options.tolerance,
-        beyond: if options.clip { Beyond::Clip } else { Beyond::Refuse },
+        beyond: if options.clip { ReachPolicy::Clip } else { ReachPolicy::Refuse },
         marks: PlacingMarks { has_frame: options.frame, has_registration: options.registration },
         pause_every: options.pause_every,
         dry_seconds: options.dry_time,
@@ -91,7 +91,9 @@ fn refused(error: JobError, options: &ToolpathOptions) -> Failure {
     match error {
         JobError::Interrupted => Failure::Interrupted,
         JobError::Misfit(error) => Failure::Misfit(error),
-        JobError::NoMachine(Wish::Drying) => Failure::Usage("--dry-time needs a machine's speeds; give --profile".to_owned()),
+        JobError::NoMachine(MachineFeature::Drying) => {
+            Failure::Usage("--dry-time needs a machine's speeds; give --profile".to_owned())
+        }
         JobError::NoMachine(_) => Failure::Usage("--frame and --pause-every make a machine wait; give --profile".to_owned()),
         JobError::OwnFrame { machine } => {
             Failure::Usage(format!("--frame: {machine} is driven by its own program; trace the outline there"))
@@ -102,8 +104,8 @@ fn refused(error: JobError, options: &ToolpathOptions) -> Failure {
         JobError::NoSuchPen { .. } => {
             Failure::Work(format!("{error}; choose --layers, or give the layer a lower number, or a slot with --pens"))
         }
-        JobError::NoPause { wish: Wish::Frame, machine } => no_pause("--frame", &machine),
-        JobError::NoPause { wish: Wish::PauseEvery, machine } => no_pause("--pause-every", &machine),
+        JobError::NoPause { wish: MachineFeature::Frame, machine } => no_pause("--frame", &machine),
+        JobError::NoPause { wish: MachineFeature::PauseEvery, machine } => no_pause("--pause-every", &machine),
         JobError::NoPause { .. } => Failure::Work(format!("{error}; write one file for each layer: -o 'name-{{layer}}.gcode'")),
         JobError::NoWait { seconds } => Failure::Work(format!(
             "--dry-time {}: the machine would have to wait {} in total, and its language has no wait command; use a shorter time",

@@ -108,8 +108,8 @@ pub(super) fn of(
     if style.uses_depth() && known.depth.is_none() {
         known.depth = seen.depth.take();
     }
-    tell_of_tone(&mut known, options);
-    tell_of_idle_masks(&mut known, style);
+    add_tone_notice(&mut known, options);
+    add_idle_mask_notices(&mut known, style);
     known.unused = seen;
     Ok(known)
 }
@@ -192,14 +192,14 @@ fn decide_background(
     Ok(())
 }
 
-fn tell_of_tone(known: &mut Known, options: &PictureOptions) {
+fn add_tone_notice(known: &mut Known, options: &PictureOptions) {
     if options.tone.is_none() && matches!(known.tone, Wanted::Portrait(_)) {
         known.notices.push("tone made for the face; --tone lightness keeps the photograph's".to_owned());
     }
 }
 
 /// Adds a notice for each given mask that only the portrait tone uses, if the portrait tone is off.
-fn tell_of_idle_masks(known: &mut Known, style: &dyn Style) {
+fn add_idle_mask_notices(known: &mut Known, style: &dyn Style) {
     if matches!(known.tone, Wanted::Portrait(_)) {
         return;
     }

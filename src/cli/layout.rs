@@ -2,7 +2,7 @@
 
 use super::arguments::{Fit, PictureOptions, PlacingOptions};
 use super::failure::Failure;
-use super::placing::{Turning, asked_move, move_inside};
+use super::placing::{Turning, move_inside, requested_move};
 use crate::drawing::Page;
 use crate::geometry::{Rect, parse_drawn_size};
 use crate::source::{Crop, fill_box};
@@ -179,13 +179,13 @@ impl Sheet {
             return Rect::from_center_size(page.rect().center(), size);
         }
         let usual = Rect::from_center_size(self.free.center(), size);
-        let asked = usual + asked_move(placing, usual, page, Some(self.reached));
+        let asked = usual + requested_move(placing, usual, page, Some(self.reached));
         if placing.at.is_some() { asked } else { asked + move_inside(asked, self.reached) }
     }
 }
 
 /// A notice if the picture leaves more than a twentieth of a side of its `--size` box empty.
-pub(super) fn unfilled(options: &PictureOptions, layout: &Layout) -> Option<String> {
+pub(super) fn empty_box_notice(options: &PictureOptions, layout: &Layout) -> Option<String> {
     let (width, height) = options.size.filter(|_| options.fit == Fit::Contain)?;
     let picture = layout.picture;
     let is_empty = picture.width() < 0.95 * width || picture.height() < 0.95 * height;

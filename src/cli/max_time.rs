@@ -3,11 +3,11 @@
 use super::advice;
 use super::arguments::{DrawOptions, Order};
 use super::draw::{Task, drawing_of, reach_of, uncovered};
+use super::estimate::{Care, Estimator, Plan};
 use super::failure::Failure;
-use super::foretell::{Care, Plan, Teller};
-use super::forewarn::smaller_size;
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
+use super::long_waits::smaller_size;
 use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::toolpaths::{self, duration};
@@ -32,10 +32,10 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
         return Err(Failure::Usage("--max-time draws several times; give the photograph as a file, not as -".to_owned()));
     }
     let mut trials = Trials::new(options)?;
-    let (start, most) = (trials.task.settings.number("pitch"), trials.task.sane_pitch());
+    let (start, most) = (trials.task.settings.number("pitch"), trials.task.largest_useful_pitch());
     let mut found = search(start, most.max(start), limit, |pitch| trials.seconds_at(pitch))?;
     if let (true, Ok(quick)) = (options.dry_run, found) {
-        found = trials.carefully(quick, most.max(start), limit)?;
+        found = trials.refined_by_careful_estimate(quick, most.max(start), limit)?;
     }
     let chosen = found.map_err(|last| {
         let smaller = trials.smaller_size(last.pitch, last.seconds, limit);
@@ -153,7 +153,7 @@ impl<'a> Trials<'a> {
     }
 
     /// Corrects a pitch found by quick estimates with a careful one.
-    fn carefully(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
+    fn refined_by_careful_estimate(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
         let careful = self.estimate(quick.pitch, Care::Careful)?;
         let start = self.task.settings.number("pitch");
         if careful <= limit && (careful >= 0.9 * limit || quick.pitch <= start) {
@@ -169,8 +169,8 @@ impl<'a> Trials<'a> {
         smaller_size(&mut self.teller(), seconds, limit)
     }
 
-    fn teller(&mut self) -> Teller<'_> {
-        Teller { task: &self.task, options: self.options, profile: Some(&self.profile), pens: &mut self.pens }
+    fn teller(&mut self) -> Estimator<'_> {
+        Estimator { task: &self.task, options: self.options, profile: Some(&self.profile), pens: &mut self.pens }
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn read_settings(name: &str) -> Result<String, Failure> {
 /// A reader of a file, or of stdin for `-`.
 pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
     if name == "-" {
-        claims::reads_stdin();
+        claims::record_stdin();
         return Ok(Box::new(io::stdin().lock()));
     }
     let refuse = |problem: &str| Failure::Work(format!("{name} {problem}"));
@@ -52,7 +52,7 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
 
 /// Writes a file through a temporary one beside it. `-` is stdout; devices and pipes are written in place.
 pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
-    claims::is_no_input(name)?;
+    claims::check_not_input(name)?;
     if name == "-" {
         let mut stdout = io::BufWriter::new(io::stdout().lock());
         return fill(&mut stdout).and_then(|()| stdout.flush()).map_err(Failure::writing("stdout"));

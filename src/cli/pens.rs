@@ -11,7 +11,7 @@
 //! ```
 
 use super::failure::Failure;
-use super::few_pens::{HandedOut, fit_to_pens, warn_of_colours};
+use super::few_pens::{PenAssignment, fit_to_pens, warn_of_colours};
 use super::messages::warning_line;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
@@ -60,16 +60,16 @@ impl PenSet {
     /// Gives every layer its pen: by name or number, else by the nearest colour; without `--pens`, the machine's pens, with a warning
     /// that names merged colours. Returns the marks in the painting order from before they were sorted by pens.
     pub(super) fn assign(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<Vec<Painted>, Failure> {
-        let handed = self.hand_out(drawing, profile)?;
+        let handed = self.assign_pens(drawing, profile)?;
         if profile.is_some() {
-            handed.became_one.iter().for_each(|notice| warning_line(notice));
+            handed.merge_notice.iter().for_each(|notice| warning_line(notice));
             warn_of_colours(drawing);
         }
         Ok(handed.painting)
     }
 
     /// The same without warnings, for trial drawings.
-    pub(super) fn hand_out(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<HandedOut, Failure> {
+    pub(super) fn assign_pens(&mut self, drawing: &mut Drawing, profile: Option<&Profile>) -> Result<PenAssignment, Failure> {
         let painting = self.sort_by_colour(drawing);
         for entry in &self.entries {
             let layers = drawing.layers.iter_mut().filter(|layer| entry.is_for(layer));
@@ -85,7 +85,7 @@ impl PenSet {
             }
         }
         let fitted = profile.filter(|_| self.entries.is_empty()).and_then(|profile| fit_to_pens(drawing, profile));
-        Ok(fitted.unwrap_or(HandedOut { painting, became_one: None }))
+        Ok(fitted.unwrap_or(PenAssignment { painting, merge_notice: None }))
     }
 
     /// Nib widths by pen; the default for pens without a width.
@@ -130,7 +130,7 @@ impl PenSet {
                     sorted.len() - 1
                 });
                 painting.push(Painted::Mark { layer: at, mark: sorted[at].marks.len() });
-                sorted[at].marks.push(in_layer_s_ink(mark));
+                sorted[at].marks.push(without_own_colour(mark));
             }
         }
         drawing.layers = sorted;
@@ -143,7 +143,7 @@ impl PenEntry {
         layer.pen = self.slot.unwrap_or(layer.pen);
         if let Some(colour) = self.colour {
             layer.ink = Ink::Colour(colour);
-            layer.marks = layer.marks.iter().map(in_layer_s_ink).collect();
+            layer.marks = layer.marks.iter().map(without_own_colour).collect();
         }
         if let (Some(speed), Some(profile)) = (self.speed, profile) {
             let fastest = profile.motion.fastest_drawing();
@@ -167,7 +167,7 @@ impl PenEntry {
 }
 
 /// A mark without a colour of its own.
-pub(super) fn in_layer_s_ink(mark: &Mark) -> Mark {
+pub(super) fn without_own_colour(mark: &Mark) -> Mark {
     let mut mark = mark.clone();
     match &mut mark {
         Mark::Dot(dot) => dot.colour = None,

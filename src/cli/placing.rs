@@ -55,7 +55,7 @@ impl Turning {
 }
 
 /// The move of a box by `--at` or `--center`; `reach` is the part of the page that the machine reaches.
-pub(super) fn asked_move(options: &PlacingOptions, drawn: Rect, page: &Page, reach: Option<Rect>) -> Vec2 {
+pub(super) fn requested_move(options: &PlacingOptions, drawn: Rect, page: &Page, reach: Option<Rect>) -> Vec2 {
     if let Some((x, y)) = options.at {
         return Vec2::new(x, y) - drawn.origin().to_vec2();
     }
@@ -101,14 +101,14 @@ mod tests {
         let centred = PlacingOptions { center: true, ..PlacingOptions::default() };
         let to = |width: f64, height: f64| {
             let drawn = Rect::new(7.0, 9.0, 7.0 + width, 9.0 + height);
-            (drawn + asked_move(&centred, drawn, &page, reach)).origin()
+            (drawn + requested_move(&centred, drawn, &page, reach)).origin()
         };
         assert_eq!(to(100.0, 100.0), Point::new(50.0, 100.0));
         assert_eq!(to(170.0, 260.0), Point::new(10.0, 30.0));
         assert_eq!(to(190.0, 290.0), Point::new(-5.0, 20.0));
         let at = PlacingOptions { at: Some((5.0, -3.0)), ..PlacingOptions::default() };
         let drawn = Rect::new(7.0, 9.0, 17.0, 19.0);
-        assert_eq!((drawn + asked_move(&at, drawn, &page, reach)).origin(), Point::new(5.0, -3.0));
-        assert_eq!(asked_move(&PlacingOptions::default(), drawn, &page, reach), Vec2::ZERO);
+        assert_eq!((drawn + requested_move(&at, drawn, &page, reach)).origin(), Point::new(5.0, -3.0));
+        assert_eq!(requested_move(&PlacingOptions::default(), drawn, &page, reach), Vec2::ZERO);
     }
 }

@@ -9,11 +9,11 @@ use super::label_speeds::fit_to_machine;
 use super::layer_files::split_by_layer;
 use super::messages::{self, say, warning};
 use super::pens::PenSet;
-use super::placing::{Turning, asked_move};
+use super::placing::{Turning, requested_move};
 use super::progress::Watcher;
 use super::remedies::advised;
 use super::scale_to_time::{Trials, scaled_to};
-use super::{advice, affordable, foretell_plot, job, layout, output, toolpaths};
+use super::{advice, affordable, estimate_plot, job, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
 use crate::plot::{Hides, InkModel, Job, TooMuch, check_work, occluded};
@@ -56,7 +56,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     // Pens are assigned only when all marks are known; the default nib is good enough to estimate the work.
     check_work(&imported.drawing(), model, pens.nibs(), hides, interrupt()).map_err(|error| too_much(shown, &error))?;
     if options.dry_run {
-        return foretell_plot::dry_run(&imported, options, model, profile.as_ref(), &mut pens, shown);
+        return estimate_plot::dry_run(&imported, options, model, profile.as_ref(), &mut pens, shown);
     }
     if let Some(hides) = hides {
         leave_out_hidden(&mut imported, hides)?;
@@ -114,7 +114,7 @@ fn report(
     seconds: &[(String, f64)],
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        let mut value = json!(toolpaths::of_all(jobs.iter().map(|(_, job)| job)));
+        let mut value = json!(toolpaths::combined_report(jobs.iter().map(|(_, job)| job)));
         value["files"] = json!(jobs.iter().map(|(name, _)| name).collect::<Vec<_>>());
         value["dropped"] = json!(imported.dropped);
         value["duplicates"] = json!(jobs.iter().map(|(_, job)| job.duplicates()).sum::<usize>());
@@ -209,7 +209,7 @@ pub(super) fn place(
     let matrix = if options.fit == PlotFit::Page {
         filling(bounds, free_of(&page, options.margin, reach)?)
     } else {
-        Affine::translate(asked_move(&options.placing, bounds, &page, reach))
+        Affine::translate(requested_move(&options.placing, bounds, &page, reach))
     };
     let moved = if matrix == Affine::IDENTITY { scaled } else { scaled.transformed(matrix) };
     Ok((Drawing { page, ..moved }, turning))

@@ -22,7 +22,7 @@ pub(super) fn advised(error: &(dyn Error + 'static)) -> String {
 
 fn remedy(error: &(dyn Error + 'static)) -> Option<String> {
     if let Some(work) = error.downcast_ref::<TooMuchWork>() {
-        let millions = work.lifted_by()?;
+        let millions = work.sufficient_limit()?;
         return Some(format!("; --most-work {millions:.0} or more allows it, and takes more memory"));
     }
     if let Some(SourceError::WorkTooLarge { .. }) = error.downcast_ref() {

@@ -32,7 +32,7 @@ pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Re
     let path = |file: &str| folder.join(file).to_string_lossy().into_owned();
     let masks: Vec<(String, &Raster<u8>)> = sight.masks().into_iter().map(|(role, mask)| (path(&file_of(role)), mask)).collect();
     let others = [SIGHT, DEPTH, OVERLAY].map(path);
-    claims::are_distinct(others.iter().chain(masks.iter().map(|(file, _)| file)).map(String::as_str))?;
+    claims::check_distinct(others.iter().chain(masks.iter().map(|(file, _)| file)).map(String::as_str))?;
     let [json, depth, overlaid] = &others;
     if Path::new(json).exists() {
         let stale = MaskRole::ALL.into_iter().map(|(_, role)| path(&file_of(role))).chain([depth.clone(), overlaid.clone()]);

@@ -131,7 +131,7 @@ pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(
         )),
         // The file names are only known once the layers are.
         _ if output.contains("{layer}") => Ok(()),
-        preview => claims::are_distinct([output].into_iter().chain(preview.as_deref())),
+        preview => claims::check_distinct([output].into_iter().chain(preview.as_deref())),
     }
 }
 
@@ -139,7 +139,7 @@ pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(
 pub(super) fn check_layer_files(files: &[LayerFile], options: &ToolpathOptions) -> Result<(), Failure> {
     let preview = |file: &LayerFile| Some(preview_name(options.preview.as_ref()?, Some(&file.layer)));
     let previews: Vec<String> = files.iter().filter_map(preview).collect();
-    claims::are_distinct(files.iter().map(|file| file.name.as_str()).chain(previews.iter().map(String::as_str)))
+    claims::check_distinct(files.iter().map(|file| file.name.as_str()).chain(previews.iter().map(String::as_str)))
 }
 
 fn preview_name(name: &str, layer: Option<&str>) -> String {
@@ -203,7 +203,7 @@ pub(super) fn summary(report: &PlotReport) -> String {
 }
 
 /// The reports of several files combined: each file's pens, and the total. Coverage is only reported for a single file.
-pub(super) fn of_all<'a>(jobs: impl IntoIterator<Item = &'a Job<'a>>) -> Option<PlotReport> {
+pub(super) fn combined_report<'a>(jobs: impl IntoIterator<Item = &'a Job<'a>>) -> Option<PlotReport> {
     let add = |mut sum: PlotReport, next: PlotReport| {
         let (total, more) = (&mut sum.total, next.total);
         total.paths += more.paths;

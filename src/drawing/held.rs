@@ -37,9 +37,9 @@ const NO_INK: f64 = 1e-4;
 impl Drawing {
     /// The drawing without the ink outside `rect`. Dots and areas are cut; strokes are narrowed.
     #[must_use]
-    pub fn held_in(mut self, rect: Rect) -> Self {
+    pub fn confined_to(mut self, rect: Rect) -> Self {
         for layer in &mut self.layers {
-            layer.marks = std::mem::take(&mut layer.marks).into_iter().flat_map(|mark| mark.held_in(rect)).collect();
+            layer.marks = std::mem::take(&mut layer.marks).into_iter().flat_map(|mark| mark.confined_to(rect)).collect();
         }
         self
     }
@@ -48,7 +48,7 @@ impl Drawing {
 impl Mark {
     /// The part of its ink inside a rectangle.
     #[must_use]
-    pub fn held_in(self, rect: Rect) -> Vec<Self> {
+    pub fn confined_to(self, rect: Rect) -> Vec<Self> {
         let wide = rect.inflate(SLACK, SLACK);
         if wide.union(self.bounding_box()) == wide {
             return vec![self];
@@ -258,7 +258,7 @@ mod tests {
 
     /// The ink of one stroke kept in the box, checked to lie inside.
     fn held_ink(mark: Mark) -> f64 {
-        let held = mark.held_in(BOX);
+        let held = mark.confined_to(BOX);
         for mark in &held {
             let bounds = outline(mark).bounding_box();
             assert!(BOX.inflate(1e-6, 1e-6).union(bounds) == BOX.inflate(1e-6, 1e-6), "{bounds:?}");
@@ -293,7 +293,7 @@ mod tests {
         }
         let ring = kurbo::Circle::new((10.0, 10.0), 9.9).to_path(1e-3);
         let mark = Mark::Stroke(Stroke::new(ring, Width::Constant(0.6)));
-        let held = mark.held_in(BOX);
+        let held = mark.confined_to(BOX);
         assert!(matches!(&held[..], [Mark::Stroke(ring)] if ring.is_closed()), "it stays a ring");
     }
 
@@ -301,7 +301,7 @@ mod tests {
     fn pressure_and_times_go_with_their_places() {
         let mut stroke = Stroke::new(BezPath::from_svg("M10,10 L10,-10").unwrap(), Width::Constant(0.5));
         (stroke.pressure, stroke.times) = (Some(vec![0.0, 1.0]), Some(vec![4.0, 6.0]));
-        let held = Mark::Stroke(stroke).held_in(BOX);
+        let held = Mark::Stroke(stroke).confined_to(BOX);
         let [Mark::Stroke(held)] = &held[..] else { panic!("one stroke") };
         let (pressure, times) = (held.pressure.as_ref().unwrap(), held.times.as_ref().unwrap());
         assert_eq!(pressure.len(), held.curve.segments().count() + 1);
@@ -311,6 +311,6 @@ mod tests {
     #[test]
     fn what_is_inside_is_not_touched() {
         let mark = stroke("M2,2 C5,9 9,5 12,12", 1.0, Ends::Round);
-        assert_eq!(mark.clone().held_in(BOX), [mark]);
+        assert_eq!(mark.clone().confined_to(BOX), [mark]);
     }
 }

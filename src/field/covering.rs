@@ -44,7 +44,7 @@ pub fn cover(
     covering: Covering,
     random: &mut impl Rng,
 ) -> Vec<Vec<Point>> {
-    let mut bed = Bed { wanted: ink.clone(), splat: splat(covering), reach: splat_reach(covering) };
+    let mut bed = MissingInk { wanted: ink.clone(), splat: splat(covering), reach: splat_reach(covering) };
     let mut strokes = Vec::new();
     for start in starts(region, covering.width.max(1.5), random) {
         let turn = if covering.turn > 0.0 { random.random_range(-covering.turn..covering.turn) } else { 0.0 };
@@ -88,7 +88,7 @@ fn starts(region: &Raster<f32>, square: f64, random: &mut impl Rng) -> Vec<Point
 }
 
 /// The ink that is still missing.
-struct Bed {
+struct MissingInk {
     wanted: Raster<f32>,
     /// Ink that a step of a stroke removes from each pixel of the square around it.
     splat: Vec<f32>,
@@ -108,7 +108,7 @@ fn splat(covering: Covering) -> Vec<f32> {
     weights.into_iter().map(|w| (w / total * covering.width * STEP) as f32).collect()
 }
 
-impl Bed {
+impl MissingInk {
     fn left(&self, p: Point) -> f32 {
         self.wanted.sample(p.x, p.y)
     }
@@ -146,7 +146,7 @@ struct Run<'a> {
 impl Run<'_> {
     /// Points from a start (not included) in one direction until the length is used up, the region ends, the field ends or turns back,
     /// or no ink is missing.
-    fn follow(&self, bed: &Bed, start: Point, sign: f64) -> Vec<Point> {
+    fn follow(&self, bed: &MissingInk, start: Point, sign: f64) -> Vec<Point> {
         let mut points = Vec::new();
         let Some(first) = self.direction(start) else { return points };
         let (mut here, mut heading) = (start, first * sign);

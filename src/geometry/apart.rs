@@ -6,7 +6,7 @@
 /// Steps per gap.
 const STEPS: usize = 4;
 /// Radius, in gaps, of the disc whose polygon through the steps still contains the disc of the gap.
-const HOOD: f64 = 1.05;
+const CLEARANCE_RADIUS: f64 = 1.05;
 
 /// A minimum distance between curves, and the step at which they must be sampled to keep it exactly.
 #[derive(Clone, Debug)]
@@ -16,28 +16,28 @@ pub struct Gap {
     /// The step between heights: a quarter of the distance.
     pub step: f64,
     /// Minimum rise of the next curve above a height, by the number of steps to the side.
-    hood: [f64; STEPS + 2],
+    clearance: [f64; STEPS + 2],
 }
 
 impl Gap {
     /// A gap of this distance, above 0.
     pub fn new(distance: f64) -> Self {
         let step = distance / STEPS as f64;
-        let mut hood = [0.0; STEPS + 2];
-        for (j, rise) in hood.iter_mut().enumerate().take(STEPS + 1) {
-            *rise = ((HOOD * distance).powi(2) - (j as f64 * step).powi(2)).sqrt();
+        let mut clearance = [0.0; STEPS + 2];
+        for (j, rise) in clearance.iter_mut().enumerate().take(STEPS + 1) {
+            *rise = ((CLEARANCE_RADIUS * distance).powi(2) - (j as f64 * step).powi(2)).sqrt();
         }
-        Self { distance, step, hood }
+        Self { distance, step, clearance }
     }
 
     /// Number of steps to the side within which another curve can come closer than the distance.
     pub const fn reach(&self) -> usize {
-        self.hood.len() - 1
+        self.clearance.len() - 1
     }
 
     /// Raises a curve until it lies above `lower` by the gap.
     pub fn raise(&self, curve: &mut [f64], lower: &[f64]) {
-        for (j, &rise) in self.hood.iter().enumerate().take(curve.len()) {
+        for (j, &rise) in self.clearance.iter().enumerate().take(curve.len()) {
             let end = curve.len() - j;
             curve[j..].iter_mut().zip(&lower[..end]).for_each(|(c, &l)| *c = c.max(l + rise));
             curve[..end].iter_mut().zip(&lower[j..]).for_each(|(c, &l)| *c = c.max(l + rise));
@@ -46,7 +46,7 @@ impl Gap {
 
     /// Lowers a curve until it lies below `upper` by the gap.
     pub fn sink(&self, curve: &mut [f64], upper: &[f64]) {
-        for (j, &rise) in self.hood.iter().enumerate().take(curve.len()) {
+        for (j, &rise) in self.clearance.iter().enumerate().take(curve.len()) {
             let end = curve.len() - j;
             curve[j..].iter_mut().zip(&upper[..end]).for_each(|(c, &l)| *c = c.min(l - rise));
             curve[..end].iter_mut().zip(&upper[j..]).for_each(|(c, &l)| *c = c.min(l - rise));

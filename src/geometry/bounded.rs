@@ -7,8 +7,8 @@ use kurbo::{BezPath, CubicBez, ParamCurve, PathEl, Point, QuadBez, Rect};
 /// `None` if a coordinate is not finite.
 ///
 /// A piece of a curve whose control points all lie beyond one side of the frame is replaced by its chord, which lies there too.
-pub fn tamed(outline: &BezPath, frame: Rect) -> Option<BezPath> {
-    let mut tame = Tame { path: BezPath::new(), frame, near: frame.inflate(frame.width(), frame.height()) };
+pub fn straightened_outside(outline: &BezPath, frame: Rect) -> Option<BezPath> {
+    let mut tame = FrameStraightener { path: BezPath::new(), frame, near: frame.inflate(frame.width(), frame.height()) };
     let mut at = Point::ORIGIN;
     for element in outline.elements() {
         let end = element.end_point().unwrap_or(at);
@@ -32,8 +32,8 @@ pub fn tamed(outline: &BezPath, frame: Rect) -> Option<BezPath> {
 }
 
 /// The subpaths of a result of [`tamed`] as polygons within its frame; open ones are closed.
-pub fn polygons_within(tamed: &BezPath, frame: Rect, tolerance: f64) -> Vec<Vec<Point>> {
-    let polygons = flatten(tamed, tolerance).into_iter().map(|(points, _)| cut(points, frame));
+pub fn polygons_within(straightened_outside: &BezPath, frame: Rect, tolerance: f64) -> Vec<Vec<Point>> {
+    let polygons = flatten(straightened_outside, tolerance).into_iter().map(|(points, _)| cut(points, frame));
     polygons.filter(|polygon| polygon.len() > 2).collect()
 }
 
@@ -41,14 +41,14 @@ pub fn polygons_within(tamed: &BezPath, frame: Rect, tolerance: f64) -> Vec<Vec<
 /// the frame.
 const DEEPEST: usize = 120;
 
-struct Tame {
+struct FrameStraightener {
     path: BezPath,
     frame: Rect,
     /// Curves within this rectangle are kept.
     near: Rect,
 }
 
-impl Tame {
+impl FrameStraightener {
     fn curve(&mut self, curve: CubicBez, depth: usize) {
         let hull =
             [curve.p1, curve.p2, curve.p3].into_iter().fold(Rect::from_points(curve.p0, curve.p0), |hull, p| hull.union_pt(p));
@@ -108,7 +108,7 @@ mod tests {
     const FRAME: Rect = Rect::new(-1000.0, -1000.0, 1000.0, 1000.0);
 
     fn polygons(outline: &BezPath) -> Vec<Vec<Point>> {
-        polygons_within(&tamed(outline, FRAME).unwrap(), FRAME, 0.005)
+        polygons_within(&straightened_outside(outline, FRAME).unwrap(), FRAME, 0.005)
     }
 
     fn area(outline: &BezPath) -> f64 {
@@ -141,7 +141,7 @@ mod tests {
             let mut path = BezPath::new();
             path.move_to((0.0, 0.0));
             path.curve_to((1.0, endless), (2.0, 2.0), (3.0, 0.0));
-            assert!(tamed(&path, FRAME).is_none());
+            assert!(straightened_outside(&path, FRAME).is_none());
         }
     }
 }

@@ -107,7 +107,7 @@ struct Search<'a> {
     shares: &'a [f64],
     chosen: Vec<bool>,
     surplus: Vec<f64>,
-    felt: Buckets,
+    blur_cells: Buckets,
     near: Buckets,
     spacing: f64,
     eye: Eye,
@@ -117,18 +117,19 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(places: &'a [Point], shares: &'a [f64], chosen: Vec<bool>, spacing: f64, interrupt: &'a Interrupt) -> Self {
         let eye = Eye::new(spacing);
-        let felt = Buckets::new(places, spacing * BLURS[1] * REACH);
+        let blur_cells = Buckets::new(places, spacing * BLURS[1] * REACH);
         let error = |j: usize| f64::from(u8::from(chosen[j])) - shares[j];
         let at = |i: usize| {
             let here = places[i];
-            felt.around(here)
+            blur_cells
+                .around(here)
                 .filter(|_| !interrupt.is_raised())
                 .map(|j| error(j) * eye.at(here.distance_squared(places[j])))
                 .sum()
         };
         let surplus = (0..places.len()).into_par_iter().map(at).collect();
         let near = Buckets::new(places, NEAR * spacing);
-        Self { places, shares, chosen, surplus, felt, near, spacing, eye, interrupt }
+        Self { places, shares, chosen, surplus, blur_cells, near, spacing, eye, interrupt }
     }
 
     /// Tries every point once; returns how many changed.
@@ -168,7 +169,7 @@ impl<'a> Search<'a> {
         self.chosen[i] = !self.chosen[i];
         let delta = if self.chosen[i] { 1.0 } else { -1.0 };
         let here = self.places[i];
-        for j in self.felt.around(here) {
+        for j in self.blur_cells.around(here) {
             self.surplus[j] += delta * self.eye.at(here.distance_squared(self.places[j]));
         }
     }

@@ -29,7 +29,7 @@ pub struct HandShading {
 }
 
 /// Segments per arc: enough that the chord error is below a thousandth of the radius.
-const POINTS_AN_ARC: usize = 12;
+const SEGMENTS_PER_ARC: usize = 12;
 
 impl HandShading {
     /// The arcs in drawing order, each from its start to its end, which is the start of the next.
@@ -72,8 +72,8 @@ fn arc(from: Point, to: Point, radius: f64, side: Vec2) -> Vec<Point> {
     let normal = if normal.dot(side) < 0.0 { -normal } else { normal };
     let radius = radius.max(half);
     let depth = (radius * radius - half * half).sqrt();
-    let between = (1..POINTS_AN_ARC).map(|i| {
-        let t = i as f64 / POINTS_AN_ARC as f64;
+    let between = (1..SEGMENTS_PER_ARC).map(|i| {
+        let t = i as f64 / SEGMENTS_PER_ARC as f64;
         let x = (2.0 * t - 1.0) * half;
         let rise = (radius * radius - x * x).max(0.0).sqrt() - depth;
         from + chord * t + normal * rise

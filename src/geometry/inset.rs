@@ -1,7 +1,7 @@
 //! Offsetting outlines, inwards and outwards.
 
 use super::polyline::{flatten, simplify};
-use super::tangle::Thread;
+use super::tangle::WideSegment;
 use crate::interrupt::Interrupt;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -12,11 +12,11 @@ use kurbo::{BezPath, Point};
 
 /// A filled outline, prepared for repeated offsetting.
 #[derive(Clone, Debug)]
-pub struct Insets {
+pub struct OffsetOutline {
     shapes: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
-impl Insets {
+impl OffsetOutline {
     /// From closed subpaths by the nonzero rule, with curves flattened to `tolerance` and simplified to a quarter of it.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
         Self::of(flatten(outline, tolerance).into_iter().map(|(points, _)| ring_of(points, 0.25 * tolerance)).collect())
@@ -45,10 +45,10 @@ impl Insets {
     }
 
     /// The sides of all borders, with zero width.
-    pub fn threads(&self) -> impl Iterator<Item = Thread> + '_ {
+    pub fn threads(&self) -> impl Iterator<Item = WideSegment> + '_ {
         let side = |ring: &[[f64; 2]], i: usize| {
             let at = |i: usize| Point::new(ring[i % ring.len()][0], ring[i % ring.len()][1]);
-            Thread { from: at(i), to: at(i + 1), half_width: 0.0 }
+            WideSegment { from: at(i), to: at(i + 1), half_width: 0.0 }
         };
         self.shapes.iter().flatten().flat_map(move |ring| (0..ring.len()).map(move |i| side(ring, i)))
     }
@@ -121,7 +121,7 @@ fn points(ring: &[[f64; 2]]) -> Vec<Point> {
     ring.iter().map(|&[x, y]| Point::new(x, y)).collect()
 }
 
-impl Insets {
+impl OffsetOutline {
     /// The parts narrower than `2 * distance`: those that a disc of radius `distance` inside the outline cannot reach. Each is
     /// given as its rings, the border first and holes in the other direction. `core` is this outline moved inwards by `distance`:
     /// the possible positions of the disc's centre. Empty once the interrupt is raised.
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_flag_s_pole_is_narrow_and_its_cloth_is_not() {
-        let flag = Insets::new(&BezPath::from_svg("M0,0 H5 V3 H0.2 V9 H0 Z").unwrap(), 0.01);
+        let flag = OffsetOutline::new(&BezPath::from_svg("M0,0 H5 V3 H0.2 V9 H0 Z").unwrap(), 0.01);
         let parts = flag.narrow_parts(&flag.grown(-0.3), 0.3, &Interrupt::never());
         let area: f64 = parts.iter().map(|part| polygon_area(&part[0]).abs()).sum();
         // The pole, and the cloth's corners that no disc reaches.
@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn a_frame_shrinks_from_both_sides() {
         for text in ["M0,0 H10 V10 H0 Z M3,3 V7 H7 V3 Z", "M0,0 V10 H10 V0 Z M3,3 H7 V7 H3 Z"] {
-            let insets = Insets::new(&BezPath::from_svg(text).unwrap(), 0.01);
+            let insets = OffsetOutline::new(&BezPath::from_svg(text).unwrap(), 0.01);
             let mut areas: Vec<f64> = insets.rings(1.0).iter().map(|ring| polygon_area(ring).abs()).collect();
             areas.sort_by(f64::total_cmp);
             // The hole's ring has round corners: 6 x 6 less the corners' (4 - pi).

@@ -14,7 +14,7 @@ const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
 
 /// A straight line with half its width, which is 0 for a border.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thread {
+pub struct WideSegment {
     /// Its start.
     pub from: Point,
     /// Its end.
@@ -25,12 +25,12 @@ pub struct Thread {
 
 /// Estimates how many pairs of lines cross or, if they have widths, overlap. Consecutive lines do not count. Exact for up to a
 /// thousand lines; for more, the error is about a tenth if there are a hundred pairs or more among the four million sampled.
-pub fn tangles(threads: &[Thread]) -> f64 {
-    tangles_among(threads, |i, j| i.abs_diff(j) > 1)
+pub fn estimated_crossings(threads: &[WideSegment]) -> f64 {
+    estimated_crossings_among(threads, |i, j| i.abs_diff(j) > 1)
 }
 
 /// [`tangles`] of the pairs of indices for which `counts` is true.
-pub fn tangles_among(threads: &[Thread], counts: impl Fn(usize, usize) -> bool) -> f64 {
+pub fn estimated_crossings_among(threads: &[WideSegment], counts: impl Fn(usize, usize) -> bool) -> f64 {
     let count = threads.len();
     let meets = |i: usize, j: usize| counts(i, j) && do_meet(&threads[i], &threads[j]);
     if count <= FEW {
@@ -42,7 +42,7 @@ pub fn tangles_among(threads: &[Thread], counts: impl Fn(usize, usize) -> bool) 
     found as f64 * (0.5 * count as f64 * count as f64) / SAMPLES as f64
 }
 
-fn do_meet(a: &Thread, b: &Thread) -> bool {
+fn do_meet(a: &WideSegment, b: &WideSegment) -> bool {
     let reach = a.half_width + b.half_width;
     let apart = |p: f64, q: f64, r: f64, s: f64| p.min(q) > r.max(s) + reach || r.min(s) > p.max(q) + reach;
     if apart(a.from.x, a.to.x, b.from.x, b.to.x) || apart(a.from.y, a.to.y, b.from.y, b.to.y) {
@@ -61,8 +61,8 @@ fn do_meet(a: &Thread, b: &Thread) -> bool {
 }
 
 /// True if each has its ends on opposite sides of the other.
-fn do_cross(a: &Thread, b: &Thread) -> bool {
-    let side = |line: &Thread, p: Point| (line.to - line.from).cross(p - line.from);
+fn do_cross(a: &WideSegment, b: &WideSegment) -> bool {
+    let side = |line: &WideSegment, p: Point| (line.to - line.from).cross(p - line.from);
     side(a, b.from) * side(a, b.to) < 0.0 && side(b, a.from) * side(b, a.to) < 0.0
 }
 
@@ -70,8 +70,8 @@ fn do_cross(a: &Thread, b: &Thread) -> bool {
 mod tests {
     use super::*;
 
-    fn threads(points: &[Point], half_width: f64) -> Vec<Thread> {
-        points.windows(2).map(|pair| Thread { from: pair[0], to: pair[1], half_width }).collect()
+    fn threads(points: &[Point], half_width: f64) -> Vec<WideSegment> {
+        points.windows(2).map(|pair| WideSegment { from: pair[0], to: pair[1], half_width }).collect()
     }
 
     /// Pseudo-random points on a square of 200 mm.
@@ -87,19 +87,19 @@ mod tests {
     #[test]
     fn few_are_counted_and_many_estimated() {
         let star = [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0), (2.0, -2.0), (4.0, 3.0), (0.0, 0.0)].map(Point::from);
-        assert_eq!(tangles(&threads(&star, 0.0)), 5.0);
+        assert_eq!(estimated_crossings(&threads(&star, 0.0)), 5.0);
         // Two chords between random places cross with a chance of 0.23 (a square's, 25/108 for independent ends).
-        let wild = tangles(&threads(&scattered(20_001), 0.0));
+        let wild = estimated_crossings(&threads(&scattered(20_001), 0.0));
         assert!((wild / (25.0 / 108.0 * 2e8) - 1.0).abs() < 0.05, "{wild}");
     }
 
     #[test]
     fn lines_beside_one_another_do_not_cross_but_may_cover() {
         let zigzag: Vec<Point> = (0..50_000).map(|i| Point::new(0.004 * f64::from(i), f64::from(i % 2) * 180.0)).collect();
-        assert_eq!(tangles(&threads(&zigzag, 0.0)), 0.0);
+        assert_eq!(estimated_crossings(&threads(&zigzag, 0.0)), 0.0);
         // Each covers those up to 0.4 mm away on either side: about a hundred.
-        let covered = tangles(&threads(&zigzag, 0.2));
+        let covered = estimated_crossings(&threads(&zigzag, 0.2));
         assert!((covered / (50_000.0 * 100.0) - 1.0).abs() < 0.3, "{covered}");
-        assert_eq!(tangles_among(&threads(&zigzag, 0.2), |_, _| false), 0.0);
+        assert_eq!(estimated_crossings_among(&threads(&zigzag, 0.2), |_, _| false), 0.0);
     }
 }

@@ -3,7 +3,7 @@
 use super::lower::{InkModel, Nibs, turns_sharply};
 use super::occlude::Hides;
 use crate::drawing::{Colour, Drawing, Mark};
-use crate::geometry::{BezPath, Point, Thread, flatten, simplify, tangles, tangles_among};
+use crate::geometry::{BezPath, Point, WideSegment, estimated_crossings, estimated_crossings_among, flatten, simplify};
 use crate::interrupt::{Interrupt, Interrupted};
 use thiserror::Error;
 
@@ -17,7 +17,7 @@ const MOST_IN_ALL: f64 = 1e7;
 /// Maximum length of all lines, in nib widths: 6 km with a nib of 0.3 mm, two days of plotting and a gigabyte.
 const MOST_NIBS: f64 = 2e7;
 /// Flattening tolerance in millimetres: crossings are only counted, not located.
-const COARSE: f64 = 0.05;
+const FLATTENING_TOLERANCE: f64 = 0.05;
 /// Tolerance of a wide line's centre line, as a share of its width, when its overlaps with itself are counted. Without it,
 /// consecutive segments within the line's width would count as overlaps.
 const OFF: f64 = 0.1;
@@ -81,7 +81,7 @@ pub fn check_work(
 /// Marks that are cut by one another.
 #[derive(Default)]
 struct Cut {
-    threads: Vec<Thread>,
+    threads: Vec<WideSegment>,
     /// For each line, the index of its mark.
     owner: Vec<u32>,
     /// For each mark, its colour and whether it is a stroke.
@@ -98,7 +98,7 @@ impl Cut {
 
     /// Estimated number of pairs of lines that cut one another.
     fn crossings(&self, hides: Hides) -> f64 {
-        tangles_among(&self.threads, |i, j| {
+        estimated_crossings_among(&self.threads, |i, j| {
             let (a, b) = (self.owner[i] as usize, self.owner[j] as usize);
             let ((colour, is_line), (other, is_other_line)) = (self.marks[a], self.marks[b]);
             a != b
@@ -119,9 +119,9 @@ fn is_outlined(mark: &Mark, nib: f64) -> bool {
 }
 
 /// Refuses lines that cross more than `most` times. Too few lines to reach the limit are not examined.
-fn refuse_tangled(threads: &[Thread], most: f64) -> Result<(), TooMuch> {
+fn refuse_tangled(threads: &[WideSegment], most: f64) -> Result<(), TooMuch> {
     let pairs = 0.5 * (threads.len() as f64).powi(2);
-    if pairs > most { refuse_above(most, tangles(threads)) } else { Ok(()) }
+    if pairs > most { refuse_above(most, estimated_crossings(threads)) } else { Ok(()) }
 }
 
 fn refuse_above(most: f64, crossings: f64) -> Result<(), TooMuch> {
@@ -153,7 +153,7 @@ fn length_of(mark: &Mark, model: InkModel, nib: f64) -> f64 {
 }
 
 /// A mark's borders with the nib's width, or its wide line.
-fn threads(mark: &Mark, nib: f64) -> Vec<Thread> {
+fn threads(mark: &Mark, nib: f64) -> Vec<WideSegment> {
     let (curve, half_width) = match mark {
         Mark::Dot(_) => return Vec::new(),
         Mark::Area(area) => (&area.outline, 0.5 * nib),
@@ -169,11 +169,11 @@ fn lines(curve: &BezPath) -> Vec<Vec<Point>> {
         points.retain(|p| p.is_finite());
         points
     };
-    flatten(curve, COARSE).into_iter().map(closed).collect()
+    flatten(curve, FLATTENING_TOLERANCE).into_iter().map(closed).collect()
 }
 
-fn threads_along(line: &[Point], half_width: f64) -> Vec<Thread> {
-    line.windows(2).map(|pair| Thread { from: pair[0], to: pair[1], half_width }).collect()
+fn threads_along(line: &[Point], half_width: f64) -> Vec<WideSegment> {
+    line.windows(2).map(|pair| WideSegment { from: pair[0], to: pair[1], half_width }).collect()
 }
 
 #[cfg(test)]

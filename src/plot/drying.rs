@@ -15,7 +15,13 @@ const CELLS_A_NIB: f64 = 2.0;
 ///
 /// Paths of a group are put off one by one. O(length of ink / nib) for each round; there are about as many rounds as paths
 /// overlap one another.
-pub fn let_dry(plot: &mut Plot, seconds: f64, home: Point, motion: &Motion, interrupt: &Interrupt) -> Result<f64, Interrupted> {
+pub fn delay_for_drying(
+    plot: &mut Plot,
+    seconds: f64,
+    home: Point,
+    motion: &Motion,
+    interrupt: &Interrupt,
+) -> Result<f64, Interrupted> {
     let mut paper = Paper { wet: HashMap::new(), seconds, now: 0.0, at: home, waited: 0.0 };
     let mut drawn = Vec::new();
     for pen in &plot.pens {
@@ -127,7 +133,7 @@ mod tests {
     #[test]
     fn a_crossing_line_waits_its_turn() {
         let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0], [0.0, 90.0, 90.0, 90.0]]);
-        let waited = let_dry(&mut crossing, 2.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
+        let waited = delay_for_drying(&mut crossing, 2.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
         let first: Vec<f64> = crossing.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points[0].y).collect();
         assert_eq!((first, waited, crossing.pens.len()), (vec![5.0, 90.0, 0.0], 0.0, 1));
     }
@@ -135,7 +141,7 @@ mod tests {
     #[test]
     fn where_nothing_else_is_left_the_machine_waits() {
         let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0]]);
-        let waited = let_dry(&mut crossing, 60.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
+        let waited = delay_for_drying(&mut crossing, 60.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
         assert_eq!(crossing.pens.len(), 2);
         assert!((waited - 60.0).abs() < 1e-6 && (crossing.pens[1].handling.delay_seconds - 60.0).abs() < 1e-6, "{waited}");
     }
@@ -147,7 +153,7 @@ mod tests {
             (1..200).map(|i| [spread(i, 0.754_877), spread(i, 0.569_840), spread(i, 0.618_034), spread(i, 0.414_214)]).collect();
         let mut drawn = plot(&lines);
         let before = drawn.clone();
-        let_dry(&mut drawn, 30.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
+        delay_for_drying(&mut drawn, 30.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
         let paths = |plot: &Plot| -> Vec<String> {
             let mut all: Vec<String> = plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| format!("{path:?}")).collect();
             all.sort();

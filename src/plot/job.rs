@@ -6,12 +6,12 @@
 //!
 //! A [`Job`] exists only if these checks passed, and only a job is written for a machine.
 
-use super::errands::{add_registration, pause_every, rest_touches};
+use super::extras::{add_registration, add_touch_rests, pause_every};
 use super::language::{Orders, write_picture};
 use super::preview::{ShownTravel, write_preview};
 use super::{
-    InkModel, Mounting, MountingError, Nibs, PenChange, Plot, PlotReport, Profile, Sequence, clip_to, coverage, let_dry, lower,
-    mount, report,
+    InkModel, Mounting, MountingError, Nibs, PenChange, Plot, PlotReport, Profile, Sequence, clip_to, coverage, delay_for_drying,
+    lower, mount, report,
 };
 use crate::drawing::Drawing;
 use crate::geometry::{Point, Rect};
@@ -30,7 +30,7 @@ pub struct JobOptions {
     /// Maximum deviation of flattened curves and fitted arcs from the originals, in millimetres.
     pub tolerance: f64,
     /// How to treat paths that the machine does not reach.
-    pub beyond: Beyond,
+    pub beyond: ReachPolicy,
     /// Marks drawn or traced in addition.
     pub marks: PlacingMarks,
     /// The machine waits for a new pen each time this many millimetres of line are drawn.
@@ -46,7 +46,7 @@ impl Default for JobOptions {
         Self {
             sequence: Sequence::default(),
             tolerance: 0.02,
-            beyond: Beyond::default(),
+            beyond: ReachPolicy::default(),
             marks: PlacingMarks::default(),
             pause_every: None,
             dry_seconds: None,
@@ -57,7 +57,7 @@ impl Default for JobOptions {
 
 /// How to treat paths that the machine does not reach or that leave the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Beyond {
+pub enum ReachPolicy {
     /// Refuse the job.
     #[default]
     Refuse,
@@ -76,7 +76,7 @@ pub struct PlacingMarks {
 
 /// A feature that needs a machine, or a machine that can wait.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wish {
+pub enum MachineFeature {
     /// Tracing the frame before the first pen draws.
     Frame,
     /// Waiting each time a given length of line is drawn.
@@ -87,7 +87,7 @@ pub enum Wish {
     PenChange,
 }
 
-impl fmt::Display for Wish {
+impl fmt::Display for MachineFeature {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Frame => "tracing the frame",
@@ -107,12 +107,12 @@ pub enum JobError {
     Misfit(#[from] MountingError),
     /// The feature needs a machine, and none was given.
     #[error("{0} needs a machine; choose a plotter profile")]
-    NoMachine(Wish),
+    NoMachine(MachineFeature),
     /// The feature needs a pause, and the machine has no command for one.
     #[error("{wish} needs a pause, and {machine} has no pause command")]
     NoPause {
         /// The feature.
-        wish: Wish,
+        wish: MachineFeature,
         /// The profile's name.
         machine: String,
     },
@@ -234,7 +234,7 @@ impl<'a> Job<'a> {
         let mut machine = machine.map(|profile| Ok::<_, JobError>((profile, mount(profile, &plot.page)?))).transpose()?;
         let drawable = machine.as_ref().map_or(plot.page.rect(), |(_, mounting)| mounting.drawable(&plot.page));
         let mut cut = Cut::default();
-        if options.beyond == Beyond::Clip {
+        if options.beyond == ReachPolicy::Clip {
             (cut.length, cut.touches) = clip_to(&mut plot, drawable);
             plot.pens.retain(|pen| !pen.paths.is_empty());
         }
@@ -321,9 +321,9 @@ impl<'a> Job<'a> {
 /// Refuses features that need a machine when there is none.
 fn without_machine(machine: Option<&Profile>, options: &JobOptions) -> Result<(), JobError> {
     let wishes = [
-        (options.marks.has_frame, Wish::Frame),
-        (options.pause_every.is_some(), Wish::PauseEvery),
-        (options.dry_seconds.is_some(), Wish::Drying),
+        (options.marks.has_frame, MachineFeature::Frame),
+        (options.pause_every.is_some(), MachineFeature::PauseEvery),
+        (options.dry_seconds.is_some(), MachineFeature::Drying),
     ];
     match wishes.into_iter().find(|(is_asked, _)| *is_asked && machine.is_none()) {
         Some((_, wish)) => Err(JobError::NoMachine(wish)),
@@ -340,9 +340,9 @@ fn rest_and_dry(
     interrupt: &Interrupt,
 ) -> Result<(), JobError> {
     let usual = machine.map_or(0.0, |profile| profile.motion.touch_seconds);
-    rest_touches(plot, |pen| options.dwell.get(&pen).copied().unwrap_or(usual));
+    add_touch_rests(plot, |pen| options.dwell.get(&pen).copied().unwrap_or(usual));
     let (Some(seconds), Some(profile)) = (options.dry_seconds, machine) else { return Ok(()) };
-    let waited = let_dry(plot, seconds, home, &profile.motion, interrupt)?;
+    let waited = delay_for_drying(plot, seconds, home, &profile.motion, interrupt)?;
     if waited > 0.0 && !profile.speech().can_dwell() {
         return Err(JobError::NoWait { seconds: waited });
     }
@@ -384,9 +384,9 @@ fn check_pens(plot: &Plot, profile: &Profile, options: &JobOptions) -> Result<()
     let changes = plot.pens.windows(2).any(|pair| pair[0].number != pair[1].number);
     let asks_for_pen = plot.pens.iter().any(|pen| pen.handling.pauses) || (changes && profile.pens.change == PenChange::Pause);
     let wishes = [
-        (options.marks.has_frame, Wish::Frame),
-        (options.pause_every.is_some(), Wish::PauseEvery),
-        (asks_for_pen, Wish::PenChange),
+        (options.marks.has_frame, MachineFeature::Frame),
+        (options.pause_every.is_some(), MachineFeature::PauseEvery),
+        (asks_for_pen, MachineFeature::PenChange),
     ];
     match wishes.into_iter().find(|(is_asked, _)| *is_asked) {
         Some((_, wish)) => Err(JobError::NoPause { wish, machine: machine() }),

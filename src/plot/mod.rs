@@ -7,7 +7,7 @@ mod budget;
 mod calibration;
 mod coverage;
 mod drying;
-mod errands;
+mod extras;
 mod inkml;
 mod job;
 mod language;
@@ -25,10 +25,10 @@ mod time;
 pub use budget::{TooMuch, check_work};
 pub use calibration::{Calibration, CalibrationError, calibration_page, calibration_sheet};
 pub use coverage::{Coverage, coverage};
-pub use drying::let_dry;
-pub use errands::{add_registration, pause_every, rest_touches};
+pub use drying::delay_for_drying;
+pub use extras::{add_registration, add_touch_rests, pause_every};
 pub use inkml::write_inkml;
-pub use job::{Beyond, Cut, Job, JobError, JobOptions, PlacingMarks, Wish, home_of};
+pub use job::{Cut, Job, JobError, JobOptions, MachineFeature, PlacingMarks, ReachPolicy, home_of};
 pub use language::{
     Comment, Dialect, GcodeDialect, GcodeError, Height, HpglDialect, HpglError, Language, Lift, MotionError, ResumeError,
     Stop as StopPlace, Strokes, SvgDialect, Travel,
@@ -45,7 +45,7 @@ pub use profile::{
 };
 pub use report::{PenReport, PlotReport, report};
 pub use seam::Seam;
-pub use time::{Clock, clock};
+pub use time::{PenTime, clock};
 
 use crate::drawing::{Colour, Handling, Page};
 use crate::geometry::{Point, polyline_length};

@@ -10,7 +10,7 @@ use thiserror::Error;
 /// Sheet sizes that differ by less are the same, in millimetres.
 const SAME_SIZE: f64 = 1.0;
 /// Rounding tolerance at the machine's limits, in millimetres.
-const FORGIVEN: f64 = 0.02;
+const ROUNDING_TOLERANCE: f64 = 0.02;
 
 /// Default tolerance of fitted arcs, in millimetres; the same as for flattened curves.
 const ARC_TOLERANCE: f64 = 0.02;
@@ -118,7 +118,7 @@ impl Room {
 
 /// True if the inner width and height fit in the outer ones.
 fn fits(inner: (f64, f64), outer: (f64, f64)) -> bool {
-    inner.0 <= outer.0 + FORGIVEN && inner.1 <= outer.1 + FORGIVEN
+    inner.0 <= outer.0 + ROUNDING_TOLERANCE && inner.1 <= outer.1 + ROUNDING_TOLERANCE
 }
 
 impl fmt::Display for Room {
@@ -251,11 +251,11 @@ impl Mounting {
             whole = Some(whole.map_or(drawn, |whole| whole.union(drawn)));
         }
         let Some(whole) = whole else { return Ok(()) };
-        if worst.0 > FORGIVEN {
+        if worst.0 > ROUNDING_TOLERANCE {
             let (machine, room) = (profile.name.clone(), self.room(profile, &plot.page, whole));
             return Err(MountingError::OutOfReach { excess: worst.0, side: worst.1, machine, room });
         }
-        if worst_off.0 > FORGIVEN {
+        if worst_off.0 > ROUNDING_TOLERANCE {
             let room = self.room(profile, &plot.page, whole);
             return Err(MountingError::OffSheet { excess: worst_off.0, side: worst_off.1, room });
         }

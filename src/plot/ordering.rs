@@ -7,7 +7,7 @@ use crate::interrupt::{Interrupt, Interrupted};
 
 /// Tolerance in millimetres within which two paths are the same. Repeats in a file differ by the rounding of its numbers, a
 /// thousandth or two; the lines of the densest hatch are a tenth apart, so there is room on both sides.
-const SAME: f64 = 0.005;
+const DUPLICATE_TOLERANCE: f64 = 0.005;
 
 /// How a plot is ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,7 +80,7 @@ impl DrawingCorner {
 
 impl Plot {
     /// Joins, orders and reverses each pen's paths for the least pen-up travel from `home`, and drops repeated paths.
-    pub fn ordered(&mut self, home: Point, effort: Effort, direction: Direction, merge: f64) {
+    pub fn order_paths(&mut self, home: Point, effort: Effort, direction: Direction, merge: f64) {
         let sequence = Sequence { effort, direction, merge, ..Sequence::default() };
         let done = self.put_in_order(home, &sequence, &Interrupt::never());
         debug_assert!(done.is_ok(), "nobody interrupts");
@@ -97,7 +97,7 @@ impl Plot {
             let mut paths = std::mem::take(&mut pen.paths);
             if sequence.duplicates == Duplicates::Drop {
                 let before = paths.len();
-                paths = drop_duplicates(paths, SAME, interrupt);
+                paths = drop_duplicates(paths, DUPLICATE_TOLERANCE, interrupt);
                 dropped += before - paths.len();
             }
             at = sequence.start.and_then(|corner| corner.of(&paths)).unwrap_or(at);

@@ -3,7 +3,7 @@
 use super::Press;
 use super::thin::{Plan, Speck};
 use crate::drawing::{Area, Dot, Mark};
-use crate::geometry::{BezPath, Insets, Point, Rect, clip_polygon, polygon_area};
+use crate::geometry::{BezPath, OffsetOutline, Point, Rect, clip_polygon, polygon_area};
 use std::f64::consts::PI;
 
 /// Flattening tolerance in millimetres: a tenth of the distance by which presses move borders.
@@ -13,12 +13,12 @@ const LEAST_SHARE: f64 = 0.25;
 
 /// A filled outline with its border moved outwards.
 pub(super) fn grown(outline: &BezPath, distance: f64) -> BezPath {
-    Insets::new(outline, TOLERANCE).grown(distance).path()
+    OffsetOutline::new(outline, TOLERANCE).grown(distance).path()
 }
 
 /// The part of the area that a disc of the smallest mark can reach inside it (its opening), and dots for the rest.
 pub(super) fn plan(area: &Area, press: &Press) -> Plan {
-    let shape = Insets::new(&area.outline, TOLERANCE);
+    let shape = OffsetOutline::new(&area.outline, TOLERANCE);
     let radius = press.least_printed_radius();
     let core = shape.grown(-radius);
     let outline = core.grown(0.5 * press.least).path();

@@ -28,7 +28,7 @@ fn filter_rows(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Rast
             for (i, &near) in near.iter().enumerate().skip(1).take_while(|(i, _)| *i < width) {
                 // Each pair of pixels i apart weighs the same both ways.
                 for x in i..width {
-                    let weight = near * alike((row[x] - row[x - i]) / sigma_value);
+                    let weight = near * value_weight((row[x] - row[x - i]) / sigma_value);
                     sum[x] += weight * row[x - i];
                     weights[x] += weight;
                     sum[x - i] += weight * row[x];
@@ -44,7 +44,7 @@ fn filter_rows(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Rast
 }
 
 /// Approximates `exp(-d^2 / 2)` within 0.04, without the cost of `exp`: `(1 - d^2 / 16)^8`, 0 from d = 4 on.
-fn alike(difference: f32) -> f32 {
+fn value_weight(difference: f32) -> f32 {
     let base = (1.0 - difference * difference / 16.0).max(0.0);
     let squared = base * base;
     let fourth = squared * squared;
@@ -71,7 +71,7 @@ mod tests {
     fn the_weight_is_nearly_gaussian() {
         for i in 0..60 {
             let d = i as f32 / 10.0;
-            assert!((alike(d) - (-0.5 * d * d).exp()).abs() < 0.04, "{d}: {}", alike(d));
+            assert!((value_weight(d) - (-0.5 * d * d).exp()).abs() < 0.04, "{d}: {}", value_weight(d));
         }
     }
 }

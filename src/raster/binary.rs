@@ -44,7 +44,7 @@ fn running_count(raster: &Raster<u32>, radius: usize) -> Raster<u32> {
 /// renumbers the joined labels.
 pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
     let mut labels = Raster::filled(mask.width(), mask.height(), 0_u32);
-    let mut meets = Meets(vec![0]);
+    let mut meets = LabelUnion(vec![0]);
     for y in 0..mask.height() {
         for x in (0..mask.width()).filter(|&x| mask.get(x, y) != 0) {
             let columns = x.saturating_sub(1)..(x + 2).min(mask.width());
@@ -60,9 +60,9 @@ pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
 }
 
 /// Union-find: for each label a smaller one that it is joined to, or itself.
-struct Meets(Vec<u32>);
+struct LabelUnion(Vec<u32>);
 
-impl Meets {
+impl LabelUnion {
     fn fresh(&mut self) -> u32 {
         let label = self.0.len() as u32;
         self.0.push(label);

@@ -32,7 +32,7 @@ const CROSSING: f64 = 6.0;
 /// Steps per pair of edges that is compared.
 const PAIR: f64 = 0.004;
 /// Steps per point of a curve that lowering will flatten.
-pub(super) const POINT_TO_COME: f64 = 0.1;
+pub(super) const LOWERED_POINT: f64 = 0.1;
 
 /// Error: a file needs more work than the limit.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -59,7 +59,7 @@ fn shown(steps: f64) -> String {
 impl TooMuchWork {
     /// A limit in millions of steps that may suffice: a quarter above the count so far, since more may follow. `None` if above
     /// [`MOST_WORK`].
-    pub fn lifted_by(&self) -> Option<f64> {
+    pub fn sufficient_limit(&self) -> Option<f64> {
         Some((1.25 * self.steps / MILLION).ceil()).filter(|millions| *millions <= MOST_WORK)
     }
 }
@@ -137,10 +137,10 @@ mod tests {
             refused.to_string(),
             "takes at least 20 million steps of work to read, counted up to its arcs; the limit is 12 million"
         );
-        assert_eq!(refused.lifted_by(), Some(25.0));
+        assert_eq!(refused.sufficient_limit(), Some(25.0));
         for endless in [1e12, 1e300, f64::INFINITY, f64::NAN] {
             let refused = Budget::default().spend(endless, "arcs").unwrap_err();
-            assert!(refused.to_string().contains("limit is 12 million") && refused.lifted_by().is_none(), "{refused}");
+            assert!(refused.to_string().contains("limit is 12 million") && refused.sufficient_limit().is_none(), "{refused}");
         }
     }
 }

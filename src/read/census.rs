@@ -10,7 +10,7 @@ const DEEPEST: usize = 10;
 const COMPARISON: f64 = 0.003;
 
 /// Spends the steps of parsing a text.
-pub(super) fn take_text(text: &str, budget: &mut Budget) -> Result<(), SvgError> {
+pub(super) fn spend_parsing(text: &str, budget: &mut Budget) -> Result<(), SvgError> {
     let mut entities = Entities::of(text);
     let census = entities.census(text, 0)?;
     let prefixes = entities.prefixes.len() as f64;
@@ -170,10 +170,10 @@ mod tests {
     #[test]
     fn entities_without_end_are_refused() {
         let text = "<!DOCTYPE svg [<!ENTITY a '&b;'> <!ENTITY b '&a;'>]><svg>&a;</svg>";
-        assert!(matches!(take_text(text, &mut Budget::default()), Err(SvgError::Entities)));
+        assert!(matches!(spend_parsing(text, &mut Budget::default()), Err(SvgError::Entities)));
         let level = |i: usize| format!("<!ENTITY e{i} '{}'>", format!("&e{};", i - 1).repeat(30));
         let levels = (1..9).map(level).collect::<Vec<_>>().concat();
         let text = format!("<!DOCTYPE svg [<!ENTITY e0 'lol'>{levels}]><svg>&e8;</svg>");
-        assert!(matches!(take_text(&text, &mut Budget::default()), Err(SvgError::Work(_))));
+        assert!(matches!(spend_parsing(&text, &mut Budget::default()), Err(SvgError::Work(_))));
     }
 }

@@ -3,7 +3,7 @@
 use super::budget::{Budget, POINT, TooMuchWork};
 use super::curves::{affine, bez_path, with_closed_subpaths};
 use crate::geometry::{
-    Affine, BezPath, Point, Rect, Region, Winding, crossings, flatten, flattened_points, polygons_within, tamed,
+    Affine, BezPath, Point, Rect, Region, Winding, crossings, flatten, flattened_points, polygons_within, straightened_outside,
     untangled_polygons,
 };
 
@@ -112,9 +112,9 @@ fn gather(group: &usvg::Group, own: Affine, shapes: &mut Vec<BezPath>, budget: &
 
 /// An outline's polygons up to [`FARTHEST`].
 fn within_frame(outline: &BezPath, budget: &mut Budget) -> Result<Vec<Vec<Point>>, NoClip> {
-    let tamed = tamed(outline, FRAME).ok_or(NoClip::Endless)?;
-    budget.spend(POINT * flattened_points(&tamed, CLIP_TOLERANCE), "clip paths")?;
-    Ok(polygons_within(&tamed, FRAME, CLIP_TOLERANCE))
+    let straightened_outside = straightened_outside(outline, FRAME).ok_or(NoClip::Endless)?;
+    budget.spend(POINT * flattened_points(&straightened_outside, CLIP_TOLERANCE), "clip paths")?;
+    Ok(polygons_within(&straightened_outside, FRAME, CLIP_TOLERANCE))
 }
 
 /// A stroke's curve within a clip path.

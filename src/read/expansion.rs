@@ -12,7 +12,7 @@
 //! Each element is counted once, however often it is used. Counts are floats, so they cannot overflow.
 
 use super::budget::{ATTRIBUTE, Budget, ELEMENT, PATH, SEGMENT};
-use super::styles::{FILL, MARKERS, OWN, STROKE, Style, Styles, references, style_steps};
+use super::styles::{FILL, MARKERS, NOT_INHERITED, STROKE, Style, Styles, references, style_steps};
 use super::svg::SvgError;
 use roxmltree::{Document, Node, NodeId};
 use std::collections::{HashMap, HashSet};
@@ -41,7 +41,7 @@ struct Load {
     links: f64,
     single: f64,
     /// Number of references to elements of the wrong kind.
-    astray: f64,
+    mismatched_references: f64,
     shapes: f64,
     /// Number of fills and strokes that take their paint from the context (`context-fill`, `context-stroke`).
     context: f64,
@@ -65,7 +65,7 @@ impl Load {
     fn add_definition(&mut self, other: &Self) {
         self.elements += other.elements;
         self.parsing += other.parsing;
-        self.astray += other.astray;
+        self.mismatched_references += other.mismatched_references;
         self.depth = self.depth.max(other.depth + 1);
     }
 
@@ -80,21 +80,21 @@ impl Load {
 }
 
 /// Spends the steps of expanding a document and returns its number of elements. An error if something refers to itself.
-pub(super) fn take_expansion(document: &Document<'_>, budget: &mut Budget) -> Result<f64, SvgError> {
+pub(super) fn spend_expansion(document: &Document<'_>, budget: &mut Budget) -> Result<f64, SvgError> {
     let styles = Styles::of(document, budget)?;
-    take_matching(document, &styles, budget)?;
+    spend_style_matching(document, &styles, budget)?;
     let mut expansion = Expansion::new(document, &styles, budget);
     let root = expansion.element(document.root_element(), 0)?;
     let largest_pattern = expansion.largest_pattern;
     budget.spend(root.parsing, "elements and their styles")?;
     budget.spend(root.drawing + root.context * largest_pattern, "uses, markers, patterns and masks")?;
     budget.spend(LOOKED_UP * root.links * root.single, "references")?;
-    budget.spend(PASSED * root.astray * root.elements, "references")?;
+    budget.spend(PASSED * root.mismatched_references * root.elements, "references")?;
     Ok(root.elements)
 }
 
 /// Spends the steps of trying every style rule on every element once.
-fn take_matching(document: &Document<'_>, styles: &Styles<'_>, budget: &mut Budget) -> Result<(), SvgError> {
+fn spend_style_matching(document: &Document<'_>, styles: &Styles<'_>, budget: &mut Budget) -> Result<(), SvgError> {
     let mut by_depth: Vec<f64> = Vec::new();
     let mut open: Vec<NodeId> = Vec::new();
     let mut steps = 0.0;
@@ -133,7 +133,7 @@ struct Expansion<'a, 'd, 'b> {
     open: HashSet<NodeId>,
     open_drawn: HashSet<NodeId>,
     /// Markers found within themselves, where they are not drawn again. Loads counted there are not cached.
-    met: Vec<NodeId>,
+    recursive_markers: Vec<NodeId>,
     largest_pattern: f64,
 }
 
@@ -160,7 +160,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
             drawn: HashMap::new(),
             open: HashSet::new(),
             open_drawn: HashSet::new(),
-            met: Vec::new(),
+            recursive_markers: Vec::new(),
             largest_pattern: 0.0,
         }
     }
@@ -176,7 +176,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         if !self.open.insert(node.id()) {
             return Err(circle(node));
         }
-        let met_outside = std::mem::take(&mut self.met);
+        let met_outside = std::mem::take(&mut self.recursive_markers);
         let style = self.styles.style(node);
         let mut load = self.own(node, &style);
         for child in node.children().filter(Node::is_element) {
@@ -189,10 +189,10 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
             return Err(SvgError::TooDeep(DEEPEST));
         }
         self.open.remove(&node.id());
-        if self.met.is_empty() && node.has_attribute("id") {
+        if self.recursive_markers.is_empty() && node.has_attribute("id") {
             self.loads.insert(node.id(), load);
         }
-        self.met.extend(met_outside);
+        self.recursive_markers.extend(met_outside);
         Ok(load)
     }
 
@@ -232,12 +232,13 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
             "use" => {
                 let Some(&target) = targets.first() else { return Ok(()) };
                 load.parsing += PASSED * f64::from(last_within(target).get() - target.id().get());
-                if self.leads_back(node, target)? {
+                if self.is_circular_use(node, target)? {
                     return Ok(());
                 }
                 // A used element with `inherit` takes the mask, clip path or filter of the use.
                 let inherits = self.styles.style(target);
-                for place in OWN.filter(|place| inherits.values[*place].is_some_and(|value| value.trim() == "inherit")) {
+                for place in NOT_INHERITED.filter(|place| inherits.values[*place].is_some_and(|value| value.trim() == "inherit"))
+                {
                     self.refer(place, style.values[place].unwrap_or_default(), load, depth)?;
                 }
                 match target.tag_name().name() {
@@ -259,7 +260,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
     }
 
     /// True if a `use` is skipped because it is circular: it uses itself, an ancestor, or something that uses it.
-    fn leads_back(&mut self, node: Node<'a, 'd>, target: Node<'a, 'd>) -> Result<bool, SvgError> {
+    fn is_circular_use(&mut self, node: Node<'a, 'd>, target: Node<'a, 'd>) -> Result<bool, SvgError> {
         let first = self.uses.partition_point(|(id, _)| id.get() <= target.id().get());
         let last = self.uses.partition_point(|(id, _)| id.get() <= last_within(target).get());
         self.budget.spend(PASSED * 0.1 * (last - first) as f64, "uses")?;
@@ -268,7 +269,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
 
     /// Adds an element's own mask, clip path and filter.
     fn referred(&mut self, node: Node<'a, 'd>, style: &Style<'a>, load: &mut Load, depth: usize) -> Result<(), SvgError> {
-        for place in OWN {
+        for place in NOT_INHERITED {
             let mut value = style.values[place];
             let mut around = node.parent_element();
             while let (Some("inherit"), Some(parent)) = (value.map(str::trim), around) {
@@ -291,7 +292,7 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
             self.budget.spend(PASSED * targets.len() as f64, "references")?;
             for target in targets {
                 if !KINDS[place].contains(&target.tag_name().name()) {
-                    load.astray += times;
+                    load.mismatched_references += times;
                     continue;
                 }
                 let drawn = self.drawn(target, depth)?;
@@ -331,22 +332,22 @@ impl<'a, 'd, 'b> Expansion<'a, 'd, 'b> {
         let is_marker = node.tag_name().name() == "marker";
         if !self.open_drawn.insert(node.id()) {
             // A marker within itself is not drawn; anything else would recurse forever.
-            self.met.push(node.id());
+            self.recursive_markers.push(node.id());
             return if is_marker { Ok(Load::default()) } else { Err(circle(node)) };
         }
         self.budget.spend(ELEMENT, "references")?;
-        let met_outside = std::mem::take(&mut self.met);
+        let met_outside = std::mem::take(&mut self.recursive_markers);
         let mut load = self.element(node, depth)?;
         for around in node.ancestors().skip(1).filter(Node::is_element) {
             let style = self.style_around(around);
             self.close(around, &style, &mut load, depth)?;
         }
         self.open_drawn.remove(&node.id());
-        self.met.retain(|met| *met != node.id());
-        if self.met.is_empty() {
+        self.recursive_markers.retain(|recursive_markers| *recursive_markers != node.id());
+        if self.recursive_markers.is_empty() {
             self.drawn.insert(node.id(), load);
         }
-        self.met.extend(met_outside);
+        self.recursive_markers.extend(met_outside);
         if node.tag_name().name() == "pattern" {
             self.largest_pattern = self.largest_pattern.max(load.drawing);
         }
@@ -484,7 +485,7 @@ mod tests {
     fn count(body: &str) -> Result<f64, SvgError> {
         let text = format!("<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='{XLINK}'>{body}</svg>");
         let mut budget = Budget::of_millions(1e3);
-        take_expansion(&Document::parse(&text).unwrap(), &mut budget)?;
+        spend_expansion(&Document::parse(&text).unwrap(), &mut budget)?;
         Ok(budget.spent())
     }
 

@@ -1,7 +1,7 @@
 //! The groups and paths of an SVG as layers of marks, in painting order.
 
 use super::Dropped;
-use super::budget::{Budget, PATH, POINT_TO_COME, SEGMENT, TooMuchWork};
+use super::budget::{Budget, LOWERED_POINT, PATH, SEGMENT, TooMuchWork};
 use super::clip_paths::{CLIP_TOLERANCE, Clip, FARTHEST, NoClip, clip_curve, clip_region, clipped_outline, untangled_fill};
 use super::curves::{MM_PER_PX, bez_path, dot, has_crossings, is_flat, subpaths, to_mm};
 use super::layers::{Label, Outline};
@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 /// The default flattening tolerance of lowering, in millimetres. Used to estimate the cost of curves there.
-const TO_COME: f64 = 0.02;
+const LOWERING_TOLERANCE: f64 = 0.02;
 /// Maximum number of dash periods in one path; a finer pattern is ignored.
 const MOST_DASHES: f64 = 20_000.0;
 
@@ -121,7 +121,7 @@ impl<'a> Importer<'a> {
             self.dropped.count("path beyond 100 m");
             return Ok(());
         }
-        self.budget.spend(POINT_TO_COME * flattened_points(&curve, TO_COME), "curves")?;
+        self.budget.spend(LOWERED_POINT * flattened_points(&curve, LOWERING_TOLERANCE), "curves")?;
         let fill = path.fill().map(|fill| (fill, Paint::of(fill.paint(), fill.opacity().get() * place.opacity)));
         let stroke = path.stroke().map(|stroke| (stroke, Paint::of(stroke.paint(), stroke.opacity().get() * place.opacity)));
         let is_stroke_above = path.paint_order() == usvg::PaintOrder::FillAndStroke;

@@ -27,7 +27,7 @@ pub(super) const FILL: usize = 0;
 pub(super) const STROKE: usize = 1;
 pub(super) const MARKERS: std::ops::Range<usize> = 2..5;
 /// The properties of the element itself; the ones before are inherited.
-pub(super) const OWN: std::ops::Range<usize> = 5..8;
+pub(super) const NOT_INHERITED: std::ops::Range<usize> = 5..8;
 
 /// An element's values of [`PROPERTIES`], and the steps of setting them.
 #[derive(Clone, Copy, Default)]

@@ -2,11 +2,11 @@
 
 use super::Dropped;
 use super::budget::{Budget, TooMuchWork};
-use super::census::take_text;
+use super::census::spend_parsing;
 use super::clip_paths::FARTHEST;
 use super::colour_names::with_known_colours;
 use super::curves::MM_PER_PX;
-use super::expansion::take_expansion;
+use super::expansion::spend_expansion;
 use super::importer::{Importer, Place};
 use super::layers::{DEEPEST, LabelSpeeds, outline, with_ids};
 use super::text::text_of;
@@ -107,11 +107,11 @@ pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
 /// [`read_svg`] with a given work limit.
 pub fn read_svg_within(bytes: &[u8], budget: &mut Budget) -> Result<Imported, SvgError> {
     let given = text_of(bytes, budget)?;
-    take_text(&given, budget)?;
+    spend_parsing(&given, budget)?;
     let given = with_known_colours(&given);
     let document = parsed(&given)?;
     let outline = outline(&document).ok_or(SvgError::TooDeep(DEEPEST))?;
-    let elements = take_expansion(&document, budget)?;
+    let elements = spend_expansion(&document, budget)?;
     let (outline, tree) = match with_ids(&given, &document) {
         Cow::Borrowed(_) => (outline, tree_of(&document, elements)?),
         Cow::Owned(text) => {

@@ -39,7 +39,7 @@ impl Colours {
     }
 
     /// The logarithm of how much more often pixels marked in `subject` have such a colour nearby than those marked in `ground`.
-    pub(super) fn speak_for(&self, subject: &Raster<u8>, ground: &Raster<u8>) -> Raster<f32> {
+    pub(super) fn log_ratio(&self, subject: &Raster<u8>, ground: &Raster<u8>) -> Raster<f32> {
         let mut lattice = vec![[0.0_f32; 2]; SIZE.iter().product()];
         for ((place, &subject), &ground) in self.0.pixels().iter().zip(subject.pixels()).zip(ground.pixels()) {
             let node = &mut lattice[index(place.map(|v| v as usize))];
@@ -104,7 +104,7 @@ mod tests {
         let picture = Raster::from_fn(64, 64, |x, y| if is_red(x, y) { [200.0, 20.0, 30.0] } else { [30.0, 60.0, 180.0] });
         let subject = Raster::from_fn(64, 64, |x, y| u8::from(x >= 32 && y >= 32 && (x + y) % 2 == 0));
         let ground = Raster::from_fn(64, 64, |x, y| u8::from(!(x >= 32 && y >= 32) && (x + y) % 2 == 0));
-        let said = Colours::new(&picture).speak_for(&subject, &ground);
+        let said = Colours::new(&picture).log_ratio(&subject, &ground);
         assert!(said.get(56, 56) > 1.0 && said.get(8, 8) < -1.0 && said.get(56, 8) < -1.0);
     }
 }

@@ -69,7 +69,7 @@ fn heights(subject: &Raster<f32>, faces: &[Landmarks], heads: &Heads) -> Raster<
     let is_outside = gaussian_blur(subject, (OUTLINE_SMOOTHING * width) as f32).map(|v| v < OUTLINE);
     let given = is_outside.map(|outside| outside.then_some(0.0_f32));
     let cushion = cushion(&given, width);
-    let base = cushion.zip_map(&heads.behind(subject.width(), subject.height()), |cushion, behind| cushion - behind);
+    let base = cushion.zip_map(&heads.set_back(subject.width(), subject.height()), |cushion, set_back| cushion - set_back);
     let mut steps = Raster::filled(subject.width(), subject.height(), [0.0_f32; 2]);
     for face in faces {
         FaceRelief::new(face).lay(&base, &mut steps);

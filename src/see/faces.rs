@@ -74,7 +74,7 @@ fn is_beside(a: Rect, b: Rect) -> bool {
 }
 
 /// True if there may be more faces than a pass over the whole picture finds.
-pub(super) fn wants_second_look(found: &[Found], view: &View) -> bool {
+pub(super) fn needs_second_pass(found: &[Found], view: &View) -> bool {
     let longest = view.part.width().max(view.part.height());
     found.first().is_none_or(|largest| largest.bounds.width() < SMALL * longest)
 }

@@ -98,7 +98,7 @@ impl Head {
     }
 
     /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.
-    pub(super) fn expects(&self, place: Point) -> f64 {
+    pub(super) fn expectation_at(&self, place: Point) -> f64 {
         let from = (place - self.middle) / self.width;
         let (across, down) = (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)));
         let reach = self.reach[usize::from(across >= 0.0)] * through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down);
@@ -133,17 +133,17 @@ pub(super) mod tests {
     fn head_and_shoulders_are_expected_and_what_is_beside_them_is_not() {
         let head = Head::new(&face(300.0, 200.0, 0.0));
         for (x, y) in [(300.0, 200.0), (300.0, 110.0), (245.0, 180.0), (300.0, 300.0), (400.0, 320.0)] {
-            assert_eq!(head.expects(Point::new(x, y)), 1.0, "{x} {y}");
+            assert_eq!(head.expectation_at(Point::new(x, y)), 1.0, "{x} {y}");
         }
         for (x, y) in [(200.0, 180.0), (235.0, 255.0), (300.0, 20.0), (120.0, 260.0)] {
-            assert!(head.expects(Point::new(x, y)) < 0.5, "{x} {y}: {}", head.expects(Point::new(x, y)));
+            assert!(head.expectation_at(Point::new(x, y)) < 0.5, "{x} {y}: {}", head.expectation_at(Point::new(x, y)));
         }
     }
 
     #[test]
     fn a_turned_head_has_its_back_on_the_other_side() {
         let head = Head::new(&face(300.0, 200.0, -30.0));
-        let (far, near) = (head.expects(Point::new(237.0, 190.0)), head.expects(Point::new(380.0, 190.0)));
+        let (far, near) = (head.expectation_at(Point::new(237.0, 190.0)), head.expectation_at(Point::new(380.0, 190.0)));
         assert!(far < 0.2 && near == 1.0, "{far} {near}");
     }
 }

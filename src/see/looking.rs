@@ -83,7 +83,7 @@ fn find(
         }
     };
     let found =
-        if faces::wants_second_look(&found, &view) { faces::find_small(detector, &view, found, interrupt)? } else { found };
+        if faces::needs_second_pass(&found, &view) { faces::find_small(detector, &view, found, interrupt)? } else { found };
     Ok((!found.is_empty()).then_some((turn, view, found)))
 }
 

@@ -14,14 +14,14 @@ const GREY: f32 = 127.0;
 const BLACK: f32 = 0.0;
 
 /// The network's results for each pixel of a grid, as probabilities in steps of 1/255.
-pub(super) struct Looks {
+pub(super) struct PersonMaps {
     /// The median of the three.
     pub middle: Raster<f32>,
     /// The minimum of the three.
     pub least: Raster<f32>,
 }
 
-impl Looks {
+impl PersonMaps {
     /// Runs the network on a view, resampled to a grid of `size` columns and rows: near the heads, on the whole with black
     /// padding, and on the whole in brighter tone. Hardly anything but a person is found by all three; where one misses a person,
     /// it is the only one.

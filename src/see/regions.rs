@@ -15,10 +15,10 @@ mod facial_hair;
 mod head;
 mod headwear;
 mod mixture;
-mod parting;
 mod path;
 mod pieces;
 mod plate;
+mod segmentation;
 mod smoothing;
 
 use super::detail::detail;
@@ -28,9 +28,9 @@ use crate::source::Landmarks;
 use facial_hair::Beard;
 use head::Head;
 use headwear::headwear;
-use parting::{CLOTHING, HAIR, Parting, SKIN, Shares};
 use plate::{Plate, owner};
 use rayon::prelude::*;
+use segmentation::{CLOTHING, HAIR, SKIN, Segmentation, Shares};
 use smoothing::{Guide, Lines, value};
 
 /// Number of regions: skin, hair, facial hair, headwear, clothing.
@@ -42,7 +42,7 @@ const REACHES: [usize; 2] = [5, 3];
 const EPS: f32 = 1.5e-3;
 
 /// The result for one head: linear functions of colour for each region, on its plate.
-struct Told {
+struct HeadRegions {
     plate: Plate,
     lines: [Lines; KINDS],
 }
@@ -51,18 +51,18 @@ struct Told {
 pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks]) -> Regions {
     let detail = detail(subject, faces);
     let (heads, faces): (Vec<Head>, Vec<&Landmarks>) = faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
-    let told: Vec<Option<Told>> = (0..heads.len()).map(|i| told(pixels, subject, faces[i], &heads, i)).collect();
+    let told: Vec<Option<HeadRegions>> = (0..heads.len()).map(|i| told(pixels, subject, faces[i], &heads, i)).collect();
     let planes = at_full_size(pixels, subject, &heads, &told);
     let [skin, hair, facial_hair, headwear, clothing] = [0, 1, 2, 3, 4].map(|k| planes.map(|p| p[k]));
     Regions { skin, hair, facial_hair, headwear, clothing, detail }
 }
 
-fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads: &[Head], which: usize) -> Option<Told> {
+fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads: &[Head], which: usize) -> Option<HeadRegions> {
     let plate = Plate::new(pixels, subject, face, heads, which)?;
-    let parting = Parting::learned(&plate);
+    let parting = Segmentation::learned(&plate);
     let guides = REACHES.map(|radius| Guide::new(&plate.colours, radius, EPS));
     let beard = Beard::found(&plate);
-    let shares = pieces::hung_together(&parting, &plate, parting.shares(&guides), beard.as_ref());
+    let shares = pieces::reassign_stray_pieces(&parting, &plate, parting.shares(&guides), beard.as_ref());
     let beard = beard.map(|beard| beard.shares(&plate, &shares));
     let hat = headwear(&plate, &shares);
     let kinds = kinds(&shares, beard.as_ref(), hat.as_ref());
@@ -72,7 +72,7 @@ fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads:
         if is_empty { plane.map(|_| [0.0; 4]) } else { guides[1].lines(&plane) }
     });
     drop((guides, parting));
-    Some(Told { plate, lines })
+    Some(HeadRegions { plate, lines })
 }
 
 /// The five regions within the person: facial hair takes from skin and clothing, headwear from hair.
@@ -91,7 +91,12 @@ fn kinds(shares: &Raster<Shares>, beard: Option<&Raster<f32>>, hat: Option<&Rast
 }
 
 /// The regions at the view's size, each pixel from its nearest head; pixels outside all plates are clothing.
-fn at_full_size(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, heads: &[Head], told: &[Option<Told>]) -> Raster<[u8; KINDS]> {
+fn at_full_size(
+    pixels: &Raster<[u8; 3]>,
+    subject: &Raster<u8>,
+    heads: &[Head],
+    told: &[Option<HeadRegions>],
+) -> Raster<[u8; KINDS]> {
     let width = pixels.width();
     let mut out = Raster::filled(width, pixels.height(), [0_u8; KINDS]);
     out.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
@@ -104,14 +109,14 @@ fn at_full_size(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, heads: &[Head], 
             let own = owner(heads, p).and_then(|i| told[i].as_ref());
             let colour = pixels.get(x, y).map(|v| f32::from(v) / 255.0);
             let shares = own.and_then(|own| shares_at(own, p.x, p.y, colour));
-            *out = shared_out(whole, shares.unwrap_or([0.0, 0.0, 0.0, 0.0, 1.0]));
+            *out = apportioned(whole, shares.unwrap_or([0.0, 0.0, 0.0, 0.0, 1.0]));
         }
     });
     out
 }
 
 /// A plate's shares for a colour at a point of the view; `None` outside the plate.
-fn shares_at(told: &Told, x: f64, y: f64, colour: [f32; 3]) -> Option<[f32; KINDS]> {
+fn shares_at(told: &HeadRegions, x: f64, y: f64, colour: [f32; 3]) -> Option<[f32; KINDS]> {
     let plate = &told.plate;
     if !plate.part.contains(crate::geometry::Point::new(x, y)) {
         return None;
@@ -134,7 +139,7 @@ fn shares_at(told: &Told, x: f64, y: f64, colour: [f32; 3]) -> Option<[f32; KIND
 }
 
 /// Divides a whole of at most 255 without remainder.
-fn shared_out(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
+fn apportioned(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
     let sum: f32 = shares.iter().sum();
     let shares = if sum > 0.02 { shares.map(|v| v / sum) } else { [0.0, 0.0, 0.0, 0.0, 1.0] };
     let (mut given, mut upto) = (0_u8, 0.0_f32);
@@ -171,7 +176,7 @@ mod tests {
     #[test]
     fn a_whole_is_shared_out_without_remainder() {
         for whole in [0, 1, 7, 254, 255] {
-            let out = shared_out(whole, [0.2, 0.31, 0.02, 0.0, 0.4]);
+            let out = apportioned(whole, [0.2, 0.31, 0.02, 0.0, 0.4]);
             assert_eq!(out.iter().map(|v| u32::from(*v)).sum::<u32>(), u32::from(whole));
         }
     }

@@ -4,7 +4,7 @@
 use super::SeeError;
 use super::colours::Colours;
 use super::head::Head;
-use super::looks::Looks;
+use super::looks::PersonMaps;
 use super::networks::Network;
 use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Rect};
@@ -65,12 +65,12 @@ pub(super) fn subject(
     let longest = view.pixels.width().max(view.pixels.height());
     let share = |length: usize| (length * GRID.min(longest)).div_ceil(longest);
     let size = [share(view.pixels.width()), share(view.pixels.height())];
-    let small = view.through_to(&Window::stretched(view.part), size, Outside::Repeated);
-    let looks = Looks::new(network, view, &heads, size)?;
+    let small = view.resampled_to(&Window::stretched(view.part), size, Outside::Repeated);
+    let looks = PersonMaps::new(network, view, &heads, size)?;
     let decided = Decision::new(view.part, &heads, strangers, &looks).made(&Colours::new(&small));
     let guide = small.map(|colour| colour.map(|v| v / 255.0));
     let fine = guided_enlargement(&view.pixels, &guide, &decided, REACH, EPS).map(|v| (255.0 * v).round() as u8);
-    Ok(with_a_face(&fine, view, &heads))
+    Ok(pieces_with_a_face(&fine, view, &heads))
 }
 
 /// Inputs of the decision, on the grid.
@@ -86,7 +86,7 @@ struct Decision {
 }
 
 impl Decision {
-    fn new(picture: Rect, heads: &[Head], strangers: &[Rect], looks: &Looks) -> Self {
+    fn new(picture: Rect, heads: &[Head], strangers: &[Rect], looks: &PersonMaps) -> Self {
         let (columns, rows) = (looks.least.width(), looks.least.height());
         let place = |x: usize, y: usize| {
             let (x, y) = ((x as f64 + 0.5) / columns as f64, (y as f64 + 0.5) / rows as f64);
@@ -95,8 +95,9 @@ impl Decision {
         let sure = heads.iter().fold(Raster::filled(columns, rows, 0), |sure, head| {
             sure.zip_map(&head.sure(picture, columns, rows), |a: u8, b| a.max(b))
         });
-        let expected =
-            Raster::from_fn(columns, rows, |x, y| heads.iter().map(|head| head.expects(place(x, y)) as f32).fold(0.0, f32::max));
+        let expected = Raster::from_fn(columns, rows, |x, y| {
+            heads.iter().map(|head| head.expectation_at(place(x, y)) as f32).fold(0.0, f32::max)
+        });
         // Known people take precedence over strangers.
         let own = Raster::from_fn(columns, rows, |x, y| {
             let is_strange = strangers.iter().any(|bounds| is_in_head(*bounds, place(x, y)));
@@ -110,12 +111,12 @@ impl Decision {
 
     /// The decision, 0 to 1, by the network and by colours sampled where it is clear.
     fn made(&self, colours: &Colours) -> Raster<f32> {
-        let mut decided = self.said.map(without_doubt);
+        let mut decided = self.said.map(sharpened_probability);
         let mut certain = self.least.map(|v| u8::from(v > 0.97));
         for _ in 0..ROUNDS {
             let inside = eroded(&certain, INSIDE[0]).zip_map(&self.sure, Ord::max);
             let outside = eroded(&decided.map(|v| u8::from(v < 0.4)), INSIDE[1]);
-            decided = self.filled(&self.weighed(&colours.speak_for(&inside, &outside)));
+            decided = self.filled(&self.weighed(&colours.log_ratio(&inside, &outside)));
             certain = certain.zip_map(&decided, |certain, v| certain * u8::from(v > 0.9));
         }
         decided
@@ -134,7 +135,7 @@ impl Decision {
             let against = (WEIGHT * (colour - DEMANDED * (1.0 - expected))).clamp(-MOST_AGAINST, 0.0);
             let said = said.clamp(CERTAIN, 1.0 - CERTAIN);
             let odds = said / (1.0 - said) * (is_for + against).exp();
-            without_doubt(odds / (1.0 + odds))
+            sharpened_probability(odds / (1.0 + odds))
         })
     }
 
@@ -146,7 +147,7 @@ impl Decision {
         for (&label, &said) in labels.pixels().iter().zip(self.said.pixels()) {
             is_open[label as usize] |= said <= DOUBT[0];
         }
-        let whole = self.said.zip_map(decided, |said, decided| decided.max(without_doubt(said)));
+        let whole = self.said.zip_map(decided, |said, decided| decided.max(sharpened_probability(said)));
         let fills = labels.map(|label| label != 0 && !is_open[label as usize]);
         Raster::from_fn(whole.width(), whole.height(), |x, y| if fills.get(x, y) { whole.get(x, y) } else { decided.get(x, y) })
     }
@@ -165,7 +166,7 @@ fn is_in_head(bounds: Rect, place: Point) -> bool {
 }
 
 /// Maps a probability to 0 below [`DOUBT`], to 1 above it, smoothly between.
-fn without_doubt(v: f32) -> f32 {
+fn sharpened_probability(v: f32) -> f32 {
     let t = ((v - DOUBT[0]) / (DOUBT[1] - DOUBT[0])).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
@@ -176,7 +177,7 @@ fn eroded(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
 }
 
 /// Only the pieces that contain a face: what the network took for a person elsewhere is dropped.
-fn with_a_face(person: &Raster<u8>, view: &View, heads: &[Head]) -> Raster<u8> {
+fn pieces_with_a_face(person: &Raster<u8>, view: &View, heads: &[Head]) -> Raster<u8> {
     let (labels, _) = components(&person.map(|v| u8::from(v > SOLID)));
     let step = view.step();
     let held: Vec<u32> = heads
@@ -200,7 +201,7 @@ mod tests {
     fn a_stranger_beside_the_head_is_background_and_the_head_is_not() {
         let heads = [Head::new(&face(150.0, 110.0, 0.0))];
         let everywhere = || Raster::filled(150, 125, 1.0_f32);
-        let looks = Looks { middle: everywhere(), least: everywhere() };
+        let looks = PersonMaps { middle: everywhere(), least: everywhere() };
         let decision = Decision::new(Rect::new(0.0, 0.0, 300.0, 250.0), &heads, &[Rect::new(10.0, 110.0, 70.0, 170.0)], &looks);
         assert_eq!((decision.said.get(20, 68), decision.least.get(20, 68)), (0.0, 0.0));
         assert_eq!((decision.said.get(75, 55), decision.said.get(140, 20)), (1.0, 1.0));

@@ -55,12 +55,12 @@ impl View {
 
     /// The view through a window, resampled to `side` x `side` pixels, in byte values as floats.
     pub(super) fn through(&self, window: &Window, side: usize, outside: Outside) -> Raster<[f32; 3]> {
-        self.through_to(window, [side, side], outside)
+        self.resampled_to(window, [side, side], outside)
     }
 
     /// The view through a window, resampled to `size` columns and rows, in byte values as floats. Each pixel is the mean of
     /// bilinear samples, one per pixel that it covers, taken at the halving where it covers at most two by two.
-    pub(super) fn through_to(&self, window: &Window, size: [usize; 2], outside: Outside) -> Raster<[f32; 3]> {
+    pub(super) fn resampled_to(&self, window: &Window, size: [usize; 2], outside: Outside) -> Raster<[f32; 3]> {
         let step = self.step();
         let in_view = |v: Vec2, count: usize| Vec2::new(v.x / step.x, v.y / step.y) / count as f64;
         let (across, down) = (in_view(window.across, size[0]), in_view(window.down, size[1]));

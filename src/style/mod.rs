@@ -60,7 +60,7 @@ pub trait Style: Sync {
     /// Draws the portrait with all ink inside the picture's box on the page; warns of settings that have no effect.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
         settings.idle(self.parameters(), portrait).iter().for_each(|sentence| observer.warn(sentence));
-        let drawing = self.sketch(portrait, settings, seed, observer)?.held_in(portrait.placement.picture);
+        let drawing = self.sketch(portrait, settings, seed, observer)?.confined_to(portrait.placement.picture);
         if drawing.marks().next().is_none() {
             return Err(StyleError::NothingToDraw("no mark lies inside the picture".to_owned()));
         }

@@ -42,14 +42,14 @@ pub(super) struct ReversedCell {
 }
 
 /// Which cells are reversed.
-pub(super) struct Chosen {
+pub(super) struct ReversedCells {
     /// For each cell.
     pub is_reversed: Vec<bool>,
     /// 1 on their pixels.
     pub mask: Raster<u8>,
 }
 
-impl Chosen {
+impl ReversedCells {
     /// Chooses the dark cells that form wide enough regions. `nearest` is each pixel's cell, `u32::MAX` outside the subject; `pitch` in
     /// pixels.
     pub(super) fn new(nearest: &Raster<u32>, is_dark: &[bool], pitch: f64) -> Self {
@@ -75,7 +75,7 @@ impl Chosen {
     }
 }
 
-/// The reversed cells as areas on the page, one per tile; `mask` as in [`Chosen`], `pitch` in pixels.
+/// The reversed cells as areas on the page, one per tile; `mask` as in [`ReversedCells`], `pitch` in pixels.
 pub(super) fn areas(cells: &[ReversedCell], mask: &Raster<u8>, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
     let mut tiles: BTreeMap<(i64, i64), Vec<&ReversedCell>> = BTreeMap::new();
     let side = TILE * pitch;
@@ -257,7 +257,7 @@ mod tests {
         let (_, nearest) = lattice(10);
         // A block of 5 x 5 cells and a row of one.
         let is_dark: Vec<bool> = (0..100).map(|i| (i % 10 < 5 && i / 10 < 5) || i / 10 == 8).collect();
-        let chosen = Chosen::new(&nearest, &is_dark, 6.0);
+        let chosen = ReversedCells::new(&nearest, &is_dark, 6.0);
         for (i, reversed) in chosen.is_reversed.iter().enumerate() {
             assert_eq!(*reversed, i % 10 < 5 && i / 10 < 5, "cell {i}");
         }

@@ -80,7 +80,7 @@ impl Planner {
         let greatest_entry_squared = corner.min(nominal * nominal).min(self.nominal * self.nominal);
         self.blocks.push_back(Block { steps, length, acceleration, nominal, greatest_entry_squared, entry_squared: 0.0 });
         (self.position, self.direction, self.nominal) = (position, direction, nominal);
-        stepper.is_about_to_be_replanned(self);
+        stepper.prepare_replan(self);
         self.replan();
     }
 

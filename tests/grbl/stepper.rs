@@ -81,7 +81,7 @@ impl Stepper {
     }
 
     /// A new plan starts from the running block's speed and remaining length, and may change how it ends.
-    pub fn is_about_to_be_replanned(&mut self, planner: &mut Planner) {
+    pub fn prepare_replan(&mut self, planner: &mut Planner) {
         if let (Some(loaded), Some(block)) = (&mut self.loaded, planner.first()) {
             block.entry_squared = loaded.speed * loaded.speed;
             loaded.profile = None;

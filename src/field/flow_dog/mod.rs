@@ -96,7 +96,7 @@ fn half_gaussian(sigma: f32) -> Vec<f32> {
 /// Step 1 where `stale`; 0 where there is no direction.
 fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, stale: &Raster<u8>, out: &mut Raster<f32>) {
     let padded = Padded::new(grey, stencils.reach);
-    renew(out, stale, |x, y| {
+    recompute_stale(out, stale, |x, y| {
         let tangent = flow.tangent.get(x, y);
         if tangent == [0.0, 0.0] {
             return 0.0;
@@ -106,7 +106,7 @@ fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, 
 }
 
 /// Recomputes the pixels that are `stale`.
-fn renew(out: &mut Raster<f32>, stale: &Raster<u8>, value: impl Fn(usize, usize) -> f32 + Sync) {
+fn recompute_stale(out: &mut Raster<f32>, stale: &Raster<u8>, value: impl Fn(usize, usize) -> f32 + Sync) {
     let width = out.width();
     out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         for (x, (out, stale)) in row.iter_mut().zip(stale.row(y)).enumerate() {
@@ -125,7 +125,11 @@ fn along_flow(differences: &Raster<f32>, along: &Streamlines, least: f32, stale:
     let lowest = lowest_by_tile(differences, along.margin().div_ceil(TILE));
     let columns = differences.width().div_ceil(TILE);
     let padded = Padded::new(differences, along.margin());
-    renew(out, stale, |x, y| if lowest[y / TILE * columns + x / TILE] < least { along.mean(&padded, x, y) } else { 0.0 });
+    recompute_stale(
+        out,
+        stale,
+        |x, y| if lowest[y / TILE * columns + x / TILE] < least { along.mean(&padded, x, y) } else { 0.0 },
+    );
 }
 
 /// Minimum over each tile and its neighbours within `reach` tiles.

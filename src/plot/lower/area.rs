@@ -9,7 +9,7 @@ use super::hatch::hatching;
 use super::needle::{ink_of, needle, pieces};
 use super::net::Net;
 use super::room::Room;
-use crate::geometry::{Insets, Point, distance_to_segment, resample};
+use crate::geometry::{OffsetOutline, Point, distance_to_segment, resample};
 use crate::interrupt::Interrupt;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -26,7 +26,7 @@ const SMOOTH: f64 = 0.02;
 const MOST_RING_VERTICES: usize = 2_000_000;
 
 /// The paths that fill a shape; incomplete once the interrupt is raised. `phase` is the phase of the dashes of narrow parts.
-pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
+pub(super) fn fill(insets: &OffsetOutline, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let outermost = insets.grown(-0.5 * nib);
     let narrow = narrow_parts(insets, &outermost, nib, phase, interrupt);
@@ -45,7 +45,7 @@ pub(super) fn fill(insets: &Insets, nib: f64, phase: f64, interrupt: &Interrupt)
 }
 
 /// The parts narrower than the nib, as dashes with the same ink; `outermost` is where the nib's centre fits.
-fn narrow_parts(insets: &Insets, outermost: &Insets, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
+fn narrow_parts(insets: &OffsetOutline, outermost: &OffsetOutline, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let least = LEAST_PART * FRAC_PI_4 * nib * nib;
     let ground = OnceCell::new();
     let ground = || ground.get_or_init(|| Ground::new(insets, &outermost.grown(0.5 * nib)));
@@ -53,7 +53,7 @@ fn narrow_parts(insets: &Insets, outermost: &Insets, nib: f64, phase: f64, inter
         insets.narrow_parts(outermost, 0.5 * nib, interrupt).into_iter().partition(|part| part.len() > 1);
     let strips = strips.into_iter().filter(|strip| ink_of(strip) >= least).take_while(|_| !interrupt.is_raised());
     let drawn = strips.enumerate().flat_map(|(i, strip)| dashes(&needle(&strip, nib), nib, phase + 0.618 * i as f64));
-    let mut paths: Vec<Toolpath> = drawn.filter(|path| !interrupt.is_raised() && ground().bears(&path.points, nib)).collect();
+    let mut paths: Vec<Toolpath> = drawn.filter(|path| !interrupt.is_raised() && ground().may_draw(&path.points, nib)).collect();
     if !nets.is_empty() {
         let mut net = Net::new(ground(), nib, interrupt);
         let pieces = nets.into_iter().flat_map(|part| pieces(part, nib)).take_while(|_| !interrupt.is_raised());
@@ -71,7 +71,7 @@ fn cost(paths: &[Toolpath]) -> f64 {
 ///
 /// Each level is offset from the one before. Offset from the border, each tooth of a comb would swing an arc as wide as the depth
 /// through all others.
-fn rings(outermost: Insets, pitch: f64, interrupt: &Interrupt) -> Option<Vec<Vec<Vec<Point>>>> {
+fn rings(outermost: OffsetOutline, pitch: f64, interrupt: &Interrupt) -> Option<Vec<Vec<Vec<Point>>>> {
     let mut levels = Vec::new();
     let mut rings = outermost;
     let mut work = 0;
@@ -179,7 +179,7 @@ fn joined(levels: &[Vec<Vec<Point>>], room: &Room, reach: f64, interrupt: &Inter
         let mut best: Option<(usize, f64, usize)> = None;
         for next in pairs.filter(|(_, distance, _)| *distance <= reach) {
             let is_better = best.is_none_or(|best| next.0 > best.0 || (next.0 == best.0 && next.1 < best.1));
-            if is_better && room.holds(end_of(next.0), line[next.2]) {
+            if is_better && room.allows_step(end_of(next.0), line[next.2]) {
                 best = Some(next);
             }
         }
@@ -208,7 +208,7 @@ mod tests {
     use crate::geometry::BezPath;
 
     fn filled(text: &str, nib: f64) -> Vec<Toolpath> {
-        fill(&Insets::new(&BezPath::from_svg(text).unwrap(), 0.01), nib, 0.0, &Interrupt::never())
+        fill(&OffsetOutline::new(&BezPath::from_svg(text).unwrap(), 0.01), nib, 0.0, &Interrupt::never())
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The ground under the dashes of narrow parts: where ink is wanted, where it already lies, and where it would spill.
 
-use crate::geometry::{Insets, Point, Region, Vec2, resample};
+use crate::geometry::{OffsetOutline, Point, Region, Vec2, resample};
 
 /// The region to be inked, and the part of it already inked where the nib fits.
 pub(super) struct Ground {
@@ -15,15 +15,15 @@ const ACROSS: i32 = 5;
 const SHARED: f64 = 0.2;
 
 impl Ground {
-    pub fn new(asked: &Insets, reached: &Insets) -> Self {
+    pub fn new(asked: &OffsetOutline, reached: &OffsetOutline) -> Self {
         // The outlines are polygons, so the flattening tolerance has no effect.
-        let region = |insets: &Insets| Region::new(&insets.path(), 1.0);
+        let region = |insets: &OffsetOutline| Region::new(&insets.path(), 1.0);
         Self { asked: region(asked), reached: region(reached) }
     }
 
     /// True if a dash may be drawn: it stands by itself, or covers more than it spills. Otherwise adjacent threads of a net would
     /// fill the holes.
-    pub fn bears(&self, points: &[Point], nib: f64) -> bool {
+    pub fn may_draw(&self, points: &[Point], nib: f64) -> bool {
         let half = 0.5 * nib;
         let grid = (-ACROSS..=ACROSS).flat_map(|j| (-ACROSS..=ACROSS).map(move |i| Vec2::new(f64::from(i), f64::from(j))));
         let under: Vec<Vec2> = grid.map(|v| v * (half / f64::from(ACROSS))).filter(|v| v.hypot() <= half).collect();

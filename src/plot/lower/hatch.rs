@@ -2,7 +2,7 @@
 
 use super::super::Toolpath;
 use super::room::Room;
-use crate::geometry::{Insets, Point};
+use crate::geometry::{OffsetOutline, Point};
 use crate::interrupt::Interrupt;
 
 /// Distance of the lines' ends from the border ring's centre line, in pitches: the nib's round end then reaches under the ring.
@@ -12,7 +12,7 @@ const TUCK: f64 = 0.55;
 /// forth where they are adjacent and `room` allows the step. None if the inside holds no line; incomplete once the interrupt is
 /// raised.
 pub(super) fn hatching(
-    insets: &Insets,
+    insets: &OffsetOutline,
     border: &[Vec<Point>],
     room: &Room,
     nib: f64,
@@ -38,7 +38,7 @@ pub(super) fn hatching(
     let heights: Vec<f64> = (0..count as usize).map(|k| low + (k as f64 + 0.5) * step).collect();
     let rows = spans(&rings, &heights).into_iter().take_while(|_| !interrupt.is_raised());
     let mut paths: Vec<Toolpath> = border.iter().map(|ring| Toolpath::new(ring.clone())).collect();
-    paths.extend(back_and_forth(rows, 2.5 * pitch, |a, b| room.holds(turned(a), turned(b))).into_iter().map(|line| {
+    paths.extend(back_and_forth(rows, 2.5 * pitch, |a, b| room.allows_step(turned(a), turned(b))).into_iter().map(|line| {
         let points = line.into_iter().map(turned).collect();
         Toolpath::new(points)
     }));
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_square_is_its_border_and_one_line_back_and_forth() {
-        let insets = Insets::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z").unwrap(), 0.01);
+        let insets = OffsetOutline::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z").unwrap(), 0.01);
         let border = insets.rings(0.25);
         let room = Room::new(&insets.grown(-0.25), 0.5);
         let closed: Vec<Vec<Point>> = border.iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn an_island_that_no_row_crosses_is_a_ring() {
         // Rows at 4.574 and 5.426 pass above and below what is left of the small square, 4.845 to 5.155.
-        let insets = Insets::new(&BezPath::from_svg("M0,0 H40 V10 H0 Z M50,4.1 H51.8 V5.9 H50 Z").unwrap(), 0.01);
+        let insets = OffsetOutline::new(&BezPath::from_svg("M0,0 H40 V10 H0 Z M50,4.1 H51.8 V5.9 H50 Z").unwrap(), 0.01);
         let border: Vec<Vec<Point>> = insets.rings(0.25).iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
         let room = Room::new(&insets.grown(-0.25), 0.5);
         let paths = hatching(&insets, &border, &room, 0.5, 0.9, &Interrupt::never()).unwrap();

@@ -21,7 +21,7 @@ mod unite;
 use super::profile::Swell;
 use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
-use crate::geometry::{BezPath, Insets, flatten, simplify_until};
+use crate::geometry::{BezPath, OffsetOutline, flatten, simplify_until};
 use crate::interrupt::{Interrupt, Interrupted};
 use area::fill;
 use dot::fill_dot;
@@ -108,7 +108,7 @@ struct Lowering<'a> {
 impl Lowering<'_> {
     fn layer(&self, layer: &Layer) -> Vec<Toolpath> {
         let kept = match self.model {
-            InkModel::Ink => thin::keeps_tone(&layer.marks, self.nib, self.interrupt),
+            InkModel::Ink => thin::thin_small_dots(&layer.marks, self.nib, self.interrupt),
             InkModel::Lines => vec![true; layer.marks.len()],
         };
         if self.interrupt.is_raised() {
@@ -151,10 +151,10 @@ impl Lowering<'_> {
     }
 
     fn area(&self, area: &Area, phase: f64) -> Vec<Toolpath> {
-        self.shape(&Insets::new(&area.outline, 0.5 * self.tolerance), phase)
+        self.shape(&OffsetOutline::new(&area.outline, 0.5 * self.tolerance), phase)
     }
 
-    fn shape(&self, shape: &Insets, phase: f64) -> Vec<Toolpath> {
+    fn shape(&self, shape: &OffsetOutline, phase: f64) -> Vec<Toolpath> {
         if self.interrupt.is_raised() {
             return Vec::new();
         }

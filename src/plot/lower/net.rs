@@ -204,7 +204,7 @@ impl Patch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{BezPath, Insets, polyline_length};
+    use crate::geometry::{BezPath, OffsetOutline, polyline_length};
 
     /// A net of threads of 0.4 mm around round holes, 1 mm apart, and a nib of 0.6 mm.
     #[test]
@@ -212,7 +212,7 @@ mod tests {
         let holes: Vec<String> =
             (0..100).map(|i| format!("M{},{} a.3,.3 0 1 0 .6,0 a.3,.3 0 1 0 -.6,0 Z", i % 10, f64::from(i / 10) + 0.5)).collect();
         let outline = BezPath::from_svg(&format!("M-1,0 H10.5 V10.5 H-1 Z {}", holes.join(" "))).unwrap();
-        let asked = Insets::new(&outline, 0.005);
+        let asked = OffsetOutline::new(&outline, 0.005);
         let nib = 0.6;
         let outermost = asked.grown(-0.5 * nib);
         let ground = Ground::new(&asked, &outermost.grown(0.5 * nib));

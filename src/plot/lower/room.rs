@@ -1,6 +1,6 @@
 //! Where the nib may go between two lines of a filling: a step across a hole would fill the hole.
 
-use crate::geometry::{Insets, Point, Region};
+use crate::geometry::{OffsetOutline, Point, Region};
 
 /// The positions of the nib's centre at which it spills next to nothing.
 pub(super) struct Room {
@@ -13,13 +13,13 @@ const SLACK: f64 = 0.1;
 const LOOK: f64 = 0.25;
 
 impl Room {
-    pub fn new(outermost: &Insets, nib: f64) -> Self {
+    pub fn new(outermost: &OffsetOutline, nib: f64) -> Self {
         // The outlines are polygons, so the flattening tolerance has no effect.
         Self { inside: Region::new(&outermost.grown(SLACK * nib).path(), 1.0), step: LOOK * nib }
     }
 
     /// True if the nib stays inside between two points.
-    pub fn holds(&self, a: Point, b: Point) -> bool {
+    pub fn allows_step(&self, a: Point, b: Point) -> bool {
         let steps = (a.distance(b) / self.step).ceil();
         (1..steps as usize).all(|k| self.inside.contains(a.lerp(b, k as f64 / steps)))
     }
@@ -32,10 +32,10 @@ mod tests {
 
     #[test]
     fn a_step_over_a_hole_is_not_taken_and_one_beside_it_is() {
-        let frame = Insets::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z M4,4 V6 H6 V4 Z").unwrap(), 0.01);
+        let frame = OffsetOutline::new(&BezPath::from_svg("M0,0 H10 V10 H0 Z M4,4 V6 H6 V4 Z").unwrap(), 0.01);
         let room = Room::new(&frame.grown(-0.25), 0.5);
-        assert!(room.holds(Point::new(2.0, 2.0), Point::new(8.0, 2.0)));
-        assert!(!room.holds(Point::new(2.0, 5.0), Point::new(8.0, 5.0)));
-        assert!(room.holds(Point::new(2.0, 2.0), Point::new(2.0, 2.0)));
+        assert!(room.allows_step(Point::new(2.0, 2.0), Point::new(8.0, 2.0)));
+        assert!(!room.allows_step(Point::new(2.0, 5.0), Point::new(8.0, 5.0)));
+        assert!(room.allows_step(Point::new(2.0, 2.0), Point::new(2.0, 2.0)));
     }
 }

@@ -6,7 +6,7 @@ use crate::interrupt::Interrupt;
 
 /// True for each mark that is drawn. A dot smaller than the nib would lay down a full nib's disc, so its area over that disc is its
 /// share, and of neighbouring dots as many are drawn as their shares add up to.
-pub(super) fn keeps_tone(marks: &[Mark], nib: f64, interrupt: &Interrupt) -> Vec<bool> {
+pub(super) fn thin_small_dots(marks: &[Mark], nib: f64, interrupt: &Interrupt) -> Vec<bool> {
     let smallest = 0.5 * nib;
     let is_small = |mark: &Mark| matches!(mark, Mark::Dot(dot) if dot.radius < smallest && dot.centre.is_finite());
     let small: Vec<usize> = (0..marks.len()).filter(|&i| is_small(&marks[i])).collect();
@@ -33,9 +33,9 @@ mod tests {
 
     #[test]
     fn as_much_ink_is_left_as_was_asked_for() {
-        let kept = keeps_tone(&grid(|_| 0.09), 0.3, &Interrupt::never()).into_iter().filter(|k| *k).count();
+        let kept = thin_small_dots(&grid(|_| 0.09), 0.3, &Interrupt::never()).into_iter().filter(|k| *k).count();
         assert!((880..=920).contains(&kept), "{kept}: (0.09 / 0.15)^2 of 2500 is 900");
-        assert!(keeps_tone(&grid(|_| 0.09), 0.18, &Interrupt::never()).into_iter().all(|k| k));
+        assert!(thin_small_dots(&grid(|_| 0.09), 0.18, &Interrupt::never()).into_iter().all(|k| k));
     }
 
     #[test]
@@ -47,7 +47,7 @@ mod tests {
             let (x, y) = (f64::from(i % 75) * step, f64::from(i / 75) * step);
             Mark::Dot(Dot::circle(Point::new(x + 0.1, y + 0.1), 0.09))
         }));
-        let kept = keeps_tone(&marks, 0.3, &Interrupt::never());
+        let kept = thin_small_dots(&marks, 0.3, &Interrupt::never());
         let is_dense = |i: &usize| *i >= 2500 || (i % 50 < 26 && i / 50 < 26);
         for (of, name) in [(true, "dense"), (false, "sparse")] {
             let members: Vec<usize> = (0..marks.len()).filter(|i| is_dense(i) == of).collect();
@@ -60,7 +60,7 @@ mod tests {
     fn small_windows_keep_their_tone() {
         let share = |i: i32| f64::from(i % 50) / 60.0;
         let marks = grid(|i| 0.15 * share(i).sqrt());
-        let kept = keeps_tone(&marks, 0.3, &Interrupt::never());
+        let kept = thin_small_dots(&marks, 0.3, &Interrupt::never());
         let mut worst: f64 = 0.0;
         for row in 0..44 {
             for column in 0..44 {
@@ -76,7 +76,7 @@ mod tests {
     fn few_or_coincident_dots_do_no_harm() {
         for count in [0, 1, 2, 5, 300] {
             let marks = vec![Mark::Dot(Dot::circle(Point::new(1.0, 1.0), 0.1)); count];
-            assert_eq!(keeps_tone(&marks, 0.3, &Interrupt::never()).len(), count);
+            assert_eq!(thin_small_dots(&marks, 0.3, &Interrupt::never()).len(), count);
         }
     }
 }

@@ -2,7 +2,7 @@
 //! overlaps would be drawn twice.
 
 use crate::drawing::{Area, Mark};
-use crate::geometry::{Insets, Rect, Thread, tangles};
+use crate::geometry::{OffsetOutline, Rect, WideSegment, estimated_crossings};
 use crate::interrupt::Interrupt;
 use kurbo::Shape;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub(super) struct United {
     /// For each mark, true if it is part of one of the shapes and not drawn by itself.
     pub is_part: Vec<bool>,
     /// Connected shapes.
-    pub shapes: Vec<Insets>,
+    pub shapes: Vec<OffsetOutline>,
 }
 
 /// Unites the areas that may meet among some marks, or none if that is too much work. Curves are flattened to `tolerance`.
@@ -34,12 +34,12 @@ pub(super) fn united(marks: &[Mark], tolerance: f64, interrupt: &Interrupt) -> U
         return united;
     }
     let goes_on = meeting.par_iter().filter(|_| !interrupt.is_raised());
-    let outlines: Vec<Insets> = goes_on.map(|(_, area)| Insets::new(&area.outline, tolerance)).collect();
-    if interrupt.is_raised() || outlines.iter().map(Insets::len).sum::<usize>() > MOST_VERTICES || is_tangled(&outlines) {
+    let outlines: Vec<OffsetOutline> = goes_on.map(|(_, area)| OffsetOutline::new(&area.outline, tolerance)).collect();
+    if interrupt.is_raised() || outlines.iter().map(OffsetOutline::len).sum::<usize>() > MOST_VERTICES || is_tangled(&outlines) {
         return united;
     }
     meeting.iter().for_each(|(i, _)| united.is_part[*i] = true);
-    united.shapes = Insets::united(&outlines);
+    united.shapes = OffsetOutline::united(&outlines);
     united
 }
 
@@ -49,9 +49,9 @@ fn area(index: usize, mark: &Mark) -> Option<(usize, &Area, Rect)> {
     (bounds.is_finite() && !area.outline.is_empty()).then_some((index, area, bounds))
 }
 
-fn is_tangled(outlines: &[Insets]) -> bool {
-    let threads: Vec<Thread> = outlines.iter().flat_map(Insets::threads).collect();
-    tangles(&threads) > MOST_CROSSINGS
+fn is_tangled(outlines: &[OffsetOutline]) -> bool {
+    let threads: Vec<WideSegment> = outlines.iter().flat_map(OffsetOutline::threads).collect();
+    estimated_crossings(&threads) > MOST_CROSSINGS
 }
 
 /// For each box, true if it shares a grid cell with another.

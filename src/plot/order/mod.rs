@@ -22,15 +22,15 @@ mod exchange;
 mod greedy;
 mod kd_tree;
 mod kicks;
-mod lasso;
 mod lin_kernighan;
+mod loop_entries;
+mod loop_joins;
 mod merge;
 mod neighbours;
 mod one_way;
 mod patch;
 mod random;
 mod ring;
-mod seats;
 mod sites;
 mod sweeps;
 #[cfg(test)]
@@ -38,7 +38,7 @@ mod tests;
 mod tour;
 
 pub use duplicates::drop_duplicates;
-pub(super) use lasso::join_to_loops;
+pub(super) use loop_joins::join_to_loops;
 pub use merge::chain;
 pub(super) use random::shuffled;
 pub(super) use ring::{is_free, rotated};
@@ -205,7 +205,7 @@ fn order_few(stops: &mut [Stop], best: &mut Best) {
         let visits = exact::best_order(stops, best.home);
         best.offer(visits.clone(), stops);
         let order: Vec<usize> = visits.iter().map(|visit| visit.path).collect();
-        if seats::seat_in_order(stops, &order, best.home) == 0.0 {
+        if loop_entries::choose_loop_entries(stops, &order, best.home) == 0.0 {
             return;
         }
         best.offer(visits, stops);

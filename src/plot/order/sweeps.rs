@@ -11,7 +11,7 @@ use super::patch::Patch;
 use super::random::SplitMix;
 use super::sites::{End, Sites};
 use super::tour::Tour;
-use super::{NEIGHBOURS, Stop, seats};
+use super::{NEIGHBOURS, Stop, loop_entries};
 
 /// Maximum paths in a patch. Tuned on 100,000 dots: with 1000, the tour ends up 0.2 to 0.4 % longer, as more links would cross
 /// the borders of the patches; with many more, changes cost more and there are too few patches for all threads.
@@ -54,7 +54,7 @@ impl Workpiece {
 
     /// Chooses new entries for all loops and returns the millimetres gained.
     pub(super) fn seat(&mut self, stops: &mut [Stop], numbering: &[usize], home: Point) -> f64 {
-        let (entries, gained) = seats::seated(stops, numbering, &self.sites, &self.tour);
+        let (entries, gained) = loop_entries::with_best_entries(stops, numbering, &self.sites, &self.tour);
         if gained > 0.0 {
             self.tour = Tour::new(entries);
             self.sites = Sites::new(stops, numbering, home, &self.sites.interrupt().clone());

@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 
 /// Times in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Clock {
+pub struct PenTime {
     /// Moving with the pen down.
     pub drawing: f64,
     /// Moving with the pen up.
@@ -31,7 +31,7 @@ pub struct Clock {
     pub waiting: f64,
 }
 
-impl Clock {
+impl PenTime {
     /// Total time.
     pub fn total(&self) -> f64 {
         self.motion() + self.waiting
@@ -45,7 +45,7 @@ impl Clock {
 
 /// The time of each pen of a plot, from machine zero with the pen up to the parking position. The user's own time at a pause is
 /// unknown and not counted.
-pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &Interrupt) -> Result<Vec<Clock>, Interrupted> {
+pub fn clock(plot: &Plot, profile: &Profile, mounting: &Mounting, interrupt: &Interrupt) -> Result<Vec<PenTime>, Interrupted> {
     let mut run = Run::new(profile, mounting, plot.pens.len());
     if plot.pens.is_empty() {
         return Ok(Vec::new());
@@ -296,10 +296,10 @@ impl<'a> Run<'a> {
         [snap(m.x, limits.x0, limits.x1), snap(m.y, limits.y0, limits.y1)]
     }
 
-    fn finish(mut self) -> Vec<Clock> {
+    fn finish(mut self) -> Vec<PenTime> {
         self.planner.rest();
         let seconds = self.planner.seconds();
-        let clock = |s: &[f64]| Clock { drawing: s[0], travelling: s[1], lifting: s[2], waiting: s[3] };
+        let clock = |s: &[f64]| PenTime { drawing: s[0], travelling: s[1], lifting: s[2], waiting: s[3] };
         seconds.chunks(SHARES).map(clock).collect()
     }
 }

@@ -74,7 +74,7 @@ impl Heads {
     }
 
     /// Distance behind the largest head, 0 or more: of bodies, and of smaller heads, which are farther away.
-    pub(super) fn behind(&self, columns: usize, rows: usize) -> Raster<f32> {
+    pub(super) fn set_back(&self, columns: usize, rows: usize) -> Raster<f32> {
         Raster::from_fn(columns, rows, |x, y| {
             let (mut sum, mut weights) = (0.0, 0.0);
             for head in &self.heads {

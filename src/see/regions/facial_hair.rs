@@ -1,7 +1,7 @@
 //! Beards and moustaches: below the nose and round the lips, darker, greyer and more uneven than the cheeks.
 
-use super::parting::{CLOTHING, HAIR, Shares};
 use super::plate::Plate;
+use super::segmentation::{CLOTHING, HAIR, Shares};
 use super::smoothing::Guide;
 use crate::raster::{Raster, components, dilate, gaussian_blur};
 use crate::source::outlines::{LIPS, MOUTH};
@@ -63,7 +63,7 @@ impl<'a> Face<'a> {
     /// True if both halves of a zone look covered with hair.
     fn is_covered(&self, zone: &Raster<bool>) -> bool {
         let middle = self.plate.coordinates(self.plate.point(PHILTRUM))[0];
-        let half = |sign: f32| self.plate.where_(|[u, _], i| zone.pixels()[i] && sign * (u - middle) > 0.01);
+        let half = |sign: f32| self.plate.pixels_where(|[u, _], i| zone.pixels()[i] && sign * (u - middle) > 0.01);
         let halves: Vec<bool> = [-1.0, 1.0]
             .into_iter()
             .map(half)
@@ -84,14 +84,14 @@ impl<'a> Face<'a> {
     /// The pixels too dark for lips.
     fn over_lips(&self) -> Raster<bool> {
         let light = gaussian_blur(&self.light, 0.012 * self.plate.face_width);
-        self.plate.where_(|_, i| light.pixels()[i] < OVER_LIPS)
+        self.plate.pixels_where(|_, i| light.pixels()[i] < OVER_LIPS)
     }
 
     /// The pixels that look like facial hair.
     fn hairs(&self) -> Raster<bool> {
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
         let (light, colour, uneven) = (blur(&self.light, 0.012), blur(&self.colour, 0.012), blur(&self.uneven, 0.02));
-        self.plate.where_(|_, i| {
+        self.plate.pixels_where(|_, i| {
             let (l, c) = (light.pixels()[i], colour.pixels()[i]);
             let is_dark = l < 0.74 && uneven.pixels()[i] > 5.5;
             is_dark || c < 0.74 || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
@@ -119,7 +119,7 @@ impl Beard {
         let moustache = off_lips(plate.hull(&MOUSTACHE)).zip_map(&under_nose, |zone, nose| zone && !nose);
         let chin = off_lips(plate.hull(&CHIN));
         let middle = chin_middle(plate);
-        let jaw = off_lips(plate.where_(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
+        let jaw = off_lips(plate.pixels_where(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
         let hairs = face.hairs();
         let has_moustache = face.is_covered(&moustache);
         let is_full = face.is_covered(&chin) && (has_moustache || share_of(&hairs, &jaw) > 0.4);
@@ -132,7 +132,7 @@ impl Beard {
         let mouth = plate.hull(&MOUTH);
         let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
         let over_lips = face.over_lips();
-        let allowed = plate.where_(|[u, v], i| {
+        let allowed = plate.pixels_where(|[u, v], i| {
             let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;
             let is_jaw = v < 0.44 && near_oval.pixels()[i] != 0;
             let on_lip = has_moustache && lip.pixels()[i] != 0 && !plate.is_below_lips(i);
@@ -142,14 +142,14 @@ impl Beard {
                 && is_free
                 && (on_lip || (is_full && (is_below || (is_jaw && v > -0.05))))
         });
-        let zones = plate.where_(|_, i| moustache.pixels()[i] || chin.pixels()[i] || jaw.pixels()[i]);
+        let zones = plate.pixels_where(|_, i| moustache.pixels()[i] || chin.pixels()[i] || jaw.pixels()[i]);
         Some(Self { hairs, allowed, zones, is_full })
     }
 
     /// Share of beard or moustache in each pixel; collars below the chin are excluded.
     pub(super) fn shares(&self, plate: &Plate, shares: &Raster<Shares>) -> Raster<f32> {
         let middle = chin_middle(plate);
-        let found = plate.where_(|_, i| {
+        let found = plate.pixels_where(|_, i| {
             let (s, [u, v]) = (shares.pixels()[i], plate.at.pixels()[i]);
             let aside = (u - middle).abs();
             let is_under_chin = aside < 0.25 && v > -0.05;

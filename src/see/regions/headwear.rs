@@ -1,8 +1,8 @@
 //! Hats, caps and scarves: pixels where hair would be, in colours that hair does not have, or in black and white side by side.
 
 use super::mixture::Mixture;
-use super::parting::{HAIR, Shares, greatest};
 use super::plate::Plate;
+use super::segmentation::{HAIR, Shares, greatest};
 use super::smoothing::Guide;
 use crate::raster::{Raster, dilate, gaussian_blur};
 
@@ -27,11 +27,11 @@ pub(super) fn headwear(plate: &Plate, shares: &Raster<Shares>) -> Option<Raster<
     if !is_hat(plate, &is_hair) {
         return None;
     }
-    let side = plate.where_(|[_, v], i| is_hair.pixels()[i] && v < 0.5 && v > 0.1);
-    let top = plate.where_(|[_, v], i| is_hair.pixels()[i] && v > 1.12);
+    let side = plate.pixels_where(|[_, v], i| is_hair.pixels()[i] && v < 0.5 && v > 0.1);
+    let top = plate.pixels_where(|[_, v], i| is_hair.pixels()[i] && v > 1.12);
     let (side, top) = (plate.samples(&side), plate.samples(&top));
     let models = (side.len() > 40 && top.len() > 40).then(|| (Mixture::fitted(&side, 3), Mixture::fitted(&top, 4)));
-    let marked = plate.where_(|[u, v], i| {
+    let marked = plate.pixels_where(|[u, v], i| {
         let is_like_top = || match &models {
             Some((Some(side), Some(top))) => {
                 let f = plate.features.pixels()[i];

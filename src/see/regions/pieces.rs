@@ -2,8 +2,8 @@
 //! them.
 
 use super::facial_hair::Beard;
-use super::parting::{CLOTHING, HAIR, Parting, SKIN, Shares, greatest};
 use super::plate::Plate;
+use super::segmentation::{CLOTHING, HAIR, SKIN, Segmentation, Shares, greatest};
 use crate::raster::{Raster, components};
 
 /// Smaller pieces, in working pixels, are not kept as pieces of their own.
@@ -23,8 +23,8 @@ struct Piece {
 }
 
 /// Reassigns stray pieces, and cuts off below the jaw hair that ends there.
-pub(super) fn hung_together(
-    parting: &Parting,
+pub(super) fn reassign_stray_pieces(
+    parting: &Segmentation,
     plate: &Plate,
     mut shares: Raster<Shares>,
     beard: Option<&Beard>,
@@ -51,7 +51,7 @@ pub(super) fn hung_together(
         }
     }
     for piece in pieces(plate, &shares, SKIN) {
-        if let Some(to) = home_of_skin(parting, plate, &shares, &piece) {
+        if let Some(to) = class_of_stray_skin(parting, plate, &shares, &piece) {
             give(&mut shares, &piece, SKIN, to);
         }
     }
@@ -91,7 +91,7 @@ fn give(shares: &mut Raster<Shares>, piece: &Piece, from: usize, to: usize) {
 
 /// The class of skin that does not touch the face: what surrounds it, hair above the brow, clothing far below; `None` if it is
 /// skin.
-fn home_of_skin(parting: &Parting, plate: &Plate, shares: &Raster<Shares>, piece: &Piece) -> Option<usize> {
+fn class_of_stray_skin(parting: &Segmentation, plate: &Plate, shares: &Raster<Shares>, piece: &Piece) -> Option<usize> {
     let is_ear = || piece.middle > 0.2 && piece.middle < 0.85 && parting.mean_from_skin(&piece.pixels) < 6.0;
     if piece.pixels.iter().any(|&i| plate.oval.pixels()[i]) || is_ear() {
         return None;
@@ -119,7 +119,7 @@ fn home_of_skin(parting: &Parting, plate: &Plate, shares: &Raster<Shares>, piece
 }
 
 /// Hair that is short beside the jaw does not continue below it.
-fn end_at_jaw(parting: &Parting, plate: &Plate, shares: &mut Raster<Shares>, sign: f32, with_beard: bool) {
+fn end_at_jaw(parting: &Segmentation, plate: &Plate, shares: &mut Raster<Shares>, sign: f32, with_beard: bool) {
     // A full beard covers the area beside the jaw too; long hair shows farther out.
     let from = if with_beard { 0.65 } else { 0.5 };
     let (mut hair, mut all) = (0_usize, 0_usize);

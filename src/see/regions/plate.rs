@@ -72,7 +72,7 @@ impl Plate {
         let (width, height) = (count(part.width()), count(part.height()));
         let grid = Grid { part, x_step: part.width() / width as f64, y_step: part.height() / height as f64 };
         let colours = Raster::from_fn(width, height, |x, y| grid.mean(pixels, x, y, |c| c.map(f32::from)).map(|v| v / 255.0));
-        let points: Vec<Point> = face.points.iter().map(|p| grid.inward(Point::new(p[0], p[1]))).collect();
+        let points: Vec<Point> = face.points.iter().map(|p| grid.to_working_pixels(Point::new(p[0], p[1]))).collect();
         let corners: Vec<[f64; 2]> = OVAL.iter().map(|&i| [points[i].x, points[i].y]).collect();
         let oval = filled_polygon(width, height, &corners).map(|v| v != 0);
         let inside = Raster::from_fn(width, height, |x, y| {
@@ -142,7 +142,7 @@ impl Plate {
     }
 
     /// The pixels for which `rule(coordinates (u, v), pixel index)` is true.
-    pub(super) fn where_(&self, rule: impl Fn([f32; 2], usize) -> bool + Sync) -> Raster<bool> {
+    pub(super) fn pixels_where(&self, rule: impl Fn([f32; 2], usize) -> bool + Sync) -> Raster<bool> {
         let width = self.width();
         Raster::from_fn(width, self.height(), |x, y| rule(self.at.get(x, y), y * width + x))
     }
@@ -176,7 +176,7 @@ impl Grid {
     }
 
     /// A point of the view in working pixels.
-    fn inward(&self, p: Point) -> Point {
+    fn to_working_pixels(&self, p: Point) -> Point {
         Point::new((p.x - self.part.x0) / self.x_step, (p.y - self.part.y0) / self.y_step)
     }
 

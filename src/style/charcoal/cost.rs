@@ -1,6 +1,6 @@
 //! Measured cost of a charcoal.
 
-use super::parameters::Charcoaling;
+use super::parameters::CharcoalParameters;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
@@ -12,7 +12,7 @@ const MICROSECONDS: f64 = 0.6;
 const GRAIN_BYTES: f64 = 2600.0;
 const GRAIN_MICROSECONDS: f64 = 24.0;
 
-pub(super) fn cost(parameters: &Charcoaling, picture: Rect, pixels_per_mm: f64) -> Cost {
+pub(super) fn cost(parameters: &CharcoalParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let grains = picture.area() / (parameters.grain_mm * parameters.grain_mm);
     Cost::each(pixels(picture, pixels_per_mm), BYTES, MICROSECONDS).and(grains, GRAIN_BYTES, GRAIN_MICROSECONDS)
 }

@@ -23,7 +23,7 @@ use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
-use parameters::Charcoaling;
+use parameters::CharcoalParameters;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
 const SHORT_SIDE: f64 = 600.0;
@@ -76,7 +76,7 @@ impl Style for Charcoal {
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
-        cost::cost(&Charcoaling::new(settings), picture, pixels_per_mm)
+        cost::cost(&CharcoalParameters::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(
@@ -86,14 +86,14 @@ impl Style for Charcoal {
         seed: u64,
         observer: &dyn Observer,
     ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: Charcoaling::new(settings), seed, observer }.draw()
+        Drawer { portrait, parameters: CharcoalParameters::new(settings), seed, observer }.draw()
     }
 }
 
 /// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
-    parameters: Charcoaling,
+    parameters: CharcoalParameters,
     seed: u64,
     observer: &'a dyn Observer,
 }
@@ -105,15 +105,15 @@ impl Drawer<'_> {
             return Err(StyleError::NothingToDraw("the picture is white all over".to_owned()));
         }
         let regions = self.regions();
-        self.go_on()?;
+        self.check_interrupted()?;
         let hair = self.hair(&regions);
-        self.go_on()?;
+        self.check_interrupted()?;
         let features = self.features(&regions);
-        self.go_on()?;
+        self.check_interrupted()?;
         let edges = self.edges(&regions, &features);
-        self.go_on()?;
+        self.check_interrupted()?;
         let tone = self.tone(&regions, &features);
-        self.go_on()?;
+        self.check_interrupted()?;
         let shading = self.shading(&regions, &features);
         let face = self.draw_features(&features);
         let background = self.background(&regions);
@@ -145,7 +145,7 @@ impl Drawer<'_> {
             .collect()
     }
 
-    fn go_on(&self) -> Result<(), StyleError> {
+    fn check_interrupted(&self) -> Result<(), StyleError> {
         if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
     }
 

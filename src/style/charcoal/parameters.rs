@@ -201,7 +201,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
 
 /// The parameters' values; lengths in millimetres, angles in radians.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Charcoaling {
+pub(super) struct CharcoalParameters {
     pub pitch_mm: f64,
     pub stroke_width_mm: f64,
     pub grain_mm: f64,
@@ -231,7 +231,7 @@ pub(super) struct Charcoaling {
     pub arc_skew: f64,
 }
 
-impl Charcoaling {
+impl CharcoalParameters {
     pub(super) fn new(settings: &Settings) -> Self {
         let number = |name| settings.number(name);
         Self {

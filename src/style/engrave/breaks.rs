@@ -1,9 +1,9 @@
 //! Interruptions of a line that keep its ink: dashes and dots in light tones, white crossing lines in an engraving.
 
-use super::ground::Grid;
 use super::lines::Family;
+use super::region_map::Grid;
 use super::spans::Span;
-use super::widths::{Course, Courses};
+use super::widths::{LineReading, LineReadings};
 use crate::geometry::{Point, Rect, radius_for_area};
 use crate::raster::Raster;
 
@@ -18,7 +18,7 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Interruption of a family's lines.
 #[derive(Clone, Copy)]
-pub(super) struct Breaking<'a> {
+pub(super) struct LineBreaks<'a> {
     /// Dashes stand midway between the lines of this family.
     pub between: &'a Family,
     /// Number of those lines from one dash to the next.
@@ -91,9 +91,9 @@ impl Reading {
     }
 }
 
-impl Breaking<'_> {
+impl LineBreaks<'_> {
     /// The pieces of one line.
-    pub(super) fn pieces(&self, courses: &Courses<'_>, k: usize) -> Vec<Piece> {
+    pub(super) fn pieces(&self, courses: &LineReadings<'_>, k: usize) -> Vec<Piece> {
         let course = &courses.lines[k];
         let mut pieces = Vec::new();
         // Ink too small for a dot is carried over to the next one.
@@ -129,7 +129,7 @@ impl Breaking<'_> {
         pieces
     }
 
-    fn readings(&self, courses: &Courses<'_>, k: usize, span: Span) -> Vec<Reading> {
+    fn readings(&self, courses: &LineReadings<'_>, k: usize, span: Span) -> Vec<Reading> {
         let (course, line) = (&courses.lines[k], &courses.family.lines[k]);
         let step = courses.step();
         let inner = courses.readings_in(span);
@@ -288,7 +288,7 @@ fn between(values: &[f64], x: f64) -> f64 {
 }
 
 /// Interpolates between existing readings; beyond them takes the nearest.
-fn interpolate(course: &Course, values: &[f32], x: f64) -> f64 {
+fn interpolate(course: &LineReading, values: &[f32], x: f64) -> f64 {
     let last = values.len() - 1;
     let i = (x.max(0.0) as usize).min(last);
     let j = (i + 1).min(last);

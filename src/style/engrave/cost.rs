@@ -1,6 +1,6 @@
 //! Measured cost of an engraving.
 
-use super::parameters::Engraving;
+use super::parameters::EngraveParameters;
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
@@ -15,7 +15,7 @@ const SUPERPIXEL_MICROSECONDS: f64 = 0.6;
 /// Additional with outlines: 0.65 in all at 250 mm.
 const OUTLINE_MICROSECONDS: f64 = 0.25;
 
-pub(super) fn cost(parameters: &Engraving, picture: Rect, pixels_per_mm: f64) -> Cost {
+pub(super) fn cost(parameters: &EngraveParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let (mut bytes, mut microseconds) = (BYTES, MICROSECONDS);
     if parameters.has_outline {
         (bytes, microseconds) = (bytes + OUTLINE_BYTES, microseconds + OUTLINE_MICROSECONDS);

@@ -48,7 +48,7 @@ pub(super) struct Line {
 
 /// Layout of one family's lines, in millimetres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Laying {
+pub(super) struct FamilyLayout {
     pub pitch: f64,
     pub sampling: f64,
     pub min_gap: f64,
@@ -79,7 +79,7 @@ pub(super) const FIT_ROOM: f64 = 0.005;
 
 impl Family {
     /// The base lines over a part of the page, each moved across by `displacement` at its undisplaced place.
-    pub(super) fn new(frame: Frame, page: Rect, laying: Laying, displacement: impl Fn(Point) -> f64 + Sync) -> Self {
+    pub(super) fn new(frame: Frame, page: Rect, laying: FamilyLayout, displacement: impl Fn(Point) -> f64 + Sync) -> Self {
         let bounds = frame.bounds(page);
         let gap = Gap::new(laying.min_gap + 2.0 * FIT_ROOM);
         let first = ((bounds.x0 - laying.pitch) / gap.step).floor() * gap.step;

@@ -1,16 +1,16 @@
 //! The engraving: parallel lines, bent over the form by depth, that swell in dark tones, cross in the darkest and break into dots in
 //! light ones (Galarza 2017).
 
-mod alike;
 mod angles;
 mod breaks;
 mod cost;
 mod depths;
-mod ground;
 mod lines;
+mod merging;
 mod outline;
 mod parameters;
 mod presence;
+mod region_map;
 mod regions;
 mod relief;
 mod rim;
@@ -24,14 +24,14 @@ use crate::drawing::{Colour, Drawing, Layer, Mark};
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
-use breaks::Breaking;
-use ground::{Ground, Region};
-use lines::{Family, Frame, Laying};
-use parameters::{Engraving, Look};
+use breaks::LineBreaks;
+use lines::{Family, FamilyLayout, Frame};
+use parameters::{EngraveParameters, Look};
 use rayon::prelude::*;
+use region_map::{Region, RegionMap};
 use relief::Relief;
 use tones::Layers;
-use widths::{Courses, Wanted};
+use widths::{LineReadings, Wanted};
 
 /// An engraving's lines are unbroken from this share of the ink at which they are crossed: at 1 the cuts begin beside the crossings and
 /// cloth at half tone is speckled with both.
@@ -50,7 +50,7 @@ impl Style for Engrave {
     }
 
     fn source(&self) -> &'static str {
-        "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects"
+        "Galarza 2017, Image Stylization using Depth Information for Hatching and EngraveParameters effects"
     }
 
     fn parameters(&self) -> &'static [Parameter] {
@@ -74,7 +74,7 @@ impl Style for Engrave {
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
-        cost::cost(&Engraving::new(settings), picture, pixels_per_mm)
+        cost::cost(&EngraveParameters::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(
@@ -84,14 +84,14 @@ impl Style for Engrave {
         seed: u64,
         observer: &dyn Observer,
     ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: Engraving::new(settings), seed, observer }.draw()
+        Drawer { portrait, parameters: EngraveParameters::new(settings), seed, observer }.draw()
     }
 }
 
 /// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
-    parameters: Engraving,
+    parameters: EngraveParameters,
     seed: u64,
     observer: &'a dyn Observer,
 }
@@ -143,7 +143,7 @@ impl Drawer<'_> {
     }
 
     /// Every region's marks, in the order of the regions.
-    fn all_regions(&self, ground: &Ground, relief: &Relief, layers: &Layers) -> Marks {
+    fn all_regions(&self, ground: &RegionMap, relief: &Relief, layers: &Layers) -> Marks {
         let regions: Vec<Marks> = ground.regions.par_iter().map(|region| self.region(*region, ground, relief, layers)).collect();
         let mut all: Marks = [Vec::new(), Vec::new()];
         for marks in regions {
@@ -154,7 +154,7 @@ impl Drawer<'_> {
         all
     }
 
-    fn region(&self, region: Region, ground: &Ground, relief: &Relief, layers: &Layers) -> Marks {
+    fn region(&self, region: Region, ground: &RegionMap, relief: &Relief, layers: &Layers) -> Marks {
         let (family, crossing) = rayon::join(
             || self.family(region, region.angle, ground, relief),
             || self.family(region, region.angle + self.parameters.cross_angle, ground, relief),
@@ -162,29 +162,29 @@ impl Drawer<'_> {
         let wanted = |ink, turn| Wanted { ground, region, turn, ink, width_max: self.parameters.width_max };
         let breaking = self.breaking(ground);
         let lines = || {
-            let breaking = Breaking { between: &crossing, ..breaking(&crossing) };
-            marks(&Courses::new(&family, wanted(&layers.lines, 0.0)), &breaking)
+            let breaking = LineBreaks { between: &crossing, ..breaking(&crossing) };
+            marks(&LineReadings::new(&family, wanted(&layers.lines, 0.0)), &breaking)
         };
         let cross = || {
             layers.cross.as_ref().map_or_else(Vec::new, |ink| {
-                let breaking = Breaking {
+                let breaking = LineBreaks {
                     cover: Some(&layers.lines),
                     interruption: None,
                     is_staggered: false,
                     period: 1.0,
                     ..breaking(&family)
                 };
-                marks(&Courses::new(&crossing, wanted(ink, self.parameters.cross_angle)), &breaking)
+                marks(&LineReadings::new(&crossing, wanted(ink, self.parameters.cross_angle)), &breaking)
             })
         };
         let (lines, cross) = rayon::join(lines, cross);
         [lines, cross]
     }
 
-    fn family(&self, region: Region, angle: f64, ground: &Ground, relief: &Relief) -> Family {
+    fn family(&self, region: Region, angle: f64, ground: &RegionMap, relief: &Relief) -> Family {
         let p = &self.parameters;
         let range = [0.0, p.displacement];
-        let laying = Laying {
+        let laying = FamilyLayout {
             pitch: p.pitch,
             sampling: p.sampling,
             min_gap: p.min_gap,
@@ -197,20 +197,20 @@ impl Drawer<'_> {
         family
     }
 
-    fn breaking<'b>(&self, ground: &Ground) -> impl Fn(&'b Family) -> Breaking<'b> {
+    fn breaking<'b>(&self, ground: &RegionMap) -> impl Fn(&'b Family) -> LineBreaks<'b> {
         let p = &self.parameters;
         let (look, grid) = (p.look, ground.grid);
         let (thinnest, dot_min, threshold) = (p.thinnest, p.dot_min, p.threshold);
         // Stipples have the same spacing along a line as across.
         let (cut_out, period) = (p.cut_out, if look == Look::Stipple { 1.0 } else { (p.dash / p.pitch).max(0.25) });
-        move |between| Breaking {
+        move |between| LineBreaks {
             between,
             period,
-            is_staggered: look != Look::Engraving,
+            is_staggered: look != Look::EngraveParameters,
             cover: None,
             grid,
             thinnest,
-            interruption: (look == Look::Engraving).then_some((WHOLE_LINES * (1.0 - threshold), cut_out)),
+            interruption: (look == Look::EngraveParameters).then_some((WHOLE_LINES * (1.0 - threshold), cut_out)),
             is_stippled: look == Look::Stipple,
             dot_min,
         }
@@ -233,7 +233,7 @@ impl Drawer<'_> {
 }
 
 /// The marks of every line, in order.
-fn marks(courses: &Courses<'_>, breaking: &Breaking<'_>) -> Vec<Mark> {
+fn marks(courses: &LineReadings<'_>, breaking: &LineBreaks<'_>) -> Vec<Mark> {
     let of_line = |k: usize| -> Vec<Mark> {
         let line = &courses.family.lines[k];
         breaking.pieces(courses, k).iter().filter_map(|piece| strokes::mark(courses.family, line, piece)).collect()

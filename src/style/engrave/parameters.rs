@@ -213,7 +213,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
 /// How lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Look {
-    Engraving,
+    EngraveParameters,
     Crosshatch,
     Hatch,
     Net,
@@ -231,7 +231,7 @@ pub(super) enum DepthFrom {
 
 /// The values of one drawing, lengths in millimetres, angles in degrees.
 #[derive(Clone, Debug)]
-pub(super) struct Engraving {
+pub(super) struct EngraveParameters {
     pub pitch: f64,
     pub look: Look,
     pub displacement: f64,
@@ -260,13 +260,13 @@ pub(super) struct Engraving {
     pub outline_width: f64,
 }
 
-impl Engraving {
+impl EngraveParameters {
     pub(super) fn new(settings: &Settings) -> Self {
         let pitch = settings.number("pitch");
         Self {
             pitch,
             look: match settings.word("look") {
-                "engraving" => Look::Engraving,
+                "engraving" => Look::EngraveParameters,
                 "hatch" => Look::Hatch,
                 "net" => Look::Net,
                 "stipple" => Look::Stipple,

@@ -1,9 +1,9 @@
 //! Step 3: regions, each with its own line direction (Galarza 2017, sections 3.3 and 3.4).
 
 use super::Drawer;
-use super::alike::join_alike;
-use super::ground::{Grid, Ground, Region};
 use super::lines::FIT_ROOM;
+use super::merging::merge_similar;
+use super::region_map::{Grid, Region, RegionMap};
 use super::relief::Relief;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
 use crate::geometry::{Rect, Vec2};
@@ -19,7 +19,7 @@ const COMPACTNESS: f32 = 10.0;
 const ROUNDS: u32 = 10;
 
 impl Drawer<'_> {
-    pub(super) fn ground(&self, relief: &Relief) -> Ground {
+    pub(super) fn ground(&self, relief: &Relief) -> RegionMap {
         self.observer.begin("regions");
         let placement = &self.portrait.placement;
         let scale = placement.mm_per_pixel() as f32;
@@ -46,7 +46,7 @@ impl Drawer<'_> {
         let gap = self.parameters.min_gap + 2.0 * FIT_ROOM;
         let near = 0.5 * self.parameters.width_max + gap;
         let displacement = relief.nearness.map(|nearness| (self.parameters.displacement * f64::from(nearness)) as f32);
-        Ground { grid: Grid::new(placement), labels, border, regions, angles, displacement, overlap, gap, near }
+        RegionMap { grid: Grid::new(placement), labels, border, regions, angles, displacement, overlap, gap, near }
     }
 
     /// Labels from 1, none for a single region, and the direction of each; superpixels of nearly the same direction are merged.
@@ -60,7 +60,7 @@ impl Drawer<'_> {
         if self.parameters.regions != "superpixels" {
             return (Some(parts), angles);
         }
-        let (joined, angles) = join_alike(&drawn, &angles);
+        let (joined, angles) = merge_similar(&drawn, &angles);
         (Some(parts.map(|label| joined[label as usize - 1])), angles)
     }
 

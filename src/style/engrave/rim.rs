@@ -8,7 +8,7 @@
 //! ```
 
 use super::lines::{Family, Line};
-use super::widths::Courses;
+use super::widths::LineReadings;
 use crate::geometry::Vec2;
 
 /// Minimum room in pitches, as half a line's width, for a line along the rim: with less it would be a hairline that leaves its strip
@@ -32,7 +32,7 @@ pub(super) struct Rim {
     pub inside: f64,
 }
 
-impl Courses<'_> {
+impl LineReadings<'_> {
     /// The rim at a place along a line.
     pub(super) fn rim(&self, line: &Line, u: f64) -> Rim {
         let Family { first, step, frame, pitch, .. } = *self.family;

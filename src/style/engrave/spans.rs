@@ -1,7 +1,7 @@
 //! The spans of a line inside its region, from border to border (step 4 of the style).
 
 use super::lines::{Family, Line};
-use super::widths::{Course, Courses, READINGS};
+use super::widths::{LineReading, LineReadings, READINGS};
 
 /// A line that runs along a border with another region, nearer than this (in pitches), is left out. The other region's lines do the
 /// same, so that the two stay half a pitch apart.
@@ -29,13 +29,13 @@ pub(super) struct Span {
     pub lacking: [f64; 2],
 }
 
-impl Courses<'_> {
+impl LineReadings<'_> {
     /// The readings of a line where it is present and inside its region.
-    pub(super) fn find(&self, line: &Line) -> Course {
+    pub(super) fn find(&self, line: &Line) -> LineReading {
         let first = line.first.div_ceil(self.stride);
         let end = (line.first + line.heights.len() - 1) / self.stride + 1;
         if end <= first + 1 {
-            return Course::default();
+            return LineReading::default();
         }
         let ground = self.wanted.ground;
         let (inside, leave): (Vec<f64>, Vec<f64>) = (first..end)
@@ -57,7 +57,7 @@ impl Courses<'_> {
         }
         let spans = self.spans(line, first, &inside, &leave, &is_in);
         let inside = inside.iter().map(|&s| s as f32).collect();
-        let mut course = Course { first, spans, inside, weight: vec![0.0; end - first], ..Course::default() };
+        let mut course = LineReading { first, spans, inside, weight: vec![0.0; end - first], ..LineReading::default() };
         for span in &course.spans {
             let range = self.readings_in(*span);
             for r in range.start.max(first)..range.end.min(end) {

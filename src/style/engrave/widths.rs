@@ -1,7 +1,7 @@
 //! The width of each line so that its ink makes the tone (step 6 of the style).
 
-use super::ground::{Ground, Region};
 use super::lines::{Family, Line};
+use super::region_map::{Region, RegionMap};
 use super::spans::Span;
 use crate::geometry::Point;
 use crate::raster::Raster;
@@ -25,7 +25,7 @@ const LEAST_ACROSS: f64 = 0.1;
 /// Target of a family: its region, turn and ink.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'a> {
-    pub ground: &'a Ground,
+    pub ground: &'a RegionMap,
     pub region: Region,
     /// Angle from the region's own lines to the family's, in degrees anticlockwise.
     pub turn: f64,
@@ -36,7 +36,7 @@ pub(super) struct Wanted<'a> {
 
 /// Readings of one line at every few columns.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Course {
+pub(super) struct LineReading {
     /// The first reading; readings are numbered from the family's first column.
     pub first: usize,
     pub spans: Vec<Span>,
@@ -57,13 +57,13 @@ pub(super) struct Course {
 }
 
 /// A family's lines with their widths.
-pub(super) struct Courses<'a> {
+pub(super) struct LineReadings<'a> {
     pub family: &'a Family,
     pub wanted: Wanted<'a>,
     /// Columns per reading.
     pub stride: usize,
     /// One for each line of the family.
-    pub lines: Vec<Course>,
+    pub lines: Vec<LineReading>,
 }
 
 /// The neighbours of a reading: distance across to the strip's border and to the neighbour's own line, below and above.
@@ -74,12 +74,12 @@ struct Sides {
     width: [f32; 2],
 }
 
-impl<'a> Courses<'a> {
+impl<'a> LineReadings<'a> {
     pub(super) fn new(family: &'a Family, wanted: Wanted<'a>) -> Self {
         let stride = (family.pitch / READINGS / family.step).round().max(1.0) as usize;
         let mut courses = Self { family, wanted, stride, lines: Vec::new() };
         courses.lines = family.lines.par_iter().map(|line| courses.find(line)).collect();
-        courses.demand();
+        courses.set_widths();
         courses.limit();
         courses
     }
@@ -103,7 +103,7 @@ impl<'a> Courses<'a> {
     }
 
     /// Sets each line's width from the ink of its strip.
-    fn demand(&mut self) {
+    fn set_widths(&mut self) {
         let sides = self.sides();
         let step = self.step();
         let courses = std::mem::take(&mut self.lines);
@@ -192,7 +192,7 @@ impl<'a> Courses<'a> {
     }
 
     /// Width at which a line's side touches a slanted border: the line ends there in a point, not in a protruding square end.
-    fn border_room(&self, line: &Line, course: &Course, i: usize) -> f32 {
+    fn border_room(&self, line: &Line, course: &LineReading, i: usize) -> f32 {
         let Wanted { ground, region, turn, width_max, .. } = self.wanted;
         if f64::from(course.inside[i]) > ground.near.max(0.5 * width_max) {
             return f32::INFINITY;

@@ -1,6 +1,6 @@
 //! Measured cost of a painting; pixels include the frame in which strokes start.
 
-use super::parameters::{Manner, Painting};
+use super::parameters::{GlassParameters, Manner};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
@@ -22,12 +22,12 @@ const RIBBON_MICROSECONDS: f64 = 0.55;
 /// Additional with diffusion: 12 in all at 250 mm.
 const DIFFUSION_MICROSECONDS: f64 = 8.0;
 
-pub(super) fn cost(parameters: &Painting, picture: Rect, pixels_per_mm: f64) -> Cost {
+pub(super) fn cost(parameters: &GlassParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let length = parameters.length_mm * pixels_per_mm;
     let framed = picture.inflate(parameters.length_mm, parameters.length_mm);
     let ribbons = parameters.ribbons as f64;
     let (mut bytes, mut microseconds) = match parameters.manner {
-        Manner::Painting => (
+        Manner::GlassParameters => (
             BYTES + LENGTH_BYTES * length + RIBBON_BYTES * (ribbons - 3.0).max(0.0),
             MICROSECONDS + LENGTH_MICROSECONDS * length + RIBBON_MICROSECONDS * ribbons,
         ),

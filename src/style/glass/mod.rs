@@ -1,4 +1,4 @@
-//! Painting with the strokes of continuous Glass patterns (Papari and Petkov 2009; Papari 2009, chapter 7).
+//! GlassParameters with the strokes of continuous Glass patterns (Papari and Petkov 2009; Papari 2009, chapter 7).
 
 mod body;
 mod colour;
@@ -20,7 +20,7 @@ use crate::field::{Flow, glass_pattern, line_integral_convolution};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, Portrait, luminance};
-use parameters::{Manner, Painting};
+use parameters::{GlassParameters, Manner};
 
 /// Change of colour per pixel at which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes whirl in
 /// every pore; at three times it the astronaut's collar loses its corners.
@@ -54,7 +54,7 @@ impl Style for Glass {
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
-        Painting::new(settings).pixels_per_mm()
+        GlassParameters::new(settings).pixels_per_mm()
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
@@ -76,8 +76,8 @@ impl Style for Glass {
 impl Glass {
     /// The values for a picture. No stroke is longer than its diagonal, since the frame in which strokes start is as wide as they are
     /// long.
-    fn painting(settings: &Settings, picture: Rect) -> Painting {
-        let mut painting = Painting::new(settings);
+    fn painting(settings: &Settings, picture: Rect) -> GlassParameters {
+        let mut painting = GlassParameters::new(settings);
         painting.length_mm = painting.length_mm.min(picture.width().hypot(picture.height()));
         painting
     }
@@ -86,7 +86,7 @@ impl Glass {
 /// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
-    parameters: Painting,
+    parameters: GlassParameters,
     seed: u64,
     observer: &'a dyn Observer,
 }
@@ -128,7 +128,7 @@ impl Drawer<'_> {
         let ground = self.ground();
         self.check()?;
         let layers = match self.parameters.manner {
-            Manner::Painting => painting::layers(self, &ground)?,
+            Manner::GlassParameters => painting::layers(self, &ground)?,
             Manner::OnePen => vec![one_pen::layer(self, &ground)?],
             Manner::Discrete => vec![discrete::layer(self, &ground)?],
         };

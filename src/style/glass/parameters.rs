@@ -169,14 +169,14 @@ pub(super) enum Transform {
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Manner {
-    Painting,
+    GlassParameters,
     OnePen,
     Discrete,
 }
 
 /// The parameters' values; lengths in millimetres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Painting {
+pub(super) struct GlassParameters {
     pub manner: Manner,
     pub pitch_mm: f64,
     pub length_mm: f64,
@@ -198,13 +198,13 @@ pub(super) struct Painting {
     pub is_blue: bool,
 }
 
-impl Painting {
+impl GlassParameters {
     pub(super) fn new(settings: &Settings) -> Self {
         Self {
             manner: match (settings.word("pattern"), settings.word("colors")) {
                 ("discrete", _) => Manner::Discrete,
                 (_, "mono") => Manner::OnePen,
-                _ => Manner::Painting,
+                _ => Manner::GlassParameters,
             },
             pitch_mm: settings.number("pitch"),
             length_mm: settings.number("length"),
@@ -237,7 +237,7 @@ impl Painting {
     /// Working pixels per millimetre.
     pub(super) fn pixels_per_mm(&self) -> f64 {
         // Only a painting has grain; lines and points use the resolution of the default grain.
-        let grain = if self.manner == Manner::Painting { self.grain_mm } else { self.pitch_mm * DEFAULT_GRAIN };
+        let grain = if self.manner == Manner::GlassParameters { self.grain_mm } else { self.pitch_mm * DEFAULT_GRAIN };
         (DEFAULT_GRAIN_MM / grain).max(1.0) / MM_PER_PIXEL
     }
 }

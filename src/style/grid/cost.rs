@@ -1,6 +1,6 @@
 //! Measured cost of a structure grid.
 
-use super::parameters::{Gridding, Primitive};
+use super::parameters::{GridParameters, Primitive};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
@@ -15,7 +15,7 @@ const MICROSECONDS: f64 = 1.5;
 /// For each small step that makes the stripes regular: 3470 of them (a window of 10 mm) took 5 s on 1 megapixel.
 const STEP_MICROSECONDS: f64 = 0.0015;
 
-pub(super) fn cost(parameters: &Gridding, picture: Rect, pixels_per_mm: f64) -> Cost {
+pub(super) fn cost(parameters: &GridParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let narrowest = parameters.narrowest(parameters.is_for_detail(pixels_per_mm));
     let (adaptive, closer) = (1.0 - narrowest, 1.0 / narrowest);
     // Nodes stand half a pitch apart, closer where stripes do; each small step widens the window by two fifths of a node's square.

@@ -12,7 +12,7 @@ use crate::drawing::Mark;
 use crate::field::{Sites, StripeLattice};
 use crate::geometry::{BezPath, Point, polygon_area};
 use crate::raster::{Raster, gaussian_blur};
-use crate::style::reversed::{self, Chosen, ReversedCell};
+use crate::style::reversed::{self, ReversedCell, ReversedCells};
 use kurbo::Shape;
 use std::f64::consts::PI;
 
@@ -57,7 +57,7 @@ impl Darks {
                     || (own >= from - DARK_BAND && f64::from(around.sample(cell.centre.x, cell.centre.y)) >= from)
             })
             .collect();
-        let chosen = Chosen::new(&nearest, &is_dark, pitch);
+        let chosen = ReversedCells::new(&nearest, &is_dark, pitch);
         let reversed: Vec<ReversedCell> = cells
             .into_iter()
             .zip(&chosen.is_reversed)

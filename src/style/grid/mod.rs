@@ -20,7 +20,7 @@ use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use cells::Cell;
 use darks::Darks;
-use parameters::{Gridding, Primitive};
+use parameters::{GridParameters, Primitive};
 use structure::StructureGrid;
 
 /// Working pixels above which detail regions get the resolution of the rest: an A1 face at the default pitch would otherwise exceed a
@@ -56,7 +56,7 @@ impl Style for Grid {
     }
 
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
-        Gridding::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
+        GridParameters::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
     }
 
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], picture: Rect) -> f64 {
@@ -66,7 +66,7 @@ impl Style for Grid {
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
-        cost::cost(&Gridding::new(settings), picture, pixels_per_mm)
+        cost::cost(&GridParameters::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(
@@ -76,14 +76,14 @@ impl Style for Grid {
         seed: u64,
         observer: &dyn Observer,
     ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: Gridding::new(settings), seed, observer }.draw()
+        Drawer { portrait, parameters: GridParameters::new(settings), seed, observer }.draw()
     }
 }
 
 /// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
-    parameters: Gridding,
+    parameters: GridParameters,
     seed: u64,
     observer: &'a dyn Observer,
 }
@@ -101,9 +101,9 @@ impl Drawer<'_> {
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         let features = self.features();
-        self.pause()?;
+        self.check_interrupted()?;
         let grid = self.structure(&features, &ink);
-        self.pause()?;
+        self.check_interrupted()?;
         let cells = cells::cells(self, &grid, &ink, &features);
         let mut layers = match self.parameters.primitive {
             Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink),
@@ -135,7 +135,7 @@ impl Drawer<'_> {
         vec![lines, dots]
     }
 
-    fn pause(&self) -> Result<(), StyleError> {
+    fn check_interrupted(&self) -> Result<(), StyleError> {
         if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
     }
 

@@ -288,7 +288,7 @@ pub(super) enum FeatureRows {
 
 /// The parameters' values; lengths in millimetres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gridding {
+pub(super) struct GridParameters {
     pub pitch_mm: f64,
     pub size_max_mm: f64,
     pub blend: f64,
@@ -324,7 +324,7 @@ pub(super) struct Gridding {
     pub feature_rows: FeatureRows,
 }
 
-impl Gridding {
+impl GridParameters {
     pub(super) fn new(settings: &Settings) -> Self {
         let count = |name| settings.number(name) as u32;
         Self {

@@ -16,7 +16,7 @@ use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use features::Features;
-use parameters::Hedcutting;
+use parameters::HedcutParameters;
 
 /// The style.
 pub(super) struct Hedcut;
@@ -47,11 +47,11 @@ impl Style for Hedcut {
     }
 
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
-        Hedcutting::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
+        HedcutParameters::new(settings).pixels_per_pitch(masks.contains(&MaskRole::Detail)) / settings.number("pitch")
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
-        cost::cost(&Hedcutting::new(settings), picture, pixels_per_mm)
+        cost::cost(&HedcutParameters::new(settings), picture, pixels_per_mm)
     }
 
     fn sketch(
@@ -61,14 +61,14 @@ impl Style for Hedcut {
         seed: u64,
         observer: &dyn Observer,
     ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: Hedcutting::new(settings), seed, observer }.draw()
+        Drawer { portrait, parameters: HedcutParameters::new(settings), seed, observer }.draw()
     }
 }
 
 /// State of one drawing in progress.
 struct Drawer<'a> {
     portrait: &'a Portrait,
-    parameters: Hedcutting,
+    parameters: HedcutParameters,
     seed: u64,
     observer: &'a dyn Observer,
 }

@@ -224,7 +224,7 @@ pub(super) enum SizeRule {
 
 /// The parameters' values; lengths in millimetres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hedcutting {
+pub(super) struct HedcutParameters {
     pub pitch_mm: f64,
     pub size: SizeRule,
     pub size_max_mm: f64,
@@ -256,7 +256,7 @@ pub(super) struct Hedcutting {
     pub blob: f64,
 }
 
-impl Hedcutting {
+impl HedcutParameters {
     pub(super) fn new(settings: &Settings) -> Self {
         let count = |name| settings.number(name) as u32;
         Self {

@@ -6,7 +6,7 @@ use crate::field::{Sites, cell_polygon};
 use crate::geometry::{BezPath, Point, Rect, Vec2, blob, polygon_area, radius_for_area};
 use crate::raster::{Raster, gaussian_blur};
 use crate::style::random;
-use crate::style::reversed::{self, Chosen, ReversedCell};
+use crate::style::reversed::{self, ReversedCell, ReversedCells};
 use kurbo::Shape;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -36,7 +36,7 @@ pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
     let nearest = grid.nearest(&drawer.portrait.subject);
     let wanted = cell_ink(drawer, &nearest, sites.len(), ink);
     let polygon = |i: usize| cell_polygon(&grid, i, field, CELL_REACH * drawer.pitch());
-    let chosen = Chosen::new(&nearest, &dark(drawer, sites, &wanted, ink), drawer.pitch());
+    let chosen = ReversedCells::new(&nearest, &dark(drawer, sites, &wanted, ink), drawer.pitch());
     let sized: Vec<Result<SizedDot, ReversedCell>> = (0..sites.len())
         .into_par_iter()
         .map(|i| {

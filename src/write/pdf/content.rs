@@ -23,10 +23,10 @@ pub(super) fn layer_name(i: usize) -> String {
 }
 
 /// The page's content, split between marks into consecutive pieces.
-pub(super) fn pieces(drawing: &Drawing, spots: &[&str], units_a_mm: f64) -> Vec<String> {
+pub(super) fn pieces(drawing: &Drawing, spots: &[&str], units_per_mm: f64) -> Vec<String> {
     let mut writer = Writer { pieces: Vec::new(), text: String::new(), pen: Pen::default() };
     // From here on lengths are in millimetres, y down, from the sheet's upper left corner.
-    let (page, scale) = (&drawing.page, units_a_mm);
+    let (page, scale) = (&drawing.page, units_per_mm);
     let _ = writeln!(writer.text, "{scale:.10} 0 0 -{scale:.10} 0 {:.6} cm 1 j", page.height * scale);
     if super::has_paper(drawing) {
         let _ = write!(writer.text, "/OC /{PAPER} BDC\nq ");

@@ -24,7 +24,7 @@ use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
 /// PDF points per millimetre.
-const POINTS_A_MM: f64 = 72.0 / 25.4;
+const POINTS_PER_MM: f64 = 72.0 / 25.4;
 /// Maximum side of a page in units (Acrobat's limit, ISO 32000-1, annex C); on a larger sheet each unit is several points.
 const MOST_UNITS: f64 = 14_400.0;
 /// Compression level, 0 to 10: one higher saves a percent and takes half as long again.
@@ -46,7 +46,7 @@ const FIRST_LAYER: i32 = 9;
 pub fn write_pdf(drawing: &Drawing, head: &SvgHead, seconds: Option<u64>, out: &mut impl io::Write) -> io::Result<()> {
     let scale = Scale::of(drawing);
     let spots = spot_names(&drawing.layers);
-    let pieces = content::pieces(drawing, &spots, scale.units_a_mm);
+    let pieces = content::pieces(drawing, &spots, scale.units_per_mm);
     let streams: Vec<Vec<u8>> = pieces.par_iter().map(|piece| compressed(piece.as_bytes())).collect::<io::Result<_>>()?;
     let layers: Vec<Ref> = (0..drawing.layers.len()).map(|i| Ref::new(FIRST_LAYER + i as i32)).collect();
     let contents: Vec<Ref> = (0..streams.len()).map(|i| Ref::new(FIRST_LAYER + (layers.len() + i) as i32)).collect();
@@ -75,16 +75,16 @@ fn compressed(bytes: &[u8]) -> io::Result<Vec<u8>> {
 /// Conversion of millimetres to the file's units.
 #[derive(Clone, Copy)]
 struct Scale {
-    units_a_mm: f64,
+    units_per_mm: f64,
     /// Points per unit: 1, except for very large sheets.
     user_unit: f64,
 }
 
 impl Scale {
     fn of(drawing: &Drawing) -> Self {
-        let longest = drawing.page.width.max(drawing.page.height) * POINTS_A_MM;
+        let longest = drawing.page.width.max(drawing.page.height) * POINTS_PER_MM;
         let user_unit = (longest / MOST_UNITS).ceil().max(1.0);
-        Self { units_a_mm: POINTS_A_MM / user_unit, user_unit }
+        Self { units_per_mm: POINTS_PER_MM / user_unit, user_unit }
     }
 }
 
@@ -150,7 +150,7 @@ fn paper_group(chunk: &mut Chunk) {
 
 fn page(pdf: &mut Pdf, drawing: &Drawing, spots: &[&str], layers: &[Ref], contents: &[Ref], scale: Scale) {
     let sheet =
-        Rect::new(0.0, 0.0, (drawing.page.width * scale.units_a_mm) as f32, (drawing.page.height * scale.units_a_mm) as f32);
+        Rect::new(0.0, 0.0, (drawing.page.width * scale.units_per_mm) as f32, (drawing.page.height * scale.units_per_mm) as f32);
     let mut page = pdf.page(PAGE);
     page.parent(PAGES).media_box(sheet).trim_box(sheet).contents_array(contents.iter().copied());
     if scale.user_unit > 1.0 {

@@ -19,7 +19,7 @@ fn drawing(ink: Ink) -> Drawing {
 }
 
 fn content_of(drawing: &Drawing) -> String {
-    content::pieces(drawing, &spot_names(&drawing.layers), POINTS_A_MM).concat()
+    content::pieces(drawing, &spot_names(&drawing.layers), POINTS_PER_MM).concat()
 }
 
 #[test]

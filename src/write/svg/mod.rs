@@ -41,7 +41,7 @@ pub struct SvgHead {
 /// elements, and the file may hold other marks too.
 const MOST_CIRCLES: usize = 600_000;
 /// Circles per combined path.
-const CIRCLES_A_PATH: usize = 1000;
+const CIRCLES_PER_PATH: usize = 1000;
 /// Decimals of a radius: four, since 0.001 mm of a small dot's radius is a percent of its ink.
 const RADIUS_DIGITS: u32 = 4;
 const RADIUS_SCALE: f64 = 10_000.0;
@@ -175,7 +175,7 @@ fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
                 lines_group(&id, &width_text, layer.ink.colour()).add(Blob::new(text))
             } else if kind == Kind::Dots && run.len() > MOST_CIRCLES {
                 run.chunk_by(|a, b| a.colour() == b.colour())
-                    .flat_map(|same| same.chunks(CIRCLES_A_PATH))
+                    .flat_map(|same| same.chunks(CIRCLES_PER_PATH))
                     .for_each(|dots| bundle(&mut text, dots));
                 Group::new().set("id", id).add(Blob::new(text))
             } else {

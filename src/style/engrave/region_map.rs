@@ -63,7 +63,7 @@ pub(super) struct Region {
 
 /// All regions.
 #[derive(Clone, Debug)]
-pub(super) struct Ground {
+pub(super) struct RegionMap {
     pub grid: Grid,
     /// The region of each pixel; 0 stays bare.
     pub labels: Raster<i32>,
@@ -94,7 +94,7 @@ pub(super) fn angle_between(a: f64, b: f64) -> f64 {
     apart.min(180.0 - apart)
 }
 
-impl Ground {
+impl RegionMap {
     /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is not a border.
     pub(super) fn inside_region(&self, label: i32, p: Point) -> f64 {
         let pixel = self.grid.pixel(p);

@@ -28,7 +28,7 @@ pub fn add_registration(plot: &mut Plot, drawable: Rect) {
 }
 
 /// Makes every touch rest on the paper for `seconds` of its pen's number.
-pub fn rest_touches(plot: &mut Plot, seconds: impl Fn(u32) -> f64) {
+pub fn add_touch_rests(plot: &mut Plot, seconds: impl Fn(u32) -> f64) {
     for pen in &mut plot.pens {
         let more = seconds(pen.number);
         pen.paths.iter_mut().filter(|path| path.points.len() == 1).for_each(|touch| touch.dwell_seconds += more);
@@ -82,7 +82,7 @@ mod tests {
         assert_eq!(crossed.pens[0].paths.len(), 7 + 8);
         let inside = |p: &Point| (1.0..=50.0).contains(&p.x) && (2.0..=60.0).contains(&p.y);
         assert!(crossed.pens[0].paths.iter().flat_map(|path| &path.points).all(inside));
-        rest_touches(&mut crossed, |pen| 0.1 * f64::from(pen));
+        add_touch_rests(&mut crossed, |pen| 0.1 * f64::from(pen));
         assert_eq!(crossed.pens[0].paths.iter().filter(|path| path.dwell_seconds > 0.0).count(), 1);
     }
 }

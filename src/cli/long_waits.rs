@@ -3,8 +3,8 @@
 use super::affordable::memory;
 use super::arguments::DrawOptions;
 use super::draw::Task;
+use super::estimate::{Care, DrawingEstimate, Estimator, Plan};
 use super::failure::Failure;
-use super::foretell::{Care, Foretold, Plan, Teller};
 use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::toolpaths::{LONG_HOURS, duration};
@@ -19,7 +19,7 @@ const AT_ONCE: f64 = 0.1;
 const LONG_WORK: f64 = 60.0;
 
 /// Announces a long drawing, and with a machine warns of a long plot. Returns true if it warned of the plot.
-pub(super) fn of_a_long_wait(
+pub(super) fn warn_if_long(
     task: &Task<'_>,
     options: &DrawOptions,
     profile: Option<&Profile>,
@@ -36,12 +36,12 @@ pub(super) fn of_a_long_wait(
         tell(wait);
         return Ok(false);
     }
-    let mut teller = Teller { task, options, profile, pens };
+    let mut teller = Estimator { task, options, profile, pens };
     let plan = Plan::of(task);
     if teller.side_within(&plan, AT_ONCE) >= 1.0 {
         return Ok(false);
     }
-    match foretold_if_long(&mut teller, &plan, &tell) {
+    match estimate_if_long(&mut teller, &plan, &tell) {
         Ok(Some(foretold)) => {
             warn(&mut teller, &foretold);
             Ok(true)
@@ -53,7 +53,7 @@ pub(super) fn of_a_long_wait(
 }
 
 /// The estimate of a plot, if it takes long.
-fn foretold_if_long(teller: &mut Teller<'_>, plan: &Plan, tell: &dyn Fn(f64)) -> Result<Option<Foretold>, Failure> {
+fn estimate_if_long(teller: &mut Estimator<'_>, plan: &Plan, tell: &dyn Fn(f64)) -> Result<Option<DrawingEstimate>, Failure> {
     let quick = teller.foretell(plan, Care::Quick)?;
     tell(quick.work_seconds);
     if quick.amounts.plot_seconds() < 0.7 * LONG_HOURS * 3600.0 {
@@ -64,7 +64,7 @@ fn foretold_if_long(teller: &mut Teller<'_>, plan: &Plan, tell: &dyn Fn(f64)) ->
 }
 
 /// Warns of a long plot, with advice.
-pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
+pub(super) fn warn(teller: &mut Estimator<'_>, foretold: &DrawingEstimate) {
     let seconds = foretold.amounts.plot_seconds();
     if seconds > LONG_HOURS * 3600.0 {
         let advice = advice(teller, seconds);
@@ -73,7 +73,7 @@ pub(super) fn warn(teller: &mut Teller<'_>, foretold: &Foretold) {
 }
 
 /// The pitch that takes two hours; if that pitch would be too coarse for the picture, the size.
-fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
+fn advice(teller: &mut Estimator<'_>, seconds: f64) -> String {
     let usual = format!("about {}", duration(USUAL_LIMIT));
     let shortened = Shortened::new(teller, seconds, USUAL_LIMIT);
     if let Some(pitch) = shortened.as_ref().and_then(|shortened| shortened.pitch(teller)) {
@@ -86,7 +86,7 @@ fn advice(teller: &mut Teller<'_>, seconds: f64) -> String {
 }
 
 /// The size, on the same sheet, whose plot takes `limit` seconds, as options.
-pub(super) fn smaller_size(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<String> {
+pub(super) fn smaller_size(teller: &mut Estimator<'_>, seconds: f64, limit: f64) -> Option<String> {
     Shortened::new(teller, seconds, limit)?.size(teller)
 }
 
@@ -99,14 +99,14 @@ struct Shortened {
 }
 
 impl Shortened {
-    fn new(teller: &mut Teller<'_>, seconds: f64, limit: f64) -> Option<Self> {
+    fn new(teller: &mut Estimator<'_>, seconds: f64, limit: f64) -> Option<Self> {
         let quick = quick(teller, &Plan::of(teller.task))?;
         Some(Self { times: seconds / limit, quick })
     }
 
     /// The pitch that reaches the time wanted, unless it is too coarse for the picture.
-    fn pitch(&self, teller: &mut Teller<'_>) -> Option<f64> {
-        let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.sane_pitch());
+    fn pitch(&self, teller: &mut Estimator<'_>) -> Option<f64> {
+        let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.largest_useful_pitch());
         let guess = pitch * self.times.sqrt();
         if guess > most {
             return None;
@@ -118,7 +118,7 @@ impl Shortened {
     }
 
     /// The size that reaches the time wanted, on the same sheet.
-    fn size(&self, teller: &mut Teller<'_>) -> Option<String> {
+    fn size(&self, teller: &mut Estimator<'_>) -> Option<String> {
         let picture = teller.task.layout.picture;
         let guess = 1.0 / self.times.sqrt();
         let smaller = Rect::from_center_size(picture.center(), picture.size() * guess);
@@ -140,11 +140,11 @@ impl Shortened {
 
 /// The pitch for a picture with this short side, if its own pitch is too coarse for it.
 fn finer_pitch(task: &Task<'_>, short: f64) -> Option<f64> {
-    let share = short / task.least_side();
+    let share = short / task.smallest_useful_side();
     (share < 1.0).then(|| (task.settings.number("pitch") * share * 100.0).floor() / 100.0)
 }
 
-fn quick(teller: &mut Teller<'_>, plan: &Plan) -> Option<f64> {
+fn quick(teller: &mut Estimator<'_>, plan: &Plan) -> Option<f64> {
     teller.foretell(plan, Care::Quick).ok().map(|foretold| foretold.amounts.plot_seconds()).filter(|seconds| *seconds > 0.0)
 }
 

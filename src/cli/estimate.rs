@@ -63,7 +63,7 @@ pub(super) enum Care {
 }
 
 /// An estimate.
-pub(super) struct Foretold {
+pub(super) struct DrawingEstimate {
     pub amounts: Amounts,
     /// Seconds until the file is written, on this machine.
     pub work_seconds: f64,
@@ -83,15 +83,15 @@ struct Sample {
 }
 
 /// Makes estimates.
-pub(super) struct Teller<'a> {
+pub(super) struct Estimator<'a> {
     pub task: &'a Task<'a>,
     pub options: &'a DrawOptions,
     pub profile: Option<&'a Profile>,
     pub pens: &'a mut PenSet,
 }
 
-impl Teller<'_> {
-    pub(super) fn foretell(&mut self, plan: &Plan, care: Care) -> Result<Foretold, Failure> {
+impl Estimator<'_> {
+    pub(super) fn foretell(&mut self, plan: &Plan, care: Care) -> Result<DrawingEstimate, Failure> {
         let begun = Instant::now();
         let mut sample = self.sample(plan, self.side_within(plan, QUICK_SECONDS), None)?;
         let is_paint = self.profile.is_some() && sample.drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint);
@@ -112,7 +112,7 @@ impl Teller<'_> {
             drawn => drawn?,
         };
         let second = self.told(plan, &sample)?;
-        Ok(Foretold { amounts: extrapolated(&first, &second), ..second })
+        Ok(DrawingEstimate { amounts: extrapolated(&first, &second), ..second })
     }
 
     /// The largest side, as a fraction of the picture's, that takes at most `seconds` of work.
@@ -142,12 +142,12 @@ impl Teller<'_> {
         let placement = Placement::new(smaller(plan.picture, side), resolution);
         let drawing = self.task.draw_in(&plan.settings, placement, &Unseen { until })?;
         let mut drawing = inked(drawing, self.options, &Silent)?;
-        let painting = self.pens.hand_out(&mut drawing, self.profile)?.painting;
+        let painting = self.pens.assign_pens(&mut drawing, self.profile)?.painting;
         Ok(Sample { side, drawing, painting, seconds: begun.elapsed().as_secs_f64() })
     }
 
     /// The full picture's amounts, scaled from a sample by area.
-    fn told(&self, plan: &Plan, sample: &Sample) -> Result<Foretold, Failure> {
+    fn told(&self, plan: &Plan, sample: &Sample) -> Result<DrawingEstimate, Failure> {
         let begun = Instant::now();
         let times = 1.0 / (sample.side * sample.side);
         let plot = self.profile.map(|profile| plotted(sample, profile, &self.options.toolpaths, self.pens)).transpose()?;
@@ -157,7 +157,7 @@ impl Teller<'_> {
         let amounts = Amounts::of(&sample.drawing, plot).scaled(times, fixed);
         let paths = amounts.plot.as_ref().map_or(0.0, |plot| plot.ordered.total.paths as f64);
         let drawing = sample.seconds * self.cost(plan, 1.0) / self.cost(plan, sample.side);
-        Ok(Foretold {
+        Ok(DrawingEstimate {
             amounts,
             work_seconds: drawing + plotting + each * paths,
             share: 1.0 / times,
@@ -186,7 +186,7 @@ pub(super) fn quickly(options: &ToolpathOptions) -> ToolpathOptions {
 }
 
 /// Extrapolates the amounts linearly over the inverse root of the side.
-fn extrapolated(small: &Foretold, large: &Foretold) -> Amounts {
+fn extrapolated(small: &DrawingEstimate, large: &DrawingEstimate) -> Amounts {
     let over_root = |share: f64| share.powf(-0.25);
     let (near, far) = (over_root(large.share), over_root(small.share));
     let reach = (near - 1.0) / (far - near);
@@ -194,9 +194,9 @@ fn extrapolated(small: &Foretold, large: &Foretold) -> Amounts {
     large.amounts.with(&small.amounts, &bounded)
 }
 
-impl Foretold {
+impl DrawingEstimate {
     /// Refuses what the drawing itself would be refused for: pens that cannot be assigned, a picture beyond the machine's reach.
-    pub(super) fn check(&self, teller: &mut Teller<'_>) -> Result<(), Failure> {
+    pub(super) fn check(&self, teller: &mut Estimator<'_>) -> Result<(), Failure> {
         teller.pens.assign(&mut self.drawing.clone(), teller.profile)?;
         let Some((profile, drawn)) = teller.profile.zip(self.drawing.bounding_box()) else { return Ok(()) };
         if teller.options.toolpaths.clip {

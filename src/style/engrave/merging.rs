@@ -7,11 +7,11 @@ use std::collections::BTreeSet;
 
 /// Superpixels whose directions differ by less than this many degrees are merged: lines of two regions must not run side by side within
 /// 15 degrees, and a seam between nearly parallel lines looks like a flaw. With much more, forms lose their own directions.
-const ALIKE: f64 = 18.0;
+const SIMILAR_DEGREES: f64 = 18.0;
 
-/// Merges neighbouring regions whose directions differ by less than [`ALIKE`], the most similar first. Returns the new label of each old
+/// Merges neighbouring regions whose directions differ by less than [`SIMILAR_DEGREES`], the most similar first. Returns the new label of each old
 /// one, and the direction of each remaining label, averaged by area.
-pub(super) fn join_alike(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec<f64>) {
+pub(super) fn merge_similar(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec<f64>) {
     let mut area = vec![0.0_f64; angles.len()];
     labels.pixels().iter().filter(|label| **label > 0).for_each(|&label| area[label as usize - 1] += 1.0);
     let doubled = |(angle, area): (&f64, f64)| Vec2::from_angle(2.0 * angle.to_radians()) * area;
@@ -20,7 +20,7 @@ pub(super) fn join_alike(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec
         neighbours(labels, angles.len() as i32).into_iter().map(|list| list.into_iter().collect()).collect();
     let mut owner: Vec<usize> = (0..angles.len()).collect();
     loop {
-        let nearest: Vec<Option<usize>> = (0..sums.len()).map(|i| most_alike(i, &touching[i], &sums)).collect();
+        let nearest: Vec<Option<usize>> = (0..sums.len()).map(|i| most_similar(i, &touching[i], &sums)).collect();
         let pairs: Vec<(usize, usize)> =
             (0..sums.len()).filter_map(|i| nearest[i].filter(|&j| i < j && nearest[j] == Some(i)).map(|j| (i, j))).collect();
         if pairs.is_empty() {
@@ -42,11 +42,11 @@ pub(super) fn join_alike(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec
     (owner.into_iter().map(|i| i as i32 + 1).collect(), sums.iter().map(angle).collect())
 }
 
-/// The neighbour whose direction differs least, by less than [`ALIKE`]; ties go to the pair with the lowest numbers, so that the most
+/// The neighbour whose direction differs least, by less than [`SIMILAR_DEGREES`]; ties go to the pair with the lowest numbers, so that the most
 /// similar pair choose each other.
-fn most_alike(i: usize, touching: &BTreeSet<usize>, sums: &[Vec2]) -> Option<usize> {
+fn most_similar(i: usize, touching: &BTreeSet<usize>, sums: &[Vec2]) -> Option<usize> {
     let apart = |j: usize| 0.5 * sums[i].cross(sums[j]).atan2(sums[i].dot(sums[j])).abs().to_degrees();
-    let candidates = touching.iter().map(|&j| (apart(j), i.min(j), i.max(j), j)).filter(|c| c.0 < ALIKE);
+    let candidates = touching.iter().map(|&j| (apart(j), i.min(j), i.max(j), j)).filter(|c| c.0 < SIMILAR_DEGREES);
     candidates.min_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2)))).map(|c| c.3)
 }
 
@@ -58,7 +58,7 @@ mod tests {
     fn alike_neighbours_are_one_region() {
         let labels = Raster::from_fn(40, 10, |x, _| x as i32 / 10 + 1);
         // The first two are similar across the wrap at 90 degrees; the last is similar to the second but does not touch it.
-        let (joined, angles) = join_alike(&labels, &[86.0, -88.0, 30.0, -89.0]);
+        let (joined, angles) = merge_similar(&labels, &[86.0, -88.0, 30.0, -89.0]);
         assert_eq!(joined, [1, 1, 3, 4]);
         assert!((angles[0] - 89.0).abs() < 1e-6 && (angles[2] - 30.0).abs() < 1e-6, "{angles:?}");
     }

@@ -206,7 +206,7 @@ fn near_median(disc: &[Feature]) -> Vec<Feature> {
 }
 
 /// What was learned about a head, from which its pixels are classified.
-pub(super) struct Parting<'a> {
+pub(super) struct Segmentation<'a> {
     plate: &'a Plate,
     skin: Skin,
     pub is_bald: bool,
@@ -261,14 +261,15 @@ fn shadowed(plate: &Plate) -> [bool; 2] {
 /// True if most of the crown has another colour than skin, however gradual the transition; highlights do not count.
 fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
     let middle = plate.coordinates(plate.point(TOP))[0];
-    let crown = plate
-        .where_(|[u, v], i| plate.inside.pixels()[i] && v > 1.1 && (u - middle).abs() < 0.35 && plate.lab.pixels()[i][0] < FULL);
+    let crown = plate.pixels_where(|[u, v], i| {
+        plate.inside.pixels()[i] && v > 1.1 && (u - middle).abs() < 0.35 && plate.lab.pixels()[i][0] < FULL
+    });
     let crown = plate.samples(&crown);
     let other = crown.iter().filter(|f| skin.distance(**f, Place::Face) > NO_SKIN).count();
     crown.len() > LEAST_SEEDS && other as f32 > OTHER_CROWN * crown.len() as f32
 }
 
-impl<'a> Parting<'a> {
+impl<'a> Segmentation<'a> {
     pub(super) fn learned(plate: &'a Plate) -> Self {
         let skin = Skin::learned(plate);
         let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
@@ -327,7 +328,7 @@ impl<'a> Parting<'a> {
         let plate = self.plate;
         let outside = plate.inside.map(|is| u8::from(!is));
         let edge = dilate(&outside, (0.12 * plate.face_width) as usize);
-        let seeds = plate.where_(|[u, v], i| {
+        let seeds = plate.pixels_where(|[u, v], i| {
             let (f, a) = (plate.features.pixels()[i], u.abs());
             let is_no_skin = self.from_skin.pixels()[i] > NO_SKIN;
             let is_blush = f[1].hypot(f[2]) > 40.0 && f[1] > 30.0;
@@ -366,7 +367,7 @@ impl<'a> Parting<'a> {
         let plate = self.plate;
         let (width, height) = (plate.width(), plate.height());
         let border = (0.06 * height as f32).max(4.0) as usize;
-        plate.where_(|[u, v], i| {
+        plate.pixels_where(|[u, v], i| {
             let a = u.abs();
             let is_low = ((v < -0.12 && a > 0.62) || v < -0.42) && v < 0.25 - 0.25 * a;
             let is_last = i / width + border > height && v < -0.1;
@@ -378,7 +379,7 @@ impl<'a> Parting<'a> {
     fn clothing_learned(&self) -> Option<Mixture> {
         let plate = self.plate;
         let seeds = self.shoulders();
-        let without_hair = plate.where_(|[u, v], i| {
+        let without_hair = plate.pixels_where(|[u, v], i| {
             seeds.pixels()[i]
                 && !self.hair.as_ref().is_some_and(|hair| {
                     let f = plate.features.pixels()[i];
@@ -392,7 +393,7 @@ impl<'a> Parting<'a> {
     }
 
     /// Log score of each class at a pixel.
-    fn suits(&self, i: usize) -> [f32; 4] {
+    fn class_scores(&self, i: usize) -> [f32; 4] {
         let plate = self.plate;
         if !plate.inside.pixels()[i] {
             return [30.0, -60.0, -60.0, -60.0];
@@ -513,7 +514,7 @@ impl<'a> Parting<'a> {
         let plate = self.plate;
         let width = plate.width();
         let mut shares = Raster::from_fn(width, plate.height(), |x, y| {
-            let e = self.suits(y * width + x);
+            let e = self.class_scores(y * width + x);
             let greatest = e.iter().copied().fold(f32::MIN, f32::max);
             normalised(e.map(|v| (0.5 * (v - greatest)).max(-40.0).exp()))
         });

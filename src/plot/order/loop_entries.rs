@@ -33,7 +33,7 @@ const EDGE_GAIN: f64 = 1e-3;
 
 /// Chooses new entries for the tour's loops and changes the stops' ends accordingly. Returns the entries from the free end on,
 /// and the millimetres gained. The tour never becomes longer. O(n log n) and some hundred evaluations per vertex of a loop.
-pub(super) fn seated(stops: &mut [Stop], numbering: &[usize], sites: &Sites, tour: &Tour) -> (Vec<End>, f64) {
+pub(super) fn with_best_entries(stops: &mut [Stop], numbering: &[usize], sites: &Sites, tour: &Tour) -> (Vec<End>, f64) {
     let mut seating = Seating::new(stops, numbering, sites, tour);
     let gained = seating.settle(tour);
     for (path, &stop) in numbering.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn seated(stops: &mut [Stop], numbering: &[usize], sites: &Sites, tou
 }
 
 /// Chooses the entries of the loops among a few visits, keeping the order. Returns the millimetres gained.
-pub(super) fn seat_in_order(stops: &mut [Stop], order: &[usize], home: Point) -> f64 {
+pub(super) fn choose_loop_entries(stops: &mut [Stop], order: &[usize], home: Point) -> f64 {
     let mut gained = 0.0;
     for i in 0..order.len() {
         let Some(ring) = stops[order[i]].ring else { continue };

@@ -13,8 +13,8 @@ use super::advice;
 use super::affordable;
 use super::amounts::PlotAmounts;
 use super::arguments::PlotOptions;
+use super::estimate::quickly;
 use super::failure::Failure;
-use super::foretell::quickly;
 use super::interruption::interrupt;
 use super::job;
 use super::messages::{self, say, warning};
@@ -289,7 +289,7 @@ fn plotted(
     drawing.layers.push(stratum.corners());
     let (mut drawing, turning) = place(&drawing, options, reach_of(profile))?;
     let placing = drawing.layers.pop().map_or(Affine::IDENTITY, |corners| stratum.placing(&corners));
-    pens.hand_out(&mut drawing, profile)?;
+    pens.assign_pens(&mut drawing, profile)?;
     affordable::check_line(&drawing, pens.nibs(), model, stratum.weight)?;
     let mut plot = lower(&drawing, model, pens.nibs(), options.toolpaths.tolerance, interrupt())?;
     stratum.keep_inside(&mut plot, placing);
