@@ -19,7 +19,7 @@ pub enum PrintFormat {
         /// When it was made, in seconds since 1970; none leaves the date out.
         seconds: Option<u64>,
     },
-    /// InkML: strokes with pressure, without dots' outlines.
+    /// `InkML`: strokes with pressure, without dots' outlines.
     Inkml,
 }
 

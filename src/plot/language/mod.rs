@@ -67,9 +67,12 @@ impl Language {
     /// The language that a file begins in, if it is one of these.
     pub fn of_text(text: &str) -> Option<Self> {
         let start = text.trim_start_matches(['\u{feff}', ' ', '\n', '\r', '\t']);
-        let begins: [(Self, fn(&str) -> bool); 3] =
-            [(Self::Svg, svg::begins), (Self::Hpgl, hpgl::begins), (Self::Gcode, gcode::begins)];
-        begins.into_iter().find(|(_, begins)| begins(start)).map(|(language, _)| language)
+        let begins = |language: &Self| match language {
+            Self::Hpgl => hpgl::begins(start),
+            Self::Gcode => gcode::begins(start),
+            Self::Svg => svg::begins(start),
+        };
+        Self::ALL.into_iter().find(begins)
     }
 
     /// The rest of a file that a machine did not finish, safe to start in the middle: state, pen and position are restored, and the

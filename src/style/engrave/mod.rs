@@ -50,7 +50,7 @@ impl Style for Engrave {
     }
 
     fn source(&self) -> &'static str {
-        "Galarza 2017, Image Stylization using Depth Information for Hatching and EngraveParameters effects"
+        "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects"
     }
 
     fn parameters(&self) -> &'static [Parameter] {

@@ -1,4 +1,4 @@
-//! GlassParameters with the strokes of continuous Glass patterns (Papari and Petkov 2009; Papari 2009, chapter 7).
+//! Painting with the strokes of continuous Glass patterns (Papari and Petkov 2009; Papari 2009, chapter 7).
 
 mod body;
 mod colour;
