@@ -1,9 +1,9 @@
 //! Advice for a drawing that does not fit its machine: the options of the refusing command that would make it fit.
 
 use super::arguments::{DrawOptions, PictureOptions, PlacingOptions, PlotFit, PlotOptions, Rotate};
-use super::draw::Task;
 use super::failure::Failure;
 use super::layout::Layout;
+use super::task::Task;
 use crate::plot::{MountingError, Profile, Room};
 
 /// Smallest `--scale` that is suggested.

@@ -1,7 +1,7 @@
 //! Limits on memory and line length, checked before the work begins.
 
-use super::draw::Task;
 use super::failure::Failure;
+use super::task::Task;
 use super::toolpaths::duration;
 use crate::drawing::{Drawing, Layer, Mixing};
 use crate::geometry::Rect;
@@ -72,7 +72,7 @@ fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
         let settings = task.settings_at(pitch);
         settings.is_some_and(|settings| task.cost(&settings, task.layout.picture).bytes <= MOST_BYTES)
     };
-    let (mut low, mut high) = (task.settings.number("pitch"), task.largest_useful_pitch());
+    let (mut low, mut high) = (task.settings.pitch()?, task.largest_useful_pitch());
     if low >= high || !fits(high) {
         return None;
     }

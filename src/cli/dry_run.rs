@@ -2,11 +2,11 @@
 
 use super::affordable::memory;
 use super::arguments::DrawOptions;
-use super::draw::Task;
 use super::estimate::{Care, DrawingEstimate, Estimator, Plan};
 use super::failure::Failure;
 use super::messages::{self, say};
 use super::pens::PenSet;
+use super::task::Task;
 use super::toolpaths::{self, duration};
 use super::{long_waits, output};
 use crate::plot::Profile;

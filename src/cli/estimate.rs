@@ -11,11 +11,12 @@
 
 use super::amounts::{Amounts, PlotAmounts};
 use super::arguments::{DrawOptions, Order, ToolpathOptions};
-use super::draw::{Task, inked, uncovered};
+use super::draw::{inked, uncovered};
 use super::failure::Failure;
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
 use super::pens::PenSet;
+use super::task::{Task, UNKNOWN_PITCH};
 use crate::drawing::{Drawing, Mixing, Painted};
 use crate::geometry::{Point, Rect};
 use crate::plot::{InkModel, PenPaths, Plot, Profile, Toolpath, lower, mount};
@@ -122,7 +123,7 @@ impl Estimator<'_> {
             return 1.0;
         }
         let short = plan.picture.width().min(plan.picture.height());
-        let (mut low, mut high) = ((LEAST_PITCHES * plan.settings.number("pitch") / short).min(1.0), 1.0);
+        let (mut low, mut high) = ((LEAST_PITCHES * plan.settings.pitch().unwrap_or(UNKNOWN_PITCH) / short).min(1.0), 1.0);
         for _ in 0..20 {
             let middle = 0.5 * (low + high);
             (low, high) = if work(middle) <= seconds { (middle, high) } else { (low, middle) };

@@ -2,10 +2,10 @@
 //! `--sight` folder, else what detection finds. If no face is found, nothing detected is used.
 
 use super::arguments::{Background, PictureOptions, Tone};
-use super::draw::{RoleMask, photograph};
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::sight_folder;
+use super::task::{RoleMask, photograph};
 use super::words::counted;
 use crate::see::{SeeError, Sight, can_see, look};
 use crate::source::{Landmarks, MaskRole, Photograph, ToneTarget};

@@ -2,11 +2,11 @@
 
 use super::affordable::memory;
 use super::arguments::DrawOptions;
-use super::draw::Task;
 use super::estimate::{Care, DrawingEstimate, Estimator, Plan};
 use super::failure::Failure;
 use super::messages::{say, warning};
 use super::pens::PenSet;
+use super::task::Task;
 use super::toolpaths::{LONG_HOURS, duration};
 use crate::geometry::Rect;
 use crate::plot::Profile;
@@ -106,7 +106,7 @@ impl Shortened {
 
     /// The pitch that reaches the time wanted, unless it is too coarse for the picture.
     fn pitch(&self, teller: &mut Estimator<'_>) -> Option<f64> {
-        let (pitch, most) = (teller.task.settings.number("pitch"), teller.task.largest_useful_pitch());
+        let (pitch, most) = (teller.task.settings.pitch()?, teller.task.largest_useful_pitch());
         let guess = pitch * self.times.sqrt();
         if guess > most {
             return None;
@@ -141,7 +141,7 @@ impl Shortened {
 /// The pitch for a picture with this short side, if its own pitch is too coarse for it.
 fn finer_pitch(task: &Task<'_>, short: f64) -> Option<f64> {
     let share = short / task.smallest_useful_side();
-    (share < 1.0).then(|| (task.settings.number("pitch") * share * 100.0).floor() / 100.0)
+    (share < 1.0).then(|| Some((task.settings.pitch()? * share * 100.0).floor() / 100.0)).flatten()
 }
 
 fn quick(teller: &mut Estimator<'_>, plan: &Plan) -> Option<f64> {

@@ -2,7 +2,7 @@
 
 use super::advice;
 use super::arguments::{DrawOptions, Order};
-use super::draw::{Task, drawing_of, reach_of, uncovered};
+use super::draw::{drawing_of, reach_of, uncovered};
 use super::estimate::{Care, Estimator, Plan};
 use super::failure::Failure;
 use super::interruption::{interrupt, is_interrupted};
@@ -10,6 +10,7 @@ use super::job;
 use super::long_waits::smaller_size;
 use super::messages::{say, warning};
 use super::pens::PenSet;
+use super::task::Task;
 use super::toolpaths::{self, duration};
 use crate::plot::{InkModel, Job, Profile, lower};
 use crate::style::{Observer, Picture};
@@ -32,7 +33,9 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
         return Err(Failure::Usage("--max-time draws several times; give the photograph as a file, not as -".to_owned()));
     }
     let mut trials = Trials::new(options)?;
-    let (start, most) = (trials.task.settings.number("pitch"), trials.task.largest_useful_pitch());
+    let style = trials.task.style.name();
+    let no_pitch = || Failure::Usage(format!("--max-time seeks a pitch, and {style} has none; use a smaller --size"));
+    let (start, most) = (trials.task.settings.pitch().ok_or_else(no_pitch)?, trials.task.largest_useful_pitch());
     let mut found = search(start, most.max(start), limit, |pitch| trials.seconds_at(pitch))?;
     if let (true, Ok(quick)) = (options.dry_run, found) {
         found = trials.refined_by_careful_estimate(quick, most.max(start), limit)?;
@@ -155,7 +158,7 @@ impl<'a> Trials<'a> {
     /// Corrects a pitch found by quick estimates with a careful one.
     fn refined_by_careful_estimate(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
         let careful = self.estimate(quick.pitch, Care::Careful)?;
-        let start = self.task.settings.number("pitch");
+        let start = self.task.settings.pitch().unwrap_or(quick.pitch);
         if careful <= limit && (careful >= 0.9 * limit || quick.pitch <= start) {
             return Ok(Ok(Trial { seconds: careful, ..quick }));
         }

@@ -1,8 +1,9 @@
 //! `drypoint plot`: turns any SVG into ordered tool paths.
 
 use super::arguments::{Format, InkModelOption, PlotFit, PlotOptions};
+use super::draw::limit_threads;
 pub(super) use super::draw::reach_of;
-use super::draw::{limit_threads, seconds_of_steps};
+use super::draw_report::seconds_of_steps;
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;

@@ -1,10 +1,11 @@
 //! `drypoint see`: finds faces, people and their parts in a photograph.
 
 use super::arguments::SeeOptions;
-use super::draw::{limit_threads, photograph};
+use super::draw::limit_threads;
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::messages::{say, warning};
+use super::task::photograph;
 use super::words::counted;
 use super::{known, output, sight_folder};
 use crate::see::{Sight, look};

@@ -1,8 +1,8 @@
 //! The first stages: what was found in a photograph, or the given masks instead.
 
-use super::draw::RoleMask;
 use super::known::Known;
 use super::overlay::{Overlaid, overlay};
+use super::task::RoleMask;
 use crate::raster::Raster;
 use crate::source::{Crop, MaskRole, Photograph, SourceError};
 use image::{DynamicImage, GrayImage};

@@ -1,11 +1,11 @@
 //! The folder that `see` writes and `draw --sight` reads: `sight.json`, a picture of each region, named by its role, the depth, and
 //! an overlay.
 
-use super::draw::{RoleMask, photograph};
 use super::failure::Failure;
 use super::known::{Depth, Seen};
 use super::overlay::{Overlaid, overlay};
 use super::stages::png;
+use super::task::{RoleMask, photograph};
 use super::{claims, output};
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;

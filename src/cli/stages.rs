@@ -1,11 +1,12 @@
 //! `drypoint stages`: writes what was found and every intermediate result, numbered and named.
 
 use super::arguments::StagesOptions;
-use super::draw::{Task, limit_threads};
+use super::draw::limit_threads;
 use super::failure::Failure;
 use super::messages::say;
 use super::output;
 use super::progress::Watcher;
+use super::task::Task;
 use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;

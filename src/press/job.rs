@@ -6,7 +6,6 @@ use crate::interrupt::{Interrupt, Interrupted};
 use crate::plot::write_inkml;
 use crate::write::{SvgHead, write_pdf, write_svg};
 use std::io;
-use thiserror::Error;
 
 /// A format for print, for the screen or for a painting program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,24 +20,6 @@ pub enum PrintFormat {
     },
     /// `InkML`: strokes with pressure, without dots' outlines.
     Inkml,
-}
-
-/// Why there is no print job.
-#[derive(Debug, Error, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PrintError {
-    /// The drawing has no mark.
-    #[error("there is nothing to print: the drawing has no mark")]
-    Empty,
-    /// It was stopped.
-    #[error("interrupted")]
-    Interrupted,
-}
-
-impl From<Interrupted> for PrintError {
-    fn from(_: Interrupted) -> Self {
-        Self::Interrupted
-    }
 }
 
 /// A drawing as it goes onto the plate.
@@ -69,10 +50,7 @@ impl PrintJob {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn new(drawing: Drawing, press: Option<&Press>, interrupt: &Interrupt) -> Result<Self, PrintError> {
-        if drawing.marks().next().is_none() {
-            return Err(PrintError::Empty);
-        }
+    pub fn new(drawing: Drawing, press: Option<&Press>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let drawing = match press {
             Some(press) => press.compensated_until(&drawing, interrupt)?,
             None => drawing,
@@ -83,6 +61,11 @@ impl PrintJob {
     /// What is printed.
     pub const fn drawing(&self) -> &Drawing {
         &self.drawing
+    }
+
+    /// What is printed, and the job is over.
+    pub fn into_drawing(self) -> Drawing {
+        self.drawing
     }
 
     /// Writes it.

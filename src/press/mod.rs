@@ -16,7 +16,7 @@ mod line;
 mod spread;
 mod thin;
 
-pub use job::{PrintError, PrintFormat, PrintJob};
+pub use job::{PrintFormat, PrintJob};
 
 use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::Affine;

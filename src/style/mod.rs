@@ -5,6 +5,8 @@
 
 mod charcoal;
 mod cost;
+mod declaration;
+mod drawer;
 mod engrave;
 mod feature_line;
 mod glass;
@@ -17,6 +19,7 @@ mod random;
 mod reversed;
 
 pub use cost::Cost;
+use drawer::Drawer;
 pub use need::Need;
 pub use observer::{Observer, Picture, Silent};
 pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};

@@ -37,7 +37,7 @@ impl Need {
         match self {
             Self::Word(name, words) => words.contains(&settings.word(name)),
             Self::Above(name, least) => settings.number(name) > *least,
-            Self::BelowPitches(name, most) => settings.number(name) < most * settings.number("pitch"),
+            Self::BelowPitches(name, most) => settings.pitch().is_some_and(|pitch| settings.number(name) < most * pitch),
             Self::Nonzero(name) => settings.number(name) != 0.0,
             Self::Zero(name) => settings.number(name) == 0.0,
             Self::With(role) => has(role),

@@ -185,10 +185,7 @@ impl Settings {
     /// One sentence per parameter that differs from its default but has no effect on this portrait, with the conditions it lacks. A
     /// value equal to the default is never reported, even if a recipe spells it out.
     pub fn idle(&self, parameters: &[Parameter], portrait: &Portrait) -> Vec<String> {
-        let pitch = match self.values.get("pitch") {
-            Some(Value::Number(pitch)) => *pitch,
-            _ => 1.0,
-        };
+        let pitch = self.pitch().unwrap_or(1.0);
         let is_set = |parameter: &&Parameter| {
             self.values.get(parameter.name).is_some_and(|value| *value != parameter.kind.default_value(pitch))
         };
@@ -202,6 +199,14 @@ impl Settings {
                     .then(|| format!("{}={value} has no effect here: it needs {}", parameter.name, all_text(&missing)))
             })
             .collect()
+    }
+
+    /// The distance between neighbouring marks in millimetres, in styles that have one.
+    pub fn pitch(&self) -> Option<f64> {
+        match self.values.get("pitch") {
+            Some(Value::Number(pitch)) => Some(*pitch),
+            _ => None,
+        }
     }
 
     /// A length in millimetres, a number or a count.

@@ -38,7 +38,7 @@ impl Drawer<'_> {
             width: self.pixels(HAIR_WIDTH * self.parameters.stroke_width_mm) * 0.75,
             length: self.pixels(self.parameters.hair_length_mm),
             length_spread: 0.6,
-            turn: self.parameters.hair_turn,
+            turn: self.parameters.hair_turn.0,
             reach: self.pixels(0.9 * self.parameters.pitch_mm),
         };
         let ink = self.hair_ink(&darkness, &regions.hair);

@@ -90,13 +90,7 @@ impl Style for Charcoal {
     }
 }
 
-/// State of one drawing in progress.
-struct Drawer<'a> {
-    portrait: &'a Portrait,
-    parameters: CharcoalParameters,
-    seed: u64,
-    observer: &'a dyn Observer,
-}
+type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.
@@ -105,15 +99,15 @@ impl Drawer<'_> {
             return Err(StyleError::NothingToDraw("the picture is white all over".to_owned()));
         }
         let regions = self.regions();
-        self.check_interrupted()?;
+        self.check()?;
         let hair = self.hair(&regions);
-        self.check_interrupted()?;
+        self.check()?;
         let features = self.features(&regions);
-        self.check_interrupted()?;
+        self.check()?;
         let edges = self.edges(&regions, &features);
-        self.check_interrupted()?;
+        self.check()?;
         let tone = self.tone(&regions, &features);
-        self.check_interrupted()?;
+        self.check()?;
         let shading = self.shading(&regions, &features);
         let face = self.draw_features(&features);
         let background = self.background(&regions);
@@ -143,19 +137,6 @@ impl Drawer<'_> {
                 layer
             })
             .collect()
-    }
-
-    fn check_interrupted(&self) -> Result<(), StyleError> {
-        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
-    }
-
-    /// A length of the page in working pixels.
-    fn pixels(&self, mm: f64) -> f64 {
-        mm / self.portrait.placement.mm_per_pixel()
-    }
-
-    fn size(&self) -> (usize, usize) {
-        (self.portrait.placement.columns, self.portrait.placement.rows)
     }
 
     /// Target ink, 0 to 1, over all regions.

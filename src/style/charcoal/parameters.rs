@@ -1,267 +1,107 @@
 //! Charcoal's parameters and their values.
 
 use crate::field::HoughForm;
-use crate::style::{Default, Kind, Need, Parameter, Places, Settings};
+use crate::style::declaration::{ON, Radians, Setting, count, millimetres, number, parameters, pitches};
+use crate::style::{Kind, Need, Places, Settings};
 
 /// The background is shaded.
 const BACKGROUND: &[Need] = &[Need::Word("background", &["on"]), Need::Above("background_ink", 0.0)];
 
-/// All parameters of the style.
-pub(super) const PARAMETERS: &[Parameter] = &[
-    Parameter {
-        name: "pitch",
-        kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 50.0 },
-        meaning: "distance between neighbouring strokes; every other length defaults to a multiple of it",
-        source: "",
-        needs: &[],
-    },
-    Parameter {
-        name: "stroke_width",
-        kind: Kind::Length { default: Default::Pitches(0.7), least: 0.02, most: 50.0 },
-        meaning: "width of a stroke at full pressure",
-        source: "",
-        needs: &[],
-    },
-    Parameter {
-        name: "grain",
-        kind: Kind::Length { default: Default::Pitches(0.5), least: 0.1, most: 50.0 },
-        meaning: "distance between the grains of the smudged tone",
-        source: "Wong 6.3.1, the paper's texture",
-        needs: &[],
-    },
-    Parameter {
-        name: "smudge",
-        kind: Kind::Length { default: Default::Pitches(1.5), least: 0.0, most: 100.0 },
-        meaning: "blur of the smudged tone",
-        source: "Wong 3.1.5",
-        needs: &[],
-    },
-    Parameter {
-        name: "brighten",
-        kind: Kind::Number { default: 0.5, least: 0.0, most: 1.0 },
-        meaning: "how far the smudged tone is brightened: 0 keeps the photograph's tone, 1 removes 0.3 of ink everywhere and two fifths of the rest",
-        source: "Wong 3.1.5",
-        needs: &[],
-    },
-    Parameter {
-        name: "texture_bias",
-        kind: Kind::Number { default: 1.0, least: 0.0, most: 20.0 },
-        meaning: "weight of the photograph against the paper's texture in middle tones",
-        source: "Wong 6.3.1, n",
-        needs: &[],
-    },
-    Parameter {
-        name: "edge_blur",
-        kind: Kind::Length { default: Default::Pitches(0.5), least: 0.0, most: 50.0 },
-        meaning: "blur before edge detection; larger finds only the large forms",
-        source: "Wong 3.1.3",
-        needs: &[],
-    },
-    Parameter {
-        name: "edge_high",
-        kind: Kind::Number { default: 0.15, least: 0.0, most: 5.0 },
-        meaning: "an edge must somewhere reach this change of lightness (0 to 1) per pitch",
-        source: "Wong 3.1.3",
-        needs: &[],
-    },
-    Parameter {
-        name: "edge_low",
-        kind: Kind::Number { default: 0.05, least: 0.0, most: 5.0 },
-        meaning: "an edge ends where the change per pitch falls below this",
-        source: "Wong 3.1.3",
-        needs: &[],
-    },
-    Parameter {
-        name: "edge_length",
-        kind: Kind::Length { default: Default::Pitches(9.0), least: 0.0, most: 1000.0 },
-        meaning: "edges shorter than this are specks and are not drawn",
-        source: "Wong 3.1.3; longer than its 10 to 15 px, since no hand removes the rest",
-        needs: &[],
-    },
-    Parameter {
-        name: "sketch_passes",
-        kind: Kind::Count { default: 1, least: 0, most: 10 },
-        meaning: "passes of displaced strokes over each edge before its own line is drawn",
-        source: "Wong 6.3.2",
-        needs: &[],
-    },
-    Parameter {
-        name: "sketch_offset",
-        kind: Kind::Length { default: Default::Pitches(0.8), least: 0.0, most: 50.0 },
-        meaning: "maximum displacement of the ends of the displaced strokes",
-        source: "Wong 6.3.2",
-        needs: &[Need::Above("sketch_passes", 0.0)],
-    },
-    Parameter {
-        name: "hough",
-        kind: Kind::Choice(&["round", "thesis"]),
-        meaning: "how hair direction is detected: round uses a round window and counts beyond chance; thesis is as printed",
-        source: "Wong 4.3; errata",
-        needs: &[],
-    },
-    Parameter {
-        name: "hough_radius",
-        kind: Kind::Length { default: Default::Pitches(2.5), least: 0.1, most: 100.0 },
-        meaning: "radius of the window in which hair direction is detected",
-        source: "Wong 4.4",
-        needs: &[],
-    },
-    Parameter {
-        name: "hair_smoothing",
-        kind: Kind::Length { default: Default::Pitches(3.75), least: 0.0, most: 100.0 },
-        meaning: "smoothing of the hair direction",
-        source: "Wong 3.1.2, sigma = 15 px",
-        needs: &[],
-    },
-    Parameter {
-        name: "hair_length",
-        kind: Kind::Length { default: Default::Pitches(14.0), least: 0.5, most: 1000.0 },
-        meaning: "mean length of a hair stroke",
-        source: "Wong 6.3.3",
-        needs: &[],
-    },
-    Parameter {
-        name: "hair_turn",
-        kind: Kind::Number { default: 15.0, least: 0.0, most: 90.0 },
-        meaning: "maximum angle between a hair stroke and the hair's direction, in degrees",
-        source: "Wong 6.3.3, pi/12",
-        needs: &[],
-    },
-    Parameter {
-        name: "hair_ink",
-        kind: Kind::Number { default: 1.0, least: 0.0, most: 3.0 },
-        meaning: "ink of the hair strokes relative to the photograph's darkness",
-        source: "tone-aware, unlike the thesis",
-        needs: &[],
-    },
-    Parameter {
-        name: "features",
-        kind: Kind::Choice(&["on", "off"]),
-        meaning: "find and draw the eyebrows, eyes, nose and mouth",
-        source: "Wong 5",
-        needs: &[],
-    },
-    Parameter {
-        name: "skin",
-        kind: Kind::Places { most: 5 },
-        meaning: "places of plain skin from one edge of the face to the other, used to even out its light; by default the median skin of each column",
-        source: "Wong 5.1, five points",
-        needs: &[Need::Word("features", &["on"])],
-    },
-    Parameter {
-        name: "shading",
-        kind: Kind::Choice(&["on", "off"]),
-        meaning: "hand-shade the dark parts of clothing and of everything that is neither face nor hair",
-        source: "",
-        needs: &[],
-    },
-    Parameter {
-        name: "background",
-        kind: Kind::Choice(&["on", "off"]),
-        meaning: "hand-shade the background",
-        source: "Wong 6.3.5",
-        needs: &[Need::Above("background_ink", 0.0)],
-    },
-    Parameter {
-        name: "background_ink",
-        kind: Kind::Number { default: 0.2, least: 0.0, most: 1.0 },
-        meaning: "ink of the background strokes where they are thickest",
-        source: "",
-        needs: &[Need::Word("background", &["on"])],
-    },
-    Parameter {
-        name: "arc_length",
-        kind: Kind::Length { default: Default::Pitches(26.0), least: 0.5, most: 1000.0 },
-        meaning: "mean length of the shading arcs",
-        source: "Wong 6.2",
-        needs: &[Need::AnyOf(&[&[Need::Word("shading", &["on"])], BACKGROUND])],
-    },
-    Parameter {
-        name: "arc_radius",
-        kind: Kind::Length { default: Default::Pitches(50.0), least: 0.5, most: 10_000.0 },
-        meaning: "radius of the shading arcs",
-        source: "Wong 6.2",
-        needs: &[Need::AnyOf(&[&[Need::Word("features", &["on"])], &[Need::Word("shading", &["on"])], BACKGROUND])],
-    },
-    Parameter {
-        name: "arc_orient",
-        kind: Kind::Number { default: -52.0, least: -180.0, most: 180.0 },
-        meaning: "direction of the shading arcs in degrees, clockwise from the right",
-        source: "Wong 6.2",
-        needs: &[Need::AnyOf(&[&[Need::Word("shading", &["on"])], BACKGROUND])],
-    },
-    Parameter {
-        name: "arc_skew",
-        kind: Kind::Number { default: 0.1, least: 0.0, most: 0.5 },
-        meaning: "random variation of the shading arcs in length and direction",
-        source: "Wong 6.2",
-        needs: &[Need::AnyOf(&[&[Need::Word("features", &["on"])], &[Need::Word("shading", &["on"])], BACKGROUND])],
-    },
-];
+parameters! {
+    /// The parameters of a charcoal sketch; lengths in millimetres.
+    pub(super) struct CharcoalParameters {
+        pitch_mm: f64 = "pitch": millimetres(0.6, 0.1..=50.0),
+            "distance between neighbouring strokes; every other length defaults to a multiple of it",
+            "";
+        stroke_width_mm: f64 = "stroke_width": pitches(0.7, 0.02..=50.0),
+            "width of a stroke at full pressure",
+            "";
+        grain_mm: f64 = "grain": pitches(0.5, 0.1..=50.0),
+            "distance between the grains of the smudged tone",
+            "Wong 6.3.1, the paper's texture";
+        smudge_mm: f64 = "smudge": pitches(1.5, 0.0..=100.0),
+            "blur of the smudged tone",
+            "Wong 3.1.5";
+        brighten: f32 = "brighten": number(0.5, 0.0..=1.0),
+            "how far the smudged tone is brightened: 0 keeps the photograph's tone, 1 removes 0.3 of ink everywhere and two fifths of the rest",
+            "Wong 3.1.5";
+        texture_bias: f32 = "texture_bias": number(1.0, 0.0..=20.0),
+            "weight of the photograph against the paper's texture in middle tones",
+            "Wong 6.3.1, n";
+        edge_blur_mm: f64 = "edge_blur": pitches(0.5, 0.0..=50.0),
+            "blur before edge detection; larger finds only the large forms",
+            "Wong 3.1.3";
+        edge_high: f64 = "edge_high": number(0.15, 0.0..=5.0),
+            "an edge must somewhere reach this change of lightness (0 to 1) per pitch",
+            "Wong 3.1.3";
+        edge_low: f64 = "edge_low": number(0.05, 0.0..=5.0),
+            "an edge ends where the change per pitch falls below this",
+            "Wong 3.1.3";
+        edge_length_mm: f64 = "edge_length": pitches(9.0, 0.0..=1000.0),
+            "edges shorter than this are specks and are not drawn",
+            "Wong 3.1.3; longer than its 10 to 15 px, since no hand removes the rest";
+        sketch_passes: u32 = "sketch_passes": count(1, 0..=10),
+            "passes of displaced strokes over each edge before its own line is drawn",
+            "Wong 6.3.2";
+        sketch_offset_mm: f64 = "sketch_offset": pitches(0.8, 0.0..=50.0),
+            "maximum displacement of the ends of the displaced strokes",
+            "Wong 6.3.2", needs [Need::Above("sketch_passes", 0.0)];
+        hough: HoughForm = "hough": Kind::Choice(&["round", "thesis"]),
+            "how hair direction is detected: round uses a round window and counts beyond chance; thesis is as printed",
+            "Wong 4.3; errata";
+        hough_radius_mm: f64 = "hough_radius": pitches(2.5, 0.1..=100.0),
+            "radius of the window in which hair direction is detected",
+            "Wong 4.4";
+        hair_smoothing_mm: f64 = "hair_smoothing": pitches(3.75, 0.0..=100.0),
+            "smoothing of the hair direction",
+            "Wong 3.1.2, sigma = 15 px";
+        hair_length_mm: f64 = "hair_length": pitches(14.0, 0.5..=1000.0),
+            "mean length of a hair stroke",
+            "Wong 6.3.3";
+        hair_turn: Radians = "hair_turn": number(15.0, 0.0..=90.0),
+            "maximum angle between a hair stroke and the hair's direction, in degrees",
+            "Wong 6.3.3, pi/12";
+        hair_ink: f32 = "hair_ink": number(1.0, 0.0..=3.0),
+            "ink of the hair strokes relative to the photograph's darkness",
+            "tone-aware, unlike the thesis";
+        has_features: bool = "features": ON,
+            "find and draw the eyebrows, eyes, nose and mouth",
+            "Wong 5";
+        skin: Places = "skin": Kind::Places { most: 5 },
+            "places of plain skin from one edge of the face to the other, used to even out its light; by default the median skin of each column",
+            "Wong 5.1, five points", needs [Need::Word("features", &["on"])];
+        has_shading: bool = "shading": ON,
+            "hand-shade the dark parts of clothing and of everything that is neither face nor hair",
+            "";
+        has_background: bool = "background": ON,
+            "hand-shade the background",
+            "Wong 6.3.5", needs [Need::Above("background_ink", 0.0)];
+        background_ink: f64 = "background_ink": number(0.2, 0.0..=1.0),
+            "ink of the background strokes where they are thickest",
+            "", needs [Need::Word("background", &["on"])];
+        arc_length_mm: f64 = "arc_length": pitches(26.0, 0.5..=1000.0),
+            "mean length of the shading arcs",
+            "Wong 6.2", needs [Need::AnyOf(&[&[Need::Word("shading", &["on"])], BACKGROUND])];
+        arc_radius_mm: f64 = "arc_radius": pitches(50.0, 0.5..=10_000.0),
+            "radius of the shading arcs",
+            "Wong 6.2", needs [Need::AnyOf(&[&[Need::Word("features", &["on"])], &[Need::Word("shading", &["on"])], BACKGROUND])];
+        arc_orient: Radians = "arc_orient": number(-52.0, -180.0..=180.0),
+            "direction of the shading arcs in degrees, clockwise from the right",
+            "Wong 6.2", needs [Need::AnyOf(&[&[Need::Word("shading", &["on"])], BACKGROUND])];
+        arc_skew: f64 = "arc_skew": number(0.1, 0.0..=0.5),
+            "random variation of the shading arcs in length and direction",
+            "Wong 6.2", needs [Need::AnyOf(&[&[Need::Word("features", &["on"])], &[Need::Word("shading", &["on"])], BACKGROUND])];
+    }
+}
 
-/// The parameters' values; lengths in millimetres, angles in radians.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CharcoalParameters {
-    pub pitch_mm: f64,
-    pub stroke_width_mm: f64,
-    pub grain_mm: f64,
-    pub smudge_mm: f64,
-    pub brighten: f32,
-    pub texture_bias: f32,
-    pub edge_blur_mm: f64,
-    pub edge_high: f64,
-    pub edge_low: f64,
-    pub edge_length_mm: f64,
-    pub sketch_passes: u32,
-    pub sketch_offset_mm: f64,
-    pub hough: HoughForm,
-    pub hough_radius_mm: f64,
-    pub hair_smoothing_mm: f64,
-    pub hair_length_mm: f64,
-    pub hair_turn: f64,
-    pub hair_ink: f32,
-    pub has_features: bool,
-    pub skin: Places,
-    pub has_shading: bool,
-    pub has_background: bool,
-    pub background_ink: f64,
-    pub arc_length_mm: f64,
-    pub arc_radius_mm: f64,
-    pub arc_orient: f64,
-    pub arc_skew: f64,
+impl Setting for HoughForm {
+    fn of(settings: &Settings, name: &str) -> Self {
+        if settings.word(name) == "round" { Self::Round } else { Self::Thesis }
+    }
 }
 
 impl CharcoalParameters {
     pub(super) fn new(settings: &Settings) -> Self {
-        let number = |name| settings.number(name);
-        Self {
-            pitch_mm: number("pitch"),
-            stroke_width_mm: number("stroke_width"),
-            grain_mm: number("grain"),
-            smudge_mm: number("smudge"),
-            brighten: number("brighten") as f32,
-            texture_bias: number("texture_bias") as f32,
-            edge_blur_mm: number("edge_blur"),
-            edge_high: number("edge_high"),
-            edge_low: number("edge_low"),
-            edge_length_mm: number("edge_length"),
-            sketch_passes: number("sketch_passes") as u32,
-            sketch_offset_mm: number("sketch_offset"),
-            hough: if settings.word("hough") == "round" { HoughForm::Round } else { HoughForm::Thesis },
-            hough_radius_mm: number("hough_radius"),
-            hair_smoothing_mm: number("hair_smoothing"),
-            hair_length_mm: number("hair_length"),
-            hair_turn: number("hair_turn").to_radians(),
-            hair_ink: number("hair_ink") as f32,
-            skin: settings.places("skin"),
-            has_features: settings.word("features") == "on",
-            has_shading: settings.word("shading") == "on",
-            has_background: settings.word("background") == "on",
-            background_ink: number("background_ink"),
-            arc_length_mm: number("arc_length"),
-            arc_radius_mm: number("arc_radius"),
-            arc_orient: number("arc_orient").to_radians(),
-            arc_skew: number("arc_skew"),
-        }
+        Self::read(settings)
     }
 }

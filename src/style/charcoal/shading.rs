@@ -142,7 +142,7 @@ impl Drawer<'_> {
                 width_mm: self.parameters.stroke_width_mm,
                 spacing_mm: self.parameters.pitch_mm * (1.1 + 2.2 * (1.0 - darkness)),
                 length_mm: 0.55 * self.parameters.arc_length_mm,
-                orientation: self.parameters.arc_orient + 0.35 * i as f64,
+                orientation: self.parameters.arc_orient.0 + 0.35 * i as f64,
                 pressure: 0.25 + 0.6 * darkness,
                 inset_mm: 0.5 * self.parameters.stroke_width_mm,
                 pressing: Pressing::Hatching,
@@ -167,7 +167,7 @@ impl Drawer<'_> {
             // Spreads a stroke's ink, at the pressure below, over its spacing.
             spacing_mm: BACKGROUND_WIDTH * width_mm / self.parameters.background_ink,
             length_mm: self.parameters.arc_length_mm,
-            orientation: self.parameters.arc_orient,
+            orientation: self.parameters.arc_orient.0,
             pressure: BACKGROUND_PRESSURE,
             inset_mm: 0.5 * width_mm,
             pressing: Pressing::Hatching,

@@ -1,6 +1,7 @@
 //! The direction of the lines in each region (Galarza 2017, sections 3.3.1 and 3.4).
 
 use super::Drawer;
+use super::parameters::{AnglesFrom, Division};
 use crate::field::edge_tangent_flow;
 use crate::raster::Raster;
 use crate::style::random::stream;
@@ -20,12 +21,14 @@ impl Drawer<'_> {
     /// Degrees for regions 1 to `count`.
     pub(super) fn angles(&self, labels: &Raster<i32>, count: i32) -> Vec<f64> {
         let p = &self.parameters;
-        let is_scribbled = p.regions == "auto" && self.portrait.scribbles.is_some();
+        let is_scribbled = p.regions == Division::Auto && self.portrait.scribbles.is_some();
         match p.angles {
-            "flow" => self.flow_angles(labels, count),
-            "random" => (1..=count).map(|label| stream(self.seed, "angles", label as u64).random_range(-90.0..90.0)).collect(),
-            "auto" if p.regions == "superpixels" => self.flow_angles(labels, count),
-            "hue" | "auto" if is_scribbled => self.hue_angles(count),
+            AnglesFrom::Flow => self.flow_angles(labels, count),
+            AnglesFrom::Random => {
+                (1..=count).map(|label| stream(self.seed, "angles", label as u64).random_range(-90.0..90.0)).collect()
+            }
+            AnglesFrom::Auto if p.regions == Division::Superpixels => self.flow_angles(labels, count),
+            AnglesFrom::Hue | AnglesFrom::Auto if is_scribbled => self.hue_angles(count),
             _ => vec![p.angle; count as usize],
         }
     }

@@ -1,6 +1,6 @@
 //! Measured cost of an engraving.
 
-use super::parameters::EngraveParameters;
+use super::parameters::{Division, EngraveParameters};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
@@ -20,7 +20,7 @@ pub(super) fn cost(parameters: &EngraveParameters, picture: Rect, pixels_per_mm:
     if parameters.has_outline {
         (bytes, microseconds) = (bytes + OUTLINE_BYTES, microseconds + OUTLINE_MICROSECONDS);
     }
-    if parameters.regions == "superpixels" {
+    if parameters.regions == Division::Superpixels {
         microseconds += SUPERPIXEL_MICROSECONDS;
     }
     Cost::each(pixels(picture, pixels_per_mm), bytes, microseconds)

@@ -26,7 +26,7 @@ use crate::raster::Raster;
 use crate::source::{MaskRole, Portrait};
 use breaks::LineBreaks;
 use lines::{Family, FamilyLayout, Frame};
-use parameters::{EngraveParameters, Look};
+use parameters::{EngraveParameters, GroundColour, Look, ToneFrom};
 use rayon::prelude::*;
 use region_map::{Region, RegionMap};
 use relief::Relief;
@@ -88,13 +88,7 @@ impl Style for Engrave {
     }
 }
 
-/// State of one drawing in progress.
-struct Drawer<'a> {
-    portrait: &'a Portrait,
-    parameters: EngraveParameters,
-    seed: u64,
-    observer: &'a dyn Observer,
-}
+type Drawer<'a> = super::Drawer<'a, EngraveParameters>;
 
 /// Marks of the lines and of the cross lines.
 type Marks = [Vec<Mark>; 2];
@@ -124,21 +118,21 @@ impl Drawer<'_> {
         if self.parameters.has_outline {
             drawing.layers.push(self.outlines());
         }
-        if self.parameters.is_on_black {
+        if self.parameters.ground == GroundColour::Black {
             drawing.page.paper = Colour { r: 0, g: 0, b: 0 };
             drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks).for_each(whiten);
         }
         Ok(drawing)
     }
 
-    fn check(&self) -> Result<(), StyleError> {
-        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
-    }
-
     /// The target ink; on black paper the lines are the light.
     fn ink(&self, relief: &Relief) -> Raster<f32> {
-        let tone = if self.parameters.is_lit { self.lit(relief) } else { self.portrait.on_white(&self.portrait.tone) };
-        let ink = if self.parameters.is_on_black { tone } else { tone.map(|t| 1.0 - t) };
+        let tone = if self.parameters.tone_from == ToneFrom::Depth {
+            self.lit(relief)
+        } else {
+            self.portrait.on_white(&self.portrait.tone)
+        };
+        let ink = if self.parameters.ground == GroundColour::Black { tone } else { tone.map(|t| 1.0 - t) };
         ink.zip_map(&relief.cover, |ink, cover| if cover >= 0.02 { ink } else { 0.0 })
     }
 
@@ -206,11 +200,11 @@ impl Drawer<'_> {
         move |between| LineBreaks {
             between,
             period,
-            is_staggered: look != Look::EngraveParameters,
+            is_staggered: look != Look::Engraving,
             cover: None,
             grid,
             thinnest,
-            interruption: (look == Look::EngraveParameters).then_some((WHOLE_LINES * (1.0 - threshold), cut_out)),
+            interruption: (look == Look::Engraving).then_some((WHOLE_LINES * (1.0 - threshold), cut_out)),
             is_stippled: look == Look::Stipple,
             dot_min,
         }
@@ -224,11 +218,6 @@ impl Drawer<'_> {
             layers[1].marks = cross;
         }
         Drawing { page: self.portrait.page, layers }
-    }
-
-    /// A length of the page in working pixels.
-    fn pixels(&self, mm: f64) -> f64 {
-        mm / self.portrait.placement.mm_per_pixel()
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Drawer;
 use super::lines::FIT_ROOM;
 use super::merging::merge_similar;
+use super::parameters::Division;
 use super::region_map::{Grid, Region, RegionMap};
 use super::relief::Relief;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
@@ -57,7 +58,7 @@ impl Drawer<'_> {
         let count = parts.pixels().iter().copied().max().unwrap_or(0);
         let drawn = parts.zip_map(cover, drawn_label);
         let angles = self.angles(&drawn, count);
-        if self.parameters.regions != "superpixels" {
+        if self.parameters.regions != Division::Superpixels {
             return (Some(parts), angles);
         }
         let (joined, angles) = merge_similar(&drawn, &angles);
@@ -67,13 +68,13 @@ impl Drawer<'_> {
     /// Labels from 1; none for a single region.
     fn parts(&self) -> Option<Raster<i32>> {
         match self.parameters.regions {
-            "one" => None,
-            "superpixels" => {
+            Division::One => None,
+            Division::Superpixels => {
                 let colours = self.portrait.light.map(lab);
                 let size = self.pixels(self.parameters.region_size).round() as usize;
                 Some(superpixels(&colours, size, COMPACTNESS, ROUNDS).map(|label| label + 1))
             }
-            _ => self.flooded_scribbles(),
+            Division::Auto => self.flooded_scribbles(),
         }
     }
 

@@ -26,7 +26,7 @@ pub(super) fn layers(ink: &Raster<f32>, look: Look, threshold: f64) -> Layers {
         Look::Contour => Layers { lines: ink.map(|v| v * ((v - (1.0 - threshold)) / 0.25).clamp(0.0, 1.0)), cross: None },
         Look::Net => both(ink, |tone| 1.0 - tone.sqrt()),
         // The lines stop growing where the cross lines begin, and continue before both are equal.
-        Look::EngraveParameters | Look::Crosshatch => {
+        Look::Engraving | Look::Crosshatch => {
             both(ink, |tone| (1.0 - tone.powf(LINES_SHARE)).max((1.0 - tone).min(1.0 - threshold)))
         }
     }

@@ -1,6 +1,6 @@
 //! Measured cost of a painting; pixels include the frame in which strokes start.
 
-use super::parameters::{GlassParameters, Manner};
+use super::parameters::{GlassParameters, Gradient, Manner};
 use crate::geometry::Rect;
 use crate::style::cost::{Cost, pixels};
 
@@ -25,9 +25,9 @@ const DIFFUSION_MICROSECONDS: f64 = 8.0;
 pub(super) fn cost(parameters: &GlassParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let length = parameters.length_mm * pixels_per_mm;
     let framed = picture.inflate(parameters.length_mm, parameters.length_mm);
-    let ribbons = parameters.ribbons as f64;
-    let (mut bytes, mut microseconds) = match parameters.manner {
-        Manner::GlassParameters => (
+    let ribbons = f64::from(parameters.ribbons);
+    let (mut bytes, mut microseconds) = match parameters.manner() {
+        Manner::Painting => (
             BYTES + LENGTH_BYTES * length + RIBBON_BYTES * (ribbons - 3.0).max(0.0),
             MICROSECONDS + LENGTH_MICROSECONDS * length + RIBBON_MICROSECONDS * ribbons,
         ),
@@ -36,7 +36,7 @@ pub(super) fn cost(parameters: &GlassParameters, picture: Rect, pixels_per_mm: f
     if parameters.hairs > 0.0 {
         bytes += HAIR_BYTES;
     }
-    if parameters.diffuses {
+    if parameters.gradient == Gradient::Diffusion {
         microseconds += DIFFUSION_MICROSECONDS;
     }
     Cost::each(pixels(framed, pixels_per_mm), bytes, microseconds)

@@ -1,6 +1,7 @@
 //! Discrete Glass patterns: points and their positions after a flow moved them (Papari 2009, section 7.2.1), as dots whose ink makes the
 //! tone.
 
+use super::parameters::Points;
 use super::{Drawer, Ground};
 use crate::drawing::{Dot, Layer, Mark};
 use crate::geometry::{Point, Rect, Vec2, blue_noise_order};
@@ -35,14 +36,14 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
 fn points(drawer: &Drawer<'_>, picture: Rect) -> Vec<Point> {
     let count = (picture.area() / drawer.parameters.pitch_mm.powi(2)).round().max(1.0) as usize;
     let mut random = random::stream(drawer.seed, "points", 0);
-    let drawn = if drawer.parameters.is_blue { CHOICE * count } else { count };
+    let drawn = if drawer.parameters.points == Points::Blue { CHOICE * count } else { count };
     let scattered: Vec<Point> = (0..drawn)
         .map(|_| {
             let (x, y): (f64, f64) = (random.random(), random.random());
             Point::new(picture.x0 + x * picture.width(), picture.y0 + y * picture.height())
         })
         .collect();
-    if drawer.parameters.is_blue {
+    if drawer.parameters.points == Points::Blue {
         blue_noise_order(&scattered)[..count].iter().map(|&i| scattered[i]).collect()
     } else {
         scattered

@@ -20,7 +20,7 @@ use crate::field::{Flow, glass_pattern, line_integral_convolution};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, Portrait, luminance};
-use parameters::{GlassParameters, Manner};
+use parameters::{GlassParameters, Gradient, Manner};
 
 /// Change of colour per pixel at which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes whirl in
 /// every pore; at three times it the astronaut's collar loses its corners.
@@ -83,13 +83,7 @@ impl Glass {
     }
 }
 
-/// State of one drawing in progress.
-struct Drawer<'a> {
-    portrait: &'a Portrait,
-    parameters: GlassParameters,
-    seed: u64,
-    observer: &'a dyn Observer,
-}
+type Drawer<'a> = super::Drawer<'a, GlassParameters>;
 
 /// Common input of all manners of drawing, with a frame around the picture so that strokes can start beyond its border.
 struct Ground {
@@ -127,16 +121,12 @@ impl Drawer<'_> {
         }
         let ground = self.ground();
         self.check()?;
-        let layers = match self.parameters.manner {
-            Manner::GlassParameters => painting::layers(self, &ground)?,
+        let layers = match self.parameters.manner() {
+            Manner::Painting => painting::layers(self, &ground)?,
             Manner::OnePen => vec![one_pen::layer(self, &ground)?],
             Manner::Discrete => vec![discrete::layer(self, &ground)?],
         };
         Ok(Drawing { page: self.portrait.page, layers })
-    }
-
-    fn check(&self) -> Result<(), StyleError> {
-        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
     }
 
     /// Edge-preserving smoothing and the flow (section 7.3).
@@ -175,7 +165,7 @@ impl Drawer<'_> {
 
     /// Equations 7.9, 7.10 and 7.14.
     fn flow(&self, smoothed: &[Raster<f32>], sigma: f32) -> Flow {
-        let blurred: Vec<Raster<f32>> = if self.parameters.diffuses {
+        let blurred: Vec<Raster<f32>> = if self.parameters.gradient == Gradient::Diffusion {
             anisotropic_diffusion(smoothed, sigma, DIFFUSION_CONTRAST)
         } else {
             smoothed.iter().map(|plane| fast_gaussian(plane, sigma)).collect()
@@ -184,7 +174,7 @@ impl Drawer<'_> {
         self.observer.picture("gradient", &|| Picture::Grey(shown_gradient(&light)));
         let gradients: Vec<Raster<[f32; 2]>> = blurred.iter().map(gradient).collect();
         let tensor = structure_tensor(&gradients).unwrap_or_else(|| light.map(|_| [0.0; 3]));
-        Flow::steepest(&tensor, &light).turned(self.parameters.angle)
+        Flow::steepest(&tensor, &light).turned(self.parameters.angle.0)
     }
 
     /// The pattern as a raster and line integral convolution of the same noise, for `stages`.
@@ -194,11 +184,6 @@ impl Drawer<'_> {
         self.observer.picture("noise", &|| shown(noise.clone()));
         self.observer.picture("glass-pattern", &|| shown(glass_pattern(noise, &ground.flow, length)));
         self.observer.picture("line-integral", &|| shown(line_integral_convolution(noise, &ground.flow, length)));
-    }
-
-    /// A length of the page in working pixels.
-    fn pixels(&self, mm: f64) -> f64 {
-        mm / self.portrait.placement.mm_per_pixel()
     }
 
     /// Converts framed pixels to the page.

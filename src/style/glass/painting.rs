@@ -36,7 +36,7 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     drawer.check()?;
     let mut layer = drawer.empty_layer("strokes");
     layer.mixing = Mixing::Paint;
-    let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons);
+    let levels = GlassLevels::new(&pattern, drawer.parameters.ribbons as usize);
     let ribbons = glass_ribbons(&noise, &framed, &ground.flow, length, RibbonFit::Brush, |height| levels.of(height));
     drawer.check()?;
     layer.marks = Painter { drawer, ground, levels: &levels }.paint(&ribbons);

@@ -20,7 +20,7 @@ use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use cells::Cell;
 use darks::Darks;
-use parameters::{GridParameters, Primitive};
+use parameters::{Detail, GridParameters, Primitive};
 use structure::StructureGrid;
 
 /// Working pixels above which detail regions get the resolution of the rest: an A1 face at the default pitch would otherwise exceed a
@@ -80,13 +80,7 @@ impl Style for Grid {
     }
 }
 
-/// State of one drawing in progress.
-struct Drawer<'a> {
-    portrait: &'a Portrait,
-    parameters: GridParameters,
-    seed: u64,
-    observer: &'a dyn Observer,
-}
+type Drawer<'a> = super::Drawer<'a, GridParameters>;
 
 /// Blur of the tone that sets line widths, in pitches: a width cannot show finer detail.
 const TONE_BLUR: f32 = 0.3;
@@ -101,9 +95,9 @@ impl Drawer<'_> {
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         let features = self.features();
-        self.check_interrupted()?;
+        self.check()?;
         let grid = self.structure(&features, &ink);
-        self.check_interrupted()?;
+        self.check()?;
         let cells = cells::cells(self, &grid, &ink, &features);
         let mut layers = match self.parameters.primitive {
             Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink),
@@ -135,18 +129,10 @@ impl Drawer<'_> {
         vec![lines, dots]
     }
 
-    fn check_interrupted(&self) -> Result<(), StyleError> {
-        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
-    }
-
     /// A drawing of one or more layers on the portrait's page, for `stages`.
     fn picture_of(&self, layers: Vec<Layer>) -> Picture {
         let page: Page = self.portrait.page;
         Picture::Drawing(Box::new(Drawing { page, layers }))
-    }
-
-    fn size(&self) -> (usize, usize) {
-        (self.portrait.placement.columns, self.portrait.placement.rows)
     }
 
     /// The pitch in working pixels.
@@ -156,11 +142,6 @@ impl Drawer<'_> {
 
     /// Where dots and lines stand closer.
     fn detail(&self) -> Option<&Raster<f32>> {
-        self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.has_detail)
-    }
-
-    /// A length of the page in working pixels.
-    fn pixels(&self, mm: f64) -> f64 {
-        mm / self.portrait.placement.mm_per_pixel()
+        self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail == Detail::Auto)
     }
 }

@@ -1,6 +1,7 @@
 //! Steps 1, 2 and 12: edges and isophotes, detected or drawn by hand.
 
 use super::Drawer;
+use super::parameters::Lines;
 use crate::field::{
     CoherentLine, Curve, EdgeParameters, LineParameters, coherent_lines, contours, detect_edges, detect_isophotes,
     distance_to_curves, edge_tangent_flow, flow_lines, lines_of,
@@ -38,7 +39,7 @@ impl Drawer<'_> {
         let lightness = self.portrait.on_white(&self.portrait.lightness);
         let (edges, drawn) = match self.portrait.masks.get(&MaskRole::Edges) {
             Some(mask) => (self.hand_made(mask), Vec::new()),
-            None if self.parameters.has_coherent_lines => self.coherent_edges(&lightness),
+            None if self.parameters.lines == Lines::Coherent => self.coherent_edges(&lightness),
             None => (self.with_silhouette(self.found_edges(&lightness)), Vec::new()),
         };
         self.observer.begin("isophotes");

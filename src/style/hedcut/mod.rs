@@ -10,7 +10,7 @@ mod seeds;
 mod size;
 
 use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
-use crate::drawing::{Dot, Drawing, Layer, Mark, Page};
+use crate::drawing::{Dot, Drawing, Layer, Mark};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
 use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
@@ -65,13 +65,7 @@ impl Style for Hedcut {
     }
 }
 
-/// State of one drawing in progress.
-struct Drawer<'a> {
-    portrait: &'a Portrait,
-    parameters: HedcutParameters,
-    seed: u64,
-    observer: &'a dyn Observer,
-}
+type Drawer<'a> = super::Drawer<'a, HedcutParameters>;
 
 /// A dot in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,10 +107,6 @@ impl Drawer<'_> {
         Ok(drawing)
     }
 
-    fn page(&self) -> Page {
-        self.portrait.page
-    }
-
     /// Steps 3 and 4: distance maps and offset lanes.
     fn lanes(&self, features: &Features) -> Lanes {
         self.observer.begin("lanes");
@@ -131,7 +121,7 @@ impl Drawer<'_> {
         }
         let parameters = LaneParameters {
             pitch: self.pitch() as f32,
-            detail_pitch: (self.pitch() / self.parameters.detail_lanes.unwrap_or(1.0)) as f32,
+            detail_pitch: (self.pitch() / self.parameters.detail_lanes().unwrap_or(1.0)) as f32,
             edge_weight: self.parameters.edge_weight,
             isophote_weight: self.parameters.isophote_weight,
         };
@@ -162,21 +152,12 @@ impl Drawer<'_> {
         layer
     }
 
-    fn size(&self) -> (usize, usize) {
-        (self.portrait.placement.columns, self.portrait.placement.rows)
-    }
-
     /// The pitch in working pixels.
     fn pitch(&self) -> f64 {
         self.parameters.pitch_mm / self.portrait.placement.mm_per_pixel()
     }
 
-    /// A length of the page in working pixels.
-    fn pixels(&self, mm: f64) -> f64 {
-        mm / self.portrait.placement.mm_per_pixel()
-    }
-
     fn detail(&self) -> Option<&Raster<f32>> {
-        self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail_lanes.is_some())
+        self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail_lanes().is_some())
     }
 }

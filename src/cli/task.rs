@@ -1,0 +1,270 @@
+//! Everything that decides a drawing: the photograph, what is known of it, its place on the sheet, the style and its settings.
+
+use super::affordable;
+use super::arguments::{PictureOptions, PlacingOptions};
+use super::crop;
+use super::draw::reach_of;
+use super::eyes;
+use super::failure::Failure;
+use super::known::{self, Known, Wanted};
+use super::layout::{Layout, lay_out};
+use super::lists::{role_names, roles_of, styles_with_role};
+use super::messages::say;
+use super::output;
+use super::recipe::file_name;
+use super::remedies::advised;
+use super::seen_stages;
+use crate::drawing::{Drawing, Page};
+use crate::geometry::Rect;
+use crate::plot::{Profile, mount};
+use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
+use crate::tone::portrait_tone;
+use image::DynamicImage;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Minimum number of pitches across the short side of a picture in advice: with fewer, nothing is left of a face.
+const LEAST_PITCHES: f64 = 25.0;
+/// The spacing of marks, in millimetres, that is assumed of a style without a pitch.
+pub(super) const UNKNOWN_PITCH: f64 = 1.0;
+
+/// A mask of the photograph.
+pub(super) struct RoleMask {
+    pub role: MaskRole,
+    /// Its file; `None` if it was found in the photograph.
+    pub file: Option<String>,
+    pub mask: Photograph,
+}
+
+impl RoleMask {
+    /// The name of its role on the command line.
+    pub(super) fn name(&self) -> &'static str {
+        self.role.name()
+    }
+
+    /// Its origin, for the recipe.
+    pub(super) fn recipe(&self) -> Value {
+        match &self.file {
+            Some(file) => json!({ "file": file_name(file), "sha256": self.mask.info.sha256 }),
+            None => json!({ "found": true }),
+        }
+    }
+}
+
+/// Everything that determines a drawing.
+pub(super) struct Task<'a> {
+    pub options: &'a PictureOptions,
+    pub style: &'static dyn Style,
+    pub settings: Settings,
+    pub photograph: Photograph,
+    pub known: Known,
+    pub layout: Layout,
+    /// The parameters given by the user.
+    given: Vec<(String, String)>,
+}
+
+impl<'a> Task<'a> {
+    /// A task with the default placing.
+    pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
+        Self::placed(options, &PlacingOptions::default(), reach)
+    }
+
+    pub(super) fn placed(
+        options: &'a PictureOptions,
+        placing: &PlacingOptions,
+        reach: impl Fn(&Page) -> Option<Rect>,
+    ) -> Result<Self, Failure> {
+        let style = find_style(&options.style)?;
+        let given = given(options)?;
+        let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
+        if options.black >= options.white {
+            return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
+        }
+        let mask_files: Vec<(MaskRole, &str)> =
+            options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
+        if let Some((role, _)) =
+            options.mask.iter().enumerate().find_map(|(i, mask)| options.mask[..i].iter().find(|m| m.0 == mask.0))
+        {
+            return Err(Failure::Usage(format!("--mask {role}= is given twice")));
+        }
+        if options.depth.is_some() && !style.uses_depth() {
+            let able: Vec<&str> = style::STYLES.iter().filter(|s| s.uses_depth()).map(|s| s.name()).collect();
+            let able = able.join(", ");
+            return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
+        }
+        let photograph = photograph(&options.photo)?;
+        let painted = mask_files
+            .into_iter()
+            .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: self::photograph(file)? }));
+        let mut known = known::of(options, style, &photograph, painted.collect::<Result<_, Failure>>()?)?;
+        // Marks on the picture's border extend beyond it by less than a pitch.
+        let pitch = settings.pitch().unwrap_or(UNKNOWN_PITCH);
+        let crop = crop::part(options, &photograph, &known.faces)?;
+        let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
+        if style.leaves_out_background() {
+            known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
+        }
+        let task = Self { options, style, settings, photograph, known, layout, given };
+        affordable::check(&task)?;
+        Ok(task)
+    }
+
+    /// True if the picture with other options, including all its ink, would lie within the machine's reach.
+    pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
+        let Ok(crop) = crop::part(picture, &self.photograph, &self.known.faces) else { return false };
+        let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
+        let (width, height) = layout.sheet();
+        let page = Page { width, height, ..layout.page };
+        let drawable = mount(profile, &page).map(|mounting| mounting.drawable(&page).inflate(0.01, 0.01));
+        drawable.is_ok_and(|drawable| drawable.union(layout.placed()) == drawable)
+    }
+
+    /// Prints the decisions made from what was found. Called after the work, so that a failure has a single message.
+    pub(super) fn tell(&self, is_quiet: bool) {
+        self.known.notices.iter().filter(|_| !is_quiet).for_each(|notice| say!("drypoint: {notice}"));
+    }
+
+    /// Pictures of what was found in the photograph, by name.
+    pub(super) fn seen(&self) -> Result<Vec<(&'static str, DynamicImage)>, Failure> {
+        seen_stages::pictures(&self.photograph, &self.known).map_err(|error| Failure::about(&self.options.photo)(&error))
+    }
+
+    /// The parameters with another pitch; `None` if the style does not accept it.
+    pub(super) fn settings_at(&self, pitch: f64) -> Option<Settings> {
+        let mut given = self.given.clone();
+        given.push(("pitch".to_owned(), pitch.to_string()));
+        Settings::resolve(self.style.name(), self.style.parameters(), &given).ok()
+    }
+
+    /// The largest pitch that the style accepts and that leaves the picture recognisable.
+    pub(super) fn largest_useful_pitch(&self) -> f64 {
+        let pitch = self.style.parameters().iter().find(|parameter| parameter.name == "pitch");
+        let most = pitch.and_then(|parameter| parameter.kind.ends()).map_or(f64::INFINITY, |ends| ends[1]);
+        most.min(self.layout.picture.width().min(self.layout.picture.height()) / LEAST_PITCHES)
+    }
+
+    /// The smallest short side, in millimetres, that leaves the picture recognisable at this pitch.
+    pub(super) fn smallest_useful_side(&self) -> f64 {
+        LEAST_PITCHES * self.settings.pitch().unwrap_or(UNKNOWN_PITCH)
+    }
+
+    /// Memory and time for drawing a picture, including the photographs already in memory.
+    pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
+        let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
+        let unused = &self.known.unused;
+        let masks = self.known.masks.iter().chain(&self.known.people).chain(&unused.masks).map(|mask| &mask.mask);
+        let others = masks.chain(self.known.depth.iter().chain(&unused.depth).map(|depth| &depth.map));
+        let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
+        Cost { bytes: cost.bytes + photographs as f64, ..cost }
+    }
+
+    /// Working resolution in pixels per millimetre.
+    pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
+        let roles: Vec<MaskRole> = self.known.masks.iter().map(|mask| mask.role).collect();
+        self.style.resolution(settings, &roles, picture)
+    }
+
+    pub(super) fn draw(&self, observer: &dyn Observer) -> Result<Drawing, Failure> {
+        for warning in &self.photograph.info.warnings {
+            observer.warn(&format!("{}: {warning}", self.options.photo));
+        }
+        let picture = self.layout.picture;
+        self.draw_in(&self.settings, Placement::new(picture, self.resolution(&self.settings, picture)), observer)
+    }
+
+    /// Draws the picture with other parameters or at another placement.
+    pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
+        observer.begin("photograph");
+        let portrait = self.portrait(placement)?;
+        let drawing = self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
+            StyleError::Interrupted => Failure::Interrupted,
+            nothing => Failure::Work(format!("{}: {}", self.options.photo, advised(&nothing))),
+        })?;
+        Ok(self.layout.turning.turned(drawing))
+    }
+
+    fn portrait(&self, placement: Placement) -> Result<Portrait, Failure> {
+        let target = if let Wanted::Own(target) = self.known.tone { target } else { ToneTarget::Lightness };
+        let curve =
+            ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
+        let about = |name: &str| {
+            let name = name.to_owned();
+            move |error: crate::source::SourceError| Failure::about(&name)(&advised(&error))
+        };
+        let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
+            .map_err(about(&self.options.photo))?;
+        let (photograph, crop) = (&self.photograph, self.layout.crop);
+        for RoleMask { role, file, mask } in &self.known.masks {
+            let name = file.as_deref().unwrap_or(&self.options.photo);
+            portrait.add_mask(*role, mask, photograph, crop).map_err(about(name))?;
+        }
+        if let Some(RoleMask { file, mask, .. }) = &self.known.people {
+            portrait.add_people(mask, photograph, crop).map_err(about(file.as_deref().unwrap_or(&self.options.photo)))?;
+        }
+        if let Some(depth) = &self.known.depth {
+            let sense = if self.options.depth_far_white { DepthSense::FarWhite } else { DepthSense::NearWhite };
+            let name = depth.file.as_deref().unwrap_or(&self.options.photo);
+            portrait.add_depth(&depth.map, sense, photograph, crop).map_err(about(name))?;
+        }
+        portrait.add_faces(&self.known.faces, photograph, crop).map_err(about(&self.options.photo))?;
+        if let Wanted::Portrait(strength) = self.known.tone
+            && let Some(tone) = portrait_tone(&portrait, strength as f32)
+        {
+            portrait.set_portrait_tone(&tone, curve);
+        }
+        Ok(portrait)
+    }
+}
+
+fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
+    let names: Vec<&str> = style::STYLES.iter().map(|s| s.name()).collect();
+    style::find(name).ok_or_else(|| Failure::Usage(format!("there is no style '{name}'; there are {}", names.join(", "))))
+}
+
+fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
+    let refuse = || {
+        let others: Vec<&str> = styles_with_role(name).map(Style::name).collect();
+        let others = if others.is_empty() { String::new() } else { format!("; {name} is for {}", others.join(", ")) };
+        Failure::Usage(format!("--mask {name}: {} takes {}{others}", style.name(), role_names(style)))
+    };
+    roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
+}
+
+/// Parameters from the file, then from --pitch, then from --set; later ones win.
+fn given(options: &PictureOptions) -> Result<Vec<(String, String)>, Failure> {
+    let mut given = Vec::new();
+    if let Some(path) = &options.params {
+        given.extend(parameter_file(&path.to_string_lossy())?);
+    }
+    if let Some(pitch) = options.pitch {
+        given.push(("pitch".to_owned(), pitch.to_string()));
+    }
+    given.extend(options.set.iter().cloned());
+    Ok(given)
+}
+
+fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
+    let text = output::read_settings(name)?;
+    let table: toml::Table =
+        text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
+    table
+        .into_iter()
+        .map(|(key, value)| match value {
+            toml::Value::String(text) => Ok((key, text)),
+            toml::Value::Integer(number) => Ok((key, number.to_string())),
+            toml::Value::Float(number) => Ok((key, number.to_string())),
+            toml::Value::Boolean(is_on) => Ok((key, if is_on { "on" } else { "off" }.to_owned())),
+            other => Err(Failure::Work(format!("{name}: {key} = {other} is not a string, a number or a boolean"))),
+        })
+        .collect()
+}
+
+pub(super) fn photograph(name: &str) -> Result<Photograph, Failure> {
+    let shown = if name == "-" { "stdin" } else { name };
+    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
+        let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let other = if is_svg { "; an SVG is plotted with `drypoint plot`" } else { "" };
+        Failure::about(shown)(&format_args!("{error}{other}"))
+    })
+}

@@ -1,0 +1,35 @@
+//! A drawing in progress: what every style is given, and the changes between the page and the working grid.
+
+use super::{Observer, StyleError};
+use crate::drawing::Page;
+use crate::source::Portrait;
+
+/// State of one drawing in progress, with the values of the style's own parameters.
+pub(super) struct Drawer<'a, P> {
+    pub portrait: &'a Portrait,
+    pub parameters: P,
+    pub seed: u64,
+    pub observer: &'a dyn Observer,
+}
+
+impl<P> Drawer<'_, P> {
+    /// The portrait's page.
+    pub(super) const fn page(&self) -> Page {
+        self.portrait.page
+    }
+
+    /// Columns and rows of the working grid.
+    pub(super) const fn size(&self) -> (usize, usize) {
+        (self.portrait.placement.columns, self.portrait.placement.rows)
+    }
+
+    /// A length of the page in working pixels.
+    pub(super) fn pixels(&self, mm: f64) -> f64 {
+        mm / self.portrait.placement.mm_per_pixel()
+    }
+
+    /// Ends the drawing when the user wants it to stop.
+    pub(super) fn check(&self) -> Result<(), StyleError> {
+        if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
+    }
+}
