@@ -4,7 +4,7 @@
 //! Pen-up travel, without the way from and to home, compared with a plain nearest-neighbour order in the same run.
 
 use drypoint::geometry::Point;
-use drypoint::plot::{Direction, Effort, PathEnds, Stop, Visit, order, order_stops, pen_up_length};
+use drypoint::order::{Direction, Effort, PathEnds, Stop, Visit, order, order_stops, pen_up_length};
 use std::path::Path;
 use std::time::Instant;
 

@@ -6,7 +6,7 @@ use drypoint::field::{
     Curve, EdgeParameters, Sites, contours, detect_edges, detect_isophotes, distance_to_curves, nearest_seed, trace,
 };
 use drypoint::geometry::{Point, Rect, blue_noise_order};
-use drypoint::plot::{Direction, Effort, PathEnds, order};
+use drypoint::order::{Direction, Effort, PathEnds, order};
 use drypoint::raster::{Raster, Thresholds, bilateral, gaussian_blur, thin};
 use drypoint::source::{Crop, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use drypoint::style::{Settings, Silent, find};

@@ -16,6 +16,7 @@
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
+//! | [`order`] | ends of paths, stops | the order with the least way between them |
 //! | [`press`] | a drawing, a press's dot gain and smallest mark | the drawing to print, compensated to keep the tone |
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Job`]: ordered tool paths, checked; the machine's file, read back and resumed |
 //! | [`mod@write`] | a drawing | bytes |
@@ -53,6 +54,7 @@ pub mod drawing;
 pub mod field;
 pub mod geometry;
 pub mod interrupt;
+pub mod order;
 pub mod plot;
 pub mod press;
 pub mod raster;

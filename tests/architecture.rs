@@ -12,9 +12,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("see", &["source", "field", "raster", "geometry"]),
     ("tone", &["source", "raster", "geometry"]),
     ("field", &["raster", "geometry"]),
-    ("style", &["field", "raster", "drawing", "geometry", "source"]),
+    ("order", &["geometry"]),
+    ("style", &["field", "order", "raster", "drawing", "geometry", "source"]),
     ("press", &["drawing", "geometry", "plot", "write"]),
-    ("plot", &["drawing", "geometry", "read", "write"]),
+    ("plot", &["drawing", "geometry", "order", "read", "write"]),
     ("write", &["drawing", "geometry"]),
     ("read", &["drawing", "geometry"]),
 ];

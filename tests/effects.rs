@@ -10,7 +10,9 @@ use drypoint::drawing::Drawing;
 use drypoint::source::MaskRole;
 use drypoint::style::{Kind, Need, Parameter, find};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
+use std::collections::HashMap;
 use std::io::Cursor;
+use std::sync::Mutex;
 
 /// A style and the input to try it on.
 struct Trial {
@@ -22,10 +24,12 @@ struct Trial {
     /// Masks and a depth map, passed if a parameter needs them.
     masks: Vec<(MaskRole, Vec<u8>)>,
     depth: Vec<u8>,
+    /// Drawings without a parameter's own value, which most parameters are compared with.
+    plain: Mutex<HashMap<String, Option<Drawing>>>,
 }
 
 /// Settings, masks and depth that meet a parameter's needs, or break one.
-#[derive(Clone, Default)]
+#[derive(Clone, Debug, Default)]
 struct Given {
     set: Vec<(String, String)>,
     masks: Vec<MaskRole>,
@@ -54,6 +58,17 @@ impl Trial {
         order.depth = given.has_depth.then_some(&self.depth);
         let (drawing, warnings) = order.try_draw();
         (drawing.ok(), warnings)
+    }
+
+    /// The drawing without a value of the parameter's own.
+    fn plain(&self, given: &Given) -> Option<Drawing> {
+        let key = format!("{given:?}");
+        if let Some(known) = self.plain.lock().unwrap().get(&key) {
+            return known.clone();
+        }
+        let drawing = self.draw(given, &[]).0;
+        self.plain.lock().unwrap().insert(key, drawing.clone());
+        drawing
     }
 
     fn meet(&self, need: &Need, given: &mut Given) {
@@ -101,7 +116,7 @@ impl Trial {
         for parameter in self.parameters() {
             let mut on = Given::default();
             parameter.needs.iter().for_each(|need| self.meet(need, &mut on));
-            let plain = self.draw(&on, &[]).0;
+            let plain = self.plain(&on);
             let has_effect = |value: &String| {
                 let (drawing, warnings) = self.draw(&on, &[(parameter.name, value)]);
                 let is_idle = warnings.contains(&format!("{}=", parameter.name));
@@ -122,7 +137,7 @@ impl Trial {
                 let says = |text: &str| warnings.contains(text);
                 if !says(&format!("{}=", parameter.name)) || !says(&need.text()) {
                     faults.push(format!("{} {}={value} without {}: {warnings}", self.style, parameter.name, need.text()));
-                } else if drawing != self.draw(&off, &[]).0 {
+                } else if drawing != self.plain(&off) {
                     faults.push(format!("{} {}={value} has an effect without {}", self.style, parameter.name, need.text()));
                 }
             }
@@ -190,7 +205,7 @@ fn trial(style: &'static str, set: &'static [(&'static str, &'static str)]) -> T
         (MaskRole::Scribbles, scribbles),
     ];
     let depth = png_of_light(240, 240, |x, y| 0.2 + 0.003 * f64::from(x.min(y)));
-    Trial { style, photo: still_life(), mm: (30.0, 30.0), set, masks, depth }
+    Trial { style, photo: still_life(), mm: (30.0, 30.0), set, masks, depth, plain: Mutex::default() }
 }
 
 fn check(trial: &Trial) {

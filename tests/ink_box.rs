@@ -5,7 +5,8 @@ mod machine_file;
 
 use drypoint::drawing::{Drawing, Ends, Layer, Mark, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point, Rect, blob, catmull_rom};
-use drypoint::plot::{Direction, Effort, InkModel, Nibs, Profile, lower, mount, write_inkml};
+use drypoint::order::{Direction, Effort};
+use drypoint::plot::{InkModel, Nibs, Profile, lower, mount, write_inkml};
 use drypoint::write::{SvgHead, write_pdf, write_svg};
 use kurbo::{PathEl, PathSeg, Shape};
 use machine_file::{read_back, written};

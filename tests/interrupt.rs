@@ -3,9 +3,10 @@
 use drypoint::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use drypoint::geometry::{BezPath, Point};
 use drypoint::interrupt::{Interrupt, Interrupted};
+use drypoint::order::Effort;
 use drypoint::plot::{
-    Effort, Hides, InkModel, Nibs, PenPaths, Plot, Profile, Sequence, Toolpath, coverage, delay_for_drying, lower, mount,
-    occluded, report,
+    Hides, InkModel, Nibs, PenPaths, Plot, Profile, Sequence, Toolpath, coverage, delay_for_drying, lower, mount, occluded,
+    report,
 };
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};

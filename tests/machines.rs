@@ -11,9 +11,10 @@ use common::{Sheet, sample};
 use drypoint::drawing::{Colour, Drawing, Handling, Mark, Page};
 use drypoint::geometry::{BezPath, Point, Rect, Vec2, distance_to_segment, flatten};
 use drypoint::interrupt::Interrupt;
+use drypoint::order::{Direction, Effort};
 use drypoint::plot::{
-    Dialect, Direction, Effort, InkModel, Language, Lift, Mounting, MountingError, Nibs, PenChange, PenPaths, Plot, Profile,
-    Strokes, Toolpath, built_in_names, clip_to, lower, mount,
+    Dialect, InkModel, Language, Lift, Mounting, MountingError, Nibs, PenChange, PenPaths, Plot, Profile, Strokes, Toolpath,
+    built_in_names, clip_to, lower, mount,
 };
 use drypoint::read::read_svg;
 use machine_file::{read_back, written};

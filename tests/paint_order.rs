@@ -3,7 +3,8 @@
 use drypoint::drawing::{Colour, Drawing, Ink, Layer, Mark, Mixing, Page, Painted, Stroke, Width};
 use drypoint::geometry::{BezPath, Point};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Effort, Hides, InkModel, Nibs, Plot, Sequence, Toolpath, coverage, lower, occluded};
+use drypoint::order::Effort;
+use drypoint::plot::{Hides, InkModel, Nibs, Plot, Sequence, Toolpath, coverage, lower, occluded};
 
 const PAPER: f64 = 120.0;
 const INKS: [Colour; 3] = [Colour { r: 20, g: 20, b: 20 }, Colour { r: 200, g: 60, b: 30 }, Colour { r: 60, g: 90, b: 200 }];

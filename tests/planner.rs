@@ -13,9 +13,8 @@ use common::{Sheet, sample};
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{
-    Direction, Effort, InkModel, Nibs, PenPaths, PenTime, Plot, Profile, Toolpath, built_in, clock, lower, mount,
-};
+use drypoint::order::{Direction, Effort};
+use drypoint::plot::{InkModel, Nibs, PenPaths, PenTime, Plot, Profile, Toolpath, built_in, clock, lower, mount};
 use grbl::{Elapsed, Laser, Settings, run};
 use machine_file::written;
 use std::f64::consts::TAU;

@@ -10,9 +10,9 @@ use common::{Sheet, sample};
 use drypoint::drawing::{Colour, Drawing, Handling, Layer, Page};
 use drypoint::geometry::{Point, Vec2, polyline_length};
 use drypoint::interrupt::Interrupt;
+use drypoint::order::{Direction, Effort};
 use drypoint::plot::{
-    Direction, Effort, InkModel, Language, Nibs, PenChange, PenPaths, Plot, Profile, StopPlace, Strokes, Toolpath,
-    built_in_names, lower,
+    InkModel, Language, Nibs, PenChange, PenPaths, Plot, Profile, StopPlace, Strokes, Toolpath, built_in_names, lower,
 };
 use machine_file::read_back;
 use std::collections::{BTreeSet, HashSet};

@@ -8,9 +8,10 @@ use arbitrary::{Result, Unstructured};
 use drypoint::drawing::{Colour, Drawing, Painted};
 use drypoint::geometry::{Point, Rect};
 use drypoint::interrupt::Interrupt;
+use drypoint::order::{Direction, Effort};
 use drypoint::plot::{
-    Course, Dialect, Direction, DrawingCorner, Duplicates, Effort, Hides, InkModel, Job, JobOptions, Language, Nibs, Plot,
-    Profile, Seam, Sequence, Swell, built_in_names, clip_to, coverage, lower, mount, occluded, write_inkml,
+    Course, Dialect, DrawingCorner, Duplicates, Hides, InkModel, Job, JobOptions, Language, Nibs, Plot, Profile, Seam, Sequence,
+    Swell, built_in_names, clip_to, coverage, lower, mount, occluded, write_inkml,
 };
 use drypoint::press::Press;
 use drypoint::read::{Budget, read_svg};

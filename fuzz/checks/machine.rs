@@ -4,9 +4,9 @@ use super::refusal;
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::{Point, Rect};
 use drypoint::interrupt::Interrupt;
+use drypoint::order::Effort;
 use drypoint::plot::{
-    Duplicates, Effort, Job, JobOptions, Language, Mounting, PenPaths, Plot, Profile, Sequence, ShownTravel, Strokes, Toolpath,
-    mount,
+    Duplicates, Job, JobOptions, Language, Mounting, PenPaths, Plot, Profile, Sequence, ShownTravel, Strokes, Toolpath, mount,
 };
 use drypoint::write::SvgHead;
 

@@ -6,9 +6,10 @@ use super::interruption::interrupt;
 use super::pens::PenSet;
 use super::toolpaths::duration;
 use crate::drawing::Drawing;
+use crate::order::{Direction, Effort};
 use crate::plot::{
-    Course, Direction, DrawingCorner, Duplicates, Effort, InkModel, Job, JobError, JobOptions, MachineFeature, PlacingMarks,
-    Plot, Profile, ReachPolicy, Seam, Sequence,
+    Course, DrawingCorner, Duplicates, InkModel, Job, JobError, JobOptions, MachineFeature, PlacingMarks, Plot, Profile,
+    ReachPolicy, Seam, Sequence,
 };
 use crate::style::Observer;
 

@@ -15,6 +15,7 @@ mod disc;
 mod graph;
 mod hand_shading;
 mod inset;
+pub(crate) mod kd_tree;
 mod length;
 mod number;
 mod polyline;

@@ -10,11 +10,11 @@ mod drying;
 mod extras;
 mod inkml;
 mod job;
+mod joining;
 mod language;
 mod lower;
 mod mounting;
 mod occlude;
-mod order;
 mod ordering;
 mod preview;
 mod profile;
@@ -29,14 +29,14 @@ pub use drying::delay_for_drying;
 pub use extras::{add_registration, add_touch_rests, pause_every};
 pub use inkml::write_inkml;
 pub use job::{Cut, Job, JobError, JobOptions, MachineFeature, PlacingMarks, ReachPolicy, home_of};
+pub use joining::{chain, drop_duplicates};
 pub use language::{
     Comment, Dialect, GcodeDialect, GcodeError, Height, HpglDialect, HpglError, Language, Lift, MotionError, ResumeError,
-    Stop as StopPlace, Strokes, SvgDialect, Travel,
+    StopPlace, Strokes, SvgDialect, Travel,
 };
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::{Mounting, MountingError, Room, Turn, clip_to, mount};
 pub use occlude::{Hides, occluded, occluded_where};
-pub use order::{Direction, Effort, PathEnds, Stop, Visit, chain, drop_duplicates, order, order_stops, pen_up_length};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
 pub use preview::ShownTravel;
 pub use profile::{
@@ -49,6 +49,7 @@ pub use time::{PenTime, clock};
 
 use crate::drawing::{Colour, Handling, Page};
 use crate::geometry::{Point, polyline_length};
+use crate::order::PathEnds;
 
 /// Tool paths in drawing order.
 #[derive(Clone, Debug, PartialEq)]

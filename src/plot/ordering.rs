@@ -1,9 +1,10 @@
 //! Orders a plot: drops repeated paths, joins paths that meet, and minimizes the pen-up travel between the rest.
 
-use super::order::{is_free, join_to_loops, order_until, rotated, shuffled};
-use super::{Direction, Effort, PathEnds, Plot, Seam, Stop, Toolpath, Visit, chain, drop_duplicates};
+use super::joining::{is_free, join_to_loops, rotated};
+use super::{Plot, Seam, Toolpath, chain, drop_duplicates};
 use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
+use crate::order::{Direction, Effort, PathEnds, Stop, Visit, order_until, shuffled};
 
 /// Tolerance in millimetres within which two paths are the same. Repeats in a file differ by the rounding of its numbers, a
 /// thousandth or two; the lines of the densest hatch are a tenth apart, so there is room on both sides.

@@ -1,12 +1,12 @@
 //! Lengths, times and coverage of a plot, per pen and in total.
 
 use super::coverage::Coverage;
-use super::order::{PathEnds, Visit};
 use super::profile::Profile;
 use super::time::clock;
-use super::{Mounting, Plot, pen_up_length};
+use super::{Mounting, Plot};
 use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
+use crate::order::{PathEnds, Visit, pen_up_length};
 use serde::Serialize;
 
 /// The report of one pen.

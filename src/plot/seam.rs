@@ -1,7 +1,7 @@
 //! Where a loop begins and ends, if not where the pen reaches it soonest.
 
 use super::Toolpath;
-use super::order::{is_free, rotated};
+use super::joining::{is_free, rotated};
 use crate::geometry::Point;
 
 /// The position of a loop's seam.

@@ -2,7 +2,8 @@
 #![allow(dead_code)]
 
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Duplicates, Effort, Job, JobError, JobOptions, Plot, Profile, Sequence, Strokes};
+use drypoint::order::Effort;
+use drypoint::plot::{Duplicates, Job, JobError, JobOptions, Plot, Profile, Sequence, Strokes};
 use drypoint::read::Budget;
 use drypoint::write::SvgHead;
 

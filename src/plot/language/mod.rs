@@ -9,7 +9,7 @@ mod svg;
 
 pub use gcode::{Comment, GcodeDialect, GcodeError, Height, Lift, Travel};
 pub use hpgl::{HpglDialect, HpglError};
-pub use stop::{ResumeError, Stop};
+pub use stop::{ResumeError, StopPlace};
 pub use svg::SvgDialect;
 pub(super) use svg::write_picture;
 
@@ -77,7 +77,7 @@ impl Language {
 
     /// The rest of a file that a machine did not finish, safe to start in the middle: state, pen and position are restored, and the
     /// last `again` millimetres drawn again.
-    pub fn resume(self, text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+    pub fn resume(self, text: &str, stop: StopPlace, again: f64) -> Result<String, ResumeError> {
         match self {
             Self::Hpgl => hpgl::resume(text, stop, again),
             Self::Gcode => gcode::resume(text, stop, again),

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// Where a machine stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum StopPlace {
     /// The line that was not finished, from 1, as a sender shows it.
     Line(usize),
     /// The first byte that was not received, from 0.

@@ -1,11 +1,11 @@
 //! Resumes G-code: one command per line; the header names the commands that lift and lower the pen.
 
 use super::numbers::check_gcode;
-use crate::plot::language::{ResumeError, Stop};
+use crate::plot::language::{ResumeError, StopPlace};
 use std::fmt::Write as _;
 
 /// The rest of a G-code file from the line that was not finished; `again` is how many machine units are drawn again.
-pub(in crate::plot::language) fn resume(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+pub(in crate::plot::language) fn resume(text: &str, stop: StopPlace, again: f64) -> Result<String, ResumeError> {
     check_gcode(text)?;
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     let pen = Pen::of(&lines).ok_or(ResumeError::NoPen)?;
@@ -43,14 +43,14 @@ fn wait_after(rest: &mut String, lines: &[&str], i: usize) {
 }
 
 /// The line at which the machine stopped, from 0.
-fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: Stop) -> Result<usize, ResumeError> {
+fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: StopPlace) -> Result<usize, ResumeError> {
     let beyond = |stop: String, count: String| Err(ResumeError::Beyond { stop, count });
     match stop {
-        Stop::Line(line) if line > lines.len() => beyond(format!("line {line}"), format!("{} lines", lines.len())),
-        Stop::Line(line) => Ok(line.max(1) - 1),
-        Stop::Byte(byte) if byte >= text.len() => beyond(format!("byte {byte}"), format!("{} bytes", text.len())),
-        Stop::Byte(byte) => Ok(text.as_bytes()[..byte].iter().filter(|b| **b == b'\n').count()),
-        Stop::Path(path) => {
+        StopPlace::Line(line) if line > lines.len() => beyond(format!("line {line}"), format!("{} lines", lines.len())),
+        StopPlace::Line(line) => Ok(line.max(1) - 1),
+        StopPlace::Byte(byte) if byte >= text.len() => beyond(format!("byte {byte}"), format!("{} bytes", text.len())),
+        StopPlace::Byte(byte) => Ok(text.as_bytes()[..byte].iter().filter(|b| **b == b'\n').count()),
+        StopPlace::Path(path) => {
             let falls: Vec<usize> = (0..lines.len()).filter(|&i| pen.lowers(lines[i])).collect();
             match falls.get(path.max(1) - 1) {
                 Some(&line) => Ok(line),
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn in_a_path_it_goes_back_a_little_with_the_feed() {
-        let rest = resume(FILE, Stop::Line(13), 3.0).unwrap();
+        let rest = resume(FILE, StopPlace::Line(13), 3.0).unwrap();
         let expected = "(drypoint)\n(pen up is M3 S300)\n(pen down is M3 S700)\nG21\nM3 S300\nG4 P0.15\n(pen 1: dots 0.3)\n\
                         G0 X5 Y1\nM3 S700\nG4 P0.2\nG1 X10 Y1 F3000\nG1 X10 Y9\nM3 S300\n";
         assert!(rest.starts_with(expected), "{rest}");
@@ -238,21 +238,21 @@ mod tests {
 
     #[test]
     fn between_paths_it_says_the_pen_and_waits() {
-        let rest = resume(FILE, Stop::Line(19), 3.0).unwrap();
+        let rest = resume(FILE, StopPlace::Line(19), 3.0).unwrap();
         assert_eq!(rest.matches("(pen 2: red 0.5)\nM0\n").count(), 1, "{rest}");
         assert_eq!(rest.matches("\nM3 S700").count(), 1);
-        assert_eq!(resume(FILE, Stop::Line(2), 3.0).unwrap(), FILE);
-        assert_eq!(resume(FILE, Stop::Path(2), 3.0).unwrap().matches("\nM3 S700").count(), 1);
+        assert_eq!(resume(FILE, StopPlace::Line(2), 3.0).unwrap(), FILE);
+        assert_eq!(resume(FILE, StopPlace::Path(2), 3.0).unwrap().matches("\nM3 S700").count(), 1);
     }
 
     #[test]
     fn faults_are_named() {
         let infinite = FILE.replace("X5 Y1", "X5 Ynan");
         assert!(
-            matches!(resume(&infinite, Stop::Line(13), 3.0), Err(ResumeError::NotFinite { place, .. }) if place == "line 11")
+            matches!(resume(&infinite, StopPlace::Line(13), 3.0), Err(ResumeError::NotFinite { place, .. }) if place == "line 11")
         );
-        assert!(matches!(resume(FILE, Stop::Line(900), 3.0), Err(ResumeError::Beyond { .. })));
-        assert!(matches!(resume(FILE, Stop::Path(3), 3.0), Err(ResumeError::Beyond { .. })));
-        assert_eq!(resume("G21\nG0 X1\n", Stop::Line(1), 3.0), Err(ResumeError::NoPen));
+        assert!(matches!(resume(FILE, StopPlace::Line(900), 3.0), Err(ResumeError::Beyond { .. })));
+        assert!(matches!(resume(FILE, StopPlace::Path(3), 3.0), Err(ResumeError::Beyond { .. })));
+        assert_eq!(resume("G21\nG0 X1\n", StopPlace::Line(1), 3.0), Err(ResumeError::NoPen));
     }
 }

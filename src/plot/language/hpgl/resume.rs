@@ -2,7 +2,7 @@
 
 use super::read::instructions as instructions_of;
 use crate::geometry::parse_finite;
-use crate::plot::language::{ResumeError, Stop};
+use crate::plot::language::{ResumeError, StopPlace};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -12,7 +12,7 @@ const UNITS_PER_MM: f64 = 40.0;
 
 /// The rest of an HP-GL file from the place that was not taken; `again` is how many millimetres are drawn again. A path packed with
 /// `PE` is drawn again from its start.
-pub(in crate::plot::language) fn resume(text: &str, stop: Stop, again: f64) -> Result<String, ResumeError> {
+pub(in crate::plot::language) fn resume(text: &str, stop: StopPlace, again: f64) -> Result<String, ResumeError> {
     let again = again * UNITS_PER_MM;
     let instructions = instructions(text);
     check(&instructions)?;
@@ -46,19 +46,19 @@ pub(in crate::plot::language) fn resume(text: &str, stop: Stop, again: f64) -> R
     Ok(rest)
 }
 
-fn byte_of(text: &str, instructions: &[Instruction], stop: Stop) -> Result<usize, ResumeError> {
+fn byte_of(text: &str, instructions: &[Instruction], stop: StopPlace) -> Result<usize, ResumeError> {
     let beyond = |stop: String, count: String| Err(ResumeError::Beyond { stop, count });
     match stop {
-        Stop::Byte(byte) if byte >= text.len() => beyond(format!("byte {byte}"), format!("{} bytes", text.len())),
-        Stop::Byte(byte) => Ok(byte),
-        Stop::Line(line) => {
+        StopPlace::Byte(byte) if byte >= text.len() => beyond(format!("byte {byte}"), format!("{} bytes", text.len())),
+        StopPlace::Byte(byte) => Ok(byte),
+        StopPlace::Line(line) => {
             let starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
             match starts.get(line.max(1) - 1).filter(|start| **start < text.len()) {
                 Some(start) => Ok(*start),
                 None => beyond(format!("line {line}"), format!("{} lines", text.lines().count())),
             }
         }
-        Stop::Path(path) => {
+        StopPlace::Path(path) => {
             let mut is_down = false;
             let falls = instructions.iter().filter(|i| {
                 let falls = !is_down && matches!(i.name.as_str(), "PD" | "PE");
@@ -229,24 +229,24 @@ mod tests {
 
     #[test]
     fn in_a_path_it_goes_back_a_little() {
-        let rest = resume(FILE, Stop::Byte(at("300,300;PU500")), 3.0).unwrap();
+        let rest = resume(FILE, StopPlace::Byte(at("300,300;PU500")), 3.0).unwrap();
         assert!(rest.starts_with("IN;PU;PS4;PU;SP1;FS2;VS30;PU200,100;PD300,100;PD300,200,300,300;PU500,500;"), "{rest}");
-        let start = resume(FILE, Stop::Byte(at("200,100")), 3.0).unwrap();
+        let start = resume(FILE, StopPlace::Byte(at("200,100")), 3.0).unwrap();
         assert!(start.contains("VS30;PU100,100;PD200,100,300,100;"), "{start}");
     }
 
     #[test]
     fn the_pen_in_use_is_fetched() {
-        let rest = resume(FILE, Stop::Path(3), 3.0).unwrap();
+        let rest = resume(FILE, StopPlace::Path(3), 3.0).unwrap();
         assert!(rest.starts_with("IN;PU;PS4;PU;SP2;FS2;VS10;PU600,600;PD700,700;"), "{rest}");
-        assert_eq!(resume(FILE, Stop::Byte(3), 3.0).unwrap(), FILE);
-        assert!(resume(FILE, Stop::Path(2), 3.0).unwrap().contains("VS30;PU500,500;PD;PU;SP2;"));
+        assert_eq!(resume(FILE, StopPlace::Byte(3), 3.0).unwrap(), FILE);
+        assert!(resume(FILE, StopPlace::Path(2), 3.0).unwrap().contains("VS30;PU500,500;PD;PU;SP2;"));
     }
 
     #[test]
     fn what_is_no_finite_number_is_a_fault() {
         for number in ["nan", "1e999", "inf5", "2x"] {
-            let refused = resume(&FILE.replace("PD200", &format!("PD{number}")), Stop::Path(2), 3.0);
+            let refused = resume(&FILE.replace("PD200", &format!("PD{number}")), StopPlace::Path(2), 3.0);
             let place = format!("byte {}", at("PD200,100"));
             assert_eq!(refused, Err(ResumeError::NotFinite { place, number: number.into() }));
         }
@@ -255,7 +255,7 @@ mod tests {
     /// Semicolons, line ends and escape sequences all end an instruction, and letters may be lower case.
     #[test]
     fn instructions_are_told_apart_as_they_are_read() {
-        let stop = |text: &str, byte| resume(text, Stop::Byte(byte), 3.0).unwrap();
+        let stop = |text: &str, byte| resume(text, StopPlace::Byte(byte), 3.0).unwrap();
         let expected = stop(FILE, at("300,300;PU500"));
         let lines = FILE.replace(';', "\n");
         assert_eq!(stop(&lines, at("300,300;PU500")).replace('\n', ";"), expected.replace('\n', ";"));
@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn beyond_the_end_is_refused() {
-        for stop in [Stop::Byte(4000), Stop::Line(9), Stop::Path(4)] {
+        for stop in [StopPlace::Byte(4000), StopPlace::Line(9), StopPlace::Path(4)] {
             assert!(matches!(resume(FILE, stop, 3.0), Err(ResumeError::Beyond { .. })), "{stop:?}");
         }
     }

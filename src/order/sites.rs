@@ -2,14 +2,11 @@
 
 use kurbo::Point;
 
-use super::Stop;
-use super::kd_tree::KdTree;
+use super::ends::End;
 use super::one_way::OneWay;
+use super::stops::Stop;
+use crate::geometry::kd_tree::KdTree;
 use crate::interrupt::Interrupt;
-
-/// One end of one path. Path `p` has the ends `2 p` (its start) and `2 p + 1` (its end), so that `end ^ 1` is the
-/// other end of the same path and `end >> 1` the path. The numbering is the internal one of [`Sites`].
-pub(super) type End = u32;
 
 /// Coordinates are clamped to this, so that squares and sums of distances stay finite.
 const FARTHEST: f64 = 1e150;

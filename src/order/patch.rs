@@ -1,8 +1,9 @@
 //! A patch of the tour: some paths, with everything between them tied into bundles, as a small tour of its own.
 
+use super::ends::End;
 use super::neighbours::Neighbours;
 use super::one_way::OneWay;
-use super::sites::{End, Sites};
+use super::sites::Sites;
 use super::tour::Tour;
 
 /// Some paths of a tour as a smaller tour. The part of the tour between two of them, outside the patch, is one bundle, which is a

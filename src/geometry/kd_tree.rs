@@ -6,7 +6,7 @@ use kurbo::Point;
 
 /// Points with a label each. Labels must differ. They break every tie, which makes results reproducible and keeps searches among
 /// thousands of coincident points short.
-pub(super) struct KdTree {
+pub(crate) struct KdTree {
     /// In tree order: the middle element of a range is its root, with one subtree on either side.
     points: Vec<(Point, u32)>,
     /// True if the range with this middle element is split by y.
@@ -18,20 +18,20 @@ const LEAF: usize = 8;
 
 impl KdTree {
     /// Builds the tree in O(n log n) on all threads.
-    pub(super) fn new(mut points: Vec<(Point, u32)>) -> Self {
+    pub(crate) fn new(mut points: Vec<(Point, u32)>) -> Self {
         let mut by_y = vec![false; points.len()];
         build(&mut points, &mut by_y);
         Self { points, by_y }
     }
 
     /// The labels in tree order, which tends to keep neighbours in the plane close.
-    pub(super) fn into_labels(self) -> impl Iterator<Item = u32> {
+    pub(crate) fn into_labels(self) -> impl Iterator<Item = u32> {
         self.points.into_iter().map(|(_, label)| label)
     }
 
     /// Collects in `nearest` the `count` points nearest to `query` whose label is `wanted`, the nearest first, as
     /// (squared distance, label). About O(count + log n).
-    pub(super) fn nearest(&self, query: (Point, u32), count: usize, wanted: impl Fn(u32) -> bool, nearest: &mut Vec<(f64, u32)>) {
+    pub(crate) fn nearest(&self, query: (Point, u32), count: usize, wanted: impl Fn(u32) -> bool, nearest: &mut Vec<(f64, u32)>) {
         nearest.clear();
         if count > 0 {
             let mut search = NearestSearch { query, count, wanted, nearest };
@@ -105,7 +105,7 @@ fn build(points: &mut [(Point, u32)], by_y: &mut [bool]) {
 }
 
 /// Partitions the points at index `middle` along the longer side of their bounds. Returns true if they are split by y.
-pub(super) fn split(points: &mut [(Point, u32)], middle: usize) -> bool {
+pub(crate) fn split(points: &mut [(Point, u32)], middle: usize) -> bool {
     let by_y = is_taller(points);
     points.select_nth_unstable_by(middle, |a, b| compare(by_y, a, b));
     by_y

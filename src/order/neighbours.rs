@@ -3,8 +3,13 @@
 use kurbo::Point;
 use rayon::prelude::*;
 
-use super::kd_tree::KdTree;
-use super::sites::{End, Role, Sites};
+use super::ends::End;
+use super::sites::{Role, Sites};
+use crate::geometry::kd_tree::KdTree;
+
+/// Number of neighbours per path end with which links are tried. Tuned on 10,000 dots, segments and hatch lines: with 10, the
+/// order ends up 0.2 to 2 % longer; 20 take a third longer on dots and gain nothing worth that.
+pub(super) const NEIGHBOURS: usize = 14;
 
 /// For each end, the nearest ends of other paths, the nearest first. The free end of the home path has no neighbours and is
 /// nobody's neighbour, as it is equally near to all.

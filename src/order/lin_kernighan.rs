@@ -9,9 +9,10 @@
 
 use std::collections::VecDeque;
 
-use super::exchange::{MAX_LINKS, Rearrangement};
+use super::ends::End;
 use super::neighbours::Neighbours;
-use super::sites::{End, Sites};
+use super::rearrangement::{MAX_LINKS, Rearrangement};
+use super::sites::Sites;
 use super::tour::Tour;
 
 /// Number of continuations tried after the first, second ... link is cut; an exchange replaces at most one link more than this

@@ -1,6 +1,6 @@
 //! The optimal order of a few paths, by dynamic programming over the sets of paths already drawn (Held and Karp 1962).
 
-use super::{Stop, Visit};
+use super::stops::{Stop, Visit};
 use kurbo::Point;
 
 /// Maximum number of paths solved exactly; the table has `2^n n` rows of two directions, 9000 at nine paths.

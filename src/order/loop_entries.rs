@@ -12,10 +12,11 @@ use std::collections::VecDeque;
 use kurbo::Point;
 use rayon::prelude::*;
 
-use super::kd_tree::KdTree;
-use super::sites::{End, Sites};
+use super::ends::End;
+use super::sites::Sites;
+use super::stops::{PathEnds, Stop};
 use super::tour::Tour;
-use super::{PathEnds, Stop};
+use crate::geometry::kd_tree::KdTree;
 use crate::interrupt::Interrupt;
 
 /// Points along a large loop near which links are searched, and ends near each: chosen to reach all sides of it, not tuned yet.

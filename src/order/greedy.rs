@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::ends::End;
 use super::neighbours::{Neighbours, nearest_ends};
-use super::sites::{End, Role, Sites};
+use super::sites::{Role, Sites};
 use crate::interrupt::Interrupt;
 
 /// Neighbours of each loose end examined in later rounds. With fewer, more rounds are needed.

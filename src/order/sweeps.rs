@@ -3,15 +3,18 @@
 use kurbo::Point;
 use rayon::prelude::*;
 
-use super::kd_tree;
+use super::ends::End;
 use super::kicks::kick;
 use super::lin_kernighan::LinKernighan;
+use super::loop_entries;
+use super::neighbours::NEIGHBOURS;
 use super::neighbours::Neighbours;
 use super::patch::Patch;
 use super::random::SplitMix;
-use super::sites::{End, Sites};
+use super::sites::Sites;
+use super::stops::Stop;
 use super::tour::Tour;
-use super::{NEIGHBOURS, Stop, loop_entries};
+use crate::geometry::kd_tree;
 
 /// Maximum paths in a patch. Tuned on 100,000 dots: with 1000, the tour ends up 0.2 to 0.4 % longer, as more links would cross
 /// the borders of the patches; with many more, changes cost more and there are too few patches for all threads.

@@ -1,9 +1,9 @@
 //! Escapes local optima: small random changes, each repaired locally and undone if it did not pay.
 
-use super::exchange::Rearrangement;
+use super::ends::End;
 use super::lin_kernighan::LinKernighan;
 use super::random::SplitMix;
-use super::sites::End;
+use super::rearrangement::Rearrangement;
 
 /// Number of links cut by a kick.
 const CUTS: usize = 4;

@@ -2,9 +2,9 @@
 
 use kurbo::{Point, Vec2};
 
-use super::Direction;
-use super::kd_tree::KdTree;
+use crate::geometry::kd_tree::KdTree;
 use crate::interrupt::Interrupt;
+use crate::order::Direction;
 use crate::plot::Toolpath;
 
 /// Maximum ends examined around each end. At a crossroads of more, some pairs may stay apart; examining all would take n^2 for a

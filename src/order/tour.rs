@@ -1,7 +1,7 @@
 //! The tour as an array with the position of each path. Changes move whole segments and can be undone.
 
-use super::exchange::Rearrangement;
-use super::sites::End;
+use super::ends::End;
+use super::rearrangement::Rearrangement;
 
 /// A closed tour of paths. Each path end has exactly one link: to the end before or behind it in the tour.
 ///

@@ -11,9 +11,9 @@ use std::collections::HashMap;
 
 use kurbo::{Point, Vec2};
 
-use super::Direction;
 use super::ring::{is_free, rotated};
 use crate::interrupt::Interrupt;
+use crate::order::Direction;
 use crate::plot::Toolpath;
 
 /// The sharpest turn from the path into the loop, as 1 - cos of the angle: 90 degrees, as where a stem meets a ring head-on.

@@ -1,7 +1,7 @@
 //! Random numbers that are the same on every platform.
 
 /// The numbers from 0 to `count - 1`, shuffled by the seed (Fisher and Yates 1938).
-pub(in crate::plot) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
+pub(crate) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
     let mut random = SplitMix::new(seed);
     let mut order: Vec<usize> = (0..count).collect();
     for last in (1..count).rev() {

@@ -3,7 +3,7 @@
 //! This is the travelling salesman problem with paths instead of cities; each path may be drawn in either direction. A greedy
 //! first tour of the shortest compatible links (`greedy`) is improved by exchanging links (`lin_kernighan`) and, as far as the
 //! effort allows, repeatedly kicked out of its local optimum (`kicks`, `sweeps`). Loops may be entered anywhere: their entry
-//! points are chosen between their neighbours in the tour (`seats`), and the search continues from there.
+//! points are chosen between their neighbours in the tour (`loop_entries`), and the search continues from there.
 //!
 //! The objective is distance. Travel time under acceleration (100 mm/s, 250 mm/s^2) was tried instead on 1000 and 10,000 dots,
 //! segments and hatch lines: travel time fell by 0.05 to 0.9 %, less than half a percent of a plot's time, and the distance grew
@@ -16,85 +16,36 @@
     reason = "paths are counted in u32, half of what memory holds, and budgets are whole numbers of kicks"
 )]
 
-mod duplicates;
+mod ends;
 mod exact;
 mod exchange;
 mod greedy;
-mod kd_tree;
 mod kicks;
 mod lin_kernighan;
 mod loop_entries;
-mod loop_joins;
-mod merge;
 mod neighbours;
 mod one_way;
 mod patch;
 mod random;
-mod ring;
+mod rearrangement;
 mod sites;
+mod stops;
 mod sweeps;
 #[cfg(test)]
 mod tests;
 mod tour;
 
-pub use duplicates::drop_duplicates;
-pub(super) use loop_joins::join_to_loops;
-pub use merge::chain;
-pub(super) use random::shuffled;
-pub(super) use ring::{is_free, rotated};
+pub(crate) use random::shuffled;
+pub use stops::{Direction, Effort, PathEnds, Stop, Visit};
 
 use crate::interrupt::Interrupt;
 use kurbo::Point;
 
 use greedy::greedy_tour;
-use neighbours::Neighbours;
+use neighbours::{NEIGHBOURS, Neighbours};
 use sites::Sites;
 use sweeps::Workpiece;
 use tour::Tour;
-
-/// The two ends of a path drawn in one go, in millimetres. For a closed path they are the same point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathEnds {
-    /// Start of the path as given.
-    pub start: Point,
-    /// End of the path as given.
-    pub end: Point,
-}
-
-/// One step of an order: a path and its direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Visit {
-    /// Index of the path in the input.
-    pub path: usize,
-    /// True if it is drawn from its end to its start.
-    pub reversed: bool,
-}
-
-/// How much work to spend on the order. Budgets count work, not seconds, so the result is the same on any machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-pub enum Effort {
-    /// The order as given.
-    None,
-    /// About 2 % longer than the best known order for dots, 4 % for segments and 8 % for hatches; about 15 microseconds per path.
-    #[default]
-    Fast,
-    /// About 1 % longer than the best known order; about 100 microseconds per path, and a second for the first thousand.
-    Full,
-}
-
-/// The directions in which paths may be drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum Direction {
-    /// In either direction, whichever is nearer.
-    #[default]
-    Either,
-    /// Always from start to end.
-    AsDrawn,
-}
-
-/// Number of neighbours per path end with which links are tried. Tuned on 10,000 dots, segments and hatch lines: with 10, the
-/// order ends up 0.2 to 2 % longer; 20 take a third longer on dots and gain nothing worth that.
-const NEIGHBOURS: usize = 14;
 
 /// Kicks per path with [`Effort::Fast`]. Without any, 100,000 dots take half the time and end up 1.3 % longer, and hatches 3 %.
 const FAST_KICKS: f64 = 0.4;
@@ -105,35 +56,6 @@ const FULL_KICKS: f64 = 3.0;
 
 /// Additional kicks with [`Effort::Full`], however few the paths: even a thousand paths need many to come within 1 %.
 const LEAST_FULL_KICKS: f64 = 40_000.0;
-
-/// A path, or several drawn consecutively, as the search sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop<'a> {
-    /// Where the pen is lowered and where it is lifted.
-    pub ends: PathEnds,
-    /// True if it may be drawn from its end to its start.
-    pub may_turn: bool,
-    /// The vertices of a loop that may be entered anywhere, the last equal to the first; `ends` both lie on it.
-    pub ring: Option<&'a [Point]>,
-    /// The edge of the ring on which `ends` lie, by its first vertex.
-    pub edge: usize,
-}
-
-/// Maximum distance in millimetres between the ends of a path that is as near from one end as from the other, so that the search
-/// may ignore its direction. A hundredth of a millimetre is less than the step of most plotters.
-const TOUCH: f64 = 0.01;
-
-impl Stop<'_> {
-    /// A path with two fixed ends.
-    pub const fn new(ends: PathEnds, may_turn: bool) -> Self {
-        Self { ends, may_turn, ring: None, edge: 0 }
-    }
-
-    /// True if its direction matters to the search.
-    fn is_one_way(&self) -> bool {
-        !self.may_turn && self.ends.start.distance(self.ends.end) > TOUCH
-    }
-}
 
 /// Orders paths for the least pen-up travel from `home` through all of them. The way back home does not count.
 ///
@@ -151,7 +73,7 @@ pub fn order_stops(stops: &mut [Stop], home: Point, effort: Effort) -> Vec<Visit
 }
 
 /// As [`order_stops`]; once the interrupt is raised, returns the shortest order found so far.
-pub(super) fn order_until(stops: &mut [Stop], home: Point, effort: Effort, interrupt: &Interrupt) -> Vec<Visit> {
+pub(crate) fn order_until(stops: &mut [Stop], home: Point, effort: Effort, interrupt: &Interrupt) -> Vec<Visit> {
     let mut best = Best::as_given(stops, home);
     if effort != Effort::None && !stops.is_empty() {
         if stops.len() <= exact::MOST {
@@ -275,7 +197,7 @@ pub fn pen_up_length(paths: &[PathEnds], visits: &[Visit], home: Point) -> f64 {
 /// The tour in the caller's numbering, starting from home.
 fn visits(sites: &Sites, numbering: &[usize], tour: &Tour, stops: &[Stop]) -> Vec<Visit> {
     let entries = tour.entries_from(sites.free_end());
-    let visit = |&entry: &sites::End| {
+    let visit = |&entry: &ends::End| {
         let path = numbering[entry as usize >> 1];
         Visit { path, reversed: entry & 1 == 1 && stops[path].may_turn }
     };
