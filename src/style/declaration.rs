@@ -11,7 +11,7 @@
 //! }
 //! ```
 
-use super::{Default, Kind, Places, Settings};
+use super::{DefaultLength, Kind, Places, Settings};
 use std::ops::RangeInclusive;
 
 /// A value that a style reads from its settings.
@@ -67,12 +67,12 @@ pub(super) const OFF: Kind = Kind::Choice(&["off", "on"]);
 
 /// A length with a default in millimetres.
 pub(super) const fn millimetres(default: f64, range: RangeInclusive<f64>) -> Kind {
-    Kind::Length { default: Default::Millimetres(default), least: *range.start(), most: *range.end() }
+    Kind::Length { default: DefaultLength::Millimetres(default), least: *range.start(), most: *range.end() }
 }
 
 /// A length whose default follows the pitch; its range is in millimetres.
 pub(super) const fn pitches(default: f64, range: RangeInclusive<f64>) -> Kind {
-    Kind::Length { default: Default::Pitches(default), least: *range.start(), most: *range.end() }
+    Kind::Length { default: DefaultLength::Pitches(default), least: *range.start(), most: *range.end() }
 }
 
 /// A plain number.

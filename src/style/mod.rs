@@ -22,7 +22,7 @@ pub use cost::Cost;
 use drawer::Drawer;
 pub use need::Need;
 pub use observer::{Observer, Picture, Silent};
-pub use parameter::{Default, Kind, Parameter, ParameterError, Places, Settings};
+pub use parameter::{DefaultLength, Kind, Parameter, ParameterError, Places, Settings};
 
 use crate::drawing::Drawing;
 use crate::geometry::Rect;

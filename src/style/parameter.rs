@@ -35,7 +35,7 @@ pub enum Kind {
     /// A length on the page in millimetres.
     Length {
         /// The default.
-        default: Default,
+        default: DefaultLength,
         /// Minimum in millimetres.
         least: f64,
         /// Maximum in millimetres.
@@ -110,7 +110,7 @@ impl Places {
 
 /// The default of a length.
 #[derive(Clone, Copy, Debug)]
-pub enum Default {
+pub enum DefaultLength {
     /// In millimetres.
     Millimetres(f64),
     /// As a multiple of the pitch.
@@ -267,8 +267,8 @@ impl Kind {
     /// The default as a number, lengths in millimetres at this pitch; none for choices.
     pub fn default_number(&self, pitch: f64) -> Option<f64> {
         match *self {
-            Self::Length { default: Default::Millimetres(mm), .. } => Some(mm),
-            Self::Length { default: Default::Pitches(pitches), .. } => Some(pitches * pitch),
+            Self::Length { default: DefaultLength::Millimetres(mm), .. } => Some(mm),
+            Self::Length { default: DefaultLength::Pitches(pitches), .. } => Some(pitches * pitch),
             Self::Number { default, .. } => Some(default),
             Self::Count { default, .. } => Some(f64::from(default)),
             Self::Choice(_) | Self::Places { .. } => None,
@@ -296,8 +296,10 @@ impl Kind {
     /// The default in words.
     pub fn default_text(&self) -> String {
         match *self {
-            Self::Length { default: Default::Millimetres(mm), .. } => format!("{mm} mm"),
-            Self::Length { default: Default::Pitches(pitches), .. } => format!("{} pitches", (pitches * 100.0).round() / 100.0),
+            Self::Length { default: DefaultLength::Millimetres(mm), .. } => format!("{mm} mm"),
+            Self::Length { default: DefaultLength::Pitches(pitches), .. } => {
+                format!("{} pitches", (pitches * 100.0).round() / 100.0)
+            }
             Self::Number { default, .. } => default.to_string(),
             Self::Count { default, .. } => default.to_string(),
             Self::Choice(words) => words[0].to_owned(),
@@ -360,14 +362,14 @@ mod tests {
     const PARAMETERS: &[Parameter] = &[
         Parameter {
             name: "pitch",
-            kind: Kind::Length { default: Default::Millimetres(0.6), least: 0.1, most: 20.0 },
+            kind: Kind::Length { default: DefaultLength::Millimetres(0.6), least: 0.1, most: 20.0 },
             meaning: "",
             source: "",
             needs: &[],
         },
         Parameter {
             name: "reach",
-            kind: Kind::Length { default: Default::Pitches(2.0), least: 0.0, most: 20.0 },
+            kind: Kind::Length { default: DefaultLength::Pitches(2.0), least: 0.0, most: 20.0 },
             meaning: "",
             source: "",
             needs: &[],

@@ -86,7 +86,7 @@ impl Drawer<'_> {
         }
         let features = self.features();
         let lanes = self.lanes(&features);
-        let sites = seeds::place(self, &lanes)?;
+        let sites = seeds::relaxed_seeds(self, &lanes)?;
         let ink = highlights::fade_ink(self, &ink, &features);
         let size::Sized { dots, reversed } = match self.parameters.size {
             parameters::SizeRule::Exact => size::exact(self, &sites, &ink),

@@ -1,20 +1,17 @@
 //! Step 5: seeds, and constrained Lloyd relaxation (Kim et al. 2008; Bruehl 2023, section 3.3).
 
 use super::Drawer;
-use crate::field::{Lanes, Sites};
+use crate::field::{LaneConstraint, Lanes, relaxed, relaxed_in_lanes};
 use crate::geometry::Point;
 use crate::raster::Raster;
 use crate::style::{StyleError, random};
 use rand::RngExt;
-use rayon::prelude::*;
 
-/// Bands of rows in which centroids are summed; a fixed number, so that sums do not depend on the number of threads.
-const BANDS: usize = 16;
 /// Density of dots in a detail region (Bruehl 4.3.2: three times).
 const DETAIL_DENSITY: f32 = 3.0;
 
 /// Scatters and relaxes the dots; positions in working pixels.
-pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, StyleError> {
+pub(super) fn relaxed_seeds(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, StyleError> {
     drawer.observer.begin("seeds");
     let density = density(drawer);
     let mut sites = scatter(drawer, lanes, &density);
@@ -31,13 +28,14 @@ pub(super) fn place(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Point>, St
     let reach = drawer.pixels(drawer.parameters.flow_reach_mm) as f32;
     let rounds = drawer.parameters.plain_rounds + drawer.parameters.flow_rounds;
     for round in 0..rounds {
-        if drawer.observer.is_interrupted() {
-            return Err(StyleError::Interrupted);
-        }
+        drawer.check()?;
         // The last round is a constrained one: it centres the dots in their lanes.
         let constrained = round >= drawer.parameters.plain_rounds && (rounds - round) % 2 == 1;
-        let lanes = constrained.then_some(Constraint { lanes, reach });
-        sites = towards_centres(&sites, &weight, lanes, drawer.pitch());
+        sites = if constrained {
+            relaxed_in_lanes(&sites, &weight, drawer.pitch(), LaneConstraint { lanes, reach })
+        } else {
+            relaxed(&sites, &weight, drawer.pitch())
+        };
         drawer.observer.progress(f64::from(round + 1) / f64::from(rounds));
     }
     drawer.observer.picture("relaxed", &|| drawer.dot_picture(&sites));
@@ -86,86 +84,6 @@ fn scatter(drawer: &Drawer<'_>, lanes: &Lanes, density: &Raster<f32>) -> Vec<Poi
         }
     }
     sites
-}
-
-/// The constraint that keeps a dot in its lane in a constrained round.
-#[derive(Clone, Copy)]
-struct Constraint<'a> {
-    lanes: &'a Lanes,
-    /// Distance from the feature at which offset lines no longer count (`D_w`), in pixels.
-    reach: f32,
-}
-
-impl Constraint<'_> {
-    /// The weight of a pixel for a dot in `lane`: 1 in its own lane, 0 in another, `min(D / D_w, 1)` on offset lines. The border of a
-    /// detail region is not a lane border: a wall there leaves a bare ring (seen).
-    fn weight(&self, pixel: usize, lane: i32) -> f32 {
-        if self.lanes.line.pixels()[pixel] != 0 {
-            (self.lanes.distance.pixels()[pixel] / self.reach).min(1.0)
-        } else {
-            let its = self.lanes.lane.pixels()[pixel];
-            f32::from(its == lane || Lanes::region(its) != Lanes::region(lane))
-        }
-    }
-}
-
-/// One round: every site moves to the weighted centroid of its Voronoi cell (equation of Bruehl 3.3.2).
-fn towards_centres(sites: &[Point], weight: &Raster<f32>, constraint: Option<Constraint<'_>>, pitch: f64) -> Vec<Point> {
-    let (width, height) = (weight.width(), weight.height());
-    let nearest = Sites::new(sites, width as f64, height as f64, pitch).nearest(weight);
-    let lane_of: Vec<i32> = match constraint {
-        None => Vec::new(),
-        Some(c) => {
-            sites.iter().map(|p| c.lanes.lane.get((p.x as usize).min(width - 1), (p.y as usize).min(height - 1))).collect()
-        }
-    };
-    let rows = height.div_ceil(BANDS);
-    let sums: Vec<BandSums> = (0..BANDS)
-        .into_par_iter()
-        .map(|band| {
-            let range = (band * rows * width).min(width * height)..((band + 1) * rows * width).min(width * height);
-            let mut sums = BandSums::new(&nearest.pixels()[range.clone()]);
-            for pixel in range {
-                let site = nearest.pixels()[pixel];
-                let base = weight.pixels()[pixel];
-                if site == u32::MAX || base == 0.0 {
-                    continue;
-                }
-                let w = base * constraint.map_or(1.0, |c| c.weight(pixel, lane_of[site as usize]));
-                sums.add(site, w, (pixel % width) as f32 + 0.5, (pixel / width) as f32 + 0.5);
-            }
-            sums
-        })
-        .collect();
-    let mut totals = vec![[0.0_f64; 3]; sites.len()];
-    for band in &sums {
-        for (total, sum) in totals[band.first..].iter_mut().zip(&band.sums) {
-            total.iter_mut().zip(sum).for_each(|(t, s)| *t += s);
-        }
-    }
-    sites.iter().zip(&totals).map(|(site, &[w, x, y])| if w > 0.0 { Point::new(x / w, y / w) } else { *site }).collect()
-}
-
-/// Sums of weight, weight times x and weight times y for the sites that occur in one band.
-struct BandSums {
-    first: usize,
-    sums: Vec<[f64; 3]>,
-}
-
-impl BandSums {
-    fn new(labels: &[u32]) -> Self {
-        let present = || labels.iter().filter(|&&l| l != u32::MAX);
-        let first = present().min().copied().unwrap_or(0) as usize;
-        let last = present().max().copied().map_or(first, |l| l as usize + 1);
-        Self { first, sums: vec![[0.0; 3]; last - first] }
-    }
-
-    fn add(&mut self, site: u32, weight: f32, x: f32, y: f32) {
-        let sum = &mut self.sums[site as usize - self.first];
-        sum[0] += f64::from(weight);
-        sum[1] += f64::from(weight * x);
-        sum[2] += f64::from(weight * y);
-    }
 }
 
 impl Drawer<'_> {
