@@ -12,7 +12,7 @@ const LEAST_VARIANCE: f32 = (0.5 / 255.0) * (0.5 / 255.0);
 /// large `q` (up to 16) takes the most even neighbourhood alone, as Kuwahara's filter does. The time does not depend on `sigma`.
 ///
 /// Results on a plate of step edges with noise of 0.05 (figure 7.18, sigma 3), from
-/// `cargo test --test glass figure -- --nocapture`:
+/// `cargo test --test thorough glass::figure -- --nocapture`:
 ///
 /// | q | noise rejected, PSNR in dB | edges lost |
 /// |---|---|---|

@@ -1,0 +1,31 @@
+//! What is tested in less than a minute.
+
+#[cfg(feature = "cli")]
+#[path = "../../fuzz/checks/mod.rs"]
+mod checks;
+#[path = "../common/mod.rs"]
+mod common;
+#[allow(dead_code)]
+#[path = "../../examples/custom_style.rs"]
+mod custom_style;
+#[path = "../common/machine_file.rs"]
+mod machine_file;
+
+mod architecture;
+mod bounds;
+mod calibration;
+mod citations;
+mod depth;
+mod foreign;
+mod fuzzed;
+mod independent;
+mod ink_box;
+mod machines;
+mod mutated;
+mod paint_order;
+mod pens;
+mod portrait_tone;
+mod press;
+mod regions;
+mod source;
+mod styles;

@@ -1,0 +1,39 @@
+//! What takes minutes: drawings of samples in every style, machines byte by byte, every command of the pages.
+
+#[path = "../common/any_style.rs"]
+mod any_style;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/fields.rs"]
+mod fields;
+#[cfg(feature = "cli")]
+#[path = "../grbl/mod.rs"]
+mod grbl;
+#[path = "../common/machine_file.rs"]
+mod machine_file;
+#[path = "../common/paper_stripes.rs"]
+mod paper_stripes;
+#[path = "../common/rasterised.rs"]
+mod rasterised;
+
+mod charcoal;
+mod command_line;
+mod effects;
+mod ends_of_ranges;
+mod engrave;
+mod files_kept;
+mod glass;
+mod grid;
+mod hedcut;
+mod inkml;
+mod lowering;
+mod picture_box;
+mod placing;
+mod planner;
+mod recipes;
+mod reports;
+mod resume;
+mod round_trip;
+mod see;
+mod sight;
+mod tangled;
