@@ -24,6 +24,8 @@
 //! | `cli` (cargo feature) | arguments | the only module that uses files, stdout and exit codes |
 //! | [`mod@interrupt`] | | a request to stop, checked by all long loops |
 //!
+//! What is marked `#[doc(hidden)]` is for this crate's own tests and benches, and may change at any time.
+//!
 //! The page is in millimetres, x right, y down, from the sheet's upper left corner; pixels exist only left of [`style`]. Tone is
 //! the fraction of paper left white. The same input, options and seed give the same bytes on any number of threads.
 //!
@@ -49,6 +51,7 @@
 //! ```
 
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod drawing;
 pub mod field;

@@ -24,6 +24,7 @@ mod hough;
 mod inside;
 mod isophotes;
 mod lanes;
+mod linking;
 mod orientation;
 mod poisson;
 mod relaxation;
@@ -37,35 +38,65 @@ mod trace;
 mod voronoi;
 mod watershed;
 
+#[doc(hidden)]
 pub use b_spline::{BSpline, Datum, multilevel_b_spline};
+#[doc(hidden)]
 pub use coherent_lines::{CoherentLine, CoherentLines, coherent_lines};
+#[doc(hidden)]
 pub use contour::contours;
+#[doc(hidden)]
 pub use covering::{Covering, cover};
+#[doc(hidden)]
 pub use crossings::{LocalLength, crossings, holes};
+#[doc(hidden)]
 pub use direction::{DirectionField, FieldParameters, Guides, Singularity, direction_field};
-pub use distance::{FeatureDistance, distance_to_curves, nearest_seed};
+#[doc(hidden)]
+pub use distance::nearest_seed;
+pub use distance::{FeatureDistance, distance_to_curves};
+#[doc(hidden)]
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
+#[doc(hidden)]
 pub use face::{FaceExpectation, FaceFrame, FeatureWindow, USUAL_WINDOWS, find_face};
+#[doc(hidden)]
 pub use facial_features::{FacialFeature, FacialFeatures, SkinTone, facial_features};
+#[doc(hidden)]
 pub use flow::Flow;
+#[doc(hidden)]
 pub use flow_dog::{FlowLines, LineParameters, flow_lines};
+#[doc(hidden)]
 pub use glass::{glass_pattern, line_integral_convolution};
+#[doc(hidden)]
 pub use glass_levels::GlassLevels;
+#[doc(hidden)]
 pub use grain::grain_areas;
+#[doc(hidden)]
 pub use hairline::hair_over_face;
+#[doc(hidden)]
 pub use hough::{HoughFilter, HoughForm};
+#[doc(hidden)]
 pub use inside::pieces_inside;
+#[doc(hidden)]
 pub use isophotes::{IsophoteSteps, detect_isophotes};
+#[doc(hidden)]
 pub use lanes::{LaneParameters, Lanes, offset_lanes};
+#[doc(hidden)]
 pub use orientation::OrientationField;
+#[doc(hidden)]
 pub use poisson::{poisson, screened_poisson};
-pub use relaxation::{LaneConstraint, relaxed, relaxed_in_lanes};
+pub use relaxation::relaxed;
+#[doc(hidden)]
+pub use relaxation::{LaneConstraint, relaxed_in_lanes};
+#[doc(hidden)]
 pub use relief::{bend_by_shading, inflate};
+#[doc(hidden)]
 pub use ribbon::{Ribbon, RibbonFit, glass_ribbons};
+#[doc(hidden)]
 pub use scale_space::{Mode, histogram_modes};
+#[doc(hidden)]
 pub use stripes::{Start, StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
 pub use superpixels::superpixels;
 pub use tangent_flow::{EdgeTangentFlow, edge_tangent_flow};
 pub use trace::{Curve, trace};
 pub use voronoi::{Sites, cell_polygon};
+#[doc(hidden)]
 pub use watershed::watershed;

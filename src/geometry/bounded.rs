@@ -31,7 +31,7 @@ pub fn straightened_outside(outline: &BezPath, frame: Rect) -> Option<BezPath> {
     Some(tame.path)
 }
 
-/// The subpaths of a result of [`tamed`] as polygons within its frame; open ones are closed.
+/// The subpaths of a result of [`straightened_outside`] as polygons within its frame; open ones are closed.
 pub fn polygons_within(straightened_outside: &BezPath, frame: Rect, tolerance: f64) -> Vec<Vec<Point>> {
     let polygons = flatten(straightened_outside, tolerance).into_iter().map(|(points, _)| cut(points, frame));
     polygons.filter(|polygon| polygon.len() > 2).collect()

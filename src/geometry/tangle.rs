@@ -29,7 +29,7 @@ pub fn estimated_crossings(threads: &[WideSegment]) -> f64 {
     estimated_crossings_among(threads, |i, j| i.abs_diff(j) > 1)
 }
 
-/// [`tangles`] of the pairs of indices for which `counts` is true.
+/// [`estimated_crossings`] of the pairs of indices for which `counts` is true.
 pub fn estimated_crossings_among(threads: &[WideSegment], counts: impl Fn(usize, usize) -> bool) -> f64 {
     let count = threads.len();
     let meets = |i: usize, j: usize| counts(i, j) && do_meet(&threads[i], &threads[j]);

@@ -36,7 +36,9 @@ mod tests;
 mod tour;
 
 pub(crate) use random::shuffled;
-pub use stops::{Direction, Effort, PathEnds, Stop, Visit};
+#[doc(hidden)]
+pub use stops::Stop;
+pub use stops::{Direction, Effort, PathEnds, Visit};
 
 use crate::interrupt::Interrupt;
 use kurbo::Point;
@@ -68,6 +70,7 @@ pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Directi
 }
 
 /// As [`order`], for stops of any kind. Moves the ends of loops to where the pen enters them.
+#[doc(hidden)]
 pub fn order_stops(stops: &mut [Stop], home: Point, effort: Effort) -> Vec<Visit> {
     order_until(stops, home, effort, &Interrupt::never())
 }

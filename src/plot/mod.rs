@@ -22,29 +22,41 @@ mod report;
 mod seam;
 mod time;
 
+#[doc(hidden)]
 pub use budget::{TooMuch, check_work};
 pub use calibration::{Calibration, CalibrationError, calibration_page, calibration_sheet};
+#[doc(hidden)]
 pub use coverage::{Coverage, coverage};
+#[doc(hidden)]
 pub use drying::delay_for_drying;
+#[doc(hidden)]
 pub use extras::{add_registration, add_touch_rests, pause_every};
 pub use inkml::write_inkml;
-pub use job::{Cut, Job, JobError, JobOptions, MachineFeature, PlacingMarks, ReachPolicy, home_of};
+#[doc(hidden)]
+pub use job::home_of;
+pub use job::{Cut, Job, JobError, JobOptions, MachineFeature, PlacingMarks, ReachPolicy};
+#[doc(hidden)]
 pub use joining::{chain, drop_duplicates};
-pub use language::{
-    Comment, Dialect, GcodeDialect, GcodeError, Height, HpglDialect, HpglError, Language, Lift, MotionError, ResumeError,
-    StopPlace, Strokes, SvgDialect, Travel,
-};
+#[doc(hidden)]
+pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, SvgDialect, Travel};
+pub use language::{GcodeError, HpglError, Language, MotionError, ResumeError, StopPlace, Strokes};
 pub use lower::{InkModel, Nibs, lower};
-pub use mounting::{Mounting, MountingError, Room, Turn, clip_to, mount};
-pub use occlude::{Hides, occluded, occluded_where};
+pub use mounting::MountingError;
+#[doc(hidden)]
+pub use mounting::{Mounting, Room, Turn, clip_to, mount};
+#[doc(hidden)]
+pub use occlude::occluded_where;
+pub use occlude::{Hides, occluded};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
 pub use preview::ShownTravel;
-pub use profile::{
-    Area, Axes, Corner, KeyPlace, Limits, Motion, Paper, PenChange, PenSlot, Pens, Planner, Profile, ProfileError, Swell, Way,
-    built_in, built_in_names,
-};
-pub use report::{PenReport, PlotReport, report};
+#[doc(hidden)]
+pub use profile::{Area, Axes, Corner, Limits, Motion, Paper, PenChange, PenSlot, Pens, Planner, Swell, Way};
+pub use profile::{KeyPlace, Profile, ProfileError, built_in, built_in_names};
+#[doc(hidden)]
+pub use report::report;
+pub use report::{PenReport, PlotReport};
 pub use seam::Seam;
+#[doc(hidden)]
 pub use time::{PenTime, clock};
 
 use crate::drawing::{Colour, Handling, Page};

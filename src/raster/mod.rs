@@ -25,24 +25,43 @@ mod scale;
 mod structure_tensor;
 mod thin;
 
+#[doc(hidden)]
 pub use bilateral::bilateral;
+#[doc(hidden)]
 pub use binary::{components, dilate, majority, remove_components};
+#[doc(hidden)]
 pub use blur::{box_blur, gaussian_blur};
+#[doc(hidden)]
 pub use canny::{Thresholds, canny};
+#[doc(hidden)]
 pub use diffusion::anisotropic_diffusion;
+#[doc(hidden)]
 pub use edge_preserving::edge_preserving;
+#[doc(hidden)]
 pub use flood::{flood_from_border, without_holes};
+#[doc(hidden)]
 pub use gradient::sobel;
+#[doc(hidden)]
 pub use guided::{guided_enlargement, guided_filter};
+#[doc(hidden)]
 pub use lattice_gaussian::fast_gaussian;
+#[doc(hidden)]
 pub use local_laplacian::{Remapping, local_laplacian};
+#[doc(hidden)]
 pub use paper::paper_texture;
+#[doc(hidden)]
 pub use polygon::filled_polygon;
+#[doc(hidden)]
 pub use pyramid::{doubled, halved};
+#[doc(hidden)]
 pub use rank::{equalised, sorted};
+#[doc(hidden)]
 pub use ridges::ridges;
+#[doc(hidden)]
 pub use scale::{enlarge, enlarge_smoothly, reduce};
+#[doc(hidden)]
 pub use structure_tensor::{gaussian_gradient, gradient, structure_tensor};
+#[doc(hidden)]
 pub use thin::thin;
 
 use blur::gaussian_kernel;

@@ -14,6 +14,7 @@ mod expansion;
 mod importer;
 mod layers;
 mod paint;
+mod shape_cost;
 mod styles;
 mod svg;
 mod text;

@@ -19,6 +19,7 @@ mod path;
 mod pieces;
 mod plate;
 mod segmentation;
+mod skin_model;
 mod smoothing;
 
 use super::detail::detail;

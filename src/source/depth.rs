@@ -1,7 +1,7 @@
 //! Depth maps: nearness at the working resolution, with unknown places marked.
 
 use super::decode::Photograph;
-use super::portrait::{Crop, Placement};
+use super::placement::{Crop, Placement};
 use crate::raster::Raster;
 use rayon::prelude::*;
 

@@ -12,14 +12,23 @@ mod error;
 mod jpeg;
 mod landmarks;
 mod linear;
+mod mask_role;
+mod placement;
 mod png;
 mod portrait;
 mod scribbles;
 
+#[doc(hidden)]
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
 pub use decode::{Limits, Photograph, SourceInfo};
 pub use depth::DepthSense;
 pub use error::SourceError;
-pub use landmarks::{Iris, LEAST_FACE_WIDTH, Landmarks, POINTS, outlines};
-pub use portrait::{Crop, MaskRole, Placement, Portrait, ToneCurve, ToneTarget, fill_box};
+pub use landmarks::{Iris, Landmarks};
+#[doc(hidden)]
+pub use landmarks::{LEAST_FACE_WIDTH, POINTS, outlines};
+pub use mask_role::MaskRole;
+#[doc(hidden)]
+pub use placement::fill_box;
+pub use placement::{Crop, Placement};
+pub use portrait::{Portrait, ToneCurve, ToneTarget};
 pub use scribbles::Scribbles;

@@ -5,6 +5,8 @@ use super::decode::Photograph;
 use super::depth::{DepthSense, read_depth};
 use super::error::SourceError;
 use super::landmarks::Landmarks;
+use super::mask_role::MaskRole;
+use super::placement::{Crop, Placement, crop_on_grid, inside};
 use super::scribbles::Scribbles;
 use crate::drawing::Page;
 use crate::geometry::{Point, Rect};
@@ -17,80 +19,10 @@ use std::collections::BTreeMap;
 
 /// Most working pixels, whatever the style; a style takes 80 to 500 bytes for each, and reports its need beforehand.
 const WORK_LIMIT: u64 = 60_000_000;
-/// Largest relative difference between the proportions of a mask and the photograph's: the rounding of a thumbnail of 50 pixels.
-const MOST_DISTORTION: f64 = 0.03;
 /// The mesh's point on the tip of the nose, the middle of a face.
 const NOSE_TIP: usize = 1;
 /// Rows of the working raster resampled at once.
 const BAND: usize = 64;
-
-/// What a mask means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum MaskRole {
-    /// What is drawn; the rest is background.
-    Subject,
-    /// Where finer detail is drawn.
-    Detail,
-    /// Hair.
-    Hair,
-    /// The face.
-    Face,
-    /// Clothing.
-    Clothing,
-    /// Bare skin.
-    Skin,
-    /// Beards and moustaches.
-    FacialHair,
-    /// Hats, caps, scarves.
-    Headwear,
-    /// Hand-made edges, as white lines.
-    Edges,
-    /// Hand-made isophotes, as white lines.
-    Isophotes,
-    /// One colour for each region.
-    Scribbles,
-}
-
-impl MaskRole {
-    /// Every role and its name on the command line.
-    pub const ALL: [(&'static str, Self); 11] = [
-        ("subject", Self::Subject),
-        ("detail", Self::Detail),
-        ("hair", Self::Hair),
-        ("face", Self::Face),
-        ("clothing", Self::Clothing),
-        ("skin", Self::Skin),
-        ("facial-hair", Self::FacialHair),
-        ("headwear", Self::Headwear),
-        ("edges", Self::Edges),
-        ("isophotes", Self::Isophotes),
-        ("scribbles", Self::Scribbles),
-    ];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(_, role)| *role == self).map_or("", |(name, _)| name)
-    }
-
-    /// What the mask's picture shows, for the user.
-    pub const fn meaning(self) -> &'static str {
-        match self {
-            Self::Subject => "what is drawn, white; the rest is background (without this mask: the photograph's alpha)",
-            Self::Detail => "where dots are denser, white, such as the eyes",
-            Self::Hair => "hair, white, drawn in flowing strokes",
-            Self::Face => "the face, white, where eyes, nose and mouth are detected and drawn",
-            Self::Clothing => "clothing, white, shaded freehand where it is dark",
-            Self::Skin => "bare skin, white, where the portrait tone evens out light and shadow",
-            Self::FacialHair => "beards and moustaches, white",
-            Self::Headwear => "hats, caps and scarves, white",
-            Self::Edges => {
-                "edges as white lines, instead of the detected ones (charcoal: which detected edges to keep, and more to add)"
-            }
-            Self::Isophotes => "isophotes as white lines, instead of the detected ones",
-            Self::Scribbles => "one flat colour scribbled into each region, on black or transparent",
-        }
-    }
-}
 
 /// The measure of tone that the ink must match.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -123,71 +55,6 @@ impl ToneCurve {
     fn apply(self, tone: f32) -> f32 {
         let level = ((tone - self.black) / (self.white - self.black)).clamp(0.0, 1.0);
         if (self.gamma - 1.0).abs() < 1e-6 { level } else { level.powf(1.0 / self.gamma) }
-    }
-}
-
-/// The used part of a photograph in pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crop {
-    /// Left border.
-    pub x: f64,
-    /// Upper border.
-    pub y: f64,
-    /// Width.
-    pub width: f64,
-    /// Height.
-    pub height: f64,
-}
-
-impl Crop {
-    /// The whole of a photograph.
-    pub fn all(photograph: &Photograph) -> Self {
-        Self { x: 0.0, y: 0.0, width: f64::from(photograph.width()), height: f64::from(photograph.height()) }
-    }
-
-    /// The crop clipped to the photograph; an error unless at least one pixel is left in each direction.
-    pub fn within(self, photograph: &Photograph) -> Result<Self, SourceError> {
-        let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
-        let (x0, y0) = (self.x.clamp(0.0, width), self.y.clamp(0.0, height));
-        let (x1, y1) = ((self.x + self.width).clamp(0.0, width), (self.y + self.height).clamp(0.0, height));
-        if x1 - x0 >= 1.0 && y1 - y0 >= 1.0 {
-            Ok(Self { x: x0, y: y0, width: x1 - x0, height: y1 - y0 })
-        } else {
-            let (x, y, w, h) = (self.x, self.y, self.width, self.height);
-            Err(SourceError::EmptyCrop { x, y, w, h, width: photograph.width(), height: photograph.height() })
-        }
-    }
-}
-
-/// Where the working raster lies on the page.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placement {
-    /// The picture's box on the page, in millimetres.
-    pub picture: Rect,
-    /// Working columns.
-    pub columns: usize,
-    /// Working rows.
-    pub rows: usize,
-}
-
-impl Placement {
-    /// A box with `pixels_per_mm` working pixels per millimetre, rounded to whole pixels.
-    pub fn new(picture: Rect, pixels_per_mm: f64) -> Self {
-        let count = |length: f64| (length * pixels_per_mm).round().max(1.0) as usize;
-        Self { picture, columns: count(picture.width()), rows: count(picture.height()) }
-    }
-
-    /// Millimetres per pixel, the mean of both directions (over the whole box they differ by less than a pixel).
-    pub fn mm_per_pixel(&self) -> f64 {
-        (self.picture.area() / (self.columns as f64 * self.rows as f64)).sqrt()
-    }
-
-    /// Converts a point from working pixels to millimetres on the page.
-    pub fn to_page(&self, p: Point) -> Point {
-        Point::new(
-            self.picture.x0 + p.x * self.picture.width() / self.columns as f64,
-            self.picture.y0 + p.y * self.picture.height() / self.rows as f64,
-        )
     }
 }
 
@@ -343,24 +210,6 @@ impl Portrait {
     }
 }
 
-/// The photograph's crop on the pixel grid of a mask or depth map, which has the photograph's proportions at any size.
-fn crop_on_grid(mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<Crop, SourceError> {
-    let [w, h, width, height] = [mask.width(), mask.height(), photograph.width(), photograph.height()].map(f64::from);
-    // The difference of the proportions, cross-multiplied: 0 if equal, up to one pixel of the mask after a program rounded its
-    // sides.
-    let across = (w * height - h * width).abs();
-    if across > width.max(height) || across > MOST_DISTORTION * w * height {
-        return Err(SourceError::OtherSize {
-            width: mask.width(),
-            height: mask.height(),
-            expected_width: photograph.width(),
-            expected_height: photograph.height(),
-        });
-    }
-    let (x, y) = (w / width, h / height);
-    Ok(Crop { x: crop.x * x, y: crop.y * y, width: crop.width * x, height: crop.height * y })
-}
-
 /// The fraction of each working pixel that a mask covers.
 fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<f32>, SourceError> {
     // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
@@ -374,13 +223,6 @@ fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<
 /// Linear light on white, and alpha, at the working resolution; in bands, so that memory does not grow with the photograph.
 fn resample(photograph: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<[f32; 4]>, SourceError> {
     resample_by(photograph, inside(crop, photograph), (placement.columns, placement.rows), FilterType::Lanczos3)
-}
-
-/// Clips a crop to a photograph, however little is left: a mask may have fewer pixels than the photograph.
-fn inside(crop: Crop, photograph: &Photograph) -> Crop {
-    let (width, height) = (f64::from(photograph.width()), f64::from(photograph.height()));
-    let (x, y) = (crop.x.clamp(0.0, width), crop.y.clamp(0.0, height));
-    Crop { x, y, width: crop.width.min(width - x), height: crop.height.min(height - y) }
 }
 
 /// Linear light on white, and alpha, of a crop inside the photograph, resampled to another size by a filter that reaches at most
@@ -430,12 +272,4 @@ fn resize_band(
         .use_alpha(false);
     Resizer::new().resize_typed(&view, &mut band, &options).expect("the window lies inside the band");
     band.pixels().iter().map(|p| p.0).collect()
-}
-
-/// The centred part of a crop that fills a box of these proportions (`--fit cover`).
-pub fn fill_box(crop: Crop, box_width: f64, box_height: f64) -> Crop {
-    let shape = box_width / box_height;
-    let (width, height) =
-        if crop.width / crop.height > shape { (crop.height * shape, crop.height) } else { (crop.width, crop.width / shape) };
-    Crop { x: crop.x + 0.5 * (crop.width - width), y: crop.y + 0.5 * (crop.height - height), width, height }
 }

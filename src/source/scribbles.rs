@@ -2,7 +2,7 @@
 
 use super::decode::Photograph;
 use super::error::SourceError;
-use super::portrait::{Crop, Placement};
+use super::placement::{Crop, Placement};
 use crate::raster::Raster;
 use image::GenericImageView;
 use std::collections::BTreeMap;

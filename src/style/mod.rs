@@ -15,6 +15,7 @@ mod hedcut;
 mod need;
 mod observer;
 mod parameter;
+mod places;
 mod random;
 mod reversed;
 
@@ -22,7 +23,8 @@ pub use cost::Cost;
 use drawer::Drawer;
 pub use need::Need;
 pub use observer::{Observer, Picture, Silent};
-pub use parameter::{DefaultLength, Kind, Parameter, ParameterError, Places, Settings};
+pub use parameter::{DefaultLength, Kind, Parameter, ParameterError, Settings};
+pub use places::Places;
 
 use crate::drawing::Drawing;
 use crate::geometry::Rect;

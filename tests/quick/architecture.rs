@@ -20,6 +20,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("read", &["drawing", "geometry"]),
 ];
 
+/// A file has one idea; longer ones have had two.
+const MOST_LINES: usize = 400;
+
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
@@ -89,5 +92,67 @@ fn the_library_names_no_options() {
         let text = fs::read_to_string(&file).unwrap();
         let named = text.lines().filter(|line| !line.trim_start().starts_with("//")).find(|line| is_option(line));
         assert_eq!(named, None, "{}", file.display());
+    }
+}
+
+/// Names that a module shows: what its `mod.rs` or file declares or passes on, less what is hidden from the documentation.
+fn public_names(text: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut is_hidden = false;
+    let statements = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
+    let mut lines = statements.lines();
+    while let Some(line) = lines.next() {
+        if line == "#[doc(hidden)]" {
+            is_hidden = true;
+            continue;
+        }
+        if let Some(rest) = line.strip_prefix("pub use ") {
+            let mut whole = rest.to_owned();
+            while !whole.ends_with(';') {
+                whole.push_str(lines.next().expect("a use ends"));
+            }
+            let list = whole.trim_end_matches(';');
+            let list = list.split_once('{').map_or_else(|| list.rsplit("::").next().unwrap_or(list), |(_, list)| list);
+            let of_list =
+                list.trim_end_matches('}').split(',').map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
+            names.extend(of_list.filter(|_| !is_hidden));
+        } else if let Some(rest) = line.strip_prefix("pub ") {
+            let words: Vec<&str> = rest.split([' ', '(', '<', ':', ';', '{']).collect();
+            let kinds = ["fn", "struct", "enum", "trait", "const", "static", "type", "mod"];
+            let name = words
+                .windows(2)
+                .find(|pair| kinds.contains(&pair[0]) && !kinds.contains(&pair[1]))
+                .map(|pair| pair[1].to_owned());
+            names.extend(name.filter(|_| !is_hidden));
+        } else if line.starts_with("#[") || line.starts_with("///") {
+            continue;
+        }
+        is_hidden = false;
+    }
+    names
+}
+
+#[test]
+fn the_public_face_is_small() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let crate_file = fs::read_to_string(source.join("lib.rs")).unwrap();
+    let mut all = Vec::new();
+    for module in public_names(&crate_file) {
+        let folder = source.join(&module).join("mod.rs");
+        let text = fs::read_to_string(&folder).or_else(|_| fs::read_to_string(source.join(format!("{module}.rs")))).unwrap();
+        let names = public_names(&text);
+        println!("{module}: {}", names.join(" "));
+        all.extend(names);
+    }
+    assert!(all.len() > 100, "the count reads the code: {}", all.len());
+    assert!(all.len() <= 140, "{} public names", all.len());
+}
+
+#[test]
+fn files_are_short() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for file in rust_files(&source) {
+        let lines = fs::read_to_string(&file).unwrap().lines().count();
+        assert!(lines <= MOST_LINES, "{}: {lines} lines", file.display());
     }
 }

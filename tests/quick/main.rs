@@ -1,5 +1,7 @@
 //! What is tested in less than a minute.
 
+#[path = "../common/any_style.rs"]
+mod any_style;
 #[cfg(feature = "cli")]
 #[path = "../../fuzz/checks/mod.rs"]
 mod checks;
@@ -12,20 +14,17 @@ mod custom_style;
 mod machine_file;
 
 mod architecture;
-mod bounds;
 mod calibration;
 mod citations;
 mod depth;
 mod foreign;
 mod fuzzed;
-mod independent;
 mod ink_box;
 mod machines;
 mod mutated;
 mod paint_order;
 mod pens;
 mod portrait_tone;
-mod press;
 mod regions;
 mod source;
 mod styles;

@@ -3,19 +3,22 @@
 use crate::common;
 use crate::custom_style;
 
-use common::{png_of_light, sample};
+use crate::any_style::ink_outline;
+use common::{mean_in, png_of_light, rendered, sample, svg_of};
 use custom_style::OneLine;
 use drypoint::drawing::{Drawing, Page};
 use drypoint::geometry::Rect;
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use drypoint::style::{Observer, Picture, STYLES, Settings, Silent, Style, StyleError};
 use drypoint::write::{SvgHead, write_svg};
+use kurbo::Shape;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 /// The picture's box on a page that leaves room around it.
 const PICTURE: Rect = Rect::new(6.0, 8.0, 31.0, 33.0);
+const PIXELS_PER_MM: f64 = 16.0;
 
 /// Built in, and made outside.
 fn styles() -> impl Iterator<Item = &'static dyn Style> {
@@ -67,7 +70,8 @@ fn all_ink_lies_in_the_picture_and_a_seed_is_all_that_is_random() {
         let drawing = drawn(style, &photo, 1).unwrap();
         assert!(drawing.marks().count() >= 1, "{}", style.name());
         for mark in drawing.marks() {
-            assert!(room.union(mark.bounding_box()) == room, "{}: {:?}", style.name(), mark.bounding_box());
+            let bounds = ink_outline(mark, 1e-3).bounding_box();
+            assert!(room.union(bounds) == room, "{}: {bounds:?}", style.name());
         }
         assert_eq!(bytes(&drawing), bytes(&drawn(style, &photo, 1).unwrap()), "{}", style.name());
         assert!(drawn(style, &photo, 2).is_ok(), "{}", style.name());
@@ -135,7 +139,7 @@ fn darker_pictures_take_more_ink() {
             let photo = png_of_light(60, 60, |x, y| light * (0.9 + 0.1 * f64::from((x / 6 + y / 6) % 2)));
             let portrait = portrait(style, &photo, PICTURE, ToneTarget::Linear);
             let drawing = style.draw(&portrait, &settings(style, &[]), 0, &Silent).unwrap();
-            drawing.ink_mm2().iter().sum::<f64>() / PICTURE.area()
+            1.0 - mean_in(&rendered(&svg_of(&drawing), PIXELS_PER_MM), PICTURE, PIXELS_PER_MM)
         };
         let [dark, middle, light] = [0.2, 0.5, 0.75].map(ink);
         println!("{}: {dark:.3} {middle:.3} {light:.3}", style.name());

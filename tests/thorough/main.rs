@@ -16,6 +16,7 @@ mod paper_stripes;
 #[path = "../common/rasterised.rs"]
 mod rasterised;
 
+mod bounds;
 mod charcoal;
 mod command_line;
 mod effects;
@@ -25,11 +26,13 @@ mod files_kept;
 mod glass;
 mod grid;
 mod hedcut;
+mod independent;
 mod inkml;
 mod lowering;
 mod picture_box;
 mod placing;
 mod planner;
+mod press;
 mod recipes;
 mod reports;
 mod resume;

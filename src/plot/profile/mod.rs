@@ -32,31 +32,42 @@ pub struct Profile {
     /// One line for a list.
     pub description: String,
     /// Machine units per millimetre.
+    #[doc(hidden)]
     pub units_per_mm: f64,
     /// Correction factor for lengths along x, from calibration.
     #[serde(default = "one")]
+    #[doc(hidden)]
     pub scale_x: f64,
     /// Correction factor for lengths along y.
     #[serde(default = "one")]
+    #[doc(hidden)]
     pub scale_y: f64,
     /// How its axes run, and where zero is.
     #[serde(default)]
+    #[doc(hidden)]
     pub axes: Axes,
     /// Sheets that the machine knows.
     #[serde(default)]
+    #[doc(hidden)]
     pub paper: Vec<Paper>,
     /// The machine's reach, in machine units, for pages that match none of those sheets.
+    #[doc(hidden)]
     pub area: Option<Area>,
     /// Its pens.
+    #[doc(hidden)]
     pub pens: Pens,
     /// Calibration results by pen.
     #[serde(default)]
+    #[doc(hidden)]
     pub pen: Vec<PenSlot>,
     /// Speeds and times.
+    #[doc(hidden)]
     pub motion: Motion,
     /// The pen's height for each width of line.
+    #[doc(hidden)]
     pub swell: Option<Swell>,
     /// What it understands, and how: the table named after the file's `language`.
+    #[doc(hidden)]
     pub dialect: Dialect,
 }
 

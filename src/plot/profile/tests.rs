@@ -41,7 +41,19 @@ fn a_wrong_profile_says_file_line_and_key() {
     let said = message("extends = \"hp7475a\"\n[[paper]]\nname = \"a4\"\nx = [5, 2]\n", &[]);
     assert_eq!(said, "mine.toml, line 4: paper.a4.x must be [lower, upper] with lower < upper");
     assert!(message("extends = \"nothing\"\n", &[]).contains("there is no plotter profile 'nothing'"));
-    assert!(message("name = \"x\"\n", &[]).contains("missing field"));
+    assert!(message("name = \"x\"\n", &[]).contains("language is missing; it is one of hpgl, gcode, svg"));
+    assert!(
+        message("extends = \"hp7475a\"\nlanguage = \"latin\"\n", &[])
+            .starts_with("mine.toml, line 2: language: \"latin\" is none of")
+    );
+}
+
+#[test]
+fn a_profile_may_extend_one_of_another_language() {
+    let text = "extends = \"hp7475a\"\nname = \"x\"\nlanguage = \"svg\"\n[svg]\nspeed_of_percent = 2.0\n";
+    let profile = Profile::parse("mine.toml", text).unwrap();
+    assert_eq!((profile.language(), profile.speed_of_percent()), (Language::Svg, Some(2.0)));
+    assert_eq!(message("extends = \"hp7475a\"\nlanguage = \"svg\"\n", &[]), "mine.toml: svg is missing, and the language is svg");
 }
 
 #[test]

@@ -1,0 +1,69 @@
+//! What a mask is for.
+
+/// What a mask means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum MaskRole {
+    /// What is drawn; the rest is background.
+    Subject,
+    /// Where finer detail is drawn.
+    Detail,
+    /// Hair.
+    Hair,
+    /// The face.
+    Face,
+    /// Clothing.
+    Clothing,
+    /// Bare skin.
+    Skin,
+    /// Beards and moustaches.
+    FacialHair,
+    /// Hats, caps, scarves.
+    Headwear,
+    /// Hand-made edges, as white lines.
+    Edges,
+    /// Hand-made isophotes, as white lines.
+    Isophotes,
+    /// One colour for each region.
+    Scribbles,
+}
+
+impl MaskRole {
+    /// Every role and its name on the command line.
+    pub const ALL: [(&'static str, Self); 11] = [
+        ("subject", Self::Subject),
+        ("detail", Self::Detail),
+        ("hair", Self::Hair),
+        ("face", Self::Face),
+        ("clothing", Self::Clothing),
+        ("skin", Self::Skin),
+        ("facial-hair", Self::FacialHair),
+        ("headwear", Self::Headwear),
+        ("edges", Self::Edges),
+        ("isophotes", Self::Isophotes),
+        ("scribbles", Self::Scribbles),
+    ];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, role)| *role == self).map_or("", |(name, _)| name)
+    }
+
+    /// What the mask's picture shows, for the user.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Subject => "what is drawn, white; the rest is background (without this mask: the photograph's alpha)",
+            Self::Detail => "where dots are denser, white, such as the eyes",
+            Self::Hair => "hair, white, drawn in flowing strokes",
+            Self::Face => "the face, white, where eyes, nose and mouth are detected and drawn",
+            Self::Clothing => "clothing, white, shaded freehand where it is dark",
+            Self::Skin => "bare skin, white, where the portrait tone evens out light and shadow",
+            Self::FacialHair => "beards and moustaches, white",
+            Self::Headwear => "hats, caps and scarves, white",
+            Self::Edges => {
+                "edges as white lines, instead of the detected ones (charcoal: which detected edges to keep, and more to add)"
+            }
+            Self::Isophotes => "isophotes as white lines, instead of the detected ones",
+            Self::Scribbles => "one flat colour scribbled into each region, on black or transparent",
+        }
+    }
+}
