@@ -25,7 +25,7 @@ use super::toolpaths::{self, LONG_HOURS, duration};
 use crate::drawing::{Dot, Layer, Mark};
 use crate::geometry::{Affine, Point, Rect};
 use crate::plot::{InkModel, Plot, Profile, Toolpath, lower, occluded_where};
-use crate::read::Imported;
+use crate::read::{Dropped, Imported};
 use serde_json::json;
 
 /// Maximum number of strokes plotted, as lines and with their ink.
@@ -76,6 +76,12 @@ pub(super) fn dry_run(
         let advice = if model == InkModel::Lines { "; fills are drawn with --ink-model ink" } else { "" };
         Failure::Work(format!("{shown}: there is nothing to draw{advice}"))
     })?;
+    warn(&told, options, &dropped);
+    report(&told, options, &dropped, share, shown)
+}
+
+/// Warns of a long plot, of a limit that is not kept and of what is left out.
+fn warn(told: &PlotAmounts, options: &PlotOptions, dropped: &Dropped) {
     if let Some(seconds) = told.ordered.total.seconds.filter(|seconds| *seconds > LONG_HOURS * 3600.0) {
         warning!("this plot will take about {}", duration(seconds));
     }
@@ -91,6 +97,10 @@ pub(super) fn dry_run(
     if !dropped.is_empty() {
         warning!("left out or drawn otherwise: {}", dropped.summary());
     }
+}
+
+/// Says what the plot will take.
+fn report(told: &PlotAmounts, options: &PlotOptions, dropped: &Dropped, share: f64, shown: &str) -> Result<(), Failure> {
     if options.reporting.json {
         let mut value = json!(told.ordered);
         value["dropped"] = json!(dropped);

@@ -133,19 +133,16 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Result<V
     let bounds = motion.visited.iter().map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
     let mm = |p: Point| (p.to_vec2() / profile.units_per_mm).to_point();
     let mut plot = Plot { page: Page::new(1.0, 1.0), pens: Vec::new() };
-    for (number, path) in &motion.paths {
-        if plot.pens.last().is_none_or(|pen| pen.number != *number) {
-            plot.pens.push(PenPaths {
-                number: *number,
-                name: format!("pen {number}"),
-                colour: Colour::BLACK,
-                nib: 0.0,
-                handling: Handling::default(),
-                paths: Vec::new(),
-            });
-        }
-        let points = path.iter().map(|p| mm(*p)).collect();
-        plot.pens.last_mut().expect("one was pushed").paths.push(Toolpath::new(points));
+    for run in motion.paths.chunk_by(|a, b| a.0 == b.0) {
+        let number = run[0].0;
+        plot.pens.push(PenPaths {
+            number,
+            name: format!("pen {number}"),
+            colour: Colour::BLACK,
+            nib: 0.0,
+            handling: Handling::default(),
+            paths: run.iter().map(|(_, path)| Toolpath::new(path.iter().map(|p| mm(*p)).collect())).collect(),
+        });
     }
     // The file has machine coordinates, and an HP-GL file ends at the far corner of the reach.
     let to_machine = Affine::scale(profile.units_per_mm);

@@ -117,7 +117,5 @@ pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
 
 /// Prints one JSON object.
 pub(super) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
-    let mut text = serde_json::to_vec_pretty(value).expect("a value is JSON");
-    text.push(b'\n');
-    to_stdout(&text)
+    to_stdout(format!("{value:#}\n").as_bytes())
 }

@@ -17,7 +17,7 @@ use super::scale_to_time::{Trials, scaled_to};
 use super::{advice, affordable, estimate_plot, job, layout, output, toolpaths};
 use crate::drawing::{Drawing, Mark, Page};
 use crate::geometry::{Affine, Rect};
-use crate::plot::{Hides, InkModel, Job, TooMuch, check_work, occluded};
+use crate::plot::{Hides, InkModel, Job, Profile, TooMuch, check_work, occluded};
 use crate::read::{Budget, Imported, read_svg_within};
 use crate::style::Observer as _;
 use crate::write::SvgHead;
@@ -41,13 +41,7 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };
     let watcher = Watcher::new(options.reporting.quiet);
     watcher.begin("reading");
-    let mut budget = Budget::of_millions(options.most_work);
-    let bytes = output::read(&options.drawing, budget.most_bytes(), MORE_WORK)?;
-    let mut imported = read_svg_within(&bytes, &mut budget).map_err(|error| {
-        let other = if image::guess_format(&bytes).is_ok() { "; a photograph is drawn with `drypoint draw`" } else { "" };
-        Failure::about(shown)(&format_args!("{}{other}", advised(&error)))
-    })?;
-    drop(bytes);
+    let mut imported = imported(options, shown)?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     if let Some(profile) = &profile {
         fit_to_machine(&mut imported, profile);
@@ -68,43 +62,80 @@ pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     }
     let (mut drawing, turning) = place(&imported.drawing(), options, reach_of(profile.as_ref()))?;
     if is_blank(&drawing, model) {
-        let dropped =
-            if imported.dropped.is_empty() { String::new() } else { format!(" (left out: {})", imported.dropped.summary()) };
-        let advice = if model == InkModel::Lines { "; fills are drawn with --ink-model ink" } else { "" };
-        return Err(Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}")));
+        return Err(nothing_to_draw(shown, &imported, model));
     }
     pens.assign(&mut drawing, profile.as_ref())?;
     affordable::check_line(&drawing, pens.nibs(), model, 1.0)?;
-    let head = SvgHead {
-        title: format!("Tool paths of {}", std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown)),
-        description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
-        recipe: json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "plot", "pen_mm": options.pen }).to_string(),
-    };
-    let advised = |failure: Failure| advice::for_plot(failure, options, turning.degrees);
-    let mut scale = None;
-    if let (Some(limit), Some(profile)) = (options.max_time, &profile) {
-        watcher.begin("trials");
-        let trials = Trials { limit, model, profile, pens: &pens, options };
-        let scaled = scaled_to(&drawing, &trials).map_err(advised)?;
-        (drawing, scale) = (scaled.drawing, Some(scaled.scale));
-    }
-    let mut jobs = Vec::new();
-    let files = split_by_layer(&drawing, &options.output);
-    toolpaths::check_layer_files(&files, &options.toolpaths)?;
-    for file in files {
-        let made = job::of_drawing(&file.drawing, model, profile.as_ref(), &options.toolpaths, &pens, &watcher);
-        let job = made.map_err(advised)?;
-        watcher.begin("writing");
-        toolpaths::write(&file.name, format, &job, &head)?;
-        toolpaths::write_preview_of(&job, &options.toolpaths, Some(&file.layer))?;
-        jobs.push((file.name, job));
-    }
+    let work = Work { options, format, model, profile: profile.as_ref(), pens: &pens, watcher: &watcher };
+    let (scale, jobs) = work.plotted(drawing, shown).map_err(|failure| advice::for_plot(failure, options, turning.degrees))?;
     let seconds = watcher.finish();
     jobs.iter().for_each(|(_, job)| toolpaths::warn(job, Some("")));
     if !imported.dropped.is_empty() {
         warning!("left out or drawn otherwise: {}", imported.dropped.summary());
     }
     report(options, &imported, &jobs, scale, &seconds)
+}
+
+/// The drawing that the file holds.
+fn imported(options: &PlotOptions, shown: &str) -> Result<Imported, Failure> {
+    let mut budget = Budget::of_millions(options.most_work);
+    let bytes = output::read(&options.drawing, budget.most_bytes(), MORE_WORK)?;
+    read_svg_within(&bytes, &mut budget).map_err(|error| {
+        let other = if image::guess_format(&bytes).is_ok() { "; a photograph is drawn with `drypoint draw`" } else { "" };
+        Failure::about(shown)(&format_args!("{}{other}", advised(&error)))
+    })
+}
+
+fn nothing_to_draw(shown: &str, imported: &Imported, model: InkModel) -> Failure {
+    let dropped = &imported.dropped;
+    let dropped = if dropped.is_empty() { String::new() } else { format!(" (left out: {})", dropped.summary()) };
+    let advice = if model == InkModel::Lines { "; fills are drawn with --ink-model ink" } else { "" };
+    Failure::Work(format!("{shown}: there is nothing to draw{dropped}{advice}"))
+}
+
+/// Files and their jobs.
+type Written<'a> = Vec<(String, Job<'a>)>;
+
+/// What is done with a drawing whose pens are assigned.
+struct Work<'a> {
+    options: &'a PlotOptions,
+    format: Format,
+    model: InkModel,
+    profile: Option<&'a Profile>,
+    pens: &'a PenSet,
+    watcher: &'a Watcher,
+}
+
+impl<'a> Work<'a> {
+    /// Scales the drawing to the time that there is, and writes its files.
+    fn plotted(&self, mut drawing: Drawing, shown: &str) -> Result<(Option<f64>, Written<'a>), Failure> {
+        let mut scale = None;
+        if let (Some(limit), Some(profile)) = (self.options.max_time, self.profile) {
+            self.watcher.begin("trials");
+            let trials = Trials { limit, model: self.model, profile, pens: self.pens, options: self.options };
+            let scaled = scaled_to(&drawing, &trials)?;
+            (drawing, scale) = (scaled.drawing, Some(scaled.scale));
+        }
+        let name = std::path::Path::new(shown).file_name().and_then(|n| n.to_str()).unwrap_or(shown);
+        let recipe = json!({ "drypoint": env!("CARGO_PKG_VERSION"), "command": "plot", "pen_mm": self.options.pen });
+        let head = SvgHead {
+            title: format!("Tool paths of {name}"),
+            description: "Tool paths in drawing order; each line is one nib wide.".to_owned(),
+            recipe: recipe.to_string(),
+        };
+        let toolpaths = &self.options.toolpaths;
+        let files = split_by_layer(&drawing, &self.options.output);
+        toolpaths::check_layer_files(&files, toolpaths)?;
+        let mut jobs = Vec::new();
+        for file in files {
+            let job = job::of_drawing(&file.drawing, self.model, self.profile, toolpaths, self.pens, self.watcher)?;
+            self.watcher.begin("writing");
+            toolpaths::write(&file.name, self.format, &job, &head)?;
+            toolpaths::write_preview_of(&job, toolpaths, Some(&file.layer))?;
+            jobs.push((file.name, job));
+        }
+        Ok((scale, jobs))
+    }
 }
 
 fn report(

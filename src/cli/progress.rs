@@ -6,7 +6,7 @@ use crate::source::MaskRole;
 use crate::style::{Observer, Picture};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Delay before the bar is shown.
@@ -36,7 +36,7 @@ impl Watcher {
     /// Ends the last step; returns the seconds of each step.
     pub(super) fn finish(&self) -> Vec<(String, f64)> {
         self.bar.finish_and_clear();
-        let mut steps = self.steps.lock().expect("no step panics while it holds the lock").clone();
+        let mut steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner).clone();
         steps.push((String::new(), Instant::now()));
         steps.windows(2).map(|w| (w[0].0.clone(), (w[1].1 - w[0].1).as_secs_f64())).collect()
     }
@@ -59,7 +59,7 @@ fn show_later(bar: ProgressBar) {
 
 impl Observer for Watcher {
     fn begin(&self, step: &str) {
-        self.steps.lock().expect("no step panics while it holds the lock").push((step.to_owned(), Instant::now()));
+        self.steps.lock().unwrap_or_else(PoisonError::into_inner).push((step.to_owned(), Instant::now()));
         self.bar.set_message(step.to_owned());
         self.bar.set_position(0);
     }

@@ -4,8 +4,9 @@ use super::known::Known;
 use super::overlay::{Overlaid, overlay};
 use super::task::RoleMask;
 use crate::raster::Raster;
+use crate::source::grey_image;
 use crate::source::{Crop, MaskRole, Photograph, SourceError};
-use image::{DynamicImage, GrayImage};
+use image::DynamicImage;
 
 /// The regions in display order.
 const SHOWN: [MaskRole; 7] = [
@@ -55,6 +56,5 @@ fn grey(mask: &Photograph) -> Result<Raster<u8>, SourceError> {
 }
 
 fn picture(mask: &Raster<u8>) -> DynamicImage {
-    let pixels = GrayImage::from_raw(mask.width() as u32, mask.height() as u32, mask.pixels().to_vec());
-    pixels.expect("a raster's pixels fill it").into()
+    grey_image(mask).into()
 }

@@ -10,8 +10,8 @@ use super::{claims, output};
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::see::{Face, Sight};
+use crate::source::grey_image;
 use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph};
-use image::{GrayImage, ImageBuffer, Luma};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -42,12 +42,11 @@ pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Re
     }
     for (file, mask) in &masks {
         let full = sight.at_full_size(&mask.map(f32::from)).map(|v| v.round() as u8);
-        png(file, &GrayImage::from_raw(sight.width, sight.height, full.into_vec()).expect("a raster's pixels fill it").into())?;
+        png(file, &grey_image(&full).into())?;
     }
     if let Some(map) = &sight.depth {
         let full = sight.at_full_size(&map.map(f32::from)).map(|v| v.round() as u16);
-        let grey: Option<ImageBuffer<Luma<u16>, _>> = ImageBuffer::from_raw(sight.width, sight.height, full.into_vec());
-        png(depth, &grey.expect("a raster's pixels fill it").into())?;
+        png(depth, &grey_image(&full).into())?;
     }
     if sight.subject.is_some() {
         let faces: Vec<Overlaid<'_>> =
@@ -55,9 +54,8 @@ pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Re
         let picture = overlay(photograph, sight.subject.as_ref(), &faces).map_err(|error| Failure::about(&name)(&error))?;
         png(overlaid, &picture.into())?;
     }
-    let mut text = serde_json::to_vec_pretty(&as_json(sight, photograph)).expect("a value is JSON");
-    text.push(b'\n');
-    output::write(json, |out| out.write_all(&text))
+    let text = format!("{:#}\n", as_json(sight, photograph));
+    output::write(json, |out| out.write_all(text.as_bytes()))
 }
 
 /// Reads a folder, edited or not.

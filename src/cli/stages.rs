@@ -11,12 +11,13 @@ use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
 use crate::source::MaskRole;
+use crate::source::grey_image;
 use crate::style::{Observer, Picture};
 use crate::write::{SvgHead, write_svg};
-use image::{GrayImage, ImageFormat, RgbImage};
+use image::{ImageFormat, Rgb, RgbImage};
 use std::io::Cursor;
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     limit_threads(options.picture.threads)?;
@@ -33,7 +34,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     }
     let drawn = task.draw(&recorder);
     recorder.watcher.finish();
-    let taken = recorder.taken.into_inner().expect("no stage panics while it is written");
+    let taken = recorder.taken.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Some(failure) = taken.failure {
         return Err(failure);
     }
@@ -61,7 +62,7 @@ struct Taken {
 impl Recorder {
     /// Writes the next picture; does nothing after a failure.
     fn write(&self, name: &str, write: impl FnOnce(&str) -> Result<(), Failure>) {
-        let mut taken = self.taken.lock().expect("no stage panics while it is written");
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
         if taken.failure.is_some() {
             return;
         }
@@ -115,16 +116,14 @@ pub(super) fn png(name: &str, picture: &image::DynamicImage) -> Result<(), Failu
 }
 
 fn grey(raster: &Raster<f32>) -> image::DynamicImage {
-    let pixels = raster.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).into_vec();
-    GrayImage::from_raw(raster.width() as u32, raster.height() as u32, pixels).expect("a raster's pixels fill it").into()
+    grey_image(&raster.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)).into()
 }
 
 /// A colour for each label; neighbouring labels get very different colours.
 fn coloured(raster: &Raster<i32>) -> image::DynamicImage {
-    let pixels = raster.map(|label| {
-        let hash = (label as u32).wrapping_mul(0x9e37_79b1);
-        [(hash >> 24) as u8 | 0x40, (hash >> 16) as u8 | 0x40, (hash >> 8) as u8 | 0x40]
-    });
-    let bytes = pixels.into_vec().concat();
-    RgbImage::from_raw(raster.width() as u32, raster.height() as u32, bytes).expect("a raster's pixels fill it").into()
+    let colour = |x: u32, y: u32| {
+        let hash = (raster.get(x as usize, y as usize) as u32).wrapping_mul(0x9e37_79b1);
+        Rgb([(hash >> 24) as u8 | 0x40, (hash >> 16) as u8 | 0x40, (hash >> 8) as u8 | 0x40])
+    };
+    RgbImage::from_fn(raster.width() as u32, raster.height() as u32, colour).into()
 }

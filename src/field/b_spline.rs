@@ -25,7 +25,6 @@ pub struct BSpline {
 
 /// Fits a surface over `width` x `height` pixels: first a lattice of one cell, then lattices with cells half as large on the residuals,
 /// down to cells no smaller than `finest` pixels; finally all are merged into one lattice. Cost is linear in the data for each level.
-#[expect(clippy::missing_panics_doc, reason = "at least one level is fitted")]
 pub fn multilevel_b_spline(data: &[Datum], width: f64, height: f64, finest: f64) -> BSpline {
     let mut residual = data.to_vec();
     let mut surface: Option<BSpline> = None;
@@ -36,14 +35,15 @@ pub fn multilevel_b_spline(data: &[Datum], width: f64, height: f64, finest: f64)
             let fitted = level.at(datum.position);
             (0..3).for_each(|c| datum.value[c] -= fitted[c]);
         });
-        surface = Some(match surface {
+        let sum = match surface {
             None => level,
             Some(coarse) => coarse.refined(&level),
-        });
+        };
         cell *= 0.5;
         if cell < finest {
-            return surface.expect("at least one level was fitted");
+            return sum;
         }
+        surface = Some(sum);
     }
 }
 

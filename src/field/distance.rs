@@ -137,9 +137,9 @@ fn descend(pieces: &[[Point; 2]], piece: usize, p: Point) -> (f64, f64) {
     let mut centre = piece;
     loop {
         let (low, high) = (centre.saturating_sub(NEIGHBOURS), (centre + NEIGHBOURS + 1).min(pieces.len()));
-        let nearest =
-            (low..high).map(|i| (offset(pieces[i]), i)).min_by(|a, b| a.0.0.total_cmp(&b.0.0)).expect("pieces[piece] is there");
-        if nearest.1 == centre || nearest.0.0 >= offset(pieces[centre]).0 {
+        let own = (offset(pieces[centre]), centre);
+        let nearest = (low..high).map(|i| (offset(pieces[i]), i)).min_by(|a, b| a.0.0.total_cmp(&b.0.0)).unwrap_or(own);
+        if nearest.1 == centre || nearest.0.0 >= own.0.0 {
             return nearest.0;
         }
         centre = nearest.1;

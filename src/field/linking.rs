@@ -21,9 +21,7 @@ pub(super) fn link(lines: Vec<Vec<Point>>) -> Vec<Curve> {
             continue;
         }
         if ca == cb {
-            let chain = chains[ca].as_ref().expect("a holder holds a chain");
-            let is_loop = chain.len() > 3 && ends_are(chain, a.at, b.at);
-            closed[ca] = is_loop;
+            closed[ca] = chains[ca].as_ref().is_some_and(|chain| chain.len() > 3 && ends_are(chain, a.at, b.at));
         } else if let Some(joined) = joined(chains[ca].as_ref(), a.at, chains[cb].as_ref(), b.at) {
             chains[ca] = Some(joined);
             chains[cb] = None;

@@ -10,7 +10,7 @@ use crate::raster::Raster;
 use fast_image_resize::images::{TypedImage, TypedImageRef};
 use fast_image_resize::pixels::{U8, U8x3};
 use fast_image_resize::{FilterType, PixelTrait, ResizeAlg, ResizeOptions, Resizer};
-use image::{DynamicImage, GenericImageView, GrayImage, ImageBuffer, RgbImage};
+use image::{DynamicImage, GenericImageView, GrayImage, ImageBuffer, Luma, Primitive, RgbImage};
 
 impl Photograph {
     /// A part of the photograph as sRGB bytes on white, `columns` by `rows` pixels. Pixels of 8 bits without alpha are averaged
@@ -46,27 +46,28 @@ impl Photograph {
     }
 
     /// Grey bytes as a picture, such as a computed mask.
-    ///
-    /// # Panics
-    /// Never: a raster's pixels fill it.
     pub fn from_grey(grey: &Raster<u8>) -> Self {
-        let pixels = GrayImage::from_raw(grey.width() as u32, grey.height() as u32, grey.pixels().to_vec());
-        Self::of_pixels(DynamicImage::ImageLuma8(pixels.expect("a raster's pixels fill it")))
+        Self::of_pixels(DynamicImage::ImageLuma8(grey_image(grey)))
     }
 
     /// A grey picture of 16 bits, such as a depth map.
-    ///
-    /// # Panics
-    /// Never: a raster's pixels fill it.
     pub fn from_deep_grey(grey: &Raster<u16>) -> Self {
-        let pixels = ImageBuffer::from_raw(grey.width() as u32, grey.height() as u32, grey.pixels().to_vec());
-        Self::of_pixels(DynamicImage::ImageLuma16(pixels.expect("a raster's pixels fill it")))
+        Self::of_pixels(DynamicImage::ImageLuma16(grey_image(grey)))
     }
 
     fn of_pixels(pixels: DynamicImage) -> Self {
         let info = SourceInfo { format: "raster", sha256: String::new(), warnings: Vec::new() };
         Self { pixels, lineariser: Lineariser::srgb(), info }
     }
+}
+
+/// A raster as an image of one channel.
+pub(crate) fn grey_image<T>(grey: &Raster<T>) -> ImageBuffer<Luma<T>, Vec<T>>
+where
+    T: Primitive + Send + Sync,
+    Luma<T>: image::Pixel<Subpixel = T>,
+{
+    ImageBuffer::from_fn(grey.width() as u32, grey.height() as u32, |x, y| Luma([grey.get(x as usize, y as usize)]))
 }
 
 /// Resizes a crop of stored bytes, `width` pixels per row; each output pixel is the mean of the input around it.

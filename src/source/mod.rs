@@ -18,6 +18,8 @@ mod png;
 mod portrait;
 mod scribbles;
 
+pub(crate) use encoded::grey_image;
+
 #[doc(hidden)]
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
 pub use decode::{Limits, Photograph, SourceInfo};
