@@ -1,9 +1,10 @@
 //! From the pixels of coherent lines to curves with a width (lines as in Son et al. 2011, section 4.1; Bruehl 2023, section 4.3.1,
 //! suggests them instead of Canny's edges).
 
+use super::curve::Curve;
 use super::distance::nearest_seed;
 use super::flow_dog::FlowLines;
-use super::trace::{Curve, trace};
+use super::trace::trace;
 use crate::geometry::{Point, Vec2, smooth_polyline};
 use crate::raster::{Raster, components, remove_components, thin};
 

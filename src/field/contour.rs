@@ -1,6 +1,6 @@
 //! Contour lines of a raster at sub-pixel accuracy (marching squares).
 
-use super::trace::Curve;
+use super::curve::Curve;
 use crate::geometry::Point;
 use crate::raster::Raster;
 use std::collections::HashMap;

@@ -1,7 +1,7 @@
 //! The feature field: directions interpolated from lines (Son et al. 2011, section 4.2), and its singular points.
 
 use super::b_spline::{Datum, multilevel_b_spline};
-use super::trace::Curve;
+use super::curve::Curve;
 use crate::geometry::{Point, resample};
 use crate::raster::{Raster, gaussian_blur};
 

@@ -1,6 +1,6 @@
 //! Exact Euclidean distances (Felzenszwalb and Huttenlocher 2012; Bruehl 2023, section 3.1.1), to pixels and to curves.
 
-use super::trace::Curve;
+use super::curve::Curve;
 use crate::geometry::{Point, resample};
 use crate::raster::Raster;
 use rayon::prelude::*;

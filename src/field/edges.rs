@@ -1,6 +1,7 @@
 //! Edges: grey, blur, Canny, dilation, median, removal of short ones, median again (Bruehl 2023, section 2.1).
 
-use super::trace::{Curve, trace};
+use super::curve::Curve;
+use super::trace::trace;
 use crate::geometry::smooth_polyline;
 use crate::raster::{Raster, Thresholds, canny, components, dilate, gaussian_blur, majority, remove_components, thin};
 

@@ -10,29 +10,10 @@
 
 use super::dark_relief::dark_relief;
 use super::face_fit::fitted;
+use super::face_frame::{FaceFrame, FeatureWindow};
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
 use rayon::prelude::*;
-
-/// A face's place and size in working pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FaceFrame {
-    /// The midpoint between the eyes.
-    pub between_eyes: Point,
-    /// Distance between the eyes' middles.
-    pub eye_distance: f64,
-    /// Height of the face relative to the template, about 1.
-    pub stretch: f64,
-    /// The tilt of the line through the eyes, in radians.
-    pub tilt: f64,
-    /// How clearly the pattern stands out, 0 (not at all) to about 1.
-    pub score: f64,
-    /// Window of each feature, in the order of [`super::FacialFeature::ALL`].
-    pub windows: [FeatureWindow; 6],
-}
-
-/// Window of a feature, in eye distances from the midpoint between the eyes: its middle across and down, half its sizes across and down.
-pub type FeatureWindow = [f64; 4];
 
 /// Default windows of a face: brows, eyes, nose, mouth.
 pub const USUAL_WINDOWS: [FeatureWindow; 6] = [
@@ -94,23 +75,6 @@ pub struct FaceExpectation {
     pub tolerance: Vec2,
     /// Expected eye distance; the search covers three fifths to five quarters of it.
     pub eye_distance: f64,
-}
-
-impl FaceFrame {
-    /// A place of the template on the page's raster: `across` and `down` in eye distances from the midpoint between the eyes.
-    pub fn place(&self, across: f64, down: f64) -> Point {
-        let along = Vec2::from_angle(self.tilt);
-        let downwards = Vec2::new(-along.y, along.x);
-        self.between_eyes + along * (across * self.eye_distance) + downwards * (down * self.eye_distance * self.stretch)
-    }
-
-    /// Converts a place of the raster to eye distances from the midpoint between the eyes: across and down.
-    pub fn relative(&self, p: Point) -> (f64, f64) {
-        let along = Vec2::from_angle(self.tilt);
-        let offset = p - self.between_eyes;
-        let downwards = Vec2::new(-along.y, along.x);
-        (offset.dot(along) / self.eye_distance, offset.dot(downwards) / (self.eye_distance * self.stretch))
-    }
 }
 
 /// The face in `lightness` (0 to 1) on `skin` (0 to 1) that best matches the template and the expectation; none if nothing matches.

@@ -5,7 +5,7 @@
 //! ```
 
 use super::dark_relief::dark_relief;
-use super::face::FaceFrame;
+use super::face_frame::FaceFrame;
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, gaussian_blur};
 

@@ -1,7 +1,7 @@
 //! Grain: the irregular marks that a smudged stick leaves on the tooth of the paper.
 
 use super::contour::contours;
-use super::trace::Curve;
+use super::curve::Curve;
 use crate::geometry::Point;
 use crate::raster::{Raster, components};
 

@@ -1,7 +1,7 @@
 //! Hair and headgear that extend into a face, detected by tone: darker than the skin, too tall for a feature, connected with the crown.
 
 use super::dark_relief::dark_relief;
-use super::face::FaceFrame;
+use super::face_frame::FaceFrame;
 use super::facial_features::{SkinTone, skin_tone};
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, remove_components};

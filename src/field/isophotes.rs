@@ -1,7 +1,7 @@
 //! Isophotes: lines of equal lightness around the lightest regions (Bruehl 2023, section 2.2).
 
 use super::contour::contours;
-use super::trace::Curve;
+use super::curve::Curve;
 use crate::geometry::smooth_polyline;
 use crate::raster::{Raster, bilateral};
 

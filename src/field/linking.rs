@@ -1,6 +1,6 @@
 //! Traced lines that continue one another become one.
 
-use super::trace::Curve;
+use super::curve::Curve;
 use crate::geometry::{Point, Vec2};
 
 /// Ends nearer than this are linked if their directions agree: a window plus a step.

@@ -7,12 +7,14 @@ mod coherent_lines;
 mod contour;
 mod covering;
 mod crossings;
+mod curve;
 mod dark_relief;
 mod direction;
 mod distance;
 mod edges;
 mod face;
 mod face_fit;
+mod face_frame;
 mod facial_features;
 mod flow;
 mod flow_dog;
@@ -48,6 +50,7 @@ pub use contour::contours;
 pub use covering::{Covering, cover};
 #[doc(hidden)]
 pub use crossings::{LocalLength, crossings, holes};
+pub use curve::Curve;
 #[doc(hidden)]
 pub use direction::{DirectionField, FieldParameters, Guides, Singularity, direction_field};
 #[doc(hidden)]
@@ -56,7 +59,9 @@ pub use distance::{FeatureDistance, distance_to_curves};
 #[doc(hidden)]
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
 #[doc(hidden)]
-pub use face::{FaceExpectation, FaceFrame, FeatureWindow, USUAL_WINDOWS, find_face};
+pub use face::{FaceExpectation, USUAL_WINDOWS, find_face};
+#[doc(hidden)]
+pub use face_frame::{FaceFrame, FeatureWindow};
 #[doc(hidden)]
 pub use facial_features::{FacialFeature, FacialFeatures, SkinTone, facial_features};
 #[doc(hidden)]
@@ -96,7 +101,7 @@ pub use scale_space::{Mode, histogram_modes};
 pub use stripes::{Start, StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
 pub use superpixels::superpixels;
 pub use tangent_flow::{EdgeTangentFlow, edge_tangent_flow};
-pub use trace::{Curve, trace};
+pub use trace::trace;
 pub use voronoi::{Sites, cell_polygon};
 #[doc(hidden)]
 pub use watershed::watershed;

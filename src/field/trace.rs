@@ -11,6 +11,7 @@
 //! The thesis stops at a crossing that an earlier line has marked. This tracer looks one window further in the same direction, so that
 //! lines continue across crossings.
 
+use super::curve::Curve;
 use super::linking::{LINK_COSINE, link};
 use crate::geometry::{Point, Vec2, distance_to_segment};
 use crate::raster::Raster;
@@ -23,26 +24,6 @@ const STEP: f64 = 3.0;
 const WINDOW: isize = 2;
 /// Edge pixels within this distance of a traced segment belong to it: lines must be accurate to 2 px.
 const MARK_DISTANCE: f64 = 1.9;
-
-/// A line in working pixels (`0.5, 0.5` is the centre of the first pixel).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
-    /// Vertices; a closed curve does not repeat its first.
-    pub points: Vec<Point>,
-    /// True if the last vertex is joined to the first.
-    pub closed: bool,
-}
-
-impl Curve {
-    /// Length in pixels, including the closing segment.
-    pub fn length(&self) -> f64 {
-        let open: f64 = self.points.windows(2).map(|w| w[0].distance(w[1])).sum();
-        match (self.points.first(), self.points.last()) {
-            (Some(first), Some(last)) if self.closed => open + first.distance(*last),
-            _ => open,
-        }
-    }
-}
 
 /// Traces a binary raster of lines one or two pixels wide (thin them first) into polylines, each line once.
 pub fn trace(edges: &Raster<u8>) -> Vec<Curve> {

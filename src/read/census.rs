@@ -1,7 +1,7 @@
 //! Counts what an XML text holds once its entities are expanded, before any is expanded.
 
 use super::budget::{ATTRIBUTE, Budget, TAG};
-use super::svg::SvgError;
+use super::error::SvgError;
 use std::collections::{HashMap, HashSet};
 
 /// Maximum nesting of entities, the same as the parser's.

@@ -12,9 +12,9 @@
 //! Each element is counted once, however often it is used. Counts are floats, so they cannot overflow.
 
 use super::budget::{ATTRIBUTE, Budget, ELEMENT, PATH, SEGMENT};
+use super::error::SvgError;
 use super::shape_cost::{shape, single};
 use super::styles::{FILL, MARKERS, NOT_INHERITED, STROKE, Style, Styles, references, style_steps};
-use super::svg::SvgError;
 use roxmltree::{Document, Node, NodeId};
 use std::collections::{HashMap, HashSet};
 

@@ -1,60 +1,22 @@
 //! SVG as a drawing: usvg resolves the geometry; one pass over the XML finds the layers and kinds of marks.
 
 use super::Dropped;
-use super::budget::{Budget, TooMuchWork};
+use super::budget::Budget;
 use super::census::spend_parsing;
 use super::clip_paths::FARTHEST;
 use super::colour_names::with_known_colours;
 use super::curves::MM_PER_PX;
+use super::error::SvgError;
 use super::expansion::spend_expansion;
+use super::imported::ImportedLayer;
 use super::importer::{Importer, Place};
 use super::layers::{DEEPEST, LabelSpeeds, outline, with_ids};
 use super::text::text_of;
-use crate::drawing::{Drawing, Layer, Page, Painted};
+use crate::drawing::{Drawing, Page, Painted};
 use std::borrow::Cow;
-use thiserror::Error;
 
 /// Minimum side of a sheet, in millimetres: files are written in thousandths, and a narrower sheet would be written as zero.
 const NARROWEST: f64 = 0.0006;
-
-/// Error of reading an SVG.
-#[derive(Debug, Error)]
-pub enum SvgError {
-    /// Not text.
-    #[error("is not an SVG: it is neither UTF-8 nor UTF-16 text")]
-    NotText,
-    /// Broken gzip.
-    #[error("is not an SVG: it begins as gzip (.svgz) but cannot be decompressed")]
-    Packed,
-    /// Groups nested too deep; holds the limit.
-    #[error("cannot be used as an SVG: its groups are nested more than {0} deep, uses and references included")]
-    TooDeep(usize),
-    /// Entities nested too deep.
-    #[error("cannot be used as an SVG: its entities are nested more than 10 deep")]
-    Entities,
-    /// An element that is drawn within itself.
-    #[error("cannot be used as an SVG: '{0}' refers back to itself, directly or through other elements")]
-    Circle(String),
-    /// More elements than usvg accepts.
-    #[error(
-        "cannot be used as an SVG: it has {0} elements with all uses expanded, and at most 1000000 can be read; join paths into one"
-    )]
-    Elements(f64),
-    /// Broken XML.
-    #[error("is not an SVG: {0}")]
-    Xml(#[from] roxmltree::Error),
-    /// Not SVG, or beyond usvg's limits.
-    #[error("cannot be used as an SVG: {0}")]
-    Svg(#[from] usvg::Error),
-    /// Page size out of range; holds width and height in millimetres.
-    #[error(
-        "cannot be used as an SVG: its page is {0} x {1} mm, and sides must be from 0.001 mm to 100 m; change its width and height"
-    )]
-    Page(f64, f64),
-    /// More work than the limit.
-    #[error("cannot be used as an SVG: it {0}")]
-    Work(#[from] TooMuchWork),
-}
 
 /// An SVG as a drawing, and what was not read.
 #[derive(Clone, Debug)]
@@ -73,23 +35,6 @@ pub struct Imported {
     pub speeds: Option<LabelSpeeds>,
     /// True if it holds tool paths that drypoint wrote, which are never lowered again.
     pub is_toolpaths: bool,
-}
-
-/// One layer of an SVG.
-#[derive(Clone, Debug)]
-pub struct ImportedLayer {
-    /// Its marks.
-    pub layer: Layer,
-    /// Number of areas that are the outlines of swelling strokes.
-    pub swells: usize,
-}
-
-impl ImportedLayer {
-    /// Numbers of dots, strokes (swelling ones included) and areas.
-    pub fn counts(&self) -> [usize; 3] {
-        let [dots, strokes, areas] = self.layer.counts();
-        [dots, strokes + self.swells, areas - self.swells]
-    }
 }
 
 impl Imported {

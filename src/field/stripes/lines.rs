@@ -1,6 +1,6 @@
 //! The stripes' lines: where the phase is 0, followed from cell to cell at sub-pixel accuracy.
 
-use super::super::trace::Curve;
+use super::super::curve::Curve;
 use super::lattice::StripeLattice;
 use crate::geometry::Point;
 use std::collections::HashMap;
