@@ -8,7 +8,7 @@ use drypoint::interrupt::Interrupt;
 use drypoint::order::{Direction, Effort, PathEnds, order};
 use drypoint::press::{PrintFormat, PrintJob};
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
-use drypoint::style::{Cost, DefaultLength, Kind, Observer, Parameter, Settings, Silent, Style, StyleError};
+use drypoint::style::{Cost, DefaultLength, Kind, Parameter, Request, Settings, Silent, Style, StyleCard, StyleError};
 use drypoint::write::SvgHead;
 
 /// The style.
@@ -18,40 +18,35 @@ pub struct OneLine;
 /// Working pixels between dots at full ink.
 const PIXELS_PER_DOT: f64 = 3.0;
 
+/// What it is.
+const CARD: StyleCard = StyleCard {
+    name: "one-line",
+    summary: "dots spread by tone, joined by the shortest tour",
+    source: "Kaplan and Bosch 2005, TSP Art",
+    parameters: &[
+        Parameter {
+            name: "dots",
+            kind: Kind::Count { default: 1500, least: 10, most: 100_000 },
+            meaning: "number of dots that the line joins",
+            source: "",
+            needs: &[],
+        },
+        Parameter {
+            name: "line",
+            kind: Kind::Length { default: DefaultLength::Millimetres(0.3), least: 0.05, most: 5.0 },
+            meaning: "width of the line",
+            source: "",
+            needs: &[],
+        },
+    ],
+    masks: &[MaskRole::Subject],
+    uses_depth: false,
+    leaves_out_background: false,
+};
+
 impl Style for OneLine {
-    fn name(&self) -> &'static str {
-        "one-line"
-    }
-
-    fn summary(&self) -> &'static str {
-        "dots spread by tone, joined by the shortest tour"
-    }
-
-    fn source(&self) -> &'static str {
-        "Kaplan and Bosch 2005, TSP Art"
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        &[
-            Parameter {
-                name: "dots",
-                kind: Kind::Count { default: 1500, least: 10, most: 100_000 },
-                meaning: "number of dots that the line joins",
-                source: "",
-                needs: &[],
-            },
-            Parameter {
-                name: "line",
-                kind: Kind::Length { default: DefaultLength::Millimetres(0.3), least: 0.05, most: 5.0 },
-                meaning: "width of the line",
-                source: "",
-                needs: &[],
-            },
-        ]
-    }
-
-    fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject]
+    fn card(&self) -> &StyleCard {
+        &CARD
     }
 
     fn pixels_per_mm(&self, _: &Settings, _: &[MaskRole]) -> f64 {
@@ -63,13 +58,8 @@ impl Style for OneLine {
         Cost { pixels, bytes: 40.0 * pixels + 1000.0 * settings.number("dots"), seconds: 1e-6 * pixels }
     }
 
-    fn sketch(
-        &self,
-        portrait: &Portrait,
-        settings: &Settings,
-        seed: u64,
-        observer: &dyn Observer,
-    ) -> Result<Drawing, StyleError> {
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
+        let Request { portrait, settings, seed, observer } = *request;
         let ink = portrait.ink();
         let total: f64 = ink.pixels().iter().map(|ink| f64::from(*ink)).sum();
         if total <= 0.0 {

@@ -105,7 +105,7 @@ pub(super) fn of(
             known.masks.extend(seen.take(*role));
         }
     }
-    if style.uses_depth() && known.depth.is_none() {
+    if style.card().uses_depth && known.depth.is_none() {
         known.depth = seen.depth.take();
     }
     add_tone_notice(&mut known, options);
@@ -157,7 +157,7 @@ fn decide_background(
     is_cut_out: bool,
 ) -> Result<(), Failure> {
     let is_left_out = match options.background {
-        Background::Auto => style.leaves_out_background(),
+        Background::Auto => style.card().leaves_out_background,
         Background::Keep => false,
         Background::None => true,
     };

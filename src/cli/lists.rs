@@ -39,11 +39,12 @@ pub(super) fn styles(options: &ListOptions) -> Result<(), Failure> {
         if options.json {
             let list: Vec<Value> = STYLES
                 .iter()
-                .map(|s| json!({ "name": s.name(), "summary": s.summary(), "source": s.source(), "masks": masks_json(*s) }))
+                .map(|s| json!({ "name": s.name(), "summary": s.card().summary, "source": s.card().source, "masks": masks_json(*s) }))
                 .collect();
             return output::print_json(&json!({ "styles": list }));
         }
-        let lines: String = STYLES.iter().fold(String::new(), |text, s| text + &format!("{:10} {}\n", s.name(), s.summary()));
+        let lines: String =
+            STYLES.iter().fold(String::new(), |text, s| text + &format!("{:10} {}\n", s.name(), s.card().summary));
         return output::to_stdout(lines.as_bytes());
     };
     let known: Vec<&str> = STYLES.iter().map(|s| s.name()).collect();
@@ -53,12 +54,12 @@ pub(super) fn styles(options: &ListOptions) -> Result<(), Failure> {
 }
 
 fn style_text(style: &dyn Style) -> String {
-    let mut text = format!("{}: {}\n{}\n", style.name(), style.summary(), style.source());
+    let mut text = format!("{}: {}\n{}\n", style.name(), style.card().summary, style.card().source);
     text += "\nmasks (--mask ROLE=FILE)\n";
     for (name, role) in roles_of(style) {
         let _ = writeln!(text, "    {name}: {}", role.meaning());
     }
-    if style.uses_depth() {
+    if style.card().uses_depth {
         text += "    and a depth map, white near (--depth FILE)\n";
     }
     for p in style.parameters() {
@@ -84,10 +85,10 @@ fn style_json(style: &dyn Style) -> Value {
         .collect();
     json!({
         "name": style.name(),
-        "summary": style.summary(),
-        "source": style.source(),
+        "summary": style.card().summary,
+        "source": style.card().source,
         "masks": masks_json(style),
-        "depth": style.uses_depth(),
+        "depth": style.card().uses_depth,
         "parameters": parameters,
     })
 }

@@ -88,8 +88,8 @@ impl<'a> Task<'a> {
         {
             return Err(Failure::Usage(format!("--mask {role}= is given twice")));
         }
-        if options.depth.is_some() && !style.uses_depth() {
-            let able: Vec<&str> = style::STYLES.iter().filter(|s| s.uses_depth()).map(|s| s.name()).collect();
+        if options.depth.is_some() && !style.card().uses_depth {
+            let able: Vec<&str> = style::STYLES.iter().filter(|s| s.card().uses_depth).map(|s| s.name()).collect();
             let able = able.join(", ");
             return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
         }
@@ -102,7 +102,7 @@ impl<'a> Task<'a> {
         let pitch = settings.pitch().unwrap_or(UNKNOWN_PITCH);
         let crop = crop::part(options, &photograph, &known.faces)?;
         let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
-        if style.leaves_out_background() {
+        if style.card().leaves_out_background {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
         let task = Self { options, style, settings, photograph, known, layout, given };

@@ -1,6 +1,6 @@
 //! A drawing in progress: what every style is given, and the changes between the page and the working grid.
 
-use super::{Observer, StyleError};
+use super::{Observer, Request, StyleError};
 use crate::drawing::Page;
 use crate::source::Portrait;
 
@@ -31,5 +31,12 @@ impl<P> Drawer<'_, P> {
     /// Ends the drawing when the user wants it to stop.
     pub(super) fn check(&self) -> Result<(), StyleError> {
         if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
+    }
+}
+
+impl<'a> Request<'a> {
+    /// The drawing in progress, with the values of the style's own parameters.
+    pub(super) fn drawer<P>(&self, parameters: P) -> Drawer<'a, P> {
+        Drawer { portrait: self.portrait, parameters, seed: self.seed, observer: self.observer }
     }
 }

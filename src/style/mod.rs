@@ -31,41 +31,69 @@ use crate::geometry::Rect;
 use crate::source::{MaskRole, Portrait};
 use thiserror::Error;
 
-/// A drawing style.
-pub trait Style: Sync {
+/// What a style is, for lists and help.
+#[derive(Clone, Copy, Debug)]
+pub struct StyleCard {
     /// Its name on the command line.
-    fn name(&self) -> &'static str;
+    pub name: &'static str,
     /// One line for a list of styles.
-    fn summary(&self) -> &'static str;
+    pub summary: &'static str,
     /// The paper or thesis that it follows.
-    fn source(&self) -> &'static str;
+    pub source: &'static str,
     /// Its parameters, in the order of a help page.
-    fn parameters(&self) -> &'static [Parameter];
+    pub parameters: &'static [Parameter],
     /// The mask roles that it uses; the others are refused.
-    fn masks(&self) -> &'static [MaskRole];
-    /// True if it uses a depth map; otherwise one is refused.
-    fn uses_depth(&self) -> bool {
-        false
-    }
-    /// True if the background behind a person is left out by default, as newspapers print heads on bare paper.
-    fn leaves_out_background(&self) -> bool {
-        false
-    }
-    /// Working pixels per millimetre with the given masks.
+    pub masks: &'static [MaskRole],
+    /// True if it can use a depth map; else one is refused.
+    pub uses_depth: bool,
+    /// True if the background is left out by default: newspapers print heads on bare paper.
+    pub leaves_out_background: bool,
+}
+
+/// What a style is asked for.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// What is drawn, at the style's resolution.
+    pub portrait: &'a Portrait,
+    /// The style's parameters.
+    pub settings: &'a Settings,
+    /// Where random numbers start.
+    pub seed: u64,
+    /// Who watches.
+    pub observer: &'a dyn Observer,
+}
+
+/// One way of drawing.
+pub trait Style: Sync {
+    /// What it is.
+    fn card(&self) -> &StyleCard;
+    /// Working pixels per millimetre with the masks at hand.
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64;
     /// Working pixels per millimetre for a picture of this size on the page; for most styles the size does not matter.
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
-    /// Estimated cost of a picture of this size at this resolution, from measured figures.
+    /// Estimated cost of drawing a picture of this size at this resolution, from measured figures.
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
-    /// Makes the marks, which may extend beyond the picture's border.
-    fn sketch(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer)
-    -> Result<Drawing, StyleError>;
-    /// Draws the portrait with all ink inside the picture's box on the page; warns of settings that have no effect.
+    /// Makes the marks, which may reach over the picture's border.
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError>;
+
+    /// Its name on the command line.
+    fn name(&self) -> &'static str {
+        self.card().name
+    }
+    /// Its parameters, in the order of a help page.
+    fn parameters(&self) -> &'static [Parameter] {
+        self.card().parameters
+    }
+    /// The mask roles that it uses.
+    fn masks(&self) -> &'static [MaskRole] {
+        self.card().masks
+    }
+    /// Draws the portrait, all of its ink inside the picture's box on the page; warns of settings without effect.
     fn draw(&self, portrait: &Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) -> Result<Drawing, StyleError> {
         settings.idle(self.parameters(), portrait).iter().for_each(|sentence| observer.warn(sentence));
-        let drawing = self.sketch(portrait, settings, seed, observer)?.confined_to(portrait.placement.picture);
+        let drawing = self.sketch(&Request { portrait, settings, seed, observer })?.confined_to(portrait.placement.picture);
         if drawing.marks().next().is_none() {
             return Err(StyleError::NothingToDraw("no mark lies inside the picture".to_owned()));
         }

@@ -31,7 +31,17 @@ fn values() -> Vec<(&'static str, &'static str, String)> {
 /// The fault of a drawing at an end, if any; "nothing to draw" is no fault.
 fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Option<String> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-    command.current_dir(folder.path()).timeout(MOST).args(["draw", "face.jpg", "--size", "25x30mm", "--fit", "cover", "-q"]);
+    command.current_dir(folder.path()).timeout(MOST).args([
+        "draw",
+        "face.jpg",
+        "--size",
+        "25x30mm",
+        "--fit",
+        "cover",
+        "-q",
+        "--tone",
+        "lightness",
+    ]);
     command.args(["--style", style, "--set", &format!("{name}={value}"), "-o", "/dev/null", "--format", "svg", "--threads", "1"]);
     if cfg!(feature = "see") {
         command.args(["--sight", "sight"]);
@@ -62,7 +72,8 @@ fn both_ends_of_every_parameter_are_drawn() {
             scope.spawn(|| {
                 while let Some((style, name, value)) = values.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let begun = Instant::now();
-                    faults.lock().unwrap().extend(fault(&folder, style, name, value));
+                    let found = fault(&folder, style, name, value);
+                    faults.lock().unwrap().extend(found);
                     let mut slowest = slowest.lock().unwrap();
                     if begun.elapsed() > slowest.0 {
                         *slowest = (begun.elapsed(), format!("{style} {name}={value}"));

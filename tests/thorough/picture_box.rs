@@ -10,7 +10,7 @@ use drypoint::drawing::Page;
 use drypoint::geometry::Rect;
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{InkModel, Nibs, lower};
-use drypoint::style::{Silent, find};
+use drypoint::style::{Request, Silent, find};
 use kurbo::Shape;
 
 const PICTURE: Rect = Rect::new(7.0, 9.0, 37.0, 44.156);
@@ -70,7 +70,9 @@ fn the_tone_at_the_border_is_kept() {
     ] {
         let set: Vec<(&str, &str)> = set.iter().copied().chain([("pitch", "1")]).collect();
         let order = Order { page: Page::new(50.0, 50.0), picture, ..Order::new(style, &photo, (50.0, 50.0), &set) };
-        let sketch = find(style).unwrap().sketch(&order.portrait(), &order.settings(), 0, &Silent).unwrap();
+        let (portrait, settings) = (order.portrait(), order.settings());
+        let request = Request { portrait: &portrait, settings: &settings, seed: 0, observer: &Silent };
+        let sketch = find(style).unwrap().sketch(&request).unwrap();
         let [before, after] = [sketch, order.draw()].map(|drawing| rendered(&svg_of(&drawing), 20.0));
         // 0.5 mm along each side, and nothing beyond.
         let sides = [

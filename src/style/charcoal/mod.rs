@@ -18,11 +18,11 @@ mod skin;
 mod strokes;
 mod tone;
 
-use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::Raster;
-use crate::source::{MaskRole, Portrait};
+use crate::source::MaskRole;
 use parameters::CharcoalParameters;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
@@ -33,37 +33,28 @@ const MOST_PIXELS: f64 = 2.0 * SHORT_SIDE * SHORT_SIDE;
 /// The style.
 pub(super) struct Charcoal;
 
+/// What it is.
+const CARD: StyleCard = StyleCard {
+    name: "charcoal",
+    summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, features and background shaded by hand",
+    source: "Wong 1999, Artistic Rendering of Portrait Photographs",
+    parameters: parameters::PARAMETERS,
+    masks: &[
+        MaskRole::Subject,
+        MaskRole::Hair,
+        MaskRole::Face,
+        MaskRole::Clothing,
+        MaskRole::FacialHair,
+        MaskRole::Headwear,
+        MaskRole::Edges,
+    ],
+    uses_depth: false,
+    leaves_out_background: true,
+};
+
 impl Style for Charcoal {
-    fn name(&self) -> &'static str {
-        "charcoal"
-    }
-
-    fn summary(&self) -> &'static str {
-        "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, features and background shaded by hand"
-    }
-
-    fn source(&self) -> &'static str {
-        "Wong 1999, Artistic Rendering of Portrait Photographs"
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        parameters::PARAMETERS
-    }
-
-    fn masks(&self) -> &'static [MaskRole] {
-        &[
-            MaskRole::Subject,
-            MaskRole::Hair,
-            MaskRole::Face,
-            MaskRole::Clothing,
-            MaskRole::FacialHair,
-            MaskRole::Headwear,
-            MaskRole::Edges,
-        ]
-    }
-
-    fn leaves_out_background(&self) -> bool {
-        true
+    fn card(&self) -> &StyleCard {
+        &CARD
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
@@ -79,14 +70,8 @@ impl Style for Charcoal {
         cost::cost(&CharcoalParameters::new(settings), picture, pixels_per_mm)
     }
 
-    fn sketch(
-        &self,
-        portrait: &Portrait,
-        settings: &Settings,
-        seed: u64,
-        observer: &dyn Observer,
-    ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: CharcoalParameters::new(settings), seed, observer }.draw()
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
+        request.drawer(CharcoalParameters::new(request.settings)).draw()
     }
 }
 

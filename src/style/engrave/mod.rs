@@ -19,11 +19,11 @@ mod strokes;
 mod tones;
 mod widths;
 
-use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Colour, Drawing, Layer, Mark};
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
-use crate::source::{MaskRole, Portrait};
+use crate::source::MaskRole;
 use breaks::LineBreaks;
 use lines::{Family, FamilyLayout, Frame};
 use parameters::{EngraveParameters, GroundColour, Look, ToneFrom};
@@ -40,33 +40,20 @@ const WHOLE_LINES: f64 = 0.75;
 /// The style.
 pub(super) struct Engrave;
 
+/// What it is.
+const CARD: StyleCard = StyleCard {
+    name: "engrave",
+    summary: "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes",
+    source: "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects",
+    parameters: parameters::PARAMETERS,
+    masks: &[MaskRole::Subject, MaskRole::Scribbles],
+    uses_depth: true,
+    leaves_out_background: true,
+};
+
 impl Style for Engrave {
-    fn name(&self) -> &'static str {
-        "engrave"
-    }
-
-    fn summary(&self) -> &'static str {
-        "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes"
-    }
-
-    fn source(&self) -> &'static str {
-        "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects"
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        parameters::PARAMETERS
-    }
-
-    fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject, MaskRole::Scribbles]
-    }
-
-    fn uses_depth(&self) -> bool {
-        true
-    }
-
-    fn leaves_out_background(&self) -> bool {
-        true
+    fn card(&self) -> &StyleCard {
+        &CARD
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
@@ -77,14 +64,8 @@ impl Style for Engrave {
         cost::cost(&EngraveParameters::new(settings), picture, pixels_per_mm)
     }
 
-    fn sketch(
-        &self,
-        portrait: &Portrait,
-        settings: &Settings,
-        seed: u64,
-        observer: &dyn Observer,
-    ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: EngraveParameters::new(settings), seed, observer }.draw()
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
+        request.drawer(EngraveParameters::new(request.settings)).draw()
     }
 }
 

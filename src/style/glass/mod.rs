@@ -14,12 +14,12 @@ mod transform;
 mod underpainting;
 mod visible;
 
-use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer};
 use crate::field::{Flow, glass_pattern, line_integral_convolution};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
-use crate::source::{MaskRole, Portrait, luminance};
+use crate::source::{MaskRole, luminance};
 use parameters::{GlassParameters, Gradient, Manner};
 
 /// Change of colour per pixel at which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes whirl in
@@ -32,25 +32,20 @@ const FINE_FORMS: f32 = 0.35;
 /// The style.
 pub(super) struct Glass;
 
+/// What it is.
+const CARD: StyleCard = StyleCard {
+    name: "glass",
+    summary: "brush strokes that follow contours and whirl where there are none, as in impressionist paintings",
+    source: "Papari 2009, Texture vs contours, chapter 7; Papari and Petkov 2009, Continuous Glass Patterns for Painterly Rendering",
+    parameters: parameters::PARAMETERS,
+    masks: &[MaskRole::Subject],
+    uses_depth: false,
+    leaves_out_background: false,
+};
+
 impl Style for Glass {
-    fn name(&self) -> &'static str {
-        "glass"
-    }
-
-    fn summary(&self) -> &'static str {
-        "brush strokes that follow contours and whirl where there are none, as in impressionist paintings"
-    }
-
-    fn source(&self) -> &'static str {
-        "Papari 2009, Texture vs contours, chapter 7; Papari and Petkov 2009, Continuous Glass Patterns for Painterly Rendering"
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        parameters::PARAMETERS
-    }
-
-    fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject]
+    fn card(&self) -> &StyleCard {
+        &CARD
     }
 
     fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
@@ -61,15 +56,9 @@ impl Style for Glass {
         cost::cost(&Self::painting(settings, picture), picture, pixels_per_mm)
     }
 
-    fn sketch(
-        &self,
-        portrait: &Portrait,
-        settings: &Settings,
-        seed: u64,
-        observer: &dyn Observer,
-    ) -> Result<Drawing, StyleError> {
-        let parameters = Self::painting(settings, portrait.placement.picture);
-        Drawer { portrait, parameters, seed, observer }.draw()
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
+        let parameters = Self::painting(request.settings, request.portrait.placement.picture);
+        request.drawer(parameters).draw()
     }
 }
 

@@ -13,11 +13,11 @@ mod shape;
 mod structure;
 mod tiles;
 
-use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Page};
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::{MaskRole, Portrait};
+use crate::source::MaskRole;
 use cells::Cell;
 use darks::Darks;
 use parameters::{Detail, GridParameters, Primitive};
@@ -30,29 +30,20 @@ const MOST_DETAILED_PIXELS: f64 = 25e6;
 /// The style.
 pub(super) struct Grid;
 
+/// What it is.
+const CARD: StyleCard = StyleCard {
+    name: "grid",
+    summary: "dots lined up along and across the features, turning into hatching where it is dark",
+    source: "Son, Lee, Kang and Lee 2011, Structure grid for directional stippling; Kang, Lee and Chui 2007",
+    parameters: parameters::PARAMETERS,
+    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes],
+    uses_depth: false,
+    leaves_out_background: true,
+};
+
 impl Style for Grid {
-    fn name(&self) -> &'static str {
-        "grid"
-    }
-
-    fn summary(&self) -> &'static str {
-        "dots lined up along and across the features, turning into hatching where it is dark"
-    }
-
-    fn source(&self) -> &'static str {
-        "Son, Lee, Kang and Lee 2011, Structure grid for directional stippling; Kang, Lee and Chui 2007"
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        parameters::PARAMETERS
-    }
-
-    fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes]
-    }
-
-    fn leaves_out_background(&self) -> bool {
-        true
+    fn card(&self) -> &StyleCard {
+        &CARD
     }
 
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
@@ -69,14 +60,8 @@ impl Style for Grid {
         cost::cost(&GridParameters::new(settings), picture, pixels_per_mm)
     }
 
-    fn sketch(
-        &self,
-        portrait: &Portrait,
-        settings: &Settings,
-        seed: u64,
-        observer: &dyn Observer,
-    ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: GridParameters::new(settings), seed, observer }.draw()
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
+        request.drawer(GridParameters::new(request.settings)).draw()
     }
 }
 

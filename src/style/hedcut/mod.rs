@@ -9,41 +9,32 @@ mod parameters;
 mod seeds;
 mod size;
 
-use super::{Cost, Observer, Parameter, Picture, Settings, Style, StyleError};
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Dot, Drawing, Layer, Mark};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
 use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
-use crate::source::{MaskRole, Portrait};
+use crate::source::MaskRole;
 use features::Features;
 use parameters::HedcutParameters;
 
 /// The style.
 pub(super) struct Hedcut;
 
+/// What it is.
+const CARD: StyleCard = StyleCard {
+    name: "hedcut",
+    summary: "dots in rows along the features, as in the portraits of the Wall Street Journal",
+    source: "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010",
+    parameters: parameters::PARAMETERS,
+    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes],
+    uses_depth: false,
+    leaves_out_background: true,
+};
+
 impl Style for Hedcut {
-    fn name(&self) -> &'static str {
-        "hedcut"
-    }
-
-    fn summary(&self) -> &'static str {
-        "dots in rows along the features, as in the portraits of the Wall Street Journal"
-    }
-
-    fn source(&self) -> &'static str {
-        "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010"
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        parameters::PARAMETERS
-    }
-
-    fn masks(&self) -> &'static [MaskRole] {
-        &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes]
-    }
-
-    fn leaves_out_background(&self) -> bool {
-        true
+    fn card(&self) -> &StyleCard {
+        &CARD
     }
 
     fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
@@ -54,14 +45,8 @@ impl Style for Hedcut {
         cost::cost(&HedcutParameters::new(settings), picture, pixels_per_mm)
     }
 
-    fn sketch(
-        &self,
-        portrait: &Portrait,
-        settings: &Settings,
-        seed: u64,
-        observer: &dyn Observer,
-    ) -> Result<Drawing, StyleError> {
-        Drawer { portrait, parameters: HedcutParameters::new(settings), seed, observer }.draw()
+    fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
+        request.drawer(HedcutParameters::new(request.settings)).draw()
     }
 }
 
