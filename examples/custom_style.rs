@@ -27,7 +27,7 @@ const CARD: StyleCard = StyleCard {
         Parameter {
             name: "dots",
             kind: Kind::Count { default: 1500, least: 10, most: 100_000 },
-            meaning: "number of dots that the line joins",
+            meaning: "number of dots that the line would join in a black picture",
             source: "",
             needs: &[],
         },
@@ -66,7 +66,7 @@ impl Style for OneLine {
             return Err(StyleError::NothingToDraw("the picture is white all over".to_owned()));
         }
         observer.begin("dots");
-        let mut dots = scattered(&ink, settings.number("dots") / total, seed);
+        let mut dots = scattered(&ink, settings.number("dots") / ink.pixels().len() as f64, seed);
         if dots.is_empty() {
             return Err(StyleError::NothingToDraw("the picture is too light for one dot".to_owned()));
         }
