@@ -1,5 +1,5 @@
 //! What must hold for any bytes whatever: one function for each fuzz target, which panics where it does not. The fuzzer and
-//! `tests/fuzzed.rs` call the same ones.
+//! `tests/quick/fuzzed.rs` call the same ones.
 
 #![allow(clippy::missing_panics_doc, missing_docs)]
 

@@ -3,6 +3,7 @@
 use super::advice;
 use super::arguments::{CalibrateOptions, Order, READING};
 use super::failure::Failure;
+use super::formats;
 use super::messages::say;
 use super::pens::PenSet;
 use super::remedies::advised;
@@ -13,9 +14,9 @@ use crate::write::SvgHead;
 use serde_json::json;
 
 pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
-    let format = toolpaths::format_of(&options.output, options.format)?;
+    let format = formats::format_of(&options.output, options.format)?;
     let mut profile = toolpaths::profile(&options.profile, &options.toolpaths)?;
-    toolpaths::check_language(format, Some(&profile))?;
+    formats::check_language(format, Some(&profile))?;
     // Touches rest exactly as long as their label says.
     profile.motion.touch_seconds = 0.0;
     let pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;

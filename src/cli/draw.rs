@@ -6,6 +6,7 @@ use super::arguments::{DrawOptions, Format};
 use super::draw_report::report;
 use super::dry_run;
 use super::failure::Failure;
+use super::formats;
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
 use super::layer_files::{LayerFile, split_by_layer};
@@ -22,7 +23,7 @@ use super::toolpaths;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Job, Profile, mount, occluded};
-use crate::press::{Press, PrintFormat, PrintJob};
+use crate::press::{Press, PrintJob};
 use crate::style::Observer;
 use crate::write::SvgHead;
 use std::borrow::Cow;
@@ -36,12 +37,12 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
 }
 
 fn draw(options: &DrawOptions) -> Result<(), Failure> {
-    let format = toolpaths::format_of(&options.output, options.format)?;
+    let format = formats::format_of(&options.output, options.format)?;
     if options.reporting.json && options.output == "-" {
         return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
-    toolpaths::check_language(format, profile.as_ref())?;
+    formats::check_language(format, profile.as_ref())?;
     press(options)?;
     if profile.is_none() && options.toolpaths.preview.is_some() {
         return Err(Failure::Usage("--preview shows what a machine will do; it needs --profile".to_owned()));
@@ -128,11 +129,7 @@ fn write_one<'a>(
     let LayerFile { name, drawing, .. } = file;
     let Some((profile, pens)) = machine else {
         observer.begin("writing");
-        let format = match format {
-            Format::Pdf => PrintFormat::Pdf { seconds: output::source_date()? },
-            Format::Inkml => PrintFormat::Inkml,
-            _ => PrintFormat::Svg,
-        };
+        let format = format.of_print()?;
         let job = PrintJob::new(drawing.clone(), None, interrupt())?;
         output::write(name, |out| job.write(format, head, out))?;
         return Ok(None);

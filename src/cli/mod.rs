@@ -15,6 +15,7 @@ mod estimate_plot;
 mod eyes;
 mod failure;
 mod few_pens;
+mod formats;
 mod inspect;
 mod interruption;
 mod job;

@@ -5,6 +5,7 @@ use super::draw::limit_threads;
 pub(super) use super::draw::reach_of;
 use super::draw_report::seconds_of_steps;
 use super::failure::Failure;
+use super::formats;
 use super::interruption::interrupt;
 use super::label_speeds::fit_to_machine;
 use super::layer_files::split_by_layer;
@@ -27,15 +28,16 @@ use serde_json::json;
 pub(super) const MORE_WORK: &str = "; --most-work raises it";
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
-    let format = toolpaths::format_of(&options.output, options.format)?;
-    if format == Format::Pdf {
-        return Err(Failure::Usage("plot writes tool paths, as .svg or for a machine; `drypoint draw` writes PDF".to_owned()));
+    let format = formats::format_of(&options.output, options.format)?;
+    if format.language().is_none() {
+        let message = "plot writes tool paths, as .svg or for a machine; `drypoint draw` writes PDF and InkML";
+        return Err(Failure::Usage(message.to_owned()));
     }
     if options.reporting.json && options.output == "-" {
         return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
-    toolpaths::check_language(format, profile.as_ref())?;
+    formats::check_language(format, profile.as_ref())?;
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     limit_threads(options.threads)?;
     let shown = if options.drawing == "-" { "stdin" } else { &options.drawing };

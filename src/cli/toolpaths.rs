@@ -14,25 +14,6 @@ use std::collections::BTreeSet;
 /// Plotting time above which the user is warned, in hours.
 pub(super) const LONG_HOURS: f64 = 4.0;
 
-/// The format of an output file.
-pub(super) fn format_of(name: &str, format: Option<Format>) -> Result<Format, Failure> {
-    if let Some(format) = format {
-        return Ok(format);
-    }
-    let extension = std::path::Path::new(name).extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-    match extension.as_str() {
-        "svg" => Ok(Format::Svg),
-        "pdf" => Ok(Format::Pdf),
-        "hpgl" | "plt" => Ok(Format::Hpgl),
-        "gcode" | "nc" | "ngc" => Ok(Format::Gcode),
-        "inkml" => Ok(Format::Inkml),
-        _ if name == "-" => Err(Failure::Usage("with -o - give the format: --format svg, pdf, hpgl, gcode or inkml".to_owned())),
-        _ => Err(Failure::Usage(format!(
-            "the format of {name} is not known from its extension; use .svg, .pdf, .hpgl, .plt, .gcode, .nc, .ngc or .inkml, or --format"
-        ))),
-    }
-}
-
 /// A profile by name, or from a file if `name` has a `/` or the extension .toml; `set` overrides its keys.
 pub(super) fn plain_profile(name: &str, set: &[(String, String)]) -> Result<Profile, Failure> {
     let is_file = name.contains('/') || std::path::Path::new(name).extension().is_some_and(|e| e == "toml");
@@ -78,48 +59,12 @@ fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str
     )))
 }
 
-/// Endings of a language's files, such as `.hpgl or .plt`.
-fn extensions(language: Language) -> String {
-    let dotted: Vec<String> = language.extensions().iter().map(|extension| format!(".{extension}")).collect();
-    match &dotted[..] {
-        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
-        _ => dotted.concat(),
-    }
-}
-
-/// Refuses a format that the profile's machine does not read.
-pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Result<(), Failure> {
-    let needed = match format {
-        Format::Pdf if profile.is_some() => {
-            return Err(Failure::Usage(
-                "PDF is for print, not for a plotter; leave out --profile, or write the plotter's format".to_owned(),
-            ));
-        }
-        Format::Inkml if profile.is_some() => {
-            return Err(Failure::Usage(
-                "InkML holds a drawing's strokes, not a machine's tool paths; leave out --profile".to_owned(),
-            ));
-        }
-        Format::Svg | Format::Pdf | Format::Inkml => return Ok(()),
-        Format::Hpgl => Language::Hpgl,
-        Format::Gcode => Language::Gcode,
-    };
-    match profile {
-        None => Err(Failure::Usage("HP-GL and G-code need --profile; `drypoint profiles` lists the plotters".to_owned())),
-        Some(profile) if profile.language() != needed => {
-            let right = extensions(profile.language());
-            Err(Failure::Usage(format!("{} reads another language than this file's format; write {right}", profile.name)))
-        }
-        Some(_) => Ok(()),
-    }
-}
-
 /// Writes a job in its machine's language, or as a picture of its tool paths.
 pub(super) fn write(name: &str, format: Format, job: &Job<'_>, head: &SvgHead) -> Result<(), Failure> {
-    output::write(name, |out| match format {
-        Format::Hpgl | Format::Gcode => job.write(head, out),
-        _ if job.machine().is_some_and(|machine| machine.language() == Language::Svg) => job.write(head, out),
-        _ => job.write_picture(head, out),
+    let own = job.machine().map(Profile::language);
+    output::write(name, |out| match format.language() {
+        Some(Language::Svg) if own != Some(Language::Svg) => job.write_picture(head, out),
+        _ => job.write(head, out),
     })
 }
 

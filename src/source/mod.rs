@@ -18,6 +18,7 @@ mod png;
 mod portrait;
 mod scribbles;
 
+#[cfg(feature = "cli")]
 pub(crate) use encoded::grey_image;
 
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! Styles: from a [`Portrait`] to a [`Drawing`].
 //!
 //! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
-//! portrait's page and knows nothing of machines, formats or files. To add one: write its file and add it to [`STYLES`].
+//! portrait's page and knows nothing of machines, formats or files. To add one: write its folder and add it to [`STYLES`].
 
 mod charcoal;
 mod cost;

@@ -152,6 +152,7 @@ fn wrong_command_lines_end_with_status_2_and_say_what_works() {
     }
     refuses(folder.path(), 2, "the format of out.bmp is not known", &["draw", "photo.png", "-o", "out.bmp"]);
     refuses(folder.path(), 2, "give the format", &["draw", "photo.png", "-o", "-"]);
+    refuses(folder.path(), 2, "writes PDF and InkML", &["plot", "drawing.svg", "-o", "out.inkml"]);
     refuses(folder.path(), 2, "need --profile", &["draw", "photo.png", "-o", "out.gcode"]);
     refuses(folder.path(), 2, "reads another language", &["draw", "photo.png", "-o", "out.gcode", "--profile", "hp7475a"]);
     refuses(folder.path(), 2, "both write to stdout", &["draw", "photo.png", "-o", "-", "--format", "svg", "--json"]);

@@ -64,12 +64,13 @@ impl Profile {
 
     fn check_park(&self) -> Result<(), Refusal> {
         let Some([x, y]) = self.speech().park() else { return Ok(()) };
+        let key = format!("{}.park", self.language().key());
         if !are_near(&[x, y]) {
-            return Err(Refusal::new("gcode.park", "must be two numbers up to 10000000"));
+            return Err(Refusal::new(&key, "must be two numbers up to 10000000"));
         }
         let is_within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
         if self.area.is_some_and(|area| !is_within(area.x, x) || !is_within(area.y, y)) {
-            return Err(Refusal::new("gcode.park", "must lie in the area"));
+            return Err(Refusal::new(&key, "must lie in the area"));
         }
         Ok(())
     }
