@@ -44,8 +44,8 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     formats::check_language(format, profile.as_ref())?;
     press(options)?;
-    if profile.is_none() && options.toolpaths.preview.is_some() {
-        return Err(Failure::Usage("--preview shows what a machine will do; it needs --profile".to_owned()));
+    if profile.is_none() {
+        toolpaths::check_machine_options(&options.toolpaths)?;
     }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
     let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;

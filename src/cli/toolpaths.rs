@@ -48,6 +48,24 @@ pub(super) fn profile(name: &str, options: &ToolpathOptions) -> Result<Profile, 
     Ok(profile)
 }
 
+/// Refuses options that only a machine can follow, where none was given.
+pub(super) fn check_machine_options(options: &ToolpathOptions) -> Result<(), Failure> {
+    let given = [
+        ("--preview", options.preview.is_some()),
+        ("--dry-time", options.dry_time.is_some()),
+        ("--speed", options.speed.is_some()),
+        ("--travel-speed", options.travel_speed.is_some()),
+        ("--dwell", options.dwell.is_some()),
+        ("--set-profile", !options.set_profile.is_empty()),
+        ("--frame", options.frame),
+        ("--pause-every", options.pause_every.is_some()),
+    ];
+    match given.into_iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(Failure::Usage(format!("{option} is for a machine; it needs --profile"))),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a speed above the machine's maximum; `key` is the profile's key for it.
 fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str, profile: &Profile) -> Result<(), Failure> {
     if speed <= fastest {

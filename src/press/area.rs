@@ -1,7 +1,7 @@
 //! Areas: shrunk by the spread, without parts too narrow for print, which dots replace.
 
 use super::Press;
-use super::thin::{Plan, Speck};
+use super::plan::{Plan, Speck};
 use crate::drawing::{Area, Dot, Mark};
 use crate::geometry::{BezPath, OffsetOutline, Point, Rect, clip_polygon, polygon_area};
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! Strokes: thinned by the spread on both sides, and broken into dashes of the thinnest line where that is too thin for print.
 
-use super::thin::{Plan, Speck};
+use super::plan::{Broken, Piece, Plan, Speck};
 use super::{Press, widened};
 use crate::drawing::{Dot, Ends, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, catmull_rom, polyline_length, simplify};
@@ -15,20 +15,6 @@ const SAMPLES_A_DASH: f64 = 4.0;
 const LONGEST_STEP: f64 = 0.25;
 /// Maximum deviation of a dash from the original curve, in millimetres; half of it cannot be printed.
 const DASH_TOLERANCE: f64 = 0.003;
-
-/// A stroke in pieces from start to end. The thin ones may be left out.
-pub(super) struct Broken {
-    stroke: Stroke,
-    pieces: Vec<Piece>,
-}
-
-/// A piece of the centre line with the widths wanted in print. Neighbours share a point.
-struct Piece {
-    points: Vec<Point>,
-    widths: Vec<f64>,
-    /// If the piece is too thin: its ink as a share of a full dash's.
-    share: Option<f64>,
-}
 
 /// Plans a stroke: whole if it is wide enough everywhere, else broken.
 pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {

@@ -13,6 +13,7 @@
 mod area;
 mod job;
 mod line;
+mod plan;
 mod spread;
 mod thin;
 
@@ -22,8 +23,8 @@ use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::Affine;
 use crate::interrupt::{Interrupt, Interrupted};
 use kurbo::Shape;
+use plan::{Plan, Speck};
 use rayon::prelude::*;
-use thin::{Plan, Speck};
 
 /// The effect of a press on marks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,28 +1,10 @@
 //! Chooses which marks too small for print stay, and what they become.
 
 use super::Press;
-use super::line::Broken;
+use super::plan::Plan;
 use crate::drawing::Mark;
 use crate::geometry::{Point, thinned};
 use crate::interrupt::Interrupt;
-
-/// The plan for one mark.
-pub(super) enum Plan {
-    /// Print it, with its size corrected.
-    Whole(Mark),
-    /// The part that is large enough, and the specks for the rest.
-    Specks(Option<Mark>, Vec<Speck>),
-    /// A line that is partly too thin.
-    Broken(Broken),
-}
-
-/// A mark of the smallest size at a point where less ink is wanted.
-pub(super) struct Speck {
-    pub at: Point,
-    /// The ink wanted there, as a share of the smallest mark's.
-    pub share: f64,
-    pub mark: Mark,
-}
 
 /// The marks of a layer in painting order, thinned out: specks are kept in blue-noise order, everywhere as many as their shares
 /// add up to. Once the interrupt is raised, any of them.

@@ -29,6 +29,12 @@ const RAISED: f64 = 0.12;
 /// The expected head narrows by this fraction from eyes to chin: hair that ends at the ears leaves shadows on walls beside the
 /// jaw.
 const JAW: f64 = 0.35;
+/// Short hair and ears beside the oval, in widths of the face, and how much a head with short hair narrows to the chin.
+const SHORT: f64 = 0.1;
+const SHORT_JAW: f64 = 0.35;
+const SHORT_HEIGHT: f64 = 1.15;
+/// Height of the shoulders below the face's middle, in widths of the face.
+const SHOULDERS: f64 = 0.55;
 
 /// A piecewise linear function given by its corners; constant beyond the first and last.
 fn through_corners<const N: usize>(corners: [(f64, f64); N], x: f64) -> f64 {
@@ -49,7 +55,9 @@ pub(super) struct Head {
     /// The middle of the face, and the unit vector from the person's right to left.
     middle: Point,
     across: Vec2,
-    /// Extent of the expected head to either side of the middle, in widths of the face.
+    /// Extent of the face's oval to either side of the middle, in widths of the face.
+    sides: [f64; 2],
+    /// The same of the expected head.
     reach: [f64; 2],
 }
 
@@ -70,8 +78,9 @@ impl Head {
         let (far, near) = (FAR + BESIDE * (1.0 - turned), BESIDE + BACK * turn.abs());
         let beside = if turn < 0.0 { [far, near] } else { [near, far] };
         let most = |sign: f64| oval.iter().map(|p| sign * (*p - middle).dot(across)).fold(0.0, f64::max) / width;
-        let reach = [most(-1.0) + beside[0], most(1.0) + beside[1]];
-        Self { oval, centre, forehead, width, crown: forehead.y + CROWN * up.y, middle, across, reach }
+        let sides = [most(-1.0), most(1.0)];
+        let reach = [sides[0] + beside[0], sides[1] + beside[1]];
+        Self { oval, centre, forehead, width, crown: forehead.y + CROWN * up.y, middle, across, sides, reach }
     }
 
     pub(super) fn is_close_up(&self, picture: Rect) -> bool {
@@ -95,6 +104,17 @@ impl Head {
             .map(|p| [p.x * columns as f64 / picture.width(), p.y * rows as f64 / picture.height()])
             .collect();
         filled_polygon(columns, rows, &outline)
+    }
+
+    /// True above the shoulders and beyond a head with short hair.
+    pub(super) fn is_beside(&self, place: Point) -> bool {
+        let from = (place - self.middle) / self.width;
+        let (across, down) = (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)));
+        let side = self.sides[usize::from(across >= 0.0)] + SHORT;
+        let reach = side * through_corners([(-0.2, 1.0), (0.6, 1.0 - SHORT_JAW)], down);
+        let down_from_middle = down + RAISED;
+        let height = if down_from_middle >= 0.0 { 1.0 } else { SHORT_HEIGHT };
+        down <= SHOULDERS && (across / reach).hypot(down_from_middle / height) >= 1.0
     }
 
     /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.

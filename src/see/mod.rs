@@ -42,6 +42,8 @@ mod subject;
 #[cfg(feature = "see")]
 mod turn;
 #[cfg(feature = "see")]
+mod unseen_black;
+#[cfg(feature = "see")]
 mod view;
 
 #[cfg(feature = "see")]

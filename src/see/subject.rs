@@ -6,6 +6,7 @@ use super::colours::Colours;
 use super::head::Head;
 use super::looks::PersonMaps;
 use super::networks::Network;
+use super::unseen_black::without_unseen_black;
 use super::view::{Outside, View, Window};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, components, dilate, guided_enlargement};
@@ -68,6 +69,7 @@ pub(super) fn subject(
     let small = view.resampled_to(&Window::stretched(view.part), size, Outside::Repeated);
     let looks = PersonMaps::new(network, view, &heads, size)?;
     let decided = Decision::new(view.part, &heads, strangers, &looks).made(&Colours::new(&small));
+    let decided = without_unseen_black(&decided, &small, view.part, &heads);
     let guide = small.map(|colour| colour.map(|v| v / 255.0));
     let fine = guided_enlargement(&view.pixels, &guide, &decided, REACH, EPS).map(|v| (255.0 * v).round() as u8);
     Ok(pieces_with_a_face(&fine, view, &heads))

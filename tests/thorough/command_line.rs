@@ -154,6 +154,10 @@ fn wrong_command_lines_end_with_status_2_and_say_what_works() {
     refuses(folder.path(), 2, "give the format", &["draw", "photo.png", "-o", "-"]);
     refuses(folder.path(), 2, "writes PDF and InkML", &["plot", "drawing.svg", "-o", "out.inkml"]);
     refuses(folder.path(), 2, "need --profile", &["draw", "photo.png", "-o", "out.gcode"]);
+    for option in [&["--dry-time", "30"][..], &["--speed", "50"], &["--dwell", "0.1"], &["--frame"], &["--pause-every", "20m"]] {
+        let line = [&["draw", "photo.png", "-o", "out.svg"], option].concat();
+        refuses(folder.path(), 2, "is for a machine; it needs --profile", &line);
+    }
     refuses(folder.path(), 2, "reads another language", &["draw", "photo.png", "-o", "out.gcode", "--profile", "hp7475a"]);
     refuses(folder.path(), 2, "both write to stdout", &["draw", "photo.png", "-o", "-", "--format", "svg", "--json"]);
 }

@@ -82,10 +82,12 @@ impl Drawer<'_> {
             found.found.contains(&feature).then(|| oval.within(frame, window, tone.width(), tone.height()))
         };
         let ovals: Vec<Option<Raster<f32>>> = FacialFeature::ALL.into_iter().zip(frame.windows).map(inside).collect();
-        let darkest = darkest(&tone, &ovals);
+        let (darkest, target) = (darkest(&tone, &ovals), self.darkness());
         for (feature, inside) in FacialFeature::ALL.into_iter().zip(&ovals) {
             let (Some(inside), Some(oval)) = (inside, oval_of(feature)) else { continue };
             let limit = limit(&tone, inside);
+            // A nose's underside is often in shadow: it gets the ink of its tone, not more. Lips and lids are drawn firmer than they are.
+            let room = |i: usize| if feature == FacialFeature::Nose { target.pixels()[i] } else { 1.0 };
             for i in (0..tone.len()).filter(|i| inside.pixels()[*i] > 0.0) {
                 let (n, inside) = (tone.pixels()[i], inside.pixels()[i]);
                 let sharp = ramp(n / around.pixels()[i].max(0.02), oval.sharp);
@@ -96,7 +98,7 @@ impl Drawer<'_> {
                 let skin = self.washed(1.0 - found.skin[i % tone.width()].min(1.0));
                 let (share, ink) = (&mut tones.share.pixels_mut()[i], &mut tones.ink.pixels_mut()[i]);
                 *share = share.max(dark).max(light);
-                *ink = ink.max(dark * (skin + (1.0 - skin) * depth));
+                *ink = ink.max((dark * (skin + (1.0 - skin) * depth)).min(room(i)));
             }
         }
         tones

@@ -2,7 +2,7 @@
 
 use super::lines::Family;
 use super::region_map::Grid;
-use super::spans::Span;
+use super::span::Span;
 use super::widths::{LineReading, LineReadings};
 use crate::geometry::{Point, Rect, radius_for_area};
 use crate::raster::Raster;

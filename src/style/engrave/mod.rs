@@ -14,6 +14,7 @@ mod region_map;
 mod regions;
 mod relief;
 mod rim;
+mod span;
 mod spans;
 mod strokes;
 mod tones;

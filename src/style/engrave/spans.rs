@@ -1,6 +1,7 @@
 //! The spans of a line inside its region, from border to border (step 4 of the style).
 
 use super::lines::{Family, Line};
+use super::span::Span;
 use super::widths::{LineReading, LineReadings, READINGS};
 
 /// A line that runs along a border with another region, nearer than this (in pitches), is left out. The other region's lines do the
@@ -18,16 +19,6 @@ const ON_RIM: f64 = 1e-9;
 const BESIDE: f64 = 0.9;
 /// Pieces shorter than this are left out, in pitches.
 const STUB: f64 = 0.5;
-
-/// A piece of a line inside its region, by position along it; whether each end is cut by the border, and the length left free between
-/// each end and the border.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
-    pub from: f64,
-    pub to: f64,
-    pub is_cut: [bool; 2],
-    pub lacking: [f64; 2],
-}
 
 impl LineReadings<'_> {
     /// The readings of a line where it is present and inside its region.

@@ -2,7 +2,7 @@
 
 use super::lines::{Family, Line};
 use super::region_map::{Region, RegionMap};
-use super::spans::Span;
+use super::span::Span;
 use crate::geometry::Point;
 use crate::raster::Raster;
 use rayon::prelude::*;
