@@ -64,6 +64,13 @@ pub fn main() -> ExitCode {
         }
     };
     interruption::catch();
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        // What usvg cannot use is told as an error of the file.
+        if !crate::read::is_parsing() {
+            usual(panic);
+        }
+    }));
     match run(arguments) {
         Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
         Err(failure) => {

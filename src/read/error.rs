@@ -32,6 +32,11 @@ pub enum SvgError {
     /// Not SVG, or beyond usvg's limits.
     #[error("cannot be used as an SVG: {0}")]
     Svg(#[from] usvg::Error),
+    /// Boxes that rounding makes empty or endless, which usvg cannot use.
+    #[error(
+        "cannot be used as an SVG: a pattern, mask or filter is too small or too large; give it a width and height near its object's"
+    )]
+    Boxes,
     /// Page size out of range; holds width and height in millimetres.
     #[error(
         "cannot be used as an SVG: its page is {0} x {1} mm, and sides must be from 0.001 mm to 100 m; change its width and height"

@@ -27,4 +27,6 @@ pub use dropped::Dropped;
 pub use error::SvgError;
 pub use imported::ImportedLayer;
 pub use layers::LabelSpeeds;
+#[cfg(feature = "cli")]
+pub(crate) use svg::is_parsing;
 pub use svg::{Imported, read_svg, read_svg_within};

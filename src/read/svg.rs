@@ -14,6 +14,8 @@ use super::layers::{DEEPEST, LabelSpeeds, outline, with_ids};
 use super::text::text_of;
 use crate::drawing::{Drawing, Page, Painted};
 use std::borrow::Cow;
+use std::cell::Cell;
+use std::panic::AssertUnwindSafe;
 
 /// Minimum side of a sheet, in millimetres: files are written in thousandths, and a narrower sheet would be written as zero.
 const NARROWEST: f64 = 0.0006;
@@ -84,12 +86,26 @@ fn parsed(text: &str) -> Result<roxmltree::Document<'_>, SvgError> {
 /// usvg's tree. Images are counted from the XML: none is decoded, and no file beside this one is opened.
 fn tree_of(document: &roxmltree::Document<'_>, elements: f64) -> Result<usvg::Tree, SvgError> {
     let none = usvg::ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
-    usvg::Tree::from_xmltree(document, &usvg::Options { image_href_resolver: none, ..usvg::Options::default() }).map_err(
-        |error| match error {
-            usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => SvgError::Elements(elements),
-            other => SvgError::Svg(other),
-        },
-    )
+    let options = usvg::Options { image_href_resolver: none, ..usvg::Options::default() };
+    PARSES.set(true);
+    // usvg panics on some boxes that rounding makes empty, such as a pattern of width 1e-45 (0.49, `bbox_transform`).
+    let parsed = std::panic::catch_unwind(AssertUnwindSafe(|| usvg::Tree::from_xmltree(document, &options)));
+    PARSES.set(false);
+    let Ok(parsed) = parsed else { return Err(SvgError::Boxes) };
+    parsed.map_err(|error| match error {
+        usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => SvgError::Elements(elements),
+        other => SvgError::Svg(other),
+    })
+}
+
+thread_local! {
+    static PARSES: Cell<bool> = const { Cell::new(false) };
+}
+
+/// True while this thread is in usvg, whose panics are errors of the file.
+#[cfg(feature = "cli")]
+pub(crate) fn is_parsing() -> bool {
+    PARSES.get()
 }
 
 #[cfg(test)]
@@ -103,6 +119,13 @@ mod tests {
              xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='100mm' height='100mm' viewBox='0 0 100 100'>{body}</svg>"
         );
         read_svg(text.as_bytes()).unwrap()
+    }
+
+    #[test]
+    fn a_pattern_that_rounding_makes_empty_is_an_error_of_the_file() {
+        let svg = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9' width='9mm' height='9mm'><pattern id='p' width='1e-45' \
+                   height='1'><path d='M0 0h1'/></pattern><rect x='5' width='3' height='2' fill='url(#p)'/></svg>";
+        assert!(matches!(read_svg(svg.as_bytes()), Err(SvgError::Boxes)), "{:?}", read_svg(svg.as_bytes()));
     }
 
     fn length(imported: &Imported) -> f64 {
