@@ -124,7 +124,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let curve = ToneCurve::default();
     let portrait = Portrait::new(&photograph, Crop::all(&photograph), page, placement, ToneTarget::Lightness, curve)?;
     let drawing = OneLine.draw(&portrait, &settings, 0, &Silent)?;
-    let job = PrintJob::new(drawing, None, &Interrupt::never())?;
+    let job = PrintJob::new(&drawing, None, &Interrupt::never())?;
     job.write(PrintFormat::Svg, &SvgHead { title: "One line".into(), ..SvgHead::default() }, std::fs::File::create(out)?)?;
     Ok(())
 }

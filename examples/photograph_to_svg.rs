@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let portrait = Portrait::new(&photograph, crop, page, placement, ToneTarget::Lightness, curve)?;
 
     let drawing = style.draw(&portrait, &settings, 0, &Silent)?;
-    let job = PrintJob::new(drawing, None, &Interrupt::never())?;
+    let job = PrintJob::new(&drawing, None, &Interrupt::never())?;
     let head = SvgHead { title: "A hedcut".into(), ..SvgHead::default() };
     job.write(PrintFormat::Svg, &head, File::create(out)?)?;
     Ok(())

@@ -112,7 +112,7 @@ pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn 
     drawing.layers = chosen(drawing.layers, &options.layers)?;
     if let Some(press) = press(options)? {
         observer.begin("press");
-        drawing = PrintJob::new(drawing, Some(&press), interrupt())?.into_drawing();
+        drawing = press.compensated_until(&drawing, interrupt())?;
     }
     Ok(drawing)
 }
@@ -130,7 +130,7 @@ fn write_one<'a>(
     let Some((profile, pens)) = machine else {
         observer.begin("writing");
         let format = format.of_print()?;
-        let job = PrintJob::new(drawing.clone(), None, interrupt())?;
+        let job = PrintJob::new(drawing, None, interrupt())?;
         output::write(name, |out| job.write(format, head, out))?;
         return Ok(None);
     };

@@ -5,6 +5,7 @@ use crate::drawing::Drawing;
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::plot::write_inkml;
 use crate::write::{SvgHead, write_pdf, write_svg};
+use std::borrow::Cow;
 use std::io;
 
 /// A format for print, for the screen or for a painting program.
@@ -24,11 +25,11 @@ pub enum PrintFormat {
 
 /// A drawing as it goes onto the plate.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PrintJob {
-    drawing: Drawing,
+pub struct PrintJob<'a> {
+    drawing: Cow<'a, Drawing>,
 }
 
-impl PrintJob {
+impl<'a> PrintJob<'a> {
     /// The job of a drawing; without a press its marks are printed as they are.
     ///
     /// ```
@@ -43,29 +44,24 @@ impl PrintJob {
     /// layer.marks.push(Mark::Dot(Dot::circle(Point::new(20.0, 20.0), 1.5)));
     /// let drawing = Drawing { page: Page::new(40.0, 40.0), layers: vec![layer] };
     /// let newsprint = Press::new(0.25, 40.0, 0.1);
-    /// let job = PrintJob::new(drawing, Some(&newsprint), &Interrupt::never())?;
+    /// let job = PrintJob::new(&drawing, Some(&newsprint), &Interrupt::never())?;
     /// let mut svg = Vec::new();
     /// job.write(PrintFormat::Svg, &SvgHead::default(), &mut svg)?;
     /// assert!(svg.starts_with(b"<svg"));
     /// # Ok(())
     /// # }
     /// ```
-    pub fn new(drawing: Drawing, press: Option<&Press>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+    pub fn new(drawing: &'a Drawing, press: Option<&Press>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let drawing = match press {
-            Some(press) => press.compensated_until(&drawing, interrupt)?,
-            None => drawing,
+            Some(press) => Cow::Owned(press.compensated_until(drawing, interrupt)?),
+            None => Cow::Borrowed(drawing),
         };
         Ok(Self { drawing })
     }
 
     /// What is printed.
-    pub const fn drawing(&self) -> &Drawing {
+    pub fn drawing(&self) -> &Drawing {
         &self.drawing
-    }
-
-    /// What is printed, and the job is over.
-    pub fn into_drawing(self) -> Drawing {
-        self.drawing
     }
 
     /// Writes it.

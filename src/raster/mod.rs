@@ -53,6 +53,7 @@ pub use paper::paper_texture;
 pub use polygon::filled_polygon;
 #[doc(hidden)]
 pub use pyramid::{doubled, halved};
+pub(crate) use rank::median;
 #[doc(hidden)]
 pub use rank::{equalised, sorted};
 #[doc(hidden)]

@@ -21,6 +21,12 @@ pub fn sorted(raster: &Raster<f32>) -> Vec<f32> {
     values
 }
 
+/// The middle of some values, the upper one of two; none of none.
+pub(crate) fn median(mut values: Vec<f32>) -> Option<f32> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f32::total_cmp).1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -106,10 +106,15 @@ impl Head {
         filled_polygon(columns, rows, &outline)
     }
 
+    /// A place across and down from the face's middle, in widths of the face.
+    fn relative(&self, place: Point) -> (f64, f64) {
+        let from = (place - self.middle) / self.width;
+        (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)))
+    }
+
     /// True above the shoulders and beyond a head with short hair.
     pub(super) fn is_beside(&self, place: Point) -> bool {
-        let from = (place - self.middle) / self.width;
-        let (across, down) = (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)));
+        let (across, down) = self.relative(place);
         let side = self.sides[usize::from(across >= 0.0)] + SHORT;
         let reach = side * through_corners([(-0.2, 1.0), (0.6, 1.0 - SHORT_JAW)], down);
         let down_from_middle = down + RAISED;
@@ -119,8 +124,7 @@ impl Head {
 
     /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.
     pub(super) fn expectation_at(&self, place: Point) -> f64 {
-        let from = (place - self.middle) / self.width;
-        let (across, down) = (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)));
+        let (across, down) = self.relative(place);
         let reach = self.reach[usize::from(across >= 0.0)] * through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down);
         let down_from_middle = down + RAISED;
         let height = HEIGHTS[usize::from(down_from_middle >= 0.0)];

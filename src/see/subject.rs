@@ -7,7 +7,7 @@ use super::head::Head;
 use super::looks::PersonMaps;
 use super::networks::Network;
 use super::unseen_black::without_unseen_black;
-use super::view::{Outside, View, Window};
+use super::view::{Outside, View, Window, on_view};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, components, dilate, guided_enlargement};
 
@@ -90,10 +90,7 @@ struct Decision {
 impl Decision {
     fn new(picture: Rect, heads: &[Head], strangers: &[Rect], looks: &PersonMaps) -> Self {
         let (columns, rows) = (looks.least.width(), looks.least.height());
-        let place = |x: usize, y: usize| {
-            let (x, y) = ((x as f64 + 0.5) / columns as f64, (y as f64 + 0.5) / rows as f64);
-            Point::new(picture.x0 + x * picture.width(), picture.y0 + y * picture.height())
-        };
+        let place = |x: usize, y: usize| on_view(picture, (columns, rows), (x, y));
         let sure = heads.iter().fold(Raster::filled(columns, rows, 0), |sure, head| {
             sure.zip_map(&head.sure(picture, columns, rows), |a: u8, b| a.max(b))
         });

@@ -2,8 +2,9 @@
 //! shape of heads decides, not the network.
 
 use super::head::Head;
-use crate::geometry::{Point, Rect};
-use crate::raster::{Raster, components, dilate};
+use super::view::on_view;
+use crate::geometry::Rect;
+use crate::raster::{Raster, components, dilate, median};
 use crate::source::{lab, srgb_to_linear};
 
 /// L* below which a photograph shows no detail.
@@ -24,8 +25,7 @@ pub(super) fn without_unseen_black(decided: &Raster<f32>, picture: &Raster<[f32;
     let light = picture.map(|colour| lab(colour.map(|v| srgb_to_linear(v / 255.0)))[0]);
     let is_person = |x: usize, y: usize| decided.get(x, y) > 0.5;
     let is_candidate = |x: usize, y: usize| {
-        let across = part.x0 + (x as f64 + 0.5) / columns as f64 * part.width();
-        let place = Point::new(across, part.y0 + (y as f64 + 0.5) / rows as f64 * part.height());
+        let place = on_view(part, (columns, rows), (x, y));
         is_person(x, y) && light.get(x, y) < BLACK && heads.iter().all(|head| head.is_beside(place))
     };
     let (labels, count) = components(&Raster::from_fn(columns, rows, |x, y| u8::from(is_candidate(x, y))));
@@ -47,7 +47,7 @@ pub(super) fn without_unseen_black(decided: &Raster<f32>, picture: &Raster<[f32;
         }
     }
     let widest = heads.iter().map(|head| head.width).fold(0.0, f64::max) * columns as f64 / part.width();
-    let is_unseen: Vec<bool> = pieces.iter().map(|piece| piece.is_unseen(LEAST * widest * widest)).collect();
+    let is_unseen: Vec<bool> = pieces.into_iter().map(|piece| piece.into_unseen(LEAST * widest * widest)).collect();
     Raster::from_fn(columns, rows, |x, y| if is_unseen[labels.get(x, y) as usize] { 0.0 } else { decided.get(x, y) })
 }
 
@@ -60,8 +60,8 @@ struct Piece {
 }
 
 impl Piece {
-    fn is_unseen(&self, least: f64) -> bool {
-        let contrast = median(&self.outer).zip(median(&self.inner)).map(|(outer, inner)| outer - inner);
+    fn into_unseen(self, least: f64) -> bool {
+        let contrast = median(self.outer).zip(median(self.inner)).map(|(outer, inner)| outer - inner);
         self.area as f64 >= least && contrast.is_some_and(|contrast| contrast < VISIBLE)
     }
 }
@@ -71,11 +71,6 @@ fn near(labels: &Raster<u32>, rim: &Raster<u8>, x: usize, y: usize) -> Option<us
     let (x, y) = (x as isize, y as isize);
     let around = (-BESIDE..=BESIDE).flat_map(|dy| (-BESIDE..=BESIDE).map(move |dx| (x + dx, y + dy)));
     around.filter(|&(x, y)| rim.clamped(x, y) != 0).map(|(x, y)| labels.clamped(x, y) as usize).find(|label| *label != 0)
-}
-
-fn median(values: &[f32]) -> Option<f32> {
-    let (mut values, middle) = (values.to_vec(), values.len() / 2);
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f32::total_cmp).1)
 }
 
 #[cfg(test)]

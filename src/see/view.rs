@@ -156,6 +156,12 @@ impl Window {
     }
 }
 
+/// The middle of a pixel of a grid that lies over a part of the photograph.
+pub(super) fn on_view(part: Rect, (columns, rows): (usize, usize), (x, y): (usize, usize)) -> Point {
+    let (x, y) = ((x as f64 + 0.5) / columns as f64, (y as f64 + 0.5) / rows as f64);
+    Point::new(part.x0 + x * part.width(), part.y0 + y * part.height())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -85,7 +85,8 @@ pub(super) const fn count(default: u32, range: RangeInclusive<u32>) -> Kind {
     Kind::Count { default, least: *range.start(), most: *range.end() }
 }
 
-/// Declares a style's parameters: the constant `PARAMETERS` and a struct of their values with `read(&Settings)`.
+/// Declares a style's parameters: the constant `PARAMETERS` and a struct of their values with `new(&Settings)`, which a
+/// method of the style may adjust.
 macro_rules! parameters {
     (
         $(#[$attribute:meta])*
@@ -93,6 +94,7 @@ macro_rules! parameters {
             $($field:ident: $kind_of_value:ty = $key:literal: $kind:expr, $meaning:literal, $source:literal
                 $(, needs [$($need:expr),* $(,)?])?;)*
         }
+        $(adjusted by $adjust:ident)?
     ) => {
         /// All parameters of the style.
         $visibility const PARAMETERS: &[$crate::style::Parameter] = &[$($crate::style::Parameter {
@@ -110,8 +112,9 @@ macro_rules! parameters {
         }
 
         impl $name {
-            fn read(settings: &$crate::style::Settings) -> Self {
-                Self { $($field: $crate::style::declaration::Setting::of(settings, $key),)* }
+            /// The values of a drawing's settings.
+            $visibility fn new(settings: &$crate::style::Settings) -> Self {
+                Self { $($field: $crate::style::declaration::Setting::of(settings, $key),)* }$(.$adjust())?
             }
         }
     };

@@ -254,6 +254,16 @@ pub struct Strokes {
     pub ends_up: bool,
 }
 
+impl Strokes {
+    /// The carriage goes to a place, along the last path if the pen is down.
+    fn visit(&mut self, to: Point, is_down: bool) {
+        self.visited.push(to);
+        if let Some((_, path)) = self.paths.last_mut().filter(|_| is_down) {
+            path.push(to);
+        }
+    }
+}
+
 /// Why a machine's file could not be read.
 #[derive(Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -267,4 +277,13 @@ pub enum MotionError {
     /// An SVG, which is a drawing.
     #[error("SVG is read as a drawing, not as motion")]
     Drawing,
+}
+
+/// A plot's file for a machine.
+#[cfg(test)]
+fn written(plot: &Plot, profile: &Profile) -> String {
+    let (mounting, head) = (super::mount(profile, &plot.page).unwrap(), SvgHead::default());
+    let mut bytes = Vec::new();
+    profile.speech().write(&Orders { plot, profile, mounting: &mounting, head: &head }, &mut bytes).unwrap();
+    String::from_utf8(bytes).unwrap()
 }

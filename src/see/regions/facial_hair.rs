@@ -3,7 +3,7 @@
 use super::plate::Plate;
 use super::segmentation::{CLOTHING, HAIR, Shares};
 use super::smoothing::Guide;
-use crate::raster::{Raster, components, dilate, gaussian_blur};
+use crate::raster::{Raster, components, dilate, gaussian_blur, median};
 use crate::source::outlines::{LIPS, MOUTH};
 
 /// Landmarks below the cheekbones, where no beard grows.
@@ -52,7 +52,7 @@ impl<'a> Face<'a> {
         let cheeks = plate.round(&CHEEKS, 0.06);
         let light = plate.lab.map(|c| c[0]);
         let colour = plate.lab.map(|c| c[1].hypot(c[2]) / (c[0] + 8.0));
-        let (light_there, colour_there) = (median(&light, &cheeks)?.max(1.0), median(&colour, &cheeks)?.max(0.01));
+        let (light_there, colour_there) = (median_in(&light, &cheeks)?.max(1.0), median_in(&colour, &cheeks)?.max(0.01));
         let smooth = gaussian_blur(&light, 0.02 * plate.face_width);
         let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), 0.03 * plate.face_width);
         let uneven = energy.zip_map(&light, |e, l| 50.0 * e.max(0.0).sqrt() / (l + 8.0));
@@ -70,8 +70,8 @@ impl<'a> Face<'a> {
             .filter(|half| half.pixels().iter().filter(|is| **is).count() >= LEAST_HALF)
             .filter_map(|half| {
                 let (light, colour, uneven) =
-                    (median(&self.light, &half)?, median(&self.colour, &half)?, median(&self.uneven, &half)?);
-                let l = median(&self.plate.lab.map(|c| c[0]), &half)?;
+                    (median_in(&self.light, &half)?, median_in(&self.colour, &half)?, median_in(&self.uneven, &half)?);
+                let l = median_in(&self.plate.lab.map(|c| c[0]), &half)?;
                 let is_dark = light < DARK && uneven > UNEVEN;
                 let is_pale = colour < PALE && l > BLACK;
                 let is_darkest = light < DARKEST && uneven > 6.5 && colour < 1.3;
@@ -187,8 +187,6 @@ fn share_of(marked: &Raster<bool>, zone: &Raster<bool>) -> f32 {
 }
 
 /// The median over a zone.
-fn median(plane: &Raster<f32>, zone: &Raster<bool>) -> Option<f32> {
-    let mut values: Vec<f32> = plane.pixels().iter().zip(zone.pixels()).filter(|(_, is)| **is).map(|(v, _)| *v).collect();
-    values.sort_by(f32::total_cmp);
-    values.get(values.len() / 2).copied()
+fn median_in(plane: &Raster<f32>, zone: &Raster<bool>) -> Option<f32> {
+    median(plane.pixels().iter().zip(zone.pixels()).filter(|(_, is)| **is).map(|(v, _)| *v).collect())
 }

@@ -2,6 +2,7 @@
 
 use super::mixture::{Gaussian, Mixture, add_diagonal, covariance, square};
 use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
+use crate::raster;
 
 /// Fewest pixels to learn a class from.
 pub(super) const LEAST_SEEDS: usize = 40;
@@ -168,10 +169,6 @@ fn near_median(disc: &[Feature]) -> Vec<Feature> {
 
 /// The median of each component.
 pub(super) fn median(samples: &[Feature]) -> Option<Feature> {
-    let of = |k: usize| {
-        let mut values: Vec<f32> = samples.iter().map(|s| s[k]).collect();
-        values.sort_by(f32::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
+    let of = |k: usize| raster::median(samples.iter().map(|s| s[k]).collect());
     Some([of(0)?, of(1)?, of(2)?, of(3)?])
 }

@@ -99,9 +99,3 @@ impl Setting for HoughForm {
         if settings.word(name) == "round" { Self::Round } else { Self::Thesis }
     }
 }
-
-impl CharcoalParameters {
-    pub(super) fn new(settings: &Settings) -> Self {
-        Self::read(settings)
-    }
-}

@@ -5,6 +5,7 @@ use super::seen_face;
 use super::skin::may_be_skin;
 use crate::field::{FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
+use crate::raster;
 use crate::raster::{Raster, components, dilate, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
 use crate::source::MaskRole;
 use crate::style::Picture;
@@ -320,11 +321,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
 }
 
 fn median(colours: &[[f32; 3]]) -> [f32; 3] {
-    [0, 1, 2].map(|i| {
-        let mut channel: Vec<f32> = colours.iter().map(|c| c[i]).collect();
-        channel.sort_by(f32::total_cmp);
-        channel.get(channel.len() / 2).copied().unwrap_or(0.0)
-    })
+    [0, 1, 2].map(|i| raster::median(colours.iter().map(|c| c[i]).collect()).unwrap_or(0.0))
 }
 
 /// The box around a silhouette's head, from its top to where it narrows to a neck; none if it never does.

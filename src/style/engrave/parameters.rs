@@ -2,7 +2,7 @@
 
 use crate::source::MaskRole;
 use crate::style::declaration::{OFF, choice, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need, Settings};
+use crate::style::{Kind, Need};
 
 /// Working pixels per pitch.
 pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
@@ -94,6 +94,7 @@ parameters! {
             "width of the outlines in their middle",
             "", needs [Need::Word("outline", &["on"])];
     }
+    adjusted by in_proportion
 }
 
 choice! {
@@ -154,14 +155,14 @@ choice! {
 }
 
 impl EngraveParameters {
-    pub(super) fn new(settings: &Settings) -> Self {
-        let read = Self::read(settings);
-        let pitch = read.pitch;
+    /// Keeps lengths in proportion to the pitch.
+    fn in_proportion(self) -> Self {
+        let pitch = self.pitch;
         Self {
-            sampling: read.sampling.max(0.05 * pitch),
-            region_size: read.region_size.max(2.0 * pitch),
-            min_gap: read.min_gap.clamp(0.1 * pitch, 0.75 * pitch),
-            ..read
+            sampling: self.sampling.max(0.05 * pitch),
+            region_size: self.region_size.max(2.0 * pitch),
+            min_gap: self.min_gap.clamp(0.1 * pitch, 0.75 * pitch),
+            ..self
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The painting's parameters and their values.
 
 use crate::style::declaration::{Radians, choice, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need, Settings};
+use crate::style::{Kind, Need};
 
 /// Working resolution in millimetres per pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
 /// millimetres match those of Table 7.1 in pixels.
@@ -142,10 +142,6 @@ impl GlassParameters {
             (_, Colours::Mono) => Manner::OnePen,
             _ => Manner::Painting,
         }
-    }
-
-    pub(super) fn new(settings: &Settings) -> Self {
-        Self::read(settings)
     }
 
     /// Working pixels per millimetre.

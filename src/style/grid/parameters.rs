@@ -2,7 +2,7 @@
 
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need, Settings};
+use crate::style::{Kind, Need};
 
 /// Working pixels per pitch, as in the paper (`d = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;
@@ -124,6 +124,7 @@ parameters! {
             "rows nearest to a feature line: beside keeps them half a pitch away, on puts one on the line, free leaves them where they fall",
             "Son 5.2 begins on it";
     }
+    adjusted by with_bounded_window
 }
 
 choice! {
@@ -170,9 +171,9 @@ choice! {
 }
 
 impl GridParameters {
-    pub(super) fn new(settings: &Settings) -> Self {
-        let read = Self::read(settings);
-        Self { window_mm: read.window_mm.min(WIDEST_WINDOW * read.pitch_mm), ..read }
+    /// Keeps the window within its reach in pitches.
+    fn with_bounded_window(self) -> Self {
+        Self { window_mm: self.window_mm.min(WIDEST_WINDOW * self.pitch_mm), ..self }
     }
 
     /// The smallest spacing in the picture, in pitches.

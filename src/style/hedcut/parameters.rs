@@ -2,7 +2,7 @@
 
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need, Settings};
+use crate::style::{Kind, Need};
 
 /// Working pixels per pitch, as in the papers (`l = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;
@@ -130,10 +130,6 @@ choice! {
 }
 
 impl HedcutParameters {
-    pub(super) fn new(settings: &Settings) -> Self {
-        Self::read(settings)
-    }
-
     /// Lanes of a detail region in the place of one; none where detail is off.
     pub(super) fn detail_lanes(&self) -> Option<f64> {
         match self.detail {

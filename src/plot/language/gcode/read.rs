@@ -181,12 +181,7 @@ impl Reader<'_> {
 
     fn visit(&mut self, to: Point) {
         self.at = to;
-        self.motion.visited.push(to);
-        if self.is_down
-            && let Some((_, path)) = self.motion.paths.last_mut()
-        {
-            path.push(to);
-        }
+        self.motion.visit(to, self.is_down);
     }
 
     fn lower(&mut self) -> Result<(), TooMuchWork> {

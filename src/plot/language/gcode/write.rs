@@ -277,14 +277,8 @@ fn feed(speed: f64) -> i64 {
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
-    use crate::plot::{Plot, mount};
-
-    fn written(plot: &Plot, profile: &Profile) -> String {
-        let (mounting, head) = (mount(profile, &plot.page).unwrap(), crate::write::SvgHead::default());
-        let mut bytes = Vec::new();
-        profile.speech().write(&Orders { plot, profile, mounting: &mounting, head: &head }, &mut bytes).unwrap();
-        String::from_utf8(bytes).unwrap()
-    }
+    use crate::plot::Plot;
+    use crate::plot::language::written;
 
     #[test]
     fn a_layer_s_own_pause_speed_and_delay() {

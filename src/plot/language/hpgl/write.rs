@@ -195,14 +195,8 @@ fn packed_number(text: &mut String, value: i64) {
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Page};
-    use crate::plot::{PenPaths, Plot, Toolpath, mount};
-
-    fn written(plot: &Plot, profile: &Profile) -> String {
-        let (mounting, head) = (mount(profile, &plot.page).unwrap(), crate::write::SvgHead::default());
-        let mut bytes = Vec::new();
-        profile.speech().write(&Orders { plot, profile, mounting: &mounting, head: &head }, &mut bytes).unwrap();
-        String::from_utf8(bytes).unwrap()
-    }
+    use crate::plot::language::written;
+    use crate::plot::{PenPaths, Plot, Toolpath};
 
     fn dialect(arcs: bool, packed: bool) -> HpglDialect {
         let (preamble, postamble) = (String::new(), String::new());
