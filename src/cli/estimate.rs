@@ -25,13 +25,14 @@ use crate::source::Placement;
 use crate::style::{Observer, Picture, Settings, Silent};
 use std::time::{Duration, Instant};
 
-/// Seconds of work for the smaller and for the larger picture; with both, and their plots, an estimate stays under a second.
+/// Seconds of work for the smaller and for the larger picture; with both, their plots and a third for advice, an estimate takes a
+/// second and a half. Twice the larger is no more accurate on a portrait in two styles, and takes half a second more.
 const QUICK_SECONDS: f64 = 0.06;
-const CAREFUL_SECONDS: f64 = 0.3;
+const CAREFUL_SECONDS: f64 = 0.15;
 /// Maximum number of marks plotted in the smaller and in the larger picture. The limits for paint are lower: cutting a stroke by the
 /// paint over it takes nearly a millisecond.
 const MARKS: [f64; 2] = [2000.0, 8000.0];
-const PAINT: [f64; 2] = [200.0, 900.0];
+const PAINT: [f64; 2] = [100.0, 350.0];
 /// Minimum short side of a picture drawn for an estimate, in pitches; with less, no face is left.
 const LEAST_PITCHES: f64 = 12.0;
 /// Time limit for the larger picture. Only reached on a machine that is busy or much slower than the cost tables assume.
@@ -72,6 +73,8 @@ pub(super) struct DrawingEstimate {
     pub share: f64,
     /// The picture drawn for the estimate.
     pub drawing: Drawing,
+    /// Seconds of the plot as a quick estimate has them.
+    pub quick_seconds: f64,
 }
 
 /// A smaller picture of the photograph.
@@ -113,7 +116,7 @@ impl Estimator<'_> {
             drawn => drawn?,
         };
         let second = self.told(plan, &sample)?;
-        Ok(DrawingEstimate { amounts: extrapolated(&first, &second), ..second })
+        Ok(DrawingEstimate { amounts: extrapolated(&first, &second), quick_seconds: first.quick_seconds, ..second })
     }
 
     /// The largest side, as a fraction of the picture's, that takes at most `seconds` of work.
@@ -159,6 +162,7 @@ impl Estimator<'_> {
         let paths = amounts.plot.as_ref().map_or(0.0, |plot| plot.ordered.total.paths as f64);
         let drawing = sample.seconds * self.cost(plan, 1.0) / self.cost(plan, sample.side);
         Ok(DrawingEstimate {
+            quick_seconds: amounts.plot_seconds(),
             amounts,
             work_seconds: drawing + plotting + each * paths,
             share: 1.0 / times,

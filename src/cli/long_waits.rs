@@ -67,19 +67,19 @@ fn estimate_if_long(teller: &mut Estimator<'_>, plan: &Plan, tell: &dyn Fn(f64))
 pub(super) fn warn(teller: &mut Estimator<'_>, foretold: &DrawingEstimate) {
     let seconds = foretold.amounts.plot_seconds();
     if seconds > LONG_HOURS * 3600.0 {
-        let advice = advice(teller, seconds);
+        let advice = advice(teller, foretold);
         warning!("this plot will take about {}{advice}", duration(seconds));
     }
 }
 
 /// The pitch that takes two hours; if that pitch would be too coarse for the picture, the size.
-fn advice(teller: &mut Estimator<'_>, seconds: f64) -> String {
+fn advice(teller: &mut Estimator<'_>, foretold: &DrawingEstimate) -> String {
     let usual = format!("about {}", duration(USUAL_LIMIT));
-    let shortened = Shortened::new(teller, seconds, USUAL_LIMIT);
-    if let Some(pitch) = shortened.as_ref().and_then(|shortened| shortened.pitch(teller)) {
+    let shortened = Shortened { times: foretold.amounts.plot_seconds() / USUAL_LIMIT, quick: foretold.quick_seconds };
+    if let Some(pitch) = shortened.pitch(teller) {
         return format!("; --pitch {pitch:.2}mm would take {usual}, and --max-time 2h chooses it");
     }
-    match shortened.and_then(|shortened| shortened.size(teller)) {
+    match shortened.size(teller) {
         Some(size) => format!("; {size} would take {usual}"),
         None => "; a smaller --size on the same --page makes it shorter".to_owned(),
     }
@@ -87,7 +87,8 @@ fn advice(teller: &mut Estimator<'_>, seconds: f64) -> String {
 
 /// The size, on the same sheet, whose plot takes `limit` seconds, as options.
 pub(super) fn smaller_size(teller: &mut Estimator<'_>, seconds: f64, limit: f64) -> Option<String> {
-    Shortened::new(teller, seconds, limit)?.size(teller)
+    let quick = quick(teller, &Plan::of(teller.task))?;
+    Shortened { times: seconds / limit, quick }.size(teller)
 }
 
 /// A plot to be shortened. Quick estimates are only compared with each other.
@@ -99,11 +100,6 @@ struct Shortened {
 }
 
 impl Shortened {
-    fn new(teller: &mut Estimator<'_>, seconds: f64, limit: f64) -> Option<Self> {
-        let quick = quick(teller, &Plan::of(teller.task))?;
-        Some(Self { times: seconds / limit, quick })
-    }
-
     /// The pitch that reaches the time wanted, unless it is too coarse for the picture.
     fn pitch(&self, teller: &mut Estimator<'_>) -> Option<f64> {
         let (pitch, most) = (teller.task.settings.pitch()?, teller.task.largest_useful_pitch());

@@ -3,6 +3,7 @@
 
 use super::polyline::distance_to_segment;
 use kurbo::Point;
+use rayon::prelude::*;
 
 /// Maximum number of lines for which every pair is tested: half a million pairs.
 const FEW: usize = 1000;
@@ -30,7 +31,7 @@ pub fn estimated_crossings(threads: &[WideSegment]) -> f64 {
 }
 
 /// [`estimated_crossings`] of the pairs of indices for which `counts` is true.
-pub fn estimated_crossings_among(threads: &[WideSegment], counts: impl Fn(usize, usize) -> bool) -> f64 {
+pub fn estimated_crossings_among(threads: &[WideSegment], counts: impl Fn(usize, usize) -> bool + Sync) -> f64 {
     let count = threads.len();
     let meets = |i: usize, j: usize| counts(i, j) && do_meet(&threads[i], &threads[j]);
     if count <= FEW {
@@ -38,7 +39,7 @@ pub fn estimated_crossings_among(threads: &[WideSegment], counts: impl Fn(usize,
         return (0..count).map(behind).sum::<usize>() as f64;
     }
     let at = |k: usize, step: f64| (((k as f64 * step).fract() * count as f64) as usize).min(count - 1);
-    let found = (1..=SAMPLES).filter(|&k| meets(at(k, STEPS[0]), at(k, STEPS[1]))).count();
+    let found = (1..=SAMPLES).into_par_iter().filter(|&k| meets(at(k, STEPS[0]), at(k, STEPS[1]))).count();
     found as f64 * (0.5 * count as f64 * count as f64) / SAMPLES as f64
 }
 

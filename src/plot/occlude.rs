@@ -4,7 +4,8 @@ use crate::drawing::{Area, Colour, Dot, Drawing, Mark, Mixing, Painted, Stroke, 
 use crate::geometry::{BezPath, Rect, Region};
 use crate::interrupt::{Interrupt, Interrupted};
 use kurbo::Shape;
-use std::cell::OnceCell;
+use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// Flattening tolerance of outlines that are cut, in millimetres.
 const TOLERANCE: f64 = 0.005;
@@ -41,9 +42,8 @@ pub fn occluded_where(
 ) -> Result<Drawing, Interrupted> {
     let mut covers = Covers::new(drawing);
     let is_paint = hides == Hides::PaintOnOtherColours;
-    let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
+    let mut wanted: Vec<Wanted<'_>> = Vec::new();
     for painted in painting.iter().rev() {
-        interrupt.check()?;
         match painted {
             Painted::White(outline) => covers.add(Outline::White(outline), None),
             &Painted::Mark { layer, mark } => {
@@ -52,11 +52,7 @@ pub fn occluded_where(
                 };
                 let colour = the_mark.colour().unwrap_or(layer_of.ink.colour());
                 if is_wanted(layer, mark) {
-                    let mut visible = covers.visible(the_mark, colour, hides, interrupt);
-                    if is_paint && layer_of.mixing == Mixing::Paint {
-                        visible.iter_mut().for_each(ungroup);
-                    }
-                    left[layer].push((mark, visible));
+                    wanted.push(Wanted { place: (layer, mark), mark: the_mark, colour, above: covers.all.len() });
                 }
                 let is_cover = match hides {
                     Hides::OtherColours => true,
@@ -69,6 +65,17 @@ pub fn occluded_where(
             }
         }
     }
+    let cut = |wanted: &Wanted<'_>| {
+        interrupt.check()?;
+        let mut visible = covers.visible(wanted, hides, interrupt);
+        if is_paint && drawing.layers[wanted.place.0].mixing == Mixing::Paint {
+            visible.iter_mut().for_each(ungroup);
+        }
+        Ok((wanted.place, visible))
+    };
+    let cut: Vec<((usize, usize), Vec<Mark>)> = wanted.par_iter().map(cut).collect::<Result<_, Interrupted>>()?;
+    let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
+    cut.into_iter().for_each(|((layer, mark), visible)| left[layer].push((mark, visible)));
     let mut result = drawing.clone();
     for (layer, mut marks) in result.layers.iter_mut().zip(left) {
         marks.sort_by_key(|(index, _)| *index);
@@ -77,7 +84,17 @@ pub fn occluded_where(
     Ok(result)
 }
 
-/// Opaque outlines found so far, from the top down.
+/// A mark whose visible parts are wanted.
+struct Wanted<'a> {
+    /// Its layer, and its number there.
+    place: (usize, usize),
+    mark: &'a Mark,
+    colour: Colour,
+    /// Number of covers above it.
+    above: usize,
+}
+
+/// Opaque outlines, from the top down.
 struct Covers<'a> {
     bounds: Rect,
     cells: Vec<Vec<u32>>,
@@ -93,7 +110,7 @@ enum Outline<'a> {
 struct Cover<'a> {
     of: Outline<'a>,
     /// Computed when first needed.
-    outline: OnceCell<BezPath>,
+    outline: OnceLock<BezPath>,
     bounds: Rect,
     /// None for white.
     colour: Option<Colour>,
@@ -131,7 +148,7 @@ impl<'a> Covers<'a> {
         }
         let index = self.all.len() as u32;
         self.cells_of(bounds).for_each(|cell| self.cells[cell].push(index));
-        self.all.push(Cover { of, outline: OnceCell::new(), bounds, colour });
+        self.all.push(Cover { of, outline: OnceLock::new(), bounds, colour });
     }
 
     fn cells_of(&self, rect: Rect) -> impl Iterator<Item = usize> + use<> {
@@ -141,10 +158,12 @@ impl<'a> Covers<'a> {
         rows.flat_map(move |row| columns.clone().map(move |column| row * CELLS + column))
     }
 
-    /// The outlines over a box that hide this colour, as one path.
-    fn over(&self, bounds: Rect, colour: Colour, hides: Hides) -> BezPath {
-        let hidden_by = |cover: &Cover<'_>| hides == Hides::AllLines || cover.colour != Some(colour);
-        let mut found: Vec<u32> = self.cells_of(bounds).flat_map(|cell| &self.cells[cell]).copied().collect();
+    /// The outlines above a mark with this box that hide its colour, as one path.
+    fn over(&self, wanted: &Wanted<'_>, bounds: Rect, hides: Hides) -> BezPath {
+        let hidden_by = |cover: &Cover<'_>| hides == Hides::AllLines || cover.colour != Some(wanted.colour);
+        // Each cell lists its covers in order.
+        let above = |cell: usize| self.cells[cell].iter().copied().take_while(|cover| (*cover as usize) < wanted.above);
+        let mut found: Vec<u32> = self.cells_of(bounds).flat_map(above).collect();
         found.sort_unstable();
         found.dedup();
         let covers = found.into_iter().map(|i| &self.all[i as usize]).filter(|c| c.bounds.overlaps(bounds) && hidden_by(c));
@@ -152,12 +171,13 @@ impl<'a> Covers<'a> {
     }
 
     /// The visible parts of a mark.
-    fn visible(&self, mark: &Mark, colour: Colour, hides: Hides, interrupt: &Interrupt) -> Vec<Mark> {
+    fn visible(&self, wanted: &Wanted<'_>, hides: Hides, interrupt: &Interrupt) -> Vec<Mark> {
+        let mark = wanted.mark;
         let bounds = mark.bounding_box();
         if !bounds.is_finite() {
             return vec![mark.clone()];
         }
-        let over = self.over(bounds, colour, hides);
+        let over = self.over(wanted, bounds, hides);
         if over.is_empty() {
             return vec![mark.clone()];
         }

@@ -29,11 +29,14 @@ const MOST_RING_VERTICES: usize = 2_000_000;
 pub(super) fn fill(insets: &OffsetOutline, nib: f64, phase: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
     let pitch = nib * (1.0 - OVERLAP);
     let outermost = insets.grown(-0.5 * nib);
-    let narrow = narrow_parts(insets, &outermost, nib, phase, interrupt);
     let border = closed_rings(outermost.borders());
     let room = Room::new(&outermost, nib);
-    let hatched = hatching(insets, &border, &room, nib, pitch, interrupt);
-    let ringed = rings(outermost, pitch, interrupt).map(|rings| joined(&rings, &room, 1.5 * pitch, interrupt));
+    // One large area may be most of a drawing: its three parts are computed side by side.
+    let ringed = || rings(outermost.clone(), pitch, interrupt).map(|rings| joined(&rings, &room, 1.5 * pitch, interrupt));
+    let (narrow, (hatched, ringed)) = rayon::join(
+        || narrow_parts(insets, &outermost, nib, phase, interrupt),
+        || rayon::join(|| hatching(insets, &border, &room, nib, pitch, interrupt), ringed),
+    );
     let mut paths = match (hatched, ringed) {
         (Some(hatched), Some(ringed)) if cost(&hatched) < cost(&ringed) => hatched,
         (Some(hatched), None) => hatched,
