@@ -2,6 +2,7 @@
 
 use super::blurred_within;
 use super::curve::Curve;
+use super::openings::opened;
 use super::zones::Zones;
 use crate::geometry::Point;
 use crate::raster::{Raster, Remapping, box_blur, fast_gaussian, local_laplacian};
@@ -88,6 +89,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
         tone = light_hair(&zones, face, &tone, hair, &setting.subject);
     }
     let tone = raised_features(&zones, &tone, &setting.subject);
+    let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone);
     Some(mixed(setting.lightness, &tone, &setting.subject))
@@ -172,7 +174,7 @@ fn raised_features(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> 
     tone.zip_map(&raised.zip_map(&zones.features, |raised, feature| raised * feature), |tone, more| tone + more)
 }
 
-/// Step 7: hair, beards and cloth keep gaps of paper; thin dark lines stay.
+/// Step 8: hair, beards and cloth keep gaps of paper; thin dark lines stay.
 fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let clamped = tone.map(|v| v.clamp(0.0, 1.0));
     let mean = blurred_within(&clamped, &subject.map(|v| v + 1e-6), (zones.width / 40.0) as f32);
@@ -181,7 +183,7 @@ fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Ra
     tone.zip_map(&lift, |tone, lift| tone + lift)
 }
 
-/// Step 8: a face whose lights are small or scattered gets bare paper too. Above the face's bright quarter the curve is
+/// Step 9: a face whose lights are small or scattered gets bare paper too. Above the face's bright quarter the curve is
 /// steepened, by the least amount that takes its lights, as seen in print, to paper.
 fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
     let seen = |tone: &Raster<f32>| fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), (SEEN * zones.width) as f32);

@@ -7,13 +7,15 @@
 //! ```text
 //!   lightness -> light evened over skin -> local contrast -> one rising curve, through the skin's median and its lights,
 //!                                                              on a base layer; its detail added back
-//!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised -> large blacks opened
+//!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
+//!   -> eyes and mouths opened -> large blacks opened -> lights to paper
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
 
 mod curve;
 mod face;
+mod openings;
 mod zones;
 
 use crate::raster::{Raster, box_blur, enlarge, fast_gaussian, reduce};
@@ -35,6 +37,16 @@ const TRANSFER_EPS: f32 = 1e-4;
 
 /// The tone of a portrait by its faces, 0 to 1; `None` if it has no face, or no face has measurable skin. `strength` runs from 0
 /// (lightness unchanged) to 1.
+///
+/// ```no_run
+/// # fn example(mut portrait: drypoint::source::Portrait) {
+/// use drypoint::{source::ToneCurve, tone::portrait_tone};
+///
+/// if let Some(tone) = portrait_tone(&portrait, 1.0) {
+///     portrait.set_portrait_tone(&tone, ToneCurve::default());
+/// }
+/// # }
+/// ```
 pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> {
     let widest = portrait.faces.first()?.width();
     let factor = ((widest / FACE_WIDTH).floor() as usize).max(1);

@@ -95,6 +95,7 @@ fn sorted_where(values: &Raster<f32>, mask: &Raster<u8>) -> Vec<f32> {
     inside
 }
 
-fn polygon(columns: usize, rows: usize, corners: &[Point]) -> Raster<u8> {
+/// The pixels inside a closed polygon.
+pub(super) fn polygon(columns: usize, rows: usize, corners: &[Point]) -> Raster<u8> {
     filled_polygon(columns, rows, &corners.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())
 }

@@ -1,0 +1,89 @@
+//! Eyes and open mouths, whose small forms the tone of skin would grey over: whites are lightened, irises darkened, catchlights
+//! left as paper, and the gaps between teeth kept.
+
+use super::blurred_within;
+use super::zones::{Zones, polygon};
+use crate::geometry::{Point, polygon_area};
+use crate::raster::{Raster, dilate, fast_gaussian};
+use crate::source::{Iris, Landmarks, outlines};
+
+/// Height over width of an opening: below the first it is closed, from the second on it is treated in full.
+const EYE_OPEN: [f64; 2] = [0.12, 0.22];
+const MOUTH_OPEN: [f64; 2] = [0.08, 0.16];
+/// The lids' own line, in radii of the iris, is left as it is; so is a ring around the iris.
+const LID: f64 = 0.16;
+const LIMBUS: f64 = 1.08;
+/// Blur of the zones' edges in radii of the iris.
+const SOFT: f64 = 0.14;
+/// The whites' median is raised to this, at most by this much and at most so far above the skin around. Whites of paper stare.
+const WHITE: f32 = 0.93;
+const MOST_RAISED: f32 = 0.28;
+const ABOVE_SKIN: f32 = 0.22;
+/// An iris is at least this much darker than its white; it is darkened at most by so much.
+const IRIS_BELOW: f32 = 0.50;
+const MOST_DARKENED: f32 = 0.16;
+/// A catchlight is lighter than its iris' median by this, and its difference is raised by this factor.
+const CATCHLIGHT: f32 = 0.22;
+const SPARK: f32 = 1.5;
+/// Teeth: the gain of their detail, the blur (in widths of the face) that it is measured from, and the most light of their mean.
+const TEETH_DETAIL: f32 = 1.2;
+const TEETH_REACH: f64 = 0.022;
+const TEETH: f32 = 0.92;
+/// Teeth are lighter than this share of the skin's median.
+const TEETH_ABOVE: f32 = 0.7;
+
+/// The tone with its eyes and its mouth opened.
+pub(super) fn opened(zones: &Zones, face: &Landmarks, tone: &Raster<f32>) -> Raster<f32> {
+    let eyes = [(&outlines::RIGHT_EYE, face.irises[0]), (&outlines::LEFT_EYE, face.irises[1])];
+    let skin = zones.median_of(tone);
+    let tone = eyes.into_iter().fold(tone.clone(), |tone, (lids, iris)| eye(&tone, &face.line(lids), iris, skin));
+    teeth(zones, &tone, &face.line(&outlines::MOUTH), skin)
+}
+
+/// How far an opening is open, 0 to 1: by its mean height over its width.
+fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
+    let across = outline.iter().flat_map(|p| outline.iter().map(|q| p.distance(*q))).fold(0.0, f64::max);
+    let height = polygon_area(outline).abs() / across.max(1e-9);
+    ((height / across.max(1e-9) - closed) / (open - closed)).clamp(0.0, 1.0) as f32
+}
+
+fn eye(tone: &Raster<f32>, lids: &[Point], iris: Iris, skin: f32) -> Raster<f32> {
+    let open = openness(lids, EYE_OPEN);
+    if open == 0.0 || iris.radius < 1.0 {
+        return tone.clone();
+    }
+    let pixels = |radii: f64| radii * iris.radius;
+    let outside = polygon(tone.width(), tone.height(), lids).map(|v| 1 - v);
+    let inside = dilate(&outside, pixels(LID).round().max(1.0) as usize).map(|v| 1 - v);
+    let distance = |x: usize, y: usize| iris.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) / iris.radius;
+    let zone = |is_in: &(dyn Fn(f64) -> bool + Sync)| {
+        Raster::from_fn(tone.width(), tone.height(), |x, y| f32::from(inside.get(x, y) == 1 && is_in(distance(x, y))))
+    };
+    let (white, coloured) = (zone(&|d| d > LIMBUS), zone(&|d| d < 0.95));
+    let (Some(whites), Some(middle)) = (median(tone, &white), median(tone, &coloured)) else { return tone.clone() };
+    let raised = (WHITE.min(skin + ABOVE_SKIN) - whites).clamp(0.0, MOST_RAISED);
+    let darkened = (middle - (whites + raised - IRIS_BELOW)).clamp(0.0, MOST_DARKENED);
+    let soft = |zone: &Raster<f32>| fast_gaussian(zone, pixels(SOFT) as f32);
+    let spark = |v: f32| SPARK * (v - middle - CATCHLIGHT).max(0.0);
+    let whiter = tone.zip_map(&soft(&white), |v, white| v + open * white * raised);
+    whiter.zip_map(&soft(&coloured), |v, iris| v + open * iris * (spark(v) - if spark(v) > 0.0 { 0.0 } else { darkened }))
+}
+
+fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster<f32> {
+    let open = openness(lips, MOUTH_OPEN);
+    let inside =
+        polygon(tone.width(), tone.height(), lips).zip_map(tone, |inside, v| f32::from(inside == 1 && v > TEETH_ABOVE * skin));
+    if open == 0.0 || inside.pixels().iter().all(|v| *v == 0.0) {
+        return tone.clone();
+    }
+    let mean = blurred_within(tone, &inside.map(|v| v + 1e-6), (TEETH_REACH * zones.width) as f32);
+    let drawn = tone.zip_map(&mean, |v, mean| mean.min(TEETH) + (1.0 + TEETH_DETAIL) * (v - mean));
+    let soft = fast_gaussian(&inside, (0.3 * TEETH_REACH * zones.width) as f32);
+    tone.zip_map(&drawn.zip_map(&soft, |v, share| (v, share)), |v, (drawn, share)| v + open * share * (drawn - v))
+}
+
+/// The median of the values in a zone; `None` if the zone is empty.
+fn median(values: &Raster<f32>, zone: &Raster<f32>) -> Option<f32> {
+    let inside = values.pixels().iter().zip(zone.pixels()).filter(|(_, zone)| **zone > 0.5);
+    crate::raster::median(inside.map(|(v, _)| *v).collect())
+}
