@@ -17,6 +17,7 @@ mod hand_shading;
 mod inset;
 pub(crate) mod kd_tree;
 mod length;
+mod millimetres;
 mod number;
 mod polyline;
 mod region;
@@ -53,6 +54,7 @@ pub use inset::OffsetOutline;
 pub use length::{LengthError, parse_length, parse_size};
 #[doc(hidden)]
 pub use length::{parse_drawn_length, parse_drawn_size};
+pub use millimetres::Millimetres;
 #[doc(hidden)]
 pub use number::parse_finite;
 #[doc(hidden)]

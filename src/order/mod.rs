@@ -64,6 +64,14 @@ const LEAST_FULL_KICKS: f64 = 40_000.0;
 /// Returns each path once. The result is the same on any number of threads; more effort never gives a longer order. Coordinates
 /// must not be NaN. Memory: about 0.9 kB per path. Time: O(n log n) with [`Effort::Fast`] and slightly more with
 /// [`Effort::Full`], in practice.
+///
+/// ```
+/// use drypoint::{geometry::Point, order::{Direction, Effort, PathEnds, order}};
+///
+/// let path = |from: f64, to: f64| PathEnds { start: Point::new(from, 0.0), end: Point::new(to, 0.0) };
+/// let visits = order(&[path(20.0, 30.0), path(10.0, 0.0)], Point::ORIGIN, Effort::Full, Direction::Either);
+/// assert_eq!(visits.iter().map(|visit| (visit.path, visit.reversed)).collect::<Vec<_>>(), [(1, true), (0, false)]);
+/// ```
 pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Direction) -> Vec<Visit> {
     let mut stops: Vec<Stop> = paths.iter().map(|&ends| Stop::new(ends, direction == Direction::Either)).collect();
     order_stops(&mut stops, home, effort)

@@ -47,6 +47,13 @@ impl Imported {
 }
 
 /// Reads an SVG. Layers are Inkscape's, with the conventions of their labels; marks outside them get one layer per colour.
+///
+/// ```
+/// let svg = br#"<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="50mm" viewBox="0 0 50 50"><path d="M5,5H45" stroke="red"/></svg>"#;
+/// let imported = drypoint::read::read_svg(svg)?;
+/// assert_eq!((imported.page.width, imported.drawing().marks().count()), (50.0, 1));
+/// # Ok::<(), drypoint::read::SvgError>(())
+/// ```
 pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
     read_svg_within(bytes, &mut Budget::default())
 }

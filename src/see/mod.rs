@@ -82,6 +82,17 @@ pub const fn can_see() -> bool {
 }
 
 /// Analyses a photograph. If no face is found, the result has no faces and no subject.
+///
+/// ```no_run
+/// use drypoint::{interrupt::Interrupt, see, source::{Limits, Photograph}};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let photograph = Photograph::decode(&std::fs::read("portrait.jpg")?, Limits::default())?;
+/// let sight = see::look(&photograph, &Interrupt::never())?;
+/// println!("{} faces", sight.faces.len());
+/// # Ok(())
+/// # }
+/// ```
 #[cfg(feature = "see")]
 pub fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sight, SeeError> {
     looking::look(photograph, interrupt)

@@ -57,6 +57,17 @@ impl Photograph {
     }
 
     /// Decodes a picture that is already in memory.
+    ///
+    /// ```
+    /// # let mut png = std::io::Cursor::new(Vec::new());
+    /// # image::DynamicImage::new_luma8(40, 30).write_to(&mut png, image::ImageFormat::Png).unwrap();
+    /// # let bytes = png.into_inner();
+    /// use drypoint::source::{Limits, Photograph};
+    ///
+    /// let photograph = Photograph::decode(&bytes, Limits::default())?;
+    /// assert_eq!((photograph.width(), photograph.height()), (40, 30));
+    /// # Ok::<(), drypoint::source::SourceError>(())
+    /// ```
     pub fn decode(bytes: &[u8], limits: Limits) -> Result<Self, SourceError> {
         if bytes.is_empty() {
             return Err(SourceError::Empty);

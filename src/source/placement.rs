@@ -2,7 +2,7 @@
 
 use super::decode::Photograph;
 use super::error::SourceError;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Millimetres, Point, Rect};
 
 /// Largest relative difference between the proportions of a mask and the photograph's: the rounding of a thumbnail of 50 pixels.
 const MOST_DISTORTION: f64 = 0.03;
@@ -61,6 +61,16 @@ impl Placement {
     /// Millimetres per pixel, the mean of both directions (over the whole box they differ by less than a pixel).
     pub fn mm_per_pixel(&self) -> f64 {
         (self.picture.area() / (self.columns as f64 * self.rows as f64)).sqrt()
+    }
+
+    /// A length on the page in working pixels.
+    pub fn pixels(&self, length: Millimetres) -> f64 {
+        length.0 / self.mm_per_pixel()
+    }
+
+    /// A length in working pixels, on the page.
+    pub fn mm(&self, pixels: f64) -> Millimetres {
+        Millimetres(pixels * self.mm_per_pixel())
     }
 
     /// Converts a point from working pixels to millimetres on the page.

@@ -3,7 +3,7 @@
 //! ```text
 //! parameters! {
 //!     pub(super) struct GridParameters {
-//!         pitch_mm: f64 = "pitch": millimetres(0.6, 0.05..=50.0),
+//!         pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
 //!             "distance between neighbouring dots", "Son 5.1, d";
 //!         hatching: Hatching = "hatching": Kind::Choice(Hatching::WORDS),
 //!             "hatching direction", "Son 6.2", needs [MIXED];
@@ -12,6 +12,7 @@
 //! ```
 
 use super::{DefaultLength, Kind, Places, Settings};
+use crate::geometry::Millimetres;
 use std::ops::RangeInclusive;
 
 /// A value that a style reads from its settings.
@@ -22,6 +23,12 @@ pub(super) trait Setting {
 impl Setting for f64 {
     fn of(settings: &Settings, name: &str) -> Self {
         settings.number(name)
+    }
+}
+
+impl Setting for Millimetres {
+    fn of(settings: &Settings, name: &str) -> Self {
+        Self(settings.number(name))
     }
 }
 

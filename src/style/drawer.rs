@@ -2,6 +2,7 @@
 
 use super::{Observer, Request, StyleError};
 use crate::drawing::Page;
+use crate::geometry::Millimetres;
 use crate::source::Portrait;
 
 /// State of one drawing in progress, with the values of the style's own parameters.
@@ -24,8 +25,8 @@ impl<P> Drawer<'_, P> {
     }
 
     /// A length of the page in working pixels.
-    pub(super) fn pixels(&self, mm: f64) -> f64 {
-        mm / self.portrait.placement.mm_per_pixel()
+    pub(super) fn pixels(&self, length: Millimetres) -> f64 {
+        self.portrait.placement.pixels(length)
     }
 
     /// Ends the drawing when the user wants it to stop.

@@ -27,7 +27,7 @@ pub use parameter::{DefaultLength, Kind, Parameter, ParameterError, Settings};
 pub use places::Places;
 
 use crate::drawing::Drawing;
-use crate::geometry::Rect;
+use crate::geometry::{Millimetres, Rect};
 use crate::source::{MaskRole, Portrait};
 use thiserror::Error;
 
@@ -48,6 +48,16 @@ pub struct StyleCard {
     pub uses_depth: bool,
     /// True if the background is left out by default: newspapers print heads on bare paper.
     pub leaves_out_background: bool,
+}
+
+impl StyleCard {
+    /// The settings with which another style has a part drawn by this one, at its own pitch.
+    fn settings_at(&self, pitch: Millimetres, words: &[(&str, &str)]) -> Result<Settings, StyleError> {
+        let pitch = ("pitch".to_owned(), format!("{}mm", pitch.0));
+        let words = words.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
+        let given: Vec<(String, String)> = std::iter::once(pitch).chain(words).collect();
+        Settings::resolve(self.name, self.parameters, &given).map_err(|error| StyleError::NothingToDraw(error.to_string()))
+    }
 }
 
 /// What a style is asked for.
@@ -106,6 +116,11 @@ pub trait Style: Sync {
 pub const STYLES: &[&dyn Style] = &[&hedcut::Hedcut, &grid::Grid, &engrave::Engrave, &charcoal::Charcoal, &glass::Glass];
 
 /// Finds a style by name.
+///
+/// ```
+/// let engrave = drypoint::style::find("engrave").unwrap();
+/// assert!(engrave.card().uses_depth && engrave.parameters().iter().any(|parameter| parameter.name == "pitch"));
+/// ```
 pub fn find(name: &str) -> Option<&'static dyn Style> {
     STYLES.iter().copied().find(|style| style.name() == name)
 }

@@ -13,6 +13,6 @@ const GRAIN_BYTES: f64 = 2600.0;
 const GRAIN_MICROSECONDS: f64 = 24.0;
 
 pub(super) fn cost(parameters: &CharcoalParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
-    let grains = picture.area() / (parameters.grain_mm * parameters.grain_mm);
+    let grains = picture.area() / parameters.grain.0.powi(2);
     Cost::each(pixels(picture, pixels_per_mm), BYTES, MICROSECONDS).and(grains, GRAIN_BYTES, GRAIN_MICROSECONDS)
 }

@@ -34,10 +34,10 @@ impl Drawer<'_> {
         self.observer.begin("edges");
         let lines = self.edge_lines(regions, features);
         let touch = Touch {
-            width_mm: LINE_WIDTH * self.parameters.stroke_width_mm,
+            width: LINE_WIDTH * self.parameters.stroke_width,
             pressure: LINE_PRESSURE,
             taper: 0.3,
-            node_mm: 2.0 * self.parameters.pitch_mm,
+            node: 2.0 * self.parameters.pitch,
         };
         let mut marks = Vec::new();
         for (i, line) in lines.iter().enumerate() {
@@ -74,14 +74,14 @@ impl Drawer<'_> {
         let kept = kept.zip_map(&near, |edge, keep| edge & keep).zip_map(&drawn, |edge, drawn| edge | drawn);
         self.observer.picture("edges-kept", &|| Picture::Mask(kept.clone()));
         // Lines kept by the user are not specks, however short.
-        let found = lines_of(&kept, parameters.smoothing, self.pixels(self.parameters.pitch_mm) as f32);
+        let found = lines_of(&kept, parameters.smoothing, self.pixels(self.parameters.pitch) as f32);
         let hidden = hidden.zip_map(&near, |hidden, near| hidden | (1 - near));
         self.with_silhouette(found, regions, &hidden)
     }
 
     /// Thinned lines of a keep mask that follow no detected edge; broad strokes of the mask only select edges.
     fn drawn_by_hand(&self, wanted: &Raster<u8>, found: &Raster<u8>) -> Raster<u8> {
-        let pitch = self.pixels(self.parameters.pitch_mm).round().max(1.0) as usize;
+        let pitch = self.pixels(self.parameters.pitch).round().max(1.0) as usize;
         let outside = dilate(&wanted.map(|v| 1 - v), pitch);
         let broad = dilate(&outside.map(|v| 1 - v), 2 * pitch);
         let followed = dilate(found, pitch);
@@ -89,22 +89,22 @@ impl Drawer<'_> {
     }
 
     fn edge_parameters(&self) -> EdgeParameters {
-        let per_pixel = 1.0 / self.pixels(self.parameters.pitch_mm);
+        let per_pixel = 1.0 / self.pixels(self.parameters.pitch);
         EdgeParameters {
-            blur: self.pixels(self.parameters.edge_blur_mm) as f32,
+            blur: self.pixels(self.parameters.edge_blur) as f32,
             thresholds: Thresholds {
                 low: (self.parameters.edge_low.min(self.parameters.edge_high) * per_pixel) as f32,
                 high: (self.parameters.edge_high * per_pixel) as f32,
             },
-            least_length: self.pixels(self.parameters.edge_length_mm) as f32,
-            smoothing: self.pixels(self.parameters.pitch_mm) as f32,
+            least_length: self.pixels(self.parameters.edge_length) as f32,
+            smoothing: self.pixels(self.parameters.pitch) as f32,
         }
     }
 
     /// The image mask: regions that other steps draw. The background is inset by a few pixels, since the subject's border is an edge;
     /// hair includes its border, which needs no line.
     fn hidden(&self, regions: &Regions, features: &Features) -> Raster<u8> {
-        let margin = self.pixels(self.parameters.pitch_mm).round().max(1.0) as usize;
+        let margin = self.pixels(self.parameters.pitch).round().max(1.0) as usize;
         let near_subject = dilate(&regions.subject.map(|v| u8::from(v >= 0.5)), margin);
         let hair = dilate(&regions.hair.map(|v| u8::from(v >= 0.5)), margin);
         let drawn = dilate(&features.drawn.map(|v| u8::from(v > 0.0)), margin);
@@ -117,8 +117,8 @@ impl Drawer<'_> {
         if !regions.has_background {
             return found;
         }
-        let least = self.pixels(self.parameters.edge_length_mm);
-        let smoothing = self.pixels(1.5 * self.parameters.pitch_mm);
+        let least = self.pixels(self.parameters.edge_length);
+        let smoothing = self.pixels(1.5 * self.parameters.pitch);
         let (width, height) = self.size();
         let is_hidden = |p: &Point| hidden.clamped(p.x as isize, p.y as isize) != 0;
         let silhouette: Vec<Curve> = contours(&regions.subject, 0.5)
@@ -129,7 +129,7 @@ impl Drawer<'_> {
             .map(|piece| Curve { points: smooth_polyline(&piece, false, smoothing, 1.5), closed: false })
             .collect();
         let Some(field) = distance_to_curves(&silhouette, width, height) else { return found };
-        let reach = self.pixels(1.6 * self.parameters.pitch_mm) as f32;
+        let reach = self.pixels(1.6 * self.parameters.pitch) as f32;
         let beside = |p: &Point| field.distance.sample(p.x, p.y) < reach;
         let apart = found.iter().flat_map(|line| open_pieces(line, beside)).filter(|piece| polyline_length(piece) >= least);
         let apart: Vec<Curve> = apart.map(|points| Curve { points, closed: false }).collect();
@@ -138,10 +138,10 @@ impl Drawer<'_> {
 
     /// Pressure along an edge: by the step of tone at each point, with the wander of a hand.
     fn firmness(&self, points: &[Point], random: &mut impl Rng) -> Vec<f64> {
-        let reach = self.pixels(1.5 * self.parameters.pitch_mm);
+        let reach = self.pixels(1.5 * self.parameters.pitch);
         let lightness = &self.portrait.lightness;
         let phase = random.random_range(0.0..TAU);
-        let wave = TAU / (WANDER.0 * self.pixels(self.parameters.pitch_mm) * random.random_range(0.7..1.4));
+        let wave = TAU / (WANDER.0 * self.pixels(self.parameters.pitch) * random.random_range(0.7..1.4));
         let mut travelled = 0.0;
         let steps = points.windows(2).map(|pair| {
             let along = pair[1] - pair[0];
@@ -153,14 +153,14 @@ impl Drawer<'_> {
             ((0.1 + 2.1 * step) * wander).clamp(0.08, 1.0)
         });
         let firm: Vec<f64> = steps.collect();
-        running_mean(&firm, (4.0 * self.pixels(self.parameters.pitch_mm)) as usize)
+        running_mean(&firm, (4.0 * self.pixels(self.parameters.pitch)) as usize)
     }
 
     /// Overlapping pieces of a line, each with randomly displaced ends.
     fn sketched(&self, points: &[Point], random: &mut impl Rng) -> Vec<Vec<Point>> {
         let length = polyline_length(points);
-        let offset = self.pixels(self.parameters.sketch_offset_mm);
-        let least = 8.0 * self.pixels(self.parameters.pitch_mm);
+        let offset = self.pixels(self.parameters.sketch_offset);
+        let least = 8.0 * self.pixels(self.parameters.pitch);
         let mut pieces = Vec::new();
         let mut from = 0.0;
         while from < length {

@@ -5,7 +5,7 @@ use super::Drawer;
 use super::shading::{Patch, Pressing};
 use crate::drawing::Mark;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, histogram_modes};
-use crate::geometry::Point;
+use crate::geometry::{Millimetres, Point};
 use crate::raster::{Raster, gaussian_blur};
 use std::f64::consts::PI;
 
@@ -111,12 +111,12 @@ impl Drawer<'_> {
         let patch = |least: f32, degrees: f64| Patch {
             // One half where the ink is `least`.
             region: ink.map(|ink| (0.5 + 4.0 * (ink - least)).clamp(0.0, 1.0)),
-            width_mm: width,
-            spacing_mm: SPACING * width,
-            length_mm: LENGTH * frame.eye_distance * self.portrait.placement.mm_per_pixel(),
+            width,
+            spacing: SPACING * width,
+            length: LENGTH * self.portrait.placement.mm(frame.eye_distance),
             orientation: degrees * PI / 180.0 + frame.tilt,
             pressure: 1.0,
-            inset_mm: 0.0,
+            inset: Millimetres(0.0),
             pressing: Pressing::Filling,
         };
         let press = |p: Point| super::strokes::pressure_for(SPACING * f64::from(ink.sample(p.x, p.y)));
@@ -126,9 +126,9 @@ impl Drawer<'_> {
     }
 
     /// Width of a stroke in a face: an artist uses the stick's edge, so that an eye's lids and pupil keep their shapes.
-    pub(super) fn feature_width(&self, frame: &FaceFrame) -> f64 {
-        let eye_mm = frame.eye_distance * self.portrait.placement.mm_per_pixel();
-        self.parameters.stroke_width_mm.min(WIDTH * eye_mm).max(0.2 * self.parameters.stroke_width_mm)
+    pub(super) fn feature_width(&self, frame: &FaceFrame) -> Millimetres {
+        let eyes = self.portrait.placement.mm(frame.eye_distance);
+        self.parameters.stroke_width.min(WIDTH * eyes).max(0.2 * self.parameters.stroke_width)
     }
 }
 

@@ -6,7 +6,7 @@ use super::regions::Regions;
 use super::shading::{Patch, Pressing};
 use crate::drawing::Mark;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, SkinTone, facial_features};
-use crate::geometry::Point;
+use crate::geometry::{Millimetres, Point};
 use crate::raster::{Raster, gaussian_blur};
 use crate::style::Picture;
 use std::f64::consts::PI;
@@ -105,12 +105,12 @@ impl Drawer<'_> {
         let width = self.feature_width(frame);
         Patch {
             region: gaussian_blur(&inside.map(f32::from), 1.0),
-            width_mm: width,
-            spacing_mm: EYEBROW_SPACING * width,
-            length_mm: 0.45 * frame.eye_distance * self.portrait.placement.mm_per_pixel(),
+            width,
+            spacing: EYEBROW_SPACING * width,
+            length: 0.45 * self.portrait.placement.mm(frame.eye_distance),
             orientation: degrees * PI / 180.0 + frame.tilt,
             pressure: 0.8,
-            inset_mm: 0.0,
+            inset: Millimetres(0.0),
             pressing: Pressing::Filling,
         }
     }

@@ -1,11 +1,10 @@
 //! Step 2: hair (sections 3.1.2, 4 and 6.3.3).
 
 use super::Drawer;
-use super::regions::Regions;
 use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
-use crate::geometry::smooth_polyline;
+use crate::geometry::{Millimetres, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur, ridges};
 use crate::style::Picture;
 use crate::style::random::stream;
@@ -22,38 +21,38 @@ const HAIR_WIDTH: f64 = 0.7;
 const LIGHT_HAIR: (f32, f32) = (0.25, 0.45);
 /// Ink of the shaded side of a lock in light hair, and the width of a lock.
 const LOCK_INK: f32 = 0.45;
-const LOCK_MM: f64 = 2.5;
+const LOCK: Millimetres = Millimetres(2.5);
 /// Angles of the Hough accumulator.
 const ANGLES: usize = 36;
 
 impl Drawer<'_> {
-    pub(super) fn hair(&self, regions: &Regions) -> Vec<Mark> {
+    pub(super) fn hair(&self, hair: &Raster<f32>) -> Vec<Mark> {
         self.observer.begin("hair");
-        if regions.hair.pixels().iter().all(|v| *v < 0.5) {
+        if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
         }
-        let field = self.hair_orientation(&regions.hair);
+        let field = self.hair_orientation(hair);
         let darkness = self.darkness();
         let covering = Covering {
-            width: self.pixels(HAIR_WIDTH * self.parameters.stroke_width_mm) * 0.75,
-            length: self.pixels(self.parameters.hair_length_mm),
+            width: self.pixels(HAIR_WIDTH * self.parameters.stroke_width) * 0.75,
+            length: self.pixels(self.parameters.hair_length),
             length_spread: 0.6,
             turn: self.parameters.hair_turn.0,
-            reach: self.pixels(0.9 * self.parameters.pitch_mm),
+            reach: self.pixels(0.9 * self.parameters.pitch),
         };
-        let ink = self.hair_ink(&darkness, &regions.hair);
+        let ink = self.hair_ink(&darkness, hair);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
-        let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch_mm) as f32);
+        let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch) as f32);
         let touch = Touch {
-            width_mm: HAIR_WIDTH * self.parameters.stroke_width_mm,
+            width: HAIR_WIDTH * self.parameters.stroke_width,
             pressure: 1.0,
             taper: 0.35,
-            node_mm: 2.0 * self.parameters.pitch_mm,
+            node: 2.0 * self.parameters.pitch,
         };
-        cover(&field, &regions.hair, &ink, covering, &mut stream(self.seed, "hair", 0))
+        cover(&field, hair, &ink, covering, &mut stream(self.seed, "hair", 0))
             .iter()
             .filter_map(|line| {
-                let line = smooth_polyline(line, false, self.pixels(self.parameters.pitch_mm), 1.5);
+                let line = smooth_polyline(line, false, self.pixels(self.parameters.pitch), 1.5);
                 self.stroke(&line, touch, |p| 0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0))
             })
             .collect()
@@ -68,10 +67,10 @@ impl Drawer<'_> {
         let lines = ridges(&blurred, least).zip_map(&region, |line, inside| line & inside);
         let lines = if lines.pixels().iter().any(|v| *v != 0) { lines } else { all };
         self.observer.picture("hair-lines", &|| Picture::Mask(lines.clone()));
-        let radius = (self.pixels(self.parameters.hough_radius_mm).round() as usize).max(2);
+        let radius = (self.pixels(self.parameters.hough_radius).round() as usize).max(2);
         let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
-        let field = raw.smoothed(self.pixels(self.parameters.hair_smoothing_mm) as f32);
+        let field = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
         self.observer.picture("hair-orientation", &|| {
             Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.atan2(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });
@@ -108,7 +107,7 @@ impl Drawer<'_> {
     /// The shaded sides of locks, 0 to 1: places darker than the hair around them.
     fn locks(&self, hair: &Raster<f32>) -> Raster<f32> {
         let fine = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
-        let around = self.pixels(LOCK_MM) as f32;
+        let around = self.pixels(LOCK) as f32;
         let sum = gaussian_blur(&fine.zip_map(hair, |v, hair| v * hair), around);
         let mean = sum.zip_map(&gaussian_blur(hair, around), |sum, hair| sum / hair.max(1e-3));
         let shade = mean.zip_map(&fine, |mean, v| mean - v);

@@ -18,11 +18,11 @@ mod skin;
 mod strokes;
 mod tone;
 
-use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
+use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
-use crate::geometry::Rect;
+use crate::geometry::{Millimetres, Rect};
 use crate::raster::Raster;
-use crate::source::MaskRole;
+use crate::source::{MaskRole, Portrait};
 use parameters::CharcoalParameters;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
@@ -75,7 +75,22 @@ impl Style for Charcoal {
     }
 }
 
+/// The smallest pitch of charcoal: a stick draws no finer.
+const LEAST_PITCH: Millimetres = Millimetres(0.1);
+
 type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
+
+/// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch; `hand` is its seed and its observer.
+pub(super) fn hair_strokes(
+    portrait: &Portrait,
+    hair: &Raster<f32>,
+    pitch: Millimetres,
+    hand: (u64, &dyn Observer),
+) -> Result<Vec<Mark>, StyleError> {
+    let settings = CARD.settings_at(pitch.max(LEAST_PITCH), &[])?;
+    let (seed, observer) = hand;
+    Ok(Request { portrait, settings: &settings, seed, observer }.drawer(CharcoalParameters::new(&settings)).hair(hair))
+}
 
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.
@@ -85,7 +100,7 @@ impl Drawer<'_> {
         }
         let regions = self.regions();
         self.check()?;
-        let hair = self.hair(&regions);
+        let hair = self.hair(&regions.hair);
         self.check()?;
         let features = self.features(&regions);
         self.check()?;

@@ -1,6 +1,7 @@
 //! Charcoal's parameters and their values.
 
 use crate::field::HoughForm;
+use crate::geometry::Millimetres;
 use crate::style::declaration::{ON, Radians, Setting, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need, Places, Settings};
 
@@ -10,16 +11,16 @@ const BACKGROUND: &[Need] = &[Need::Word("background", &["on"]), Need::Above("ba
 parameters! {
     /// The parameters of a charcoal sketch; lengths in millimetres.
     pub(super) struct CharcoalParameters {
-        pitch_mm: f64 = "pitch": millimetres(0.6, 0.1..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.1..=50.0),
             "distance between neighbouring strokes; every other length defaults to a multiple of it",
             "";
-        stroke_width_mm: f64 = "stroke_width": pitches(0.7, 0.02..=50.0),
+        stroke_width: Millimetres = "stroke_width": pitches(0.7, 0.02..=50.0),
             "width of a stroke at full pressure",
             "";
-        grain_mm: f64 = "grain": pitches(0.5, 0.1..=50.0),
+        grain: Millimetres = "grain": pitches(0.5, 0.1..=50.0),
             "distance between the grains of the smudged tone",
             "Wong 6.3.1, the paper's texture";
-        smudge_mm: f64 = "smudge": pitches(1.5, 0.0..=100.0),
+        smudge: Millimetres = "smudge": pitches(1.5, 0.0..=100.0),
             "blur of the smudged tone",
             "Wong 3.1.5";
         brighten: f32 = "brighten": number(0.5, 0.0..=1.0),
@@ -28,7 +29,7 @@ parameters! {
         texture_bias: f32 = "texture_bias": number(1.0, 0.0..=20.0),
             "weight of the photograph against the paper's texture in middle tones",
             "Wong 6.3.1, n";
-        edge_blur_mm: f64 = "edge_blur": pitches(0.5, 0.0..=50.0),
+        edge_blur: Millimetres = "edge_blur": pitches(0.5, 0.0..=50.0),
             "blur before edge detection; larger finds only the large forms",
             "Wong 3.1.3";
         edge_high: f64 = "edge_high": number(0.15, 0.0..=5.0),
@@ -37,25 +38,25 @@ parameters! {
         edge_low: f64 = "edge_low": number(0.05, 0.0..=5.0),
             "an edge ends where the change per pitch falls below this",
             "Wong 3.1.3";
-        edge_length_mm: f64 = "edge_length": pitches(9.0, 0.0..=1000.0),
+        edge_length: Millimetres = "edge_length": pitches(9.0, 0.0..=1000.0),
             "edges shorter than this are specks and are not drawn",
             "Wong 3.1.3; longer than its 10 to 15 px, since no hand removes the rest";
         sketch_passes: u32 = "sketch_passes": count(1, 0..=10),
             "passes of displaced strokes over each edge before its own line is drawn",
             "Wong 6.3.2";
-        sketch_offset_mm: f64 = "sketch_offset": pitches(0.8, 0.0..=50.0),
+        sketch_offset: Millimetres = "sketch_offset": pitches(0.8, 0.0..=50.0),
             "maximum displacement of the ends of the displaced strokes",
             "Wong 6.3.2", needs [Need::Above("sketch_passes", 0.0)];
         hough: HoughForm = "hough": Kind::Choice(&["round", "thesis"]),
             "how hair direction is detected: round uses a round window and counts beyond chance; thesis is as printed",
             "Wong 4.3; errata";
-        hough_radius_mm: f64 = "hough_radius": pitches(2.5, 0.1..=100.0),
+        hough_radius: Millimetres = "hough_radius": pitches(2.5, 0.1..=100.0),
             "radius of the window in which hair direction is detected",
             "Wong 4.4";
-        hair_smoothing_mm: f64 = "hair_smoothing": pitches(3.75, 0.0..=100.0),
+        hair_smoothing: Millimetres = "hair_smoothing": pitches(3.75, 0.0..=100.0),
             "smoothing of the hair direction",
             "Wong 3.1.2, sigma = 15 px";
-        hair_length_mm: f64 = "hair_length": pitches(14.0, 0.5..=1000.0),
+        hair_length: Millimetres = "hair_length": pitches(14.0, 0.5..=1000.0),
             "mean length of a hair stroke",
             "Wong 6.3.3";
         hair_turn: Radians = "hair_turn": number(15.0, 0.0..=90.0),
@@ -79,10 +80,10 @@ parameters! {
         background_ink: f64 = "background_ink": number(0.2, 0.0..=1.0),
             "ink of the background strokes where they are thickest",
             "", needs [Need::Word("background", &["on"])];
-        arc_length_mm: f64 = "arc_length": pitches(26.0, 0.5..=1000.0),
+        arc_length: Millimetres = "arc_length": pitches(26.0, 0.5..=1000.0),
             "mean length of the shading arcs",
             "Wong 6.2", needs [Need::AnyOf(&[&[Need::Word("shading", &["on"])], BACKGROUND])];
-        arc_radius_mm: f64 = "arc_radius": pitches(50.0, 0.5..=10_000.0),
+        arc_radius: Millimetres = "arc_radius": pitches(50.0, 0.5..=10_000.0),
             "radius of the shading arcs",
             "Wong 6.2", needs [Need::AnyOf(&[&[Need::Word("features", &["on"])], &[Need::Word("shading", &["on"])], BACKGROUND])];
         arc_orient: Radians = "arc_orient": number(-52.0, -180.0..=180.0),

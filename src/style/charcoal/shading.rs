@@ -6,7 +6,7 @@ use super::regions::Regions;
 use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::field::{contours, distance_to_curves, histogram_modes, pieces_inside};
-use crate::geometry::{HandShading, Point, Rect, Vec2, polyline_length};
+use crate::geometry::{HandShading, Millimetres, Point, Rect, Vec2, polyline_length};
 use crate::raster::{Raster, gaussian_blur, paper_texture};
 use crate::style::random::stream;
 use rand::{Rng, RngExt};
@@ -15,14 +15,14 @@ use rand::{Rng, RngExt};
 pub(super) struct Patch {
     /// 0 to 1, in working pixels.
     pub region: Raster<f32>,
-    pub width_mm: f64,
-    pub spacing_mm: f64,
+    pub width: Millimetres,
+    pub spacing: Millimetres,
     /// Maximum length of an arc; narrower regions have shorter arcs.
-    pub length_mm: f64,
+    pub length: Millimetres,
     pub orientation: f64,
     pub pressure: f64,
     /// Inset of a stroke's centre line from the region's border.
-    pub inset_mm: f64,
+    pub inset: Millimetres,
     pub pressing: Pressing,
 }
 
@@ -65,13 +65,13 @@ impl Drawer<'_> {
     pub(super) fn shade_patch(&self, patch: &Patch, stage: &str, element: u64, local: impl Fn(Point) -> f64) -> Vec<Mark> {
         let is_hatching = patch.pressing == Pressing::Hatching;
         let touch = Touch {
-            width_mm: patch.width_mm,
+            width: patch.width,
             pressure: patch.pressure,
             taper: if is_hatching { TURN } else { 0.06 },
-            node_mm: if is_hatching { 1.2 * self.parameters.pitch_mm } else { 1.5 * patch.width_mm },
+            node: if is_hatching { 1.2 * self.parameters.pitch } else { 1.5 * patch.width },
         };
-        let region = inset(&patch.region, self.pixels(patch.inset_mm));
-        let least = LEAST_WIDTHS * self.pixels(patch.width_mm);
+        let region = inset(&patch.region, self.pixels(patch.inset));
+        let least = LEAST_WIDTHS * self.pixels(patch.width);
         let mut random = stream(self.seed, stage, element);
         let mut marks = Vec::new();
         for stroke in self.chains(patch, &mut random) {
@@ -88,12 +88,12 @@ impl Drawer<'_> {
         let along = Vec2::from_angle(patch.orientation);
         let across = Vec2::new(-along.y, along.x);
         let Some(bounds) = turned_bounds(&patch.region, along, across) else { return Vec::new() };
-        let spacing = self.pixels(patch.spacing_mm);
-        let most = self.pixels(patch.length_mm);
+        let spacing = self.pixels(patch.spacing);
+        let most = self.pixels(patch.length);
         let swaths = (bounds.width() / (most * (1.0 - SWATH_OVERLAP))).ceil().max(1.0);
         let swath = bounds.width() / swaths;
         let length = (swath / (1.0 - SWATH_OVERLAP)).max(2.0 * spacing);
-        let radius = self.pixels(self.parameters.arc_radius_mm).min(4.0 * length);
+        let radius = self.pixels(self.parameters.arc_radius).min(4.0 * length);
         let mut strokes = Vec::new();
         // A form that one swing spans is filled without interruption.
         let is_regular = patch.pressing == Pressing::Filling;
@@ -131,7 +131,7 @@ impl Drawer<'_> {
         }
         self.observer.begin("shading");
         let cloth = regions.clothing.zip_map(&features.drawn, |c, drawn| c.min(1.0 - drawn));
-        let tone = gaussian_blur(&self.portrait.tone, self.pixels(self.parameters.pitch_mm) as f32);
+        let tone = gaussian_blur(&self.portrait.tone, self.pixels(self.parameters.pitch) as f32);
         let levels = dark_levels(&tone, &cloth);
         let mut marks = Vec::new();
         for (i, (limit, mean)) in levels.iter().enumerate() {
@@ -139,12 +139,12 @@ impl Drawer<'_> {
             let darkness = 1.0 - mean;
             let patch = Patch {
                 region: gaussian_blur(&region, 1.0),
-                width_mm: self.parameters.stroke_width_mm,
-                spacing_mm: self.parameters.pitch_mm * (1.1 + 2.2 * (1.0 - darkness)),
-                length_mm: 0.55 * self.parameters.arc_length_mm,
+                width: self.parameters.stroke_width,
+                spacing: self.parameters.pitch * (1.1 + 2.2 * (1.0 - darkness)),
+                length: 0.55 * self.parameters.arc_length,
                 orientation: self.parameters.arc_orient.0 + 0.35 * i as f64,
                 pressure: 0.25 + 0.6 * darkness,
-                inset_mm: 0.5 * self.parameters.stroke_width_mm,
+                inset: 0.5 * self.parameters.stroke_width,
                 pressing: Pressing::Hatching,
             };
             marks.extend(self.shade_patch(&patch, "shading", i as u64, |_| 1.0));
@@ -160,16 +160,16 @@ impl Drawer<'_> {
         self.observer.begin("background");
         let region = self.ragged(&regions.subject);
         self.show("background", &region);
-        let width_mm = BACKGROUND_STROKE * self.parameters.stroke_width_mm;
+        let width = BACKGROUND_STROKE * self.parameters.stroke_width;
         let patch = Patch {
             region,
-            width_mm,
+            width,
             // Spreads a stroke's ink, at the pressure below, over its spacing.
-            spacing_mm: BACKGROUND_WIDTH * width_mm / self.parameters.background_ink,
-            length_mm: self.parameters.arc_length_mm,
+            spacing: BACKGROUND_WIDTH * width / self.parameters.background_ink,
+            length: self.parameters.arc_length,
             orientation: self.parameters.arc_orient.0,
             pressure: BACKGROUND_PRESSURE,
-            inset_mm: 0.5 * width_mm,
+            inset: 0.5 * width,
             pressing: Pressing::Hatching,
         };
         let nearness = self.nearness(&regions.subject);

@@ -2,7 +2,7 @@
 
 use super::Drawer;
 use crate::drawing::{Drawing, Mark, Stroke, Width};
-use crate::geometry::{Point, catmull_rom, polyline_length, resample};
+use crate::geometry::{Millimetres, Point, catmull_rom, polyline_length, resample};
 
 /// Width at zero pressure as a share of that at full pressure: a stick never draws a hairline.
 const LIGHTEST: f64 = 0.3;
@@ -15,19 +15,19 @@ const LIFT: f64 = 0.15;
 #[derive(Clone, Copy)]
 pub(super) struct Touch {
     /// Width at full pressure in millimetres.
-    pub width_mm: f64,
+    pub width: Millimetres,
     /// Maximum pressure, 0 to 1.
     pub pressure: f64,
     /// Share of the stroke at either end over which the pressure grows or falls.
     pub taper: f64,
     /// Distance of the spline's nodes in millimetres.
-    pub node_mm: f64,
+    pub node: Millimetres,
 }
 
 impl Drawer<'_> {
     /// A stroke along working pixels; `local` scales the pressure at a place (working pixels), 0 to 1.
     pub(super) fn stroke(&self, points: &[Point], touch: Touch, local: impl Fn(Point) -> f64) -> Option<Mark> {
-        let spacing = self.pixels(touch.node_mm).min(0.25 * polyline_length(points)).max(1e-3);
+        let spacing = self.pixels(touch.node).min(0.25 * polyline_length(points)).max(1e-3);
         let nodes = resample(points, spacing);
         if nodes.len() < 2 {
             return None;
@@ -39,7 +39,7 @@ impl Drawer<'_> {
             .map(|(i, p)| (touch.pressure * swell(i as f64 / last, touch.taper) * local(*p)).clamp(0.0, 1.0))
             .collect();
         let page: Vec<Point> = nodes.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
-        let widths = pressure.iter().map(|p| touch.width_mm * (LIGHTEST + (1.0 - LIGHTEST) * p)).collect();
+        let widths = pressure.iter().map(|p| touch.width.0 * (LIGHTEST + (1.0 - LIGHTEST) * p)).collect();
         let mut stroke = Stroke::new(catmull_rom(&page, false), Width::Along(widths));
         stroke.pressure = Some(pressure);
         Some(Mark::Stroke(stroke))

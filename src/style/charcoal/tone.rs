@@ -27,7 +27,7 @@ impl Drawer<'_> {
         self.observer.begin("tone");
         let smudged = self.smudged(regions, features);
         self.show("smudged", &smudged);
-        let grain = self.parameters.grain_mm;
+        let grain = self.parameters.grain.0;
         let picture = self.portrait.placement.picture;
         let count = |length: f64| ((length / grain * PIXELS_A_GRAIN).round() as usize).max(4);
         let (width, height) = (count(picture.width()), count(picture.height()));
@@ -51,7 +51,7 @@ impl Drawer<'_> {
     /// Blurred inside the visible region, brightened, blurred again over its border (section 3.1.5).
     fn smudged(&self, regions: &Regions, features: &Features) -> Raster<f32> {
         let visible = regions.unmasked().zip_map(&features.tones.share, |v, theirs| v.min(1.0 - theirs));
-        let blur = self.pixels(self.parameters.smudge_mm) as f32;
+        let blur = self.pixels(self.parameters.smudge) as f32;
         let ink = self.darkness().zip_map(&visible, |ink, v| ink * v);
         let (ink, weight) = (gaussian_blur(&ink, blur), gaussian_blur(&visible, blur));
         let washed =

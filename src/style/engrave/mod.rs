@@ -135,7 +135,7 @@ impl Drawer<'_> {
             || self.family(region, region.angle, ground, relief),
             || self.family(region, region.angle + self.parameters.cross_angle, ground, relief),
         );
-        let wanted = |ink, turn| Wanted { ground, region, turn, ink, width_max: self.parameters.width_max };
+        let wanted = |ink, turn| Wanted { ground, region, turn, ink, width_max: self.parameters.width_max.0 };
         let breaking = self.breaking(ground);
         let lines = || {
             let breaking = LineBreaks { between: &crossing, ..breaking(&crossing) };
@@ -159,14 +159,14 @@ impl Drawer<'_> {
 
     fn family(&self, region: Region, angle: f64, ground: &RegionMap, relief: &Relief) -> Family {
         let p = &self.parameters;
-        let range = [0.0, p.displacement];
+        let range = [0.0, p.displacement.0];
         let laying = FamilyLayout {
-            pitch: p.pitch,
-            sampling: p.sampling,
-            min_gap: p.min_gap,
+            pitch: p.pitch.0,
+            sampling: p.sampling.0,
+            min_gap: p.min_gap.0,
             displaced: (range[0].min(range[1]), range[0].max(range[1])),
         };
-        let displacement = |place: Point| p.displacement * f64::from(ground.grid.read(&relief.nearness, place));
+        let displacement = |place: Point| p.displacement.0 * f64::from(ground.grid.read(&relief.nearness, place));
         let mut family = Family::new(Frame::new(angle), region.bounds, laying, displacement);
         family.thin_out();
         family.fill_in();
@@ -176,7 +176,7 @@ impl Drawer<'_> {
     fn breaking<'b>(&self, ground: &RegionMap) -> impl Fn(&'b Family) -> LineBreaks<'b> {
         let p = &self.parameters;
         let (look, grid) = (p.look, ground.grid);
-        let (thinnest, dot_min, threshold) = (p.thinnest, p.dot_min, p.threshold);
+        let (thinnest, dot_min, threshold) = (p.thinnest.0, p.dot_min.0, p.threshold);
         // Stipples have the same spacing along a line as across.
         let (cut_out, period) = (p.cut_out, if look == Look::Stipple { 1.0 } else { (p.dash / p.pitch).max(0.25) });
         move |between| LineBreaks {

@@ -37,7 +37,7 @@ impl Drawer<'_> {
         }
         let page: Vec<_> = nodes.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
         let swell = |i: usize| (std::f64::consts::PI * i as f64 / (page.len() - 1) as f64).sin().max(0.0).sqrt();
-        let widths = (0..page.len()).map(|i| self.parameters.outline_width * swell(i)).collect();
+        let widths = (0..page.len()).map(|i| self.parameters.outline_width.0 * swell(i)).collect();
         Some(Mark::Stroke(Stroke::new(catmull_rom(&page, false), Width::Along(widths))))
     }
 }

@@ -1,5 +1,6 @@
 //! The engraving's parameters and their values.
 
+use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{OFF, choice, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
@@ -15,19 +16,19 @@ const NOT_STIPPLED: Need = Need::Word("look", &["crosshatch", "engraving", "hatc
 parameters! {
     /// The parameters of an engraving; angles in degrees; lengths in millimetres.
     pub(super) struct EngraveParameters {
-        pitch: f64 = "pitch": millimetres(0.6, 0.05..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
             "distance between neighbouring lines where the depth is flat",
             "Galarza 3.5.1, delta_y";
         look: Look = "look": Kind::Choice(Look::WORDS),
             "crosshatch: swelling lines, crossed in dark tones, dots in light tones; engraving: the same, with white lines cut through them in half tones; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in shadows only",
             "Galarza 4.1 and 4.4";
-        displacement: f64 = "displacement": pitches(14.0, -1000.0..=1000.0),
+        displacement: Millimetres = "displacement": pitches(14.0, -1000.0..=1000.0),
             "how far the nearest depth shifts a line to its left (up at angle 0)",
             "Galarza 3.5.1, phi, equation 3.5";
-        sampling: f64 = "sampling": pitches(0.5, 0.01..=100.0),
+        sampling: Millimetres = "sampling": pitches(0.5, 0.01..=100.0),
             "distance between the depth samples that bend a line; larger draws rounder, simpler lines",
             "Galarza 3.5.1, delta_x";
-        width_max: f64 = "width_max": pitches(1.5, 0.01..=100.0),
+        width_max: Millimetres = "width_max": pitches(1.5, 0.01..=100.0),
             "maximum width of a line; too small a value loses the darkest tones",
             "Galarza 3.7, f_w";
         threshold: f64 = "threshold": number(0.5, 0.0..=1.0),
@@ -42,19 +43,19 @@ parameters! {
         regions: Division = "regions": Kind::Choice(Division::WORDS),
             "regions with a line direction of their own: auto takes the scribbles mask if given, else one region; superpixels are small regions of similar colour",
             "Galarza 3.3";
-        region_size: f64 = "region_size": pitches(16.0, 0.5..=1000.0),
+        region_size: Millimetres = "region_size": pitches(16.0, 0.5..=1000.0),
             "side of a superpixel",
             "Galarza 2.3, SLIC", needs [Need::Word("regions", &["superpixels"])];
         angles: AnglesFrom = "angles": Kind::Choice(AnglesFrom::WORDS),
             "line direction in each region: given is the angle parameter; flow follows the edges; random; hue is half the hue of its scribble (red 0, yellow 30, green 60, cyan 90, blue 120, magenta 150 degrees); auto is flow for superpixels, hue for scribbles, else given",
             "Galarza 3.3.1 and 3.4";
-        overlap: f64 = "overlap": millimetres(0.0, 0.0..=100.0),
+        overlap: Millimetres = "overlap": millimetres(0.0, 0.0..=100.0),
             "how far lines extend into a region with another line direction; 0.2 mm closes most seams, but lines cross there",
             "Galarza 3.7, dilation of the masks", needs [Need::AnyOf(&[ &[Need::Word("regions", &["superpixels"])], &[Need::Word("regions", &["auto"]), Need::With(MaskRole::Scribbles)], ])];
-        min_gap: f64 = "min_gap": pitches(0.25, 0.001..=50.0),
+        min_gap: Millimetres = "min_gap": pitches(0.25, 0.001..=50.0),
             "minimum distance between neighbouring lines of a layer, centre to centre; limited to between a tenth and three quarters of the pitch",
             "the thesis lists crossing lines as its limit (4.2.2)";
-        smoothing: f64 = "smoothing": pitches(0.6, 0.0..=100.0),
+        smoothing: Millimetres = "smoothing": pitches(0.6, 0.0..=100.0),
             "edge-preserving smoothing of the depth",
             "Galarza 5.1 asks for depth without noise", needs [DEPTH_COUNTS];
         depth_from: DepthFrom = "depth_from": Kind::Choice(DepthFrom::WORDS),
@@ -69,19 +70,19 @@ parameters! {
         light_height: f64 = "light_height": number(45.0, 5.0..=90.0),
             "height of the lamp, in degrees above the page",
             "Galarza 3.2", needs [Need::Word("tone_from", &["depth"])];
-        relief: f64 = "relief": pitches(40.0, 0.0..=10_000.0),
+        relief: Millimetres = "relief": pitches(40.0, 0.0..=10_000.0),
             "with tone_from=depth: height of the nearest depth above the farthest",
             "", needs [Need::Word("tone_from", &["depth"])];
-        thinnest: f64 = "thinnest": pitches(0.14, 0.0..=50.0),
+        thinnest: Millimetres = "thinnest": pitches(0.14, 0.0..=50.0),
             "width below which a line breaks into dashes and dots; 0 for never",
             "the engraver's dotted ends", needs [NOT_STIPPLED];
-        dash: f64 = "dash": pitches(1.5, 0.01..=1000.0),
+        dash: Millimetres = "dash": pitches(1.5, 0.01..=1000.0),
             "distance from one dash to the next along a broken line",
             "Galarza 4.1", needs [NOT_STIPPLED, Need::AnyOf(&[&[Need::Word("look", &["engraving"])], &[Need::Above("thinnest", 0.0)]])];
         cut_out: f64 = "cut_out": number(0.3, 0.0..=0.9),
             "with look=engraving: share of a line's length that the white crossing lines remove in light tones",
             "Galarza 4.1: hatching less thick crosshatching", needs [Need::Word("look", &["engraving"])];
-        dot_min: f64 = "dot_min": pitches(0.12, 0.0..=50.0),
+        dot_min: Millimetres = "dot_min": pitches(0.12, 0.0..=50.0),
             "diameter of the smallest dot; lighter tones have fewer dots instead of smaller ones",
             "";
         ground: GroundColour = "ground": Kind::Choice(GroundColour::WORDS),
@@ -90,7 +91,7 @@ parameters! {
         has_outline: bool = "outline": OFF,
             "draw the photograph's coherent lines on top; their ink adds to the tone",
             "Galarza 5.2; Kang et al. 2007";
-        outline_width: f64 = "outline_width": pitches(0.5, 0.01..=50.0),
+        outline_width: Millimetres = "outline_width": pitches(0.5, 0.01..=50.0),
             "width of the outlines in their middle",
             "", needs [Need::Word("outline", &["on"])];
     }
@@ -161,7 +162,7 @@ impl EngraveParameters {
         Self {
             sampling: self.sampling.max(0.05 * pitch),
             region_size: self.region_size.max(2.0 * pitch),
-            min_gap: self.min_gap.clamp(0.1 * pitch, 0.75 * pitch),
+            min_gap: self.min_gap.max(0.1 * pitch).min(0.75 * pitch),
             ..self
         }
     }

@@ -35,7 +35,7 @@ impl Drawer<'_> {
         let border = distance_to_curves(&curves, placement.columns, placement.rows)
             .map_or_else(|| labels.map(|_| NO_BORDER), |field| field.distance.map(|d| d * scale));
         // A single region has no neighbour to overlap.
-        let overlap = if angles.len() > 1 { self.parameters.overlap } else { 0.0 };
+        let overlap = if angles.len() > 1 { self.parameters.overlap.0 } else { 0.0 };
         let regions = bounds_of(&labels, angles.len() as i32)
             .into_iter()
             .zip(&angles)
@@ -44,9 +44,9 @@ impl Drawer<'_> {
                 Some(Region { label: i as i32 + 1, angle: *angle, bounds: self.on_page(bounds?, overlap) })
             })
             .collect();
-        let gap = self.parameters.min_gap + 2.0 * FIT_ROOM;
-        let near = 0.5 * self.parameters.width_max + gap;
-        let displacement = relief.nearness.map(|nearness| (self.parameters.displacement * f64::from(nearness)) as f32);
+        let gap = self.parameters.min_gap.0 + 2.0 * FIT_ROOM;
+        let near = 0.5 * self.parameters.width_max.0 + gap;
+        let displacement = relief.nearness.map(|nearness| (self.parameters.displacement.0 * f64::from(nearness)) as f32);
         RegionMap { grid: Grid::new(placement), labels, border, regions, angles, displacement, overlap, gap, near }
     }
 

@@ -23,8 +23,8 @@ const RIBBON_MICROSECONDS: f64 = 0.55;
 const DIFFUSION_MICROSECONDS: f64 = 8.0;
 
 pub(super) fn cost(parameters: &GlassParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
-    let length = parameters.length_mm * pixels_per_mm;
-    let framed = picture.inflate(parameters.length_mm, parameters.length_mm);
+    let length = parameters.length.0 * pixels_per_mm;
+    let framed = picture.inflate(parameters.length.0, parameters.length.0);
     let ribbons = f64::from(parameters.ribbons);
     let (mut bytes, mut microseconds) = match parameters.manner() {
         Manner::Painting => (

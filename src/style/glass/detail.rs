@@ -23,7 +23,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
     let missing = Raster::from_fn(width, height, |x, y| canvas.colour(x, y, colours).map_or(0.0, |c| distance(c, picture(x, y))));
     let mut seeds: Vec<usize> = (0..missing.len()).filter(|&i| missing.pixels()[i] > least).collect();
     seeds.sort_by(|a, b| missing.pixels()[*b].total_cmp(&missing.pixels()[*a]).then(a.cmp(b)));
-    let touch = WIDTH * drawer.pixels(drawer.parameters.grain_mm);
+    let touch = WIDTH * drawer.pixels(drawer.parameters.grain);
     let scale = drawer.portrait.placement.mm_per_pixel();
     let mut done = Raster::filled(width, height, false);
     let mut marks = Vec::new();
@@ -57,7 +57,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
 
 /// Points one pixel apart through a seed, as long as the colour holds and a stroke is needed.
 fn arc(drawer: &Drawer<'_>, ground: &Ground, missing: &Raster<f32>, seed: Point) -> Vec<Point> {
-    let reach = 0.5 * LENGTH * drawer.pixels(drawer.parameters.length_mm);
+    let reach = 0.5 * LENGTH * drawer.pixels(drawer.parameters.length);
     let at = |p: Point| [0, 1, 2].map(|i: usize| ground.smoothed[i].get(p.x as usize, p.y as usize));
     let start = at(seed);
     let called = missing.get(seed.x as usize, seed.y as usize);

@@ -34,7 +34,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
 
 /// One point per squared pitch, in millimetres.
 fn points(drawer: &Drawer<'_>, picture: Rect) -> Vec<Point> {
-    let count = (picture.area() / drawer.parameters.pitch_mm.powi(2)).round().max(1.0) as usize;
+    let count = (picture.area() / drawer.parameters.pitch.0.powi(2)).round().max(1.0) as usize;
     let mut random = random::stream(drawer.seed, "points", 0);
     let drawn = if drawer.parameters.points == Points::Blue { CHOICE * count } else { count };
     let scattered: Vec<Point> = (0..drawn)
@@ -58,7 +58,7 @@ fn dot(drawer: &Drawer<'_>, ink: &Raster<f32>, at: Point) -> Option<Mark> {
         x * placement.columns as f64 / placement.picture.width(),
         y * placement.rows as f64 / placement.picture.height(),
     ));
-    let radius = drawer.parameters.pitch_mm * (0.5 * ink.min(1.0) / std::f64::consts::PI).sqrt();
+    let radius = drawer.parameters.pitch.0 * (0.5 * ink.min(1.0) / std::f64::consts::PI).sqrt();
     (ink > LEAST_INK).then_some(Mark::Dot(Dot::circle(at, radius)))
 }
 
@@ -92,7 +92,7 @@ impl<'a> Mover<'a> {
     /// Millimetres per unit of time.
     fn velocity(&self, p: Point) -> Vec2 {
         let laid = self.drawer.parameters.transform.velocity(p - self.centre, self.half);
-        laid.unwrap_or_else(|| self.photograph(p) * self.drawer.parameters.length_mm)
+        laid.unwrap_or_else(|| self.photograph(p) * self.drawer.parameters.length.0)
     }
 
     fn photograph(&self, p: Point) -> Vec2 {

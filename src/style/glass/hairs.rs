@@ -21,8 +21,8 @@ const LEAST_VALUE: f32 = 0.15;
 pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground, pattern: &Raster<f32>) -> Layer {
     let mut layer = drawer.empty_layer("hairs");
     layer.mixing = Mixing::Paint;
-    let grain = drawer.pixels(drawer.parameters.grain_mm);
-    let length = LENGTH * drawer.pixels(drawer.parameters.length_mm);
+    let grain = drawer.pixels(drawer.parameters.grain);
+    let length = LENGTH * drawer.pixels(drawer.parameters.length);
     let (width, height) = (ground.subject.width(), ground.subject.height());
     let fine = noise::noise(width, height, 0.6, drawer.seed, "hairs");
     let values = equalised(&line_integral_convolution(&fine, &ground.flow, length as f32));

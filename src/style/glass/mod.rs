@@ -17,7 +17,7 @@ mod visible;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer};
 use crate::field::{Flow, glass_pattern, line_integral_convolution};
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Millimetres, Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, luminance};
 use parameters::{GlassParameters, Gradient, Manner};
@@ -67,7 +67,7 @@ impl Glass {
     /// long.
     fn painting(settings: &Settings, picture: Rect) -> GlassParameters {
         let mut painting = GlassParameters::new(settings);
-        painting.length_mm = painting.length_mm.min(picture.width().hypot(picture.height()));
+        painting.length = painting.length.min(Millimetres(picture.width().hypot(picture.height())));
         painting
     }
 }
@@ -122,13 +122,13 @@ impl Drawer<'_> {
     fn ground(&self) -> Ground {
         self.observer.begin("smoothing");
         let planes = colour::planes(&self.portrait.light);
-        let sigma = self.pixels(self.parameters.smoothing_mm) as f32;
+        let sigma = self.pixels(self.parameters.smoothing) as f32;
         let smoothed = if sigma > 0.0 { edge_preserving(&planes, sigma, self.parameters.sharpness) } else { planes };
         self.observer.picture("smoothed", &|| Picture::Grey(grey(&smoothed)));
         self.observer.begin("flow");
-        let margin = self.pixels(self.parameters.length_mm).ceil() as usize + 4;
+        let margin = self.pixels(self.parameters.length).ceil() as usize + 4;
         let subject = self.portrait.subject.framed(margin);
-        let sigma = self.pixels(self.parameters.whirls_mm) as f32;
+        let sigma = self.pixels(self.parameters.whirls) as f32;
         let framed = |flow: Flow| flow.completed().framed(margin).within(&subject);
         let (flow, fine_flow) = if let Some(laid) = self.laid_flow(&subject, margin) {
             (laid.within(&subject), laid.within(&subject))
@@ -168,7 +168,7 @@ impl Drawer<'_> {
 
     /// The pattern as a raster and line integral convolution of the same noise, for `stages`.
     fn show_patterns(&self, ground: &Ground, noise: &Raster<f32>) {
-        let length = self.pixels(self.parameters.length_mm) as f32;
+        let length = self.pixels(self.parameters.length) as f32;
         let shown = |raster: Raster<f32>| Picture::Grey(equalised(&raster.unframed(ground.margin)).map(|u| u + 0.5));
         self.observer.picture("noise", &|| shown(noise.clone()));
         self.observer.picture("glass-pattern", &|| shown(glass_pattern(noise, &ground.flow, length)));

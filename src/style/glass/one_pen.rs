@@ -24,14 +24,13 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
     }
     drawer.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
     let flow = ground.flow.unframed(ground.margin);
-    let width = drawer.pixels(drawer.parameters.line_mm);
+    let width = drawer.pixels(drawer.parameters.line);
     let mut calibration = Calibration::default();
     let mut lines = Vec::new();
     for round in 0..ROUNDS {
         drawer.check()?;
         let spacing = calibration.spacing(&ink, width as f32);
-        let wanted =
-            Wanted { flow: &flow, ink: &ink, spacing: &spacing, width, length: drawer.pixels(drawer.parameters.length_mm) };
+        let wanted = Wanted { flow: &flow, ink: &ink, spacing: &spacing, width, length: drawer.pixels(drawer.parameters.length) };
         lines = Arcs::draw(&wanted, drawer.seed);
         if round + 1 < ROUNDS {
             calibration.learn(&ink, &coverage::coverage(&lines, width, &ink));
@@ -45,7 +44,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
 /// An arc as a line of constant width; pressure fades at its ends, for machines with pressure.
 fn mark(drawer: &Drawer<'_>, line: &[Point]) -> Mark {
     let nodes: Vec<Point> = resample(line, NODE_SPACING).into_iter().map(|p| drawer.portrait.placement.to_page(p)).collect();
-    let mut stroke = Stroke::new(catmull_rom(&nodes, false), Width::Constant(drawer.parameters.line_mm));
+    let mut stroke = Stroke::new(catmull_rom(&nodes, false), Width::Constant(drawer.parameters.line.0));
     let last = (nodes.len() - 1) as f64;
     let taper = (0.5 * drawer.parameters.taper).max(1e-6);
     let pressure = |i: usize| (0.25 + 0.75 * (i as f64).min(last - i as f64) / last / taper).min(1.0);

@@ -26,11 +26,11 @@ const MOST_FILLING_TURN: f64 = 0.7;
 
 pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>, StyleError> {
     drawer.observer.begin("pattern");
-    let sigma = drawer.pixels(drawer.parameters.grain_mm) as f32;
+    let sigma = drawer.pixels(drawer.parameters.grain) as f32;
     let (width, height) = (ground.subject.width(), ground.subject.height());
     let noise = noise::noise(width, height, sigma, drawer.seed, "noise");
     drawer.show_patterns(ground, &noise);
-    let length = drawer.pixels(drawer.parameters.length_mm);
+    let length = drawer.pixels(drawer.parameters.length);
     let framed = glass_pattern(&noise, &ground.flow, length as f32);
     let pattern = framed.unframed(ground.margin);
     drawer.check()?;
@@ -85,8 +85,8 @@ impl Painter<'_> {
 
     /// Strokes under all others where these leave the canvas bare: at saddles of the noise and where the flow begins.
     fn filling(&self, canvas: &mut Canvas, colours: &mut Vec<[f32; 3]>) -> Vec<Mark> {
-        let width = FILLING_WIDTH * self.drawer.pixels(self.drawer.parameters.grain_mm);
-        let length = FILLING_LENGTH * self.drawer.pixels(self.drawer.parameters.length_mm);
+        let width = FILLING_WIDTH * self.drawer.pixels(self.drawer.parameters.grain);
+        let length = FILLING_LENGTH * self.drawer.pixels(self.drawer.parameters.length);
         let flow = &self.ground.flow;
         let mut marks = Vec::new();
         for y in 0..canvas.rows() {

@@ -1,5 +1,6 @@
 //! The painting's parameters and their values.
 
+use crate::geometry::Millimetres;
 use crate::style::declaration::{Radians, choice, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
 
@@ -21,7 +22,7 @@ const PHOTO_FLOW: Need = Need::Word("transform", &["photo"]);
 parameters! {
     /// The parameters of a glass painting; lengths in millimetres.
     pub(super) struct GlassParameters {
-        pitch_mm: f64 = "pitch": millimetres(0.6, 0.1..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.1..=50.0),
             "approximate width of a stroke; most lengths below default to multiples of it. Also the distance between the points of a discrete pattern",
             "Table 7.1 at 0.28 mm per pixel";
         colours: Colours = "colors": Kind::Choice(Colours::WORDS),
@@ -30,13 +31,13 @@ parameters! {
         pattern: Pattern = "pattern": Kind::Choice(Pattern::WORDS),
             "continuous paints strokes; discrete draws points, and where the flow moves them, as dots",
             "Papari 7.2";
-        length_mm: f64 = "length": pitches(25.0 / 3.0, 0.1..=200.0),
+        length: Millimetres = "length": pitches(25.0 / 3.0, 0.1..=200.0),
             "length of the strokes, at most the picture's diagonal",
             "Papari 7.10, a = 18 px", needs [Need::AnyOf(&[&[CONTINUOUS], &[Need::Word("transform", &["photo"])]])];
-        grain_mm: f64 = "grain": pitches(DEFAULT_GRAIN, 0.03..=20.0),
+        grain: Millimetres = "grain": pitches(DEFAULT_GRAIN, 0.03..=20.0),
             "blur of the noise that the strokes grow from; a stroke is about three times as wide. By default a sheet of 100 by 100 mm has 10,000 to 25,000 strokes, depending on its detail, counting pieces and the fine strokes on top; half the grain about doubles them",
             "Papari 7.8, sigma_z = 0.7 px", needs [CONTINUOUS, COLOURED];
-        whirls_mm: f64 = "whirls": pitches(17.0 / 6.0, 0.1..=100.0),
+        whirls: Millimetres = "whirls": pitches(17.0 / 6.0, 0.1..=100.0),
             "blur of the picture whose gradient the strokes follow; larger gives smoother strokes and larger whirls",
             "Papari 7.9, sigma = 6 px", needs [PHOTO_FLOW];
         angle: Radians = "angle": number(90.0, -180.0..=180.0),
@@ -45,7 +46,7 @@ parameters! {
         gradient: Gradient = "gradient": Kind::Choice(Gradient::WORDS),
             "how the picture is blurred before its gradient is taken; diffusion keeps strokes from cutting corners but is slow",
             "Papari figure 7.14", needs [PHOTO_FLOW];
-        smoothing_mm: f64 = "smoothing": pitches(0.6, 0.0..=50.0),
+        smoothing: Millimetres = "smoothing": pitches(0.6, 0.0..=50.0),
             "reach of the smoothing that removes texture and sharpens edges; 0 for none",
             "Papari appendix A, sigma", needs [Need::AnyOf(&[&[CONTINUOUS, COLOURED], &[PHOTO_FLOW]])];
         sharpness: f32 = "sharpness": number(4.0, 0.0..=16.0),
@@ -66,7 +67,7 @@ parameters! {
         hairs: f32 = "hairs": number(0.0, 0.0..=1.0),
             "strength of bristle marks on top of the strokes; 0 for none",
             "Papari figures 7.15 and 7.16", needs [CONTINUOUS, COLOURED];
-        line_mm: f64 = "line": millimetres(0.3, 0.05..=5.0),
+        line: Millimetres = "line": millimetres(0.3, 0.05..=5.0),
             "with colors=mono: width of the lines, ideally that of the pen",
             "", needs [CONTINUOUS, Need::Word("colors", &["mono"])];
         transform: Transform = "transform": Kind::Choice(Transform::WORDS),
@@ -147,7 +148,7 @@ impl GlassParameters {
     /// Working pixels per millimetre.
     pub(super) fn pixels_per_mm(&self) -> f64 {
         // Only a painting has grain; lines and points use the resolution of the default grain.
-        let grain = if self.manner() == Manner::Painting { self.grain_mm } else { self.pitch_mm * DEFAULT_GRAIN };
-        (DEFAULT_GRAIN_MM / grain).max(1.0) / MM_PER_PIXEL
+        let grain = if self.manner() == Manner::Painting { self.grain } else { self.pitch * DEFAULT_GRAIN };
+        (DEFAULT_GRAIN_MM / grain.0).max(1.0) / MM_PER_PIXEL
     }
 }

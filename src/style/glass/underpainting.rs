@@ -14,7 +14,7 @@ const OVERLAP: f64 = 0.5;
 
 /// Strokes in rows, wherever a row is fully inside the subject.
 pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground) -> Vec<Mark> {
-    let rows = (WIDTH * drawer.pixels(drawer.parameters.grain_mm)).round().max(2.0) as usize;
+    let rows = (WIDTH * drawer.pixels(drawer.parameters.grain)).round().max(2.0) as usize;
     let last = ground.subject.height() - ground.margin;
     let tops: Vec<usize> = (ground.margin..last).step_by(rows).collect();
     tops.par_iter()

@@ -19,7 +19,7 @@ pub(super) fn cost(parameters: &GridParameters, picture: Rect, pixels_per_mm: f6
     let narrowest = parameters.narrowest(parameters.is_for_detail(pixels_per_mm));
     let (adaptive, closer) = (1.0 - narrowest, 1.0 / narrowest);
     // Nodes stand half a pitch apart, closer where stripes do; each small step widens the window by two fifths of a node's square.
-    let window = 2.0 * closer * parameters.window_mm / parameters.pitch_mm;
+    let window = 2.0 * closer * parameters.window / parameters.pitch;
     let steps = f64::from(parameters.rounds) * (0.625 * window * window).max(1.0);
     // Detail regions are a small part of a picture: 109 bytes per pixel on A3 with a face.
     let bytes = if parameters.primitive == Primitive::TileLines { TILE_LINES_BYTES } else { BYTES };

@@ -51,7 +51,7 @@ impl Drawer<'_> {
 
     /// The lines long and strong enough to steer the grid.
     fn steering(&self, lines: &[CoherentLine]) -> Vec<Curve> {
-        let least = self.pixels(self.parameters.steer_least_mm);
+        let least = self.pixels(self.parameters.steer_least);
         let steers = |line: &&CoherentLine| line.curve.length() >= least && line.contrast >= self.parameters.steer_contrast;
         lines.iter().filter(steers).map(|line| line.curve.clone()).collect()
     }
@@ -69,15 +69,15 @@ impl Drawer<'_> {
 
     fn field_parameters(&self) -> FieldParameters {
         FieldParameters {
-            finest: self.pixels(self.parameters.field_detail_mm).max(2.0),
-            calm: self.pixels(self.parameters.field_calm_mm),
+            finest: self.pixels(self.parameters.field_detail).max(2.0),
+            calm: self.pixels(self.parameters.field_calm),
         }
     }
 
     /// Section 4.1: the edge tangent flow and the coherent lines along it.
     fn found_lines(&self, lightness: &Raster<f32>) -> Vec<CoherentLine> {
         let parameters = &self.parameters;
-        let reach = self.pixels(parameters.flow_reach_mm).round() as usize;
+        let reach = self.pixels(parameters.flow_reach).round() as usize;
         let flow = edge_tangent_flow(lightness, reach, parameters.flow_rounds);
         self.observer.picture("edge-tangent-flow", &|| {
             Picture::Grey(flow.tangent.map(|[x, y]| if x == 0.0 && y == 0.0 { 1.0 } else { 0.5 + 0.5 * (x * x - y * y) }))
@@ -85,19 +85,18 @@ impl Drawer<'_> {
         let found = flow_lines(lightness, &flow, self.line_parameters());
         self.observer.picture("flow-dog", &|| Picture::Grey(found.response.map(|h| 1.0 + h.min(0.0).tanh())));
         self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
-        let steps =
-            coherent_lines(&found, lightness, self.pixels(parameters.smoothing_mm), self.pixels(parameters.line_least_mm));
+        let steps = coherent_lines(&found, lightness, self.pixels(parameters.smoothing), self.pixels(parameters.line_least));
         self.observer.picture("lines-kept", &|| Picture::Mask(steps.kept.clone()));
         self.observer.picture("lines-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
-        let widest = self.pixels(parameters.line_widest_mm);
+        let widest = self.pixels(parameters.line_widest);
         let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
         steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect()
     }
 
     fn line_parameters(&self) -> LineParameters {
         LineParameters {
-            width: self.pixels(self.parameters.line_width_mm) as f32,
-            length: self.pixels(self.parameters.line_length_mm) as f32,
+            width: self.pixels(self.parameters.line_width) as f32,
+            length: self.pixels(self.parameters.line_length) as f32,
             contrast: self.parameters.line_contrast as f32,
             threshold: self.parameters.line_threshold as f32,
             rounds: self.parameters.line_rounds,
@@ -106,8 +105,8 @@ impl Drawer<'_> {
 
     /// Adds the subject's exact border as a line and removes detected lines beside it, which would double it.
     fn with_silhouette(&self, lines: Vec<CoherentLine>) -> Vec<CoherentLine> {
-        let smoothing = self.pixels(self.parameters.smoothing_mm).max(1.0);
-        let least = self.pixels(self.parameters.line_least_mm);
+        let smoothing = self.pixels(self.parameters.smoothing).max(1.0);
+        let least = self.pixels(self.parameters.line_least);
         let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
             .into_iter()
             .filter(|line| line.length() >= least)
@@ -133,8 +132,8 @@ impl Drawer<'_> {
         if self.parameters.isophotes < 2 {
             return Vec::new();
         }
-        let smoothing = self.pixels(self.parameters.smoothing_mm).clamp(1.0, 6.0) as f32;
-        let least = self.pixels(self.parameters.steer_least_mm) as f32;
+        let smoothing = self.pixels(self.parameters.smoothing).clamp(1.0, 6.0) as f32;
+        let least = self.pixels(self.parameters.steer_least) as f32;
         let levels = self.parameters.isophotes;
         let steps = detect_isophotes(lightness, levels, levels - 1, smoothing, least);
         self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
@@ -146,7 +145,7 @@ impl Drawer<'_> {
     fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
         let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
         self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
-        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing_mm).min(3.0) as f32, 0.5 * self.pitch() as f32)
+        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing).min(3.0) as f32, 0.5 * self.pitch() as f32)
     }
 
     /// The field as short strokes two pitches apart, and its singular points as rings, one layer per sign.
@@ -196,7 +195,7 @@ impl Drawer<'_> {
                 if curve.closed {
                     path.close_path();
                 }
-                Mark::Stroke(Stroke::new(path, Width::Constant(0.15 * self.parameters.pitch_mm)))
+                Mark::Stroke(Stroke::new(path, Width::Constant(0.15 * self.parameters.pitch.0)))
             })
             .collect();
         layer

@@ -22,7 +22,7 @@ pub(super) struct Mixing {
 impl Mixing {
     pub(super) fn new(drawer: &Drawer<'_>) -> Self {
         let parameters = &drawer.parameters;
-        let border = border(parameters.size_max_mm / parameters.pitch_mm);
+        let border = border(parameters.size_max / parameters.pitch);
         Self { border, blend: parameters.blend, hatching: parameters.hatching }
     }
 

@@ -13,11 +13,11 @@ mod shape;
 mod structure;
 mod tiles;
 
-use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
-use crate::drawing::{Drawing, Layer, Page};
-use crate::geometry::Rect;
+use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
+use crate::drawing::{Drawing, Layer, Mark, Page};
+use crate::geometry::{Millimetres, Rect};
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::MaskRole;
+use crate::source::{MaskRole, Portrait};
 use cells::Cell;
 use darks::Darks;
 use parameters::{Detail, GridParameters, Primitive};
@@ -66,6 +66,21 @@ impl Style for Grid {
 }
 
 type Drawer<'a> = super::Drawer<'a, GridParameters>;
+
+/// Settings with which all ink lies in hatches along the features.
+const HATCHES: &[(&str, &str)] = &[("size_max", "0mm"), ("hatching", "along"), ("lines", "off"), ("reversed_from", "1")];
+
+/// Hatches along the features with the tone's width, for a style of another kind at its pitch; `hand` is its seed and its
+/// observer.
+pub(super) fn hatches(portrait: &Portrait, pitch: Millimetres, hand: (u64, &dyn Observer)) -> Result<Vec<Mark>, StyleError> {
+    let settings = CARD.settings_at(pitch, HATCHES)?;
+    let (seed, observer) = hand;
+    match (Request { portrait, settings: &settings, seed, observer }).drawer(GridParameters::new(&settings)).draw() {
+        Ok(drawing) => Ok(drawing.layers.into_iter().flat_map(|layer| layer.marks).collect()),
+        Err(StyleError::NothingToDraw(_)) => Ok(Vec::new()),
+        Err(error) => Err(error),
+    }
+}
 
 /// Blur of the tone that sets line widths, in pitches: a width cannot show finer detail.
 const TONE_BLUR: f32 = 0.3;
@@ -122,7 +137,7 @@ impl Drawer<'_> {
 
     /// The pitch in working pixels.
     fn pitch(&self) -> f64 {
-        self.pixels(self.parameters.pitch_mm)
+        self.pixels(self.parameters.pitch)
     }
 
     /// Where dots and lines stand closer.

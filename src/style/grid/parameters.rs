@@ -1,5 +1,6 @@
 //! The structure grid's parameters and their values.
 
+use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
@@ -24,10 +25,10 @@ const WIDEST_WINDOW: f64 = 20.0;
 parameters! {
     /// The parameters of a structure grid; lengths in millimetres.
     pub(super) struct GridParameters {
-        pitch_mm: f64 = "pitch": millimetres(0.6, 0.05..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
             "distance between neighbouring dots and between hatching lines",
             "Son 5.1, d";
-        size_max_mm: f64 = "size_max": pitches(0.5, 0.0..=50.0),
+        size_max: Millimetres = "size_max": pitches(0.5, 0.0..=50.0),
             "largest dot radius; darker tones become lines. 0 hatches everywhere; from 0.71 pitches on there are only dots",
             "Son 6.3, s_max", needs [MIXED];
         blend: f64 = "blend": number(0.1, 0.001..=0.5),
@@ -51,16 +52,16 @@ parameters! {
         primitive: Primitive = "primitive": Kind::Choice(Primitive::WORDS),
             "what is drawn: mixed is dots and hatching; tile is coloured tiles; tile-lines is tile outlines hatched by tone, for a pen",
             "Son 7.3";
-        tile_gap_mm: f64 = "tile_gap": pitches(0.12, 0.0..=50.0),
+        tile_gap: Millimetres = "tile_gap": pitches(0.12, 0.0..=50.0),
             "space between neighbouring tiles",
             "Son 7.3, s", needs [Need::Word("primitive", &["tile", "tile-lines"])];
         has_lines: bool = "lines": ON,
             "draw the feature lines on top",
             "Son 3";
-        line_width_mm: f64 = "line_width": pitches(1.2 / 6.0, 0.01..=50.0),
+        line_width: Millimetres = "line_width": pitches(1.2 / 6.0, 0.01..=50.0),
             "width of the lines to detect: standard deviation across them",
             "Kang et al. 2007, sigma_c", needs [FOUND];
-        line_length_mm: f64 = "line_length": pitches(4.5 / 6.0, 0.01..=50.0),
+        line_length: Millimetres = "line_length": pitches(4.5 / 6.0, 0.01..=50.0),
             "how far lines continue over gaps: standard deviation along them",
             "Kang et al. 2007, sigma_m", needs [FOUND];
         line_contrast: f64 = "line_contrast": number(0.99, 0.5..=1.0),
@@ -72,13 +73,13 @@ parameters! {
         line_rounds: u32 = "line_rounds": count(2, 1..=10),
             "rounds of line detection; each builds on the lines found so far",
             "Kang et al. 2007: 2 to 3", needs [FOUND];
-        line_least_mm: f64 = "line_least": pitches(2.0, 0.0..=1000.0),
+        line_least: Millimetres = "line_least": pitches(2.0, 0.0..=1000.0),
             "lines shorter than this are not drawn; eyes need short lines",
             "Bruehl 2.1.1, threshold", needs [FOUND];
-        line_widest_mm: f64 = "line_widest": pitches(0.45, 0.01..=50.0),
+        line_widest: Millimetres = "line_widest": pitches(0.45, 0.01..=50.0),
             "maximum width of a drawn line",
             "", needs [FOUND, Need::Word("lines", &["on"])];
-        steer_least_mm: f64 = "steer_least": pitches(5.0, 0.0..=1000.0),
+        steer_least: Millimetres = "steer_least": pitches(5.0, 0.0..=1000.0),
             "lines and isophotes shorter than this do not steer the grid",
             "Bruehl 2.1.1, threshold";
         draw_contrast: f64 = "draw_contrast": number(0.05, 0.0..=1.0),
@@ -87,13 +88,13 @@ parameters! {
         steer_contrast: f64 = "steer_contrast": number(0.07, 0.0..=1.0),
             "minimum difference of lightness across a line that steers the grid",
             "", needs [FOUND];
-        flow_reach_mm: f64 = "flow_reach": pitches(5.0 / 6.0, 0.0..=50.0),
+        flow_reach: Millimetres = "flow_reach": pitches(5.0 / 6.0, 0.0..=50.0),
             "reach of the window in which edge directions are smoothed",
             "Kang et al. 2007, mu = 5 px", needs [FOUND, Need::Above("flow_rounds", 0.0)];
         flow_rounds: u32 = "flow_rounds": count(3, 0..=20),
             "rounds of smoothing the edge directions",
             "Kang et al. 2007: 2 to 3", needs [FOUND];
-        smoothing_mm: f64 = "smoothing": pitches(1.0, 0.0..=50.0),
+        smoothing: Millimetres = "smoothing": pitches(1.0, 0.0..=50.0),
             "smoothing along feature lines and isophotes",
             "";
         isophotes: u32 = "isophotes": count(3, 0..=16),
@@ -102,13 +103,13 @@ parameters! {
         isophote_weight: f32 = "isophote_weight": number(0.5, 0.001..=100.0),
             "weight of isophotes relative to nearby feature lines",
             "Son 4.1 counts both alike", needs [Need::AnyOf(&[&[Need::Above("isophotes", 1.0)], &[Need::With(MaskRole::Isophotes)]])];
-        field_detail_mm: f64 = "field_detail": pitches(3.0, 0.1..=1000.0),
+        field_detail: Millimetres = "field_detail": pitches(3.0, 0.1..=1000.0),
             "finest cell of the feature field: smaller follows every line, larger gives a calmer flow",
             "Son 4.2; Lee et al. 1997";
-        field_calm_mm: f64 = "field_calm": pitches(2.0, 0.0..=1000.0),
+        field_calm: Millimetres = "field_calm": pitches(2.0, 0.0..=1000.0),
             "length over which the field turns where lines disagree; 0 leaves abrupt borders there",
             "";
-        window_mm: f64 = "window": pitches(2.0, 0.1..=100.0),
+        window: Millimetres = "window": pitches(2.0, 0.1..=100.0),
             "reach of the window in which the stripes are made regular; at most 20 pitches",
             "Son 5.2, r";
         rounds: u32 = "rounds": count(5, 1..=200),
@@ -173,7 +174,7 @@ choice! {
 impl GridParameters {
     /// Keeps the window within its reach in pitches.
     fn with_bounded_window(self) -> Self {
-        Self { window_mm: self.window_mm.min(WIDEST_WINDOW * self.pitch_mm), ..self }
+        Self { window: self.window.min(WIDEST_WINDOW * self.pitch), ..self }
     }
 
     /// The smallest spacing in the picture, in pitches.
@@ -184,7 +185,7 @@ impl GridParameters {
 
     /// True if this resolution is the one for detail regions.
     pub(super) fn is_for_detail(&self, pixels_per_mm: f64) -> bool {
-        pixels_per_mm * self.pitch_mm > 0.5 * (PIXELS_PER_PITCH + PIXELS_PER_PITCH_WITH_DETAIL)
+        pixels_per_mm * self.pitch.0 > 0.5 * (PIXELS_PER_PITCH + PIXELS_PER_PITCH_WITH_DETAIL)
     }
 
     /// Working pixels per pitch.

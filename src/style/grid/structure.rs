@@ -125,7 +125,7 @@ impl Drawer<'_> {
         let step = self.pitch() / NODES_PER_PITCH * self.parameters.narrowest(self.detail().is_some());
         StripeParameters {
             step,
-            window: self.pixels(self.parameters.window_mm) / step,
+            window: self.pixels(self.parameters.window) / step,
             rounds: self.parameters.rounds,
             levels: LEVELS,
         }
@@ -214,7 +214,7 @@ impl Drawer<'_> {
         }
         self.observer.picture("grid", &|| {
             let mut dots = Layer::new("crossings", 3);
-            let radius = 0.15 * self.parameters.pitch_mm;
+            let radius = 0.15 * self.parameters.pitch.0;
             dots.marks =
                 grid.crossings.iter().map(|p| Mark::Dot(Dot::circle(self.portrait.placement.to_page(*p), radius))).collect();
             self.picture_of(vec![

@@ -24,7 +24,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, cells: &[Cell]) -> Layer {
 /// Tiles as outlines, hatched to make the tone.
 pub(super) fn line_layer(drawer: &Drawer<'_>, cells: &[Cell]) -> Layer {
     drawer.observer.begin("tiles");
-    let width = PEN * drawer.parameters.pitch_mm;
+    let width = PEN * drawer.parameters.pitch.0;
     let mut layer = Layer::new("tiles", 1);
     for cell in inked(cells) {
         let Some(tile) = tile(drawer, cell) else { continue };
@@ -43,7 +43,7 @@ fn inked(cells: &[Cell]) -> impl Iterator<Item = &Cell> {
 
 /// The square of side `sqrt(cell) - gap`, clipped to its own cell less half the gap, so that no two tiles touch.
 fn tile(drawer: &Drawer<'_>, cell: &Cell) -> Option<Vec<Point>> {
-    let gap = drawer.pixels(drawer.parameters.tile_gap_mm);
+    let gap = drawer.pixels(drawer.parameters.tile_gap);
     let half = 0.5 * (cell.area.sqrt() - gap);
     if half <= 0.0 {
         return None;

@@ -17,7 +17,7 @@ const WIDTH_MICROSECONDS: f64 = 0.5;
 
 pub(super) fn cost(parameters: &HedcutParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let rounds = f64::from(parameters.plain_rounds + parameters.flow_rounds);
-    let wider = if parameters.lines == Lines::Coherent { (parameters.line_width_mm * pixels_per_mm - 1.2).max(0.0) } else { 0.0 };
+    let wider = if parameters.lines == Lines::Coherent { (parameters.line_width.0 * pixels_per_mm - 1.2).max(0.0) } else { 0.0 };
     let bytes = if parameters.blob > 0.0 { BYTES + BLOB_BYTES } else { BYTES };
     let microseconds = MICROSECONDS + ROUND_MICROSECONDS * rounds + WIDTH_MICROSECONDS * wider;
     Cost::each(pixels(picture, pixels_per_mm), bytes, microseconds)

@@ -57,13 +57,13 @@ impl Drawer<'_> {
     fn found_edges(&self, lightness: &Raster<f32>) -> Vec<Curve> {
         let per_pixel = 1.0 / self.pitch();
         let parameters = EdgeParameters {
-            blur: self.pixels(self.parameters.edge_blur_mm) as f32,
+            blur: self.pixels(self.parameters.edge_blur) as f32,
             thresholds: Thresholds {
                 low: (self.parameters.edge_low.min(self.parameters.edge_high) * per_pixel) as f32,
                 high: (self.parameters.edge_high * per_pixel) as f32,
             },
-            least_length: self.pixels(self.parameters.edge_length_mm) as f32,
-            smoothing: self.pixels(self.parameters.smoothing_mm) as f32,
+            least_length: self.pixels(self.parameters.edge_length) as f32,
+            smoothing: self.pixels(self.parameters.smoothing) as f32,
         };
         let steps = detect_edges(lightness, parameters);
         self.observer.picture("blurred", &|| Picture::Grey(steps.blurred.clone()));
@@ -77,18 +77,18 @@ impl Drawer<'_> {
     /// Coherent lines instead of Canny's edges (suggested in Bruehl 2023, section 4.3.1): the lines long enough to steer, and all lines,
     /// of which the outline takes the longest.
     fn coherent_edges(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Vec<CoherentLine>) {
-        let width = self.pixels(self.parameters.line_width_mm) as f32;
+        let width = self.pixels(self.parameters.line_width) as f32;
         let flow = edge_tangent_flow(lightness, FLOW_RADIUS, FLOW_ROUNDS);
         let parameters = LineParameters { width, length: LINE_LENGTH * width, contrast: 0.99, threshold: 0.5, rounds: 2 };
         let found = flow_lines(lightness, &flow, parameters);
         self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
         let least = LEAST_LINE * self.pitch();
-        let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing_mm), least).lines;
+        let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing), least).lines;
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
-        let steering = self.pixels(self.parameters.edge_length_mm);
+        let steering = self.pixels(self.parameters.edge_length);
         let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
         let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| {
-            let width = self.pixels(self.parameters.outline_width_mm);
+            let width = self.pixels(self.parameters.outline_width);
             CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }
         });
         let drawn = outline.chain(lines).collect();
@@ -98,8 +98,8 @@ impl Drawer<'_> {
     /// Adds the subject's exact border as an edge. Detected edges beside it (a pixel or two off) would leave a strip too narrow for a
     /// row of dots, so those parts are removed.
     fn with_silhouette(&self, edges: Vec<Curve>) -> Vec<Curve> {
-        let smoothing = self.pixels(self.parameters.smoothing_mm).max(1.0);
-        let least = self.pixels(self.parameters.edge_length_mm);
+        let smoothing = self.pixels(self.parameters.smoothing).max(1.0);
+        let least = self.pixels(self.parameters.edge_length);
         let (width, height) = self.size();
         let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
             .into_iter()
@@ -120,8 +120,8 @@ impl Drawer<'_> {
     }
 
     fn found_isophotes(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Raster<f32>) {
-        let smoothing = self.pixels(self.parameters.smoothing_mm).clamp(1.0, 6.0) as f32;
-        let least = self.pixels(self.parameters.edge_length_mm) as f32;
+        let smoothing = self.pixels(self.parameters.smoothing).clamp(1.0, 6.0) as f32;
+        let least = self.pixels(self.parameters.edge_length) as f32;
         let steps = detect_isophotes(lightness, self.parameters.levels, self.parameters.isophotes, smoothing, least);
         self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
         self.observer.picture("posterised", &|| Picture::Grey(steps.posterised.clone()));
@@ -132,7 +132,7 @@ impl Drawer<'_> {
     fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
         let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
         self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
-        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing_mm).min(3.0) as f32, 0.5 * self.pitch() as f32)
+        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing).min(3.0) as f32, 0.5 * self.pitch() as f32)
     }
 
     /// Edges and isophotes as a drawing, for `stages`.
@@ -160,6 +160,6 @@ impl Drawer<'_> {
         if curve.closed {
             path.close_path();
         }
-        Mark::Stroke(Stroke::new(path, Width::Constant(0.2 * self.parameters.pitch_mm)))
+        Mark::Stroke(Stroke::new(path, Width::Constant(0.2 * self.parameters.pitch.0)))
     }
 }

@@ -6,6 +6,7 @@ mod features;
 mod highlights;
 mod outline;
 mod parameters;
+mod parts;
 mod seeds;
 mod size;
 
@@ -17,6 +18,7 @@ use crate::raster::Raster;
 use crate::source::MaskRole;
 use features::Features;
 use parameters::HedcutParameters;
+use parts::Parts;
 
 /// The style.
 pub(super) struct Hedcut;
@@ -27,7 +29,15 @@ const CARD: StyleCard = StyleCard {
     summary: "dots in rows along the features, as in the portraits of the Wall Street Journal",
     source: "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010",
     parameters: parameters::PARAMETERS,
-    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes],
+    masks: &[
+        MaskRole::Subject,
+        MaskRole::Detail,
+        MaskRole::Hair,
+        MaskRole::Clothing,
+        MaskRole::Headwear,
+        MaskRole::Edges,
+        MaskRole::Isophotes,
+    ],
     uses_depth: false,
     leaves_out_background: true,
 };
@@ -60,8 +70,21 @@ struct SizedDot {
 }
 
 impl Drawer<'_> {
-    /// The thesis' steps in order.
+    /// The parts, each in its own marks: skin in dots, hair in strokes, clothing in hatches.
     fn draw(&self) -> Result<Drawing, StyleError> {
+        let parts = self.parts();
+        if parts.is_empty() {
+            return self.dots(&parts);
+        }
+        let rest = self.without(&parts);
+        let mut drawing = Drawer { portrait: &rest, ..*self }.dots(&parts)?;
+        drawing.layers.extend(self.hair_layer(&parts)?);
+        drawing.layers.extend(self.clothing_layer(&parts)?);
+        Ok(drawing)
+    }
+
+    /// The thesis' steps in order.
+    fn dots(&self, parts: &Parts) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
@@ -87,7 +110,7 @@ impl Drawer<'_> {
         let mut drawing = Drawing { page: self.page(), layers: vec![layer] };
         if self.parameters.has_outline {
             self.observer.begin("outline");
-            drawing.layers.push(outline::layer(self, &features));
+            drawing.layers.push(outline::layer(self, &features, parts));
         }
         Ok(drawing)
     }
@@ -139,7 +162,7 @@ impl Drawer<'_> {
 
     /// The pitch in working pixels.
     fn pitch(&self) -> f64 {
-        self.parameters.pitch_mm / self.portrait.placement.mm_per_pixel()
+        self.pixels(self.parameters.pitch)
     }
 
     fn detail(&self) -> Option<&Raster<f32>> {

@@ -3,6 +3,7 @@
 
 use super::Drawer;
 use super::features::Features;
+use super::parts::Parts;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::{CoherentLine, Curve};
 use crate::geometry::{catmull_rom, resample};
@@ -14,21 +15,33 @@ const NODE_SPACING: f64 = 1.2;
 /// Maximum length of a coherent line's taper, in pitches.
 const LONGEST_TAPER: f64 = 4.0;
 
-pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
-    let least = drawer.pixels(drawer.parameters.outline_length_mm);
+/// The outlines, without those inside hair, whose strokes draw it.
+pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> Layer {
+    let least = drawer.pixels(drawer.parameters.outline_length);
     let mut layer = Layer::new("outline", 1);
     if !features.drawn.is_empty() {
-        let widest = drawer.pixels(drawer.parameters.outline_width_mm);
+        let widest = drawer.pixels(drawer.parameters.outline_width);
         let taper = LONGEST_TAPER * drawer.pitch();
         let capped =
             |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
-        let longest = features.drawn.iter().filter(|line| line.curve.length() >= least);
+        let longest = features.drawn.iter().filter(|line| line.curve.length() >= least && !is_hair(&line.curve, parts));
         let strokes = longest.filter_map(|line| feature_stroke(&capped(line), &drawer.portrait.placement, taper));
         layer.marks = strokes.collect();
         return layer;
     }
-    layer.marks = features.edges.iter().filter(|edge| edge.length() >= least).filter_map(|edge| stroke(drawer, edge)).collect();
+    layer.marks = features
+        .edges
+        .iter()
+        .filter(|edge| edge.length() >= least && !is_hair(edge, parts))
+        .filter_map(|edge| stroke(drawer, edge))
+        .collect();
     layer
+}
+
+/// True if most of a line runs inside hair.
+fn is_hair(line: &Curve, parts: &Parts) -> bool {
+    let inside = line.points.iter().filter(|p| parts.hair_at(p.x, p.y) >= 0.5).count();
+    2 * inside > line.points.len()
 }
 
 fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
@@ -46,7 +59,7 @@ fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
     }
     let page: Vec<_> = nodes.iter().map(|p| drawer.portrait.placement.to_page(*p)).collect();
     let curve = catmull_rom(&page, edge.closed);
-    let widest = drawer.parameters.outline_width_mm;
+    let widest = drawer.parameters.outline_width.0;
     let count = nodes.len() + usize::from(edge.closed);
     let widths = (0..count).map(|i| widest * if edge.closed { 1.0 } else { swell(i as f64 / (count - 1) as f64) }).collect();
     Some(Mark::Stroke(Stroke::new(curve, Width::Along(widths))))

@@ -1,5 +1,6 @@
 //! The hedcut's parameters and their values.
 
+use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
@@ -15,13 +16,13 @@ const BOTH_STEER: Need = Need::AnyOf(&[&[Need::Above("isophotes", 0.0)], &[Need:
 parameters! {
     /// The parameters of a hedcut; lengths in millimetres.
     pub(super) struct HedcutParameters {
-        pitch_mm: f64 = "pitch": millimetres(0.6, 0.05..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
             "distance between neighbouring dots; smaller gives finer detail and more dots",
             "Bruehl 3.2, l";
         size: SizeRule = "size": Kind::Choice(SizeRule::WORDS),
             "dot size: exact matches the tone's ink in each dot's own cell; paper is s_max (1 - T)^gamma",
             "Bruehl 3.4 and 4.4";
-        size_max_mm: f64 = "size_max": pitches(0.56, 0.01..=50.0),
+        size_max: Millimetres = "size_max": pitches(0.56, 0.01..=50.0),
             "with size=paper: radius of a dot at full ink",
             "Bruehl 3.4, s_max", needs [Need::Word("size", &["paper"])];
         size_gamma: f64 = "size_gamma": number(1.2, 0.1..=5.0),
@@ -34,13 +35,13 @@ parameters! {
             "edge detector: coherent finds lines along the edge tangent flow and draws them at their own width; canny is Canny's detector",
             "Bruehl 2.1 and 4.3.1; Kang et al. 2007", needs [Need::Without(MaskRole::Edges)];
         // Wider lines take minutes: the filter is three times as long along a line as across.
-        line_width_mm: f64 = "line_width": pitches(0.2, 0.01..=10.0),
+        line_width: Millimetres = "line_width": pitches(0.2, 0.01..=10.0),
             "with lines=coherent: width of the lines to detect, standard deviation across them",
             "Kang et al. 2007, sigma_c", needs [Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges)];
         line_contrast: f64 = "line_contrast": number(0.07, 0.0..=1.0),
             "with lines=coherent: minimum difference of lightness across a line",
             "", needs [Need::Word("lines", &["coherent"]), Need::Without(MaskRole::Edges)];
-        edge_blur_mm: f64 = "edge_blur": pitches(0.4, 0.0..=50.0),
+        edge_blur: Millimetres = "edge_blur": pitches(0.4, 0.0..=50.0),
             "with lines=canny: blur before edge detection; larger finds only the large forms",
             "Bruehl 2.1", needs [Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)];
         edge_high: f64 = "edge_high": number(0.30, 0.0..=5.0),
@@ -49,10 +50,10 @@ parameters! {
         edge_low: f64 = "edge_low": number(0.12, 0.0..=5.0),
             "with lines=canny: an edge ends where the change per pitch falls below this",
             "Bruehl 2.1, minVal", needs [Need::Word("lines", &["canny"]), Need::Without(MaskRole::Edges)];
-        edge_length_mm: f64 = "edge_length": pitches(8.0, 0.0..=1000.0),
+        edge_length: Millimetres = "edge_length": pitches(8.0, 0.0..=1000.0),
             "edges shorter than this do not steer the dots",
             "Bruehl 2.1.1, threshold", needs [Need::AnyOf(&[&[Need::Without(MaskRole::Edges)], &[Need::Without(MaskRole::Isophotes)]])];
-        smoothing_mm: f64 = "smoothing": pitches(1.0, 0.0..=50.0),
+        smoothing: Millimetres = "smoothing": pitches(1.0, 0.0..=50.0),
             "smoothing along edges and isophotes, so that rows flow",
             "Bruehl 4.3.1 asks for smooth lines";
         levels: u32 = "levels": count(8, 2..=64),
@@ -67,7 +68,7 @@ parameters! {
         isophote_weight: f32 = "isophote_weight": number(2.0, 0.01..=100.0),
             "weight of isophotes relative to edges",
             "Bruehl 3.1.2, w_i", needs [BOTH_STEER];
-        flow_reach_mm: f64 = "flow_reach": pitches(100.0 / 6.0, 0.01..=10_000.0),
+        flow_reach: Millimetres = "flow_reach": pitches(100.0 / 6.0, 0.01..=10_000.0),
             "distance from a feature at which rows dissolve into an even scatter",
             "Kim et al. 2008, D_w = 100 px", needs [Need::Above("flow_rounds", 0.0)];
         plain_rounds: u32 = "plain_rounds": count(10, 0..=1000),
@@ -88,15 +89,18 @@ parameters! {
         has_outline: bool = "outline": ON,
             "draw the longest edges as swelling strokes",
             "Bruehl 4.3.2";
-        outline_length_mm: f64 = "outline_length": pitches(16.0, 0.0..=1000.0),
+        outline_length: Millimetres = "outline_length": pitches(16.0, 0.0..=1000.0),
             "minimum length of a drawn line; rows also follow shorter ones",
             "Bruehl 4.3.2", needs [Need::Word("outline", &["on"])];
-        outline_width_mm: f64 = "outline_width": pitches(0.4, 0.01..=50.0),
+        outline_width: Millimetres = "outline_width": pitches(0.4, 0.01..=50.0),
             "width of an outline at its widest",
             "", needs [Need::Word("outline", &["on"])];
         detail: Detail = "detail": Kind::Choice(Detail::WORDS),
             "lanes in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto and even make them sqrt(3) times as dense, so that three times the dots stay in square cells; thesis makes them three times as dense; off leaves them as everywhere",
             "Bruehl 4.3.2, corrected", needs [Need::With(MaskRole::Detail)];
+        parts: PartsRule = "parts": Kind::Choice(PartsRule::WORDS),
+            "what is drawn in dots: auto draws hair in flowing strokes and clothing in hatches, where they were detected or their masks are given; dots draws everything in dots",
+            "Bruehl 0.1.1", needs [Need::AnyOf(&[&[Need::With(MaskRole::Hair)], &[Need::With(MaskRole::Clothing)], &[Need::With(MaskRole::Headwear)]])];
         blob: f64 = "blob": number(0.0, 0.0..=1.0),
             "irregularity of the dots: 0 draws circles, 1 ragged ink blobs of the same area",
             "Bruehl 4.4";
@@ -126,6 +130,14 @@ choice! {
         Even = "even",
         Thesis = "thesis",
         Off = "off",
+    }
+}
+
+choice! {
+    /// Which parts are drawn in marks of their own.
+    pub(super) enum PartsRule {
+        Auto = "auto",
+        Dots = "dots",
     }
 }
 

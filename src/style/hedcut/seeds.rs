@@ -25,7 +25,7 @@ pub(super) fn relaxed_seeds(drawer: &Drawer<'_>, lanes: &Lanes) -> Result<Vec<Po
     // The density of cells in a relaxed pattern is proportional to the square root of the weight (Du et al. 1999), so the weight is the
     // square.
     let weight = density.map(|d| d * d);
-    let reach = drawer.pixels(drawer.parameters.flow_reach_mm) as f32;
+    let reach = drawer.pixels(drawer.parameters.flow_reach) as f32;
     let rounds = drawer.parameters.plain_rounds + drawer.parameters.flow_rounds;
     for round in 0..rounds {
         drawer.check()?;

@@ -88,7 +88,7 @@ fn reversed_cell(drawer: &Drawer<'_>, index: usize, centre: Point, polygon: Vec<
 /// The thesis' rule of thumb, `s_max (1 - T)^gamma` at the dot's centre (Bruehl 2023, section 3.4).
 pub(super) fn paper(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> Sized {
     drawer.observer.begin("sizes");
-    let largest = drawer.pixels(drawer.parameters.size_max_mm);
+    let largest = drawer.pixels(drawer.parameters.size_max);
     let dots = sites
         .iter()
         .map(|&centre| {

@@ -47,6 +47,17 @@ const RADIUS_DIGITS: u32 = 4;
 const RADIUS_SCALE: f64 = 10_000.0;
 
 /// Writes a drawing with its ink at exact size.
+///
+/// ```
+/// use drypoint::{drawing::{Dot, Drawing, Layer, Mark, Page}, geometry::Point, write::{SvgHead, write_svg}};
+///
+/// let mut layer = Layer::new("dots", 1);
+/// layer.marks.push(Mark::Dot(Dot::circle(Point::new(5.0, 5.0), 0.4)));
+/// let mut bytes = Vec::new();
+/// write_svg(&Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] }, &SvgHead::default(), &mut bytes)?;
+/// assert!(bytes.starts_with(b"<svg"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
     let mut document = document(&drawing.page, head, None);
     for (i, layer) in drawing.layers.iter().enumerate() {
