@@ -86,10 +86,11 @@ pub const fn can_see() -> bool {
 /// ```no_run
 /// use drypoint::{interrupt::Interrupt, see, source::{Limits, Photograph}};
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let photograph = Photograph::decode(&std::fs::read("portrait.jpg")?, Limits::default())?;
+/// # fn example(bytes: &[u8]) -> Result<(), Box<dyn std::error::Error>> {
+/// let photograph = Photograph::decode(bytes, Limits::default())?;
 /// let sight = see::look(&photograph, &Interrupt::never())?;
-/// println!("{} faces", sight.faces.len());
+/// let pupils = sight.faces.iter().map(|face| face.landmarks.irises[0].centre);
+/// assert_eq!(pupils.count(), sight.faces.len());
 /// # Ok(())
 /// # }
 /// ```

@@ -73,6 +73,14 @@ impl Placement {
         Millimetres(pixels * self.mm_per_pixel())
     }
 
+    /// Converts a point on the page from millimetres to working pixels.
+    pub fn to_grid(&self, p: Point) -> Point {
+        Point::new(
+            (p.x - self.picture.x0) * self.columns as f64 / self.picture.width(),
+            (p.y - self.picture.y0) * self.rows as f64 / self.picture.height(),
+        )
+    }
+
     /// Converts a point from working pixels to millimetres on the page.
     pub fn to_page(&self, p: Point) -> Point {
         Point::new(

@@ -16,6 +16,7 @@ mod machine_file;
 mod architecture;
 mod calibration;
 mod citations;
+mod complete_hedcut;
 mod depth;
 mod foreign;
 mod fuzzed;

@@ -29,6 +29,9 @@ use parameters::CharcoalParameters;
 const SHORT_SIDE: f64 = 600.0;
 /// Maximum working pixels: those of a picture twice as long as wide. A strip whose short side is scaled up to 600 would take minutes.
 const MOST_PIXELS: f64 = 2.0 * SHORT_SIDE * SHORT_SIDE;
+/// Maximum working pixels per pitch in small pictures, whose marks show no more, and the short side that they get at least.
+const MOST_PIXELS_PER_PITCH: f64 = 8.0;
+const LEAST_SHORT_SIDE: f64 = 0.5 * SHORT_SIDE;
 
 /// The style.
 pub(super) struct Charcoal;
@@ -62,8 +65,10 @@ impl Style for Charcoal {
         4.0 / settings.number("pitch")
     }
 
-    fn resolution(&self, _: &Settings, _: &[MaskRole], picture: Rect) -> f64 {
-        (SHORT_SIDE / picture.width().min(picture.height())).min((MOST_PIXELS / picture.area()).sqrt())
+    fn resolution(&self, settings: &Settings, _: &[MaskRole], picture: Rect) -> f64 {
+        let short = picture.width().min(picture.height());
+        let fine = (MOST_PIXELS_PER_PITCH / settings.number("pitch")).max(LEAST_SHORT_SIDE / short);
+        (SHORT_SIDE / short).min((MOST_PIXELS / picture.area()).sqrt()).min(fine)
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {

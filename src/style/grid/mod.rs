@@ -76,7 +76,10 @@ pub(super) fn hatches(portrait: &Portrait, pitch: Millimetres, hand: (u64, &dyn 
     let settings = CARD.settings_at(pitch, HATCHES)?;
     let (seed, observer) = hand;
     match (Request { portrait, settings: &settings, seed, observer }).drawer(GridParameters::new(&settings)).draw() {
-        Ok(drawing) => Ok(drawing.layers.into_iter().flat_map(|layer| layer.marks).collect()),
+        // Single dots fill holes of the hatching.
+        Ok(drawing) => {
+            Ok(drawing.layers.into_iter().flat_map(|layer| layer.marks).filter(|m| !matches!(m, Mark::Dot(_))).collect())
+        }
         Err(StyleError::NothingToDraw(_)) => Ok(Vec::new()),
         Err(error) => Err(error),
     }

@@ -77,9 +77,20 @@ impl Drawer<'_> {
             return self.dots(&parts);
         }
         let rest = self.without(&parts);
-        let mut drawing = Drawer { portrait: &rest, ..*self }.dots(&parts)?;
+        let mut drawing = match (Drawer { portrait: &rest, ..*self }).dots(&parts) {
+            // All of it lies in the other parts.
+            Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => {
+                Drawing { page: self.page(), layers: Vec::new() }
+            }
+            dots => dots?,
+        };
         drawing.layers.extend(self.hair_layer(&parts)?);
         drawing.layers.extend(self.clothing_layer(&parts)?);
+        if drawing.layers.is_empty() {
+            return Err(StyleError::NothingToDraw(
+                "the picture, or the part inside the subject mask, is white all over".to_owned(),
+            ));
+        }
         Ok(drawing)
     }
 
@@ -100,7 +111,8 @@ impl Drawer<'_> {
             parameters::SizeRule::Exact => size::exact(self, &sites, &ink),
             parameters::SizeRule::Paper => size::paper(self, &sites, &ink),
         };
-        let dots = highlights::thin_out(self, dots, &features);
+        let mut dots = highlights::thin_out(self, dots, &features);
+        dots.retain(|dot| !parts.hold(dot.centre));
         if dots.is_empty() && reversed.is_empty() {
             let why = "all of it is as light as the highlights, which stay bare";
             return Err(StyleError::NothingLeft { why, setting: "highlights=off" });

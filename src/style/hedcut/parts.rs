@@ -9,16 +9,27 @@
 
 use super::Drawer;
 use super::parameters::PartsRule;
-use crate::drawing::{Layer, Mark};
-use crate::raster::{Raster, gaussian_blur};
-use crate::source::{MaskRole, Portrait};
+use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::geometry::Point;
+use crate::raster::{Raster, gaussian_blur, reduce};
+use crate::source::{MaskRole, Placement, Portrait};
 use crate::style::{StyleError, charcoal, grid};
 
 /// Blur of the regions in pitches, and the gain of their edges: borders as smooth as the marks, without steps.
 const SMOOTH: f64 = 0.6;
 const SHARP: f32 = 3.0;
+/// From this value on a place is deep in a part.
+const DEEP: f32 = 0.95;
 /// Least area of a part in square pitches: what is smaller stays in dots.
 const LEAST_AREA: f64 = 60.0;
+
+/// Rounds in which strokes of hair get the width of their tone, the reach around a node in pitches over which ink is compared,
+/// and the range of one round's change. A shorter reach would take the strands' contrast away.
+const TONE_ROUNDS: usize = 3;
+const TONE_REACH: f64 = 2.0;
+const TONE_STEP: [f32; 2] = [0.6, 1.6];
+/// Ink that is as good as none, so that bare paper is not compared.
+const LEAST_INK: f32 = 0.01;
 
 /// Where the parts lie, each 0 to 1; they do not overlap.
 pub(super) struct Parts {
@@ -43,7 +54,7 @@ impl Drawer<'_> {
     /// A mask as a part with a smooth border; none if it is too small.
     fn part(&self, mask: &Raster<f32>) -> Option<Raster<f32>> {
         let soft = gaussian_blur(mask, (SMOOTH * self.pitch()) as f32);
-        let part = soft.zip_map(&self.portrait.subject, |v, subject| ((v - 0.5) * SHARP + 0.5).clamp(0.0, 1.0) * subject);
+        let part = soft.map(|v| ((v - 0.5) * SHARP + 0.5).clamp(0.0, 1.0));
         let area: f64 = part.pixels().iter().map(|v| f64::from(*v)).sum();
         (area >= LEAST_AREA * self.pitch().powi(2)).then_some(part)
     }
@@ -60,9 +71,31 @@ impl Drawer<'_> {
     /// Hair in strokes.
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let Some(hair) = &parts.hair else { return Ok(None) };
-        let marks = charcoal::hair_strokes(self.portrait, hair, self.parameters.pitch, (self.seed, self.observer))?;
-        self.check()?;
+        let mut marks = charcoal::hair_strokes(self.portrait, hair, self.parameters.pitch, (self.seed, self.observer))?;
+        for _ in 0..TONE_ROUNDS {
+            self.check()?;
+            self.set_tone(&mut marks, hair);
+        }
         Ok(layer("hair", marks))
+    }
+
+    /// Makes strokes of hair wider or thinner by the ratio of the ink asked for around each node to the ink drawn there.
+    fn set_tone(&self, marks: &mut [Mark], hair: &Raster<f32>) {
+        let placement = &self.portrait.placement;
+        let around =
+            |ink: &Raster<f32>| gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), (TONE_REACH * self.pitch()) as f32);
+        let drawn = around(&covered(marks, placement));
+        let asked = around(&self.portrait.ink());
+        let ratio =
+            asked.zip_map(&drawn, |asked, drawn| ((asked + LEAST_INK) / (drawn + LEAST_INK)).clamp(TONE_STEP[0], TONE_STEP[1]));
+        for mark in marks {
+            let Mark::Stroke(Stroke { curve, width: Width::Along(widths), .. }) = mark else { continue };
+            let nodes = curve.elements().iter().filter_map(kurbo::PathEl::end_point);
+            for (width, node) in widths.iter_mut().zip(nodes) {
+                let p = placement.to_grid(node);
+                *width *= f64::from(ratio.sample(p.x, p.y));
+            }
+        }
     }
 
     /// Clothing in hatches.
@@ -82,10 +115,40 @@ impl Parts {
         self.hair.is_none() && self.clothing.is_none()
     }
 
+    /// True if a place lies deep in another part, where a large cell at the border may have its dot.
+    pub(super) fn hold(&self, p: Point) -> bool {
+        [&self.hair, &self.clothing].into_iter().flatten().any(|part| part.sample(p.x, p.y) > DEEP)
+    }
+
     /// How far a place lies in hair, 0 to 1; in working pixels.
     pub(super) fn hair_at(&self, x: f64, y: f64) -> f32 {
         self.hair.as_ref().map_or(0.0, |hair| hair.sample(x, y))
     }
+}
+
+/// The share of each working pixel under the strokes' ink, by a grid twice as fine.
+fn covered(marks: &[Mark], placement: &Placement) -> Raster<f32> {
+    const FINER: f64 = 2.0;
+    let (columns, rows) = (2 * placement.columns, 2 * placement.rows);
+    let mut fine = Raster::filled(columns, rows, 0.0_f32);
+    let scale = FINER / placement.mm_per_pixel();
+    for mark in marks {
+        let Mark::Stroke(stroke) = mark else { continue };
+        let (points, widths) = stroke.sampled(1.0 / scale);
+        for (p, width) in points.iter().zip(widths) {
+            let (p, radius) = (placement.to_grid(*p), 0.5 * width * scale);
+            let (x, y) = (FINER * p.x - 0.5, FINER * p.y - 0.5);
+            let range = |at: f64, most: usize| {
+                ((at - radius).ceil().max(0.0) as usize)..((at + radius).floor() + 1.0).clamp(0.0, most as f64) as usize
+            };
+            for (row, column) in range(y, rows).flat_map(|row| range(x, columns).map(move |column| (row, column))) {
+                if (column as f64 - x).hypot(row as f64 - y) <= radius {
+                    fine.set(column, row, 1.0);
+                }
+            }
+        }
+    }
+    reduce(&fine, 2)
 }
 
 fn layer(name: &str, marks: Vec<Mark>) -> Option<Layer> {
