@@ -27,7 +27,10 @@ const LEAST_AREA: f64 = 60.0;
 /// and the range of one round's change. A shorter reach would take the strands' contrast away.
 const TONE_ROUNDS: usize = 3;
 const TONE_REACH: f64 = 2.0;
-const TONE_STEP: [f32; 2] = [0.6, 1.6];
+const TONE_STEP: [f32; 2] = [0.6, 1.4];
+/// Ink up to which strokes are not made wider, and from which they are made as much wider as a round allows: white and blond hair is a
+/// few thin lines, and its short ones would become blots.
+const LIGHT_HAIR: [f32; 2] = [0.35, 0.6];
 /// Ink that is as good as none, so that bare paper is not compared.
 const LEAST_INK: f32 = 0.01;
 
@@ -86,8 +89,10 @@ impl Drawer<'_> {
             |ink: &Raster<f32>| gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), (TONE_REACH * self.pitch()) as f32);
         let drawn = around(&covered(marks, placement));
         let asked = around(&self.portrait.ink());
-        let ratio =
-            asked.zip_map(&drawn, |asked, drawn| ((asked + LEAST_INK) / (drawn + LEAST_INK)).clamp(TONE_STEP[0], TONE_STEP[1]));
+        let ratio = asked.zip_map(&drawn, |asked, drawn| {
+            let most = 1.0 + (TONE_STEP[1] - 1.0) * ((asked - LIGHT_HAIR[0]) / (LIGHT_HAIR[1] - LIGHT_HAIR[0])).clamp(0.0, 1.0);
+            ((asked + LEAST_INK) / (drawn + LEAST_INK)).clamp(TONE_STEP[0], most)
+        });
         for mark in marks {
             let Mark::Stroke(Stroke { curve, width: Width::Along(widths), .. }) = mark else { continue };
             let nodes = curve.elements().iter().filter_map(kurbo::PathEl::end_point);
