@@ -175,10 +175,8 @@ impl Settings {
     /// # Panics
     /// If the style has no such parameter, which is a bug in the style.
     pub fn number(&self, name: &str) -> f64 {
-        match self.values.get(name) {
-            Some(Value::Number(number)) => *number,
-            other => panic!("{name} is not a number of this style: {other:?}"),
-        }
+        let Some(Value::Number(number)) = self.values.get(name) else { self.has_no(name, "number") };
+        *number
     }
 
     /// A choice.
@@ -186,10 +184,8 @@ impl Settings {
     /// # Panics
     /// If the style has no such choice, which is a bug in the style.
     pub fn word(&self, name: &str) -> &'static str {
-        match self.values.get(name) {
-            Some(Value::Word(word)) => word,
-            other => panic!("{name} is not a choice of this style: {other:?}"),
-        }
+        let Some(Value::Word(word)) = self.values.get(name) else { self.has_no(name, "choice") };
+        word
     }
 
     /// Places in the picture.
@@ -197,10 +193,13 @@ impl Settings {
     /// # Panics
     /// If the style has no such parameter, which is a bug in the style.
     pub fn places(&self, name: &str) -> Places {
-        match self.values.get(name) {
-            Some(Value::Places(places)) => *places,
-            other => panic!("{name} is not places of this style: {other:?}"),
-        }
+        let Some(Value::Places(places)) = self.values.get(name) else { self.has_no(name, "set of places") };
+        *places
+    }
+
+    /// A style asks only for parameters that it declares; its tests read all of them.
+    fn has_no(&self, name: &str, kind: &str) -> ! {
+        panic!("{name} is not a {kind} of this style: {:?}", self.values.get(name))
     }
 
     /// Every key with its value in the form that `--set` accepts.

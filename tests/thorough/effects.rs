@@ -202,6 +202,10 @@ fn trial(style: &'static str, set: &'static [(&'static str, &'static str)]) -> T
         (MaskRole::Isophotes, lines()),
         (MaskRole::Detail, png_of_light(240, 240, |x, _| f64::from(u8::from(x > 120)))),
         (MaskRole::Scribbles, scribbles),
+        (MaskRole::Hair, png_of_light(240, 240, |_, y| f64::from(u8::from(y < 120)))),
+        (MaskRole::Clothing, png_of_light(240, 240, |_, y| f64::from(u8::from(y > 180)))),
+        (MaskRole::Headwear, png_of_light(240, 240, |x, _| f64::from(u8::from(x > 180)))),
+        (MaskRole::FacialHair, png_of_light(240, 240, |_, y| f64::from(u8::from(y > 200)))),
     ];
     let depth = png_of_light(240, 240, |x, y| 0.2 + 0.003 * f64::from(x.min(y)));
     Trial { style, photo: still_life(), mm: (30.0, 30.0), set, masks, depth, plain: Mutex::default() }

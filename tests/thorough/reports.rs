@@ -63,11 +63,11 @@ fn a_role_of_other_styles_is_refused_with_those() {
     let folder = folder();
     for (role, words) in [
         (
-            "facial-hair=photo.png",
-            "--mask facial-hair: hedcut takes subject, detail, hair, clothing, headwear, edges, isophotes; facial-hair is for charcoal",
+            "face=photo.png",
+            "--mask face: hedcut takes subject, detail, hair, facial-hair, clothing, headwear, edges, isophotes; face is for charcoal",
         ),
         ("scribbles=photo.png", "scribbles is for engrave"),
-        ("nose=photo.png", "--mask nose: hedcut takes subject, detail, hair, clothing, headwear, edges, isophotes"),
+        ("nose=photo.png", "--mask nose: hedcut takes subject, detail, hair, facial-hair, clothing, headwear, edges, isophotes"),
         ("hair", "write it as ROLE=FILE"),
     ] {
         let output = run(folder.path(), &["draw", "photo.png", "-o", "o.svg", "--mask", role]);
@@ -78,7 +78,7 @@ fn a_role_of_other_styles_is_refused_with_those() {
 #[test]
 fn a_mask_for_the_tone_of_faces_that_has_none_is_told() {
     let folder = folder();
-    let output = run(folder.path(), &["draw", "photo.png", "-o", "o.svg", "--mask", "hair=photo.png"]);
+    let output = run(folder.path(), &["draw", "photo.png", "-o", "o.svg", "--style", "grid", "--mask", "hair=photo.png"]);
     assert!(output.status.success() && text(&output.stderr).contains("--mask hair changes nothing"), "{output:?}");
 }
 

@@ -33,6 +33,7 @@ const CARD: StyleCard = StyleCard {
         MaskRole::Subject,
         MaskRole::Detail,
         MaskRole::Hair,
+        MaskRole::FacialHair,
         MaskRole::Clothing,
         MaskRole::Headwear,
         MaskRole::Edges,

@@ -13,6 +13,14 @@ const LEAST_LANE_PIXELS: f64 = 4.0;
 /// Weights matter only if isophotes steer besides edges.
 const BOTH_STEER: Need = Need::AnyOf(&[&[Need::Above("isophotes", 0.0)], &[Need::With(MaskRole::Isophotes)]]);
 
+/// There is a part to be drawn in other marks than dots.
+const HAS_PARTS: Need = Need::AnyOf(&[
+    &[Need::With(MaskRole::Hair)],
+    &[Need::With(MaskRole::FacialHair)],
+    &[Need::With(MaskRole::Clothing)],
+    &[Need::With(MaskRole::Headwear)],
+]);
+
 parameters! {
     /// The parameters of a hedcut; lengths in millimetres.
     pub(super) struct HedcutParameters {
@@ -99,8 +107,8 @@ parameters! {
             "lanes in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto and even make them sqrt(3) times as dense, so that three times the dots stay in square cells; thesis makes them three times as dense; off leaves them as everywhere",
             "Bruehl 4.3.2, corrected", needs [Need::With(MaskRole::Detail)];
         parts: PartsRule = "parts": Kind::Choice(PartsRule::WORDS),
-            "what is drawn in dots: auto draws hair in flowing strokes and clothing in hatches, where they were detected or their masks are given; dots draws everything in dots",
-            "Bruehl 0.1.1", needs [Need::AnyOf(&[&[Need::With(MaskRole::Hair)], &[Need::With(MaskRole::Clothing)], &[Need::With(MaskRole::Headwear)]])];
+            "what is drawn in dots: auto draws hair and beards in flowing strokes and clothing and hats in hatches, where they were detected or their masks are given; dots draws everything in dots",
+            "Bruehl 0.1.1", needs [HAS_PARTS];
         blob: f64 = "blob": number(0.0, 0.0..=1.0),
             "irregularity of the dots: 0 draws circles, 1 ragged ink blobs of the same area",
             "Bruehl 4.4";

@@ -47,7 +47,8 @@ impl Drawer<'_> {
             return Parts { hair: None, clothing: None };
         }
         let masks = &self.portrait.masks;
-        let hair = masks.get(&MaskRole::Hair).and_then(|mask| self.part(mask));
+        let hair = [MaskRole::Hair, MaskRole::FacialHair].into_iter().filter_map(|role| masks.get(&role).cloned());
+        let hair = hair.reduce(|a, b| a.zip_map(&b, f32::max)).and_then(|hair| self.part(&hair));
         let cloth = [MaskRole::Clothing, MaskRole::Headwear].into_iter().filter_map(|role| masks.get(&role).cloned());
         let cloth = cloth.reduce(|a, b| a.zip_map(&b, f32::max));
         let cloth = cloth.map(|cloth| hair.as_ref().map_or(cloth.clone(), |hair| cloth.zip_map(hair, |c, h| c.min(1.0 - h))));
