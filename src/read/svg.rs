@@ -51,7 +51,8 @@ impl Imported {
 /// ```
 /// let svg = br#"<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="50mm" viewBox="0 0 50 50"><path d="M5,5H45" stroke="red"/></svg>"#;
 /// let imported = drypoint::read::read_svg(svg)?;
-/// assert_eq!((imported.page.width, imported.drawing().marks().count()), (50.0, 1));
+/// assert!((imported.page.width - 50.0).abs() < 1e-4);
+/// assert_eq!(imported.drawing().marks().count(), 1);
 /// # Ok::<(), drypoint::read::SvgError>(())
 /// ```
 pub fn read_svg(bytes: &[u8]) -> Result<Imported, SvgError> {
