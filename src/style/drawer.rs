@@ -13,7 +13,25 @@ pub(super) struct Drawer<'a, P> {
     pub observer: &'a dyn Observer,
 }
 
+/// Parameters of a style that has a pitch.
+pub(super) trait Pitched {
+    /// Distance between neighbouring marks.
+    fn pitch(&self) -> Millimetres;
+}
+
+impl<P: Copy> Drawer<'_, P> {
+    /// The same drawing of another portrait on its grid.
+    pub(super) fn on<'b>(&'b self, portrait: &'b Portrait) -> Drawer<'b, P> {
+        Drawer { portrait, ..*self }
+    }
+}
+
 impl<P> Drawer<'_, P> {
+    /// A part of the drawing in another style.
+    pub(super) fn in_style<Q>(&self, parameters: Q) -> Drawer<'_, Q> {
+        Drawer { portrait: self.portrait, parameters, seed: self.seed, observer: self.observer }
+    }
+
     /// The portrait's page.
     pub(super) const fn page(&self) -> Page {
         self.portrait.page

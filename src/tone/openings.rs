@@ -2,6 +2,7 @@
 //! left as paper, and the gaps between teeth kept.
 
 use super::blurred_within;
+use super::face::mixed;
 use super::zones::{Zones, polygon};
 use crate::geometry::{Point, polygon_area};
 use crate::raster::{Raster, dilate, fast_gaussian};
@@ -79,7 +80,7 @@ fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster
     let mean = blurred_within(tone, &inside.map(|v| v + 1e-6), (TEETH_REACH * zones.width) as f32);
     let drawn = tone.zip_map(&mean, |v, mean| mean.min(TEETH) + (1.0 + TEETH_DETAIL) * (v - mean));
     let soft = fast_gaussian(&inside, (0.3 * TEETH_REACH * zones.width) as f32);
-    tone.zip_map(&drawn.zip_map(&soft, |v, share| (v, share)), |v, (drawn, share)| v + open * share * (drawn - v))
+    mixed(tone, &drawn, &soft.map(|share| open * share))
 }
 
 /// The median of the values in a zone; `None` if the zone is empty.

@@ -31,13 +31,11 @@ fn values() -> Vec<(&'static str, &'static str, String)> {
 /// The fault of a drawing at an end, if any; "nothing to draw" is no fault.
 fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Option<String> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-    // The pitch alone decides how many marks there are.
-    let size = if name == "pitch" { "25x30mm" } else { "15x18mm" };
     command.current_dir(folder.path()).timeout(MOST).args([
         "draw",
         "face.jpg",
         "--size",
-        size,
+        "25x30mm",
         "--fit",
         "cover",
         "-q",

@@ -18,11 +18,12 @@ mod skin;
 mod strokes;
 mod tone;
 
-use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
+use super::drawer::Pitched;
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::{Millimetres, Rect};
 use crate::raster::Raster;
-use crate::source::{MaskRole, Portrait};
+use crate::source::MaskRole;
 use parameters::CharcoalParameters;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
@@ -85,16 +86,10 @@ const LEAST_PITCH: Millimetres = Millimetres(0.1);
 
 type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 
-/// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch; `hand` is its seed and its observer.
-pub(super) fn hair_strokes(
-    portrait: &Portrait,
-    hair: &Raster<f32>,
-    pitch: Millimetres,
-    hand: (u64, &dyn Observer),
-) -> Result<Vec<Mark>, StyleError> {
-    let settings = CARD.settings_at(pitch.max(LEAST_PITCH), &[])?;
-    let (seed, observer) = hand;
-    Ok(Request { portrait, settings: &settings, seed, observer }.drawer(CharcoalParameters::new(&settings)).hair(hair))
+/// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch.
+pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
+    let settings = CARD.settings_at(drawer.parameters.pitch().max(LEAST_PITCH), &[])?;
+    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair))
 }
 
 impl Drawer<'_> {

@@ -13,11 +13,12 @@ mod shape;
 mod structure;
 mod tiles;
 
-use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
+use super::drawer::Pitched;
+use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark, Page};
-use crate::geometry::{Millimetres, Rect};
+use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::{MaskRole, Portrait};
+use crate::source::MaskRole;
 use cells::Cell;
 use darks::Darks;
 use parameters::{Detail, GridParameters, Primitive};
@@ -70,12 +71,10 @@ type Drawer<'a> = super::Drawer<'a, GridParameters>;
 /// Settings with which all ink lies in hatches along the features.
 const HATCHES: &[(&str, &str)] = &[("size_max", "0mm"), ("hatching", "along"), ("lines", "off"), ("reversed_from", "1")];
 
-/// Hatches along the features with the tone's width, for a style of another kind at its pitch; `hand` is its seed and its
-/// observer.
-pub(super) fn hatches(portrait: &Portrait, pitch: Millimetres, hand: (u64, &dyn Observer)) -> Result<Vec<Mark>, StyleError> {
-    let settings = CARD.settings_at(pitch, HATCHES)?;
-    let (seed, observer) = hand;
-    match (Request { portrait, settings: &settings, seed, observer }).drawer(GridParameters::new(&settings)).draw() {
+/// Hatches along the features with the tone's width, for a style of another kind at its pitch.
+pub(super) fn hatches(drawer: &super::Drawer<'_, impl Pitched>) -> Result<Vec<Mark>, StyleError> {
+    let settings = CARD.settings_at(drawer.parameters.pitch(), HATCHES)?;
+    match drawer.in_style(GridParameters::new(&settings)).draw() {
         // Single dots fill holes of the hatching.
         Ok(drawing) => {
             Ok(drawing.layers.into_iter().flat_map(|layer| layer.marks).filter(|m| !matches!(m, Mark::Dot(_))).collect())

@@ -78,7 +78,7 @@ impl Drawer<'_> {
             return self.dots(&parts);
         }
         let rest = self.without(&parts);
-        let mut drawing = match (Drawer { portrait: &rest, ..*self }).dots(&parts) {
+        let mut drawing = match self.on(&rest).dots(&parts) {
             // All of it lies in the other parts.
             Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => {
                 Drawing { page: self.page(), layers: Vec::new() }

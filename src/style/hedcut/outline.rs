@@ -14,10 +14,11 @@ use crate::style::feature_line::feature_stroke;
 const NODE_SPACING: f64 = 1.2;
 
 /// The middle of a face, as a share of its outline's size; a line is a crease if more than the second share of it lies there and less
-/// than the third in eyes, brows, nose and mouth. Judged on sixteen portraits: rims of spectacles stay.
+/// than the third in eyes, brows, nose and mouth or so near an iris, in distances of the eyes, as the rims of spectacles.
 const FACE_MIDDLE: f64 = 0.9;
 const MOSTLY: f64 = 0.85;
 const MOST_IN_FEATURES: f64 = 0.2;
+const SPECTACLES: f64 = 0.55;
 
 /// Maximum length of a coherent line's taper, in pitches.
 const LONGEST_TAPER: f64 = 4.0;
@@ -27,24 +28,18 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
     let least = drawer.pixels(drawer.parameters.outline_length);
     let mut layer = Layer::new("outline", 1);
     let faces: Vec<Region> = drawer.portrait.faces.iter().map(middle_of).collect();
+    let is_outline = |curve: &Curve| curve.length() >= least && !is_hair(curve, parts) && !is_crease(drawer, &faces, curve);
     if !features.drawn.is_empty() {
         let widest = drawer.pixels(drawer.parameters.outline_width);
         let taper = LONGEST_TAPER * drawer.pitch();
         let capped =
             |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
-        let longest = features.drawn.iter().filter(|line| {
-            line.curve.length() >= least && !is_hair(&line.curve, parts) && !is_crease(drawer, &faces, &line.curve)
-        });
+        let longest = features.drawn.iter().filter(|line| is_outline(&line.curve));
         let strokes = longest.filter_map(|line| feature_stroke(&capped(line), &drawer.portrait.placement, taper));
         layer.marks = strokes.collect();
         return layer;
     }
-    layer.marks = features
-        .edges
-        .iter()
-        .filter(|edge| edge.length() >= least && !is_hair(edge, parts))
-        .filter_map(|edge| stroke(drawer, edge))
-        .collect();
+    layer.marks = features.edges.iter().filter(|edge| is_outline(edge)).filter_map(|edge| stroke(drawer, edge)).collect();
     layer
 }
 
@@ -59,16 +54,22 @@ fn middle_of(face: &Landmarks) -> Region {
 /// Its dots still run along it.
 fn is_crease(drawer: &Drawer<'_>, faces: &[Region], line: &Curve) -> bool {
     let Some(detail) = drawer.portrait.masks.get(&MaskRole::Detail) else { return false };
-    let share =
-        |holds: &dyn Fn(&Point) -> bool| line.points.iter().filter(|p| holds(p)).count() as f64 / line.points.len() as f64;
-    let inside = share(&|p| faces.iter().any(|face| face.contains(*p)));
-    inside > MOSTLY && share(&|p| detail.sample(p.x, p.y) >= 0.5) < MOST_IN_FEATURES
+    let is_at_eyes = |p: Point| {
+        let reach = |face: &Landmarks| SPECTACLES * face.eye_distance();
+        drawer.portrait.faces.iter().any(|face| face.irises.iter().any(|iris| iris.centre.distance(p) < reach(face)))
+    };
+    share(line, |p| faces.iter().any(|face| face.contains(p))) > MOSTLY
+        && share(line, |p| detail.sample(p.x, p.y) >= 0.5 || is_at_eyes(p)) < MOST_IN_FEATURES
 }
 
 /// True if most of a line runs inside hair.
 fn is_hair(line: &Curve, parts: &Parts) -> bool {
-    let inside = line.points.iter().filter(|p| parts.hair_at(p.x, p.y) >= 0.5).count();
-    2 * inside > line.points.len()
+    share(line, |p| parts.hair_at(p) >= 0.5) > 0.5
+}
+
+/// The share of a line's points for which something holds.
+fn share(line: &Curve, holds: impl Fn(Point) -> bool) -> f64 {
+    line.points.iter().filter(|p| holds(**p)).count() as f64 / line.points.len() as f64
 }
 
 fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {

@@ -3,6 +3,7 @@
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
+use crate::style::drawer::Pitched;
 use crate::style::{Kind, Need};
 
 /// Working pixels per pitch, as in the papers (`l = 6`).
@@ -146,6 +147,12 @@ choice! {
     pub(super) enum PartsRule {
         Auto = "auto",
         Dots = "dots",
+    }
+}
+
+impl Pitched for HedcutParameters {
+    fn pitch(&self) -> Millimetres {
+        self.pitch
     }
 }
 

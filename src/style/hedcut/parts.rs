@@ -47,10 +47,12 @@ impl Drawer<'_> {
             return Parts { hair: None, clothing: None };
         }
         let masks = &self.portrait.masks;
-        let hair = [MaskRole::Hair, MaskRole::FacialHair].into_iter().filter_map(|role| masks.get(&role).cloned());
-        let hair = hair.reduce(|a, b| a.zip_map(&b, f32::max)).and_then(|hair| self.part(&hair));
-        let cloth = [MaskRole::Clothing, MaskRole::Headwear].into_iter().filter_map(|role| masks.get(&role).cloned());
-        let cloth = cloth.reduce(|a, b| a.zip_map(&b, f32::max));
+        let union = |roles: [MaskRole; 2]| {
+            let given = roles.into_iter().filter_map(|role| masks.get(&role).cloned());
+            given.reduce(|a, b| a.zip_map(&b, f32::max))
+        };
+        let hair = union([MaskRole::Hair, MaskRole::FacialHair]).and_then(|hair| self.part(&hair));
+        let cloth = union([MaskRole::Clothing, MaskRole::Headwear]);
         let cloth = cloth.map(|cloth| hair.as_ref().map_or(cloth.clone(), |hair| cloth.zip_map(hair, |c, h| c.min(1.0 - h))));
         Parts { clothing: cloth.and_then(|cloth| self.part(&cloth)), hair }
     }
@@ -63,19 +65,25 @@ impl Drawer<'_> {
         (area >= LEAST_AREA * self.pitch().powi(2)).then_some(part)
     }
 
+    /// The portrait with white paper outside a region.
+    fn only(&self, region: &Raster<f32>) -> Portrait {
+        let mut portrait = self.portrait.clone();
+        portrait.tone = portrait.tone.zip_map(region, |tone, share| 1.0 - (1.0 - tone) * share);
+        portrait
+    }
+
     /// The portrait with white paper where another part is drawn.
     pub(super) fn without(&self, parts: &Parts) -> Portrait {
-        let mut rest = self.portrait.clone();
-        for part in [&parts.hair, &parts.clothing].into_iter().flatten() {
-            rest.tone = rest.tone.zip_map(part, |tone, part| 1.0 - (1.0 - tone) * (1.0 - part));
-        }
-        rest
+        let others = [&parts.hair, &parts.clothing].into_iter().flatten();
+        let rest =
+            others.fold(self.portrait.tone.map(|_| 1.0), |rest, part| rest.zip_map(part, |rest, part| rest * (1.0 - part)));
+        self.only(&rest)
     }
 
     /// Hair in strokes.
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let Some(hair) = &parts.hair else { return Ok(None) };
-        let mut marks = charcoal::hair_strokes(self.portrait, hair, self.parameters.pitch, (self.seed, self.observer))?;
+        let mut marks = charcoal::hair_strokes(self, hair)?;
         for _ in 0..TONE_ROUNDS {
             self.check()?;
             self.set_tone(&mut marks, hair);
@@ -107,10 +115,9 @@ impl Drawer<'_> {
     /// Clothing in hatches.
     pub(super) fn clothing_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let Some(clothing) = &parts.clothing else { return Ok(None) };
-        let mut cloth = self.portrait.clone();
-        cloth.tone = cloth.tone.zip_map(clothing, |tone, part| 1.0 - (1.0 - tone) * part);
+        let mut cloth = self.only(clothing);
         cloth.masks.clear();
-        let marks = grid::hatches(&cloth, self.parameters.pitch, (self.seed, self.observer))?;
+        let marks = grid::hatches(&self.on(&cloth))?;
         Ok(layer("clothing", marks))
     }
 }
@@ -127,8 +134,8 @@ impl Parts {
     }
 
     /// How far a place lies in hair, 0 to 1; in working pixels.
-    pub(super) fn hair_at(&self, x: f64, y: f64) -> f32 {
-        self.hair.as_ref().map_or(0.0, |hair| hair.sample(x, y))
+    pub(super) fn hair_at(&self, p: Point) -> f32 {
+        self.hair.as_ref().map_or(0.0, |hair| hair.sample(p.x, p.y))
     }
 }
 
