@@ -14,6 +14,7 @@
 //! | [`raster`] | rasters | rasters: filters without other dependencies |
 //! | [`field`] | rasters, curves | edges, isophotes, distances, lanes, Voronoi cells, traced lines |
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
+//! | [`scene`] | masks, drawings in several styles | which point belongs to which region; the drawings confined to them |
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
 //! | [`order`] | ends of paths, stops | the order with the least way between them |
@@ -62,6 +63,7 @@ pub mod plot;
 pub mod press;
 pub mod raster;
 pub mod read;
+pub mod scene;
 pub mod see;
 pub mod source;
 pub mod style;

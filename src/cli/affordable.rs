@@ -16,7 +16,7 @@ const HALVINGS: usize = 30;
 
 /// Refuses a drawing that would take too much memory; the message names a pitch and a size that fit.
 pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
-    let cost = task.cost(&task.settings, task.layout.picture);
+    let cost = task.cost(&task.manner.settings, task.layout.picture);
     if cost.bytes <= MOST_BYTES {
         return Ok(());
     }
@@ -72,7 +72,7 @@ fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
         let settings = task.settings_at(pitch);
         settings.is_some_and(|settings| task.cost(&settings, task.layout.picture).bytes <= MOST_BYTES)
     };
-    let (mut low, mut high) = (task.settings.pitch()?, task.largest_useful_pitch());
+    let (mut low, mut high) = (task.manner.settings.pitch()?, task.largest_useful_pitch());
     if low >= high || !fits(high) {
         return None;
     }
@@ -88,7 +88,7 @@ fn size_that_fits(task: &Task<'_>) -> Option<String> {
     let picture = task.layout.picture;
     let fits = |share: f64| {
         let smaller = Rect::from_origin_size(picture.origin(), picture.size() * share);
-        task.cost(&task.settings, smaller).bytes <= MOST_BYTES
+        task.cost(&task.manner.settings, smaller).bytes <= MOST_BYTES
     };
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {

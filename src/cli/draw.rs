@@ -18,6 +18,7 @@ use super::output;
 use super::pens::PenSet;
 use super::progress::Watcher;
 use super::recipe::head;
+use super::scene;
 use super::task::Task;
 use super::toolpaths;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
@@ -76,6 +77,9 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
         let written = write_one(file, format, machine, options, &head, &watcher);
         jobs.extend(written.map_err(|failure| advice::for_draw(failure, options, &task, profile.as_ref()))?);
     }
+    if let Some(scene) = &options.save_scene {
+        scene::save(options, scene)?;
+    }
     let seconds = watcher.finish();
     for job in &jobs {
         toolpaths::warn(job, if is_warned { None } else { Some("; a larger --pitch makes it shorter") });
@@ -99,15 +103,20 @@ pub(super) fn drawing_of(
     pens: &mut PenSet,
     observer: &dyn Observer,
 ) -> Result<(Drawing, Vec<Painted>), Failure> {
-    let mut drawing = inked(task.draw(observer)?, options, observer)?;
+    let mut drawing = inked(task.draw(observer)?, task, options, observer)?;
     let painting = pens.assign(&mut drawing, profile)?;
     Ok((drawing, painting))
 }
 
 /// The selected layers, each with its ink, compensated for the press.
-pub(super) fn inked(mut drawing: Drawing, options: &DrawOptions, observer: &dyn Observer) -> Result<Drawing, Failure> {
+pub(super) fn inked(
+    mut drawing: Drawing,
+    task: &Task<'_>,
+    options: &DrawOptions,
+    observer: &dyn Observer,
+) -> Result<Drawing, Failure> {
     for layer in &mut drawing.layers {
-        layer.ink = options.ink.clone();
+        layer.ink = task.own_ink(layer).unwrap_or(&options.ink).clone();
     }
     drawing.layers = chosen(drawing.layers, &options.layers)?;
     if let Some(press) = press(options)? {

@@ -18,7 +18,7 @@ pub(super) fn run(task: &Task<'_>, options: &DrawOptions, profile: Option<&Profi
     let foretold = teller.foretell(&Plan::of(task), Care::Careful)?;
     foretold.check(&mut teller)?;
     long_waits::warn(&mut teller, &foretold);
-    let bytes = task.cost(&task.settings, task.layout.picture).bytes;
+    let bytes = task.cost(&task.manner.settings, task.layout.picture).bytes;
     if options.reporting.json {
         return output::print_json(&as_json(&foretold, teller.pens, bytes));
     }

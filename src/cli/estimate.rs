@@ -51,7 +51,7 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn of(task: &Task<'_>) -> Self {
-        Self { settings: task.settings.clone(), picture: task.layout.picture }
+        Self { settings: task.manner.settings.clone(), picture: task.layout.picture }
     }
 }
 
@@ -137,7 +137,7 @@ impl Estimator<'_> {
     /// Seconds of work for a picture with this fraction of the side, at the full picture's resolution.
     fn cost(&self, plan: &Plan, side: f64) -> f64 {
         let resolution = self.task.resolution(&plan.settings, plan.picture);
-        self.task.style.cost(&plan.settings, smaller(plan.picture, side), resolution).seconds
+        self.task.manner.style.cost(&plan.settings, smaller(plan.picture, side), resolution).seconds
     }
 
     fn sample(&mut self, plan: &Plan, side: f64, until: Option<Instant>) -> Result<Sample, Failure> {
@@ -145,7 +145,7 @@ impl Estimator<'_> {
         let resolution = self.task.resolution(&plan.settings, plan.picture);
         let placement = Placement::new(smaller(plan.picture, side), resolution);
         let drawing = self.task.draw_in(&plan.settings, placement, &Unseen { until })?;
-        let mut drawing = inked(drawing, self.options, &Silent)?;
+        let mut drawing = inked(drawing, self.task, self.options, &Silent)?;
         let painting = self.pens.assign_pens(&mut drawing, self.profile)?.painting;
         Ok(Sample { side, drawing, painting, seconds: begun.elapsed().as_secs_f64() })
     }

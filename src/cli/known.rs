@@ -11,6 +11,7 @@ use crate::see::{SeeError, Sight, can_see, look};
 use crate::source::{Landmarks, MaskRole, Photograph, ToneTarget};
 use crate::style::Style;
 use crate::tone;
+use std::sync::Arc;
 
 /// Value of `--sight` that turns detection off.
 const NOTHING: &str = "none";
@@ -30,10 +31,11 @@ pub(super) struct Known {
 }
 
 /// A depth map of the photograph.
+#[derive(Clone)]
 pub(super) struct Depth {
     /// Its file; `None` if it was found in the photograph.
     pub file: Option<String>,
-    pub map: Photograph,
+    pub map: Arc<Photograph>,
 }
 
 /// The tone that the ink reproduces.
@@ -46,7 +48,7 @@ pub(super) enum Wanted {
 }
 
 /// What was found in the photograph, or read from a `--sight` folder.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Seen {
     pub masks: Vec<RoleMask>,
     pub faces: Vec<Landmarks>,
@@ -67,9 +69,9 @@ impl Seen {
         }
         let masks = sight.masks().into_iter();
         Self {
-            masks: masks.map(|(role, mask)| RoleMask { role, file: None, mask: Photograph::from_grey(mask) }).collect(),
+            masks: masks.map(|(role, mask)| RoleMask { role, file: None, mask: Arc::new(Photograph::from_grey(mask)) }).collect(),
             faces: sight.faces.iter().map(|face| face.landmarks.clone()).collect(),
-            depth: sight.depth.as_ref().map(|map| Depth { file: None, map: Photograph::from_deep_grey(map) }),
+            depth: sight.depth.as_ref().map(|map| Depth { file: None, map: Arc::new(Photograph::from_deep_grey(map)) }),
             lack: None,
         }
     }
@@ -80,14 +82,19 @@ impl Seen {
     }
 }
 
-/// Makes the decisions; `painted` are the masks given by the user.
+/// True if a style or the portrait tone uses masks of a role.
+pub(super) fn takes(style: &dyn Style, role: MaskRole) -> bool {
+    style.masks().contains(&role) || tone::ROLES.contains(&role)
+}
+
+/// Makes the decisions for a style; `painted` are the masks given by the user.
 pub(super) fn of(
     options: &PictureOptions,
     style: &dyn Style,
     photograph: &Photograph,
     painted: Vec<RoleMask>,
+    mut seen: Seen,
 ) -> Result<Known, Failure> {
-    let mut seen = seen(options, photograph)?;
     let tone = wanted_tone(options, &seen)?;
     let mut known = Known {
         masks: painted,
@@ -115,7 +122,7 @@ pub(super) fn of(
 }
 
 /// Runs detection, or reads the `--sight` folder.
-fn seen(options: &PictureOptions, photograph: &Photograph) -> Result<Seen, Failure> {
+pub(super) fn seen(options: &PictureOptions, photograph: &Photograph) -> Result<Seen, Failure> {
     match options.sight.as_deref() {
         Some(NOTHING) => Ok(Seen::nothing("--sight none")),
         Some(folder) => sight_folder::read(folder, photograph),
@@ -145,7 +152,7 @@ fn wanted_tone(options: &PictureOptions, seen: &Seen) -> Result<Wanted, Failure>
 }
 
 fn depth(options: &PictureOptions) -> Result<Option<Depth>, Failure> {
-    options.depth.as_ref().map(|file| Ok(Depth { map: photograph(file)?, file: Some(file.clone()) })).transpose()
+    options.depth.as_ref().map(|file| Ok(Depth { map: Arc::new(photograph(file)?), file: Some(file.clone()) })).transpose()
 }
 
 /// Decides whether the background is drawn.

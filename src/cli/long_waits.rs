@@ -25,7 +25,7 @@ pub(super) fn warn_if_long(
     profile: Option<&Profile>,
     pens: &mut PenSet,
 ) -> Result<bool, Failure> {
-    let cost = task.cost(&task.settings, task.layout.picture);
+    let cost = task.cost(&task.manner.settings, task.layout.picture);
     let tell = |wait: f64| {
         if wait > LONG_WORK && !options.reporting.quiet {
             say!("drypoint: the drawing takes about {} and {} of memory", duration(wait), memory(cost.bytes));
@@ -102,7 +102,7 @@ struct Shortened {
 impl Shortened {
     /// The pitch that reaches the time wanted, unless it is too coarse for the picture.
     fn pitch(&self, teller: &mut Estimator<'_>) -> Option<f64> {
-        let (pitch, most) = (teller.task.settings.pitch()?, teller.task.largest_useful_pitch());
+        let (pitch, most) = (teller.task.manner.settings.pitch()?, teller.task.largest_useful_pitch());
         let guess = pitch * self.times.sqrt();
         if guess > most {
             return None;
@@ -119,7 +119,7 @@ impl Shortened {
         let guess = 1.0 / self.times.sqrt();
         let smaller = Rect::from_center_size(picture.center(), picture.size() * guess);
         let pitch = finer_pitch(teller.task, smaller.width().min(smaller.height()));
-        let settings = pitch.map_or_else(|| Some(teller.task.settings.clone()), |pitch| teller.task.settings_at(pitch))?;
+        let settings = pitch.map_or_else(|| Some(teller.task.manner.settings.clone()), |pitch| teller.task.settings_at(pitch))?;
         let after = quick(teller, &Plan { settings, picture: smaller })?;
         // Small pictures take more time per area.
         let side = guess * (self.quick / after / self.times).sqrt().min(1.0);
@@ -137,7 +137,7 @@ impl Shortened {
 /// The pitch for a picture with this short side, if its own pitch is too coarse for it.
 fn finer_pitch(task: &Task<'_>, short: f64) -> Option<f64> {
     let share = short / task.smallest_useful_side();
-    (share < 1.0).then(|| Some((task.settings.pitch()? * share * 100.0).floor() / 100.0)).flatten()
+    (share < 1.0).then(|| Some((task.manner.settings.pitch()? * share * 100.0).floor() / 100.0)).flatten()
 }
 
 fn quick(teller: &mut Estimator<'_>, plan: &Plan) -> Option<f64> {

@@ -33,9 +33,9 @@ pub(super) fn within(options: &DrawOptions, limit: f64) -> Result<DrawOptions, F
         return Err(Failure::Usage("--max-time draws several times; give the photograph as a file, not as -".to_owned()));
     }
     let mut trials = Trials::new(options)?;
-    let style = trials.task.style.name();
+    let style = trials.task.manner.style.name();
     let no_pitch = || Failure::Usage(format!("--max-time seeks a pitch, and {style} has none; use a smaller --size"));
-    let (start, most) = (trials.task.settings.pitch().ok_or_else(no_pitch)?, trials.task.largest_useful_pitch());
+    let (start, most) = (trials.task.manner.settings.pitch().ok_or_else(no_pitch)?, trials.task.largest_useful_pitch());
     let mut found = search(start, most.max(start), limit, |pitch| trials.seconds_at(pitch))?;
     if let (true, Ok(quick)) = (options.dry_run, found) {
         found = trials.refined_by_careful_estimate(quick, most.max(start), limit)?;
@@ -150,7 +150,7 @@ impl<'a> Trials<'a> {
     }
 
     fn estimate(&mut self, pitch: f64, care: Care) -> Result<f64, Failure> {
-        let settings = self.task.settings_at(pitch).unwrap_or_else(|| self.task.settings.clone());
+        let settings = self.task.settings_at(pitch).unwrap_or_else(|| self.task.manner.settings.clone());
         let plan = Plan { settings, picture: self.task.layout.picture };
         Ok(self.teller().foretell(&plan, care)?.amounts.plot_seconds())
     }
@@ -158,7 +158,7 @@ impl<'a> Trials<'a> {
     /// Corrects a pitch found by quick estimates with a careful one.
     fn refined_by_careful_estimate(&mut self, quick: Trial, most: f64, limit: f64) -> Result<Result<Trial, Trial>, Failure> {
         let careful = self.estimate(quick.pitch, Care::Careful)?;
-        let start = self.task.settings.pitch().unwrap_or(quick.pitch);
+        let start = self.task.manner.settings.pitch().unwrap_or(quick.pitch);
         if careful <= limit && (careful >= 0.9 * limit || quick.pitch <= start) {
             return Ok(Ok(Trial { seconds: careful, ..quick }));
         }
@@ -168,7 +168,7 @@ impl<'a> Trials<'a> {
 
     /// The size that keeps to the limit with a pitch, if there is one.
     fn smaller_size(&mut self, pitch: f64, seconds: f64, limit: f64) -> Option<String> {
-        self.task.settings = self.task.settings_at(pitch)?;
+        self.task.manner.settings = self.task.settings_at(pitch)?;
         smaller_size(&mut self.teller(), seconds, limit)
     }
 

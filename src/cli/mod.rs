@@ -6,6 +6,7 @@ mod amounts;
 mod arguments;
 mod calibrate;
 mod claims;
+mod composed;
 mod crop;
 mod draw;
 mod draw_report;
@@ -35,9 +36,11 @@ mod placing;
 mod plot;
 mod progress;
 mod recipe;
+mod region;
 mod remedies;
 mod resume;
 mod scale_to_time;
+mod scene;
 mod see;
 mod seen_stages;
 mod sight_folder;
@@ -47,8 +50,10 @@ mod toolpaths;
 mod words;
 
 use arguments::{Arguments, Command};
-use clap::{CommandFactory, Parser};
+use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use failure::Failure;
+use scene::{Refusal, Spelled};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Runs the command with the process's arguments.
@@ -56,12 +61,15 @@ use std::process::ExitCode;
 /// Exit status: 0 success, 1 the work failed, 2 the command line is wrong, 130 interrupted, 143 terminated. A closed pipe ends the
 /// process quietly with status 0.
 pub fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
-        Err(error) => {
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let parsed = scene::matches(&words).and_then(|(matches, origins)| Ok((arguments(&matches)?, origins)));
+    let (arguments, origins) = match parsed {
+        Ok(parsed) => parsed,
+        Err(Refusal::Usage(error)) => {
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
+        Err(Refusal::File(failure)) => return ended(Err(failure)),
     };
     interruption::catch();
     let usual = std::panic::take_hook();
@@ -71,7 +79,21 @@ pub fn main() -> ExitCode {
             usual(panic);
         }
     }));
-    match run(arguments) {
+    ended(run(arguments).map_err(|failure| origins.explain(failure)))
+}
+
+/// The arguments of a parsed command line.
+fn arguments(matches: &ArgMatches) -> Result<Arguments, Refusal> {
+    let mut arguments = Arguments::from_arg_matches(matches)?;
+    if let (Command::Draw(options) | Command::Scene(options), Some((_, given))) = (&mut arguments.command, matches.subcommand()) {
+        options.spelled = Spelled::of(given);
+    }
+    Ok(arguments)
+}
+
+/// The exit status, after the message of a failure.
+fn ended(result: Result<(), Failure>) -> ExitCode {
+    match result {
         Ok(()) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
         Err(failure) => {
             messages::say!("drypoint: {failure}");
@@ -88,10 +110,14 @@ pub fn count_pens(text: &str) -> Result<usize, String> {
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
-        Command::Draw(options) => draw::run(&options),
+        // A redone drawing's recipe has become the options of `draw`.
+        Command::Draw(options) | Command::Redo(options) => draw::run(&options),
         Command::Plot(options) => plot::run(&options),
         Command::Stages(options) => stages::run(&options),
         Command::See(options) => see::run(&options),
+        Command::Scene(options) => scene::run(&options),
+        Command::Presets(options) => scene::presets(&options),
+        Command::Schema => scene::schema(),
         Command::Inspect(options) => inspect::run(&options),
         Command::Resume(options) => resume::run(&options),
         Command::Calibrate(options) => calibrate::run(&options),

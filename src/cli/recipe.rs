@@ -2,6 +2,7 @@
 
 use super::arguments::DrawOptions;
 use super::known::Wanted;
+use super::scene;
 use super::task::Task;
 use crate::source::ToneTarget;
 use crate::write::SvgHead;
@@ -12,18 +13,18 @@ impl Task<'_> {
     /// Everything needed to reproduce the picture.
     pub(super) fn recipe(&self, options: &DrawOptions) -> Value {
         let set: serde_json::Map<String, Value> =
-            self.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
+            self.manner.settings.entries().map(|(key, value)| (key.to_owned(), Value::String(value))).collect();
         let masks: serde_json::Map<String, Value> =
-            self.known.masks.iter().map(|mask| (mask.name().to_owned(), mask.recipe())).collect();
+            self.manner.known.masks.iter().map(|mask| (mask.name().to_owned(), mask.recipe())).collect();
         let picture = self.options;
         let (sheet, placed) = (self.layout.sheet(), self.layout.placed());
-        let depth = self.known.depth.as_ref().map(|depth| match &depth.file {
+        let depth = self.manner.known.depth.as_ref().map(|depth| match &depth.file {
             Some(file) => {
                 json!({ "file": file_name(file), "sha256": depth.map.info.sha256, "far_white": picture.depth_far_white })
             }
             None => json!({ "found": true }),
         });
-        let (tone, strength) = match self.known.tone {
+        let (tone, strength) = match self.manner.known.tone {
             Wanted::Portrait(strength) => ("portrait", Some(strength)),
             Wanted::Own(ToneTarget::Lightness) => ("lightness", None),
             Wanted::Own(ToneTarget::Linear) => ("linear", None),
@@ -34,7 +35,8 @@ impl Task<'_> {
             "source": { "file": file_name(&picture.photo), "sha256": self.photograph.info.sha256 },
             "masks": masks,
             "depth": depth,
-            "style": self.style.name(),
+            "style": self.manner.style.name(),
+            "options": self.options_spelled(options),
             "set": set,
             "seed": picture.seed,
             "page_mm": [round(sheet.0), round(sheet.1)],
@@ -56,6 +58,42 @@ impl Task<'_> {
             "profile": options.profile.as_deref().map(file_name),
         })
     }
+}
+
+impl Task<'_> {
+    /// The options of `draw` that differ from their defaults, parameters by their values and files by their names: `redo` reads it.
+    fn options_spelled(&self, options: &DrawOptions) -> Value {
+        let mut spelled = serde_json::Map::new();
+        for (option, values) in &options.spelled.0 {
+            let value = match option.as_str() {
+                "set" | "pitch" => continue,
+                "mask" => json!(values.iter().map(|value| role_and_name(value)).collect::<Vec<_>>()),
+                "region" => json!(values.iter().map(|value| without_folder(value)).collect::<Vec<_>>()),
+                "depth" | "pens" | "sight" | "profile" => json!(values.first().map(|value| file_name(value))),
+                _ => match &values[..] {
+                    [] => json!(true),
+                    [value] => json!(value),
+                    values => json!(values),
+                },
+            };
+            spelled.insert(option.clone(), value);
+        }
+        let set = self.manner.settings.changed(self.manner.style.parameters());
+        if !set.is_empty() {
+            spelled.insert("set".to_owned(), json!(set));
+        }
+        Value::Object(spelled)
+    }
+}
+
+/// The keys of a region with its mask's file without folders.
+fn without_folder(text: &str) -> String {
+    scene::with_mask(text, |file| Some(file_name(file).to_owned())).unwrap_or_else(|| text.to_owned())
+}
+
+/// `ROLE=FILE` without folders.
+fn role_and_name(text: &str) -> String {
+    text.split_once('=').map_or_else(|| text.to_owned(), |(role, file)| format!("{role}={}", file_name(file)))
 }
 
 fn round(value: f64) -> f64 {

@@ -48,7 +48,7 @@ pub(super) fn pictures(photograph: &Photograph, known: &Known) -> Result<Vec<(&'
 /// The mask of this role in the drawing, or the unused one if the style does not use the role.
 fn decided(known: &Known, role: MaskRole) -> Option<&Photograph> {
     let masks = known.masks.iter().chain(&known.people).chain(&known.unused.masks);
-    masks.into_iter().find(|RoleMask { role: other, .. }| *other == role).map(|found| &found.mask)
+    masks.into_iter().find(|RoleMask { role: other, .. }| *other == role).map(|found| &*found.mask)
 }
 
 fn grey(mask: &Photograph) -> Result<Raster<u8>, SourceError> {

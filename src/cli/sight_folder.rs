@@ -15,6 +15,7 @@ use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::Arc;
 
 const SIGHT: &str = "sight.json";
 const DEPTH: &str = "depth.png";
@@ -69,12 +70,12 @@ pub(super) fn read(folder: &str, photograph: &Photograph) -> Result<Seen, Failur
     }
     let masks = of_roles().filter(|(_, file)| file.exists()).map(|(role, file)| {
         let file = file.to_string_lossy().into_owned();
-        Ok(RoleMask { role, mask: self::photograph(&file)?, file: Some(file) })
+        Ok(RoleMask { role, mask: Arc::new(self::photograph(&file)?), file: Some(file) })
     });
     let masks = masks.collect::<Result<_, Failure>>()?;
     let depth = Some(path(DEPTH)).filter(|file| file.exists()).map(|file| {
         let file = file.to_string_lossy().into_owned();
-        Ok::<_, Failure>(Depth { map: self::photograph(&file)?, file: Some(file) })
+        Ok::<_, Failure>(Depth { map: Arc::new(self::photograph(&file)?), file: Some(file) })
     });
     let faces = if path(SIGHT).exists() { faces(&path(SIGHT).to_string_lossy(), photograph)? } else { Vec::new() };
     Ok(Seen { masks, faces, depth: depth.transpose()?, lack: None })

@@ -41,7 +41,7 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     drawn?;
     task.tell(options.quiet);
     if !options.quiet {
-        say!("{folder}: {} of {}", counted(taken.count, "stage"), task.style.name());
+        say!("{folder}: {} of {}", counted(taken.count, "stage"), task.manner.style.name());
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::affordable;
 use super::arguments::{PictureOptions, PlacingOptions};
+use super::composed::{self, Region};
 use super::crop;
 use super::draw::reach_of;
 use super::eyes;
@@ -23,6 +24,7 @@ use crate::tone::portrait_tone;
 use image::DynamicImage;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Minimum number of pitches across the short side of a picture in advice: with fewer, nothing is left of a face.
 const LEAST_PITCHES: f64 = 25.0;
@@ -30,11 +32,12 @@ const LEAST_PITCHES: f64 = 25.0;
 pub(super) const UNKNOWN_PITCH: f64 = 1.0;
 
 /// A mask of the photograph.
+#[derive(Clone)]
 pub(super) struct RoleMask {
     pub role: MaskRole,
     /// Its file; `None` if it was found in the photograph.
     pub file: Option<String>,
-    pub mask: Photograph,
+    pub mask: Arc<Photograph>,
 }
 
 impl RoleMask {
@@ -52,13 +55,21 @@ impl RoleMask {
     }
 }
 
+/// How a picture or a region of it is drawn.
+pub(super) struct Manner {
+    pub style: &'static dyn Style,
+    pub settings: Settings,
+    pub known: Known,
+    pub seed: u64,
+}
+
 /// Everything that determines a drawing.
 pub(super) struct Task<'a> {
     pub options: &'a PictureOptions,
-    pub style: &'static dyn Style,
-    pub settings: Settings,
+    pub manner: Manner,
+    /// Regions in manners of their own, later ones over earlier ones.
+    pub regions: Vec<Region>,
     pub photograph: Photograph,
-    pub known: Known,
     pub layout: Layout,
     /// The parameters given by the user.
     given: Vec<(String, String)>,
@@ -76,13 +87,16 @@ impl<'a> Task<'a> {
         reach: impl Fn(&Page) -> Option<Rect>,
     ) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
-        let given = given(options)?;
+        let given = given(options);
         let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
-        let mask_files: Vec<(MaskRole, &str)> =
-            options.mask.iter().map(|(role, file)| Ok((role_of(style, role)?, file.as_str()))).collect::<Result<_, Failure>>()?;
+        let mask_files: Vec<(MaskRole, &str)> = options
+            .mask
+            .iter()
+            .map(|(role, file)| Ok((role_of(style, role, options)?, file.as_str())))
+            .collect::<Result<_, Failure>>()?;
         if let Some((role, _)) =
             options.mask.iter().enumerate().find_map(|(i, mask)| options.mask[..i].iter().find(|m| m.0 == mask.0))
         {
@@ -96,8 +110,14 @@ impl<'a> Task<'a> {
         let photograph = photograph(&options.photo)?;
         let painted = mask_files
             .into_iter()
-            .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: self::photograph(file)? }));
-        let mut known = known::of(options, style, &photograph, painted.collect::<Result<_, Failure>>()?)?;
+            .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: Arc::new(self::photograph(file)?) }));
+        let painted: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
+        let seen = known::seen(options, &photograph)?;
+        let mut notices = Vec::new();
+        let regions = composed::regions(options, &photograph, &seen, &painted, &mut notices)?;
+        let own = painted.into_iter().filter(|mask| known::takes(style, mask.role)).collect();
+        let mut known = known::of(options, style, &photograph, own, seen)?;
+        known.notices.extend(notices);
         // Marks on the picture's border extend beyond it by less than a pitch.
         let pitch = settings.pitch().unwrap_or(UNKNOWN_PITCH);
         let crop = crop::part(options, &photograph, &known.faces)?;
@@ -105,14 +125,15 @@ impl<'a> Task<'a> {
         if style.card().leaves_out_background {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
-        let task = Self { options, style, settings, photograph, known, layout, given };
+        let manner = Manner { style, settings, known, seed: options.seed };
+        let task = Self { options, manner, regions, photograph, layout, given };
         affordable::check(&task)?;
         Ok(task)
     }
 
     /// True if the picture with other options, including all its ink, would lie within the machine's reach.
     pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
-        let Ok(crop) = crop::part(picture, &self.photograph, &self.known.faces) else { return false };
+        let Ok(crop) = crop::part(picture, &self.photograph, &self.manner.known.faces) else { return false };
         let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
         let (width, height) = layout.sheet();
         let page = Page { width, height, ..layout.page };
@@ -122,47 +143,55 @@ impl<'a> Task<'a> {
 
     /// Prints the decisions made from what was found. Called after the work, so that a failure has a single message.
     pub(super) fn tell(&self, is_quiet: bool) {
-        self.known.notices.iter().filter(|_| !is_quiet).for_each(|notice| say!("drypoint: {notice}"));
+        self.manner.known.notices.iter().filter(|_| !is_quiet).for_each(|notice| say!("drypoint: {notice}"));
     }
 
     /// Pictures of what was found in the photograph, by name.
     pub(super) fn seen(&self) -> Result<Vec<(&'static str, DynamicImage)>, Failure> {
-        seen_stages::pictures(&self.photograph, &self.known).map_err(|error| Failure::about(&self.options.photo)(&error))
+        seen_stages::pictures(&self.photograph, &self.manner.known).map_err(|error| Failure::about(&self.options.photo)(&error))
     }
 
     /// The parameters with another pitch; `None` if the style does not accept it.
     pub(super) fn settings_at(&self, pitch: f64) -> Option<Settings> {
         let mut given = self.given.clone();
         given.push(("pitch".to_owned(), pitch.to_string()));
-        Settings::resolve(self.style.name(), self.style.parameters(), &given).ok()
+        Settings::resolve(self.manner.style.name(), self.manner.style.parameters(), &given).ok()
     }
 
     /// The largest pitch that the style accepts and that leaves the picture recognisable.
     pub(super) fn largest_useful_pitch(&self) -> f64 {
-        let pitch = self.style.parameters().iter().find(|parameter| parameter.name == "pitch");
+        let pitch = self.manner.style.parameters().iter().find(|parameter| parameter.name == "pitch");
         let most = pitch.and_then(|parameter| parameter.kind.ends()).map_or(f64::INFINITY, |ends| ends[1]);
         most.min(self.layout.picture.width().min(self.layout.picture.height()) / LEAST_PITCHES)
     }
 
     /// The smallest short side, in millimetres, that leaves the picture recognisable at this pitch.
     pub(super) fn smallest_useful_side(&self) -> f64 {
-        LEAST_PITCHES * self.settings.pitch().unwrap_or(UNKNOWN_PITCH)
+        LEAST_PITCHES * self.manner.settings.pitch().unwrap_or(UNKNOWN_PITCH)
     }
 
     /// Memory and time for drawing a picture, including the photographs already in memory.
     pub(super) fn cost(&self, settings: &Settings, picture: Rect) -> Cost {
-        let cost = self.style.cost(settings, picture, self.resolution(settings, picture));
-        let unused = &self.known.unused;
-        let masks = self.known.masks.iter().chain(&self.known.people).chain(&unused.masks).map(|mask| &mask.mask);
-        let others = masks.chain(self.known.depth.iter().chain(&unused.depth).map(|depth| &depth.map));
+        let cost =
+            |manner: &Manner, settings: &Settings| manner.style.cost(settings, picture, manner.resolution(settings, picture));
+        let regions = self.regions.iter().map(|region| cost(&region.manner, &region.manner.settings));
+        // One part is drawn after the other.
+        let cost = regions.fold(cost(&self.manner, settings), |all, one| Cost {
+            bytes: all.bytes.max(one.bytes),
+            seconds: all.seconds + one.seconds,
+            ..all
+        });
+        let unused = &self.manner.known.unused;
+        let known = &self.manner.known;
+        let masks = known.masks.iter().chain(&known.people).chain(&unused.masks).map(|mask| &*mask.mask);
+        let others = masks.chain(known.depth.iter().chain(&unused.depth).map(|depth| &*depth.map));
         let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
         Cost { bytes: cost.bytes + photographs as f64, ..cost }
     }
 
     /// Working resolution in pixels per millimetre.
     pub(super) fn resolution(&self, settings: &Settings, picture: Rect) -> f64 {
-        let roles: Vec<MaskRole> = self.known.masks.iter().map(|mask| mask.role).collect();
-        self.style.resolution(settings, &roles, picture)
+        self.manner.resolution(settings, picture)
     }
 
     pub(super) fn draw(&self, observer: &dyn Observer) -> Result<Drawing, Failure> {
@@ -170,22 +199,32 @@ impl<'a> Task<'a> {
             observer.warn(&format!("{}: {warning}", self.options.photo));
         }
         let picture = self.layout.picture;
-        self.draw_in(&self.settings, Placement::new(picture, self.resolution(&self.settings, picture)), observer)
+        self.draw_in(&self.manner.settings, Placement::new(picture, self.resolution(&self.manner.settings, picture)), observer)
     }
 
     /// Draws the picture with other parameters or at another placement.
     pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
         observer.begin("photograph");
-        let portrait = self.portrait(placement)?;
-        let drawing = self.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| match error {
-            StyleError::Interrupted => Failure::Interrupted,
-            nothing => Failure::Work(format!("{}: {}", self.options.photo, advised(&nothing))),
-        })?;
+        let drawing = if self.regions.is_empty() {
+            let portrait = self.portrait(&self.manner.known, placement)?;
+            self.manner.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| self.undrawn(&error))?
+        } else {
+            self.composed(settings, placement, observer)?
+        };
         Ok(self.layout.turning.turned(drawing))
     }
 
-    fn portrait(&self, placement: Placement) -> Result<Portrait, Failure> {
-        let target = if let Wanted::Own(target) = self.known.tone { target } else { ToneTarget::Lightness };
+    /// The failure for a style's error.
+    pub(super) fn undrawn(&self, error: &StyleError) -> Failure {
+        match error {
+            StyleError::Interrupted => Failure::Interrupted,
+            nothing => Failure::Work(format!("{}: {}", self.options.photo, advised(nothing))),
+        }
+    }
+
+    /// The photograph at a working resolution, with what a style knows of it.
+    pub(super) fn portrait(&self, known: &Known, placement: Placement) -> Result<Portrait, Failure> {
+        let target = if let Wanted::Own(target) = known.tone { target } else { ToneTarget::Lightness };
         let curve =
             ToneCurve { black: self.options.black as f32, white: self.options.white as f32, gamma: self.options.gamma as f32 };
         let about = |name: &str| {
@@ -195,20 +234,20 @@ impl<'a> Task<'a> {
         let mut portrait = Portrait::new(&self.photograph, self.layout.crop, self.layout.page, placement, target, curve)
             .map_err(about(&self.options.photo))?;
         let (photograph, crop) = (&self.photograph, self.layout.crop);
-        for RoleMask { role, file, mask } in &self.known.masks {
+        for RoleMask { role, file, mask } in &known.masks {
             let name = file.as_deref().unwrap_or(&self.options.photo);
             portrait.add_mask(*role, mask, photograph, crop).map_err(about(name))?;
         }
-        if let Some(RoleMask { file, mask, .. }) = &self.known.people {
+        if let Some(RoleMask { file, mask, .. }) = &known.people {
             portrait.add_people(mask, photograph, crop).map_err(about(file.as_deref().unwrap_or(&self.options.photo)))?;
         }
-        if let Some(depth) = &self.known.depth {
+        if let Some(depth) = &known.depth {
             let sense = if self.options.depth_far_white { DepthSense::FarWhite } else { DepthSense::NearWhite };
             let name = depth.file.as_deref().unwrap_or(&self.options.photo);
             portrait.add_depth(&depth.map, sense, photograph, crop).map_err(about(name))?;
         }
-        portrait.add_faces(&self.known.faces, photograph, crop).map_err(about(&self.options.photo))?;
-        if let Wanted::Portrait(strength) = self.known.tone
+        portrait.add_faces(&known.faces, photograph, crop).map_err(about(&self.options.photo))?;
+        if let Wanted::Portrait(strength) = known.tone
             && let Some(tone) = portrait_tone(&portrait, strength as f32)
         {
             portrait.set_portrait_tone(&tone, curve);
@@ -217,12 +256,19 @@ impl<'a> Task<'a> {
     }
 }
 
-fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
+pub(super) fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
     let names: Vec<&str> = style::STYLES.iter().map(|s| s.name()).collect();
     style::find(name).ok_or_else(|| Failure::Usage(format!("there is no style '{name}'; there are {}", names.join(", "))))
 }
 
-fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
+/// The role of a mask that the style, the tone or a region uses.
+fn role_of(style: &dyn Style, name: &str, options: &PictureOptions) -> Result<MaskRole, Failure> {
+    let styles = options.region.iter().filter_map(|region| style::find(region.style.as_deref()?));
+    let is_used = options.region.iter().any(|region| region.mask == name)
+        || styles.into_iter().any(|style| roles_of(style).any(|(known, _)| known == name));
+    if let Some(role) = MaskRole::named(name).filter(|_| is_used) {
+        return Ok(role);
+    }
     let refuse = || {
         let others: Vec<&str> = styles_with_role(name).map(Style::name).collect();
         let others = if others.is_empty() { String::new() } else { format!("; {name} is for {}", others.join(", ")) };
@@ -231,33 +277,10 @@ fn role_of(style: &dyn Style, name: &str) -> Result<MaskRole, Failure> {
     roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
 }
 
-/// Parameters from the file, then from --pitch, then from --set; later ones win.
-fn given(options: &PictureOptions) -> Result<Vec<(String, String)>, Failure> {
-    let mut given = Vec::new();
-    if let Some(path) = &options.params {
-        given.extend(parameter_file(&path.to_string_lossy())?);
-    }
-    if let Some(pitch) = options.pitch {
-        given.push(("pitch".to_owned(), pitch.to_string()));
-    }
-    given.extend(options.set.iter().cloned());
-    Ok(given)
-}
-
-fn parameter_file(name: &str) -> Result<Vec<(String, String)>, Failure> {
-    let text = output::read_settings(name)?;
-    let table: toml::Table =
-        text.parse().map_err(|error: toml::de::Error| Failure::Work(format!("{name}: {}", error.message())))?;
-    table
-        .into_iter()
-        .map(|(key, value)| match value {
-            toml::Value::String(text) => Ok((key, text)),
-            toml::Value::Integer(number) => Ok((key, number.to_string())),
-            toml::Value::Float(number) => Ok((key, number.to_string())),
-            toml::Value::Boolean(is_on) => Ok((key, if is_on { "on" } else { "off" }.to_owned())),
-            other => Err(Failure::Work(format!("{name}: {key} = {other} is not a string, a number or a boolean"))),
-        })
-        .collect()
+/// Parameters from --pitch, then from --set; later ones win.
+pub(super) fn given(options: &PictureOptions) -> Vec<(String, String)> {
+    let pitch = options.pitch.map(|pitch| ("pitch".to_owned(), pitch.to_string()));
+    pitch.into_iter().chain(options.set.iter().cloned()).collect()
 }
 
 pub(super) fn photograph(name: &str) -> Result<Photograph, Failure> {

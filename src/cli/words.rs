@@ -1,4 +1,4 @@
-//! Numbers with their nouns.
+//! Numbers with their nouns, and words of switches.
 
 /// A count with its noun, such as `1 path`, `2 paths`, `0 touches`.
 pub(super) fn counted(count: usize, noun: &str) -> String {
@@ -8,6 +8,11 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
         _ => "s",
     };
     format!("{count} {noun}{ending}")
+}
+
+/// The word of a style's switch.
+pub(super) const fn switch_word(is_on: bool) -> &'static str {
+    if is_on { "on" } else { "off" }
 }
 
 #[cfg(test)]

@@ -117,7 +117,7 @@ impl Region {
     }
 
     /// True if a point lies within `slack` of the border.
-    fn is_near_border(&self, p: Point, slack: f64) -> bool {
+    pub fn is_near_border(&self, p: Point, slack: f64) -> bool {
         let rows = || self.rows.of(p.y - slack, p.y + slack).flat_map(|row| self.rows.edges(row));
         self.bounds.inflate(slack, slack).contains(p) && rows().any(|&[a, b]| distance_to_segment(p, a, b) <= slack)
     }
@@ -133,6 +133,11 @@ impl Region {
     /// once the interrupt is raised.
     pub fn outside_of_line(&self, points: &[Point], interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {
         self.pieces(points, |p| !self.contains(p), interrupt)
+    }
+
+    /// The pieces of a polyline inside, each point with its position along the line (vertex index plus fraction).
+    pub fn inside_of_line(&self, points: &[Point]) -> Vec<Vec<(Point, f64)>> {
+        self.pieces(points, |p| self.contains(p), &Interrupt::never())
     }
 
     fn pieces(&self, points: &[Point], is_wanted: impl Fn(Point) -> bool, interrupt: &Interrupt) -> Vec<Vec<(Point, f64)>> {

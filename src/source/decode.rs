@@ -100,7 +100,7 @@ impl Photograph {
             ),
             _ => (Lineariser::srgb(), Vec::new()),
         };
-        let info = SourceInfo { format, sha256: hexadecimal(&Sha256::digest(bytes)), warnings };
+        let info = SourceInfo { format, sha256: sha256(bytes), warnings };
         Ok(Self { pixels, lineariser, info })
     }
 
@@ -167,6 +167,11 @@ fn describe(format: &'static str, error: &ImageError) -> SourceError {
 fn first_bytes(bytes: &[u8]) -> String {
     let shown: Vec<String> = bytes.iter().take(8).map(|b| format!("{b:02x}")).collect();
     shown.join(" ")
+}
+
+/// SHA-256 of bytes, in hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
 }
 
 fn hexadecimal(bytes: &[u8]) -> String {

@@ -23,7 +23,7 @@ pub(crate) use encoded::grey_image;
 
 #[doc(hidden)]
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
-pub use decode::{Limits, Photograph, SourceInfo};
+pub use decode::{Limits, Photograph, SourceInfo, sha256};
 pub use depth::DepthSense;
 pub use error::SourceError;
 pub use landmarks::{Iris, Landmarks};
@@ -33,5 +33,5 @@ pub use mask_role::MaskRole;
 #[doc(hidden)]
 pub use placement::fill_box;
 pub use placement::{Crop, Placement};
-pub use portrait::{Portrait, ToneCurve, ToneTarget};
+pub use portrait::{Portrait, ToneCurve, ToneTarget, mask_on};
 pub use scribbles::Scribbles;

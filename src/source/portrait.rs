@@ -210,6 +210,12 @@ impl Portrait {
     }
 }
 
+/// How much of each pixel of a grid a mask covers, 0 to 1; the mask has the photograph's proportions.
+pub fn mask_on(mask: &Photograph, photograph: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<f32>, SourceError> {
+    let crop = crop_on_grid(mask, photograph, crop.within(photograph)?)?;
+    region(mask, crop, placement)
+}
+
 /// The fraction of each working pixel that a mask covers.
 fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<f32>, SourceError> {
     // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.

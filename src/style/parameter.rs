@@ -134,11 +134,7 @@ impl Settings {
             }
         });
         for parameter in parameters {
-            values.entry(parameter.name).or_insert_with(|| match parameter.kind {
-                Kind::Choice(words) => Value::Word(words[0]),
-                Kind::Places { .. } => Value::Places(Places { percent: [(0.0, 0.0); Places::MOST], count: 0 }),
-                kind => Value::Number(kind.within(kind.default_number(pitch).unwrap_or(0.0))),
-            });
+            values.entry(parameter.name).or_insert_with(|| parameter.kind.clamped_default(pitch));
         }
         Ok(Self { values })
     }
@@ -202,16 +198,30 @@ impl Settings {
         panic!("{name} is not a {kind} of this style: {:?}", self.values.get(name))
     }
 
+    /// `KEY=VALUE` for every parameter that differs from its default; the same parameters come of it.
+    pub fn changed(&self, parameters: &[Parameter]) -> Vec<String> {
+        let usual_pitch = parameters.iter().find(|p| p.name == "pitch").and_then(|p| p.kind.default_number(1.0));
+        let pitch = self.pitch().or(usual_pitch).unwrap_or(1.0);
+        let default = |name: &str| parameters.iter().find(|p| p.name == name).map(|p| p.kind.clamped_default(pitch));
+        let is_changed = |(name, value): &(&&str, &Value)| default(name).as_ref() != Some(*value);
+        let exact = |value: &Value| if let Value::Number(number) = value { number.to_string() } else { value.text() };
+        self.values.iter().filter(is_changed).map(|(name, value)| format!("{name}={}", exact(value))).collect()
+    }
+
     /// Every key with its value in the form that `--set` accepts.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, String)> {
-        self.values.iter().map(|(name, value)| {
-            let text = match value {
-                Value::Number(number) => format!("{}", (number * 1e6).round() / 1e6),
-                Value::Word(word) => (*word).to_owned(),
-                Value::Places(places) => places.text(),
-            };
-            (*name, text)
-        })
+        self.values.iter().map(|(name, value)| (*name, value.text()))
+    }
+}
+
+impl Value {
+    /// In the form that `--set` accepts.
+    fn text(&self) -> String {
+        match self {
+            Self::Number(number) => format!("{}", (number * 1e6).round() / 1e6),
+            Self::Word(word) => (*word).to_owned(),
+            Self::Places(places) => places.text(),
+        }
     }
 }
 
@@ -221,6 +231,14 @@ impl Kind {
             Self::Choice(words) => Value::Word(words[0]),
             Self::Places { .. } => Value::Places(Places { percent: [(0.0, 0.0); Places::MOST], count: 0 }),
             kind => Value::Number(kind.default_number(pitch).unwrap_or(0.0)),
+        }
+    }
+
+    /// The default inside the range.
+    fn clamped_default(&self, pitch: f64) -> Value {
+        match self.default_value(pitch) {
+            Value::Number(number) => Value::Number(self.within(number)),
+            other => other,
         }
     }
 

@@ -9,21 +9,26 @@ use super::values::{
     screen, size_above_zero,
 };
 use crate::cli::lists::mask_roles;
+use crate::cli::region::{RegionOption, region};
+use crate::cli::scene::Spelled;
 use crate::drawing::Ink;
 use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct PictureOptions {
-    /// The photograph: JPEG, PNG, WebP, TIFF, BMP or GIF; `-` for stdin.
+    /// The photograph: JPEG, PNG, WebP, TIFF, BMP or GIF; `-` for stdin. Or a scene, .toml.
     pub photo: String,
     /// The style; `drypoint styles` lists them.
     #[arg(long, default_value = "hedcut")]
     pub style: String,
+    /// Options for a purpose, such as wsj-column; `drypoint presets` lists them. Options beside it win.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub preset: Option<String>,
     /// A parameter of the style; `drypoint styles NAME` lists them. May be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set: Vec<(String, String)>,
-    /// Parameters from a TOML file; --set wins.
+    /// Parameters of the style, or any options, from a TOML file; those on the command line win.
     #[arg(long, value_name = "FILE")]
     pub params: Option<PathBuf>,
     /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the picture's own size].
@@ -48,6 +53,10 @@ pub(in crate::cli) struct PictureOptions {
     pub pitch: Option<f64>,
     #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
+    /// A part of the picture in a style of its own, such as --region 'mask="hair", style="charcoal"'; once per part, later ones lie
+    /// over earlier ones. Keys: mask (a role or a file), style, set, pen, ink, seed, gap or fade, name.
+    #[arg(long, value_name = "KEYS", value_parser = region)]
+    pub region: Vec<RegionOption>,
     /// Use the folder that `drypoint see` wrote, edited or not: each PNG is the mask of its role, unless --mask gives that role.
     /// `none` turns detection off.
     #[arg(long, value_name = "DIR|none")]
@@ -128,6 +137,12 @@ pub(in crate::cli) struct DrawOptions {
     pub max_time: Option<f64>,
     #[command(flatten)]
     pub toolpaths: ToolpathOptions,
+    /// Also write what this command line amounts to as a scene.
+    #[arg(long, value_name = "FILE.toml")]
+    pub save_scene: Option<String>,
+    /// What was given, as it was typed.
+    #[arg(skip)]
+    pub spelled: Spelled,
     /// Estimate marks, memory and time of the drawing, and with --profile of the plot, and write nothing. Takes a second or two,
     /// from small pictures.
     #[arg(long)]

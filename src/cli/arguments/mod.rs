@@ -63,6 +63,18 @@ pub(super) enum Command {
     Stages(StagesOptions),
     /// Find faces, people and their parts in a photograph, and write them as PNG and JSON for `draw --sight`.
     See(SeeOptions),
+    /// Write a scene: all options of a drawing in a file, with every default spelled out, for `draw FILE.toml`.
+    #[command(mut_arg("output", |arg| arg.help("The scene to write; `-` for stdout").value_name("FILE.toml")),
+        mut_arg("save_scene", |arg| arg.hide(true)), mut_arg("dry_run", |arg| arg.hide(true)), mut_arg("format", |arg| arg.hide(true)))]
+    Scene(DrawOptions),
+    /// Draw anew from the recipe inside an SVG or PDF; any option of `draw` changes that.
+    #[command(mut_arg("photo", |arg| arg.help("The drawing; its photograph and masks lie beside it or in this folder").value_name("DRAWING")),
+        mut_arg("output", |arg| arg.help("The file to write [default: DRAWING-redone beside it]").required(false)))]
+    Redo(DrawOptions),
+    /// List the presets, or print one as TOML. Your own are TOML files in drypoint/presets in the folder of configurations.
+    Presets(ListOptions),
+    /// Print the JSON schema of scenes and presets, from which editors complete.
+    Schema,
     /// Show what is in a drawing: sheet, layers, pens, marks, lengths, time.
     Inspect(InspectOptions),
     /// Write the rest of a plotter's file from where the machine stopped, with state, pen and position restored.
