@@ -28,7 +28,8 @@ fn main() {
 /// Saving from entering loops anywhere instead of at their start, on a sheet of 2000 circles and polygons.
 fn loops() {
     let rings: Vec<Vec<Point>> = (1..=2000).map(ring).collect();
-    let given: Vec<Stop> = rings.iter().map(|ring| Stop::new(PathEnds { start: ring[0], end: ring[0] }, true)).collect();
+    let given: Vec<Stop> =
+        rings.iter().map(|ring| Stop::new(PathEnds { start: ring[0], end: ring[0] }, Direction::Either)).collect();
     let free: Vec<Stop> = given.iter().zip(&rings).map(|(stop, ring)| Stop { ring: Some(ring), ..*stop }).collect();
     for (name, effort) in [("fast", Effort::Fast), ("full", Effort::Full)] {
         let [fixed, free] = [&given, &free].map(|stops| {

@@ -1,18 +1,38 @@
 #!/bin/sh
-# Makes the pictures of docs/gallery.md anew; those of the README are made from them, but for the cat (one nib) and the raccoon (whirls 4). Needs drypoint on the path (or in DRYPOINT), rsvg-convert and ImageMagick.
+# Makes the pictures of docs/gallery.md anew; those of the README are made from them, but for the cat (one nib) and the raccoon
+# (whirls 4). Needs drypoint on the path (or in DRYPOINT), rsvg-convert and ImageMagick.
+#
+#   docs/gallery.sh           accepts today's pictures
+#   docs/gallery.sh --check   compares them with the accepted ones: root mean square difference of both, blurred as the eye does
+#                             at arm's length (0 the same, 1 black for white). Those above 0.02 are shown side by side in gallery-check/, and the
+#                             exit status is 1. Each drawing is also drawn again from its recipe, which must give the same bytes.
 set -e
 cd "$(dirname "$0")/.."
 D=${DRYPOINT:-drypoint}
 S=samples
-OUT=docs/pictures/gallery
+ACCEPTED=docs/pictures/gallery
+OUT=$ACCEPTED
+MOST=0.02
 WORK=$(mktemp -d)
+if [ "$1" = --check ]; then
+    OUT=$WORK/gallery
+    cp $S/*.jpg $S/*.png "$WORK"
+fi
 mkdir -p "$OUT"
+
+# NAME: a drawing that its recipe does not give again is an error.
+redone() {
+    [ "$OUT" != "$ACCEPTED" ] || return 0
+    "$D" redo "$WORK/$1.svg" --quiet -o "$WORK/again.svg"
+    cmp "$WORK/$1.svg" "$WORK/again.svg" || { echo "$1: its recipe gives another drawing" >&2; exit 1; }
+}
 
 # NAME PHOTO OPTIONS...: a drawing as a grey PNG, 760 pixels wide.
 ink() {
     name=$1 photo=$2
     shift 2
     "$D" draw "$photo" --quiet -o "$WORK/$name.svg" "$@"
+    redone "$name"
     rsvg-convert -w 1520 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
     convert "$WORK/$name.png" -colorspace gray -scale 50% -depth 4 -define png:compression-level=9 "$OUT/$name.png"
 }
@@ -22,6 +42,7 @@ painting() {
     name=$1 photo=$2
     shift 2
     "$D" draw "$photo" --quiet -o "$WORK/$name.svg" --style glass "$@"
+    redone "$name"
     rsvg-convert -w 1000 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
     convert "$WORK/$name.png" -resize 50% "$WORK/$name.jpg"
 }
@@ -77,4 +98,27 @@ done
 painting glass-astronaut $S/astronaut.jpg --set detail=0.06
 convert "$WORK/glass-astronaut.png" -quality 88 "$OUT/glass-astronaut.jpg"
 ink glass-one-pen $S/astronaut.jpg --style glass --set colors=mono
+
+for preset in wsj-column wsj-large book banknote charcoal-loose poster pen-0.1 pen-0.5-one-hour scraperboard; do
+    ink preset-$preset $S/grace-hopper.jpg --preset $preset
+done
+
+status=0
+if [ "$OUT" != "$ACCEPTED" ]; then
+    for picture in "$ACCEPTED"/*; do
+        name=$(basename "$picture")
+        # Pictures of another size, or none, are wholly unlike.
+        convert "$picture" -colorspace gray -blur 0x3 "$WORK/before.png"
+        convert "$OUT/$name" -colorspace gray -blur 0x3 "$WORK/after.png" 2>/dev/null || true
+        unlike=$(compare -metric RMSE "$WORK/before.png" "$WORK/after.png" null: 2>&1 | sed 's/.*(\(.*\)).*/\1/') || true
+        case $unlike in [0-9]*) ;; *) unlike=1 ;; esac
+        echo "$unlike $name"
+        if [ "$(echo "$unlike $MOST" | awk '{ print ($1 > $2) }')" = 1 ]; then
+            mkdir -p gallery-check
+            montage "$picture" "$OUT/$name" -tile 2x1 -geometry +8+8 "gallery-check/$name" 2>/dev/null || true
+            status=1
+        fi
+    done
+fi
 rm -r "$WORK"
+exit $status

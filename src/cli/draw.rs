@@ -24,7 +24,7 @@ use super::toolpaths;
 use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
 use crate::geometry::Rect;
 use crate::plot::{Hides, InkModel, Job, Profile, mount, occluded};
-use crate::press::{Press, PrintJob};
+use crate::press::{Press, PrintFormat, PrintJob};
 use crate::style::Observer;
 use crate::write::SvgHead;
 use std::borrow::Cow;
@@ -44,6 +44,9 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     }
     let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
     formats::check_language(format, profile.as_ref())?;
+    if options.embed && format != Format::Svg {
+        return Err(Failure::Usage("--embed is for SVG; write .svg or .svgz".to_owned()));
+    }
     press(options)?;
     if profile.is_none() {
         toolpaths::check_machine_options(&options.toolpaths)?;
@@ -138,7 +141,7 @@ fn write_one<'a>(
     let LayerFile { name, drawing, .. } = file;
     let Some((profile, pens)) = machine else {
         observer.begin("writing");
-        let format = format.of_print()?;
+        let format = if options.embed { PrintFormat::EmbeddedSvg } else { format.of_print()? };
         let job = PrintJob::new(drawing, None, interrupt())?;
         output::write(name, |out| job.write(format, head, out))?;
         return Ok(None);

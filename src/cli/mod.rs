@@ -43,6 +43,7 @@ mod scale_to_time;
 mod scene;
 mod see;
 mod seen_stages;
+mod sheet;
 mod sight_folder;
 mod stages;
 mod task;
@@ -117,6 +118,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::See(options) => see::run(&options),
         Command::Scene(options) => scene::run(&options),
         Command::Presets(options) => scene::presets(&options),
+        Command::Sheet(options) => sheet::run(&options),
         Command::Schema => scene::schema(),
         Command::Inspect(options) => inspect::run(&options),
         Command::Resume(options) => resume::run(&options),

@@ -3,6 +3,8 @@
 use super::claims;
 use super::failure::Failure;
 use super::interruption::{Temporary, is_interrupted};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -50,8 +52,20 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
     Ok(Box::new(file))
 }
 
-/// Writes a file through a temporary one beside it. `-` is stdout; devices and pipes are written in place.
+/// Writes a file through a temporary one beside it; `.svgz` is compressed. `-` is stdout; devices and pipes are written in place.
 pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    let is_compressed = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svgz"));
+    if !is_compressed {
+        return write_plain(name, fill);
+    }
+    write_plain(name, |out| {
+        let mut compressed = GzEncoder::new(out, Compression::best());
+        fill(&mut compressed)?;
+        compressed.finish().map(drop)
+    })
+}
+
+fn write_plain(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     claims::check_not_input(name)?;
     if name == "-" {
         let mut stdout = io::BufWriter::new(io::stdout().lock());

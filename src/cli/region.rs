@@ -125,7 +125,7 @@ mod tests {
         let text = "mask = \"hair\", style = \"charcoal\", set = { pitch = 0.5, paper = true }, pen = 2, ink = \"navy\", seed = 3, gap = \"0.2cm\"";
         let found = region(text).unwrap();
         assert_eq!((found.mask.as_str(), found.pen, found.seed, found.border), ("hair", Some(2), Some(3), Border::Gap(2.0)));
-        assert_eq!(found.set, [("pitch".to_owned(), "0.5".to_owned()), ("paper".to_owned(), "on".to_owned())]);
+        assert_eq!(found.set, [("paper".to_owned(), "on".to_owned()), ("pitch".to_owned(), "0.5".to_owned())]);
     }
 
     #[test]

@@ -12,7 +12,7 @@
 //! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are engraving
 //! lines, are cut by their centre lines only: their style ends and narrows them before the border.
 
-use super::mark::interpolate;
+use super::cut::interpolate;
 use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
 use kurbo::Shape;

@@ -4,6 +4,7 @@
 //! It knows nothing of pixels, machines or file formats.
 
 mod colour;
+mod cut;
 mod held;
 mod mark;
 mod seen;

@@ -43,7 +43,7 @@ pub fn coherent_lines(found: &FlowLines, grey: &Raster<f32>, smoothing: f64, lea
         .into_iter()
         .filter(|line| line.length() >= least)
         .map(|line| Curve {
-            points: smooth_polyline(&line.points, line.closed, smoothing.max(0.5), SPACING),
+            points: smooth_polyline(&line.points, line.closed.into(), smoothing.max(0.5), SPACING),
             closed: line.closed,
         })
         .filter(|line| line.points.len() > 2)

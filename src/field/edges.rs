@@ -59,7 +59,7 @@ pub fn lines_of(skeleton: &Raster<u8>, smoothing: f32, least: f32) -> Vec<Curve>
         .into_iter()
         .filter(|line| line.length() >= f64::from(least))
         .map(|line| {
-            let points = smooth_polyline(&line.points, line.closed, f64::from(smoothing.max(0.5)), 1.5);
+            let points = smooth_polyline(&line.points, line.closed.into(), f64::from(smoothing.max(0.5)), 1.5);
             Curve { points, closed: line.closed }
         })
         .filter(|line| line.points.len() > 1)

@@ -27,7 +27,10 @@ pub fn detect_isophotes(lightness: &Raster<f32>, levels: u32, lightest: u32, smo
     let lines = (1..=lightest.min(levels - 1))
         .flat_map(|k| contours(&smoothed, 1.0 - k as f32 / steps))
         .filter(|line| line.length() >= f64::from(least))
-        .map(|line| Curve { points: smooth_polyline(&line.points, line.closed, f64::from(smoothing), 1.5), closed: line.closed })
+        .map(|line| Curve {
+            points: smooth_polyline(&line.points, line.closed.into(), f64::from(smoothing), 1.5),
+            closed: line.closed,
+        })
         .filter(|line| line.points.len() > 1)
         .collect();
     IsophoteSteps { smoothed, posterised, lines }

@@ -127,7 +127,7 @@ fn maxima(noise: &Raster<f32>) -> Vec<(usize, usize)> {
 mod tests {
     use super::super::glass_pattern;
     use super::*;
-    use crate::geometry::{Ends, catmull_rom, swelling_outline};
+    use crate::geometry::{Ends, Ring, catmull_rom, swelling_outline};
     use kurbo::Shape;
     use std::f64::consts::PI;
 
@@ -146,7 +146,7 @@ mod tests {
     }
 
     fn area(ribbon: &Ribbon) -> f64 {
-        swelling_outline(&catmull_rom(&ribbon.nodes, false), &ribbon.widths, Ends::Round, 0.01).area().abs()
+        swelling_outline(&catmull_rom(&ribbon.nodes, Ring::Open), &ribbon.widths, Ends::Round, 0.01).area().abs()
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod convex_hull;
 mod crossings;
 mod direct_search;
 mod disc;
+mod fewer_nodes;
 mod graph;
 mod hand_shading;
 mod inset;
@@ -46,10 +47,11 @@ pub use crossings::{Crossings, crossings};
 #[doc(hidden)]
 pub use disc::{disc_area_in, radius_for_area};
 #[doc(hidden)]
+pub use fewer_nodes::with_fewer_nodes;
+#[doc(hidden)]
 pub use graph::{FitTolerance, Graph, GraphNode};
 #[doc(hidden)]
 pub use hand_shading::HandShading;
-#[doc(hidden)]
 pub use inset::OffsetOutline;
 pub use length::{LengthError, parse_length, parse_size};
 #[doc(hidden)]
@@ -64,7 +66,7 @@ pub use polyline::{
 #[doc(hidden)]
 pub use region::{Region, Winding, untangled, untangled_polygons};
 #[doc(hidden)]
-pub use smooth::{catmull_rom, smooth_polyline};
+pub use smooth::{Ring, catmull_rom, smooth_polyline};
 #[doc(hidden)]
 pub use swell::{Ends, Station, Stretch, curve_length, sample_swelling, segment_length, stations, swelling_outline};
 #[doc(hidden)]

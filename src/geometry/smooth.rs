@@ -3,9 +3,25 @@
 use super::polyline::resample;
 use kurbo::{BezPath, Point, Vec2};
 
+/// Whether a line's last point is joined to its first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ring {
+    /// It has two ends.
+    Open,
+    /// It is joined all the way round.
+    Closed,
+}
+
+impl From<bool> for Ring {
+    fn from(is_closed: bool) -> Self {
+        if is_closed { Self::Closed } else { Self::Open }
+    }
+}
+
 /// Smooths a polyline by a Gaussian of standard deviation `sigma` along its length, on points `spacing` apart.
 /// Open ends stay fixed; a closed line (last point joined to the first) is smoothed all the way round.
-pub fn smooth_polyline(points: &[Point], closed: bool, sigma: f64, spacing: f64) -> Vec<Point> {
+pub fn smooth_polyline(points: &[Point], ring: Ring, sigma: f64, spacing: f64) -> Vec<Point> {
+    let closed = ring == Ring::Closed;
     let mut line = points.to_vec();
     if closed && let Some(&first) = points.first() {
         line.push(first);
@@ -52,7 +68,8 @@ fn reflected(points: &[Point], i: isize) -> Point {
 const LONGEST_HANDLE: f64 = 0.5;
 
 /// The Catmull-Rom spline through the points as cubic Beziers, with handles of at most half their chords.
-pub fn catmull_rom(points: &[Point], closed: bool) -> BezPath {
+pub fn catmull_rom(points: &[Point], ring: Ring) -> BezPath {
+    let closed = ring == Ring::Closed;
     let mut path = BezPath::new();
     let n = points.len() as isize;
     let Some(&first) = points.first() else { return path };
@@ -80,7 +97,7 @@ mod tests {
     #[test]
     fn smoothing_a_staircase_gives_its_slope() {
         let stairs: Vec<Point> = (0..60).map(|i| Point::new(f64::from(i), f64::from(i / 2))).collect();
-        let smooth = smooth_polyline(&stairs, false, 3.0, 0.5);
+        let smooth = smooth_polyline(&stairs, Ring::Open, 3.0, 0.5);
         for pair in smooth[20..smooth.len() - 20].windows(2) {
             let step = pair[1] - pair[0];
             assert!((step.y / step.x - 0.5).abs() < 0.05, "{step:?}");
@@ -92,7 +109,7 @@ mod tests {
     fn the_spline_meets_its_points_and_follows_a_circle() {
         let circle: Vec<Point> =
             (0..24).map(|i| Point::ORIGIN + Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 24.0) * 10.0).collect();
-        let spline = catmull_rom(&circle, true);
+        let spline = catmull_rom(&circle, Ring::Closed);
         assert_eq!(spline.elements().len(), 26);
         for piece in spline.segments() {
             use kurbo::ParamCurve;

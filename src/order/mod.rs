@@ -73,7 +73,7 @@ const LEAST_FULL_KICKS: f64 = 40_000.0;
 /// assert_eq!(visits.iter().map(|visit| (visit.path, visit.reversed)).collect::<Vec<_>>(), [(1, true), (0, false)]);
 /// ```
 pub fn order(paths: &[PathEnds], home: Point, effort: Effort, direction: Direction) -> Vec<Visit> {
-    let mut stops: Vec<Stop> = paths.iter().map(|&ends| Stop::new(ends, direction == Direction::Either)).collect();
+    let mut stops: Vec<Stop> = paths.iter().map(|&ends| Stop::new(ends, direction)).collect();
     order_stops(&mut stops, home, effort)
 }
 

@@ -61,8 +61,8 @@ const TOUCH: f64 = 0.01;
 
 impl Stop<'_> {
     /// A path with two fixed ends.
-    pub const fn new(ends: PathEnds, may_turn: bool) -> Self {
-        Self { ends, may_turn, ring: None, edge: 0 }
+    pub fn new(ends: PathEnds, direction: Direction) -> Self {
+        Self { ends, may_turn: direction == Direction::Either, ring: None, edge: 0 }
     }
 
     /// True if its direction matters to the search.

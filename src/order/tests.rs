@@ -160,8 +160,7 @@ fn dots_come_close_to_the_expected_optimum() {
 #[test]
 fn gains_add_up_to_the_difference_in_length() {
     for direction in [Direction::Either, Direction::AsDrawn] {
-        let stops: Vec<Stop> =
-            scattered(400, 5.0).into_iter().map(|ends| Stop::new(ends, direction == Direction::Either)).collect();
+        let stops: Vec<Stop> = scattered(400, 5.0).into_iter().map(|ends| Stop::new(ends, direction)).collect();
         let numbering = numbering(&stops);
         let sites = Sites::new(&stops, &numbering, HOME, &Interrupt::never());
         let neighbours = Neighbours::new(&sites, NEIGHBOURS);

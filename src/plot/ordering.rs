@@ -169,7 +169,7 @@ fn is_single(item: &[Toolpath]) -> bool {
 fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Visit> {
     let stop = |item: &Vec<Toolpath>| {
         let ends = PathEnds { start: item[0].ends().start, end: item[item.len() - 1].ends().end };
-        (ends, sequence.direction == Direction::Either && is_single(item))
+        (ends, if is_single(item) { sequence.direction } else { Direction::AsDrawn })
     };
     let ring = |item: &Vec<Toolpath>| sequence.seam == Seam::Nearest && is_single(item) && is_free(&item[0]);
     let is_ring: Vec<bool> = items.iter().map(ring).collect();
@@ -177,8 +177,8 @@ fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence, interrup
         .iter()
         .zip(&is_ring)
         .map(|(item, is_ring)| {
-            let (ends, may_turn) = stop(item);
-            Stop { ring: is_ring.then(|| &item[0].points[..]), ..Stop::new(ends, may_turn) }
+            let (ends, direction) = stop(item);
+            Stop { ring: is_ring.then(|| &item[0].points[..]), ..Stop::new(ends, direction) }
         })
         .collect();
     let visits = order_until(&mut stops, from, sequence.effort, interrupt);

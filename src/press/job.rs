@@ -4,7 +4,7 @@ use super::Press;
 use crate::drawing::Drawing;
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::plot::write_inkml;
-use crate::write::{SvgHead, write_pdf, write_svg};
+use crate::write::{SvgHead, write_embedded_svg, write_pdf, write_svg};
 use std::borrow::Cow;
 use std::io;
 
@@ -14,6 +14,8 @@ use std::io;
 pub enum PrintFormat {
     /// SVG in millimetres.
     Svg,
+    /// SVG without its sheet, to be placed in a page.
+    EmbeddedSvg,
     /// PDF with its boxes and its ink in separations.
     Pdf {
         /// When it was made, in seconds since 1970; none leaves the date out.
@@ -68,6 +70,7 @@ impl<'a> PrintJob<'a> {
     pub fn write(&self, format: PrintFormat, head: &SvgHead, mut out: impl io::Write) -> io::Result<()> {
         match format {
             PrintFormat::Svg => write_svg(&self.drawing, head, &mut out),
+            PrintFormat::EmbeddedSvg => write_embedded_svg(&self.drawing, head, &mut out),
             PrintFormat::Pdf { seconds } => write_pdf(&self.drawing, head, seconds, &mut out),
             PrintFormat::Inkml => write_inkml(&self.drawing, &head.title, &mut out),
         }

@@ -3,7 +3,7 @@
 use super::plan::{Broken, Piece, Plan, Speck};
 use super::{Press, widened};
 use crate::drawing::{Dot, Ends, Mark, Stroke, Width};
-use crate::geometry::{BezPath, Point, catmull_rom, polyline_length, simplify};
+use crate::geometry::{BezPath, Point, Ring, catmull_rom, polyline_length, simplify};
 use std::f64::consts::PI;
 
 /// Length of a dash in widths of the thinnest line. Dashes of 2 look like a dotted line; from 5 on, the gaps between them look
@@ -184,5 +184,5 @@ fn curve(points: &[Point], widths: Vec<f64>) -> (BezPath, Width) {
         points[1..].iter().for_each(|p| curve.line_to(*p));
         return (curve, Width::Constant(widths[0]));
     }
-    (catmull_rom(points, false), Width::Along(widths))
+    (catmull_rom(points, Ring::Open), Width::Along(widths))
 }

@@ -111,7 +111,10 @@ impl<'a> Importer<'a> {
     }
 
     fn path(&mut self, path: &usvg::Path, place: Place, clips: &[Clip]) -> Result<(), TooMuchWork> {
-        if !path.is_visible() || (path.id() == "paper" && self.outline.recipe.is_some()) || place.kind == Kind::Paper {
+        if !path.is_visible()
+            || (path.id().split('_').next() == Some("paper") && self.outline.recipe.is_some())
+            || place.kind == Kind::Paper
+        {
             return Ok(());
         }
         let transform = to_mm(path.abs_transform());

@@ -3,12 +3,16 @@
 //! ```text
 //!   masks, later ones over earlier ones -> Parts: each point of the page belongs to one part (the first is the rest)
 //!   the drawing of each part            -> confined to its part, with the border that it asks for
+//!   several drawings                    -> Grid: one sheet, the layers of each pen merged
 //! ```
 
 mod confine;
 mod parts;
+mod sheet;
 
 pub use parts::Parts;
+#[doc(hidden)]
+pub use sheet::{CropMarks, Grid, Piece, SheetError, scale_into};
 
 /// What happens at the border between a region and what lies around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

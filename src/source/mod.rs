@@ -23,7 +23,9 @@ pub(crate) use encoded::grey_image;
 
 #[doc(hidden)]
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
-pub use decode::{Limits, Photograph, SourceInfo, sha256};
+#[doc(hidden)]
+pub use decode::sha256;
+pub use decode::{Limits, Photograph, SourceInfo};
 pub use depth::DepthSense;
 pub use error::SourceError;
 pub use landmarks::{Iris, Landmarks};
@@ -33,5 +35,7 @@ pub use mask_role::MaskRole;
 #[doc(hidden)]
 pub use placement::fill_box;
 pub use placement::{Crop, Placement};
-pub use portrait::{Portrait, ToneCurve, ToneTarget, mask_on};
+#[doc(hidden)]
+pub use portrait::mask_on;
+pub use portrait::{Portrait, ToneCurve, ToneTarget};
 pub use scribbles::Scribbles;

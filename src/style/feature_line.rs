@@ -36,5 +36,5 @@ pub(super) fn feature_stroke(line: &CoherentLine, placement: &Placement, longest
     if line.curve.closed {
         widths.push(widths[0]);
     }
-    Some(Mark::Stroke(Stroke::new(catmull_rom(&page, line.curve.closed), Width::Along(widths))))
+    Some(Mark::Stroke(Stroke::new(catmull_rom(&page, line.curve.closed.into()), Width::Along(widths))))
 }

@@ -18,13 +18,15 @@ mod parameter;
 mod places;
 mod random;
 mod reversed;
+mod settings;
 
 pub use cost::Cost;
 use drawer::Drawer;
 pub use need::Need;
 pub use observer::{Observer, Picture, Silent};
-pub use parameter::{DefaultLength, Kind, Parameter, ParameterError, Settings};
+pub use parameter::{DefaultLength, Kind, Parameter, ParameterError};
 pub use places::Places;
+pub use settings::Settings;
 
 use crate::drawing::Drawing;
 use crate::geometry::{Millimetres, Rect};

@@ -9,5 +9,5 @@ mod svg;
 
 pub(crate) use number::{decimal, thousandths};
 pub use pdf::write_pdf;
-pub use svg::{SvgHead, write_svg};
-pub(crate) use svg::{document, finish, layer_group, lines_group, path_data};
+pub(crate) use svg::{Names, document, finish, layer_group, lines_group, path_data};
+pub use svg::{SvgHead, write_embedded_svg, write_svg};

@@ -13,6 +13,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("tone", &["source", "raster", "geometry"]),
     ("field", &["raster", "geometry"]),
     ("order", &["geometry"]),
+    ("scene", &["field", "raster", "drawing", "geometry", "source"]),
     ("style", &["field", "order", "raster", "drawing", "geometry", "source"]),
     ("press", &["drawing", "geometry", "plot", "write"]),
     ("plot", &["drawing", "geometry", "order", "read", "write"]),

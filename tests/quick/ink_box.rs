@@ -3,7 +3,7 @@
 use crate::machine_file;
 
 use drypoint::drawing::{Drawing, Ends, Layer, Mark, Page, Stroke, Width};
-use drypoint::geometry::{BezPath, Point, Rect, blob, catmull_rom};
+use drypoint::geometry::{BezPath, Point, Rect, Ring, blob, catmull_rom};
 use drypoint::order::{Direction, Effort};
 use drypoint::plot::{InkModel, Nibs, Profile, lower, mount, write_inkml};
 use drypoint::write::{SvgHead, write_pdf, write_svg};
@@ -29,7 +29,7 @@ fn any_stroke() -> impl Strategy<Value = Mark> {
             at += kurbo::Vec2::from_angle(heading) * 10.0_f64.powf(*leg);
             places.push(at);
         }
-        let curve = if kind == 2 { polyline(&places, is_closed) } else { catmull_rom(&places, is_closed) };
+        let curve = if kind == 2 { polyline(&places, is_closed) } else { catmull_rom(&places, is_closed.into()) };
         let count = curve.segments().count() + 1;
         let mut widths: Vec<f64> = nodes.iter().cycle().take(count).map(|(.., width)| 10.0_f64.powf(*width)).collect();
         if is_closed {
@@ -252,7 +252,7 @@ fn a_whirl_s_stroke_throws_no_spike() {
         })
         .collect();
     let widths = (0..14).map(|i| 3.0 - 0.1 * f64::from(i)).collect();
-    check(&Mark::Stroke(Stroke::new(catmull_rom(&places, false), Width::Along(widths))));
+    check(&Mark::Stroke(Stroke::new(catmull_rom(&places, Ring::Open), Width::Along(widths))));
 }
 
 /// Paintings of whole photographs, in which spikes were found.

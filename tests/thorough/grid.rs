@@ -105,7 +105,7 @@ fn lines_along_a_circle_are_circles() {
     let family = stripes(&wave, DEFAULTS, &begin, Some(&anchor));
     let (mut worst, mut worst_turn, mut count) = (0.0_f64, 0.0_f64, 0);
     for line in stripe_lines(&family) {
-        let points = smooth_polyline(&line.points, line.closed, 0.4 * PITCH, 0.1 * PITCH);
+        let points = smooth_polyline(&line.points, line.closed.into(), 0.4 * PITCH, 0.1 * PITCH);
         let inside = |p: &&Point| counted(**p, size, Some(centre));
         if points.len() < 60 || !points.iter().all(|p| inside(&p)) {
             continue;

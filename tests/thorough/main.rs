@@ -37,6 +37,7 @@ mod recipes;
 mod reports;
 mod resume;
 mod round_trip;
+mod scenes;
 mod see;
 mod sight;
 mod tangled;

@@ -99,13 +99,17 @@ pub(in crate::cli) struct DrawOptions {
     pub picture: PictureOptions,
     #[command(flatten)]
     pub placing: PlacingOptions,
-    /// The file to write, its format by extension: .svg, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout. With
-    /// `{layer}` in the name, one file per layer.
+    /// The file to write, its format by extension: .svg, .svgz, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout.
+    /// With `{layer}` in the name, one file per layer.
     #[arg(long, short, value_name = "FILE")]
     pub output: String,
     /// The format, whatever the extension.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
+    /// An SVG to be placed in a page: the box of its ink without the sheet, one path per layer, black as the colour of the text
+    /// around it, a title and transparent ground.
+    #[arg(long, conflicts_with = "profile")]
+    pub embed: bool,
     /// Nib width (0.01 to 20 mm), for plotter output and for lines without a width of their own.
     #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
     pub pen: f64,

@@ -4,6 +4,7 @@ mod choices;
 mod draw;
 mod files;
 mod placing;
+mod sheet;
 mod toolpaths;
 mod values;
 
@@ -11,6 +12,7 @@ pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
 pub(super) use placing::*;
+pub(super) use sheet::*;
 pub(super) use toolpaths::*;
 pub(super) use values::{CropNumber, CropPart, NIBS};
 
@@ -71,6 +73,8 @@ pub(super) enum Command {
     #[command(mut_arg("photo", |arg| arg.help("The drawing; its photograph and masks lie beside it or in this folder").value_name("DRAWING")),
         mut_arg("output", |arg| arg.help("The file to write [default: DRAWING-redone beside it]").required(false)))]
     Redo(DrawOptions),
+    /// Put several scenes and SVGs on one sheet, for print or a machine; the layers of each pen are merged and ordered as one.
+    Sheet(SheetOptions),
     /// List the presets, or print one as TOML. Your own are TOML files in drypoint/presets in the folder of configurations.
     Presets(ListOptions),
     /// Print the JSON schema of scenes and presets, from which editors complete.

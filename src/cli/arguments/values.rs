@@ -97,6 +97,13 @@ pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
     Ok((within(&x)?, within(y)?))
 }
 
+/// Cells of a sheet, side by side and above one another.
+pub(super) fn cells(text: &str) -> Result<(usize, usize), String> {
+    let count = |text: &str| text.trim().parse().ok().filter(|count| (1..=100).contains(count));
+    let cells = text.split_once('x').and_then(|(columns, rows)| Some((count(columns)?, count(rows)?)));
+    cells.ok_or_else(|| "write it as COLUMNSxROWS, such as 3x2, each from 1 to 100".to_owned())
+}
+
 pub(super) fn number_above_zero(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),

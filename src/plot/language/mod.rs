@@ -60,7 +60,7 @@ impl Language {
         match self {
             Self::Hpgl => &["hpgl", "plt"],
             Self::Gcode => &["gcode", "nc", "ngc"],
-            Self::Svg => &["svg"],
+            Self::Svg => &["svg", "svgz"],
         }
     }
 

@@ -6,7 +6,7 @@ use super::regions::Regions;
 use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::field::{Curve, EdgeParameters, contours, detect_edges, distance_to_curves, lines_of};
-use crate::geometry::{Point, Vec2, polyline_length, smooth_polyline};
+use crate::geometry::{Point, Ring, Vec2, polyline_length, smooth_polyline};
 use crate::raster::{Raster, Thresholds, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
@@ -126,7 +126,7 @@ impl Drawer<'_> {
             .filter(|line| line.length() >= least)
             .flat_map(|line| open_pieces(&line, is_hidden))
             .filter(|piece| polyline_length(piece) >= least)
-            .map(|piece| Curve { points: smooth_polyline(&piece, false, smoothing, 1.5), closed: false })
+            .map(|piece| Curve { points: smooth_polyline(&piece, Ring::Open, smoothing, 1.5), closed: false })
             .collect();
         let Some(field) = distance_to_curves(&silhouette, width, height) else { return found };
         let reach = self.pixels(1.6 * self.parameters.pitch) as f32;

@@ -4,7 +4,7 @@ use super::Drawer;
 use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
-use crate::geometry::{Millimetres, smooth_polyline};
+use crate::geometry::{Millimetres, Ring, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur, ridges};
 use crate::style::Picture;
 use crate::style::random::stream;
@@ -52,7 +52,7 @@ impl Drawer<'_> {
         cover(&field, hair, &ink, covering, &mut stream(self.seed, "hair", 0))
             .iter()
             .filter_map(|line| {
-                let line = smooth_polyline(line, false, self.pixels(self.parameters.pitch), 1.5);
+                let line = smooth_polyline(line, Ring::Open, self.pixels(self.parameters.pitch), 1.5);
                 self.stroke(&line, touch, |p| 0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0))
             })
             .collect()

@@ -2,7 +2,7 @@
 
 use super::Drawer;
 use crate::drawing::{Drawing, Mark, Stroke, Width};
-use crate::geometry::{Millimetres, Point, catmull_rom, polyline_length, resample};
+use crate::geometry::{Millimetres, Point, Ring, catmull_rom, polyline_length, resample};
 
 /// Width at zero pressure as a share of that at full pressure: a stick never draws a hairline.
 const LIGHTEST: f64 = 0.3;
@@ -40,7 +40,7 @@ impl Drawer<'_> {
             .collect();
         let page: Vec<Point> = nodes.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
         let widths = pressure.iter().map(|p| touch.width.0 * (LIGHTEST + (1.0 - LIGHTEST) * p)).collect();
-        let mut stroke = Stroke::new(catmull_rom(&page, false), Width::Along(widths));
+        let mut stroke = Stroke::new(catmull_rom(&page, Ring::Open), Width::Along(widths));
         stroke.pressure = Some(pressure);
         Some(Mark::Stroke(stroke))
     }

@@ -2,7 +2,7 @@
 
 use crate::drawing::{Stroke, Width};
 use crate::field::Ribbon;
-use crate::geometry::{Point, catmull_rom};
+use crate::geometry::{Point, Ring, catmull_rom};
 use kurbo::ParamCurve;
 
 /// Steps between two nodes when a stroke is stamped on the canvas; nodes are at most 5 pixels apart.
@@ -33,7 +33,7 @@ impl Body {
         }
         let mut fine = vec![(nodes[0], widths[0])];
         let mut stretch_of = Vec::new();
-        for (i, segment) in catmull_rom(&nodes, false).segments().enumerate() {
+        for (i, segment) in catmull_rom(&nodes, Ring::Open).segments().enumerate() {
             for step in 1..=STEPS {
                 let t = step as f64 / STEPS as f64;
                 fine.push((segment.eval(t), widths[i] + (widths[i + 1] - widths[i]) * t));
@@ -67,6 +67,6 @@ impl Body {
     pub(super) fn stroke(&self, first: usize, last: usize, scale: f64, to_page: impl Fn(Point) -> Point) -> Stroke {
         let nodes: Vec<Point> = self.nodes[first..=last].iter().map(|p| to_page(*p)).collect();
         let widths = self.widths[first..=last].iter().map(|w| w * scale).collect();
-        Stroke::new(catmull_rom(&nodes, false), Width::Along(widths))
+        Stroke::new(catmull_rom(&nodes, Ring::Open), Width::Along(widths))
     }
 }

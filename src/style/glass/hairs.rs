@@ -3,7 +3,7 @@
 use super::{Drawer, Ground, colour, noise};
 use crate::drawing::{Layer, Mark, Mixing, Stroke, Width};
 use crate::field::line_integral_convolution;
-use crate::geometry::{Point, catmull_rom, resample};
+use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::raster::{Raster, equalised};
 use crate::style::random;
 use rand::RngExt;
@@ -73,7 +73,7 @@ impl Hairs<'_> {
         let shift =
             self.drawer.parameters.contrast * (self.below.sample(middle.x, middle.y) + self.drawer.parameters.hairs * value);
         let width = self.width * self.drawer.portrait.placement.mm_per_pixel();
-        let mut stroke = Stroke::new(catmull_rom(&page, false), Width::Constant(width));
+        let mut stroke = Stroke::new(catmull_rom(&page, Ring::Open), Width::Constant(width));
         stroke.colour = Some(colour::shifted([rgb[0], rgb[1], rgb[2]], shift));
         stroke.group = Some(1);
         Some(Mark::Stroke(stroke))

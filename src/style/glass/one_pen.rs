@@ -6,7 +6,7 @@ mod coverage;
 
 use super::{Drawer, Ground};
 use crate::drawing::{Layer, Mark, Stroke, Width};
-use crate::geometry::{Point, catmull_rom, resample};
+use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::style::{Picture, StyleError};
 use arcs::{Arcs, Wanted};
 use coverage::Calibration;
@@ -44,7 +44,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
 /// An arc as a line of constant width; pressure fades at its ends, for machines with pressure.
 fn mark(drawer: &Drawer<'_>, line: &[Point]) -> Mark {
     let nodes: Vec<Point> = resample(line, NODE_SPACING).into_iter().map(|p| drawer.portrait.placement.to_page(p)).collect();
-    let mut stroke = Stroke::new(catmull_rom(&nodes, false), Width::Constant(drawer.parameters.line.0));
+    let mut stroke = Stroke::new(catmull_rom(&nodes, Ring::Open), Width::Constant(drawer.parameters.line.0));
     let last = (nodes.len() - 1) as f64;
     let taper = (0.5 * drawer.parameters.taper).max(1e-6);
     let pressure = |i: usize| (0.25 + 0.75 * (i as f64).min(last - i as f64) / last / taper).min(1.0);

@@ -2,7 +2,7 @@
 
 use super::{Drawer, Ground, colour};
 use crate::drawing::{Mark, Stroke, Width};
-use crate::geometry::{Ends, Point, catmull_rom};
+use crate::geometry::{Ends, Point, Ring, catmull_rom};
 use rayon::prelude::*;
 
 /// Width of a stroke in grains.
@@ -66,7 +66,7 @@ fn mark(drawer: &Drawer<'_>, ground: &Ground, run: &Run, top: usize, bottom: usi
     let middle = 0.5 * (top + bottom) as f64;
     let ends = [run.first as f64 - OVERLAP, run.last as f64 + OVERLAP].map(|x| drawer.to_page(ground, Point::new(x, middle)));
     let width = ((bottom - top) as f64 + 2.0 * OVERLAP) * drawer.portrait.placement.mm_per_pixel();
-    let mut stroke = Stroke::new(catmull_rom(&ends, false), Width::Constant(width));
+    let mut stroke = Stroke::new(catmull_rom(&ends, Ring::Open), Width::Constant(width));
     stroke.ends = Ends::Flat;
     stroke.colour = Some(colour::shifted(run.colour(), 0.0));
     stroke.group = Some(0);

@@ -6,7 +6,7 @@ use super::mixing::Mixing;
 use super::structure::StructureGrid;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::Curve;
-use crate::geometry::{Point, catmull_rom, resample};
+use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::raster::Raster;
 use rayon::prelude::*;
 
@@ -81,16 +81,10 @@ fn width(grid: &StructureGrid, mixing: &Mixing, p: Point, ink: &Raster<f32>) -> 
     share * mixing.full_width(tone, [0, 1].map(|family| grid.density_at(family, p)))
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Ring {
-    Open,
-    Closed,
-}
-
 fn stroke(drawer: &Drawer<'_>, nodes: &[Point], widths: Vec<f64>, ring: Ring) -> Mark {
     let placement = &drawer.portrait.placement;
     let page: Vec<Point> = nodes.iter().map(|p| placement.to_page(*p)).collect();
     let scale = placement.mm_per_pixel();
     let widths = widths.into_iter().map(|w| w * scale).collect();
-    Mark::Stroke(Stroke::new(catmull_rom(&page, ring == Ring::Closed), Width::Along(widths)))
+    Mark::Stroke(Stroke::new(catmull_rom(&page, ring), Width::Along(widths)))
 }

@@ -6,7 +6,7 @@
 use super::Drawer;
 use super::cells::Cell;
 use super::structure::StructureGrid;
-use crate::geometry::{Affine, BezPath, Point, Vec2, catmull_rom};
+use crate::geometry::{Affine, BezPath, Point, Ring, Vec2, catmull_rom};
 use kurbo::Shape;
 use std::f64::consts::{PI, TAU};
 
@@ -25,7 +25,7 @@ pub(super) fn grid_shape(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell,
         .collect();
     let placement = &drawer.portrait.placement;
     let page: Vec<Point> = nodes.iter().map(|p| placement.to_page(*p)).collect();
-    let outline = catmull_rom(&page, true);
+    let outline = catmull_rom(&page, Ring::Closed);
     let wanted = PI * (radius * placement.mm_per_pixel()).powi(2);
     let centre = placement.to_page(cell.centre).to_vec2();
     let scale = (wanted / outline.area().abs().max(1e-12)).sqrt();

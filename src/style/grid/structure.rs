@@ -201,7 +201,7 @@ impl Drawer<'_> {
         stripe_lines(family)
             .into_iter()
             .map(|line| Curve {
-                points: smooth_polyline(&line.points, line.closed, 0.4 * pitch, 0.25 * pitch),
+                points: smooth_polyline(&line.points, line.closed.into(), 0.4 * pitch, 0.25 * pitch),
                 closed: line.closed,
             })
             .filter(|line| line.points.len() > 1)

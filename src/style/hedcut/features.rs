@@ -104,7 +104,7 @@ impl Drawer<'_> {
         let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
             .into_iter()
             .filter(|line| line.length() >= least)
-            .map(|line| Curve { points: smooth_polyline(&line.points, line.closed, smoothing, 1.5), closed: line.closed })
+            .map(|line| Curve { points: smooth_polyline(&line.points, line.closed.into(), smoothing, 1.5), closed: line.closed })
             .filter(|line| line.points.len() > 1)
             .collect();
         let Some(field) = distance_to_curves(&silhouette, width, height) else { return edges };

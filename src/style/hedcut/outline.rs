@@ -86,7 +86,7 @@ fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
         return None;
     }
     let page: Vec<_> = nodes.iter().map(|p| drawer.portrait.placement.to_page(*p)).collect();
-    let curve = catmull_rom(&page, edge.closed);
+    let curve = catmull_rom(&page, edge.closed.into());
     let widest = drawer.parameters.outline_width.0;
     let count = nodes.len() + usize::from(edge.closed);
     let widths = (0..count).map(|i| widest * if edge.closed { 1.0 } else { swell(i as f64 / (count - 1) as f64) }).collect();

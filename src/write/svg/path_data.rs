@@ -48,7 +48,9 @@ impl PathData<'_> {
         for p in points {
             end = (thousandths(p.x), thousandths(p.y));
             for value in [end.0 - self.at.0, end.1 - self.at.1] {
-                if !separated && value >= 0 {
+                // A sign or a second point separates too.
+                let has_point = value.abs() < 1000 && value != 0;
+                if !separated && value >= 0 && !(has_point && ends_in_fraction(self.text)) {
                     self.text.push(' ');
                 }
                 decimal(self.text, value, 3);
@@ -62,5 +64,24 @@ impl PathData<'_> {
         self.text.push('z');
         self.at = self.start;
         self.last = 'z';
+    }
+}
+
+/// True if the last number written has a decimal point.
+fn ends_in_fraction(text: &str) -> bool {
+    text.bytes().rev().find(|b| !b.is_ascii_digit()) == Some(b'.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_separated_only_where_they_must_be() {
+        let path = BezPath::from_svg("M1,2 C1.25,2.5 1.5,2 2.75,3.125 L2.75,4 L3.25,4.5 Z").unwrap();
+        let mut text = String::new();
+        path_data(&mut text, &path);
+        assert_eq!(text, "M1 2c.25.5.5 0 1.75 1.125l0 .875.5.5z");
+        assert_eq!(BezPath::from_svg(&text).unwrap().elements().len(), path.elements().len());
     }
 }

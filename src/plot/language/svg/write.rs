@@ -3,7 +3,7 @@
 use super::{Orders, SvgDialect};
 use crate::geometry::BezPath;
 use crate::plot::{PenPaths, Plot};
-use crate::write::{SvgHead, decimal, document, finish, layer_group, lines_group, path_data, thousandths};
+use crate::write::{Names, SvgHead, decimal, document, finish, layer_group, lines_group, path_data, thousandths};
 use std::fmt::Write as _;
 use std::io;
 use svg::Node;
@@ -42,9 +42,11 @@ fn write_toolpaths(
     out: &mut dyn io::Write,
     label: impl Fn(usize, &PenPaths) -> String,
 ) -> io::Result<()> {
-    let mut document = document(&plot.page, head, machine);
+    let places = plot.pens.iter().filter_map(|pen| pen.paths.first().map(|path| path.points[0]));
+    let names = Names::new(head, places.flat_map(|p| [p.x, p.y]));
+    let mut document = document(&plot.page, head, machine, &names);
     for (i, pen) in plot.pens.iter().enumerate() {
-        let name = format!("layer{}", i + 1);
+        let name = names.of_layer(i);
         let mut group = layer_group(&name, &label(i, pen), pen.colour);
         let mut lines = String::new();
         for path in &pen.paths {
