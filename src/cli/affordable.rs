@@ -1,9 +1,10 @@
 //! Limits on memory and line length, checked before the work begins.
 
+use super::arguments::{PictureOptions, PlacingOptions};
 use super::failure::Failure;
 use super::task::Task;
 use super::toolpaths::duration;
-use crate::drawing::{Drawing, Layer, Mixing};
+use crate::drawing::{Drawing, Layer, Mixing, Page};
 use crate::geometry::Rect;
 use crate::plot::{InkModel, Nibs};
 
@@ -14,8 +15,19 @@ const MOST_LINE: f64 = 20e6;
 /// Bisection steps in the search for a pitch or size that fits.
 const HALVINGS: usize = 30;
 
+/// The task of a command line, if it does not take too much memory.
+pub(super) fn task<'a>(
+    options: &'a PictureOptions,
+    placing: &PlacingOptions,
+    reach: impl Fn(&Page) -> Option<Rect>,
+) -> Result<Task<'a>, Failure> {
+    let task = Task::placed(options, placing, reach)?;
+    check(&task)?;
+    Ok(task)
+}
+
 /// Refuses a drawing that would take too much memory; the message names a pitch and a size that fit.
-pub(super) fn check(task: &Task<'_>) -> Result<(), Failure> {
+fn check(task: &Task<'_>) -> Result<(), Failure> {
     let cost = task.cost(&task.manner.settings, task.layout.picture);
     if cost.bytes <= MOST_BYTES {
         return Ok(());

@@ -2,7 +2,6 @@
 //! do not exist yet are compared by path.
 
 use super::failure::Failure;
-use super::output::follow_links;
 use std::fs::{self, Metadata};
 #[cfg(unix)]
 use std::os::unix::fs::MetadataExt;
@@ -86,4 +85,19 @@ pub(super) fn check_distinct<'a>(outputs: impl IntoIterator<Item = &'a str>) -> 
         claimed.push((output, identity));
     }
     Ok(())
+}
+
+/// The target of a chain of symbolic links, existing or not: writing replaces the target and keeps the links.
+pub(super) fn follow_links(path: &Path) -> PathBuf {
+    let mut path = path.to_path_buf();
+    for _ in 0..40 {
+        let Ok(target) = fs::read_link(&path) else { break };
+        let next = path.parent().unwrap_or(Path::new("")).join(target);
+        // The link of an open pipe or socket (`/dev/stdout`) does not lead to a file; open the link itself.
+        if fs::metadata(&path).is_ok() && fs::symlink_metadata(&next).is_err() {
+            break;
+        }
+        path = next;
+    }
+    path
 }

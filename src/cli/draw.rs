@@ -7,10 +7,11 @@ use super::draw_report::report;
 use super::dry_run;
 use super::failure::Failure;
 use super::formats;
+use super::inking::{drawing_of, press, uncovered};
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
 use super::layer_files::{LayerFile, split_by_layer};
-use super::layout;
+use super::layout::{self, reach_of};
 use super::long_waits;
 use super::max_time;
 use super::messages::say;
@@ -19,12 +20,10 @@ use super::pens::PenSet;
 use super::progress::Watcher;
 use super::recipe::head;
 use super::scene;
-use super::task::Task;
+use super::threads::limit_threads;
 use super::toolpaths;
-use crate::drawing::{Drawing, Layer, Mixing, Page, Painted};
-use crate::geometry::Rect;
-use crate::plot::{Hides, InkModel, Job, Profile, mount, occluded};
-use crate::press::{Press, PrintFormat, PrintJob};
+use crate::plot::{InkModel, Job, Profile};
+use crate::press::{PrintFormat, PrintJob};
 use crate::style::Observer;
 use crate::write::SvgHead;
 use std::borrow::Cow;
@@ -38,21 +37,10 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
 }
 
 fn draw(options: &DrawOptions) -> Result<(), Failure> {
-    let format = formats::format_of(&options.output, options.format)?;
-    if options.reporting.json && options.output == "-" {
-        return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
-    }
-    let mut profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
-    formats::check_language(format, profile.as_ref())?;
-    if options.embed && format != Format::Svg {
-        return Err(Failure::Usage("--embed is for SVG; write .svg or .svgz".to_owned()));
-    }
+    let (format, mut profile) = format_and_machine(options)?;
     press(options)?;
-    if profile.is_none() {
-        toolpaths::check_machine_options(&options.toolpaths)?;
-    }
     let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
-    let task = Task::placed(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
+    let task = affordable::task(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let notice = layout::empty_box_notice(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
     let tell = || notice.iter().for_each(|notice| say!("drypoint: {notice}"));
@@ -93,40 +81,21 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     report(options, &drawing, &pens, (&files, &jobs), &seconds, watcher.elapsed())
 }
 
-/// A function that gives the part of a page that the machine reaches.
-pub(super) fn reach_of(profile: Option<&Profile>) -> impl Fn(&Page) -> Option<Rect> {
-    move |page| Some(mount(profile?, page).ok()?.reach_on_page())
-}
-
-/// The selected layers, each with its ink and its pen, and the painting order of their marks.
-pub(super) fn drawing_of(
-    task: &Task<'_>,
-    options: &DrawOptions,
-    profile: Option<&Profile>,
-    pens: &mut PenSet,
-    observer: &dyn Observer,
-) -> Result<(Drawing, Vec<Painted>), Failure> {
-    let mut drawing = inked(task.draw(observer)?, task, options, observer)?;
-    let painting = pens.assign(&mut drawing, profile)?;
-    Ok((drawing, painting))
-}
-
-/// The selected layers, each with its ink, compensated for the press.
-pub(super) fn inked(
-    mut drawing: Drawing,
-    task: &Task<'_>,
-    options: &DrawOptions,
-    observer: &dyn Observer,
-) -> Result<Drawing, Failure> {
-    for layer in &mut drawing.layers {
-        layer.ink = task.own_ink(layer).unwrap_or(&options.ink).clone();
+/// The format of the output and the machine that reads it, where they go together.
+fn format_and_machine(options: &DrawOptions) -> Result<(Format, Option<Profile>), Failure> {
+    let format = formats::format_of(&options.output, options.format)?;
+    if options.reporting.json && options.output == "-" {
+        return Err(Failure::Usage("--json and -o - would both write to stdout".to_owned()));
     }
-    drawing.layers = chosen(drawing.layers, &options.layers)?;
-    if let Some(press) = press(options)? {
-        observer.begin("press");
-        drawing = press.compensated_until(&drawing, interrupt())?;
+    let profile = options.profile.as_deref().map(|name| toolpaths::profile(name, &options.toolpaths)).transpose()?;
+    formats::check_language(format, profile.as_ref())?;
+    if options.embed && format != Format::Svg {
+        return Err(Failure::Usage("--embed is for SVG; write .svg or .svgz".to_owned()));
     }
-    Ok(drawing)
+    if profile.is_none() {
+        toolpaths::check_machine_options(&options.toolpaths)?;
+    }
+    Ok((format, profile))
 }
 
 /// Writes one file; returns the job if the file is for a machine.
@@ -152,45 +121,4 @@ fn write_one<'a>(
     toolpaths::write(name, format, &job, head)?;
     toolpaths::write_preview_of(&job, &options.toolpaths, Some(&file.layer))?;
     Ok(Some(job))
-}
-
-/// The drawing without the parts of opaque paint that other paint covers.
-pub(super) fn uncovered<'a>(drawing: &'a Drawing, painting: &[Painted]) -> Result<Cow<'a, Drawing>, Failure> {
-    if drawing.layers.iter().any(|layer| layer.mixing == Mixing::Paint) {
-        Ok(Cow::Owned(occluded(drawing, painting, Hides::PaintOnOtherColours, interrupt())?))
-    } else {
-        Ok(Cow::Borrowed(drawing))
-    }
-}
-
-/// The press to compensate for; `None` if no compensation is requested.
-fn press(options: &DrawOptions) -> Result<Option<Press>, Failure> {
-    if options.dot_gain == 0.0 && options.min_mark == 0.0 {
-        return Ok(None);
-    }
-    if options.profile.is_some() {
-        return Err(Failure::Usage("--dot-gain and --min-mark are for print; a plotter's nib is set with --pen".to_owned()));
-    }
-    Ok(Some(Press::new(options.dot_gain, options.dot_gain_screen, options.min_mark)))
-}
-
-pub(super) fn limit_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(usize::from(threads))
-        .build_global()
-        .map_err(|error| Failure::Work(format!("cannot start {threads} threads: {error}")))
-}
-
-/// The selected layers, in the drawing's order.
-fn chosen(layers: Vec<Layer>, wanted: &[String]) -> Result<Vec<Layer>, Failure> {
-    if wanted.is_empty() {
-        return Ok(layers);
-    }
-    let matches = |layer: &Layer, name: &String| layer.name == *name || layer.pen.to_string() == *name;
-    if let Some(missing) = wanted.iter().find(|name| !layers.iter().any(|layer| matches(layer, name))) {
-        let names: Vec<&str> = layers.iter().map(|l| l.name.as_str()).collect();
-        return Err(Failure::Usage(format!("there is no layer '{missing}'; there are {}", names.join(", "))));
-    }
-    Ok(layers.into_iter().filter(|layer| wanted.iter().any(|name| matches(layer, name))).collect())
 }

@@ -11,8 +11,8 @@
 
 use super::amounts::{Amounts, PlotAmounts};
 use super::arguments::{DrawOptions, Order, ToolpathOptions};
-use super::draw::{inked, uncovered};
 use super::failure::Failure;
+use super::inking::{inked, uncovered};
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
 use super::pens::PenSet;

@@ -3,18 +3,13 @@
 
 use super::arguments::{Background, PictureOptions, Tone};
 use super::failure::Failure;
-use super::interruption::interrupt;
-use super::sight_folder;
-use super::task::{RoleMask, photograph};
+use super::masks::{RoleMask, photograph};
+use super::seen::{Depth, Seen};
 use super::words::counted;
-use crate::see::{SeeError, Sight, can_see, look};
 use crate::source::{Landmarks, MaskRole, Photograph, ToneTarget};
 use crate::style::Style;
 use crate::tone;
 use std::sync::Arc;
-
-/// Value of `--sight` that turns detection off.
-const NOTHING: &str = "none";
 
 /// The inputs of a drawing other than the photograph.
 pub(super) struct Known {
@@ -30,14 +25,6 @@ pub(super) struct Known {
     pub notices: Vec<String>,
 }
 
-/// A depth map of the photograph.
-#[derive(Clone)]
-pub(super) struct Depth {
-    /// Its file; `None` if it was found in the photograph.
-    pub file: Option<String>,
-    pub map: Arc<Photograph>,
-}
-
 /// The tone that the ink reproduces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wanted {
@@ -45,41 +32,6 @@ pub(super) enum Wanted {
     Own(ToneTarget),
     /// The portrait tone, with its strength from 0 to 1.
     Portrait(f64),
-}
-
-/// What was found in the photograph, or read from a `--sight` folder.
-#[derive(Clone, Default)]
-pub(super) struct Seen {
-    pub masks: Vec<RoleMask>,
-    pub faces: Vec<Landmarks>,
-    pub depth: Option<Depth>,
-    /// Why nothing was found, for messages.
-    pub lack: Option<String>,
-}
-
-impl Seen {
-    fn nothing(lack: &str) -> Self {
-        Self { lack: Some(lack.to_owned()), ..Self::default() }
-    }
-
-    /// Converts the detected sight.
-    fn found(sight: &Sight) -> Self {
-        if sight.faces.is_empty() {
-            return Self::nothing("no face found");
-        }
-        let masks = sight.masks().into_iter();
-        Self {
-            masks: masks.map(|(role, mask)| RoleMask { role, file: None, mask: Arc::new(Photograph::from_grey(mask)) }).collect(),
-            faces: sight.faces.iter().map(|face| face.landmarks.clone()).collect(),
-            depth: sight.depth.as_ref().map(|map| Depth { file: None, map: Arc::new(Photograph::from_deep_grey(map)) }),
-            lack: None,
-        }
-    }
-
-    fn take(&mut self, role: MaskRole) -> Option<RoleMask> {
-        let place = self.masks.iter().position(|mask| mask.role == role)?;
-        Some(self.masks.swap_remove(place))
-    }
 }
 
 /// True if a style or the portrait tone uses masks of a role.
@@ -119,18 +71,6 @@ pub(super) fn of(
     add_idle_mask_notices(&mut known, style);
     known.unused = seen;
     Ok(known)
-}
-
-/// Runs detection, or reads the `--sight` folder.
-pub(super) fn seen(options: &PictureOptions, photograph: &Photograph) -> Result<Seen, Failure> {
-    match options.sight.as_deref() {
-        Some(NOTHING) => Ok(Seen::nothing("--sight none")),
-        Some(folder) => sight_folder::read(folder, photograph),
-        None if !can_see() => {
-            Ok(Seen::nothing("this drypoint was built without the networks that find faces (cargo feature `see`)"))
-        }
-        None => Ok(Seen::found(&look(photograph, interrupt()).map_err(|error| failure(&options.photo, error))?)),
-    }
 }
 
 /// The portrait tone if there are faces, unless `--tone` says otherwise.
@@ -214,12 +154,4 @@ fn add_idle_mask_notices(known: &mut Known, style: &dyn Style) {
     let told = idle.map(|mask| format!("--mask {} changes nothing here: only the portrait tone uses it", mask.name()));
     let told: Vec<String> = told.collect();
     known.notices.extend(told);
-}
-
-/// The failure for a detection error.
-pub(super) fn failure(photo: &str, error: SeeError) -> Failure {
-    match error {
-        SeeError::Interrupted(stopped) => stopped.into(),
-        other => Failure::about(photo)(&other),
-    }
 }

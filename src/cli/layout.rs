@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::placing::{Turning, move_inside, requested_move};
 use crate::drawing::Page;
 use crate::geometry::{Rect, parse_drawn_size};
+use crate::plot::{Profile, mount};
 use crate::source::{Crop, fill_box};
 
 /// Named sheets, portrait, in millimetres (ISO 216; ANSI/ASME Y14.1).
@@ -193,6 +194,11 @@ pub(super) fn empty_box_notice(options: &PictureOptions, layout: &Layout) -> Opt
         let (w, h) = (picture.width(), picture.height());
         format!("the picture is {w:.1} x {h:.1} mm in its box of {width} x {height} mm; --fit cover fills the box and cuts the photograph")
     })
+}
+
+/// A function that gives the part of a page that the machine reaches.
+pub(super) fn reach_of(profile: Option<&Profile>) -> impl Fn(&Page) -> Option<Rect> {
+    move |page| Some(mount(profile?, page).ok()?.reach_on_page())
 }
 
 #[cfg(test)]

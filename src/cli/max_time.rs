@@ -1,12 +1,14 @@
 //! `draw --max-time`: the smallest pitch whose plot takes no longer, found by trial drawings.
 
 use super::advice;
+use super::affordable;
 use super::arguments::{DrawOptions, Order};
-use super::draw::{drawing_of, reach_of, uncovered};
 use super::estimate::{Care, Estimator, Plan};
 use super::failure::Failure;
+use super::inking::{drawing_of, uncovered};
 use super::interruption::{interrupt, is_interrupted};
 use super::job;
+use super::layout::reach_of;
 use super::long_waits::smaller_size;
 use super::messages::{say, warning};
 use super::pens::PenSet;
@@ -127,7 +129,7 @@ impl<'a> Trials<'a> {
         let name = options.profile.clone().unwrap_or_default();
         let mut profile: Profile = toolpaths::profile(&name, &options.toolpaths)?;
         let pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, Some(&mut profile))?;
-        let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&profile)))?;
+        let task = affordable::task(&options.picture, &options.placing, reach_of(Some(&profile)))?;
         Ok(Self { options, task, profile, pens })
     }
 
@@ -140,7 +142,7 @@ impl<'a> Trials<'a> {
         if options.toolpaths.order == Order::Full {
             options.toolpaths.order = Order::Fast;
         }
-        let task = Task::placed(&options.picture, &options.placing, reach_of(Some(&self.profile)))?;
+        let task = affordable::task(&options.picture, &options.placing, reach_of(Some(&self.profile)))?;
         let (drawing, painting) = drawing_of(&task, &options, Some(&self.profile), &mut self.pens, &Unseen)?;
         let visible = uncovered(&drawing, &painting)?;
         let plot = lower(&visible, InkModel::Ink, self.pens.nibs(), options.toolpaths.tolerance, interrupt())?;

@@ -1,13 +1,13 @@
 //! Reading inputs, and writing files atomically: an output appears whole or not at all.
 
-use super::claims;
+use super::claims::{self, follow_links};
 use super::failure::Failure;
 use super::interruption::{Temporary, is_interrupted};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Maximum size of a TOML file in bytes: about 2000 keys; a machine's profile has 50. Limited because the search for each key's line
 /// starts at the beginning of the file.
@@ -97,21 +97,6 @@ fn write_plain(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
         return Err(Failure::Interrupted);
     }
     temporary.replace(path).map_err(fail)
-}
-
-/// The target of a chain of symbolic links, existing or not: writing replaces the target and keeps the links.
-pub(super) fn follow_links(path: &Path) -> PathBuf {
-    let mut path = path.to_path_buf();
-    for _ in 0..40 {
-        let Ok(target) = fs::read_link(&path) else { break };
-        let next = path.parent().unwrap_or(Path::new("")).join(target);
-        // The link of an open pipe or socket (`/dev/stdout`) does not lead to a file; open the link itself.
-        if fs::metadata(&path).is_ok() && fs::symlink_metadata(&next).is_err() {
-            break;
-        }
-        path = next;
-    }
-    path
 }
 
 /// Seconds since 1970 from `SOURCE_DATE_EPOCH`, the only date ever written to a file.

@@ -4,10 +4,10 @@ use super::arguments::DrawOptions;
 use super::known::Wanted;
 use super::scene;
 use super::task::Task;
+use super::words::file_name;
 use crate::source::ToneTarget;
 use crate::write::SvgHead;
 use serde_json::{Value, json};
-use std::path::Path;
 
 impl Task<'_> {
     /// Everything needed to reproduce the picture.
@@ -98,11 +98,6 @@ fn role_and_name(text: &str) -> String {
 
 fn round(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
-}
-
-/// The last component of a path: recipes must not reveal folders of this machine.
-pub(super) fn file_name(name: &str) -> &str {
-    Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
 }
 
 pub(super) fn head(options: &DrawOptions, recipe: &Value) -> SvgHead {

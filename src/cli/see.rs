@@ -1,13 +1,13 @@
 //! `drypoint see`: finds faces, people and their parts in a photograph.
 
 use super::arguments::SeeOptions;
-use super::draw::limit_threads;
 use super::failure::Failure;
 use super::interruption::interrupt;
+use super::masks::photograph;
 use super::messages::{say, warning};
-use super::task::photograph;
+use super::threads::limit_threads;
 use super::words::counted;
-use super::{known, output, sight_folder};
+use super::{looking, output, sight_folder};
 use crate::see::{Sight, look};
 
 pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
@@ -19,7 +19,7 @@ pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
     for warning in &photograph.info.warnings {
         warning!("{}: {warning}", options.photo);
     }
-    let sight = look(&photograph, interrupt()).map_err(|error| known::failure(&options.photo, error))?;
+    let sight = look(&photograph, interrupt()).map_err(|error| looking::failure(&options.photo, error))?;
     if let Some(folder) = &options.output {
         sight_folder::write(folder, &sight, &photograph)?;
     }

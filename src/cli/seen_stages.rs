@@ -1,8 +1,8 @@
 //! The first stages: what was found in a photograph, or the given masks instead.
 
 use super::known::Known;
+use super::masks::RoleMask;
 use super::overlay::{Overlaid, overlay};
-use super::task::RoleMask;
 use crate::raster::Raster;
 use crate::source::grey_image;
 use crate::source::{Crop, MaskRole, Photograph, SourceError};

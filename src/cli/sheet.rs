@@ -1,17 +1,18 @@
 //! `drypoint sheet`: several scenes and drawings on one sheet.
 
 use super::arguments::{Arguments, Command, Format, SheetOptions};
-use super::draw::{inked, limit_threads, reach_of, uncovered};
 use super::failure::Failure;
 use super::formats;
+use super::inking::{inked, uncovered};
 use super::interruption::interrupt;
+use super::layout::reach_of;
 use super::messages::say;
 use super::pens::PenSet;
 use super::progress::Watcher;
-use super::recipe::file_name;
 use super::remedies::advised;
 use super::scene::{self, Refusal, Spelled};
-use super::task::Task;
+use super::threads::limit_threads;
+use super::words::file_name;
 use super::{affordable, job, layout, output, toolpaths};
 use crate::drawing::{Drawing, Page};
 use crate::geometry::Rect;
@@ -126,7 +127,7 @@ fn of_scene(file: &str, watcher: &Watcher) -> Result<Piece, Failure> {
     let Command::Draw(mut options) = parsed.command else { return Err(Failure::Work(format!("{file} is no scene"))) };
     options.spelled = matches.subcommand().map(|(_, given)| Spelled::of(given)).unwrap_or_default();
     let draw = || {
-        let task = Task::placed(&options.picture, &options.placing, reach_of(None))?;
+        let task = affordable::task(&options.picture, &options.placing, reach_of(None))?;
         let drawing = inked(task.draw(watcher)?, &task, &options, watcher)?;
         Ok(Piece { drawing, picture: task.layout.placed() })
     };

@@ -2,10 +2,10 @@
 //! an overlay.
 
 use super::failure::Failure;
-use super::known::{Depth, Seen};
+use super::masks::{RoleMask, photograph};
 use super::overlay::{Overlaid, overlay};
-use super::stages::png;
-use super::task::{RoleMask, photograph};
+use super::png::png;
+use super::seen::{Depth, Seen};
 use super::{claims, output};
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;

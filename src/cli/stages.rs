@@ -1,12 +1,13 @@
 //! `drypoint stages`: writes what was found and every intermediate result, numbered and named.
 
-use super::arguments::StagesOptions;
-use super::draw::limit_threads;
+use super::affordable;
+use super::arguments::{PlacingOptions, StagesOptions};
 use super::failure::Failure;
 use super::messages::say;
 use super::output;
+use super::png::png;
 use super::progress::Watcher;
-use super::task::Task;
+use super::threads::limit_threads;
 use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
@@ -14,14 +15,13 @@ use crate::source::MaskRole;
 use crate::source::grey_image;
 use crate::style::{Observer, Picture};
 use crate::write::{SvgHead, write_svg};
-use image::{ImageFormat, Rgb, RgbImage};
-use std::io::Cursor;
+use image::{Rgb, RgbImage};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
     limit_threads(options.picture.threads)?;
-    let task = Task::new(&options.picture, |_| None)?;
+    let task = affordable::task(&options.picture, &PlacingOptions::default(), |_| None)?;
     let folder = options.output.to_string_lossy().into_owned();
     if folder == "-" {
         return Err(Failure::Usage("stages are many files; give a folder with -o".to_owned()));
@@ -106,13 +106,6 @@ impl Observer for Recorder {
 fn svg(name: &str, drawing: &Drawing, title: &str) -> Result<(), Failure> {
     let head = SvgHead { title: title.to_owned(), ..SvgHead::default() };
     output::write(name, |mut out| write_svg(drawing, &head, &mut out))
-}
-
-/// Writes a picture as PNG.
-pub(super) fn png(name: &str, picture: &image::DynamicImage) -> Result<(), Failure> {
-    let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).map_err(|error| Failure::Work(format!("{name}: {error}")))?;
-    output::write(name, |out| out.write_all(bytes.get_ref()))
 }
 
 fn grey(raster: &Raster<f32>) -> image::DynamicImage {

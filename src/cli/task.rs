@@ -1,67 +1,32 @@
 //! Everything that decides a drawing: the photograph, what is known of it, its place on the sheet, the style and its settings.
 
-use super::affordable;
 use super::arguments::{PictureOptions, PlacingOptions};
-use super::composed::{self, Region};
 use super::crop;
-use super::draw::reach_of;
 use super::eyes;
 use super::failure::Failure;
 use super::known::{self, Known, Wanted};
-use super::layout::{Layout, lay_out};
+use super::layout::{Layout, lay_out, reach_of};
 use super::lists::{role_names, roles_of, styles_with_role};
+use super::looking;
+use super::manner::{Manner, find_style, given};
+use super::masks::{RoleMask, photograph};
 use super::messages::say;
-use super::output;
-use super::recipe::file_name;
+use super::regions::{self, Region};
 use super::remedies::advised;
 use super::seen_stages;
 use crate::drawing::{Drawing, Page};
 use crate::geometry::Rect;
 use crate::plot::{Profile, mount};
-use crate::source::{DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use crate::source::{DepthSense, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
 use crate::tone::portrait_tone;
 use image::DynamicImage;
-use serde_json::{Value, json};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Minimum number of pitches across the short side of a picture in advice: with fewer, nothing is left of a face.
 const LEAST_PITCHES: f64 = 25.0;
 /// The spacing of marks, in millimetres, that is assumed of a style without a pitch.
 pub(super) const UNKNOWN_PITCH: f64 = 1.0;
-
-/// A mask of the photograph.
-#[derive(Clone)]
-pub(super) struct RoleMask {
-    pub role: MaskRole,
-    /// Its file; `None` if it was found in the photograph.
-    pub file: Option<String>,
-    pub mask: Arc<Photograph>,
-}
-
-impl RoleMask {
-    /// The name of its role on the command line.
-    pub(super) fn name(&self) -> &'static str {
-        self.role.name()
-    }
-
-    /// Its origin, for the recipe.
-    pub(super) fn recipe(&self) -> Value {
-        match &self.file {
-            Some(file) => json!({ "file": file_name(file), "sha256": self.mask.info.sha256 }),
-            None => json!({ "found": true }),
-        }
-    }
-}
-
-/// How a picture or a region of it is drawn.
-pub(super) struct Manner {
-    pub style: &'static dyn Style,
-    pub settings: Settings,
-    pub known: Known,
-    pub seed: u64,
-}
 
 /// Everything that determines a drawing.
 pub(super) struct Task<'a> {
@@ -76,11 +41,6 @@ pub(super) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// A task with the default placing.
-    pub(super) fn new(options: &'a PictureOptions, reach: impl Fn(&Page) -> Option<Rect>) -> Result<Self, Failure> {
-        Self::placed(options, &PlacingOptions::default(), reach)
-    }
-
     pub(super) fn placed(
         options: &'a PictureOptions,
         placing: &PlacingOptions,
@@ -108,13 +68,13 @@ impl<'a> Task<'a> {
             return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
         }
         let photograph = photograph(&options.photo)?;
-        let painted = mask_files
-            .into_iter()
-            .map(|(role, file)| Ok(RoleMask { role, file: Some(file.to_owned()), mask: Arc::new(self::photograph(file)?) }));
+        let painted = mask_files.into_iter().map(|(role, file)| {
+            Ok(RoleMask { role, file: Some(file.to_owned()), mask: Arc::new(super::masks::photograph(file)?) })
+        });
         let painted: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
-        let seen = known::seen(options, &photograph)?;
+        let seen = looking::seen(options, &photograph)?;
         let mut notices = Vec::new();
-        let regions = composed::regions(options, &photograph, &seen, &painted, &mut notices)?;
+        let regions = regions::regions(options, &photograph, &seen, &painted, &mut notices)?;
         let own = painted.into_iter().filter(|mask| known::takes(style, mask.role)).collect();
         let mut known = known::of(options, style, &photograph, own, seen)?;
         known.notices.extend(notices);
@@ -126,9 +86,7 @@ impl<'a> Task<'a> {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
         let manner = Manner { style, settings, known, seed: options.seed };
-        let task = Self { options, manner, regions, photograph, layout, given };
-        affordable::check(&task)?;
-        Ok(task)
+        Ok(Self { options, manner, regions, photograph, layout, given })
     }
 
     /// True if the picture with other options, including all its ink, would lie within the machine's reach.
@@ -256,11 +214,6 @@ impl<'a> Task<'a> {
     }
 }
 
-pub(super) fn find_style(name: &str) -> Result<&'static dyn Style, Failure> {
-    let names: Vec<&str> = style::STYLES.iter().map(|s| s.name()).collect();
-    style::find(name).ok_or_else(|| Failure::Usage(format!("there is no style '{name}'; there are {}", names.join(", "))))
-}
-
 /// The role of a mask that the style, the tone or a region uses.
 fn role_of(style: &dyn Style, name: &str, options: &PictureOptions) -> Result<MaskRole, Failure> {
     let styles = options.region.iter().filter_map(|region| style::find(region.style.as_deref()?));
@@ -275,19 +228,4 @@ fn role_of(style: &dyn Style, name: &str, options: &PictureOptions) -> Result<Ma
         Failure::Usage(format!("--mask {name}: {} takes {}{others}", style.name(), role_names(style)))
     };
     roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
-}
-
-/// Parameters from --pitch, then from --set; later ones win.
-pub(super) fn given(options: &PictureOptions) -> Vec<(String, String)> {
-    let pitch = options.pitch.map(|pitch| ("pitch".to_owned(), pitch.to_string()));
-    pitch.into_iter().chain(options.set.iter().cloned()).collect()
-}
-
-pub(super) fn photograph(name: &str) -> Result<Photograph, Failure> {
-    let shown = if name == "-" { "stdin" } else { name };
-    Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
-        let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
-        let other = if is_svg { "; an SVG is plotted with `drypoint plot`" } else { "" };
-        Failure::about(shown)(&format_args!("{error}{other}"))
-    })
 }

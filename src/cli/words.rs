@@ -1,4 +1,6 @@
-//! Numbers with their nouns, and words of switches.
+//! Numbers with their nouns, words of switches, names of files.
+
+use std::path::Path;
 
 /// A count with its noun, such as `1 path`, `2 paths`, `0 touches`.
 pub(super) fn counted(count: usize, noun: &str) -> String {
@@ -13,6 +15,11 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
 /// The word of a style's switch.
 pub(super) const fn switch_word(is_on: bool) -> &'static str {
     if is_on { "on" } else { "off" }
+}
+
+/// The last component of a path: recipes must not reveal folders of this machine.
+pub(super) fn file_name(name: &str) -> &str {
+    Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 
 mod charcoal;
 mod cost;
+mod creases;
 mod declaration;
 mod drawer;
 mod engrave;

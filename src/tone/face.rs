@@ -2,6 +2,7 @@
 
 use super::blurred_within;
 use super::curve::Curve;
+use super::mixing::mixed;
 use super::openings::opened;
 use super::zones::Zones;
 use crate::geometry::Point;
@@ -218,10 +219,4 @@ fn self_guided(raster: &Raster<f32>, radius: usize, eps: f32) -> Raster<f32> {
     let slope = spread.map(|v| v / (v + eps));
     let offset = mean(&slope.zip_map(&means, |a, m| m - a * m));
     mean(&slope).zip_map(raster, |a, v| a * v).zip_map(&offset, |av, b| av + b)
-}
-
-/// Linear mix: the first where the share is 0, the second where it is 1.
-pub(super) fn mixed(first: &Raster<f32>, second: &Raster<f32>, share: &Raster<f32>) -> Raster<f32> {
-    let off = second.zip_map(first, |second, first| second - first).zip_map(share, |off, share| off * share);
-    first.zip_map(&off, |first, off| first + off)
 }

@@ -15,6 +15,7 @@
 
 mod curve;
 mod face;
+mod mixing;
 mod openings;
 mod zones;
 

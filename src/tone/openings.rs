@@ -2,7 +2,7 @@
 //! left as paper, and the gaps between teeth kept.
 
 use super::blurred_within;
-use super::face::mixed;
+use super::mixing::mixed;
 use super::zones::{Zones, polygon};
 use crate::geometry::{Point, polygon_area};
 use crate::raster::{Raster, dilate, fast_gaussian};

@@ -1,8 +1,8 @@
 //! Options of `draw` and `stages`: the photograph, its sheet and its style.
 
 use super::choices::{Background, Fit, Format, Tone};
-use super::files::Reporting;
 use super::placing::PlacingOptions;
+use super::reporting::Reporting;
 use super::toolpaths::ToolpathOptions;
 use super::values::{
     CropPart, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, nib, role_file,

@@ -1,20 +1,9 @@
-//! Reporting options, and the options of `calibrate`, `inspect`, `resume`, `styles` and `profiles`.
+//! Options of `calibrate`, `inspect`, `resume`, `styles` and `profiles`.
 
 use super::choices::Format;
 use super::toolpaths::ToolpathOptions;
 use super::values::{length_from_zero, nib, work};
 use clap::Args;
-
-/// Reporting options.
-#[derive(Args, Clone, Debug)]
-pub(in crate::cli) struct Reporting {
-    /// No progress and no summary; warnings and errors are still shown.
-    #[arg(long, short)]
-    pub quiet: bool,
-    /// Print one JSON object on stdout.
-    #[arg(long)]
-    pub json: bool,
-}
 
 /// Options of `calibrate`.
 #[derive(Args, Clone, Debug)]

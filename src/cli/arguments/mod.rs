@@ -4,6 +4,7 @@ mod choices;
 mod draw;
 mod files;
 mod placing;
+mod reporting;
 mod sheet;
 mod toolpaths;
 mod values;

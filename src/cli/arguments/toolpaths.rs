@@ -1,8 +1,8 @@
 //! Options of `plot`, and of tool paths in all commands.
 
 use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, PreviewTravel, SeamOption, StartCorner};
-use super::files::Reporting;
 use super::placing::PlacingOptions;
+use super::reporting::Reporting;
 use super::values::{
     drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, scale, seconds, tolerance, work,
 };

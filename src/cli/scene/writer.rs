@@ -22,7 +22,7 @@ pub(in crate::cli) fn run(options: &DrawOptions) -> Result<(), Failure> {
     if photo == "-" {
         return Err(Failure::Usage("a scene names its photograph; give it as a file, not as -".to_owned()));
     }
-    super::super::task::photograph(photo)?;
+    super::super::masks::photograph(photo)?;
     let scene = Scene { options, folder: folder_of(&options.output) };
     output::write(&options.output, |out| out.write_all(scene.full().as_bytes()))?;
     if !options.reporting.quiet && options.output != "-" {

@@ -1,6 +1,5 @@
 //! Nodes with waves and phases, and the transport of phase between nodes.
 
-use super::lines::CellPhases;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use std::f64::consts::{PI, TAU};
@@ -65,15 +64,6 @@ impl StripeLattice {
     /// Where a node of such a lattice lies, in pixels.
     pub fn bare_position(i: usize, j: usize, step: f64) -> Point {
         Point::new((i as f64 + 0.5 - MARGIN) * step, (j as f64 + 0.5 - MARGIN) * step)
-    }
-
-    /// The phase at a place in pixels, in radians, bilinear within its cell; of one sign in each cell only.
-    pub fn phase_at(&self, p: Point) -> f64 {
-        let x = (p.x + self.margin) / self.step - 0.5;
-        let y = (p.y + self.margin) / self.step - 0.5;
-        let i = (x.max(0.0) as usize).min(self.phase.width().saturating_sub(2));
-        let j = (y.max(0.0) as usize).min(self.phase.height().saturating_sub(2));
-        CellPhases::new(self, i, j).at(x - i as f64, y - j as f64).0
     }
 
     /// Actual density of the stripes at each node, in cycles per pixel.

@@ -79,6 +79,17 @@ impl CellPhases {
     }
 }
 
+impl StripeLattice {
+    /// The phase at a place in pixels, in radians, bilinear within its cell; of one sign in each cell only.
+    pub fn phase_at(&self, p: Point) -> f64 {
+        let x = (p.x + self.margin) / self.step - 0.5;
+        let y = (p.y + self.margin) / self.step - 0.5;
+        let i = (x.max(0.0) as usize).min(self.phase.width().saturating_sub(2));
+        let j = (y.max(0.0) as usize).min(self.phase.height().saturating_sub(2));
+        CellPhases::new(self, i, j).at(x - i as f64, y - j as f64).0
+    }
+}
+
 /// A crossing on a side of the lattice: the side's first node, whether it runs down (or right), and the crossing's index on it.
 type Key = (u32, u32, bool, u8);
 

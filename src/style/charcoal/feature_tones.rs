@@ -2,7 +2,7 @@
 //! each drawn finely, as dark against its skin as in the photograph.
 
 use super::Drawer;
-use super::shading::{Patch, Pressing};
+use super::patch::{Patch, Pressing};
 use crate::drawing::Mark;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, histogram_modes};
 use crate::geometry::{Millimetres, Point};

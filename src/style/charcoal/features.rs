@@ -2,8 +2,8 @@
 
 use super::Drawer;
 use super::feature_tones::FeatureTones;
+use super::patch::{Patch, Pressing};
 use super::regions::Regions;
-use super::shading::{Patch, Pressing};
 use crate::drawing::Mark;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, SkinTone, facial_features};
 use crate::geometry::{Millimetres, Point};

@@ -11,6 +11,7 @@ mod feature_tones;
 mod features;
 mod hair;
 mod parameters;
+mod patch;
 mod regions;
 mod seen_face;
 mod shading;

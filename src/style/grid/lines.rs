@@ -3,6 +3,7 @@
 use super::Drawer;
 use super::features::Features;
 use crate::drawing::Layer;
+use crate::style::creases::Creases;
 use crate::style::feature_line::feature_stroke;
 
 /// Maximum length of a line's taper, in pitches.
@@ -12,6 +13,8 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
     drawer.observer.begin("feature lines");
     let (placement, taper) = (&drawer.portrait.placement, LONGEST_TAPER * drawer.pitch());
     let mut layer = Layer::new("lines", 1);
-    layer.marks = features.lines.iter().filter_map(|line| feature_stroke(line, placement, taper)).collect();
+    let creases = Creases::of(drawer.portrait);
+    let drawn = features.lines.iter().filter(|line| !creases.have(&line.curve));
+    layer.marks = drawn.filter_map(|line| feature_stroke(line, placement, taper)).collect();
     layer
 }

@@ -6,19 +6,12 @@ use super::features::Features;
 use super::parts::Parts;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::{CoherentLine, Curve};
-use crate::geometry::{Point, Region, Vec2, catmull_rom, resample};
-use crate::source::{Landmarks, MaskRole, outlines};
+use crate::geometry::{catmull_rom, resample};
+use crate::style::creases::{Creases, share};
 use crate::style::feature_line::feature_stroke;
 
 /// Distance of an outline's nodes in pitches: far enough for long smooth arcs, near enough for the corner of an eye.
 const NODE_SPACING: f64 = 1.2;
-
-/// The middle of a face, as a share of its outline's size; a line is a crease if more than the second share of it lies there and less
-/// than the third in eyes, brows, nose and mouth or so near an iris, in distances of the eyes, as the rims of spectacles.
-const FACE_MIDDLE: f64 = 0.9;
-const MOSTLY: f64 = 0.85;
-const MOST_IN_FEATURES: f64 = 0.2;
-const SPECTACLES: f64 = 0.55;
 
 /// Maximum length of a coherent line's taper, in pitches.
 const LONGEST_TAPER: f64 = 4.0;
@@ -27,8 +20,8 @@ const LONGEST_TAPER: f64 = 4.0;
 pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> Layer {
     let least = drawer.pixels(drawer.parameters.outline_length);
     let mut layer = Layer::new("outline", 1);
-    let faces: Vec<Region> = drawer.portrait.faces.iter().map(middle_of).collect();
-    let is_outline = |curve: &Curve| curve.length() >= least && !is_hair(curve, parts) && !is_crease(drawer, &faces, curve);
+    let creases = Creases::of(drawer.portrait);
+    let is_outline = |curve: &Curve| curve.length() >= least && !is_hair(curve, parts) && !creases.have(curve);
     if !features.drawn.is_empty() {
         let widest = drawer.pixels(drawer.parameters.outline_width);
         let taper = LONGEST_TAPER * drawer.pitch();
@@ -43,33 +36,9 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
     layer
 }
 
-/// The inside of a face, without its border.
-fn middle_of(face: &Landmarks) -> Region {
-    let oval = face.line(&outlines::OVAL);
-    let centre = (oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / oval.len() as f64).to_point();
-    Region::of_polygons(vec![oval.iter().map(|p| centre.lerp(*p, FACE_MIDDLE)).collect()])
-}
-
-/// True for a line on bare skin inside a face, away from its features: drawn as a line, a fold of the skin looks like a scar or a wire.
-/// Its dots still run along it.
-fn is_crease(drawer: &Drawer<'_>, faces: &[Region], line: &Curve) -> bool {
-    let Some(detail) = drawer.portrait.masks.get(&MaskRole::Detail) else { return false };
-    let is_at_eyes = |p: Point| {
-        let reach = |face: &Landmarks| SPECTACLES * face.eye_distance();
-        drawer.portrait.faces.iter().any(|face| face.irises.iter().any(|iris| iris.centre.distance(p) < reach(face)))
-    };
-    share(line, |p| faces.iter().any(|face| face.contains(p))) > MOSTLY
-        && share(line, |p| detail.sample(p.x, p.y) >= 0.5 || is_at_eyes(p)) < MOST_IN_FEATURES
-}
-
 /// True if most of a line runs inside hair.
 fn is_hair(line: &Curve, parts: &Parts) -> bool {
     share(line, |p| parts.hair_at(p) >= 0.5) > 0.5
-}
-
-/// The share of a line's points for which something holds.
-fn share(line: &Curve, holds: impl Fn(Point) -> bool) -> f64 {
-    line.points.iter().filter(|p| holds(**p)).count() as f64 / line.points.len() as f64
 }
 
 fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {

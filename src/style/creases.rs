@@ -1,0 +1,48 @@
+//! Folds of the skin: lines that steer marks and are not drawn as lines, which would look like scars or wires.
+
+use crate::field::Curve;
+use crate::geometry::{Point, Region, Vec2};
+use crate::source::{Landmarks, MaskRole, Portrait, outlines};
+
+/// The middle of a face, as a share of its outline's size; a line is a crease if more than the second share of it lies there and less
+/// than the third in eyes, brows, nose and mouth or so near an iris, in distances of the eyes, as the rims of spectacles.
+const FACE_MIDDLE: f64 = 0.9;
+const MOSTLY: f64 = 0.85;
+const MOST_IN_FEATURES: f64 = 0.2;
+const SPECTACLES: f64 = 0.55;
+
+/// The faces in which lines may be folds.
+pub(super) struct Creases<'a> {
+    portrait: &'a Portrait,
+    /// The insides of the faces, without their borders.
+    faces: Vec<Region>,
+}
+
+impl<'a> Creases<'a> {
+    /// Of the faces that were found.
+    pub(super) fn of(portrait: &'a Portrait) -> Self {
+        Self { portrait, faces: portrait.faces.iter().map(middle_of).collect() }
+    }
+
+    /// True for a line, in working pixels, on bare skin inside a face, away from its features. None without a mask of these.
+    pub(super) fn have(&self, line: &Curve) -> bool {
+        let Some(detail) = self.portrait.masks.get(&MaskRole::Detail) else { return false };
+        let is_at_eyes = |p: Point| {
+            let reach = |face: &Landmarks| SPECTACLES * face.eye_distance();
+            self.portrait.faces.iter().any(|face| face.irises.iter().any(|iris| iris.centre.distance(p) < reach(face)))
+        };
+        share(line, |p| self.faces.iter().any(|face| face.contains(p))) > MOSTLY
+            && share(line, |p| detail.sample(p.x, p.y) >= 0.5 || is_at_eyes(p)) < MOST_IN_FEATURES
+    }
+}
+
+fn middle_of(face: &Landmarks) -> Region {
+    let oval = face.line(&outlines::OVAL);
+    let centre = (oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / oval.len() as f64).to_point();
+    Region::of_polygons(vec![oval.iter().map(|p| centre.lerp(*p, FACE_MIDDLE)).collect()])
+}
+
+/// The share of a line's points for which something holds.
+pub(super) fn share(line: &Curve, holds: impl Fn(Point) -> bool) -> f64 {
+    line.points.iter().filter(|p| holds(**p)).count() as f64 / line.points.len() as f64
+}
