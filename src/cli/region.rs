@@ -64,8 +64,8 @@ impl RegionOption {
         let Some(meaning) = meaning else {
             let known: Vec<&str> = KEYS.iter().map(|(known, _)| *known).collect();
             let near = known.iter().max_by(|a, b| strsim::jaro_winkler(key, a).total_cmp(&strsim::jaro_winkler(key, b)));
-            let near = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
-            return Err(format!("a region has no key '{key}'{near} Its keys are {}", known.join(", ")).replace("? Its", "? its"));
+            let near = near.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();
+            return Err(format!("a region has no key '{key}'{near}; its keys are {}", known.join(", ")));
         };
         let refuse = || format!("{key} is not {value}, but {meaning}");
         let text = || value.as_str().map(str::to_owned).filter(|text| !text.is_empty()).ok_or_else(refuse);

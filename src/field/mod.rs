@@ -12,16 +12,12 @@ mod dark_relief;
 mod direction;
 mod distance;
 mod edges;
-mod face;
-mod face_fit;
-mod face_frame;
-mod facial_features;
+mod faces;
 mod flow;
 mod flow_dog;
 mod glass;
 mod glass_levels;
 mod grain;
-mod hairline;
 mod hough;
 mod inside;
 mod isophotes;
@@ -59,11 +55,10 @@ pub use distance::{FeatureDistance, distance_to_curves};
 #[doc(hidden)]
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
 #[doc(hidden)]
-pub use face::{FaceExpectation, USUAL_WINDOWS, find_face};
-#[doc(hidden)]
-pub use face_frame::{FaceFrame, FeatureWindow};
-#[doc(hidden)]
-pub use facial_features::{FacialFeature, FacialFeatures, SkinTone, facial_features};
+pub use faces::{
+    CROWN, FaceExpectation, FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, SkinTone, USUAL_WINDOWS, facial_features,
+    find_face, hair_over_face,
+};
 #[doc(hidden)]
 pub use flow::Flow;
 #[doc(hidden)]
@@ -74,8 +69,6 @@ pub use glass::{glass_pattern, line_integral_convolution};
 pub use glass_levels::GlassLevels;
 #[doc(hidden)]
 pub use grain::grain_areas;
-#[doc(hidden)]
-pub use hairline::hair_over_face;
 #[doc(hidden)]
 pub use hough::{HoughFilter, HoughForm};
 #[doc(hidden)]

@@ -5,10 +5,10 @@ use crate::raster::{Raster, filled_polygon};
 use crate::source::LEAST_FACE_WIDTH;
 use crate::source::outlines::OVAL;
 
-/// A close-up: the face is wider than this fraction of the picture, or the top of the head, `CROWN` heights of the face above the
+/// A close-up: the face is wider than this fraction of the picture, or the top of the head, `TOP` heights of the face above the
 /// forehead, is outside it.
 const CLOSE_UP: f64 = 0.5;
-const CROWN: f64 = 0.3;
+const TOP: f64 = 0.3;
 /// Extent of the surroundings of the head, in widths of the face: to either side, and above the forehead.
 const NEAR_SIDE: f64 = 1.7;
 const NEAR_TOP: f64 = 1.0;
@@ -80,7 +80,7 @@ impl Head {
         let most = |sign: f64| oval.iter().map(|p| sign * (*p - middle).dot(across)).fold(0.0, f64::max) / width;
         let sides = [most(-1.0), most(1.0)];
         let reach = [sides[0] + beside[0], sides[1] + beside[1]];
-        Self { oval, centre, forehead, width, crown: forehead.y + CROWN * up.y, middle, across, sides, reach }
+        Self { oval, centre, forehead, width, crown: forehead.y + TOP * up.y, middle, across, sides, reach }
     }
 
     pub(super) fn is_close_up(&self, picture: Rect) -> bool {

@@ -182,7 +182,7 @@ fn crops_masks_and_white_pictures_that_cannot_be_drawn() {
         &[&draw[..], &["--mask", "subject=mask.png"]].concat(),
     );
     refuses(folder.path(), 1, "there is nothing to draw", &["draw", "white.png", "-o", "out.svg"]);
-    refuses(folder.path(), 1, "params.toml: pitch", &[&draw[..], &["--params", "params.toml"]].concat());
+    refuses(folder.path(), 1, "params.toml, line 1: pitch", &[&draw[..], &["--params", "params.toml"]].concat());
     refuses(folder.path(), 1, "broken.toml", &[&draw[..], &["--params", "broken.toml"]].concat());
     refuses(folder.path(), 1, "working pixels", &[&draw[..], &["--size", "30000x40000mm"]].concat());
 }

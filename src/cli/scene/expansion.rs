@@ -1,11 +1,12 @@
 //! Puts scenes, presets, `--params` files and recipes into the command line, then parses that.
 
-use super::document::{self, Document, Entry, MASK, PHOTOGRAPH, Role, SET, is_list, is_switch, long};
+use super::document::{self, Document, Entry, MASK, PHOTOGRAPH, REGION, Role, SET, is_list, is_switch, long};
 use super::origin::Origins;
 use super::{presets, redo};
 use crate::cli::arguments::Arguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
+use crate::cli::region::region;
 use crate::style::{self, Settings};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
@@ -22,6 +23,9 @@ const RIVALS: [[&str; 2]; 2] = [["center", "at"], ["at", "center"]];
 
 /// Options of presets that do nothing without another.
 const NEEDS: [[&str; 2]; 3] = [["max-time", "profile"], ["preview-travel", "preview"], ["depth-far-white", "depth"]];
+
+/// The option of SVG alone, which a drawing's recipe leaves to its other formats.
+const EMBED: &str = "embed";
 
 /// Why a command line was refused.
 #[derive(Debug)]
@@ -128,6 +132,9 @@ impl<'a> Line<'a> {
             let is_known = command.get_arguments().any(|arg| long(arg) == entry.option);
             is_known || entry.option == PHOTOGRAPH
         });
+        if !line.writes_svg() {
+            line.entries.retain(|entry| entry.option != EMBED);
+        }
         let named: HashSet<String> = line.entries.iter().filter_map(|entry| entry.value.clone()).collect();
         let is_kept = |path: &str| named.iter().any(|value| value.ends_with(path) || value.contains(&format!("\"{path}\"")));
         line.origins.0.retain(|origin| is_kept(&origin.path));
@@ -138,6 +145,15 @@ impl<'a> Line<'a> {
     fn own(&self, id: &str) -> Option<String> {
         let is_own = self.given.try_contains_id(id).is_ok() && self.given.value_source(id) == Some(ValueSource::CommandLine);
         if is_own { self.given.get_raw(id)?.next().map(|value| value.to_string_lossy().into_owned()) } else { None }
+    }
+
+    /// True if the output is an SVG, or the drawing's own format where none is named.
+    fn writes_svg(&self) -> bool {
+        let output = self.own("output").or_else(|| self.own("photo")).unwrap_or_default();
+        self.own("format").is_none_or(|format| format == "svg")
+            && Path::new(&output)
+                .extension()
+                .is_none_or(|ending| ["svg", "svgz", "toml"].iter().any(|svg| ending.eq_ignore_ascii_case(svg)))
     }
 
     /// Removes what options with a higher rank replace.
@@ -221,6 +237,7 @@ impl<'a> Line<'a> {
         let matches = Arguments::command().try_get_matches_from(self.words()).map_err(|error| self.culprit(error))?;
         self.check_style(&matches)?;
         self.check_files()?;
+        self.check_regions()?;
         Ok((matches, self.origins))
     }
 
@@ -249,6 +266,24 @@ impl<'a> Line<'a> {
             let Some((key, value)) = entry.value.as_deref().and_then(|value| value.split_once('=')) else { continue };
             let pair = (key.trim().to_owned(), value.trim().to_owned());
             Settings::resolve(style.name(), style.parameters(), &[pair]).map_err(|error| entry.refuse(&error.to_string()))?;
+        }
+        Ok(())
+    }
+
+    /// Refuses two regions of one mask: one would hide the other.
+    fn check_regions(&self) -> Result<(), Failure> {
+        let regions: Vec<(&Entry, String)> = self
+            .entries
+            .iter()
+            .filter(|entry| entry.option == REGION)
+            .filter_map(|entry| Some((entry, region(entry.value.as_deref()?).ok()?.mask)))
+            .collect();
+        for (i, (entry, mask)) in regions.iter().enumerate() {
+            if let Some((first, _)) = regions[..i].iter().find(|(_, other)| other == mask) {
+                let problem =
+                    format!("this region has the mask {mask}, as that of {}, which it would hide; leave one out", first.place);
+                return Err(entry.refuse(&problem));
+            }
         }
         Ok(())
     }

@@ -40,12 +40,10 @@ pub(super) fn find(name: &str) -> Result<Document, Failure> {
 
 fn unknown(name: &str, all: &[Preset]) -> Failure {
     let near = nearest(name, all.iter().map(|preset| preset.name.as_str()));
-    let hint = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
+    let hint = near.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();
     let names: Vec<&str> = all.iter().map(|preset| preset.name.as_str()).collect();
     let own = folder().map(|folder| format!(" (your own go into {})", folder.display())).unwrap_or_default();
-    Failure::Usage(
-        format!("there is no preset '{name}'{hint} There are {}{own}", names.join(", ")).replace("' There", "'; there"),
-    )
+    Failure::Usage(format!("there is no preset '{name}'{hint}; there are {}{own}", names.join(", ")))
 }
 
 /// The folder of a user's own presets.

@@ -5,7 +5,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches};
 
 /// Options that say how to work, not what to draw: they are in no scene and no recipe.
-pub(super) const RUN_ONLY: [&str; 14] = [
+pub(super) const RUN_ONLY: [&str; 13] = [
     "help",
     "version",
     "output",
@@ -19,7 +19,6 @@ pub(super) const RUN_ONLY: [&str; 14] = [
     "preset",
     "params",
     "save-scene",
-    "embed",
 ];
 
 /// The options of a drawing that differ from their defaults, by their long names, in the order of the help.

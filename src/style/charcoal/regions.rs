@@ -3,7 +3,7 @@
 use super::Drawer;
 use super::seen_face;
 use super::skin::may_be_skin;
-use crate::field::{FaceExpectation, FaceFrame, find_face, hair_over_face};
+use crate::field::{CROWN, FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster;
 use crate::raster::{Raster, components, dilate, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
@@ -58,9 +58,8 @@ const LEAST_TEXTURE: f64 = 0.02;
 /// Why no hair is drawn.
 const NO_HAIR: &str = "no hair was found: it is drawn like the rest, not in strokes";
 const LIKE_SKIN: &str = "the area above the brow is too like the skin, in light or shade, to count as hair: it is drawn like the rest, not in strokes";
-/// How far down hair hangs beside a face, and where the crown begins, in eye distances.
+/// How far down hair hangs beside a face, in eye distances.
 const LOWEST_FRINGE: f64 = 0.75;
-const CROWN: f64 = -0.85;
 /// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
 const CLOSED: f64 = 0.3;
 

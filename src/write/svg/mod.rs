@@ -24,7 +24,7 @@ pub(crate) use path_data::path_data;
 
 use super::number::{decimal, thousandths};
 use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
-use crate::geometry::{BezPath, Point, swelling_outline, with_fewer_nodes};
+use crate::geometry::Point;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::io;
@@ -48,8 +48,6 @@ pub struct SvgHead {
 const MOST_CIRCLES: usize = 600_000;
 /// Circles per combined path.
 const CIRCLES_PER_PATH: usize = 1000;
-/// Deviation of a swelling stroke's outline from the exact one, in millimetres: half a pixel of a film at 2540 dpi.
-const ACCURACY: f64 = 0.005;
 /// Decimals of a radius: four, since 0.001 mm of a small dot's radius is a percent of its ink.
 const RADIUS_DIGITS: u32 = 4;
 const RADIUS_SCALE: f64 = 10_000.0;
@@ -264,7 +262,7 @@ fn filled(mark: &Mark) -> String {
         }
         Mark::Stroke(stroke) => {
             text.push_str("<path d=\"");
-            path_data(text, &swell(stroke));
+            path_data(text, &stroke.outline().unwrap_or_default());
             text.push('"');
         }
         Mark::Area(Area { outline, .. }) => {
@@ -278,13 +276,6 @@ fn filled(mark: &Mark) -> String {
     }
     text.push_str("/>\n");
     owned
-}
-
-/// The outline of a swelling stroke, with as few curves as print needs.
-fn swell(stroke: &Stroke) -> BezPath {
-    let Width::Along(widths) = &stroke.width else { return stroke.ink_outline(ACCURACY) };
-    let (curve, widths) = with_fewer_nodes(&stroke.curve, widths, ACCURACY);
-    swelling_outline(&curve, &widths, stroke.ends, ACCURACY)
 }
 
 /// Writes dots of one colour as the subpaths of one path.

@@ -11,7 +11,7 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// From what is drawn and what is said of it.
+    /// From what is drawn and its title.
     pub(crate) fn of(drawing: &Drawing, head: &SvgHead) -> Self {
         let layers = drawing.layers.iter().flat_map(|layer| {
             let first = layer.marks.first().map(Mark::bounding_box);
@@ -21,10 +21,10 @@ impl Names {
         Self::new(head, [drawing.page.width, drawing.page.height].into_iter().chain(layers))
     }
 
-    /// From a head and any numbers.
+    /// From a title and any numbers.
     pub(crate) fn new(head: &SvgHead, numbers: impl Iterator<Item = f64>) -> Self {
         let mut hash = Sha256::new();
-        [&head.title, &head.description, &head.recipe].into_iter().for_each(|text| hash.update(text.as_bytes()));
+        hash.update(head.title.as_bytes());
         numbers.for_each(|number| hash.update(number.to_bits().to_le_bytes()));
         let digest = hash.finalize();
         Self { own: digest[..4].iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}")) }

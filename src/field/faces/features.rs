@@ -4,8 +4,8 @@
 //!   lightness -> divided by the skin's, column by column -> the darkest thin places -> grown into clusters -> named by position
 //! ```
 
-use super::dark_relief::dark_relief;
-use super::face_frame::FaceFrame;
+use super::super::dark_relief::dark_relief;
+use super::frame::FaceFrame;
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, gaussian_blur};
 

@@ -4,8 +4,8 @@
 //!   clusters -> every pair that may be the eyes -> a frame -> the best cluster for each other feature -> the likeliest of all
 //! ```
 
-use super::dark_relief::dark_relief;
-use super::face_frame::FaceFrame;
+use super::super::dark_relief::dark_relief;
+use super::frame::FaceFrame;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, components};
 

@@ -1,8 +1,8 @@
 //! Hair and headgear that extend into a face, detected by tone: darker than the skin, too tall for a feature, connected with the crown.
 
-use super::dark_relief::dark_relief;
-use super::face_frame::FaceFrame;
-use super::facial_features::{SkinTone, skin_tone};
+use super::super::dark_relief::dark_relief;
+use super::features::{SkinTone, skin_tone};
+use super::frame::{CROWN, FaceFrame};
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, remove_components};
 
@@ -17,8 +17,7 @@ const HAIR_SPREAD: f32 = 0.2;
 const CORE: [f64; 3] = [0.95, 0.5, 0.97];
 /// Half the width of gaps in the hair that are closed, in eye distances: a lit crown is as light as skin.
 const GAP: f64 = 0.2;
-/// Where the crown begins, and the searched zone around a head.
-const CROWN: f64 = -0.75;
+/// The searched zone around a head.
 const ZONE: [f64; 3] = [2.2, -2.4, 1.5];
 /// Box of skin between brow and mouth that gives the skin's tone.
 const CHEEKS: [f64; 3] = [0.75, -0.2, 0.95];

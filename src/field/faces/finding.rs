@@ -8,9 +8,9 @@
 //!          ---          mouth     1.05
 //! ```
 
-use super::dark_relief::dark_relief;
-use super::face_fit::fitted;
-use super::face_frame::{FaceFrame, FeatureWindow};
+use super::super::dark_relief::dark_relief;
+use super::fit::fitted;
+use super::frame::{FaceFrame, FeatureWindow};
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
 use rayon::prelude::*;

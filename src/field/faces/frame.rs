@@ -2,6 +2,9 @@
 
 use crate::geometry::{Point, Vec2};
 
+/// Where the crown of a head begins: above it a head has only hair or skin. Between the hairlines of a high and a low forehead.
+pub const CROWN: f64 = -0.8;
+
 /// A face's place and size in working pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceFrame {
