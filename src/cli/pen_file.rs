@@ -2,6 +2,7 @@
 
 use super::arguments::NIBS;
 use super::failure::Failure;
+use super::words::line_of;
 use crate::drawing::Colour;
 use crate::geometry::parse_length;
 use toml::de::{DeTable, DeValue};
@@ -59,10 +60,6 @@ pub(super) fn read_pens(file: &str, text: &str) -> Result<Vec<PenEntry>, Failure
     let values: toml::Table = toml::from_str(text).map_err(syntax)?;
     let reader = Reader { file, text, spans: spans.get_ref() };
     values.iter().map(|(name, value)| reader.pen(name, value)).collect()
-}
-
-fn line_of(text: &str, byte: usize) -> usize {
-    1 + text.bytes().take(byte).filter(|b| *b == b'\n').count()
 }
 
 struct Reader<'a> {

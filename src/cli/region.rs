@@ -1,6 +1,6 @@
 //! `--region`: a part of the picture in a style of its own.
 
-use super::words::switch_word;
+use super::words::{inline_table, nearest, switch_word};
 use crate::drawing::Ink;
 use crate::geometry::parse_length;
 use crate::scene::Border;
@@ -35,10 +35,8 @@ pub(super) struct RegionOption {
 
 /// Reads the inside of an inline table of TOML, such as `mask = "hair", style = "charcoal"`.
 pub(super) fn region(text: &str) -> Result<RegionOption, String> {
-    let table: toml::Table = format!("r = {{ {text} }}")
-        .parse()
-        .map_err(|_| "write it as mask=\"hair\", style=\"charcoal\", set={ pitch = 0.5 }".to_owned())?;
-    let Some(toml::Value::Table(keys)) = table.get("r") else { return Err("it has no keys".to_owned()) };
+    let keys =
+        inline_table(text).ok_or_else(|| "write it as mask=\"hair\", style=\"charcoal\", set={ pitch = 0.5 }".to_owned())?;
     let mut region = RegionOption {
         mask: String::new(),
         style: None,
@@ -49,7 +47,7 @@ pub(super) fn region(text: &str) -> Result<RegionOption, String> {
         border: Border::Butt,
         name: None,
     };
-    for (key, value) in keys {
+    for (key, value) in &keys {
         region.give(key, value)?;
     }
     if region.mask.is_empty() {
@@ -63,7 +61,7 @@ impl RegionOption {
         let meaning = KEYS.iter().find(|(known, _)| *known == key).map(|(_, meaning)| *meaning);
         let Some(meaning) = meaning else {
             let known: Vec<&str> = KEYS.iter().map(|(known, _)| *known).collect();
-            let near = known.iter().max_by(|a, b| strsim::jaro_winkler(key, a).total_cmp(&strsim::jaro_winkler(key, b)));
+            let near = nearest(key, known.iter().copied());
             let near = near.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();
             return Err(format!("a region has no key '{key}'{near}; its keys are {}", known.join(", ")));
         };

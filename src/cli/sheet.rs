@@ -12,7 +12,7 @@ use super::progress::Watcher;
 use super::remedies::advised;
 use super::scene::{self, Refusal, Spelled};
 use super::threads::limit_threads;
-use super::words::file_name;
+use super::words::{file_name, is_toml};
 use super::{affordable, job, layout, output, toolpaths};
 use crate::drawing::{Drawing, Page};
 use crate::geometry::Rect;
@@ -25,7 +25,6 @@ use crate::write::SvgHead;
 use clap::FromArgMatches;
 use serde_json::json;
 use std::ffi::OsString;
-use std::path::Path;
 
 /// Work for reading each drawing, in millions of steps.
 const WORK: f64 = 100.0;
@@ -109,8 +108,7 @@ impl Work<'_> {
 fn pieces(options: &SheetOptions, watcher: &Watcher) -> Result<Vec<Piece>, Failure> {
     let mut pieces = Vec::new();
     for file in &options.files {
-        let is_scene = Path::new(file).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-        let piece = if is_scene { of_scene(file, watcher)? } else { of_svg(file, watcher)? };
+        let piece = if is_toml(file) { of_scene(file, watcher)? } else { of_svg(file, watcher)? };
         pieces.extend(std::iter::repeat_n(piece, usize::from(options.copies)));
     }
     Ok(pieces)

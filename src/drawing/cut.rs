@@ -2,7 +2,7 @@
 
 use super::mark::contains;
 use super::{Stroke, Width};
-use crate::geometry::{BezPath, Point, Rect, Region, clip_polyline, segment_length};
+use crate::geometry::{BezPath, Point, Rect, Region, clip_polyline, lengths_along, segment_length};
 use kurbo::Shape;
 
 impl Stroke {
@@ -35,12 +35,7 @@ impl Stroke {
             return Some(self.clone());
         }
         let (points, position) = self.flattened();
-        let along: Vec<f64> = std::iter::once(0.0)
-            .chain(points.windows(2).scan(0.0, |sum, pair| {
-                *sum += pair[0].distance(pair[1]);
-                Some(*sum)
-            }))
-            .collect();
+        let along: Vec<f64> = lengths_along(&points);
         let (from, to) = (by[0], along.last()? - by[1]);
         if to <= from {
             return None;

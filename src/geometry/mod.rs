@@ -61,7 +61,8 @@ pub use millimetres::Millimetres;
 pub use number::parse_finite;
 #[doc(hidden)]
 pub use polyline::{
-    distance_to_segment, flatten, flattened_points, polygon_area, polyline_length, resample, simplify, simplify_until,
+    distance_to_segment, flatten, flattened_points, lengths_along, polygon_area, polyline_length, resample, simplify,
+    simplify_until,
 };
 #[doc(hidden)]
 pub use region::{Region, Winding, untangled, untangled_polygons};

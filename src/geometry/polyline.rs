@@ -8,6 +8,15 @@ pub fn polyline_length(points: &[Point]) -> f64 {
     points.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
 
+/// The length from a polyline's start to each of its points.
+pub fn lengths_along(points: &[Point]) -> Vec<f64> {
+    let steps = points.windows(2).scan(0.0, |sum, pair| {
+        *sum += pair[0].distance(pair[1]);
+        Some(*sum)
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
 /// Signed area of a closed polygon; positive if it turns from x towards y (clockwise on a page with y down).
 pub fn polygon_area(points: &[Point]) -> f64 {
     let Some(&origin) = points.first() else { return 0.0 };

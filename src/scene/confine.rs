@@ -2,7 +2,7 @@
 
 use super::Parts;
 use crate::drawing::{Area, Dot, Drawing, Mark, Stroke, Width};
-use crate::geometry::{Point, Region};
+use crate::geometry::{Point, Region, lengths_along};
 use kurbo::Shape;
 use rayon::prelude::*;
 
@@ -90,12 +90,7 @@ fn stroke_within(stroke: &Stroke, region: &Region) -> Vec<Stroke> {
 /// A cut piece whose cut ends taper like the stroke's own.
 fn tapered(mut piece: Stroke, is_cut: [bool; 2], half: f64) -> Stroke {
     let nodes: Vec<Point> = piece.curve.elements().iter().filter_map(kurbo::PathEl::end_point).collect();
-    let along: Vec<f64> = std::iter::once(0.0)
-        .chain(nodes.windows(2).scan(0.0, |sum, pair| {
-            *sum += pair[0].distance(pair[1]);
-            Some(*sum)
-        }))
-        .collect();
+    let along: Vec<f64> = lengths_along(&nodes);
     let total = along.last().copied().unwrap_or(0.0);
     if let Width::Along(widths) = &mut piece.width {
         let reach = TAPER * 2.0 * half;

@@ -20,7 +20,7 @@
 use super::origin::Origin;
 use crate::cli::arguments::Arguments;
 use crate::cli::failure::Failure;
-use crate::cli::words::switch_word;
+use crate::cli::words::{inline_table, line_of, nearest, switch_word};
 use crate::source::MaskRole;
 use clap::{Arg, ArgAction, Command, CommandFactory};
 use std::path::{Path, PathBuf};
@@ -40,8 +40,6 @@ pub(super) const NOT_IN_FILES: [&str; 6] = ["help", "version", "preset", "params
 const PATHS: [&str; 8] = [PHOTOGRAPH, MASK, "sight", "depth", "profile", "pens", "preview", "output"];
 /// Those that are written.
 const OUTPUTS: [&str; 2] = ["preview", "output"];
-/// Likeness from which an unknown key is taken for a slip of a known one.
-const LIKENESS: f64 = 0.7;
 
 /// What a file is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,10 +129,6 @@ pub(super) fn read(file: &str, text: &str, role: Role) -> Result<Document, Failu
         reader.key(key.get_ref(), value.get_ref(), &place)?;
     }
     Ok(reader.document)
-}
-
-fn line_of(text: &str, byte: usize) -> usize {
-    1 + text.bytes().take(byte).filter(|b| *b == b'\n').count()
 }
 
 struct Reader<'a> {
@@ -283,12 +277,6 @@ impl Reader<'_> {
     }
 }
 
-/// The known word that a wrong one is most like, if it is like any.
-pub(super) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let likeness = |name: &str| strsim::jaro_winkler(word, name);
-    known.filter(|name| likeness(name) >= LIKENESS).max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
-}
-
 fn refuse(place: &str, problem: &str) -> Failure {
     Failure::Work(format!("{place}: {problem}"))
 }
@@ -331,12 +319,11 @@ pub(super) fn inline(table: &toml::Table) -> String {
 
 /// The keys of a region with another file as its mask; unchanged if its mask is a role, none if the change gives none.
 pub(in crate::cli) fn with_mask(text: &str, change: impl FnOnce(&str) -> Option<String>) -> Option<String> {
-    let Ok(mut table) = format!("r = {{ {text} }}").parse::<toml::Table>() else { return Some(text.to_owned()) };
-    let Some(toml::Value::Table(keys)) = table.get_mut("r") else { return Some(text.to_owned()) };
+    let Some(mut keys) = inline_table(text) else { return Some(text.to_owned()) };
     let Some(toml::Value::String(mask)) = keys.get_mut(MASK) else { return Some(text.to_owned()) };
     if MaskRole::named(mask).is_some() {
         return Some(text.to_owned());
     }
     *mask = change(mask)?;
-    Some(inline(keys))
+    Some(inline(&keys))
 }

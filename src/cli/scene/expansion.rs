@@ -7,6 +7,7 @@ use crate::cli::arguments::Arguments;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::cli::region::region;
+use crate::cli::words::is_toml;
 use crate::style::{self, Settings};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
@@ -94,10 +95,6 @@ fn documents(name: &str, given: &ArgMatches) -> Result<Vec<Document>, Failure> {
         documents.push(document::read(&name, &output::read_settings(&name)?, Role::Params)?);
     }
     Ok(documents)
-}
-
-fn is_toml(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// A command line in the making.

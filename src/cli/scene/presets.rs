@@ -1,14 +1,15 @@
 //! `drypoint presets` and `--preset NAME`: options for a purpose, built in or a user's own.
 
-use super::document::{self, Document, Role, nearest};
+use super::document::{self, Document, Role};
 use crate::cli::arguments::ListOptions;
 use crate::cli::failure::Failure;
 use crate::cli::output;
+use crate::cli::words::{is_toml, nearest};
 use etcetera::BaseStrategy;
 use include_dir::{Dir, include_dir};
 use serde_json::json;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/src/cli/presets");
 
@@ -32,7 +33,7 @@ pub(super) fn find(name: &str) -> Result<Document, Failure> {
     if let Some(preset) = all.iter().find(|preset| preset.name == name) {
         return preset.document();
     }
-    if Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+    if is_toml(name) {
         return document::read(name, &output::read_settings(name)?, Role::Preset);
     }
     Err(unknown(name, &all))

@@ -6,6 +6,7 @@ use crate::cli::arguments::DrawOptions;
 use crate::cli::failure::Failure;
 use crate::cli::messages::say;
 use crate::cli::output;
+use crate::cli::words::inline_table;
 use crate::style::{self, DefaultLength, Kind, Parameter};
 use clap::Arg;
 use std::fmt::Write;
@@ -166,9 +167,8 @@ impl Scene<'_> {
 
     /// A `--region` as the lines of its table.
     fn region(&self, text: &str) -> String {
-        let table: toml::Table = format!("r = {{ {text} }}").parse().unwrap_or_default();
-        let entries = table.get("r").and_then(toml::Value::as_table).into_iter().flatten();
-        let lines = entries.map(|(key, value)| match value {
+        let table = inline_table(text).unwrap_or_default();
+        let lines = table.iter().map(|(key, value)| match value {
             toml::Value::String(file) if key == MASK && crate::source::MaskRole::named(file).is_none() => {
                 format!("{key} = {}", quoted(&self.relative(file)))
             }
