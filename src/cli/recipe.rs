@@ -69,9 +69,9 @@ impl Task<'_> {
                 "set" | "pitch" => continue,
                 "mask" => json!(values.iter().map(|value| role_and_name(value)).collect::<Vec<_>>()),
                 "region" => json!(values.iter().map(|value| without_folder(value)).collect::<Vec<_>>()),
-                "depth" | "pens" | "sight" | "profile" => json!(values.first().map(|value| file_name(value))),
                 _ => match &values[..] {
                     [] => json!(true),
+                    [file] if scene::names_file(option, file) => json!(file_name(file)),
                     [value] => json!(value),
                     values => json!(values),
                 },

@@ -106,6 +106,16 @@ pub(super) fn is_list(option: &Arg) -> bool {
     matches!(option.get_action(), ArgAction::Append)
 }
 
+/// True if an option's value is the path of a file.
+pub(in crate::cli) fn names_file(option: &str, value: &str) -> bool {
+    PATHS.contains(&option)
+        && match option {
+            "sight" => value != "none",
+            "profile" => !crate::plot::built_in_names().contains(&value),
+            _ => value != "-",
+        }
+}
+
 /// A file's options and the files that they name.
 #[derive(Debug, Default)]
 pub(super) struct Document {
@@ -233,7 +243,7 @@ impl Reader<'_> {
                         &format!("{key} is {}", if is_list { "a list of texts" } else { "one value, not a list or table" }),
                     )
                 })?;
-                let text = if PATHS.contains(&key) { self.path(&text, key, place) } else { text };
+                let text = self.path(&text, key, place);
                 self.entry(key, Some(text), place);
             }
         }
@@ -246,12 +256,7 @@ impl Reader<'_> {
 
     /// A path relative to the file's folder; names that are no files stay as they are.
     fn path(&mut self, text: &str, key: &str, place: &str) -> String {
-        let is_name = match key {
-            "sight" => text == "none",
-            "profile" => crate::plot::built_in_names().contains(&text),
-            _ => text == "-",
-        };
-        if is_name {
+        if !names_file(key, text) {
             return text.to_owned();
         }
         let path = self.folder.join(text).to_string_lossy().into_owned();

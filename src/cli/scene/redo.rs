@@ -1,6 +1,6 @@
 //! `drypoint redo`: the recipe inside a drawing, as a command line.
 
-use super::document::{Document, Entry, MASK, PHOTOGRAPH, REGION, with_mask};
+use super::document::{Document, Entry, MASK, PHOTOGRAPH, REGION, names_file, with_mask};
 use super::origin::Origin;
 use crate::cli::failure::Failure;
 use crate::cli::output;
@@ -98,9 +98,7 @@ impl Reader<'_> {
                 Ok(format!("{role}={}", self.file(&self.recipe["masks"][role], &format!("mask {role}"))?))
             }
             "depth" => self.file(&self.recipe["depth"], "depth map"),
-            "profile" if crate::plot::built_in_names().contains(&value) => Ok(value.to_owned()),
-            "sight" if value == "none" => Ok(value.to_owned()),
-            "profile" | "pens" | "sight" => self.near(value, option),
+            _ if names_file(option, value) => self.near(value, option),
             REGION => {
                 let mut missing = None;
                 let found =

@@ -1,6 +1,6 @@
 //! `drypoint scene` and `--save-scene`: a command line as a scene.
 
-use super::document::{MASK, PHOTOGRAPH, REGION, SET, draw_command, is_list, is_switch, long};
+use super::document::{MASK, PHOTOGRAPH, REGION, SET, draw_command, is_list, is_switch, long, names_file};
 use super::spelled::{Spelled, is_drawn};
 use crate::cli::arguments::DrawOptions;
 use crate::cli::failure::Failure;
@@ -129,12 +129,10 @@ impl Scene<'_> {
             let list: Vec<String> = values.iter().map(|value| quoted(value)).collect();
             return format!("{option} = [{}]\n", list.join(", "));
         }
-        let is_file = match option {
-            "sight" => values[0] != "none",
-            "profile" => !crate::plot::built_in_names().contains(&values[0].as_str()),
-            _ => ["depth", "pens"].contains(&option),
-        };
-        format!("{option} = {}\n", if is_file { quoted(&self.relative(&values[0])) } else { bare(&values[0]) })
+        format!(
+            "{option} = {}\n",
+            if names_file(option, &values[0]) { quoted(&self.relative(&values[0])) } else { bare(&values[0]) }
+        )
     }
 
     /// The tables `[set]`, `[mask]` and `[[region]]`.
