@@ -61,9 +61,6 @@ impl Style for Hedcut {
     }
 }
 
-/// Share of the subject from which a place has dots.
-const LEAST_SUBJECT: f32 = 0.3;
-
 type Drawer<'a> = super::Drawer<'a, HedcutParameters>;
 
 /// A dot in working pixels.
@@ -116,7 +113,7 @@ impl Drawer<'_> {
             parameters::SizeRule::Paper => size::paper(self, &sites, &ink),
         };
         let mut dots = highlights::thin_out(self, dots, &features);
-        dots.retain(|dot| !parts.hold(dot.centre) && (parts.is_empty() || self.is_on_subject(dot.centre)));
+        dots.retain(|dot| !parts.hold(dot.centre));
         if dots.is_empty() && reversed.is_empty() {
             let why = "all of it is as light as the highlights, which stay bare";
             return Err(StyleError::NothingLeft { why, setting: "highlights=off" });
@@ -129,12 +126,6 @@ impl Drawer<'_> {
             drawing.layers.push(outline::layer(self, &features, parts));
         }
         Ok(drawing)
-    }
-
-    /// True if a place, in working pixels, belongs to the subject. Slivers between a head's hair and its outline lie in large cells,
-    /// whose dots would stand beside the head.
-    fn is_on_subject(&self, p: Point) -> bool {
-        self.portrait.subject.sample(p.x, p.y) >= LEAST_SUBJECT
     }
 
     /// Steps 3 and 4: distance maps and offset lanes.
