@@ -10,10 +10,13 @@ use crate::raster::Raster;
 use crate::scene::{Border, Parts};
 use crate::source::{Placement, mask_on};
 use crate::style::{Observer, Settings, StyleError};
+use std::ops::Range;
 
 /// The finest grid of regions in pixels per millimetre, and the most pixels it has.
 const FINEST: f64 = 8.0;
 const MOST_PIXELS: f64 = 4e6;
+/// Share from which a place counts to a part's box: less draws no mark.
+const LEAST_SHARE: f32 = 0.005;
 
 impl Task<'_> {
     /// All parts in one drawing: the rest first, then the regions in their order.
@@ -34,11 +37,10 @@ impl Task<'_> {
                 }
             };
             let settings = if region.is_some() { &manner.settings } else { settings };
-            let mut portrait = self.portrait(&manner.known, placement)?;
+            let portrait = self.portrait(&manner.known, placement)?;
             let share = parts.drawn_share(part, &placement);
-            if share.pixels().iter().all(|share| *share <= 0.0) {
-                continue;
-            }
+            let Some((columns, rows)) = extent(&share) else { continue };
+            let (share, mut portrait) = (share.part(&columns, &rows), portrait.part(&columns, &rows));
             portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
             let drawing = match manner.style.draw(&portrait, settings, manner.seed, observer) {
                 Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,
@@ -71,4 +73,12 @@ impl Task<'_> {
         let of = |region: &&Region| layer.name.strip_prefix(&region.name).is_some_and(|rest| rest.starts_with('-'));
         self.regions.iter().filter(of).max_by_key(|region| region.name.len())?.ink.as_ref()
     }
+}
+
+/// The columns and rows in which a part is drawn; none if it is not in the picture.
+fn extent(share: &Raster<f32>) -> Option<(Range<usize>, Range<usize>)> {
+    let is_drawn = |x: usize, y: usize| share.get(x, y) > LEAST_SHARE;
+    let columns: Vec<usize> = (0..share.width()).filter(|x| (0..share.height()).any(|y| is_drawn(*x, y))).collect();
+    let rows: Vec<usize> = (0..share.height()).filter(|y| (0..share.width()).any(|x| is_drawn(x, *y))).collect();
+    Some((*columns.first()?..columns.last()? + 1, *rows.first()?..rows.last()? + 1))
 }

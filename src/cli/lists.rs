@@ -28,7 +28,7 @@ pub(super) fn styles_with_role(name: &str) -> impl Iterator<Item = &'static dyn 
 pub(super) fn mask_roles() -> String {
     let styles: Vec<String> = STYLES.iter().map(|style| format!("{} takes {}", style.name(), role_names(*style))).collect();
     format!(
-        "A mask, white inside, with the photograph's proportions, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
+        "A mask with the photograph's proportions, a picture that is white inside or an SVG whose shapes are the inside, such as --mask subject=cutout.png, or for charcoal --mask face=face.png \
          --mask hair=hair.png; once per role. Of the styles, {}; `drypoint styles NAME` explains each role",
         styles.join("; ")
     )

@@ -1,10 +1,11 @@
 //! Photographs and their masks.
 
 use super::failure::Failure;
-use super::output;
 use super::words::file_name;
+use super::{output, vector_mask};
 use crate::source::{Limits, MaskRole, Photograph};
 use serde_json::{Value, json};
+use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,6 +19,12 @@ pub(super) struct RoleMask {
 }
 
 impl RoleMask {
+    /// Reads a mask of a role. Scribbles are colours, which shapes do not have.
+    pub(super) fn read(role: MaskRole, file: &str) -> Result<Self, Failure> {
+        let mask = if role == MaskRole::Scribbles { photograph(file)? } else { mask(file)? };
+        Ok(Self { role, file: Some(file.to_owned()), mask: Arc::new(mask) })
+    }
+
     /// The name of its role on the command line.
     pub(super) fn name(&self) -> &'static str {
         self.role.name()
@@ -32,7 +39,18 @@ impl RoleMask {
     }
 }
 
-/// Reads a photograph or a mask; `-` is stdin.
+/// Reads a mask: a picture, or the shapes of an SVG.
+pub(super) fn mask(name: &str) -> Result<Photograph, Failure> {
+    let mut bytes = Vec::new();
+    let limits = Limits::default();
+    output::open(name)?.take(limits.bytes + 1).read_to_end(&mut bytes).map_err(|error| Failure::about(name)(&error))?;
+    if vector_mask::is_svg(&bytes) {
+        return vector_mask::vector_mask(&bytes).map_err(|error| Failure::about(name)(&error));
+    }
+    Photograph::read(bytes.as_slice(), limits).map_err(|error| Failure::about(name)(&error))
+}
+
+/// Reads a photograph; `-` is stdin.
 pub(super) fn photograph(name: &str) -> Result<Photograph, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
     Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {

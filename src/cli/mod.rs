@@ -57,6 +57,7 @@ mod stages;
 mod task;
 mod threads;
 mod toolpaths;
+mod vector_mask;
 mod words;
 
 use arguments::{Arguments, Command};

@@ -4,7 +4,7 @@ use super::arguments::PictureOptions;
 use super::failure::Failure;
 use super::known;
 use super::manner::{Manner, find_style, given};
-use super::masks::{RoleMask, photograph};
+use super::masks::{RoleMask, mask};
 use super::region::RegionOption;
 use super::seen::Seen;
 use super::words::file_name;
@@ -79,7 +79,7 @@ fn mask_of(
     painted: &[RoleMask],
 ) -> Result<Option<(Arc<Photograph>, String)>, Failure> {
     let Some(role) = MaskRole::named(&option.mask) else {
-        return Ok(Some((Arc::new(photograph(&option.mask)?), option.mask.clone())));
+        return Ok(Some((Arc::new(mask(&option.mask)?), option.mask.clone())));
     };
     let found = painted.iter().chain(&seen.masks).find(|mask| mask.role == role);
     Ok(found.map(|found| (found.mask.clone(), found.file.clone().unwrap_or_else(|| options.photo.clone()))))

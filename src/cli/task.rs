@@ -21,7 +21,6 @@ use crate::source::{DepthSense, MaskRole, Photograph, Placement, Portrait, ToneC
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
 use crate::tone::portrait_tone;
 use image::DynamicImage;
-use std::sync::Arc;
 
 /// Minimum number of pitches across the short side of a picture in advice: with fewer, nothing is left of a face.
 const LEAST_PITCHES: f64 = 25.0;
@@ -68,9 +67,7 @@ impl<'a> Task<'a> {
             return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
         }
         let photograph = photograph(&options.photo)?;
-        let painted = mask_files.into_iter().map(|(role, file)| {
-            Ok(RoleMask { role, file: Some(file.to_owned()), mask: Arc::new(super::masks::photograph(file)?) })
-        });
+        let painted = mask_files.into_iter().map(|(role, file)| RoleMask::read(role, file));
         let painted: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
         let seen = looking::seen(options, &photograph)?;
         let mut notices = Vec::new();

@@ -29,6 +29,7 @@ mod relaxation;
 mod relief;
 mod ribbon;
 mod scale_space;
+mod spread;
 mod stripes;
 mod superpixels;
 mod tangent_flow;
@@ -90,6 +91,7 @@ pub use relief::{bend_by_shading, inflate};
 pub use ribbon::{Ribbon, RibbonFit, glass_ribbons};
 #[doc(hidden)]
 pub use scale_space::{Mode, histogram_modes};
+pub(crate) use spread::spread;
 #[doc(hidden)]
 pub use stripes::{Start, StripeLattice, StripeLine, StripeParameters, Wave, stripe_lines, stripes};
 pub use superpixels::superpixels;

@@ -1,6 +1,7 @@
-//! A frame of repeated border pixels around a raster.
+//! Frames around rasters, and parts of rasters.
 
 use super::Raster;
+use std::ops::Range;
 
 impl<T: Copy + Send + Sync> Raster<T> {
     /// The raster with `margin` more pixels on each side, which repeat the nearest border pixel.
@@ -14,7 +15,13 @@ impl<T: Copy + Send + Sync> Raster<T> {
     /// The raster without `margin` pixels on each side; each side must be at least `2 margin` long.
     #[must_use]
     pub fn unframed(&self, margin: usize) -> Self {
-        Self::from_fn(self.width() - 2 * margin, self.height() - 2 * margin, |x, y| self.get(x + margin, y + margin))
+        self.part(&(margin..self.width() - margin), &(margin..self.height() - margin))
+    }
+
+    /// Some columns and rows, all inside the raster.
+    #[must_use]
+    pub fn part(&self, columns: &Range<usize>, rows: &Range<usize>) -> Self {
+        Self::from_fn(columns.len(), rows.len(), |x, y| self.get(x + columns.start, y + rows.start))
     }
 }
 

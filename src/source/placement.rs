@@ -3,6 +3,7 @@
 use super::decode::Photograph;
 use super::error::SourceError;
 use crate::geometry::{Millimetres, Point, Rect};
+use std::ops::Range;
 
 /// Largest relative difference between the proportions of a mask and the photograph's: the rounding of a thumbnail of 50 pixels.
 const MOST_DISTORTION: f64 = 0.03;
@@ -56,6 +57,14 @@ impl Placement {
     pub fn new(picture: Rect, pixels_per_mm: f64) -> Self {
         let count = |length: f64| (length * pixels_per_mm).round().max(1.0) as usize;
         Self { picture, columns: count(picture.width()), rows: count(picture.height()) }
+    }
+
+    /// The place of some columns and rows.
+    #[must_use]
+    pub fn part(&self, columns: &Range<usize>, rows: &Range<usize>) -> Self {
+        let corner = |x: usize, y: usize| self.to_page(Point::new(x as f64, y as f64));
+        let picture = Rect::from_points(corner(columns.start, rows.start), corner(columns.end, rows.end));
+        Self { picture, columns: columns.len(), rows: rows.len() }
     }
 
     /// Millimetres per pixel, the mean of both directions (over the whole box they differ by less than a pixel).

@@ -16,6 +16,7 @@ use fast_image_resize::pixels::F32x4;
 use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Most working pixels, whatever the style; a style takes 80 to 500 bytes for each, and reports its need beforehand.
 const WORK_LIMIT: u64 = 60_000_000;
@@ -196,6 +197,28 @@ impl Portrait {
         let placed = faces.iter().map(|face| face.placed(place, (x * y).sqrt()));
         self.faces = placed.filter(|face| picture.contains(face.point(NOSE_TIP))).collect();
         Ok(())
+    }
+
+    /// The same portrait on some of its columns and rows. Faces stay, also outside of them.
+    #[must_use]
+    pub fn part(&self, columns: &Range<usize>, rows: &Range<usize>) -> Self {
+        let of = |raster: &Raster<f32>| raster.part(columns, rows);
+        let place = |p: Point| Point::new(p.x - columns.start as f64, p.y - rows.start as f64);
+        Self {
+            page: self.page,
+            placement: self.placement.part(columns, rows),
+            light: self.light.part(columns, rows),
+            tone: of(&self.tone),
+            lightness: of(&self.lightness),
+            subject: of(&self.subject),
+            has_portrait_tone: self.has_portrait_tone,
+            people: self.people.as_ref().map(of),
+            is_on_white: self.is_on_white,
+            masks: self.masks.iter().map(|(role, mask)| (*role, of(mask))).collect(),
+            depth: self.depth.as_ref().map(of),
+            faces: self.faces.iter().map(|face| face.placed(place, 1.0)).collect(),
+            scribbles: self.scribbles.as_ref().map(|scribbles| scribbles.part(columns, rows)),
+        }
     }
 
     /// Target ink of each pixel, 0 to 1; 0 outside the subject.

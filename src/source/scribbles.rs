@@ -6,6 +6,7 @@ use super::placement::{Crop, Placement};
 use crate::raster::Raster;
 use image::GenericImageView;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Least share of the picture that a colour must cover to be a region; smaller shares are the soft edges of brushes.
 const LEAST_SHARE: f64 = 5e-5;
@@ -50,5 +51,10 @@ impl Scribbles {
             colour.and_then(|c| colours.binary_search(&c).ok()).map_or(0, |i| i as i32 + 1)
         });
         Ok(Self { labels, colours })
+    }
+
+    /// Some columns and rows; the colours stay.
+    pub(super) fn part(&self, columns: &Range<usize>, rows: &Range<usize>) -> Self {
+        Self { labels: self.labels.part(columns, rows), colours: self.colours.clone() }
     }
 }

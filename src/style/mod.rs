@@ -5,6 +5,7 @@
 
 mod charcoal;
 mod cost;
+mod coverage;
 mod creases;
 mod declaration;
 mod drawer;

@@ -3,7 +3,7 @@
 
 use drypoint::drawing::{Drawing, Mark, Page};
 use drypoint::geometry::{BezPath, Rect};
-use drypoint::source::{Crop, DepthSense, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use drypoint::source::{Crop, DepthSense, Landmarks, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use drypoint::style::{Observer, Picture, Settings, StyleError, find};
 use std::sync::Mutex;
 
@@ -17,6 +17,8 @@ pub struct Order<'a> {
     pub set: Vec<(String, String)>,
     pub masks: Vec<(MaskRole, &'a [u8])>,
     pub depth: Option<&'a [u8]>,
+    /// In pixels of the photograph.
+    pub faces: Vec<Landmarks>,
 }
 
 impl<'a> Order<'a> {
@@ -24,7 +26,7 @@ impl<'a> Order<'a> {
     pub fn new(style: &'a str, photo: &'a [u8], mm: (f64, f64), set: &[(&str, &str)]) -> Self {
         let set = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
         let picture = Rect::new(0.0, 0.0, mm.0, mm.1);
-        Self { style, photo, page: Page::new(mm.0, mm.1), picture, set, masks: Vec::new(), depth: None }
+        Self { style, photo, page: Page::new(mm.0, mm.1), picture, set, masks: Vec::new(), depth: None, faces: Vec::new() }
     }
 
     pub fn settings(&self) -> Settings {
@@ -47,6 +49,7 @@ impl<'a> Order<'a> {
             let depth = Photograph::decode(depth, Limits::default()).unwrap();
             portrait.add_depth(&depth, DepthSense::NearWhite, &photograph, crop).unwrap();
         }
+        portrait.add_faces(&self.faces, &photograph, crop).unwrap();
         portrait
     }
 

@@ -4,7 +4,7 @@
 use drypoint::drawing::{Drawing, Page};
 use drypoint::geometry::{Point, Rect};
 use drypoint::raster::Raster;
-use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use drypoint::source::{Crop, Iris, Landmarks, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use drypoint::style::{Settings, Silent, find};
 use drypoint::write::{SvgHead, write_svg};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma};
@@ -22,6 +22,20 @@ pub fn png_of_light(width: u32, height: u32, light: impl Fn(u32, u32) -> f64) ->
 /// Nine patches of 20 x 20 mm in three rows, linear luminance 0.1 to 0.9.
 pub fn wedge() -> Vec<u8> {
     png_of_light(600, 600, |x, y| 0.1 * f64::from(1 + x / 200 + 3 * (y / 200)))
+}
+
+/// The mean face of the engraving's directions, upright, in pixels.
+pub fn plain_face(x: f64, y: f64, width: f64) -> Landmarks {
+    let table = include_str!("../../src/style/engrave/form/canonical_field.txt");
+    let numbers = |line: &str| line.split(' ').map(|word| word.parse::<f64>().unwrap()).collect::<Vec<f64>>();
+    let point = |p: Vec<f64>| [x + width * p[0], y + width * p[1], 0.0];
+    let points: Vec<[f64; 3]> = table.lines().map(|line| point(numbers(line))).collect();
+    let eye = |outer: usize, inner: usize| Iris {
+        centre: Point::new(0.5 * (points[outer][0] + points[inner][0]), 0.5 * (points[outer][1] + points[inner][1])),
+        radius: 0.04 * width,
+    };
+    let irises = [eye(33, 133), eye(263, 362)];
+    Landmarks { points, irises }
 }
 
 pub const WEDGE_MM: f64 = 60.0;

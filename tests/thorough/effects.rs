@@ -33,6 +33,7 @@ struct Given {
     set: Vec<(String, String)>,
     masks: Vec<MaskRole>,
     has_depth: bool,
+    has_face: bool,
 }
 
 impl Trial {
@@ -55,6 +56,7 @@ impl Trial {
             .map(|(r, bytes)| (*r, &bytes[..]))
             .collect();
         order.depth = given.has_depth.then_some(&self.depth);
+        order.faces = if given.has_face { vec![common::plain_face(120.0, 110.0, 90.0)] } else { Vec::new() };
         let (drawing, warnings) = order.try_draw();
         (drawing.ok(), warnings)
     }
@@ -86,6 +88,8 @@ impl Trial {
             Need::With(role) => given.masks.push(*role),
             Need::Without(role) => given.masks.retain(|mask| mask != role),
             Need::WithoutDepth => given.has_depth = false,
+            Need::WithFace => given.has_face = true,
+            Need::WithoutFace => given.has_face = false,
             Need::AnyOf(lists) => lists[0].iter().for_each(|need| self.meet(need, given)),
         }
     }
@@ -105,6 +109,8 @@ impl Trial {
             Need::With(role) => given.masks.retain(|mask| mask != role),
             Need::Without(role) => given.masks.push(*role),
             Need::WithoutDepth => given.has_depth = true,
+            Need::WithFace => given.has_face = false,
+            Need::WithoutFace => given.has_face = true,
             Need::AnyOf(lists) => lists.iter().for_each(|all| self.break_(&all[0], given)),
         }
     }

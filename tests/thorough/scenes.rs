@@ -5,6 +5,7 @@ use crate::common;
 
 use assert_cmd::Command;
 use common::{mean_in, png_of_light, rendered, sample};
+use drypoint::drawing::Drawing;
 use drypoint::geometry::Rect;
 use image::{GrayImage, Luma};
 use std::fs;
@@ -203,6 +204,68 @@ fn borders_of_regions_have_neither_seams_nor_doubled_ink() {
             assert!(sum.abs() < 0.05 && worst.0.abs() < 0.12, "{style} in {rest}{border}: {sum} {worst:?}");
         }
     }
+}
+
+/// Ink that both sides of a border draw, as a share of the band of two pitches to each side, and the widest strip without ink along
+/// the border, both on a tone dark enough to have no gaps of its own.
+#[test]
+fn borders_of_regions_are_drawn_once_and_without_white_strips() {
+    let folder = with_slope();
+    let dark = png_of_light(300, 200, |_, _| 0.10);
+    fs::write(folder.path().join("dark.png"), dark).unwrap();
+    let plain = ["draw", "dark.png", "--sight", "none", "--size", "60x40mm", "--pitch", "0.6", "-q", "-o", "a.svg"];
+    for (style, rest) in [("grid", "hedcut"), ("hedcut", "engrave"), ("engrave", "grid"), ("charcoal", "hedcut")] {
+        let region = format!("mask = \"disc.png\", style = \"{style}\", name = \"disc\", set = {{ pitch = 0.6 }}");
+        runs(folder.path(), &[&plain[..], &["--style", rest, "--region", &region]].concat());
+        let drawing = drypoint::read::read_svg(&file(&folder, "a.svg")).unwrap().drawing();
+        let of_side = |is_disc: bool| {
+            let layers = drawing.layers.iter().filter(|layer| layer.name.contains("disc-") == is_disc).cloned().collect();
+            rendered(&common::svg_of(&Drawing { page: drawing.page, layers }), FINE)
+        };
+        let sides = [of_side(true), of_side(false)];
+        let from_border = |x: usize, y: usize| (x as f64 / FINE - 30.0).hypot(y as f64 / FINE - 20.0) - 12.0;
+        let (mut band, mut doubled) = (0_u32, 0_u32);
+        for (x, y) in (0..sides[0].height()).flat_map(|y| (0..sides[0].width()).map(move |x| (x, y))) {
+            if from_border(x, y).abs() < 1.2 {
+                band += 1;
+                doubled += u32::from(sides.iter().all(|side| side.get(x, y) < 0.5));
+            }
+        }
+        let white_across = |i: u32| {
+            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 720.0).sin_cos();
+            let is_white = |r: f64| {
+                let at = [30.0 + r * cos, 20.0 + r * sin].map(|v| (v * FINE) as usize);
+                sides.iter().all(|side| side.get(at[0], at[1]) > 0.5)
+            };
+            let reach = |sign: f64| (0..60).take_while(|k| is_white(12.0 + sign * f64::from(*k) / FINE)).count() as f64 / FINE;
+            reach(1.0) + reach(-1.0)
+        };
+        let widest = (0..720).map(white_across).fold(0.0, f64::max);
+        let share = f64::from(doubled) / f64::from(band);
+        println!("{style} in {rest}: doubled {share:.4}, widest white {widest:.2} mm");
+        assert!(share <= 0.005 && widest <= 0.6, "{style} in {rest}: doubled {share:.4}, white {widest:.2}");
+    }
+}
+
+#[test]
+fn a_mask_may_be_an_svg_of_shapes() {
+    let folder = with_slope();
+    let shapes = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 200"><circle cx="150" cy="100" r="60"/></svg>"#;
+    fs::write(folder.path().join("disc.svg"), shapes).unwrap();
+    let plain = ["draw", "slope.png", "--sight", "none", "--size", "60x40mm", "--pitch", "0.6", "-q"];
+    let disc = |file: &str, out: &str| {
+        let region = format!("mask = \"{file}\", style = \"grid\", name = \"disc\"");
+        runs(folder.path(), &[&plain[..], &["--region", &region, "-o", out]].concat());
+        rendered(&String::from_utf8(self::file(&folder, out)).unwrap(), 10.0)
+    };
+    let [painted, drawn] = [disc("disc.png", "a.svg"), disc("disc.svg", "b.svg")];
+    let differ = painted.pixels().iter().zip(drawn.pixels()).filter(|(a, b)| (*a - *b).abs() > 0.5).count();
+    assert!(differ * 50 < painted.len(), "{differ} of {}", painted.len());
+    runs(folder.path(), &["redo", "b.svg", "-q"]);
+    assert!(file(&folder, "b.svg") == file(&folder, "b-redone.svg"));
+    fs::write(folder.path().join("disc.svg"), shapes.replace("300 200", "300 300")).unwrap();
+    let region = ["--region", "mask = \"disc.svg\", style = \"grid\""];
+    assert!(fails(folder.path(), 1, &[&plain[..], &region[..], &["-o", "c.svg"]].concat()).contains("disc.svg"));
 }
 
 #[test]

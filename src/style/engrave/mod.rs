@@ -5,6 +5,7 @@ mod angles;
 mod breaks;
 mod cost;
 mod depths;
+mod form;
 mod lines;
 mod merging;
 mod outline;
@@ -47,7 +48,15 @@ const CARD: StyleCard = StyleCard {
     summary: "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes",
     source: "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects",
     parameters: parameters::PARAMETERS,
-    masks: &[MaskRole::Subject, MaskRole::Scribbles],
+    masks: &[
+        MaskRole::Subject,
+        MaskRole::Detail,
+        MaskRole::Hair,
+        MaskRole::FacialHair,
+        MaskRole::Clothing,
+        MaskRole::Headwear,
+        MaskRole::Scribbles,
+    ],
     uses_depth: true,
     leaves_out_background: true,
 };
@@ -78,6 +87,9 @@ type Marks = [Vec<Mark>; 2];
 impl Drawer<'_> {
     /// The thesis' steps in order.
     fn draw(&self) -> Result<Drawing, StyleError> {
+        if self.follows_form() {
+            return self.draw_form();
+        }
         let relief = self.relief();
         let ink = self.ink(&relief);
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));

@@ -10,6 +10,16 @@ pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
 
 /// Depth bends the lines or gives the tone.
 const DEPTH_COUNTS: Need = Need::AnyOf(&[&[Need::Nonzero("displacement")], &[Need::Word("tone_from", &["depth"])]]);
+/// Lines that are laid straight, and only bent by depth.
+const STRAIGHT: Need = Need::AnyOf(&[
+    &[Need::WithoutFace],
+    &[Need::Word("directions", &["straight"])],
+    &[Need::With(MaskRole::Scribbles)],
+    &[Need::Word("regions", &["one", "superpixels"])],
+    &[Need::Word("look", &["engraving", "net", "stipple", "contour"])],
+    &[Need::Word("ground", &["black"])],
+    &[Need::Word("tone_from", &["depth"])],
+]);
 /// Lines that can break.
 const NOT_STIPPLED: Need = Need::Word("look", &["crosshatch", "engraving", "hatch", "net", "contour"]);
 
@@ -22,24 +32,27 @@ parameters! {
         look: Look = "look": Kind::Choice(Look::WORDS),
             "crosshatch: swelling lines, crossed in dark tones, dots in light tones; engraving: the same, with white lines cut through them in half tones; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in shadows only",
             "Galarza 4.1 and 4.4";
+        way: Way = "directions": Kind::Choice(Way::WORDS),
+            "direction of the lines: form follows the face, its hair and clothing where a face is known; straight lines are only bent by depth",
+            "Ostromoukhov 1999; Galarza 3.4 and 6", needs [ Need::WithFace, Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("look", &["crosshatch", "hatch"]), Need::Word("ground", &["white"]), Need::Word("tone_from", &["photo"]), ];
         displacement: Millimetres = "displacement": pitches(14.0, -1000.0..=1000.0),
             "how far the nearest depth shifts a line to its left (up at angle 0)",
-            "Galarza 3.5.1, phi, equation 3.5";
+            "Galarza 3.5.1, phi, equation 3.5", needs [STRAIGHT];
         sampling: Millimetres = "sampling": pitches(0.5, 0.01..=100.0),
             "distance between the depth samples that bend a line; larger draws rounder, simpler lines",
-            "Galarza 3.5.1, delta_x";
+            "Galarza 3.5.1, delta_x", needs [STRAIGHT];
         width_max: Millimetres = "width_max": pitches(1.5, 0.01..=100.0),
             "maximum width of a line; too small a value loses the darkest tones",
-            "Galarza 3.7, f_w";
+            "Galarza 3.7, f_w", needs [STRAIGHT];
         threshold: f64 = "threshold": number(0.5, 0.0..=1.0),
             "tone below which lines are crossed by a second layer (0 black, 1 white)",
-            "Galarza 3.2, tau", needs [Need::Word("look", &["crosshatch", "engraving", "contour"])];
+            "Galarza 3.2, tau", needs [STRAIGHT, Need::Word("look", &["crosshatch", "engraving", "contour"])];
         angle: f64 = "angle": number(0.0, -360.0..=360.0),
             "direction of the lines in degrees, anticlockwise from the right",
-            "Galarza 3.6, Theta", needs [Need::AnyOf(&[ &[Need::Word("angles", &["given", "hue"])], &[Need::Word("regions", &["one"]), Need::Word("angles", &["auto"])], &[Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("angles", &["auto"])], ])];
+            "Galarza 3.6, Theta", needs [STRAIGHT, Need::AnyOf(&[ &[Need::Word("angles", &["given", "hue"])], &[Need::Word("regions", &["one"]), Need::Word("angles", &["auto"])], &[Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("angles", &["auto"])], ])];
         cross_angle: f64 = "cross_angle": number(90.0, 10.0..=170.0),
             "angle from the lines to the crossing lines, in degrees",
-            "Galarza 3.6, alpha", needs [Need::AnyOf(&[ &[Need::Word("look", &["crosshatch", "engraving", "net"])], &[Need::Above("thinnest", 0.0), Need::Word("look", &["hatch", "contour"])], ])];
+            "Galarza 3.6, alpha", needs [STRAIGHT, Need::AnyOf(&[ &[Need::Word("look", &["crosshatch", "engraving", "net"])], &[Need::Above("thinnest", 0.0), Need::Word("look", &["hatch", "contour"])], ])];
         regions: Division = "regions": Kind::Choice(Division::WORDS),
             "regions with a line direction of their own: auto takes the scribbles mask if given, else one region; superpixels are small regions of similar colour",
             "Galarza 3.3";
@@ -51,22 +64,22 @@ parameters! {
             "Galarza 3.3.1 and 3.4";
         overlap: Millimetres = "overlap": millimetres(0.0, 0.0..=100.0),
             "how far lines extend into a region with another line direction; 0.2 mm closes most seams, but lines cross there",
-            "Galarza 3.7, dilation of the masks", needs [Need::AnyOf(&[ &[Need::Word("regions", &["superpixels"])], &[Need::Word("regions", &["auto"]), Need::With(MaskRole::Scribbles)], ])];
+            "Galarza 3.7, dilation of the masks", needs [STRAIGHT, Need::AnyOf(&[ &[Need::Word("regions", &["superpixels"])], &[Need::Word("regions", &["auto"]), Need::With(MaskRole::Scribbles)], ])];
         min_gap: Millimetres = "min_gap": pitches(0.25, 0.001..=50.0),
             "minimum distance between neighbouring lines of a layer, centre to centre; limited to between a tenth and three quarters of the pitch",
-            "the thesis lists crossing lines as its limit (4.2.2)";
+            "the thesis lists crossing lines as its limit (4.2.2)", needs [STRAIGHT];
         smoothing: Millimetres = "smoothing": pitches(0.6, 0.0..=100.0),
             "edge-preserving smoothing of the depth",
-            "Galarza 5.1 asks for depth without noise", needs [DEPTH_COUNTS];
+            "Galarza 5.1 asks for depth without noise", needs [STRAIGHT, DEPTH_COUNTS];
         depth_from: DepthFrom = "depth_from": Kind::Choice(DepthFrom::WORDS),
             "source of depth without a depth map: shape inflates the regions and bends them by their shading, for portraits; inflate only inflates the regions (scribbles or subject mask, else the picture), for flat art and silhouettes; luminance treats light as near, for textures and reliefs",
-            "Galarza 4.4 and 5.2", needs [Need::WithoutDepth, DEPTH_COUNTS];
+            "Galarza 4.4 and 5.2", needs [STRAIGHT, Need::WithoutDepth, DEPTH_COUNTS];
         tone_from: ToneFrom = "tone_from": Kind::Choice(ToneFrom::WORDS),
             "source of the tone: photo is the photograph; depth is the depth map lit by a lamp, for use without a photograph",
             "Galarza 3.2";
         light_azimuth: f64 = "light_azimuth": number(135.0, -360.0..=360.0),
             "direction of the lamp: degrees anticlockwise from the right (135: upper left); also the light that depth_from=shape assumes",
-            "Galarza 3.2", needs [Need::AnyOf(&[ &[Need::Word("tone_from", &["depth"])], &[Need::Word("depth_from", &["shape"]), Need::WithoutDepth, Need::Nonzero("displacement")], ])];
+            "Galarza 3.2", needs [STRAIGHT, Need::AnyOf(&[ &[Need::Word("tone_from", &["depth"])], &[Need::Word("depth_from", &["shape"]), Need::WithoutDepth, Need::Nonzero("displacement")], ])];
         light_height: f64 = "light_height": number(45.0, 5.0..=90.0),
             "height of the lamp, in degrees above the page",
             "Galarza 3.2", needs [Need::Word("tone_from", &["depth"])];
@@ -78,7 +91,7 @@ parameters! {
             "the engraver's dotted ends", needs [NOT_STIPPLED];
         dash: Millimetres = "dash": pitches(1.5, 0.01..=1000.0),
             "distance from one dash to the next along a broken line",
-            "Galarza 4.1", needs [NOT_STIPPLED, Need::AnyOf(&[&[Need::Word("look", &["engraving"])], &[Need::Above("thinnest", 0.0)]])];
+            "Galarza 4.1", needs [STRAIGHT, NOT_STIPPLED, Need::AnyOf(&[&[Need::Word("look", &["engraving"])], &[Need::Above("thinnest", 0.0)]])];
         cut_out: f64 = "cut_out": number(0.3, 0.0..=0.9),
             "with look=engraving: share of a line's length that the white crossing lines remove in light tones",
             "Galarza 4.1: hatching less thick crosshatching", needs [Need::Word("look", &["engraving"])];
@@ -107,6 +120,14 @@ choice! {
         Net = "net",
         Stipple = "stipple",
         Contour = "contour",
+    }
+}
+
+choice! {
+    /// Where lines run.
+    pub(super) enum Way {
+        Form = "form",
+        Straight = "straight",
     }
 }
 

@@ -11,8 +11,9 @@ use super::Drawer;
 use super::parameters::PartsRule;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::geometry::Point;
-use crate::raster::{Raster, gaussian_blur, reduce};
-use crate::source::{MaskRole, Placement, Portrait};
+use crate::raster::{Raster, gaussian_blur};
+use crate::source::{MaskRole, Portrait};
+use crate::style::coverage::covered;
 use crate::style::{StyleError, charcoal, grid};
 
 /// Blur of the regions in pitches, and the gain of their edges: borders as smooth as the marks, without steps.
@@ -137,31 +138,6 @@ impl Parts {
     pub(super) fn hair_at(&self, p: Point) -> f32 {
         self.hair.as_ref().map_or(0.0, |hair| hair.sample(p.x, p.y))
     }
-}
-
-/// The share of each working pixel under the strokes' ink, by a grid twice as fine.
-fn covered(marks: &[Mark], placement: &Placement) -> Raster<f32> {
-    const FINER: f64 = 2.0;
-    let (columns, rows) = (2 * placement.columns, 2 * placement.rows);
-    let mut fine = Raster::filled(columns, rows, 0.0_f32);
-    let scale = FINER / placement.mm_per_pixel();
-    for mark in marks {
-        let Mark::Stroke(stroke) = mark else { continue };
-        let (points, widths) = stroke.sampled(1.0 / scale);
-        for (p, width) in points.iter().zip(widths) {
-            let (p, radius) = (placement.to_grid(*p), 0.5 * width * scale);
-            let (x, y) = (FINER * p.x - 0.5, FINER * p.y - 0.5);
-            let range = |at: f64, most: usize| {
-                ((at - radius).ceil().max(0.0) as usize)..((at + radius).floor() + 1.0).clamp(0.0, most as f64) as usize
-            };
-            for (row, column) in range(y, rows).flat_map(|row| range(x, columns).map(move |column| (row, column))) {
-                if (column as f64 - x).hypot(row as f64 - y) <= radius {
-                    fine.set(column, row, 1.0);
-                }
-            }
-        }
-    }
-    reduce(&fine, 2)
 }
 
 fn layer(name: &str, marks: Vec<Mark>) -> Option<Layer> {

@@ -1,0 +1,99 @@
+//! Families of even lines along a field of directions: stripes whose phase is made regular from coarse to fine.
+
+use super::super::Drawer;
+use crate::field::{Curve, StripeLattice, StripeParameters, Wave, stripe_lines, stripes};
+use crate::geometry::{Point, Vec2, smooth_polyline};
+use crate::raster::{Raster, gaussian_blur};
+use crate::style::random::stream;
+use rand::RngExt;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// How much closer lines stand where detail is fine.
+pub(super) const FINE: f32 = 0.34;
+/// Nodes per narrowest pitch: with fewer a line between two nodes could be lost.
+const NODES_PER_PITCH: f64 = 2.0;
+/// Reach of the window in pitches, rounds, and levels from coarse to fine.
+const WINDOW: f64 = 2.0;
+const ROUNDS: u32 = 4;
+const LEVELS: u32 = 5;
+/// Blur of the lines' density in pitches.
+const DENSITY_BLUR: f64 = 0.8;
+/// Smoothing of lines and the distance of their points, in pitches.
+const SMOOTH: f64 = 0.4;
+const SPACING: f64 = 0.25;
+
+/// The columns and rows of a surface on the working grid.
+#[derive(Clone, Debug)]
+pub(super) struct Extent {
+    columns: Range<usize>,
+    rows: Range<usize>,
+}
+
+impl Extent {
+    /// The box of what is above `least`, with room around it; none if nothing is.
+    pub(super) fn of(share: &Raster<f32>, least: f32, room: usize) -> Option<Self> {
+        let columns: Vec<usize> = (0..share.width()).filter(|x| (0..share.height()).any(|y| share.get(*x, y) > least)).collect();
+        let rows: Vec<usize> = (0..share.height()).filter(|y| share.row(*y).iter().any(|v| *v > least)).collect();
+        let wide = |range: &[usize], end: usize| Some(range.first()?.saturating_sub(room)..(range.last()? + 1 + room).min(end));
+        Some(Self { columns: wide(&columns, share.width())?, rows: wide(&rows, share.height())? })
+    }
+
+    fn origin(&self) -> Vec2 {
+        Vec2::new(self.columns.start as f64, self.rows.start as f64)
+    }
+}
+
+/// Lines in one direction over one surface.
+pub(super) struct Family {
+    stripes: StripeLattice,
+    origin: Vec2,
+    /// In working pixels.
+    pub lines: Vec<Curve>,
+    density: Raster<f32>,
+}
+
+impl Family {
+    /// The distance of neighbouring lines at a place, in pixels.
+    pub(super) fn spacing(&self, p: Point) -> f64 {
+        1.0 / f64::from(self.stripes.read(&self.density, p - self.origin)).max(1e-6)
+    }
+
+    /// How far a place lies from the nearest line, 0 on it to 1 midway between two.
+    pub(super) fn away(&self, p: Point) -> f64 {
+        let phase = self.stripes.phase_at(p - self.origin) / TAU;
+        2.0 * (phase - phase.round()).abs()
+    }
+}
+
+impl Drawer<'_> {
+    /// Lines over an extent, turned by an angle from the directions, `closeness` times as close as the pitch.
+    pub(super) fn even_lines(
+        &self,
+        extent: &Extent,
+        directions: &Raster<f32>,
+        turn: f64,
+        closeness: &(impl Fn(usize, usize) -> f32 + Sync),
+        name: &str,
+    ) -> Family {
+        let pitch = self.pixels(self.parameters.pitch);
+        let (left, top) = (extent.columns.start, extent.rows.start);
+        let wave: Raster<Wave> = Raster::from_fn(extent.columns.len(), extent.rows.len(), |x, y| {
+            let (sin, cos) = (directions.get(left + x, top + y) + turn as f32).sin_cos();
+            let dense = closeness(left + x, top + y) / pitch as f32;
+            [-sin * dense, cos * dense]
+        });
+        let step = pitch / NODES_PER_PITCH / f64::from(1.0 / (1.0 - FINE));
+        let parameters = StripeParameters { step, window: WINDOW * pitch / step, rounds: ROUNDS, levels: LEVELS };
+        let by_chance = |node: u64, _: Point, _: Wave| stream(self.seed, name, node).random::<f32>();
+        let stripes = stripes(&wave, parameters, &by_chance, None);
+        let density = gaussian_blur(&stripes.frequency(), (DENSITY_BLUR * pitch / step) as f32);
+        let origin = extent.origin();
+        let lines = stripe_lines(&stripes).into_iter().map(|line| {
+            let smooth = smooth_polyline(&line.points, line.closed.into(), SMOOTH * pitch, SPACING * pitch);
+            Curve { points: smooth.into_iter().map(|p| p + origin).collect(), closed: line.closed }
+        });
+        let lines = lines.filter(|line| line.points.len() > 1).collect();
+        Family { stripes, origin, lines, density }
+    }
+}

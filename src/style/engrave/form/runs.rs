@@ -1,0 +1,174 @@
+//! From lines to the pieces that are drawn: widths by ink, dots and dashes in the lights, tapered ends.
+
+use super::families::Family;
+use crate::drawing::{Dot, Mark, Stroke, Width};
+use crate::field::{Curve, pieces_inside};
+use crate::geometry::{Ends, Point, Ring, catmull_rom, lengths_along, resample};
+use crate::raster::Raster;
+use crate::source::Placement;
+use rayon::prelude::*;
+
+/// Distance of readings along a line in pitches: the smallest dash between two of them is lost.
+const READING: f64 = 0.1;
+/// Distance of a stroke's nodes in pitches.
+const NODE: f64 = 0.7;
+/// A line that ends of itself tapers over this many pitches to this share of its width; so does one where its family begins.
+const TAPER: f64 = 1.5;
+const TIP: f64 = 0.25;
+/// Pieces that the surface's border cuts on both sides are left out below this length in pitches, and those of crossing families at all:
+/// they are crumbs and ticks.
+const CRUMB: f64 = 1.5;
+const TICK: f64 = 3.0;
+/// Pieces shorter than this many widths are dots.
+const DOT: f64 = 1.6;
+/// The widest line in distances of lines: a little more than all of it closes the slits between curved lines.
+const WIDEST: f64 = 1.04;
+
+/// One piece of a line, in working pixels; a piece of one node is a dot with its diameter.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub nodes: Vec<Point>,
+    pub widths: Vec<f64>,
+    /// The widest that it may become at each node.
+    pub ceilings: Vec<f64>,
+}
+
+/// How a family is drawn.
+pub(super) struct Course<'a> {
+    pub family: &'a Family,
+    /// Ink that it carries, 0 to 1.
+    pub ink: &'a Raster<f32>,
+    /// Where it is drawn: from 0.5 on.
+    pub region: &'a Raster<f32>,
+    /// The family at whose lines thin lines keep their dashes; without it this is a crossing family, whose lines end instead.
+    pub breaks: Option<&'a Family>,
+    /// Share of the spacing below which a line is not drawn thinner, but broken.
+    pub thinnest: f64,
+    /// Diameter of the smallest dot in pixels.
+    pub dot_min: f64,
+    pub pitch: f64,
+}
+
+/// What is read at one place of a line.
+#[derive(Clone, Copy)]
+struct Reading {
+    place: Point,
+    along: f64,
+    width: f64,
+    spacing: f64,
+    /// Above 0 where the line is drawn.
+    excess: f64,
+}
+
+impl Course<'_> {
+    /// All pieces, line by line.
+    pub(super) fn pieces(&self) -> Vec<Piece> {
+        let lines: Vec<Vec<Piece>> = self.family.lines.par_iter().map(|line| self.of_line(line)).collect();
+        lines.into_iter().flatten().collect()
+    }
+
+    fn of_line(&self, line: &Curve) -> Vec<Piece> {
+        let mut points = line.points.clone();
+        if line.closed {
+            points.push(points[0]);
+        }
+        let own = [points[0], points[points.len() - 1]].map(|end| (!line.closed).then_some(end));
+        let inside = pieces_inside(&points, self.region);
+        inside.iter().flat_map(|points| self.of_piece(points, own)).collect()
+    }
+
+    /// The drawn runs of a line inside the region; `own` are the ends of the whole line.
+    fn of_piece(&self, points: &[Point], own: [Option<Point>; 2]) -> Vec<Piece> {
+        let nodes = resample(points, READING * self.pitch);
+        let along = lengths_along(&nodes);
+        let readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along)).collect();
+        let is_own = |p: Point| own.iter().flatten().any(|end| end.distance(p) < self.pitch);
+        let mut pieces = Vec::new();
+        let mut start = 0;
+        for run in readings.chunk_by(|a, b| (a.excess > 0.0) == (b.excess > 0.0)) {
+            let range = start..start + run.len();
+            start += run.len();
+            if run[0].excess <= 0.0 {
+                continue;
+            }
+            let (first, last) = (&run[0], &run[run.len() - 1]);
+            let before = range.start.checked_sub(1).map(|i| readings[i]);
+            let after = readings.get(range.end).copied();
+            let from = before.map_or(first.along, |b| crossing(&b, first));
+            let to = after.map_or(last.along, |a| crossing(last, &a));
+            let tapers = [before.is_some() || is_own(first.place), after.is_some() || is_own(last.place)];
+            let least = if self.breaks.is_none() { TICK } else { CRUMB };
+            if (self.breaks.is_none() || tapers == [false; 2]) && to - from < least * self.pitch {
+                continue;
+            }
+            pieces.extend(self.piece(run, from, to, tapers));
+        }
+        pieces
+    }
+
+    fn read(&self, place: Point, along: f64) -> Reading {
+        let ink = f64::from(self.ink.sample(place.x, place.y));
+        let spacing = self.family.spacing(place).min(2.0 * self.pitch);
+        let (width, excess) = match self.breaks {
+            Some(breaks) if ink < self.thinnest => (self.thinnest, ink / self.thinnest - breaks.away(place)),
+            _ => (ink, ink - 1e-3),
+        };
+        Reading { place, along, width: width * spacing, spacing, excess }
+    }
+
+    fn piece(&self, run: &[Reading], from: f64, to: f64, tapers: [bool; 2]) -> Option<Piece> {
+        let widest = run.iter().map(|r| r.width).fold(0.0, f64::max);
+        let length = to - from;
+        if length < DOT * widest {
+            let middle = run[run.len() / 2];
+            let diameter = (4.0 / std::f64::consts::PI * length * widest).sqrt();
+            let is_drawn = diameter >= self.dot_min;
+            return is_drawn.then(|| Piece { nodes: vec![middle.place], widths: vec![diameter], ceilings: vec![middle.spacing] });
+        }
+        let count = (length / (NODE * self.pitch)).ceil().max(2.0) as usize;
+        let taper = (TAPER * self.pitch).min(0.45 * length);
+        let mut piece = Piece { nodes: Vec::new(), widths: Vec::new(), ceilings: Vec::new() };
+        for i in 0..=count {
+            let at = from + length * i as f64 / count as f64;
+            let reading = between(run, at);
+            let rise = |is_tapered: bool, away: f64| if is_tapered { TIP + (1.0 - TIP) * (away / taper).min(1.0) } else { 1.0 };
+            piece.nodes.push(reading.place);
+            piece.widths.push(reading.width * rise(tapers[0], at - from).min(rise(tapers[1], to - at)));
+            piece.ceilings.push(WIDEST * reading.spacing);
+        }
+        Some(piece)
+    }
+}
+
+/// Where along the line it begins or ends to be drawn.
+fn crossing(a: &Reading, b: &Reading) -> f64 {
+    a.along + (b.along - a.along) * (a.excess / (a.excess - b.excess)).clamp(0.0, 1.0)
+}
+
+/// The reading at a length along the line, straight between readings and beyond the run's ends.
+fn between(run: &[Reading], along: f64) -> Reading {
+    if run.len() == 1 {
+        return run[0];
+    }
+    let i = run.partition_point(|r| r.along < along).clamp(1, run.len() - 1);
+    let (a, b) = (run[i - 1], run[i]);
+    let t = (along - a.along) / (b.along - a.along).max(1e-9);
+    let inner = t.clamp(0.0, 1.0);
+    let mix = |x: f64, y: f64| x + (y - x) * inner;
+    Reading { place: a.place.lerp(b.place, t), along, width: mix(a.width, b.width), spacing: mix(a.spacing, b.spacing), ..a }
+}
+
+impl Piece {
+    /// The mark on the page; none without ink.
+    pub(super) fn mark(&self, placement: &Placement) -> Option<Mark> {
+        let scale = placement.mm_per_pixel();
+        let places: Vec<Point> = self.nodes.iter().map(|p| placement.to_page(*p)).collect();
+        if let [place] = places.as_slice() {
+            return (self.widths[0] > 0.0).then(|| Mark::Dot(Dot::circle(*place, 0.5 * self.widths[0] * scale)));
+        }
+        let widths: Vec<f64> = self.widths.iter().map(|w| w * scale).collect();
+        let mut stroke = Stroke::new(catmull_rom(&places, Ring::Open), Width::Along(widths));
+        stroke.ends = Ends::Flat;
+        Some(Mark::Stroke(stroke))
+    }
+}
