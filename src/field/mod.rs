@@ -12,6 +12,7 @@ mod dark_relief;
 mod direction;
 mod distance;
 mod edges;
+mod evening;
 mod faces;
 mod flow;
 mod flow_dog;
@@ -22,6 +23,7 @@ mod hough;
 mod inside;
 mod isophotes;
 mod lanes;
+mod least_squares;
 mod linking;
 mod orientation;
 mod poisson;
@@ -55,6 +57,7 @@ pub use distance::nearest_seed;
 pub use distance::{FeatureDistance, distance_to_curves};
 #[doc(hidden)]
 pub use edges::{EdgeParameters, EdgeSteps, detect_edges, lines_of};
+pub(crate) use evening::evening;
 #[doc(hidden)]
 pub use faces::{
     CROWN, FaceExpectation, FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, SkinTone, USUAL_WINDOWS, facial_features,

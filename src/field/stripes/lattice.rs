@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 /// Nodes beyond the raster's border on each side, so that lines reach it.
 pub(super) const MARGIN: f64 = 2.0;
 
-/// The target wave of the stripes: direction across them, cycles per pixel; of either sign.
+/// The target wave of the stripes: direction across them, cycles per pixel; of either sign. Where it is 0 there are no stripes.
 pub type Wave = [f32; 2];
 
 /// A lattice of nodes over a raster and a little beyond; node `(i, j)` lies at `((i + 0.5) step - margin, (j + 0.5) step - margin)`
@@ -37,6 +37,11 @@ impl StripeLattice {
         let way = self.position(to.0, to.1) - self.position(from.0, from.1);
         let mean = if turned { a - b } else { a + b };
         (PI * mean.dot(way), turned)
+    }
+
+    /// True if a node has stripes.
+    pub(super) fn is_striped(&self, i: usize, j: usize) -> bool {
+        self.wave.get(i, j) != [0.0; 2]
     }
 
     /// The node's phase in radians.
@@ -70,6 +75,9 @@ impl StripeLattice {
     pub fn frequency(&self) -> Raster<f32> {
         let (width, height) = (self.phase.width(), self.phase.height());
         Raster::from_fn(width, height, |i, j| {
+            if !self.is_striped(i, j) {
+                return 0.0;
+            }
             let growth = |ni: usize, nj: usize| {
                 let (gain, remainder) = self.step_between((i, j), (ni, nj));
                 gain + remainder

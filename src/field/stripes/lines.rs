@@ -147,6 +147,9 @@ fn crossings(lattice: &StripeLattice, (i, j): (usize, usize), side: usize, from:
 
 /// The pieces of line in one cell.
 fn cell_links(lattice: &StripeLattice, i: usize, j: usize, points: &mut HashMap<Key, Point>) -> Vec<(Key, Key)> {
+    if CORNERS.iter().any(|(di, dj)| !lattice.is_striped(i + di, j + dj)) {
+        return Vec::new();
+    }
     let cell = CellPhases::new(lattice, i, j);
     let (low, high) = cell.range();
     if (low / TAU).ceil() > (high / TAU).floor() {

@@ -99,6 +99,9 @@ fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64
 /// The start of a level: the prediction of the four coarser nodes around each node.
 fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
     Raster::from_fn(waves.width(), waves.height(), |i, j| {
+        if waves.get(i, j) == [0.0; 2] {
+            return [1.0, 0.0];
+        }
         let here = Point::new((i as f64 + 0.5) * step - fine.margin, (j as f64 + 0.5) * step - fine.margin);
         let (x, y) = ((here.x + fine.margin) / coarse.step - 0.5, (here.y + fine.margin) / coarse.step - 0.5);
         let mut sum = [0.0_f32; 2];
@@ -129,7 +132,8 @@ fn unit([re, im]: [f32; 2]) -> [f32; 2] {
     if length > 1e-20 { [re / length, im / length] } else { [1.0, 0.0] }
 }
 
-/// From a node to its right or lower neighbour: the turn of the phase, and -1 where the waves are opposite.
+/// From a node to its right or lower neighbour: the turn of the phase, and -1 where the waves are opposite; 0 where one of both has no
+/// stripes.
 #[derive(Clone, Copy, Default)]
 struct Edge {
     cos: f32,
@@ -162,7 +166,7 @@ impl Edges {
         let is_finest = lattice.step == fine.step;
         let edge = |i: usize, j: usize, di: usize, dj: usize| {
             let (ni, nj) = (i + di, j + dj);
-            if ni >= width || nj >= height {
+            if ni >= width || nj >= height || !lattice.is_striped(i, j) || !lattice.is_striped(ni, nj) {
                 return Edge::default();
             }
             let (gain, turned) = if is_finest {
@@ -189,7 +193,8 @@ fn relax(lattice: &mut StripeLattice, edges: &Edges, parameters: StripeParameter
     let mut next = lattice.phase.clone();
     for _ in 0..parameters.rounds {
         for step in 0..steps {
-            small_step(&lattice.phase, edges, &mut next, step + 1 == steps, anchor);
+            let is_striped = |i: usize, j: usize| lattice.is_striped(i, j);
+            small_step(&lattice.phase, edges, &mut next, &is_striped, step + 1 == steps, anchor);
             std::mem::swap(&mut lattice.phase, &mut next);
         }
     }
@@ -199,6 +204,7 @@ fn small_step(
     phase: &Raster<[f32; 2]>,
     edges: &Edges,
     next: &mut Raster<[f32; 2]>,
+    is_striped: &(impl Fn(usize, usize) -> bool + Sync),
     is_last: bool,
     anchor: Option<&Raster<[f32; 2]>>,
 ) {
@@ -208,22 +214,25 @@ fn small_step(
         let above = (j > 0).then(|| (phase.row(j - 1), edges.down.row(j - 1)));
         let below = (j + 1 < height).then(|| phase.row(j + 1));
         for i in 0..width {
+            if !is_striped(i, j) {
+                continue;
+            }
             let (mut sum, mut count) = ([0.0_f32; 2], 0.0_f32);
-            let mut add = |[re, im]: [f32; 2]| {
+            let mut add = |edge: Edge, [re, im]: [f32; 2]| {
                 sum = [sum[0] + re, sum[1] + im];
-                count += 1.0;
+                count += edge.sign.abs();
             };
             if i > 0 {
-                add(right[i - 1].ahead(row[i - 1]));
+                add(right[i - 1], right[i - 1].ahead(row[i - 1]));
             }
             if i + 1 < width {
-                add(right[i].back(row[i + 1]));
+                add(right[i], right[i].back(row[i + 1]));
             }
             if let Some((above, edges)) = above {
-                add(edges[i].ahead(above[i]));
+                add(edges[i], edges[i].ahead(above[i]));
             }
             if let Some(below) = below {
-                add(down[i].back(below[i]));
+                add(down[i], down[i].back(below[i]));
             }
             let own = 1.0 - SHARE * count;
             let [re, im] = row[i];

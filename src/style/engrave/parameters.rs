@@ -34,7 +34,7 @@ parameters! {
             "Galarza 4.1 and 4.4";
         way: Way = "directions": Kind::Choice(Way::WORDS),
             "direction of the lines: form follows the face, its hair and clothing where a face is known; straight lines are only bent by depth",
-            "Ostromoukhov 1999; Galarza 3.4 and 6", needs [ Need::WithFace, Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("look", &["crosshatch", "hatch"]), Need::Word("ground", &["white"]), Need::Word("tone_from", &["photo"]), ];
+            "Galarza 3.4; Ostromoukhov 1999", needs [ Need::WithFace, Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("look", &["crosshatch", "hatch"]), Need::Word("ground", &["white"]), Need::Word("tone_from", &["photo"]), ];
         displacement: Millimetres = "displacement": pitches(14.0, -1000.0..=1000.0),
             "how far the nearest depth shifts a line to its left (up at angle 0)",
             "Galarza 3.5.1, phi, equation 3.5", needs [STRAIGHT];

@@ -78,18 +78,18 @@ fn map_about(face: &Landmarks, head: &Head, i: usize) -> [Vec2; 2] {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::source::Iris;
 
-    /// The mean face itself, 100 pixels wide, turned by an angle.
-    fn mean_face(turn: f64) -> Landmarks {
+    /// The mean face itself, turned by an angle.
+    pub(in super::super) fn mean_face(middle: Point, width: f64, turn: f64) -> Landmarks {
         let (sin, cos) = turn.sin_cos();
         let points = CANONICAL.iter().map(|point| {
-            let p = point.place * 100.0;
-            [200.0 + p.x * cos - p.y * sin, 200.0 + p.x * sin + p.y * cos, 0.0]
+            let p = point.place * width;
+            [middle.x + p.x * cos - p.y * sin, middle.y + p.x * sin + p.y * cos, 0.0]
         });
-        let iris = Iris { centre: Point::ORIGIN, radius: 1.0 };
+        let iris = Iris { centre: middle, radius: 1.0 };
         Landmarks { points: points.collect(), irises: [iris; 2] }
     }
 
@@ -97,7 +97,7 @@ mod tests {
     fn the_mean_face_has_its_own_directions_however_it_is_turned() {
         assert_eq!(CANONICAL.len(), POINTS);
         for turn in [0.0, 0.4, -0.7] {
-            let face = mean_face(turn);
+            let face = mean_face(Point::new(200.0, 200.0), 100.0, turn);
             for (i, (_, angle)) in directions(&face, &Head::new(&face)).iter().enumerate() {
                 assert!((angle - CANONICAL[i].angle).abs() < 0.02, "point {i}: {angle} {}", CANONICAL[i].angle);
             }

@@ -3,7 +3,7 @@
 use super::families::Family;
 use crate::drawing::{Dot, Mark, Stroke, Width};
 use crate::field::{Curve, pieces_inside};
-use crate::geometry::{Ends, Point, Ring, catmull_rom, lengths_along, resample};
+use crate::geometry::{Ends, Point, Rect, Ring, Vec2, catmull_rom, lengths_along, resample};
 use crate::raster::Raster;
 use crate::source::Placement;
 use rayon::prelude::*;
@@ -19,6 +19,9 @@ const TIP: f64 = 0.25;
 /// they are crumbs and ticks.
 const CRUMB: f64 = 1.5;
 const TICK: f64 = 3.0;
+/// Length over which a line's own direction is measured, in pitches, and the sine of the angle from the directions at which it is a hook.
+const HOOK: f64 = 0.8;
+const MOST_OFF: f64 = 0.6;
 /// Pieces shorter than this many widths are dots.
 const DOT: f64 = 1.6;
 /// The widest line in distances of lines: a little more than all of it closes the slits between curved lines.
@@ -36,6 +39,9 @@ pub(super) struct Piece {
 /// How a family is drawn.
 pub(super) struct Course<'a> {
     pub family: &'a Family,
+    /// The directions on the working grid, and the family's turn from them, in radians.
+    pub directions: &'a Raster<f32>,
+    pub turn: f64,
     /// Ink that it carries, 0 to 1.
     pub ink: &'a Raster<f32>,
     /// Where it is drawn: from 0.5 on.
@@ -47,6 +53,8 @@ pub(super) struct Course<'a> {
     /// Diameter of the smallest dot in pixels.
     pub dot_min: f64,
     pub pitch: f64,
+    /// The picture in working pixels.
+    pub picture: Rect,
 }
 
 /// What is read at one place of a line.
@@ -81,7 +89,8 @@ impl Course<'_> {
     fn of_piece(&self, points: &[Point], own: [Option<Point>; 2]) -> Vec<Piece> {
         let nodes = resample(points, READING * self.pitch);
         let along = lengths_along(&nodes);
-        let readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along)).collect();
+        let mut readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along)).collect();
+        self.cut_hooks(&mut readings);
         let is_own = |p: Point| own.iter().flatten().any(|end| end.distance(p) < self.pitch);
         let mut pieces = Vec::new();
         let mut start = 0;
@@ -106,9 +115,28 @@ impl Course<'_> {
         pieces
     }
 
+    /// Where two lines end side by side the phase joins them in a hook; what turns away from the directions is not drawn.
+    fn cut_hooks(&self, readings: &mut [Reading]) {
+        let reach = (0.5 * HOOK / READING) as usize;
+        let places: Vec<Point> = readings.iter().map(|r| r.place).collect();
+        let last = places.len() - 1;
+        for (i, reading) in readings.iter_mut().enumerate() {
+            let way = places[(i + reach).min(last)] - places[i.saturating_sub(reach)];
+            let p = reading.place;
+            let angle = f64::from(self.directions.clamped(p.x as isize, p.y as isize)) + self.turn;
+            if way.cross(Vec2::from_angle(angle)).abs() > MOST_OFF * way.hypot() {
+                reading.excess = reading.excess.min(-0.5);
+            }
+        }
+    }
+
     fn read(&self, place: Point, along: f64) -> Reading {
         let ink = f64::from(self.ink.sample(place.x, place.y));
-        let spacing = self.family.spacing(place).min(2.0 * self.pitch);
+        // At the picture's border no wider than the paper.
+        let to_border =
+            [place.x - self.picture.x0, self.picture.x1 - place.x, place.y - self.picture.y0, self.picture.y1 - place.y];
+        let room = to_border.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
+        let spacing = self.family.spacing(place).min(2.0 * self.pitch).min(2.0 * room / WIDEST);
         let (width, excess) = match self.breaks {
             Some(breaks) if ink < self.thinnest => (self.thinnest, ink / self.thinnest - breaks.away(place)),
             _ => (ink, ink - 1e-3),

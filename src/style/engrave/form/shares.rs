@@ -9,7 +9,7 @@ const SKIN: [Entry; 2] = [Entry { from: 0.36, to: 0.80, most: 0.62 }, Entry { fr
 const CLOTH: [Entry; 2] = [Entry { from: 0.30, to: 0.90, most: 0.72 }, Entry { from: 0.0, to: 1.0, most: 0.0 }];
 const HAIR: [Entry; 2] = [Entry { from: 0.74, to: 1.0, most: 0.5 }, Entry { from: 0.0, to: 1.0, most: 0.0 }];
 /// Ink below which an entering family is not drawn: its lines would be hairs.
-const LEAST: f32 = 0.05;
+const LEAST: f32 = 0.08;
 
 #[derive(Clone, Copy)]
 struct Entry {

@@ -1,0 +1,62 @@
+//! The ink that the lines are to make: without grain, sharper in details, smooth along the locks of hair.
+
+use super::super::Drawer;
+use super::LEAST_SHARE;
+use crate::geometry::{Point, Vec2};
+use crate::raster::{Raster, gaussian_blur};
+use crate::source::MaskRole;
+
+/// Reach of a detail region's finer lines, in pitches.
+const DETAIL_BLUR: f64 = 1.0;
+/// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
+const TONE_BLUR: f64 = 0.22;
+const SHARPEN: f32 = 0.6;
+/// How far ink is averaged along a lock to either side, in pitches, and by how many steps.
+const ALONG: f64 = 1.6;
+const ALONG_STEPS: i32 = 4;
+/// Reach of the mean from which locks of hair differ, in pitches, and how much their difference grows in half tones.
+const LOCK: f64 = 6.0;
+const LOCK_CONTRAST: f32 = 0.7;
+
+impl Drawer<'_> {
+    /// Where lines are finer, 0 to 1.
+    pub(super) fn detail_zone(&self) -> Raster<f32> {
+        let pitch = self.pixels(self.parameters.pitch);
+        let mask = self.portrait.masks.get(&MaskRole::Detail);
+        mask.map_or_else(
+            || self.portrait.subject.map(|_| 0.0),
+            |mask| gaussian_blur(mask, (DETAIL_BLUR * pitch) as f32).map(|v| (1.3 * v).min(1.0)),
+        )
+    }
+
+    /// The ink wanted: without grain, and sharper in detail.
+    pub(super) fn form_ink(&self, detail: &Raster<f32>) -> Raster<f32> {
+        let sigma = (TONE_BLUR * self.pixels(self.parameters.pitch)) as f32;
+        let ink = self.portrait.ink();
+        let (smooth, wide) = (gaussian_blur(&ink, sigma), gaussian_blur(&ink, 2.0 * sigma));
+        let sharp = ink.zip_map(&wide, |ink, wide| ink + SHARPEN * (ink - wide));
+        let mixed = smooth.zip_map(&sharp, |smooth, sharp| (smooth, sharp));
+        let mixed = mixed.zip_map(detail, |(smooth, sharp), detail| smooth + (sharp - smooth) * detail);
+        mixed.zip_map(&self.portrait.subject, |ink, subject| if subject > LEAST_SHARE { ink.clamp(0.0, 1.0) } else { 0.0 })
+    }
+
+    /// The ink of hair smooth along its locks and with more contrast between them; its mean stays.
+    pub(super) fn with_locks(&self, ink: &Raster<f32>, hair: &Raster<f32>, directions: &Raster<f32>) -> Raster<f32> {
+        let step = ALONG * self.pixels(self.parameters.pitch) / f64::from(ALONG_STEPS);
+        let along = Raster::from_fn(ink.width(), ink.height(), |x, y| {
+            if hair.get(x, y) <= 0.0 {
+                return ink.get(x, y);
+            }
+            let way = Vec2::from_angle(f64::from(directions.get(x, y))) * step;
+            let place = |i: i32| Point::new(x as f64 + 0.5, y as f64 + 0.5) + way * f64::from(i);
+            let sum: f32 = (-ALONG_STEPS..=ALONG_STEPS).map(|i| ink.sample(place(i).x, place(i).y)).sum();
+            sum / (2 * ALONG_STEPS + 1) as f32
+        });
+        let ink = &ink.zip_map(&along, |ink, along| (ink, along)).zip_map(hair, |(ink, along), hair| ink + (along - ink) * hair);
+        let reach = (LOCK * self.pixels(self.parameters.pitch)) as f32;
+        let around = gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), reach);
+        let mean = around.zip_map(&gaussian_blur(hair, reach), |ink, hair| ink / hair.max(1e-3));
+        let apart = ink.zip_map(&mean, |ink, mean| LOCK_CONTRAST * (ink - mean) * (4.0 * mean * (1.0 - mean)).max(0.0));
+        ink.zip_map(&apart.zip_map(hair, |apart, hair| apart * hair), |ink, apart| (ink + apart).clamp(0.0, 1.0))
+    }
+}

@@ -1,0 +1,84 @@
+//! What an engraver cuts solid: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
+
+use super::super::Drawer;
+use super::head::Head;
+use crate::drawing::{Area, Layer, Mark};
+use crate::field::contours;
+use crate::geometry::{BezPath, Point, Rect, Ring, catmull_rom, polygon_area, smooth_polyline};
+use crate::raster::{Raster, filled_polygon, gaussian_blur};
+use crate::source::{Landmarks, outlines};
+
+/// Ink from which details are solid, and by how much less in eyes: lips and brows stay lines. The blur before that and the side of the
+/// smallest solid, in pitches.
+const SOLID: f32 = 0.9;
+const EYE_LIFT: f32 = 0.2;
+const SOLID_BLUR: f64 = 0.2;
+const LEAST_SOLID: f64 = 0.25;
+/// Reach of the mean from which frames of spectacles differ, how much darker they are, and the least length of their parts, in widths
+/// of the face and ink.
+const THIN: f64 = 0.03;
+const THIN_DARK: f32 = 0.16;
+const LONG: f64 = 0.09;
+
+impl Drawer<'_> {
+    /// The inside of two closed outlines of all faces, 0 or 1.
+    pub(super) fn filled(&self, of: [&[usize]; 2]) -> Raster<f32> {
+        let (columns, rows) = self.size();
+        let lines = self.portrait.faces.iter().flat_map(|face| of.map(|outline| face.line(outline)));
+        lines.fold(Raster::filled(columns, rows, 0.0_f32), |all, lids| {
+            let corners: Vec<[f64; 2]> = lids.iter().map(|p| [p.x, p.y]).collect();
+            all.zip_map(&filled_polygon(columns, rows, &corners), |all, inside| all.max(f32::from(inside)))
+        })
+    }
+
+    /// How much darker thin dark lines between brows and cheeks are than what lies around them: frames of spectacles.
+    pub(super) fn thin_darks(&self, ink: &Raster<f32>) -> Raster<f32> {
+        let heads: Vec<Head> = self.portrait.faces.iter().map(Head::new).collect();
+        let widest = heads.iter().map(|head| head.width).fold(1.0, f64::max);
+        let around = gaussian_blur(ink, (THIN * widest) as f32);
+        let near = gaussian_blur(ink, (0.15 * self.pixels(self.parameters.pitch)) as f32);
+        let brows = self.filled([&outlines::LEFT_BROW, &outlines::RIGHT_BROW]);
+        let brows = gaussian_blur(&brows, (THIN * widest) as f32);
+        Raster::from_fn(ink.width(), ink.height(), |x, y| {
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let is_in_band = heads.iter().any(|head| {
+                let (u, v) = head.relative(p);
+                (-0.75..-0.36).contains(&v) && u.abs() < 0.75
+            });
+            if is_in_band { (near.get(x, y) - around.get(x, y)) * (1.0 - (3.0 * brows.get(x, y)).min(1.0)) } else { 0.0 }
+        })
+    }
+
+    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips.
+    pub(super) fn solids(&self, ink: &Raster<f32>, detail: &Raster<f32>) -> Layer {
+        let pitch = self.pixels(self.parameters.pitch);
+        let eyes = gaussian_blur(&self.filled([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
+        let lifted = ink.zip_map(&eyes, |ink, eyes| ink + EYE_LIFT * (2.0 * eyes).min(1.0));
+        let dark =
+            gaussian_blur(&lifted.zip_map(detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
+        let mut outline = self.shapes(&dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2));
+        let longest = |curve: &[Point]| {
+            let bounds = curve.iter().fold(Rect::from_points(curve[0], curve[0]), |bounds, p| bounds.union_pt(*p));
+            bounds.width().hypot(bounds.height())
+        };
+        let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
+        outline.extend(self.shapes(&self.thin_darks(ink), THIN_DARK, |curve| longest(curve) > LONG * widest));
+        let mut layer = Layer::new("solids", 1);
+        if !outline.is_empty() {
+            layer.marks.push(Mark::Area(Area { outline, colour: None }));
+        }
+        layer
+    }
+
+    /// The smooth outlines of what lies above a level, of those that are wanted.
+    pub(super) fn shapes(&self, dark: &Raster<f32>, level: f32, is_wanted: impl Fn(&[Point]) -> bool) -> BezPath {
+        let pitch = self.pixels(self.parameters.pitch);
+        let mut outline = BezPath::new();
+        for curve in contours(dark, level).into_iter().filter(|curve| curve.closed && is_wanted(&curve.points)) {
+            let smooth = smooth_polyline(&curve.points, Ring::Closed, 0.1 * pitch, 0.15 * pitch);
+            let places: Vec<Point> = smooth.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
+            outline.extend(catmull_rom(&places, Ring::Closed));
+        }
+        outline
+    }
+}
