@@ -200,6 +200,9 @@ impl<'a> Task<'a> {
             let sense = if self.options.depth_far_white { DepthSense::FarWhite } else { DepthSense::NearWhite };
             let name = depth.file.as_deref().unwrap_or(&self.options.photo);
             portrait.add_depth(&depth.map, sense, photograph, crop).map_err(about(name))?;
+            if self.options.depth.is_none() {
+                portrait.set_depth_found();
+            }
         }
         portrait.add_faces(&known.faces, photograph, crop).map_err(about(&self.options.photo))?;
         if let Wanted::Portrait(strength) = known.tone

@@ -84,6 +84,8 @@ pub struct Portrait {
     pub masks: BTreeMap<MaskRole, Raster<f32>>,
     /// Nearness, 1 nearest and towards 0 far; 0 where unknown or background.
     pub depth: Option<Raster<f32>>,
+    /// Whether the depth was estimated from the photograph.
+    is_depth_found: bool,
     /// The detected faces, in working pixels, largest first.
     pub faces: Vec<Landmarks>,
     /// Regions marked by hand.
@@ -122,6 +124,7 @@ impl Portrait {
             is_on_white: true,
             masks: BTreeMap::new(),
             depth: None,
+            is_depth_found: false,
             faces: Vec::new(),
             scribbles: None,
         })
@@ -187,6 +190,16 @@ impl Portrait {
         Ok(())
     }
 
+    /// Says that the depth was estimated from the photograph: styles that know better may do without it.
+    pub const fn set_depth_found(&mut self) {
+        self.is_depth_found = true;
+    }
+
+    /// Whether a depth map was given, not estimated.
+    pub const fn has_given_depth(&self) -> bool {
+        self.depth.is_some() && !self.is_depth_found
+    }
+
     /// Adds faces detected in the photograph, in its pixels, largest first. Faces whose middle (tip of the nose) lies outside the
     /// crop are dropped.
     pub fn add_faces(&mut self, faces: &[Landmarks], photograph: &Photograph, crop: Crop) -> Result<(), SourceError> {
@@ -216,6 +229,7 @@ impl Portrait {
             is_on_white: self.is_on_white,
             masks: self.masks.iter().map(|(role, mask)| (*role, of(mask))).collect(),
             depth: self.depth.as_ref().map(of),
+            is_depth_found: self.is_depth_found,
             faces: self.faces.iter().map(|face| face.placed(place, 1.0)).collect(),
             scribbles: self.scribbles.as_ref().map(|scribbles| scribbles.part(columns, rows)),
         }

@@ -23,6 +23,10 @@ pub enum Need {
     Without(MaskRole),
     /// No depth map is given.
     WithoutDepth,
+    /// A depth map is given, not estimated.
+    WithGivenDepth,
+    /// No depth map is given; one may be estimated.
+    WithoutGivenDepth,
     /// A face is known.
     WithFace,
     /// No face is known.
@@ -47,6 +51,8 @@ impl Need {
             Self::With(role) => has(role),
             Self::Without(role) => !has(role),
             Self::WithoutDepth => portrait.depth.is_none(),
+            Self::WithGivenDepth => portrait.has_given_depth(),
+            Self::WithoutGivenDepth => !portrait.has_given_depth(),
             Self::WithFace => !portrait.faces.is_empty(),
             Self::WithoutFace => portrait.faces.is_empty(),
             Self::AnyOf(lists) => lists.iter().any(|all| all.iter().all(|need| need.is_met(settings, portrait))),
@@ -64,6 +70,8 @@ impl Need {
             Self::With(role) => format!("the {} mask", role.name()),
             Self::Without(role) => format!("no {} mask", role.name()),
             Self::WithoutDepth => "no depth map".to_owned(),
+            Self::WithGivenDepth => "a depth map".to_owned(),
+            Self::WithoutGivenDepth => "no depth map of one's own".to_owned(),
             Self::WithFace => "a face".to_owned(),
             Self::WithoutFace => "no face".to_owned(),
             Self::AnyOf(lists) => lists.iter().map(|all| all_text(all)).collect::<Vec<_>>().join(", or "),

@@ -14,6 +14,7 @@ const DEPTH_COUNTS: Need = Need::AnyOf(&[&[Need::Nonzero("displacement")], &[Nee
 const STRAIGHT: Need = Need::AnyOf(&[
     &[Need::WithoutFace],
     &[Need::Word("directions", &["straight"])],
+    &[Need::WithGivenDepth],
     &[Need::With(MaskRole::Scribbles)],
     &[Need::Word("regions", &["one", "superpixels"])],
     &[Need::Word("look", &["engraving", "net", "stipple", "contour"])],
@@ -33,8 +34,8 @@ parameters! {
             "crosshatch: swelling lines, crossed in dark tones, dots in light tones; engraving: the same, with white lines cut through them in half tones; hatch: one layer only; net: crossed everywhere; stipple: dots along the lines; contour: lines in shadows only",
             "Galarza 4.1 and 4.4";
         way: Way = "directions": Kind::Choice(Way::WORDS),
-            "direction of the lines: form follows the face, its hair and clothing where a face is known; straight lines are only bent by depth",
-            "Galarza 3.4; Ostromoukhov 1999", needs [ Need::WithFace, Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("look", &["crosshatch", "hatch"]), Need::Word("ground", &["white"]), Need::Word("tone_from", &["photo"]), ];
+            "direction of the lines: form follows the face, its hair and clothing, where a face is known and no depth map is given; straight lines are only bent by depth",
+            "Galarza 3.4; Ostromoukhov 1999", needs [ Need::WithFace, Need::WithoutGivenDepth, Need::Without(MaskRole::Scribbles), Need::Word("regions", &["auto"]), Need::Word("look", &["crosshatch", "hatch"]), Need::Word("ground", &["white"]), Need::Word("tone_from", &["photo"]), ];
         displacement: Millimetres = "displacement": pitches(14.0, -1000.0..=1000.0),
             "how far the nearest depth shifts a line to its left (up at angle 0)",
             "Galarza 3.5.1, phi, equation 3.5", needs [STRAIGHT];
@@ -177,6 +178,15 @@ choice! {
 }
 
 impl EngraveParameters {
+    /// True if nothing asks for lines other than those that follow the form of a face.
+    pub(super) fn may_follow_form(&self) -> bool {
+        self.way == Way::Form
+            && self.regions == Division::Auto
+            && matches!(self.look, Look::Crosshatch | Look::Hatch)
+            && self.ground == GroundColour::White
+            && self.tone_from == ToneFrom::Photo
+    }
+
     /// Keeps lengths in proportion to the pitch.
     fn in_proportion(self) -> Self {
         let pitch = self.pitch;

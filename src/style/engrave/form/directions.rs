@@ -92,7 +92,8 @@ impl Cells {
     }
 }
 
-/// The structure tensor's direction along the lines of a picture, in radians, its coherence (0 to 1) and its energy.
+/// The structure tensor's direction along the lines of a picture, in radians, its coherence (0 to 1) and its energy, on a grid twice as
+/// coarse as the working grid.
 struct Texture {
     along: Raster<f32>,
     coherence: Raster<f32>,
@@ -100,7 +101,9 @@ struct Texture {
 }
 
 impl Texture {
+    /// Of a working raster, with both blurs in its pixels.
     fn new(tone: &Raster<f32>, fine: f64, wide: f64) -> Self {
+        let (tone, fine, wide) = (&reduce(tone, HALF), fine / HALF as f64, wide / HALF as f64);
         let tensor = structure_tensor(&[gaussian_gradient(tone, fine as f32)]).unwrap_or_else(|| tone.map(|_| [0.0; 3]));
         let [xx, xy, yy] = [0, 1, 2].map(|k| fast_gaussian(&tensor.map(|t| t[k]), wide as f32));
         let along = xx.zip_map(&yy, |xx, yy| xx - yy).zip_map(&xy, |d, xy| 0.5 * (2.0 * xy).atan2(d) + 0.5 * PI as f32);
@@ -166,7 +169,8 @@ impl Drawer<'_> {
     fn hair_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
         let unit = self.pixels(self.parameters.pitch) / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 1.4 * unit, 5.0 * unit);
-        let clear = texture.clear(&surfaces.hair).map(|clear| 0.25 * clear);
+        let clear = texture.clear(&reduce(&surfaces.hair, HALF)).map(|clear| 0.25 * clear);
+        let (half, hair) = (cells.on_half(), cells.mean(&surfaces.hair));
         let around = |p: Point| {
             let head = nearest(p);
             let (u, v) = head.relative(p);

@@ -25,7 +25,7 @@ mod solids;
 mod surfaces;
 
 use super::Drawer;
-use super::parameters::{Division, GroundColour, Look, ToneFrom, Way};
+use super::parameters::Look;
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::{Raster, dilate};
@@ -55,14 +55,10 @@ type Pieces = [Vec<Piece>; 3];
 impl Drawer<'_> {
     /// True if the lines follow the form: a face is known, and nothing asks for lines of another kind.
     pub(super) fn follows_form(&self) -> bool {
-        let p = &self.parameters;
         !self.portrait.faces.is_empty()
-            && p.way == Way::Form
-            && p.regions == Division::Auto
             && self.portrait.scribbles.is_none()
-            && matches!(p.look, Look::Crosshatch | Look::Hatch)
-            && p.ground == GroundColour::White
-            && p.tone_from == ToneFrom::Photo
+            && !self.portrait.has_given_depth()
+            && self.parameters.may_follow_form()
     }
 
     pub(super) fn draw_form(&self) -> Result<Drawing, StyleError> {
