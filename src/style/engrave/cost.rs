@@ -15,9 +15,9 @@ const SUPERPIXEL_MICROSECONDS: f64 = 0.6;
 /// Additional with outlines: 0.65 in all at 250 mm.
 const OUTLINE_MICROSECONDS: f64 = 0.25;
 
-/// Additional bytes and microseconds where lines follow the form of a face: 134 bytes in all at 200 mm (4 megapixels), 2.1 microseconds
+/// Additional bytes and microseconds where lines follow the form of a face: 120 bytes in all at 200 mm (4 megapixels), 2.1 microseconds
 /// at 90 mm. Whether there is a face is not known here.
-const FORM_BYTES: f64 = 35.0;
+const FORM_BYTES: f64 = 20.0;
 const FORM_MICROSECONDS: f64 = 1.6;
 
 pub(super) fn cost(parameters: &EngraveParameters, picture: Rect, pixels_per_mm: f64) -> Cost {

@@ -13,7 +13,7 @@ use super::head::Head;
 use super::surfaces::{Surface, Surfaces};
 use crate::field::spread;
 use crate::geometry::Point;
-use crate::raster::{Raster, fast_gaussian, filled_polygon, gaussian_gradient, median, structure_tensor};
+use crate::raster::{Raster, fast_gaussian, filled_polygon, gaussian_gradient, median, reduce, structure_tensor};
 use crate::source::{Landmarks, Placement, outlines};
 use std::f64::consts::PI;
 
@@ -37,6 +37,8 @@ const BESIDE_WEIGHT: f32 = 0.0005;
 /// Slope of the shoulders, and how far from the middle they reach it, in face widths.
 const SHOULDER: f64 = 0.733;
 const SHOULDER_REACH: f64 = 0.22;
+/// How much coarser than the working grid texture is looked at.
+const HALF: usize = 2;
 /// How far folds turn the lines of cloth at most.
 const MOST_TURN: f64 = 0.9;
 
@@ -71,6 +73,11 @@ impl Cells {
         let size = (face_width / CELLS_PER_FACE).max(longest / MOST_CELLS).max(1.0);
         let count = |side: usize| ((side as f64 / size).ceil() as usize).max(2);
         Self { columns: count(placement.columns), rows: count(placement.rows), size }
+    }
+
+    /// The same cells in pixels of a grid twice as coarse.
+    fn on_half(&self) -> Self {
+        Self { size: self.size / HALF as f64, ..*self }
     }
 
     fn middle(&self, x: usize, y: usize) -> Point {
@@ -179,10 +186,9 @@ impl Drawer<'_> {
         let double = |turn: fn(f32) -> f32| {
             let seen = clear.zip_map(&texture.along, |clear, along| clear * turn(2.0 * along));
             let guess = cells.fill(|p| turn(2.0 * around(p) as f32));
-            let hair = cells.mean(&surfaces.hair);
             let known =
-                cells.mean(&seen).zip_map(&guess.zip_map(&hair, |g, h| (0.003 * h + 1e-5) * g), |seen, guess| seen + guess);
-            let weight = cells.mean(&clear).zip_map(&hair, |clear, h| clear + 0.003 * h + 1e-5);
+                half.mean(&seen).zip_map(&guess.zip_map(&hair, |g, h| (0.003 * h + 1e-5) * g), |seen, guess| seen + guess);
+            let weight = half.mean(&clear).zip_map(&hair, |clear, h| clear + 0.003 * h + 1e-5);
             (known.zip_map(&weight, |k, w| k / w), weight)
         };
         let ((cos, weight), (sin, _)) = (double(f32::cos), double(f32::sin));
@@ -201,15 +207,16 @@ impl Drawer<'_> {
             let head = nearest(p);
             SHOULDER * (head.relative(p).0 / SHOULDER_REACH).tanh() + head.roll()
         };
-        let clear = texture.clear(&surfaces.cloth);
-        let turn = self.fine(|x, y| {
-            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+        let clear = texture.clear(&reduce(&surfaces.cloth, HALF));
+        let half = cells.on_half();
+        let turn = Raster::from_fn(clear.width(), clear.height(), |x, y| {
+            let p = Point::new((x as f64 + 0.5) * HALF as f64, (y as f64 + 0.5) * HALF as f64);
             let turn = (f64::from(texture.along.get(x, y)) - slope(p) + 0.5 * PI).rem_euclid(PI) - 0.5 * PI;
             (turn.clamp(-MOST_TURN, MOST_TURN) * f64::from(texture.coherence.get(x, y)).powi(2)) as f32
         });
         let guess = cells.fill(|p| slope(p) as f32);
-        let known = guess.zip_map(&cells.mean(&turn), |slope, turn| slope + turn);
-        let weight = cells.mean(&clear).map(|clear| 0.1 * clear + 0.004);
+        let known = guess.zip_map(&half.mean(&turn), |slope, turn| slope + turn);
+        let weight = half.mean(&clear).map(|clear| 0.1 * clear + 0.004);
         let angles = spread(&[known], &weight, CLOTH_BENDING);
         self.fine(|x, y| cells.at(&angles[0], x, y))
     }

@@ -4,7 +4,7 @@ use super::super::Drawer;
 use super::head::Head;
 use crate::drawing::{Area, Layer, Mark};
 use crate::field::contours;
-use crate::geometry::{BezPath, Point, Rect, Ring, catmull_rom, polygon_area, smooth_polyline};
+use crate::geometry::{BezPath, Point, Rect, Region, Ring, catmull_rom, polygon_area, smooth_polyline};
 use crate::raster::{Raster, filled_polygon, gaussian_blur};
 use crate::source::{Landmarks, outlines};
 
@@ -19,6 +19,9 @@ const LEAST_SOLID: f64 = 0.25;
 const THIN: f64 = 0.03;
 const THIN_DARK: f32 = 0.16;
 const LONG: f64 = 0.09;
+/// Where frames are looked for: in heights of the face above its chin, between nostrils and brows, and in its widths from the middle.
+const BAND: std::ops::Range<f64> = -0.75..-0.47;
+const BAND_REACH: f64 = 0.75;
 
 impl Drawer<'_> {
     /// The inside of two closed outlines of all faces, 0 or 1.
@@ -43,7 +46,7 @@ impl Drawer<'_> {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
             let is_in_band = heads.iter().any(|head| {
                 let (u, v) = head.relative(p);
-                (-0.75..-0.36).contains(&v) && u.abs() < 0.75
+                BAND.contains(&v) && u.abs() < BAND_REACH
             });
             if is_in_band { (near.get(x, y) - around.get(x, y)) * (1.0 - (3.0 * brows.get(x, y)).min(1.0)) } else { 0.0 }
         })
@@ -70,12 +73,16 @@ impl Drawer<'_> {
         layer
     }
 
-    /// The smooth outlines of what lies above a level, of those that are wanted.
-    pub(super) fn shapes(&self, dark: &Raster<f32>, level: f32, is_wanted: impl Fn(&[Point]) -> bool) -> BezPath {
+    /// The smooth outlines of what lies above a level: the shapes that are wanted, with their holes.
+    fn shapes(&self, dark: &Raster<f32>, level: f32, is_wanted: impl Fn(&[Point]) -> bool) -> BezPath {
         let pitch = self.pixels(self.parameters.pitch);
+        let curves = contours(dark, level).into_iter().filter(|curve| curve.closed).map(|curve| curve.points);
+        let (shapes, holes): (Vec<Vec<Point>>, Vec<Vec<Point>>) = curves.partition(|curve| polygon_area(curve) < 0.0);
+        let shapes: Vec<Vec<Point>> = shapes.into_iter().filter(|shape| is_wanted(shape)).collect();
+        let inside = Region::of_polygons(shapes.clone());
         let mut outline = BezPath::new();
-        for curve in contours(dark, level).into_iter().filter(|curve| curve.closed && is_wanted(&curve.points)) {
-            let smooth = smooth_polyline(&curve.points, Ring::Closed, 0.1 * pitch, 0.15 * pitch);
+        for curve in shapes.into_iter().chain(holes.into_iter().filter(|hole| inside.contains(hole[0]))) {
+            let smooth = smooth_polyline(&curve, Ring::Closed, 0.1 * pitch, 0.15 * pitch);
             let places: Vec<Point> = smooth.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
             outline.extend(catmull_rom(&places, Ring::Closed));
         }
