@@ -70,8 +70,7 @@ ink grid-coffee $S/coffee.png --style grid
 
 DEPTH="--depth $S/bust-depth.png $BUST"
 ink engrave-bust $S/bust-light.png $DEPTH --style engrave --pitch 0.45mm --set displacement=5mm --set cross_angle=60
-ink engrave-hopper $S/grace-hopper.jpg --crop 22%,2%,56%,58% --style engrave --size 90x120mm --pitch 0.4mm \
-    --set cross_angle=60
+ink engrave-hopper $S/grace-hopper.jpg --crop 22%,2%,56%,58% --style engrave --size 90x120mm --pitch 0.4mm
 ink engrave-hopper-depth $S/grace-hopper.jpg --depth $S/grace-hopper-depth.png --crop 22%,2%,56%,58% --style engrave \
     --size 90x120mm --pitch 0.4mm --set cross_angle=60
 ink engrave-coffee $S/coffee.png --style engrave --size 120x80mm --pitch 0.45mm --set regions=superpixels --set overlap=0.2mm \

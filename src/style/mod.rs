@@ -13,6 +13,7 @@ mod engrave;
 mod feature_line;
 mod glass;
 mod grid;
+mod head;
 mod hedcut;
 mod need;
 mod observer;
@@ -21,6 +22,7 @@ mod places;
 mod random;
 mod reversed;
 mod settings;
+mod solids;
 
 pub use cost::Cost;
 use drawer::Drawer;

@@ -13,12 +13,16 @@ mod size;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Dot, Drawing, Layer, Mark};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
-use crate::geometry::{Point, Rect, blob};
+use crate::geometry::{Point, Rect, Region, blob};
 use crate::raster::Raster;
 use crate::source::MaskRole;
+use crate::style::solids::Solids;
 use features::Features;
 use parameters::HedcutParameters;
 use parts::Parts;
+
+/// Tolerance of solid shapes in millimetres.
+const SOLID_TOLERANCE: f64 = 0.01;
 
 /// The style.
 pub(super) struct Hedcut;
@@ -78,6 +82,7 @@ impl Drawer<'_> {
             return self.dots(&parts);
         }
         let rest = self.without(&parts);
+        let solids = Solids::new(self.portrait, &self.portrait.ink(), self.pitch());
         let mut drawing = match self.on(&rest).dots(&parts) {
             // All of it lies in the other parts.
             Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => {
@@ -85,6 +90,7 @@ impl Drawer<'_> {
             }
             dots => dots?,
         };
+        self.set_solids(&mut drawing, solids);
         drawing.layers.extend(self.hair_layer(&parts)?);
         drawing.layers.extend(self.clothing_layer(&parts)?);
         if drawing.layers.is_empty() {
@@ -93,6 +99,18 @@ impl Drawer<'_> {
             ));
         }
         Ok(drawing)
+    }
+
+    /// Adds the solid shapes of faces, in place of the dots inside them.
+    fn set_solids(&self, drawing: &mut Drawing, solids: Solids) {
+        if solids.outline.is_empty() {
+            return;
+        }
+        let inside = Region::new(&solids.outline, SOLID_TOLERANCE);
+        for layer in &mut drawing.layers {
+            layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.contains(dot.centre)));
+        }
+        drawing.layers.push(solids.layer());
     }
 
     /// The thesis' steps in order.

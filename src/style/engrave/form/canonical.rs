@@ -4,9 +4,9 @@
 //! length 1, y from forehead to chin): arches over brow and nose, hollows below the eyes, bows from nose to ear and around the chin. Each
 //! is one signed angle, so that no singular point can arise inside a face: eyes and mouth are lenses, over and under which lines part.
 
-use super::head::Head;
 use crate::geometry::{Point, Vec2};
 use crate::source::{Landmarks, POINTS};
+use crate::style::head::Head;
 use std::sync::LazyLock;
 
 /// One line for each point of the mesh: x, y, and the angle of the lines from +x towards +y, in degrees.

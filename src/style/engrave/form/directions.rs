@@ -9,12 +9,12 @@
 
 use super::super::Drawer;
 use super::canonical;
-use super::head::Head;
 use super::surfaces::{Surface, Surfaces};
 use crate::field::spread;
 use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, filled_polygon, gaussian_gradient, median, reduce, structure_tensor};
 use crate::source::{Landmarks, Placement, outlines};
+use crate::style::head::Head;
 use std::f64::consts::PI;
 
 /// Cells of the grid on which directions are spread, per width of the largest face, and the most along the picture's longer side.

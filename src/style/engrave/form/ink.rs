@@ -4,10 +4,7 @@ use super::super::Drawer;
 use super::LEAST_SHARE;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::MaskRole;
 
-/// Reach of a detail region's finer lines, in pitches.
-const DETAIL_BLUR: f64 = 1.0;
 /// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
 const TONE_BLUR: f64 = 0.22;
 const SHARPEN: f32 = 0.6;
@@ -19,16 +16,6 @@ const LOCK: f64 = 6.0;
 const LOCK_CONTRAST: f32 = 0.7;
 
 impl Drawer<'_> {
-    /// Where lines are finer, 0 to 1.
-    pub(super) fn detail_zone(&self) -> Raster<f32> {
-        let pitch = self.pixels(self.parameters.pitch);
-        let mask = self.portrait.masks.get(&MaskRole::Detail);
-        mask.map_or_else(
-            || self.portrait.subject.map(|_| 0.0),
-            |mask| gaussian_blur(mask, (DETAIL_BLUR * pitch) as f32).map(|v| (1.3 * v).min(1.0)),
-        )
-    }
-
     /// The ink wanted: without grain, and sharper in detail.
     pub(super) fn form_ink(&self, detail: &Raster<f32>) -> Raster<f32> {
         let sigma = (TONE_BLUR * self.pixels(self.parameters.pitch)) as f32;

@@ -15,13 +15,11 @@ mod contour;
 mod correction;
 mod directions;
 mod families;
-mod head;
 mod ink;
 #[cfg(test)]
 mod measures;
 mod runs;
 mod shares;
-mod solids;
 mod surfaces;
 
 use super::Drawer;
@@ -30,6 +28,7 @@ use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
+use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
 use directions::Directions;
@@ -62,7 +61,7 @@ impl Drawer<'_> {
     }
 
     pub(super) fn draw_form(&self) -> Result<Drawing, StyleError> {
-        let detail = self.detail_zone();
+        let detail = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
         let ink = self.form_ink(&detail);
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
@@ -74,7 +73,7 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
 
-        let solids = self.solids(&ink, &detail);
+        let solids = Solids::new(self.portrait, &ink, self.pixels(self.parameters.pitch)).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();

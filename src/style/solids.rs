@@ -1,17 +1,18 @@
-//! What an engraver cuts solid: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
+//! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
 
-use super::super::Drawer;
 use super::head::Head;
 use crate::drawing::{Area, Layer, Mark};
 use crate::field::contours;
 use crate::geometry::{BezPath, Point, Rect, Region, Ring, catmull_rom, polygon_area, smooth_polyline};
 use crate::raster::{Raster, filled_polygon, gaussian_blur};
-use crate::source::{Landmarks, outlines};
+use crate::source::{Landmarks, MaskRole, Portrait, outlines};
 
+/// Reach of a detail region's finer lines, in pitches.
+const DETAIL_BLUR: f64 = 1.0;
 /// Ink from which details are solid, and by how much less in eyes: lips and brows stay lines. The blur before that and the side of the
 /// smallest solid, in pitches.
 const SOLID: f32 = 0.9;
-const EYE_LIFT: f32 = 0.2;
+const EYE_LIFT: f32 = 0.14;
 const SOLID_BLUR: f64 = 0.2;
 const LEAST_SOLID: f64 = 0.25;
 /// Reach of the mean from which frames of spectacles differ, how much darker they are, and the least length of their parts, in widths
@@ -23,10 +24,50 @@ const LONG: f64 = 0.09;
 const BAND: std::ops::Range<f64> = -0.75..-0.47;
 const BAND_REACH: f64 = 0.75;
 
-impl Drawer<'_> {
+/// Where details are finer, 0 to 1; `pitch` in working pixels.
+pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
+    portrait.masks.get(&MaskRole::Detail).map_or_else(
+        || portrait.subject.map(|_| 0.0),
+        |mask| gaussian_blur(mask, (DETAIL_BLUR * pitch) as f32).map(|v| (1.3 * v).min(1.0)),
+    )
+}
+
+/// The solid shapes of a portrait's faces.
+pub(super) struct Solids {
+    /// On the page; empty without faces.
+    pub outline: BezPath,
+}
+
+impl Solids {
+    /// By the ink wanted on the working grid; `pitch` in its pixels.
+    pub(super) fn new(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
+        if portrait.faces.is_empty() {
+            return Self { outline: BezPath::new() };
+        }
+        Self { outline: Darks { portrait, ink, pitch }.outline() }
+    }
+
+    /// One area; no mark if there are no shapes.
+    pub(super) fn layer(self) -> Layer {
+        let mut layer = Layer::new("solids", 1);
+        if !self.outline.is_empty() {
+            layer.marks.push(Mark::Area(Area { outline: self.outline, colour: None }));
+        }
+        layer
+    }
+}
+
+/// The darkest places of faces.
+struct Darks<'a> {
+    portrait: &'a Portrait,
+    ink: &'a Raster<f32>,
+    pitch: f64,
+}
+
+impl Darks<'_> {
     /// The inside of two closed outlines of all faces, 0 or 1.
-    pub(super) fn filled(&self, of: [&[usize]; 2]) -> Raster<f32> {
-        let (columns, rows) = self.size();
+    fn filled(&self, of: [&[usize]; 2]) -> Raster<f32> {
+        let (columns, rows) = (self.ink.width(), self.ink.height());
         let lines = self.portrait.faces.iter().flat_map(|face| of.map(|outline| face.line(outline)));
         lines.fold(Raster::filled(columns, rows, 0.0_f32), |all, lids| {
             let corners: Vec<[f64; 2]> = lids.iter().map(|p| [p.x, p.y]).collect();
@@ -35,14 +76,14 @@ impl Drawer<'_> {
     }
 
     /// How much darker thin dark lines between brows and cheeks are than what lies around them: frames of spectacles.
-    pub(super) fn thin_darks(&self, ink: &Raster<f32>) -> Raster<f32> {
+    fn thin_darks(&self) -> Raster<f32> {
         let heads: Vec<Head> = self.portrait.faces.iter().map(Head::new).collect();
         let widest = heads.iter().map(|head| head.width).fold(1.0, f64::max);
-        let around = gaussian_blur(ink, (THIN * widest) as f32);
-        let near = gaussian_blur(ink, (0.15 * self.pixels(self.parameters.pitch)) as f32);
+        let around = gaussian_blur(self.ink, (THIN * widest) as f32);
+        let near = gaussian_blur(self.ink, (0.15 * self.pitch) as f32);
         let brows = self.filled([&outlines::LEFT_BROW, &outlines::RIGHT_BROW]);
         let brows = gaussian_blur(&brows, (THIN * widest) as f32);
-        Raster::from_fn(ink.width(), ink.height(), |x, y| {
+        Raster::from_fn(around.width(), around.height(), |x, y| {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
             let is_in_band = heads.iter().any(|head| {
                 let (u, v) = head.relative(p);
@@ -52,30 +93,28 @@ impl Drawer<'_> {
         })
     }
 
-    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips.
-    pub(super) fn solids(&self, ink: &Raster<f32>, detail: &Raster<f32>) -> Layer {
-        let pitch = self.pixels(self.parameters.pitch);
+    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips; and
+    /// the rims.
+    fn outline(&self) -> BezPath {
+        let pitch = self.pitch;
+        let detail = detail_zone(self.portrait, pitch);
         let eyes = gaussian_blur(&self.filled([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
-        let lifted = ink.zip_map(&eyes, |ink, eyes| ink + EYE_LIFT * (2.0 * eyes).min(1.0));
+        let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + EYE_LIFT * (2.0 * eyes).min(1.0));
         let dark =
-            gaussian_blur(&lifted.zip_map(detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
+            gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
         let mut outline = self.shapes(&dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2));
         let longest = |curve: &[Point]| {
             let bounds = curve.iter().fold(Rect::from_points(curve[0], curve[0]), |bounds, p| bounds.union_pt(*p));
             bounds.width().hypot(bounds.height())
         };
         let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
-        outline.extend(self.shapes(&self.thin_darks(ink), THIN_DARK, |curve| longest(curve) > LONG * widest));
-        let mut layer = Layer::new("solids", 1);
-        if !outline.is_empty() {
-            layer.marks.push(Mark::Area(Area { outline, colour: None }));
-        }
-        layer
+        outline.extend(self.shapes(&self.thin_darks(), THIN_DARK, |curve| longest(curve) > LONG * widest));
+        outline
     }
 
     /// The smooth outlines of what lies above a level: the shapes that are wanted, with their holes.
     fn shapes(&self, dark: &Raster<f32>, level: f32, is_wanted: impl Fn(&[Point]) -> bool) -> BezPath {
-        let pitch = self.pixels(self.parameters.pitch);
+        let pitch = self.pitch;
         let curves = contours(dark, level).into_iter().filter(|curve| curve.closed).map(|curve| curve.points);
         let (shapes, holes): (Vec<Vec<Point>>, Vec<Vec<Point>>) = curves.partition(|curve| polygon_area(curve) < 0.0);
         let shapes: Vec<Vec<Point>> = shapes.into_iter().filter(|shape| is_wanted(shape)).collect();
