@@ -90,7 +90,7 @@ impl Drawer<'_> {
             }
             dots => dots?,
         };
-        self.set_solids(&mut drawing, solids);
+        set_solids(&mut drawing, solids);
         drawing.layers.extend(self.hair_layer(&parts)?);
         drawing.layers.extend(self.clothing_layer(&parts)?);
         if drawing.layers.is_empty() {
@@ -99,18 +99,6 @@ impl Drawer<'_> {
             ));
         }
         Ok(drawing)
-    }
-
-    /// Adds the solid shapes of faces, in place of the dots inside them.
-    fn set_solids(&self, drawing: &mut Drawing, solids: Solids) {
-        if solids.outline.is_empty() {
-            return;
-        }
-        let inside = Region::new(&solids.outline, SOLID_TOLERANCE);
-        for layer in &mut drawing.layers {
-            layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.contains(dot.centre)));
-        }
-        drawing.layers.push(solids.layer());
     }
 
     /// The thesis' steps in order.
@@ -199,4 +187,16 @@ impl Drawer<'_> {
     fn detail(&self) -> Option<&Raster<f32>> {
         self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail_lanes().is_some())
     }
+}
+
+/// Adds the solid shapes of faces, in place of the dots inside them.
+fn set_solids(drawing: &mut Drawing, solids: Solids) {
+    if solids.outline.is_empty() {
+        return;
+    }
+    let inside = Region::new(&solids.outline, SOLID_TOLERANCE);
+    for layer in &mut drawing.layers {
+        layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.contains(dot.centre)));
+    }
+    drawing.layers.push(solids.layer());
 }
