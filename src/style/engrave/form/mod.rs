@@ -32,7 +32,7 @@ use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
 use directions::Directions;
-use families::{Extent, FINE, Family};
+use families::{Closeness, Extent, FINE, Family};
 use rayon::prelude::*;
 use runs::{Course, Piece};
 use surfaces::{Surface, Surfaces};
@@ -72,26 +72,24 @@ impl Drawer<'_> {
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
-
         let solids = Solids::new(self.portrait, &ink, self.pixels(self.parameters.pitch)).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
         for surface in [Surface::Skin, Surface::Hair, Surface::Cloth] {
             let own = self.lines_over(surface, &surfaces, &directions, &detail, &ink);
-
             pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
             self.check()?;
         }
         self.observer.begin("widths");
         for _ in 0..TONE_ROUNDS {
             self.correct(&mut pieces, &ink);
-
             self.check()?;
         }
         Ok(self.form_drawing(&pieces, solids, &ink))
     }
 
+    /// The pieces of one surface's lines.
     fn lines_over(
         &self,
         surface: Surface,
@@ -100,35 +98,17 @@ impl Drawer<'_> {
         detail: &Raster<f32>,
         ink: &Raster<f32>,
     ) -> Pieces {
-        let (share, pitch) = (surfaces.of(surface), self.pixels(self.parameters.pitch));
-        let room = (ROOM * pitch) as usize;
-        let Some(extent) = Extent::of(share, LEAST_SHARE, room) else { return Pieces::default() };
-        let hair = surface == Surface::Hair;
-        // Lines run on a little beyond the surface's border, where they are cut.
-        let near = dilate(&share.map(|share| u8::from(share > LEAST_SHARE)), room);
-        let closeness = |x: usize, y: usize| {
-            let close = (if hair { HAIR_CLOSENESS } else { 1.0 }) / (1.0 - FINE * detail.get(x, y));
-            if near.get(x, y) == 0 { 0.0 } else { close }
-        };
-        let most = if self.parameters.look == Look::Hatch { 1 } else { 3 };
-        let shares = [0, 1, 2].map(|family| {
-            if most == 1 {
-                if family == 0 { ink.clone() } else { ink.map(|_| 0.0) }
-            } else {
-                shares::share_of(ink, surface, family)
-            }
+        let share = surfaces.of(surface);
+        let turn = |family: usize| TURNS[family].to_radians() * if surface == Surface::Hair { HAIR_TURN } else { 1.0 };
+        let shares = [0, 1, 2].map(|family| match (self.parameters.look, family) {
+            (Look::Hatch, 0) => ink.clone(),
+            (Look::Hatch, _) => ink.map(|_| 0.0),
+            _ => shares::share_of(ink, surface, family),
         });
-        let turn = |family: usize| TURNS[family].to_radians() * if hair { HAIR_TURN } else { 1.0 };
-        let families: Vec<Option<Family>> = (0..3)
-            .into_par_iter()
-            .map(|family| {
-                // The second family also breaks the first in the lights.
-                let extent =
-                    if family < 2 { extent.clone() } else { Extent::of(&shares[2].zip_map(share, f32::min), 0.0, room)? };
-                let name = format!("{surface:?} {family}");
-                Some(self.even_lines(&extent, directions.of(surface), turn(family), &closeness, &name))
-            })
-            .collect();
+        let families = self.families_over(surface, share, &shares[2], detail, &|family, extent, closeness| {
+            let name = format!("{surface:?} {family}");
+            self.even_lines(extent, directions.of(surface), turn(family), closeness, &name)
+        });
         let pieces = |family: usize| {
             let Some(own) = &families[family] else { return Vec::new() };
             let course = Course {
@@ -140,12 +120,34 @@ impl Drawer<'_> {
                 breaks: if family == 0 { families[1].as_ref() } else { None },
                 thinnest: self.parameters.thinnest / self.parameters.pitch,
                 dot_min: self.pixels(self.parameters.dot_min),
-                pitch,
+                pitch: self.pixels(self.parameters.pitch),
                 picture: Rect::new(0.0, 0.0, ink.width() as f64, ink.height() as f64),
             };
             course.pieces()
         };
         [pieces(0), pieces(1), pieces(2)]
+    }
+
+    /// The families of a surface, each laid where it has ink; the second also breaks the first in the lights.
+    fn families_over(
+        &self,
+        surface: Surface,
+        share: &Raster<f32>,
+        third: &Raster<f32>,
+        detail: &Raster<f32>,
+        lay: &(dyn Fn(usize, &Extent, &Closeness<'_>) -> Family + Sync),
+    ) -> Vec<Option<Family>> {
+        let room = (ROOM * self.pixels(self.parameters.pitch)) as usize;
+        // Lines run on a little beyond the surface's border, where they are cut.
+        let near = dilate(&share.map(|share| u8::from(share > LEAST_SHARE)), room);
+        let closer = if surface == Surface::Hair { HAIR_CLOSENESS } else { 1.0 };
+        let closeness = |x: usize, y: usize| if near.get(x, y) == 0 { 0.0 } else { closer / (1.0 - FINE * detail.get(x, y)) };
+        let extents = [
+            Extent::of(share, LEAST_SHARE, room),
+            Extent::of(share, LEAST_SHARE, room),
+            Extent::of(&third.zip_map(share, f32::min), 0.0, room),
+        ];
+        (0..3).into_par_iter().map(|family| extents[family].as_ref().map(|extent| lay(family, extent, &closeness))).collect()
     }
 
     fn form_drawing(&self, pieces: &Pieces, solids: Layer, ink: &Raster<f32>) -> Drawing {
