@@ -10,7 +10,6 @@ use crate::raster::Raster;
 use crate::scene::{Border, Parts};
 use crate::source::{Placement, mask_on};
 use crate::style::{Observer, Settings, StyleError};
-use std::ops::Range;
 
 /// The finest grid of regions in pixels per millimetre, and the most pixels it has.
 const FINEST: f64 = 8.0;
@@ -39,7 +38,7 @@ impl Task<'_> {
             let settings = if region.is_some() { &manner.settings } else { settings };
             let portrait = self.portrait(&manner.known, placement)?;
             let share = parts.drawn_share(part, &placement);
-            let Some((columns, rows)) = extent(&share) else { continue };
+            let Some([columns, rows]) = share.extent_above(LEAST_SHARE) else { continue };
             let (share, mut portrait) = (share.part(&columns, &rows), portrait.part(&columns, &rows));
             portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
             let drawing = match manner.style.draw(&portrait, settings, manner.seed, observer) {
@@ -73,12 +72,4 @@ impl Task<'_> {
         let of = |region: &&Region| layer.name.strip_prefix(&region.name).is_some_and(|rest| rest.starts_with('-'));
         self.regions.iter().filter(of).max_by_key(|region| region.name.len())?.ink.as_ref()
     }
-}
-
-/// The columns and rows in which a part is drawn; none if it is not in the picture.
-fn extent(share: &Raster<f32>) -> Option<(Range<usize>, Range<usize>)> {
-    let is_drawn = |x: usize, y: usize| share.get(x, y) > LEAST_SHARE;
-    let columns: Vec<usize> = (0..share.width()).filter(|x| (0..share.height()).any(|y| is_drawn(*x, y))).collect();
-    let rows: Vec<usize> = (0..share.height()).filter(|y| (0..share.width()).any(|x| is_drawn(x, *y))).collect();
-    Some((*columns.first()?..columns.last()? + 1, *rows.first()?..rows.last()? + 1))
 }

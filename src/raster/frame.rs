@@ -25,6 +25,16 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 }
 
+impl Raster<f32> {
+    /// The columns and rows that hold everything above a value; none if nothing is.
+    pub fn extent_above(&self, least: f32) -> Option<[Range<usize>; 2]> {
+        let has = |x: usize, y: usize| self.get(x, y) > least;
+        let columns: Vec<usize> = (0..self.width()).filter(|x| (0..self.height()).any(|y| has(*x, y))).collect();
+        let rows: Vec<usize> = (0..self.height()).filter(|y| (0..self.width()).any(|x| has(x, *y))).collect();
+        Some([*columns.first()?..columns.last()? + 1, *rows.first()?..rows.last()? + 1])
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

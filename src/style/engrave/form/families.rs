@@ -40,10 +40,9 @@ pub(super) struct Extent {
 impl Extent {
     /// The box of what is above `least`, with room around it; none if nothing is.
     pub(super) fn of(share: &Raster<f32>, least: f32, room: usize) -> Option<Self> {
-        let columns: Vec<usize> = (0..share.width()).filter(|x| (0..share.height()).any(|y| share.get(*x, y) > least)).collect();
-        let rows: Vec<usize> = (0..share.height()).filter(|y| share.row(*y).iter().any(|v| *v > least)).collect();
-        let wide = |range: &[usize], end: usize| Some(range.first()?.saturating_sub(room)..(range.last()? + 1 + room).min(end));
-        Some(Self { columns: wide(&columns, share.width())?, rows: wide(&rows, share.height())? })
+        let [columns, rows] = share.extent_above(least)?;
+        let wide = |range: Range<usize>, end: usize| range.start.saturating_sub(room)..(range.end + room).min(end);
+        Some(Self { columns: wide(columns, share.width()), rows: wide(rows, share.height()) })
     }
 
     fn origin(&self) -> Vec2 {
