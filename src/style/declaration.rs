@@ -3,7 +3,7 @@
 //! ```text
 //! parameters! {
 //!     pub(super) struct GridParameters {
-//!         pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
+//!         pitch: Millimetres = "pitch": millimetres(0.6, 0.1..=50.0),
 //!             "distance between neighbouring dots", "Son 5.1, d";
 //!         hatching: Hatching = "hatching": Kind::Choice(Hatching::WORDS),
 //!             "hatching direction", "Son 6.2", needs [MIXED];

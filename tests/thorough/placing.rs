@@ -22,7 +22,7 @@ fn run_words(folder: &Path, line: &str) -> (i32, String) {
 
 /// A picture that is dark at the left and above, so that turns and mirrors show.
 fn photograph(width: u32, height: u32) -> Vec<u8> {
-    png_of_light(width, height, |x, y| if x < width / 3 && y < height / 2 { 0.02 } else { 0.9 })
+    png_of_light(width, height, |x, y| if x < width / 4 && y < height / 4 { 0.02 } else { 0.9 })
 }
 
 fn box_of(file: &Path) -> (Rect, f64, f64) {

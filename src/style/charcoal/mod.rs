@@ -22,7 +22,7 @@ mod tone;
 use super::drawer::Pitched;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
-use crate::geometry::{Millimetres, Rect};
+use crate::geometry::Rect;
 use crate::raster::Raster;
 use crate::source::MaskRole;
 use parameters::CharcoalParameters;
@@ -82,14 +82,11 @@ impl Style for Charcoal {
     }
 }
 
-/// The smallest pitch of charcoal: a stick draws no finer.
-const LEAST_PITCH: Millimetres = Millimetres(0.1);
-
 type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 
 /// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch.
 pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
-    let settings = CARD.settings_at(drawer.parameters.pitch().max(LEAST_PITCH), &[])?;
+    let settings = CARD.settings_at(drawer.parameters.pitch(), &[])?;
     Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair))
 }
 

@@ -25,7 +25,7 @@ const WIDEST_WINDOW: f64 = 20.0;
 parameters! {
     /// The parameters of a structure grid; lengths in millimetres.
     pub(super) struct GridParameters {
-        pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.1..=50.0),
             "distance between neighbouring dots and between hatching lines",
             "Son 5.1, d";
         size_max: Millimetres = "size_max": pitches(0.5, 0.0..=50.0),

@@ -25,7 +25,7 @@ const HAS_PARTS: Need = Need::AnyOf(&[
 parameters! {
     /// The parameters of a hedcut; lengths in millimetres.
     pub(super) struct HedcutParameters {
-        pitch: Millimetres = "pitch": millimetres(0.6, 0.05..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.6, 0.1..=50.0),
             "distance between neighbouring dots; smaller gives finer detail and more dots",
             "Bruehl 3.2, l";
         size: SizeRule = "size": Kind::Choice(SizeRule::WORDS),

@@ -15,6 +15,7 @@ use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use crate::style::coverage::covered;
 use crate::style::{StyleError, charcoal, grid};
+use std::ops::Range;
 
 /// Blur of the regions in pitches, and the gain of their edges: borders as smooth as the marks, without steps.
 const SMOOTH: f64 = 0.6;
@@ -23,6 +24,8 @@ const SHARP: f32 = 3.0;
 const DEEP: f32 = 0.95;
 /// Least area of a part in square pitches: what is smaller stays in dots.
 const LEAST_AREA: f64 = 60.0;
+/// Room around a part in its own box, in pitches: the directions of its lines are smoothed over less.
+const ROOM: f64 = 8.0;
 
 /// Rounds in which strokes of hair get the width of their tone, the reach around a node in pitches over which ink is compared,
 /// and the range of one round's change. A shorter reach would take the strands' contrast away.
@@ -38,14 +41,15 @@ const LEAST_INK: f32 = 0.01;
 /// Where the parts lie, each 0 to 1; they do not overlap.
 pub(super) struct Parts {
     hair: Option<Raster<f32>>,
-    clothing: Option<Raster<f32>>,
+    /// Clothing and headwear, which often lie far apart.
+    cloths: Vec<Raster<f32>>,
 }
 
 impl Drawer<'_> {
     /// The parts that are not drawn in dots; none without their masks.
     pub(super) fn parts(&self) -> Parts {
         if self.parameters.parts == PartsRule::Dots {
-            return Parts { hair: None, clothing: None };
+            return Parts { hair: None, cloths: Vec::new() };
         }
         let masks = &self.portrait.masks;
         let union = |roles: [MaskRole; 2]| {
@@ -53,9 +57,17 @@ impl Drawer<'_> {
             given.reduce(|a, b| a.zip_map(&b, f32::max))
         };
         let hair = union([MaskRole::Hair, MaskRole::FacialHair]).and_then(|hair| self.part(&hair));
-        let cloth = union([MaskRole::Clothing, MaskRole::Headwear]);
-        let cloth = cloth.map(|cloth| hair.as_ref().map_or(cloth.clone(), |hair| cloth.zip_map(hair, |c, h| c.min(1.0 - h))));
-        Parts { clothing: cloth.and_then(|cloth| self.part(&cloth)), hair }
+        let beside_hair = |cloth: &Raster<f32>| match &hair {
+            Some(hair) => cloth.zip_map(hair, |cloth, hair| cloth.min(1.0 - hair)),
+            None => cloth.clone(),
+        };
+        let [clothing, headwear] = [MaskRole::Clothing, MaskRole::Headwear].map(|role| masks.get(&role).map(beside_hair));
+        let headwear = match (&clothing, headwear) {
+            (Some(clothing), Some(headwear)) => Some(headwear.zip_map(clothing, |hat, cloth| hat.min(1.0 - cloth))),
+            (_, headwear) => headwear,
+        };
+        let cloths = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
+        Parts { hair, cloths }
     }
 
     /// A mask as a part with a smooth border; none if it is too small.
@@ -75,7 +87,7 @@ impl Drawer<'_> {
 
     /// The portrait with white paper where another part is drawn.
     pub(super) fn without(&self, parts: &Parts) -> Portrait {
-        let others = [&parts.hair, &parts.clothing].into_iter().flatten();
+        let others = parts.hair.iter().chain(&parts.cloths);
         let rest =
             others.fold(self.portrait.tone.map(|_| 1.0), |rest, part| rest.zip_map(part, |rest, part| rest * (1.0 - part)));
         self.only(&rest)
@@ -83,13 +95,23 @@ impl Drawer<'_> {
 
     /// Hair in strokes.
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
-        let Some(hair) = &parts.hair else { return Ok(None) };
-        let mut marks = charcoal::hair_strokes(self, hair)?;
+        let Some((hair, portrait)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) else { return Ok(None) };
+        let drawer = self.on(&portrait);
+        let mut marks = charcoal::hair_strokes(&drawer, &hair)?;
         for _ in 0..TONE_ROUNDS {
             self.check()?;
-            self.set_tone(&mut marks, hair);
+            drawer.set_tone(&mut marks, &hair);
         }
         Ok(layer("hair", marks))
+    }
+
+    /// A part and the portrait within the part's own box.
+    fn boxed(&self, part: &Raster<f32>) -> Option<(Raster<f32>, Portrait)> {
+        let room = (ROOM * self.pitch()).ceil() as usize;
+        let [columns, rows] = part.extent_above(0.0)?;
+        let wider = |range: &Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
+        let (columns, rows) = (wider(&columns, part.width()), wider(&rows, part.height()));
+        Some((part.part(&columns, &rows), self.portrait.part(&columns, &rows)))
     }
 
     /// Makes strokes of hair wider or thinner by the ratio of the ink asked for around each node to the ink drawn there.
@@ -115,10 +137,12 @@ impl Drawer<'_> {
 
     /// Clothing in hatches.
     pub(super) fn clothing_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
-        let Some(clothing) = &parts.clothing else { return Ok(None) };
-        let mut cloth = self.only(clothing);
-        cloth.masks.clear();
-        let marks = grid::hatches(&self.on(&cloth))?;
+        let mut marks = Vec::new();
+        for (cloth, portrait) in parts.cloths.iter().filter_map(|cloth| self.boxed(cloth)) {
+            let mut worn = self.on(&portrait).only(&cloth);
+            worn.masks.clear();
+            marks.extend(grid::hatches(&self.on(&worn))?);
+        }
         Ok(layer("clothing", marks))
     }
 }
@@ -126,12 +150,12 @@ impl Drawer<'_> {
 impl Parts {
     /// True if all of it is drawn in dots.
     pub(super) fn is_empty(&self) -> bool {
-        self.hair.is_none() && self.clothing.is_none()
+        self.hair.is_none() && self.cloths.is_empty()
     }
 
     /// True if a place lies deep in another part, where a large cell at the border may have its dot.
     pub(super) fn hold(&self, p: Point) -> bool {
-        [&self.hair, &self.clothing].into_iter().flatten().any(|part| part.sample(p.x, p.y) > DEEP)
+        self.hair.iter().chain(&self.cloths).any(|part| part.sample(p.x, p.y) > DEEP)
     }
 
     /// How far a place lies in hair, 0 to 1; in working pixels.
