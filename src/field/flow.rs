@@ -84,6 +84,19 @@ impl Flow {
         Self { directions: directions.map(default) }
     }
 
+    /// Between this field and another, by a weight of 0 to 1; where they oppose each other, the heavier one.
+    #[must_use]
+    pub fn mixed(&self, other: &Self, weight: &Raster<f32>) -> Self {
+        let pairs = self.directions.zip_map(&other.directions, |a, b| (a, b));
+        Self::new(&pairs.zip_map(weight, |(a, b), weight| {
+            if a[0] * b[0] + a[1] * b[1] < 0.0 {
+                if weight < 0.5 { a } else { b }
+            } else {
+                [0, 1].map(|i| a[i] * (1.0 - weight) + b[i] * weight)
+            }
+        }))
+    }
+
     /// The field continued by `margin` pixels beyond each border.
     #[must_use]
     pub fn framed(&self, margin: usize) -> Self {

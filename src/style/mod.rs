@@ -11,6 +11,7 @@ mod declaration;
 mod drawer;
 mod engrave;
 mod feature_line;
+mod form;
 mod glass;
 mod grid;
 mod head;

@@ -26,7 +26,7 @@ pub fn wedge() -> Vec<u8> {
 
 /// The mean face of the engraving's directions, upright, in pixels.
 pub fn plain_face(x: f64, y: f64, width: f64) -> Landmarks {
-    let table = include_str!("../../src/style/engrave/form/canonical_field.txt");
+    let table = include_str!("../../src/style/form/canonical_field.txt");
     let numbers = |line: &str| line.split(' ').map(|word| word.parse::<f64>().unwrap()).collect::<Vec<f64>>();
     let point = |p: Vec<f64>| [x + width * p[0], y + width * p[1], 0.0];
     let points: Vec<[f64; 3]> = table.lines().map(|line| point(numbers(line))).collect();

@@ -131,7 +131,7 @@ fn an_unreadable_photograph_is_named() {
 fn wrong_command_lines_end_with_status_2_and_say_what_works() {
     let (folder, _) = folder();
     for (words, extra) in [
-        ("length, 0.05 to 50 mm", &["--set", "pitch=NaN"][..]),
+        ("length, 0.1 to 50 mm", &["--set", "pitch=NaN"][..]),
         ("did you mean pitch", &["--set", "pich=1"]),
         ("one of exact, paper", &["--set", "size=big"]),
         ("from 1 mm to 100 m", &["--size", "-10x20"]),

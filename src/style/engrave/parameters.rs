@@ -3,6 +3,7 @@
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{OFF, choice, millimetres, number, parameters, pitches};
+use crate::style::drawer::Pitched;
 use crate::style::{Kind, Need};
 
 /// Working pixels per pitch.
@@ -174,6 +175,12 @@ choice! {
     pub(super) enum GroundColour {
         White = "white",
         Black = "black",
+    }
+}
+
+impl Pitched for EngraveParameters {
+    fn pitch(&self) -> Millimetres {
+        self.pitch
     }
 }
 

@@ -11,28 +11,32 @@ use crate::raster::Raster;
 const WIDTH: f64 = 2.0;
 /// Its maximum length as a share of a broad one's.
 const LENGTH: f64 = 0.4;
+/// Share of its width and of the least difference left in the middle of eyes and mouths.
+const FINER: f32 = 0.4;
 /// Change of colour at which it ends, as a share of the difference that triggered it.
 const COLOUR_CHANGE: f32 = 0.5;
 
 /// Strokes where the painting's colours (`colours`, by owner of the canvas) differ from the picture's by more than the parameter
 /// `detail`; the largest differences on top.
 pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colours: &[[f32; 3]]) -> Vec<Mark> {
-    let least = drawer.parameters.detail;
+    let finer = finer(ground);
+    let least = finer.map(|finer| finer * drawer.parameters.detail);
     let picture = |x: usize, y: usize| [0, 1, 2].map(|i| ground.smoothed[i].get(x, y));
     let (width, height) = (ground.subject.width(), ground.subject.height());
     let missing = Raster::from_fn(width, height, |x, y| canvas.colour(x, y, colours).map_or(0.0, |c| distance(c, picture(x, y))));
-    let mut seeds: Vec<usize> = (0..missing.len()).filter(|&i| missing.pixels()[i] > least).collect();
+    let mut seeds: Vec<usize> = (0..missing.len()).filter(|&i| missing.pixels()[i] > least.pixels()[i]).collect();
     seeds.sort_by(|a, b| missing.pixels()[*b].total_cmp(&missing.pixels()[*a]).then(a.cmp(b)));
-    let touch = WIDTH * drawer.pixels(drawer.parameters.grain);
+    let widest = WIDTH * drawer.pixels(drawer.parameters.grain);
     let scale = drawer.portrait.placement.mm_per_pixel();
     let mut done = Raster::filled(width, height, false);
     let mut marks = Vec::new();
     for seed in seeds {
         let (x, y) = (seed % width, seed / width);
+        let touch = widest * f64::from(finer.get(x, y));
         if done.get(x, y) || !ground.holds(Point::new(x as f64 + 0.5, y as f64 + 0.5), 0.5 * touch) {
             continue;
         }
-        let line = arc(drawer, ground, &missing, Point::new(x as f64 + 0.5, y as f64 + 0.5));
+        let line = arc(drawer, ground, &Missing { by: &missing, least: &least }, Point::new(x as f64 + 0.5, y as f64 + 0.5));
         let mut sum = [0.0; 3];
         for p in &line {
             sum.iter_mut().zip(picture(p.x as usize, p.y as usize)).for_each(|(sum, v)| *sum += v / line.len() as f32);
@@ -55,15 +59,29 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
     marks
 }
 
+/// What is left of the width and of the least difference at each place.
+fn finer(ground: &Ground) -> Raster<f32> {
+    match &ground.people {
+        Some(people) => people.detail.framed(ground.margin).map(|detail| 1.0 - FINER * detail),
+        None => ground.subject.map(|_| 1.0),
+    }
+}
+
+/// The difference between painting and picture, and that from which strokes are needed.
+struct Missing<'a> {
+    by: &'a Raster<f32>,
+    least: &'a Raster<f32>,
+}
+
 /// Points one pixel apart through a seed, as long as the colour holds and a stroke is needed.
-fn arc(drawer: &Drawer<'_>, ground: &Ground, missing: &Raster<f32>, seed: Point) -> Vec<Point> {
+fn arc(drawer: &Drawer<'_>, ground: &Ground, missing: &Missing<'_>, seed: Point) -> Vec<Point> {
     let reach = 0.5 * LENGTH * drawer.pixels(drawer.parameters.length);
     let at = |p: Point| [0, 1, 2].map(|i: usize| ground.smoothed[i].get(p.x as usize, p.y as usize));
     let start = at(seed);
-    let called = missing.get(seed.x as usize, seed.y as usize);
+    let called = missing.by.get(seed.x as usize, seed.y as usize);
     let goes_on = |p: &Point| {
         distance(at(*p), start) < COLOUR_CHANGE * called
-            && missing.get(p.x as usize, p.y as usize) > 0.5 * drawer.parameters.detail
+            && missing.by.get(p.x as usize, p.y as usize) > 0.5 * missing.least.get(p.x as usize, p.y as usize)
     };
     let mut line: Vec<Point> = ground.fine_flow.streamline(seed, -reach, 1.0)[1..].iter().copied().take_while(goes_on).collect();
     line.reverse();

@@ -20,6 +20,20 @@ pub(super) fn noise(width: usize, height: usize, sigma: f32, seed: u64, stage: &
     fast_gaussian(&white, sigma)
 }
 
+/// Smooth noise of variance 1 with a reach in pixels.
+pub(super) fn wandering(width: usize, height: usize, reach: f32, seed: u64) -> Raster<f32> {
+    // The sum of four uniform numbers has a variance of a third, the blur divides it by its area.
+    let whole = (12.0 * std::f32::consts::PI).sqrt() * reach;
+    noise(width, height, reach, seed, "wandering").map(|v| whole * v)
+}
+
+/// Noise whose grain grows by a factor with a weight of 0 to 1; its variance is that of the fine noise everywhere.
+pub(super) fn mixed(fine: &Raster<f32>, broad: &Raster<f32>, factor: f32, weight: &Raster<f32>) -> Raster<f32> {
+    let fine = fine.zip_map(weight, |noise, weight| noise * (1.0 - weight).max(0.0).sqrt());
+    let broad = broad.zip_map(weight, |noise, weight| factor * noise * weight.max(0.0).sqrt());
+    fine.zip_map(&broad, |fine, broad| fine + broad)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -31,5 +45,12 @@ mod tests {
         assert!(mean.abs() < 0.01, "{mean}");
         assert_eq!(field, noise(200, 100, 1.0, 3, "noise"));
         assert_ne!(field, noise(200, 100, 1.0, 4, "noise"));
+    }
+
+    #[test]
+    fn wandering_noise_has_a_variance_of_one() {
+        let field = wandering(400, 400, 8.0, 3);
+        let variance = field.pixels().iter().map(|v| v * v).sum::<f32>() / field.len() as f32;
+        assert!((variance - 1.0).abs() < 0.15, "{variance}");
     }
 }

@@ -1,6 +1,7 @@
 //! The painting: the ribbons of the pattern as opaque strokes in the smoothed picture's colours (Papari 2009, section 7.3).
 
 use super::body::Body;
+use super::people::People;
 use super::visible::{Canvas, Shown};
 use super::{Drawer, Ground, colour, detail, hairs, noise, underpainting};
 use crate::drawing::{Layer, Mark, Mixing};
@@ -15,6 +16,8 @@ const LEAST_SHOWN: f64 = 1.0;
 /// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a new one begins. At 0.05 skin
 /// breaks into scales, at 0.2 eyes and lips smear over the face (judged on the astronaut and Grace Hopper).
 const COLOUR_CHANGE: f32 = 0.1;
+/// Grain of the background behind people, in that of their faces.
+const BROAD: f32 = 1.8;
 /// Width of the filling strokes in places that the pattern leaves bare, in grains.
 const FILLING_WIDTH: f64 = 4.0;
 /// Their value, that of the pattern's lowest third: if darker, they stand out as cracks and the painting becomes too dark.
@@ -28,7 +31,14 @@ pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>,
     drawer.observer.begin("pattern");
     let sigma = drawer.pixels(drawer.parameters.grain) as f32;
     let (width, height) = (ground.subject.width(), ground.subject.height());
-    let noise = noise::noise(width, height, sigma, drawer.seed, "noise");
+    let fine = noise::noise(width, height, sigma, drawer.seed, "noise");
+    let noise = match &ground.people {
+        Some(people) => {
+            let broad = noise::noise(width, height, BROAD * sigma, drawer.seed, "broad noise");
+            noise::mixed(&fine, &broad, BROAD, &people.broad.framed(ground.margin))
+        }
+        None => fine,
+    };
     drawer.show_patterns(ground, &noise);
     let length = drawer.pixels(drawer.parameters.length);
     let framed = glass_pattern(&noise, &ground.flow, length as f32);
@@ -101,6 +111,10 @@ impl Painter<'_> {
                 let (fresh, shown) = canvas.cover(&body, &self.ground.smoothed);
                 canvas.settle(&fresh, |_| Some(colours.len()));
                 let shown = shown.iter().fold(Shown::default(), |sum, shown| sum.with(shown));
+                // At the picture's corners nothing of it may be inside, and it would have no colour.
+                if shown.area() <= 0.0 {
+                    continue;
+                }
                 colours.push(shown.colour());
                 let part = Part { first: 0, last: body.stretches(), shown };
                 marks.push(self.mark(&body, &part, FILLING_VALUE * self.drawer.parameters.contrast));
@@ -113,6 +127,9 @@ impl Painter<'_> {
     fn mark(&self, body: &Body, part: &Part, shift: f32) -> Mark {
         let scale = self.drawer.portrait.placement.mm_per_pixel();
         let mut stroke = body.stroke(part.first, part.last, scale, |p| self.drawer.to_page(self.ground, p));
+        let margin = self.ground.margin as f64;
+        let contrast = |people: &People| people.contrast(body.nodes[part.first] - Vec2::new(margin, margin));
+        let shift = shift * self.ground.people.as_ref().map_or(1.0, contrast);
         stroke.colour = Some(colour::shifted(part.shown.colour(), shift));
         stroke.group = Some(0);
         Mark::Stroke(stroke)

@@ -2,6 +2,7 @@
 
 use crate::geometry::Millimetres;
 use crate::style::declaration::{Radians, choice, count, millimetres, number, parameters, pitches};
+use crate::style::drawer::Pitched;
 use crate::style::{Kind, Need};
 
 /// Working resolution in millimetres per pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
@@ -40,6 +41,9 @@ parameters! {
         whirls: Millimetres = "whirls": pitches(17.0 / 6.0, 0.1..=100.0),
             "blur of the picture whose gradient the strokes follow; larger gives smoother strokes and larger whirls",
             "Papari 7.9, sigma = 6 px", needs [PHOTO_FLOW];
+        strokes: Strokes = "strokes": Kind::Choice(Strokes::WORDS),
+            "fitted follows the form of faces, hair and clothing, finer along eyes and mouth and broader behind people; even treats all places alike",
+            "", needs [Need::WithFace, PHOTO_FLOW];
         angle: Radians = "angle": number(90.0, -180.0..=180.0),
             "angle between the strokes and the gradient, in degrees: 90 follows contours and whirls, 0 crosses them in stars",
             "Papari 7.10, theta_0", needs [PHOTO_FLOW];
@@ -99,6 +103,14 @@ choice! {
 }
 
 choice! {
+    /// Whether strokes look at what they paint.
+    pub(super) enum Strokes {
+        Fitted = "fitted",
+        Even = "even",
+    }
+}
+
+choice! {
     /// How the photograph is smoothed before its gradient is taken.
     pub(super) enum Gradient {
         Gaussian = "gaussian",
@@ -133,6 +145,12 @@ pub(super) enum Manner {
     Painting,
     OnePen,
     Discrete,
+}
+
+impl Pitched for GlassParameters {
+    fn pitch(&self) -> Millimetres {
+        self.pitch
+    }
 }
 
 impl GlassParameters {

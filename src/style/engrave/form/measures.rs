@@ -2,12 +2,12 @@
 
 use super::super::Drawer;
 use super::super::parameters::EngraveParameters;
-use super::canonical::tests::mean_face;
 use super::families::{Extent, Family};
-use super::surfaces::Surface;
 use crate::geometry::{Millimetres, Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::{Crop, Landmarks, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use crate::style::form::Surface;
+use crate::style::form::mean_face;
 use crate::style::{Settings, Silent};
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use std::io::Cursor;

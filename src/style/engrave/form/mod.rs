@@ -10,17 +10,14 @@
 //!   tone         widths corrected until the ink drawn is the ink wanted
 //! ```
 
-mod canonical;
 mod contour;
 mod correction;
-mod directions;
 mod families;
 mod ink;
 #[cfg(test)]
 mod measures;
 mod runs;
 mod shares;
-mod surfaces;
 
 use super::Drawer;
 use super::parameters::Look;
@@ -28,14 +25,13 @@ use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
+use crate::style::form::{Directions, Surface, Surfaces};
 use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
-use directions::Directions;
 use families::{Closeness, Extent, FINE, Family};
 use rayon::prelude::*;
 use runs::{Course, Piece};
-use surfaces::{Surface, Surfaces};
 
 /// The turns of the second and the third family in degrees. At -60 the third makes honeycombs with the second.
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];

@@ -1,7 +1,7 @@
 //! How much ink each of three families of lines carries: the second and the third enter where it is darker, without a step.
 
-use super::surfaces::Surface;
 use crate::raster::Raster;
+use crate::style::form::Surface;
 
 /// From where to where in ink the second and the third family of lines enter, and their greatest ink. One that enters earlier makes
 /// half tones a net, a later one leaves slits between the lines.

@@ -78,12 +78,12 @@ fn map_about(face: &Landmarks, head: &Head, i: usize) -> [Vec2; 2] {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::style) mod tests {
     use super::*;
     use crate::source::Iris;
 
     /// The mean face itself, turned by an angle.
-    pub(in super::super) fn mean_face(middle: Point, width: f64, turn: f64) -> Landmarks {
+    pub(in crate::style) fn mean_face(middle: Point, width: f64, turn: f64) -> Landmarks {
         let (sin, cos) = turn.sin_cos();
         let points = CANONICAL.iter().map(|point| {
             let p = point.place * width;

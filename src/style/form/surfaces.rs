@@ -1,8 +1,9 @@
 //! The surfaces of a portrait, each with lines of its own: skin, hair, cloth.
 
-use super::super::Drawer;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::MaskRole;
+use crate::style::Drawer;
+use crate::style::drawer::Pitched;
 
 /// Blur of the masks in pitches, and the gain of their edges: borders as smooth as the lines.
 const SMOOTH: f64 = 0.6;
@@ -13,7 +14,7 @@ const OVERLAP: f32 = 0.15;
 
 /// What lines run over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Surface {
+pub(in crate::style) enum Surface {
     /// Faces, necks, hands; whatever is neither hair nor cloth.
     Skin,
     /// Hair and beards.
@@ -23,14 +24,14 @@ pub(super) enum Surface {
 }
 
 /// Where each surface lies, 0 to 1; together they are the subject and a little more.
-pub(super) struct Surfaces {
+pub(in crate::style) struct Surfaces {
     pub skin: Raster<f32>,
     pub hair: Raster<f32>,
     pub cloth: Raster<f32>,
 }
 
 impl Surfaces {
-    pub(super) fn of(&self, surface: Surface) -> &Raster<f32> {
+    pub(in crate::style) fn of(&self, surface: Surface) -> &Raster<f32> {
         match surface {
             Surface::Skin => &self.skin,
             Surface::Hair => &self.hair,
@@ -39,11 +40,11 @@ impl Surfaces {
     }
 }
 
-impl Drawer<'_> {
+impl<P: Pitched> Drawer<'_, P> {
     /// The surfaces by their masks; all is skin without them. `cover` is the drawn part, 0 to 1.
-    pub(super) fn surfaces(&self, cover: &Raster<f32>) -> Surfaces {
+    pub(in crate::style) fn surfaces(&self, cover: &Raster<f32>) -> Surfaces {
         let masks = &self.portrait.masks;
-        let sigma = (SMOOTH * self.pixels(self.parameters.pitch)) as f32;
+        let sigma = (SMOOTH * self.pixels(self.parameters.pitch())) as f32;
         let union = |roles: [MaskRole; 2]| {
             let nothing = cover.map(|_| 0.0);
             let all = roles.iter().filter_map(|role| masks.get(role)).fold(nothing, |all, mask| all.zip_map(mask, f32::max));

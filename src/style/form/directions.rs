@@ -7,13 +7,14 @@
 //! ```
 //! Each is one signed angle from the head's line between the ears, which interpolates as a plain number.
 
-use super::super::Drawer;
 use super::canonical;
 use super::surfaces::{Surface, Surfaces};
 use crate::field::spread;
 use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, filled_polygon, gaussian_gradient, median, reduce, structure_tensor};
 use crate::source::{Landmarks, Placement, outlines};
+use crate::style::Drawer;
+use crate::style::drawer::Pitched;
 use crate::style::head::Head;
 use std::f64::consts::PI;
 
@@ -43,14 +44,14 @@ const HALF: usize = 2;
 const MOST_TURN: f64 = 0.9;
 
 /// The directions of each surface, in radians on the page (y down), on the working grid.
-pub(super) struct Directions {
+pub(in crate::style) struct Directions {
     skin: Raster<f32>,
     hair: Raster<f32>,
     cloth: Raster<f32>,
 }
 
 impl Directions {
-    pub(super) fn of(&self, surface: Surface) -> &Raster<f32> {
+    pub(in crate::style) fn of(&self, surface: Surface) -> &Raster<f32> {
         match surface {
             Surface::Skin => &self.skin,
             Surface::Hair => &self.hair,
@@ -129,8 +130,8 @@ impl Texture {
     }
 }
 
-impl Drawer<'_> {
-    pub(super) fn directions(&self, surfaces: &Surfaces) -> Directions {
+impl<P: Pitched + Sync> Drawer<'_, P> {
+    pub(in crate::style) fn directions(&self, surfaces: &Surfaces) -> Directions {
         let heads: Vec<Head> = self.portrait.faces.iter().map(Head::new).collect();
         let widest = heads.iter().map(|head| head.width).fold(1.0, f64::max);
         let cells = Cells::new(&self.portrait.placement, widest);
@@ -174,7 +175,7 @@ impl Drawer<'_> {
     }
 
     fn hair_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
-        let unit = self.pixels(self.parameters.pitch) / 4.5;
+        let unit = self.pixels(self.parameters.pitch()) / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 1.4 * unit, 5.0 * unit);
         let clear = texture.clear(&reduce(&surfaces.hair, HALF)).map(|clear| 0.25 * clear);
         let (half, hair) = (cells.on_half(), cells.mean(&surfaces.hair));
@@ -201,7 +202,7 @@ impl Drawer<'_> {
     }
 
     fn cloth_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
-        let unit = self.pixels(self.parameters.pitch) / 4.5;
+        let unit = self.pixels(self.parameters.pitch()) / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 3.0 * unit, 10.0 * unit);
         let slope = |p: Point| {
             let head = nearest(p);

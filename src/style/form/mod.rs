@@ -1,0 +1,10 @@
+//! The form of people, as the directions of lines over it: around a face, along locks of hair, along folds of cloth.
+
+mod canonical;
+mod directions;
+mod surfaces;
+
+#[cfg(test)]
+pub(super) use canonical::tests::mean_face;
+pub(super) use directions::Directions;
+pub(super) use surfaces::{Surface, Surfaces};
