@@ -46,7 +46,16 @@ impl Solids {
         if portrait.faces.is_empty() {
             return Self { outline: BezPath::new() };
         }
-        Self { outline: Darks { portrait, ink, pitch }.outline() }
+        let darks = Darks { portrait, ink, pitch };
+        let mut outline = darks.features();
+        outline.extend(darks.rims());
+        Self { outline }
+    }
+
+    /// Without the rims of spectacles.
+    pub(super) fn of_features(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
+        let has_faces = !portrait.faces.is_empty();
+        Self { outline: if has_faces { Darks { portrait, ink, pitch }.features() } else { BezPath::new() } }
     }
 
     /// One area; no mark if there are no shapes.
@@ -95,23 +104,25 @@ impl Darks<'_> {
         })
     }
 
-    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips; and
-    /// the rims.
-    fn outline(&self) -> BezPath {
+    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips.
+    fn features(&self) -> BezPath {
         let pitch = self.pitch;
         let detail = detail_zone(self.portrait, pitch);
         let eyes = gaussian_blur(&self.filled([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
         let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + EYE_LIFT * (2.0 * eyes).min(1.0));
         let dark =
             gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
-        let mut outline = self.shapes(&dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2));
+        self.shapes(&dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2))
+    }
+
+    /// Thin dark lines before eyes.
+    fn rims(&self) -> BezPath {
         let longest = |curve: &[Point]| {
             let bounds = curve.iter().fold(Rect::from_points(curve[0], curve[0]), |bounds, p| bounds.union_pt(*p));
             bounds.width().hypot(bounds.height())
         };
         let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
-        outline.extend(self.shapes(&self.thin_darks(), THIN_DARK, |curve| longest(curve) > LONG * widest));
-        outline
+        self.shapes(&self.thin_darks(), THIN_DARK, |curve| longest(curve) > LONG * widest)
     }
 
     /// The smooth outlines of what lies above a level: the shapes that are wanted, with their holes.

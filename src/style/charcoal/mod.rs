@@ -20,6 +20,7 @@ mod strokes;
 mod tone;
 
 use super::drawer::Pitched;
+use super::solids::Solids;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
@@ -51,6 +52,7 @@ const CARD: StyleCard = StyleCard {
         MaskRole::Clothing,
         MaskRole::FacialHair,
         MaskRole::Headwear,
+        MaskRole::Detail,
         MaskRole::Edges,
     ],
     uses_depth: false,
@@ -107,7 +109,10 @@ impl Drawer<'_> {
         let tone = self.tone(&regions, &features);
         self.check()?;
         let shading = self.shading(&regions, &features);
-        let face = self.draw_features(&features);
+        let mut face = self.draw_features(&features);
+        if self.parameters.has_features {
+            face.extend(Solids::of_features(self.portrait, &self.darkness(), self.pixels(self.parameters.pitch)).layer().marks);
+        }
         let background = self.background(&regions);
         let layers = [
             ("tone", tone),

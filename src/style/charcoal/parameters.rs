@@ -77,7 +77,7 @@ parameters! {
         has_background: bool = "background": ON,
             "hand-shade the background",
             "Wong 6.3.5", needs [Need::Above("background_ink", 0.0)];
-        background_ink: f64 = "background_ink": number(0.2, 0.0..=1.0),
+        background_ink: f64 = "background_ink": number(0.13, 0.0..=1.0),
             "ink of the background strokes where they are thickest",
             "", needs [Need::Word("background", &["on"])];
         arc_length: Millimetres = "arc_length": pitches(26.0, 0.5..=1000.0),

@@ -42,9 +42,10 @@ const ASIDE: f64 = 0.2;
 const LONGER: std::ops::Range<f64> = 0.8..1.2;
 const ASKEW: f64 = 0.07;
 /// Share of the turns at which the hand keeps the stick on the paper, in open hatching.
-const KEPT_TURNS: f64 = 0.2;
-/// Share of a swing's length at either end over which the pressure grows.
+const KEPT_TURNS: f64 = 0.85;
+/// Share of a swing's length at either end over which the pressure grows, and the pressure that is left at a turn on the paper.
 const TURN: f64 = 0.3;
+const TURN_PRESSURE: f64 = 0.35;
 /// Pieces shorter than this many widths are specks.
 const LEAST_WIDTHS: f64 = 1.5;
 impl Drawer<'_> {
@@ -54,7 +55,7 @@ impl Drawer<'_> {
         let touch = Touch {
             width: patch.width,
             pressure: patch.pressure,
-            taper: if is_hatching { TURN } else { 0.06 },
+            taper: 0.06,
             node: if is_hatching { 1.2 * self.parameters.pitch } else { 1.5 * patch.width },
         };
         let region = inset(&patch.region, self.pixels(patch.inset));
@@ -64,7 +65,9 @@ impl Drawer<'_> {
         for stroke in self.chains(patch, &mut random) {
             for piece in pieces_inside(&stroke, &region).iter().filter(|piece| polyline_length(piece) >= least) {
                 let firm = if is_hatching { random.random_range(0.7..1.15) } else { 1.0 };
-                marks.extend(self.stroke(piece, touch, |p| firm * local(p)));
+                let turns = if is_hatching { turns(piece) } else { Vec::new() };
+                let ramp = TURN * self.pixels(patch.length);
+                marks.extend(self.stroke(piece, touch, |p| firm * local(p) * lightened(p, &turns, ramp)));
             }
         }
         marks
@@ -111,6 +114,19 @@ impl Drawer<'_> {
     }
 }
 
+/// Where a stroke turns back, and its ends.
+fn turns(piece: &[Point]) -> Vec<Point> {
+    let back = piece.windows(3).filter(|three| (three[1] - three[0]).dot(three[2] - three[1]) < 0.0).map(|three| three[1]);
+    piece.first().copied().into_iter().chain(back).chain(piece.last().copied()).collect()
+}
+
+/// Share of the pressure left at a place of a swing, for the length over which it grows after a turn.
+fn lightened(p: Point, turns: &[Point], ramp: f64) -> f64 {
+    let away = turns.iter().map(|turn| turn.distance(p)).fold(ramp, f64::min);
+    let t = away / ramp.max(1e-6);
+    TURN_PRESSURE + (1.0 - TURN_PRESSURE) * t * t * (3.0 - 2.0 * t)
+}
+
 /// The arcs as strokes: a single one or, in open hatching, a new one after most turns.
 fn lifted(arcs: &[Vec<Point>], pressing: Pressing, random: &mut impl Rng) -> Vec<Vec<Point>> {
     let mut strokes: Vec<Vec<Point>> = Vec::new();
@@ -149,4 +165,26 @@ fn turned_bounds(region: &Raster<f32>, along: Vec2, across: Vec2) -> Option<Rect
         }
     }
     bounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hand_that_hatches_keeps_most_turns_on_the_paper() {
+        let arcs: Vec<Vec<Point>> = (0..400).map(|i| vec![Point::new(f64::from(i % 2), f64::from(i)); 2]).collect();
+        let strokes = lifted(&arcs, Pressing::Hatching, &mut stream(1, "test", 0)).len();
+        let kept = 1.0 - (strokes - 1) as f64 / 399.0;
+        assert!(kept > 0.7 && kept < 1.0, "{kept}");
+        assert_eq!(lifted(&arcs, Pressing::Filling, &mut stream(1, "test", 0)).len(), 1);
+    }
+
+    #[test]
+    fn pressure_falls_at_turns() {
+        let zigzag = [(0.0, 0.0), (50.0, 0.0), (100.0, 0.0), (50.0, 3.0), (0.0, 3.0)].map(Point::from);
+        let turns = turns(&zigzag);
+        assert_eq!(turns, [zigzag[0], zigzag[2], zigzag[4]]);
+        assert!(lightened(zigzag[1], &turns, 30.0) > 0.99 && lightened(zigzag[2], &turns, 30.0) < 0.36);
+    }
 }
