@@ -49,8 +49,10 @@ mod tests {
 
     #[test]
     fn wandering_noise_has_a_variance_of_one() {
-        let field = wandering(400, 400, 8.0, 3);
-        let variance = field.pixels().iter().map(|v| v * v).sum::<f32>() / field.len() as f32;
-        assert!((variance - 1.0).abs() < 0.15, "{variance}");
+        let field = wandering(700, 700, 6.0, 3);
+        // Near the border the blur has fewer values to average.
+        let inner = field.part(&(30..670), &(30..670));
+        let variance = inner.pixels().iter().map(|v| v * v).sum::<f32>() / inner.len() as f32;
+        assert!((variance - 1.0).abs() < 0.2, "{variance}");
     }
 }
