@@ -80,10 +80,29 @@ fn map_about(face: &Landmarks, head: &Head, i: usize) -> [Vec2; 2] {
 #[cfg(test)]
 pub(in crate::style) mod tests {
     use super::*;
-    use crate::source::Iris;
+    use crate::drawing::Page;
+    use crate::geometry::Rect;
+    use crate::source::{Crop, Iris, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+    use image::{DynamicImage, GrayImage, ImageFormat, Luma};
+    use std::io::Cursor;
+
+    /// A grey square of 60 mm with the mean face in its middle, 36 mm wide, turned by an angle. `grey` is the photograph at a place
+    /// in millimetres.
+    pub(in crate::style) fn mean_portrait(pixels_per_mm: f64, turn: f64, grey: impl Fn(Point) -> u8) -> Portrait {
+        let at = |x: u32, y: u32| Luma([grey(Point::new(0.25 * f64::from(x), 0.25 * f64::from(y)))]);
+        let mut png = Cursor::new(Vec::new());
+        DynamicImage::ImageLuma8(GrayImage::from_fn(240, 240, at)).write_to(&mut png, ImageFormat::Png).unwrap();
+        let photograph = Photograph::decode(png.get_ref(), Limits::default()).unwrap();
+        let placement = Placement::new(Rect::new(0.0, 0.0, 60.0, 60.0), pixels_per_mm);
+        let (page, crop) = (Page::new(60.0, 60.0), Crop::all(&photograph));
+        let mut portrait =
+            Portrait::new(&photograph, crop, page, placement, ToneTarget::Lightness, ToneCurve::default()).unwrap();
+        portrait.add_faces(&[mean_face(Point::new(120.0, 120.0), 144.0, turn)], &photograph, crop).unwrap();
+        portrait
+    }
 
     /// The mean face itself, turned by an angle.
-    pub(in crate::style) fn mean_face(middle: Point, width: f64, turn: f64) -> Landmarks {
+    fn mean_face(middle: Point, width: f64, turn: f64) -> Landmarks {
         let (sin, cos) = turn.sin_cos();
         let points = CANONICAL.iter().map(|point| {
             let p = point.place * width;

@@ -5,6 +5,6 @@ mod directions;
 mod surfaces;
 
 #[cfg(test)]
-pub(super) use canonical::tests::mean_face;
+pub(super) use canonical::tests::mean_portrait;
 pub(super) use directions::Directions;
 pub(super) use surfaces::{Surface, Surfaces};

@@ -130,34 +130,14 @@ mod tests {
     use super::super::grey;
     use super::super::parameters::GlassParameters;
     use super::*;
-    use crate::drawing::Page;
-    use crate::geometry::{Point, Rect};
-    use crate::source::{Crop, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
-    use crate::style::form::mean_face;
+    use crate::style::form::mean_portrait;
     use crate::style::{Settings, Silent};
-    use image::{DynamicImage, GrayImage, ImageFormat, Luma};
-    use std::io::Cursor;
-
-    /// A face 36 mm wide on a grey square of 60 mm with a soft highlight on one cheek.
-    fn portrait() -> Portrait {
-        let mut png = Cursor::new(Vec::new());
-        let light = |x: u32, y: u32| {
-            let away = (f64::from(x) - 100.0).hypot(f64::from(y) - 132.0);
-            Luma([(120.0 + 60.0 * (-away * away / 800.0).exp()) as u8])
-        };
-        DynamicImage::ImageLuma8(GrayImage::from_fn(240, 240, light)).write_to(&mut png, ImageFormat::Png).unwrap();
-        let photograph = Photograph::decode(png.get_ref(), Limits::default()).unwrap();
-        let placement = Placement::new(Rect::new(0.0, 0.0, 60.0, 60.0), 4.0);
-        let (page, crop) = (Page::new(60.0, 60.0), Crop::all(&photograph));
-        let mut portrait =
-            Portrait::new(&photograph, crop, page, placement, ToneTarget::Lightness, ToneCurve::default()).unwrap();
-        portrait.add_faces(&[mean_face(Point::new(120.0, 120.0), 144.0, 0.0)], &photograph, crop).unwrap();
-        portrait
-    }
 
     #[test]
     fn strokes_run_over_a_highlight_and_do_not_whirl_around_it() {
-        let portrait = portrait();
+        // A soft highlight on one cheek.
+        let middle = Point::new(25.0, 33.0);
+        let portrait = mean_portrait(4.0, 0.0, |p| (120.0 + 60.0 * (-(p - middle).hypot2() / 50.0).exp()) as u8);
         let parameters = crate::style::find("glass").unwrap().parameters();
         let off = |strokes: &str| {
             let settings = Settings::resolve("glass", parameters, &[("strokes".to_owned(), strokes.to_owned())]).unwrap();

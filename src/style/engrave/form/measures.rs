@@ -3,29 +3,14 @@
 use super::super::Drawer;
 use super::super::parameters::EngraveParameters;
 use super::families::{Extent, Family};
-use crate::geometry::{Millimetres, Point, Rect, Vec2};
+use crate::geometry::{Millimetres, Point, Vec2};
 use crate::raster::Raster;
-use crate::source::{Crop, Landmarks, Limits, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
+use crate::source::Landmarks;
 use crate::style::form::Surface;
-use crate::style::form::mean_face;
+use crate::style::form::mean_portrait;
 use crate::style::{Settings, Silent};
-use image::{DynamicImage, GrayImage, ImageFormat, Luma};
-use std::io::Cursor;
 
 const PITCH: f64 = 0.5;
-
-/// A grey square of 60 mm with a face 36 mm wide.
-fn portrait(turn: f64) -> Portrait {
-    let mut png = Cursor::new(Vec::new());
-    DynamicImage::ImageLuma8(GrayImage::from_pixel(60, 60, Luma([140]))).write_to(&mut png, ImageFormat::Png).unwrap();
-    let photograph = Photograph::decode(png.get_ref(), Limits::default()).unwrap();
-    let placement = Placement::new(Rect::new(0.0, 0.0, 60.0, 60.0), 6.0 / PITCH);
-    let page = crate::drawing::Page::new(60.0, 60.0);
-    let crop = Crop::all(&photograph);
-    let mut portrait = Portrait::new(&photograph, crop, page, placement, ToneTarget::Lightness, ToneCurve::default()).unwrap();
-    portrait.add_faces(&[mean_face(Point::new(30.0, 30.0), 36.0, turn)], &photograph, crop).unwrap();
-    portrait
-}
 
 /// The angle between a family's lines and the directions in degrees, the spacing over that wanted, and the line's ends, on the face.
 struct Measures {
@@ -60,7 +45,7 @@ fn measured(family: &Family, directions: &Raster<f32>, face: &Landmarks, pitch: 
 #[test]
 fn lines_of_a_face_follow_its_directions_at_even_distances() {
     for turn in [0.0, 0.5] {
-        let portrait = portrait(turn);
+        let portrait = mean_portrait(6.0 / PITCH, turn, |_| 140);
         let parameters = crate::style::find("engrave").unwrap().parameters();
         let given = [("pitch".to_owned(), format!("{PITCH}mm"))];
         let settings = Settings::resolve("engrave", parameters, &given).unwrap();
