@@ -21,6 +21,7 @@
 //! | [`press`] | a drawing, a press's dot gain and smallest mark | the drawing to print, compensated to keep the tone |
 //! | [`plot`] | a drawing, a machine's profile | [`plot::Job`]: ordered tool paths, checked; the machine's file, read back and resumed |
 //! | [`mod@write`] | a drawing | bytes |
+//! | `drive` (cargo feature) | a machine's file, a port | a drawing in ink, and a journal of it |
 //! | [`read`] | SVG | a drawing |
 //! | `cli` (cargo feature) | arguments | the only module that uses files, stdout and exit codes |
 //! | [`mod@interrupt`] | | a request to stop, checked by all long loops |
@@ -55,6 +56,8 @@
 #[doc(hidden)]
 pub mod cli;
 pub mod drawing;
+#[cfg(feature = "drive")]
+pub mod drive;
 pub mod field;
 pub mod geometry;
 pub mod interrupt;

@@ -18,6 +18,10 @@ pub(super) enum Failure {
     /// The user stopped it.
     #[error("interrupted; unfinished files are not written")]
     Interrupted,
+    /// A drawing was stopped at its machine by a key.
+    #[cfg(feature = "drive")]
+    #[error("stopped")]
+    Stopped,
     /// The reader of our output has closed it.
     #[error("closed pipe")]
     ClosedPipe,
@@ -29,6 +33,8 @@ impl Failure {
             Self::Usage(_) => 2,
             Self::Work(_) | Self::Misfit(_) => 1,
             Self::Interrupted => super::interruption::exit_status(),
+            #[cfg(feature = "drive")]
+            Self::Stopped => 130,
             Self::ClosedPipe => 0,
         }
     }

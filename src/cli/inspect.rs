@@ -68,7 +68,7 @@ fn language_of(name: &str, text: &str) -> Option<Language> {
 }
 
 /// The profile by which a file is read when none was given.
-fn usual_profile(language: Language, text: &str) -> Result<Profile, Failure> {
+pub(super) fn usual_profile(language: Language, text: &str) -> Result<Profile, Failure> {
     match language {
         Language::Hpgl => Ok(Profile::built_in("hp7475a")?),
         _ => gcode_profile(text),

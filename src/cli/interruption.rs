@@ -15,7 +15,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 #[cfg(not(unix))]
 use std::sync::Arc;
-#[cfg(not(unix))]
+#[cfg(any(not(unix), feature = "drive"))]
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
@@ -26,11 +26,17 @@ use tempfile::NamedTempFile;
 static STOPPED_BY: AtomicI32 = AtomicI32::new(0);
 /// Polled by the library's long loops.
 static INTERRUPT: LazyLock<Interrupt> = LazyLock::new(Interrupt::new);
+/// True while a machine draws: it must come to rest and lift its pen.
+#[cfg(feature = "drive")]
+static PATIENT: AtomicBool = AtomicBool::new(false);
 /// Temporary files to remove when the process exits.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Time for the work to stop by itself; with the clean-up, exit takes less than a second.
 const GRACE: Duration = Duration::from_millis(600);
+/// Time for a machine to come to rest and lift its pen.
+#[cfg(feature = "drive")]
+const MACHINE_GRACE: Duration = Duration::from_secs(30);
 /// Polling interval for signals on systems where they cannot be waited for.
 #[cfg(not(unix))]
 const LOOKING: Duration = Duration::from_millis(50);
@@ -72,9 +78,24 @@ fn stopped_by(signal: i32) {
     }
     INTERRUPT.raise();
     std::thread::spawn(|| {
-        std::thread::sleep(GRACE);
+        std::thread::sleep(grace());
         end();
     });
+}
+
+/// Time for the work to stop by itself.
+fn grace() -> Duration {
+    #[cfg(feature = "drive")]
+    if PATIENT.load(Ordering::SeqCst) {
+        return MACHINE_GRACE;
+    }
+    GRACE
+}
+
+/// From now on a signal waits for a machine to stop and lift its pen. A second one ends the process all the same.
+#[cfg(feature = "drive")]
+pub(super) fn wait_for_machine() {
+    PATIENT.store(true, Ordering::SeqCst);
 }
 
 /// True if the parent process set a signal to be ignored, as `nohup` does with SIGHUP. (SIGINT is not checked: shells set it to be
@@ -115,6 +136,8 @@ fn end() -> ! {
     for path in held.iter().flat_map(|paths| paths.iter()) {
         let _ = fs::remove_file(path);
     }
+    #[cfg(feature = "drive")]
+    super::send::restore_terminal();
     say!("drypoint: {}", Failure::Interrupted);
     std::process::exit(i32::from(exit_status()))
 }

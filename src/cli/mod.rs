@@ -51,6 +51,8 @@ mod scene;
 mod see;
 mod seen;
 mod seen_stages;
+#[cfg(feature = "drive")]
+mod send;
 mod sheet;
 mod sight_folder;
 mod stages;
@@ -60,7 +62,7 @@ mod toolpaths;
 mod vector_mask;
 mod words;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, ToolpathOptions};
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use failure::Failure;
 use scene::{Refusal, Spelled};
@@ -122,8 +124,10 @@ pub fn count_pens(text: &str) -> Result<usize, String> {
 fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         // A redone drawing's recipe has become the options of `draw`.
-        Command::Draw(options) | Command::Redo(options) => draw::run(&options),
-        Command::Plot(options) => plot::run(&options),
+        Command::Draw(options) | Command::Redo(options) => {
+            sent(&options.output, options.profile.as_deref(), &options.toolpaths, || draw::run(&options))
+        }
+        Command::Plot(options) => sent(&options.output, options.profile.as_deref(), &options.toolpaths, || plot::run(&options)),
         Command::Stages(options) => stages::run(&options),
         Command::See(options) => see::run(&options),
         Command::Scene(options) => scene::run(&options),
@@ -132,6 +136,10 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Schema => scene::schema(),
         Command::Inspect(options) => inspect::run(&options),
         Command::Resume(options) => resume::run(&options),
+        #[cfg(feature = "drive")]
+        Command::Send(options) => send::run(&options),
+        #[cfg(feature = "drive")]
+        Command::Ports(options) => send::list_ports(&options),
         Command::Calibrate(options) => calibrate::run(&options),
         Command::Styles(options) => lists::styles(&options),
         Command::Profiles(options) => lists::profiles(&options),
@@ -146,6 +154,25 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             output::to_stdout(&text)
         }
     }
+}
+
+/// Writes a file and, with `--send`, sends it.
+#[cfg(feature = "drive")]
+fn sent(
+    output: &str,
+    profile: Option<&str>,
+    toolpaths: &ToolpathOptions,
+    work: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    send::check_sendable(output, profile, toolpaths)?;
+    work()?;
+    send::written(output, profile, toolpaths)
+}
+
+/// Writes a file.
+#[cfg(not(feature = "drive"))]
+fn sent(_: &str, _: Option<&str>, _: &ToolpathOptions, work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+    work()
 }
 
 /// Writes one manual page: the main command, then every subcommand.

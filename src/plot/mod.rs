@@ -24,6 +24,7 @@ mod time;
 
 #[doc(hidden)]
 pub use budget::{TooMuch, check_work};
+#[doc(hidden)]
 pub use calibration::{Calibration, CalibrationError, calibration_page, calibration_sheet};
 #[doc(hidden)]
 pub use coverage::{Coverage, coverage};
@@ -38,7 +39,9 @@ pub use job::{Cut, Job, JobError, JobOptions, MachineFeature, PlacingMarks, Reac
 #[doc(hidden)]
 pub use joining::{chain, drop_duplicates};
 #[doc(hidden)]
-pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, SvgDialect, Travel};
+pub use language::{Act, Replayed};
+#[doc(hidden)]
+pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, Protocol, SvgDialect, Travel};
 pub use language::{GcodeError, HpglError, Language, MotionError, ResumeError, StopPlace, Strokes};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::MountingError;
@@ -57,7 +60,7 @@ pub use report::report;
 pub use report::{PenReport, PlotReport};
 pub use seam::Seam;
 #[doc(hidden)]
-pub use time::{PenTime, clock};
+pub use time::{PenTime, clock, line_times, replayed};
 
 use crate::drawing::{Colour, Handling, Page};
 use crate::geometry::{Point, polyline_length};

@@ -8,7 +8,9 @@ use drypoint::source::{Crop, Iris, Landmarks, Limits, MaskRole, Photograph, Plac
 use drypoint::style::{Settings, Silent, find};
 use drypoint::write::{SvgHead, write_svg};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma};
+use std::collections::BTreeMap;
 use std::io::Cursor;
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// A 16-bit sRGB PNG whose pixels have the given linear luminance.
 pub fn png_of_light(width: u32, height: u32, light: impl Fn(u32, u32) -> f64) -> Vec<u8> {
@@ -85,6 +87,18 @@ impl<'a> Sheet<'a> {
 
     pub fn draw(&self) -> Drawing {
         find("hedcut").unwrap().draw(&self.portrait(), &self.settings(), self.seed, &Silent).unwrap()
+    }
+
+    /// The drawing, made once for all tests of a program that ask for the same. Not to be called from a worker of a thread pool: it
+    /// may wait for another test.
+    pub fn drawn_once(&self) -> Arc<Drawing> {
+        static DRAWN: Mutex<BTreeMap<String, Arc<OnceLock<Arc<Drawing>>>>> = Mutex::new(BTreeMap::new());
+        let hashed = |bytes: &[u8]| bytes.iter().fold(0_u64, |hash, byte| hash.wrapping_mul(31).wrapping_add(u64::from(*byte)));
+        let masks: Vec<_> = self.masks.iter().map(|(role, bytes)| (role, hashed(bytes))).collect();
+        let Self { mm, tone, set, seed, .. } = self;
+        let key = format!("{} {mm:?} {tone:?} {set:?} {masks:?} {seed}", hashed(self.photo));
+        let drawn = Arc::clone(DRAWN.lock().unwrap().entry(key).or_default());
+        Arc::clone(drawn.get_or_init(|| Arc::new(self.draw())))
     }
 }
 

@@ -5,6 +5,7 @@
 //! buffer is full whenever there is input; what is counted is the motors' timer ticks and the waits.
 #![allow(dead_code)]
 
+pub mod firmware;
 mod planner;
 mod program;
 mod stepper;

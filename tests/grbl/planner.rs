@@ -23,6 +23,16 @@ pub struct Block {
     greatest_entry_squared: Real,
     /// Squared entry speed; for the running block its speed when last planned.
     pub entry_squared: Real,
+    /// Its end, in mm.
+    pub end: [f64; 3],
+    pub direction: [Real; 3],
+}
+
+impl Block {
+    /// The place at a distance before its end.
+    pub fn place(&self, left: Real) -> [f64; 3] {
+        std::array::from_fn(|axis| self.end[axis] - f64::from(self.direction[axis] * left))
+    }
 }
 
 pub struct Planner {
@@ -41,6 +51,30 @@ impl Planner {
 
     pub fn is_full(&self) -> bool {
         self.blocks.len() == BLOCK_BUFFER_SIZE - 1
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.blocks.is_empty()
+    }
+
+    /// Free places.
+    pub fn free(&self) -> usize {
+        BLOCK_BUFFER_SIZE - 1 - self.blocks.len()
+    }
+
+    /// Forgets all blocks; the motors stand at a place in mm.
+    pub fn reset(&mut self, at: [f64; 3]) {
+        self.blocks.clear();
+        self.position = std::array::from_fn(|axis| (at[axis] * self.settings.steps_per_mm[axis]).round() as i64);
+        (self.direction, self.nominal) = ([0.0; 3], 0.0);
+    }
+
+    /// Plans again from rest, after a hold.
+    pub fn plan_again(&mut self) {
+        if let Some(block) = self.blocks.front_mut() {
+            block.entry_squared = 0.0;
+        }
+        self.replan();
     }
 
     pub fn first(&mut self) -> Option<&mut Block> {
@@ -78,7 +112,18 @@ impl Planner {
         let nominal = rate.map_or(fastest, |rate| rate as Real).min(fastest).max(MINIMUM_FEED_RATE);
         let corner = if self.blocks.is_empty() { 0.0 } else { self.corner_squared(direction) };
         let greatest_entry_squared = corner.min(nominal * nominal).min(self.nominal * self.nominal);
-        self.blocks.push_back(Block { steps, length, acceleration, nominal, greatest_entry_squared, entry_squared: 0.0 });
+        let end = std::array::from_fn(|axis| position[axis] as f64 / self.settings.steps_per_mm[axis]);
+        let entry_squared = 0.0;
+        self.blocks.push_back(Block {
+            steps,
+            length,
+            acceleration,
+            nominal,
+            greatest_entry_squared,
+            entry_squared,
+            end,
+            direction,
+        });
         (self.position, self.direction, self.nominal) = (position, direction, nominal);
         stepper.prepare_replan(self);
         self.replan();

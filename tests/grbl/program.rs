@@ -49,7 +49,7 @@ impl<'a> Program<'a> {
     }
 
     /// One line in the firmware's order: feed, spindle speed, spindle state, wait, motion, pause.
-    fn line(&mut self, line: &str) {
+    pub fn line(&mut self, line: &str) {
         let words = words(line);
         let value = |letter: char| words.iter().find(|w| w.0 == letter).map(|w| w.1);
         if let Some(rate) = value('F') {
@@ -92,6 +92,17 @@ impl<'a> Program<'a> {
         if pauses {
             self.pending.push_back(Command::Synchronize);
         }
+    }
+
+    /// The spindle's speed.
+    pub fn spindle_speed(&self) -> f32 {
+        self.spindle_speed
+    }
+
+    /// The modes after a reset, at a position.
+    pub fn reset(&mut self, at: [f32; 3]) {
+        self.pending.clear();
+        (self.mode, self.rate, self.spindle, self.spindle_speed, self.at) = (MotionMode::Rapid, 0.0, 5, 0.0, at);
     }
 
     fn motion(&mut self, from: [f32; 3], centre: [f32; 2]) {

@@ -51,10 +51,22 @@ struct Loaded {
     profile: Option<Profile>,
 }
 
+/// A piece of a block at one speed.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    seconds: f64,
+    /// Where it ends, in mm.
+    end: [f64; 3],
+}
+
 #[derive(Default)]
 pub struct Stepper {
-    /// Seconds of each segment that is ready; the first is running.
-    segments: VecDeque<f64>,
+    /// The segments that are ready; the first is running.
+    segments: VecDeque<Segment>,
+    /// True from a feed hold until it is resumed.
+    holds: bool,
+    /// Where the last finished segment ended.
+    pub at: [f64; 3],
     loaded: Option<Loaded>,
     pub clock: f64,
     /// Seconds spent on traces.
@@ -75,9 +87,54 @@ impl Stepper {
 
     /// Ends the running segment; false if there is none.
     pub fn finish_segment(&mut self) -> bool {
-        let duration = self.segments.pop_front();
-        self.clock += duration.unwrap_or(0.0);
-        duration.is_some()
+        let Some(segment) = self.segments.pop_front() else { return false };
+        self.clock += segment.seconds;
+        self.at = segment.end;
+        true
+    }
+
+    /// Seconds of the running segment.
+    pub fn running(&self) -> Option<f64> {
+        self.segments.front().map(|segment| segment.seconds)
+    }
+
+    /// Brakes from now on.
+    pub fn hold(&mut self) {
+        self.holds = true;
+    }
+
+    /// True if it stands still on hold.
+    pub fn is_held(&self) -> bool {
+        self.holds && self.segments.is_empty() && self.loaded.is_none_or(|loaded| loaded.speed == 0.0)
+    }
+
+    /// Goes on from rest.
+    pub fn resume(&mut self, planner: &mut Planner) {
+        self.holds = false;
+        if let Some(loaded) = &mut self.loaded {
+            (loaded.speed, loaded.profile) = (0.0, None);
+        }
+        planner.plan_again();
+    }
+
+    /// Forgets everything; the motors stand where they are.
+    pub fn reset(&mut self) {
+        self.segments.clear();
+        (self.loaded, self.holds) = (None, false);
+    }
+
+    /// A piece of braking at the block's acceleration: a hundredth of a second, or to rest, or to the block's end.
+    fn brake(loaded: &mut Loaded, length: Real, acceleration: Real) -> (Real, Real) {
+        let speed = loaded.speed;
+        let time = SEGMENT.min(speed / acceleration);
+        let way = time * (speed - 0.5 * acceleration * time);
+        if way >= length {
+            let end = (speed * speed - 2.0 * acceleration * length).max(0.0).sqrt();
+            loaded.speed = end;
+            return ((2.0 * length / (speed + end)).max(1e-9), 0.0);
+        }
+        loaded.speed = if time < SEGMENT { 0.0 } else { speed - acceleration * time };
+        (time, length - way)
     }
 
     /// A new plan starts from the running block's speed and remaining length, and may change how it ends.
@@ -99,6 +156,9 @@ impl Stepper {
             late: 0.0,
             profile: None,
         });
+        if self.holds {
+            return self.cut_braking(loaded, planner);
+        }
         let mut profile = loaded
             .profile
             .unwrap_or_else(|| profile(block.length, block.entry_squared, exit_squared, block.nominal, block.acceleration));
@@ -108,7 +168,8 @@ impl Stepper {
         let steps_left = loaded.steps_per_mm * left;
         let whole = steps_left.ceil();
         let time_per_step = (time + loaded.time_owed) / (loaded.whole_steps_left - steps_left);
-        self.segments.push_back(duration((loaded.whole_steps_left - whole) as u64, time_per_step));
+        let seconds = duration((loaded.whole_steps_left - whole) as u64, time_per_step);
+        self.segments.push_back(Segment { seconds, end: block.place(left) });
         self.late += (60.0 * f64::from(loaded.late)).min(duration(1, 1.0));
         self.steps += (loaded.whole_steps_left - whole) as u64;
         self.top_speed = self.top_speed.max(loaded.speed);
@@ -120,6 +181,33 @@ impl Stepper {
         } else {
             self.loaded = None;
             planner.discard_first();
+        }
+        true
+    }
+}
+
+impl Stepper {
+    /// A segment of a feed hold; false at rest. Steps are not counted here.
+    fn cut_braking(&mut self, mut loaded: Loaded, planner: &mut Planner) -> bool {
+        let Some(block) = planner.first() else { return false };
+        if loaded.speed <= 0.0 {
+            self.loaded = Some(Loaded { speed: 0.0, profile: None, ..loaded });
+            return false;
+        }
+        let (time, left) = Self::brake(&mut loaded, block.length, block.acceleration);
+        self.segments.push_back(Segment { seconds: 60.0 * f64::from(time), end: block.place(left) });
+        (block.length, loaded.profile) = (left, None);
+        loaded.whole_steps_left = (loaded.steps_per_mm * left).ceil();
+        block.entry_squared = loaded.speed * loaded.speed;
+        if left > 0.0 {
+            self.loaded = Some(loaded);
+        } else {
+            let speed = loaded.speed;
+            planner.discard_first();
+            self.loaded = None;
+            if let Some(next) = planner.first() {
+                next.entry_squared = speed * speed;
+            }
         }
         true
     }

@@ -17,6 +17,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("style", &["field", "order", "raster", "drawing", "geometry", "source"]),
     ("press", &["drawing", "geometry", "plot", "write"]),
     ("plot", &["drawing", "geometry", "order", "read", "write"]),
+    ("drive", &["plot", "geometry"]),
     ("write", &["drawing", "geometry"]),
     ("read", &["drawing", "geometry"]),
 ];

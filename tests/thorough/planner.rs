@@ -201,7 +201,7 @@ fn hold_synthetic(is_held: fn(&str) -> bool) {
 fn sample_plot(name: &str, width: f64, profile: &Profile) -> Plot {
     let photo = sample(name);
     let size = image::load_from_memory(&photo).unwrap();
-    let drawing = Sheet::new(&photo, (width, width * f64::from(size.height()) / f64::from(size.width()))).draw();
+    let drawing = Sheet::new(&photo, (width, width * f64::from(size.height()) / f64::from(size.width()))).drawn_once();
     let mut plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     let mounting = mount(profile, &plot.page).unwrap();
     plot.order_paths(mounting.to_machine.inverse() * Point::ORIGIN, Effort::Fast, Direction::Either, 0.1);

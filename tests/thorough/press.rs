@@ -15,6 +15,7 @@ use rand::rngs::ChaCha8Rng;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::Arc;
 use tempfile::TempDir;
 
 const DPI: f64 = 300.0;
@@ -50,10 +51,10 @@ fn text(path: &Path) -> &str {
 }
 
 /// A hedcut of Grace Hopper, 90 mm wide, as in the README: dots, lines, and darks with holes.
-fn hedcut() -> Drawing {
+fn hedcut() -> Arc<Drawing> {
     let (photo, mask) = (sample("grace-hopper.jpg"), sample("grace-hopper-subject.png"));
     let masks: &[(MaskRole, &[u8])] = &[(MaskRole::Subject, &mask)];
-    Sheet { masks, ..Sheet::new(&photo, (90.0, 105.47)) }.draw()
+    Sheet { masks, ..Sheet::new(&photo, (90.0, 105.47)) }.drawn_once()
 }
 
 /// Every kind of mark: round and flat lines, swelling and closed ones, blobs, areas with holes, white on black.
@@ -128,16 +129,16 @@ fn by_pdftoppm(pdf: &Path, samples: usize) -> Option<Raster<f32>> {
 }
 
 /// Every sample as a hedcut 60 mm wide, Grace Hopper as in the README, and each kind of mark.
-fn drawings() -> Vec<(&'static str, Drawing)> {
+fn drawings() -> Vec<(&'static str, Arc<Drawing>)> {
     let names =
         ["astronaut.jpg", "chelsea.png", "coffee.png", "raccoon.jpg", "bust-light.png", "bust-brown.png", "bust-dark.png"];
     let sixty_wide = |name| {
         let photo = sample(name);
         let picture = image::load_from_memory(&photo).unwrap();
-        Sheet::new(&photo, (60.0, 60.0 * f64::from(picture.height()) / f64::from(picture.width()))).draw()
+        Sheet::new(&photo, (60.0, 60.0 * f64::from(picture.height()) / f64::from(picture.width()))).drawn_once()
     };
-    let mut drawings: Vec<(&str, Drawing)> = names.par_iter().map(|name| (*name, sixty_wide(name))).collect();
-    drawings.extend([("grace-hopper.jpg", hedcut()), ("every mark", every_mark())]);
+    let mut drawings: Vec<(&str, Arc<Drawing>)> = names.iter().map(|name| (*name, sixty_wide(name))).collect();
+    drawings.extend([("grace-hopper.jpg", hedcut()), ("every mark", Arc::new(every_mark()))]);
     drawings
 }
 
@@ -184,7 +185,7 @@ fn read_png(path: &Path) -> Raster<f32> {
 #[test]
 fn the_pdf_is_sound_and_has_neither_fonts_nor_colour_plates() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, drawing) in [("hedcut", hedcut()), ("marks", every_mark())] {
+    for (name, drawing) in [("hedcut", hedcut()), ("marks", Arc::new(every_mark()))] {
         let pdf = file(&folder, &format!("{name}.pdf"), &pdf_of(&drawing));
         if let Some(output) = run("qpdf", &["--check", text(&pdf)]) {
             assert!(

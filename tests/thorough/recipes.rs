@@ -21,15 +21,20 @@ fn commands(page: &str) -> Vec<String> {
 /// A folder with every file that the pages name.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let copy = |sample: &str, name: &str| fs::copy(root().join("samples").join(sample), folder.path().join(name)).unwrap();
+    // Head and shoulders, broader than high: the same box then holds a smaller drawing, and sixty are made.
+    let broad = |sample: &str, name: &str| {
+        let picture = image::open(root().join("samples").join(sample)).unwrap();
+        let (width, height) = (picture.width(), picture.width() * 3 / 5);
+        picture.crop_imm(0, picture.height() / 20, width, height).save(folder.path().join(name)).unwrap();
+    };
     for name in ["portrait.jpg", "photo.jpg"] {
-        copy("grace-hopper.jpg", name);
+        broad("grace-hopper.jpg", name);
     }
     for name in ["mask.png", "eyes.png", "hair.png", "face.png", "mine.png"] {
-        copy("grace-hopper-subject.png", name);
+        broad("grace-hopper-subject.png", name);
     }
-    copy("grace-hopper-depth.png", "depth.png");
-    copy("astronaut-cutout.png", "cutout.png");
+    broad("grace-hopper-depth.png", "depth.png");
+    broad("astronaut-cutout.png", "cutout.png");
     let anything = root().join("tests/data/foreign/inkscape.svg");
     fs::copy(anything, folder.path().join("anything.svg")).unwrap();
     fs::write(folder.path().join("my-plotter.toml"), "extends = \"grbl-servo\"\nname = \"my-plotter\"\nscale_x = 1.002\n")

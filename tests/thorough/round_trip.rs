@@ -15,9 +15,10 @@ use drypoint::plot::{InkModel, MountingError, Nibs, Plot, Profile, Strokes, Tool
 use drypoint::read::read_svg;
 use machine_file::{read_back, written};
 use rasterised::{Pixels, rasterised};
+use std::sync::Arc;
 
 /// Every photograph in `samples/`, its sheet, and parameters that make each kind of mark.
-fn drawings() -> Vec<(&'static str, Drawing)> {
+fn drawings() -> Vec<(&'static str, Arc<Drawing>)> {
     [
         ("astronaut.jpg", (90.0, 90.0), &[][..]),
         ("astronaut-cutout.png", (90.0, 90.0), &[("blob", "0.7")]),
@@ -32,7 +33,7 @@ fn drawings() -> Vec<(&'static str, Drawing)> {
     .into_iter()
     .map(|(name, mm, set)| {
         let photo = sample(name);
-        (name, Sheet { set, ..Sheet::new(&photo, mm) }.draw())
+        (name, Sheet { set, ..Sheet::new(&photo, mm) }.drawn_once())
     })
     .collect()
 }

@@ -5,6 +5,8 @@ mod draw;
 mod files;
 mod placing;
 mod reporting;
+#[cfg(feature = "drive")]
+mod send;
 mod sheet;
 mod toolpaths;
 mod values;
@@ -13,6 +15,8 @@ pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
 pub(super) use placing::*;
+#[cfg(feature = "drive")]
+pub(super) use send::*;
 pub(super) use sheet::*;
 pub(super) use toolpaths::*;
 pub(super) use values::{CropNumber, CropPart, NIBS};
@@ -33,6 +37,7 @@ pub(super) struct Arguments {
 /// How to send a file to its machine.
 const SENDING: &str = "\
 Sending a file to its plotter:
+  `drypoint send` sends G-code to GRBL and FluidNC, and HP-GL, with pause, stop and going on. Other ways:
   HP-GL   The plotter buffers a few hundred bytes and pauses the sender by handshake; without a handshake it loses lines. Plotters of
           the 1980s use DTR (pin 20), which the cable must connect to the computer's CTS:
               stty -F /dev/ttyUSB0 9600 cs8 -cstopb -parenb -ixon crtscts raw && cat drawing.hpgl > /dev/ttyUSB0
@@ -40,6 +45,16 @@ Sending a file to its plotter:
           into the file: --set-profile 'hpgl.preamble=\"\\u001B.I81;;17:\\u001B.N;19:\"' with stty ... ixon -crtscts.
   G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; 3D printers read it from their card.
   SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order, with a pause before those marked !.";
+
+/// How to steer a machine while it draws.
+#[cfg(feature = "drive")]
+const KEYS: &str = "\
+While it draws, on a terminal:
+  space   Pause at the end of the path, pen up; again to go on. The same by the signal USR1.
+  q       Stop at once, lift the pen and end; --continue goes on. The same by Ctrl-C and the signal TERM.
+  + -     Draw a tenth faster or slower; = as the file says.
+  [ ]     Press the pen more lightly or harder, from the next path on.
+  Enter   Go on after a change of pen.";
 
 /// How to read a test sheet; docs/calibration.md has the details.
 pub(super) const READING: &str = "\
@@ -84,6 +99,13 @@ pub(super) enum Command {
     Inspect(InspectOptions),
     /// Write the rest of a plotter's file from where the machine stopped, with state, pen and position restored.
     Resume(ResumeOptions),
+    /// Send a file to its machine and draw it, with pause, stop and going on in the very stroke.
+    #[cfg(feature = "drive")]
+    #[command(after_long_help = KEYS)]
+    Send(SendOptions),
+    /// List the ports of this computer to which a machine may be connected.
+    #[cfg(feature = "drive")]
+    Ports(PortsOptions),
     /// Draw a test sheet for a machine and its pens.
     #[command(after_help = READING)]
     Calibrate(CalibrateOptions),

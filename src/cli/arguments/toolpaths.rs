@@ -74,6 +74,14 @@ pub(in crate::cli) struct ToolpathOptions {
     /// Wait whenever a pen has drawn this length, such as 20m, to sharpen, dip or fill it.
     #[arg(long, value_name = "METRES", value_parser = metres, allow_negative_numbers = true)]
     pub pause_every: Option<f64>,
+    /// Send the file to the machine at this port and draw it, as `drypoint send` does.
+    #[cfg(feature = "drive")]
+    #[arg(long, value_name = "PORT")]
+    pub send: Option<String>,
+    /// With --send: do not ask before the machine moves.
+    #[cfg(feature = "drive")]
+    #[arg(long, short, requires = "send")]
+    pub yes: bool,
     /// Write a picture of what the machine will do: sheet, reach, ink at nib width in a colour per pen, travel, start and park.
     #[arg(long, value_name = "FILE.svg")]
     pub preview: Option<String>,

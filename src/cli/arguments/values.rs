@@ -97,6 +97,44 @@ pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
     Ok((within(&x)?, within(y)?))
 }
 
+/// A share such as `35%`, as a fraction.
+#[cfg(feature = "drive")]
+pub(super) fn percent(text: &str) -> Result<f64, String> {
+    let share = text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
+    share.filter(|share| (0.0..=100.0).contains(share)).map(|share| share / 100.0).ok_or_else(|| "write it as 35%".to_owned())
+}
+
+/// When a pen is dipped: after a length such as `3m` or a time such as `5min`.
+#[cfg(feature = "drive")]
+pub(super) fn dip(text: &str) -> Result<crate::drive::Dip, String> {
+    use crate::drive::Dip;
+    let text = text.trim().trim_start_matches("every=");
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| *number > 0.0 && number.is_finite());
+    let after = |unit: &str| text.strip_suffix(unit).and_then(number);
+    let time = after("min").map(|minutes| 60.0 * minutes).or_else(|| after("s")).map(Dip::Seconds);
+    let length = || match parse_length(text) {
+        Ok(mm) if mm > 0.0 => Some(Dip::Millimetres(mm)),
+        _ => after("m").map(|metres| Dip::Millimetres(1000.0 * metres)),
+    };
+    time.or_else(length).ok_or_else(|| "write it as a length or a time, such as 3m or 5min".to_owned())
+}
+
+/// Two percents, such as `60,30`.
+#[cfg(feature = "drive")]
+pub(super) fn pen_heights(text: &str) -> Result<(f64, f64), String> {
+    let percent = |text: &str| text.trim().parse::<f64>().ok().filter(|percent| (0.0..=100.0).contains(percent));
+    let heights = text.split_once(',').and_then(|(up, down)| Some((percent(up)?, percent(down)?)));
+    heights.filter(|(up, down)| up != down).ok_or_else(|| "write it as UP,DOWN, such as 60,30, each from 0 to 100".to_owned())
+}
+
+/// A box in millimetres: x, y, width, height.
+#[cfg(feature = "drive")]
+pub(super) fn region(text: &str) -> Result<[f64; 4], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| parse_length(number.trim()).ok()).collect();
+    let sides = numbers.and_then(|numbers| <[f64; 4]>::try_from(numbers).ok());
+    sides.filter(|[_, _, w, h]| *w > 0.0 && *h > 0.0).ok_or_else(|| "write it as X,Y,W,H, such as 10,20,50,40".to_owned())
+}
+
 /// Cells of a sheet, side by side and above one another.
 pub(super) fn cells(text: &str) -> Result<(usize, usize), String> {
     let count = |text: &str| text.trim().parse().ok().filter(|count| (1..=100).contains(count));

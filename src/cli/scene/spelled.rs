@@ -5,7 +5,9 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches};
 
 /// Options that say how to work, not what to draw: they are in no scene and no recipe.
-pub(super) const RUN_ONLY: [&str; 13] = [
+pub(super) const RUN_ONLY: [&str; 15] = [
+    "send",
+    "yes",
     "help",
     "version",
     "output",

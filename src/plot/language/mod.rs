@@ -4,11 +4,13 @@
 
 mod gcode;
 mod hpgl;
+mod replayed;
 mod stop;
 mod svg;
 
-pub use gcode::{Comment, GcodeDialect, GcodeError, Height, Lift, Travel};
+pub use gcode::{Comment, GcodeDialect, GcodeError, Height, Lift, Protocol, Travel};
 pub use hpgl::{HpglDialect, HpglError};
+pub use replayed::{Act, Replayed};
 pub use stop::{ResumeError, StopPlace};
 pub use svg::SvgDialect;
 pub(super) use svg::write_picture;
@@ -179,6 +181,11 @@ pub(crate) trait Speech {
     fn feed_travel(&mut self) {}
     /// Writes a checked plot.
     fn write(&self, orders: &Orders<'_>, out: &mut dyn io::Write) -> io::Result<()>;
+    /// What each line of a file makes the machine do; `rate` is the drawing speed at its start in machine units per minute, `per_mm`
+    /// the machine units per millimetre. `None` if the file is a drawing.
+    fn replay<'a>(&self, _text: &'a str, _rate: f64, _per_mm: f64) -> Option<Vec<Replayed<'a>>> {
+        None
+    }
     /// Reads a file as the motion that it orders.
     fn read(&self, text: &str, lightest: Option<f64>, budget: &mut Budget) -> Result<Strokes, MotionError>;
 }
@@ -281,7 +288,7 @@ pub enum MotionError {
 
 /// A plot's file for a machine.
 #[cfg(test)]
-fn written(plot: &Plot, profile: &Profile) -> String {
+pub(in crate::plot) fn written(plot: &Plot, profile: &Profile) -> String {
     let (mounting, head) = (super::mount(profile, &plot.page).unwrap(), SvgHead::default());
     let mut bytes = Vec::new();
     profile.speech().write(&Orders { plot, profile, mounting: &mounting, head: &head }, &mut bytes).unwrap();

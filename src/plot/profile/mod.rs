@@ -135,6 +135,24 @@ impl Profile {
         swelling.chain([height.down]).min_by(|a, b| (a - height.up).abs().total_cmp(&(b - height.up).abs()))
     }
 
+    /// The line that lifts the pen and the one that lowers it, where a line of G-code does.
+    pub fn pen_commands(&self) -> Option<[String; 2]> {
+        let Dialect::Gcode(gcode) = &self.dialect else { return None };
+        match (self.height(), &gcode.pen_up, &gcode.pen_down) {
+            (Some(height), ..) => {
+                Some([format!("G0 Z{}", height.up), format!("G1 Z{} F{:.0}", height.down, height.plunge_speed * 60.0)])
+            }
+            (None, Some(up), Some(down)) => Some([up.clone(), down.clone()]),
+            _ => None,
+        }
+    }
+
+    /// The line of G-code that waits for a time.
+    pub fn wait_command(&self, seconds: f64) -> Option<String> {
+        let Dialect::Gcode(gcode) = &self.dialect else { return None };
+        (seconds > 0.0).then(|| gcode.wait(seconds))
+    }
+
     /// The drawing speed in mm/s nearest to the one wanted that its language can say.
     pub fn nearest_speed(&self, wanted: f64) -> f64 {
         self.speech().nearest_speed(wanted, self.motion.draw_speed_limit.unwrap_or(self.motion.draw_speed))

@@ -8,7 +8,10 @@
 //! Values are rounded as the machine rounds them: positions to the file's decimals and to steps, rates to the file's digits,
 //! waits to whole ticks.
 
+mod file;
 mod look_ahead;
+
+pub use file::{line_times, replayed};
 
 use super::language::{PenAction, PenMove, Rate};
 use super::profile::{Limits, Profile};

@@ -2,6 +2,7 @@
 
 use crate::plot::language::Refusal;
 use crate::plot::profile::{above_zero, are_near};
+use crate::write::decimal;
 use serde::Deserialize;
 
 /// The G-code dialect of one machine.
@@ -45,6 +46,22 @@ pub struct GcodeDialect {
     pub dwell: String,
     /// Maximum length of a line in characters.
     pub line_length: usize,
+    /// How the controller talks while lines are sent to it.
+    #[serde(default)]
+    pub protocol: Protocol,
+}
+
+/// How a controller talks while lines are sent to it.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Protocol {
+    /// Counted characters, real-time commands, status reports: GRBL and `FluidNC`.
+    #[default]
+    Grbl,
+    /// Numbered lines with checksums: Marlin, and Klipper.
+    Marlin,
+    /// The controller reads the file itself.
+    File,
 }
 
 /// Syntax of comments.
@@ -94,6 +111,15 @@ pub enum Travel {
 }
 
 impl GcodeDialect {
+    /// The line that waits for a time, to the millisecond.
+    pub(in crate::plot) fn wait(&self, seconds: f64) -> String {
+        let (mut whole, mut milli) = (String::new(), String::new());
+        let milliseconds = (seconds * 1000.0).round() as i64;
+        decimal(&mut whole, milliseconds, 3);
+        decimal(&mut milli, milliseconds, 0);
+        self.dwell.replace("{seconds}", &whole).replace("{milliseconds}", &milli)
+    }
+
     /// Checks that the commands or heights that lift and lower the pen are given and differ.
     fn check_lift(&self) -> Result<(), Refusal> {
         let given = |command: &Option<String>| command.as_ref().is_some_and(|text| !text.trim().is_empty());

@@ -4,14 +4,15 @@ mod dialect;
 mod numbers;
 mod pen_action;
 mod read;
+mod replay;
 mod resume;
 mod write;
 
-pub use dialect::{Comment, GcodeDialect, Height, Lift, Travel};
+pub use dialect::{Comment, GcodeDialect, Height, Lift, Protocol, Travel};
 pub use read::GcodeError;
 pub(super) use resume::resume;
 
-use super::{Language, MotionError, Orders, PenAction, PenMove, Rate, Refusal, Speech, Strokes};
+use super::{Language, MotionError, Orders, PenAction, PenMove, Rate, Refusal, Replayed, Speech, Strokes};
 use crate::read::Budget;
 use pen_action::pen_actions;
 use read::PenLift;
@@ -72,6 +73,10 @@ impl Speech for GcodeDialect {
             (None, PenMove::Up) => pen_actions(self.pen_up.as_deref().unwrap_or(""), &self.dwell),
             (None, PenMove::Down) => pen_actions(self.pen_down.as_deref().unwrap_or(""), &self.dwell),
         }
+    }
+
+    fn replay<'a>(&self, text: &'a str, rate: f64, _per_mm: f64) -> Option<Vec<Replayed<'a>>> {
+        Some(replay::replay(self, text, rate))
     }
 
     fn park(&self) -> Option<[f64; 2]> {

@@ -29,7 +29,7 @@ fn action(line: &str, dwell: &str) -> Option<PenAction> {
 }
 
 /// Letters with their numbers, separated by spaces or not.
-fn words(line: &str) -> Vec<(char, f64)> {
+pub(super) fn words(line: &str) -> Vec<(char, f64)> {
     let upper = line.to_ascii_uppercase();
     let mut words = Vec::new();
     for (i, letter) in upper.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()) {

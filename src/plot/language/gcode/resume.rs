@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 pub(in crate::plot::language) fn resume(text: &str, stop: StopPlace, again: f64) -> Result<String, ResumeError> {
     check_gcode(text)?;
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
-    let pen = Pen::of(&lines).ok_or(ResumeError::NoPen)?;
+    let pen = PenWords::of(&lines).ok_or(ResumeError::NoPen)?;
     let line = line_of(text, &lines, &pen, stop)?;
     let mut state = State::default();
     for (i, text) in lines[..line].iter().enumerate() {
@@ -43,7 +43,7 @@ fn wait_after(rest: &mut String, lines: &[&str], i: usize) {
 }
 
 /// The line at which the machine stopped, from 0.
-fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: StopPlace) -> Result<usize, ResumeError> {
+fn line_of(text: &str, lines: &[&str], pen: &PenWords, stop: StopPlace) -> Result<usize, ResumeError> {
     let beyond = |stop: String, count: String| Err(ResumeError::Beyond { stop, count });
     match stop {
         StopPlace::Line(line) if line > lines.len() => beyond(format!("line {line}"), format!("{} lines", lines.len())),
@@ -61,14 +61,15 @@ fn line_of(text: &str, lines: &[&str], pen: &Pen, stop: StopPlace) -> Result<usi
 }
 
 /// The commands that move the pen.
-struct Pen<'a> {
-    up: &'a str,
+pub(super) struct PenWords<'a> {
+    pub up: &'a str,
     /// `None` for a z axis, whose height differs from path to path.
-    down: Option<&'a str>,
+    pub down: Option<&'a str>,
 }
 
-impl<'a> Pen<'a> {
-    fn of(lines: &[&'a str]) -> Option<Self> {
+impl<'a> PenWords<'a> {
+    /// From the comments in a file's header.
+    pub fn of(lines: &[&'a str]) -> Option<Self> {
         let said = |what: &str| {
             let line = lines.iter().find_map(|line| line.trim_start_matches(['(', ';', ' ']).strip_prefix(what))?;
             Some(line.trim_end_matches(')').trim())
@@ -76,7 +77,7 @@ impl<'a> Pen<'a> {
         Some(Self { up: said("pen up is ")?, down: said("pen down is ") })
     }
 
-    fn lifts(&self, line: &str) -> bool {
+    pub fn lifts(&self, line: &str) -> bool {
         line == self.up || self.down.is_none() && line.starts_with(self.up) && line[self.up.len()..].starts_with(" F")
     }
 
@@ -87,7 +88,7 @@ impl<'a> Pen<'a> {
         !line.is_empty() && !is_code && !line.starts_with(['(', ';', '%']) && !self.lifts(line) && !self.lowers(line)
     }
 
-    fn lowers(&self, line: &str) -> bool {
+    pub fn lowers(&self, line: &str) -> bool {
         match self.down {
             Some(down) => line == down,
             None => word(line, 'Z').is_some() && word(line, 'X').is_none() && word(line, 'Y').is_none() && !self.lifts(line),
@@ -96,7 +97,7 @@ impl<'a> Pen<'a> {
 }
 
 /// True if a line is the comment that names the pen in the holder, such as `(pen 2: red 0.5)`.
-fn names_pen(line: &str) -> bool {
+pub(super) fn names_pen(line: &str) -> bool {
     let comment = line.strip_prefix(['(', ';']).map(str::trim_start);
     let number = comment.and_then(|text| text.strip_prefix("pen ")?.split_once(':')).map(|(number, _)| number);
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
@@ -134,7 +135,7 @@ struct State {
 }
 
 impl State {
-    fn take(&mut self, i: usize, line: &str, pen: &Pen) {
+    fn take(&mut self, i: usize, line: &str, pen: &PenWords) {
         if names_pen(line) {
             self.pen = Some(i);
         }
@@ -163,13 +164,13 @@ impl State {
     }
 
     /// True if the pen in the holder has a path left to draw before the next pen is named.
-    fn draws_before_next_pen(&self, lines: &[&str], pen: &Pen) -> bool {
+    fn draws_before_next_pen(&self, lines: &[&str], pen: &PenWords) -> bool {
         let left = lines[self.last_up + 1..].iter().take_while(|line| !names_pen(line));
         left.into_iter().any(|line| pen.lowers(line))
     }
 
     /// Appends the comment that names the pen, and the pause that follows it, if any.
-    fn restore_pen(&self, rest: &mut String, lines: &[&str], pen: &Pen) {
+    fn restore_pen(&self, rest: &mut String, lines: &[&str], pen: &PenWords) {
         let Some(i) = self.pen else { return };
         push(rest, lines[i]);
         if let Some(pause) = lines.get(i + 1).filter(|line| pen.pauses(line)) {

@@ -108,14 +108,10 @@ impl Gcode<'_> {
     }
 
     fn dwell(&mut self, seconds: f64) -> io::Result<()> {
-        let milliseconds = (seconds * 1000.0).round() as i64;
-        if milliseconds <= 0 {
+        if (seconds * 1000.0).round() as i64 <= 0 {
             return Ok(());
         }
-        let (mut whole, mut milli) = (String::new(), String::new());
-        decimal(&mut whole, milliseconds, 3);
-        decimal(&mut milli, milliseconds, 0);
-        self.command(&self.dialect.dwell.replace("{seconds}", &whole).replace("{milliseconds}", &milli))
+        self.command(&self.dialect.wait(seconds))
     }
 
     fn pen_up(&mut self) -> io::Result<()> {

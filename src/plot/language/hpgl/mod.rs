@@ -2,6 +2,7 @@
 
 mod dialect;
 mod read;
+mod replay;
 mod resume;
 mod write;
 
@@ -9,7 +10,7 @@ pub use dialect::HpglDialect;
 pub use read::HpglError;
 pub(super) use resume::resume;
 
-use super::{Language, MotionError, Orders, Refusal, Speech, Strokes};
+use super::{Language, MotionError, Orders, Refusal, Replayed, Speech, Strokes};
 use crate::read::Budget;
 use std::io;
 
@@ -42,6 +43,10 @@ impl Speech for HpglDialect {
 
     fn write(&self, orders: &Orders<'_>, out: &mut dyn io::Write) -> io::Result<()> {
         write::write(self, orders, out)
+    }
+
+    fn replay<'a>(&self, text: &'a str, rate: f64, per_mm: f64) -> Option<Vec<Replayed<'a>>> {
+        Some(replay::replay(text, rate, per_mm))
     }
 
     fn read(&self, text: &str, _lightest: Option<f64>, budget: &mut Budget) -> Result<Strokes, MotionError> {

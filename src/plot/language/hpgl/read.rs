@@ -53,14 +53,7 @@ const ESCAPE: char = '\u{1b}';
 /// Reads `IN SP VS FS PU PD PA PR PE AA AR PS` and skips other instructions' effects; escape sequences are passed over.
 pub(super) fn read(text: &str, budget: &mut Budget) -> Result<Strokes, HpglError> {
     budget.text(text.len() as f64).map_err(|work| HpglError::Work { at: 0, work })?;
-    let mut reader = Reader {
-        budget,
-        motion: Strokes { ends_up: true, ..Strokes::default() },
-        at: Point::ORIGIN,
-        pen: 0,
-        is_down: false,
-        is_relative: false,
-    };
+    let mut reader = Reader::new(budget);
     for (bytes, instruction) in instructions(text) {
         reader.execute(instruction, bytes.start)?;
     }
@@ -101,7 +94,7 @@ fn escape_length(text: &str) -> usize {
     if text[letter + numbers..].starts_with(':') { letter + numbers + 1 } else { letter }
 }
 
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     budget: &'a mut Budget,
     motion: Strokes,
     at: Point,
@@ -110,8 +103,34 @@ struct Reader<'a> {
     is_relative: bool,
 }
 
+impl<'a> Reader<'a> {
+    /// A machine at its origin with the pen up.
+    pub fn new(budget: &'a mut Budget) -> Self {
+        let motion = Strokes { ends_up: true, ..Strokes::default() };
+        Self { budget, motion, at: Point::ORIGIN, pen: 0, is_down: false, is_relative: false }
+    }
+
+    pub fn at(&self) -> Point {
+        self.at
+    }
+
+    pub fn is_down(&self) -> bool {
+        self.is_down
+    }
+
+    /// Number of places visited.
+    pub fn visited(&self) -> usize {
+        self.motion.visited.len()
+    }
+
+    /// Places visited after the first `count`.
+    pub fn since(&self, count: usize) -> &[Point] {
+        &self.motion.visited[count..]
+    }
+}
+
 impl Reader<'_> {
-    fn execute(&mut self, instruction: &str, start: usize) -> Result<(), HpglError> {
+    pub fn execute(&mut self, instruction: &str, start: usize) -> Result<(), HpglError> {
         let too_much = |work| HpglError::Work { at: start, work };
         let refuse = || HpglError::Instruction { at: start, text: instruction.chars().take(20).collect() };
         if instruction.len() < 2 || !instruction.as_bytes()[..2].iter().all(u8::is_ascii_alphabetic) {

@@ -1,0 +1,101 @@
+//! Single keys from a terminal, which is set back at the end, whatever the end is.
+
+#[cfg(unix)]
+pub(in crate::cli) use unix::restore_terminal;
+#[cfg(unix)]
+pub(super) use unix::{Keys, pause_is_asked_for};
+
+#[cfg(not(unix))]
+pub(in crate::cli) use none::restore_terminal;
+#[cfg(not(unix))]
+pub(super) use none::{Keys, pause_is_asked_for};
+
+#[cfg(unix)]
+mod unix {
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    use rustix::stdio::stdin;
+    use rustix::termios::{LocalModes, OptionalActions, Termios, isatty, tcgetattr, tcsetattr};
+    use signal_hook::consts::SIGUSR1;
+    use std::io::{Read, stdin as input};
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+
+    /// The terminal's settings before keys were read.
+    static BEFORE: Mutex<Option<Termios>> = Mutex::new(None);
+    static PAUSE: LazyLock<Arc<AtomicBool>> = LazyLock::new(|| {
+        let flag = Arc::new(AtomicBool::new(false));
+        // Without the handler the signal ends the process, which a script would notice.
+        let _ = signal_hook::flag::register(SIGUSR1, Arc::clone(&flag));
+        flag
+    });
+
+    /// True once for each signal that asks for a pause.
+    pub(in crate::cli::send) fn pause_is_asked_for() -> bool {
+        PAUSE.swap(false, Ordering::SeqCst)
+    }
+
+    /// Sets the terminal back.
+    pub(in crate::cli) fn restore_terminal() {
+        if let Some(before) = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            let _ = tcsetattr(stdin(), OptionalActions::Now, &before);
+        }
+    }
+
+    /// A terminal that gives single keys, without showing them.
+    pub(in crate::cli::send) struct Keys;
+
+    impl Keys {
+        /// The terminal on stdin, if it is one.
+        pub fn of_terminal() -> Option<Self> {
+            let _ = pause_is_asked_for();
+            if !isatty(stdin()) {
+                return None;
+            }
+            let before = tcgetattr(stdin()).ok()?;
+            let mut now = before.clone();
+            now.local_modes.remove(LocalModes::ICANON | LocalModes::ECHO);
+            tcsetattr(stdin(), OptionalActions::Now, &now).ok()?;
+            *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(before);
+            Some(Self)
+        }
+
+        /// The next key, if one was pressed.
+        pub fn pressed() -> Option<u8> {
+            let (input_end, now) = (stdin(), Timespec { tv_sec: 0, tv_nsec: 0 });
+            let mut waiting = [PollFd::new(&input_end, PollFlags::IN)];
+            if poll(&mut waiting, Some(&now)).ok()? == 0 {
+                return None;
+            }
+            let mut key = [0];
+            (input().lock().read(&mut key).ok()? == 1).then_some(key[0])
+        }
+    }
+
+    impl Drop for Keys {
+        fn drop(&mut self) {
+            restore_terminal();
+        }
+    }
+}
+
+/// Systems where single keys are not read: Ctrl-C stops.
+#[cfg(not(unix))]
+mod none {
+    pub(in crate::cli) fn restore_terminal() {}
+
+    pub(in crate::cli::send) fn pause_is_asked_for() -> bool {
+        false
+    }
+
+    pub(in crate::cli::send) struct Keys;
+
+    impl Keys {
+        pub fn of_terminal() -> Option<Self> {
+            None
+        }
+
+        pub fn pressed() -> Option<u8> {
+            None
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Meeting the machine: its state, its settings against the profile's, its reach, and the user's word.
+
+use super::super::arguments::SendOptions;
+use super::super::failure::Failure;
+use super::super::messages::{say, warning};
+use super::OLD_WORK;
+use crate::drive::{Controller, DriveError, Grbl, Greeting, MachineState, Program, Settings, Stand, differences, enforced_reach};
+use crate::plot::Profile;
+use std::io::{self, BufRead, IsTerminal};
+
+/// Waits for what is left of an earlier drawing, reads the settings, and tells what differs from the profile. Returns the settings, and
+/// where the machine stood, unless it restarted.
+pub(super) fn compare(
+    grbl: &mut Grbl,
+    greeting: &Greeting,
+    profile: Option<&Profile>,
+    options: &SendOptions,
+) -> Result<(Settings, Option<Stand>), Failure> {
+    let state = grbl.wait_until_idle(OLD_WORK)?;
+    let stand = grbl.stand().filter(|_| !greeting.is_restarted);
+    let may_unlock = options.home || options.unlock;
+    match state {
+        MachineState::Alarm if !may_unlock => return Err(DriveError::Locked.into()),
+        MachineState::Alarm => {}
+        // Forgets half a line that a broken cable has left, or a drawing on hold.
+        _ => grbl.clear()?,
+    }
+    if !options.quiet {
+        let name = if greeting.firmware.is_empty() { "the machine" } else { &greeting.firmware };
+        say!("{}: {name} answers", options.port);
+    }
+    let settings = grbl.settings()?;
+    for difference in profile.map(|profile| differences(&settings, profile)).unwrap_or_default() {
+        warning!(
+            "${} ({}) is {} on the machine and {} in the profile: {}; --adopt FILE.toml writes a profile of the machine's own",
+            difference.setting,
+            difference.what,
+            difference.machine,
+            difference.profile,
+            difference.effect
+        );
+    }
+    Ok((settings, stand))
+}
+
+/// Refuses what lies beyond the profile's reach, or beyond a reach that the machine enforces itself.
+pub(super) fn check_reach(settings: Option<&Settings>, program: &Program, profile: &Profile) -> Result<(), Failure> {
+    let bounds = program.bounds();
+    let [x0, y0, x1, y1] = bounds.map(|v| v / profile.units_per_mm);
+    let per_mm = profile.units_per_mm;
+    let inside = |low: f64, high: f64, reach: [f64; 2]| low >= reach[0] / per_mm - 0.02 && high <= reach[1] / per_mm + 0.02;
+    let mut reaches =
+        profile.area.iter().map(|area| (area.x, area.y)).chain(profile.paper.iter().map(|paper| (paper.x, paper.y))).peekable();
+    if reaches.peek().is_some() && !reaches.any(|(x, y)| inside(x0, x1, x) && inside(y0, y1, y)) {
+        return Err(Failure::Work(format!(
+            "the file draws from x {x0:.1} y {y0:.1} to x {x1:.1} y {y1:.1} mm, beyond the reach of {}; make it anew with this profile, or \
+             set the profile's area",
+            profile.name
+        )));
+    }
+    match settings.and_then(enforced_reach) {
+        Some([width, height]) if x1 - x0 > width || y1 - y0 > height => Err(Failure::Work(format!(
+            "the drawing has {:.1} x {:.1} mm, and the machine stops at {width} x {height} mm ($130, $131); draw it smaller",
+            x1 - x0,
+            y1 - y0
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Asks the user; without a terminal only `--yes` is an answer.
+pub(super) fn confirm(is_agreed: bool, question: &str) -> Result<(), Failure> {
+    if is_agreed {
+        return Ok(());
+    }
+    if !io::stdin().is_terminal() {
+        return Err(Failure::Usage(format!("{question} Nobody can answer here; give --yes")));
+    }
+    say!("{question} [y/N]");
+    let mut answer = String::new();
+    let _ = io::stdin().lock().read_line(&mut answer);
+    if answer.trim().to_lowercase().starts_with('y') { Ok(()) } else { Err(Failure::Work("nothing was drawn".to_owned())) }
+}

@@ -1,0 +1,109 @@
+//! What a session needs of a machine's protocol.
+
+use super::error::DriveError;
+use crate::plot::Act;
+use std::time::Duration;
+
+/// What a machine said.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Heard {
+    /// It took a line: parsed and planned, which is not drawn.
+    Taken(usize),
+    /// It refused a line.
+    Refused {
+        /// The line, if it is known.
+        line: Option<usize>,
+        /// Its code.
+        code: u32,
+        /// In words.
+        meaning: &'static str,
+    },
+    /// It stopped itself.
+    Alarm {
+        /// Its code.
+        code: u32,
+        /// In words.
+        meaning: &'static str,
+    },
+    /// It failed, in its own words.
+    Failed(String),
+    /// It restarted.
+    Restarted,
+    /// Whether it stands still.
+    State {
+        /// True if it does, with nothing left to draw.
+        is_still: bool,
+    },
+    /// Anything else.
+    Said(String),
+}
+
+/// A change of the speed at which a machine draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedChange {
+    /// As the file says.
+    Usual,
+    /// A tenth faster.
+    Faster,
+    /// A tenth slower.
+    Slower,
+}
+
+/// Where a machine stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// The pen's position in the work's coordinates, in machine units.
+    pub at: [f64; 3],
+    /// The value that sets the pen's servo, if the machine tells it.
+    pub servo: Option<f64>,
+}
+
+/// A machine's protocol.
+pub trait Controller {
+    /// True if a line may be sent now.
+    fn has_room(&self, text: &str) -> bool;
+
+    /// Sends a line, for which there must be room.
+    fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError>;
+
+    /// What was heard; waits up to `wait` for the first of it.
+    fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError>;
+
+    /// The oldest line that was sent and not taken.
+    fn outstanding(&self) -> Option<usize>;
+
+    /// Asks for the state, which [`listen`](Self::listen) hears.
+    fn ask_state(&mut self) -> Result<(), DriveError>;
+
+    /// Where the pen was when it was last told.
+    fn stand(&self) -> Option<Stand>;
+
+    /// True if taking such a line proves that everything before it is drawn.
+    fn proves(&self, act: Act) -> bool;
+
+    /// The number of moves that may be taken and not drawn.
+    fn hidden_moves(&self) -> usize;
+
+    /// How long it may say nothing after it was asked.
+    fn patience(&self) -> Duration {
+        Duration::from_secs(5)
+    }
+
+    /// Stops at once and forgets what was sent; the machine keeps its position, which is returned.
+    fn halt(&mut self) -> Result<Option<Stand>, DriveError>;
+
+    /// Draws faster or slower from now on.
+    fn change_speed(&mut self, change: SpeedChange) -> Result<(), DriveError>;
+
+    /// Sends a line of its own and waits until it is taken. Nothing may be outstanding.
+    fn ask(&mut self, text: &str) -> Result<(), DriveError>;
+
+    /// Waits until the machine stands still with nothing left to do; at most so long.
+    fn wait_until_still(&mut self, most: Duration) -> Result<(), DriveError>;
+
+    /// Moves with the pen up to a place in machine units, at machine units per minute.
+    fn travel(&mut self, to: [f64; 2], rate: f64) -> Result<(), DriveError>;
+
+    /// What it calls itself.
+    fn name(&self) -> &str;
+}

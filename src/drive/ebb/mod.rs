@@ -1,0 +1,378 @@
+//! The `EBB`, the board of the `AxiDraw` and its kin: firmware 2.7 and later (command reference, evil-mad/EggBot, `docs/ebb.html`).
+//!
+//! Its queue holds one command, or with firmware 3 up to 32. A command that finds it full blocks everything after it, the stop too. So
+//! the queue is never filled: the sender knows how long each command takes.
+
+mod plan;
+mod plot;
+mod rates;
+
+pub use plot::Rest;
+
+use super::controller::{Controller, Heard, SpeedChange, Stand};
+use super::error::DriveError;
+use super::port::Port;
+use crate::plot::Act;
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// How long an answer may take.
+const PATIENCE: Duration = Duration::from_secs(3);
+const LISTENING: Duration = Duration::from_millis(5);
+/// The deepest queue that is asked for.
+const DEEPEST: usize = 32;
+/// Motor steps per millimetre along each diagonal: 2032 an inch at sixteenths of a step.
+pub(super) const STEPS_PER_MM: f64 = 80.0;
+/// Positions of the pen's servo, in its units of 83 ns: the range of which percents are told.
+const SERVO: [f64; 2] = [9855.0, 27_831.0];
+
+/// How the pen is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PenHeights {
+    /// Percent of the servo's range with the pen up.
+    pub up: f64,
+    /// Percent with the pen down.
+    pub down: f64,
+}
+
+impl Default for PenHeights {
+    fn default() -> Self {
+        Self { up: 60.0, down: 30.0 }
+    }
+}
+
+/// A conversation with a board.
+pub struct Ebb {
+    port: Box<dyn Port>,
+    unfinished: Vec<u8>,
+    version: String,
+    /// Commands that the queue may hold besides the one that runs.
+    depth: usize,
+    /// Lines that are not accepted.
+    window: VecDeque<usize>,
+    /// When each accepted or sent command will be done.
+    running: VecDeque<Instant>,
+    stand: Option<Stand>,
+    /// How much faster than in life the board runs: 1, but for models.
+    pace: f64,
+    /// Questions on their way.
+    questions: VecDeque<Question>,
+    is_position_known: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Question {
+    Motors,
+    Steps,
+    Pen,
+}
+
+impl Ebb {
+    /// Meets the board at a port. The motors are enabled if they are not, which sets zero where the pen stands.
+    pub fn greet(port: Box<dyn Port>, heights: PenHeights) -> Result<Self, DriveError> {
+        let mut ebb = Self {
+            port,
+            unfinished: Vec::new(),
+            version: String::new(),
+            depth: 1,
+            window: VecDeque::new(),
+            running: VecDeque::new(),
+            stand: None,
+            pace: 1.0,
+            questions: VecDeque::new(),
+            is_position_known: true,
+        };
+        // Ends half a command of an earlier sender.
+        ebb.port.send(b"\r")?;
+        while !ebb.lines(Duration::from_millis(60))?.is_empty() {}
+        ebb.port.send(b"V\r")?;
+        ebb.version = ebb.next_line(|line| line.contains("EBB"))?;
+        let number = ebb.version.rsplit(' ').next().unwrap_or("").to_owned();
+        let mut parts = number.split('.').map(|part| part.parse::<u32>().unwrap_or(0));
+        let (major, minor) = (parts.next().unwrap_or(0), parts.next().unwrap_or(0));
+        if (major, minor) < (2, 7) {
+            return Err(DriveError::Busy(format!(
+                "firmware {number}; drypoint needs 2.7 or later, update it with the maker's program"
+            )));
+        }
+        if major >= 3 {
+            ebb.say(&format!("CU,4,{DEEPEST}"))?;
+            ebb.depth = DEEPEST;
+        }
+        ebb.port.send(b"QE\r")?;
+        let motors = ebb.next_line(|line| line.contains(','))?;
+        ebb.acknowledged()?;
+        if !motors.contains("16,16") {
+            ebb.say("EM,1,1")?;
+            ebb.is_position_known = false;
+        }
+        for (number, percent) in [(4, heights.up), (5, heights.down)] {
+            ebb.say(&format!("SC,{number},{:.0}", SERVO[0] + percent / 100.0 * (SERVO[1] - SERVO[0])))?;
+        }
+        ebb.read_stand()?;
+        Ok(ebb)
+    }
+
+    /// Its firmware, as it says.
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
+    /// False if the motors were off, so that zero is where the pen stands now.
+    pub fn is_position_known(&self) -> bool {
+        self.is_position_known
+    }
+
+    /// The board runs faster than in life; only a model does.
+    #[doc(hidden)]
+    pub fn set_pace(&mut self, pace: f64) {
+        self.pace = pace;
+    }
+
+    fn lines(&mut self, wait: Duration) -> Result<Vec<String>, DriveError> {
+        let mut buffer = [0; 512];
+        let count = self.port.receive(&mut buffer, wait)?;
+        let mut lines = Vec::new();
+        for &byte in &buffer[..count] {
+            match byte {
+                // Old answers end with a line feed before the return.
+                b'\r' | b'\n' if self.unfinished.is_empty() => {}
+                b'\r' | b'\n' => lines.push(String::from_utf8_lossy(&std::mem::take(&mut self.unfinished)).into_owned()),
+                byte if self.unfinished.len() < 512 => self.unfinished.push(byte),
+                _ => {}
+            }
+        }
+        Ok(lines)
+    }
+
+    fn next_line(&mut self, is_it: impl Fn(&str) -> bool) -> Result<String, DriveError> {
+        let begun = Instant::now();
+        while begun.elapsed() < PATIENCE {
+            for line in self.lines(LISTENING)? {
+                if line.starts_with('!') {
+                    return Err(DriveError::Failed(line));
+                }
+                if is_it(&line) {
+                    return Ok(line);
+                }
+            }
+        }
+        Err(DriveError::Silent { seconds: PATIENCE.as_secs(), expected: "an AxiDraw or another machine with an EBB" })
+    }
+
+    fn acknowledged(&mut self) -> Result<(), DriveError> {
+        self.next_line(|line| line == "OK").map(drop)
+    }
+
+    /// Says a command and waits until it is taken.
+    fn say(&mut self, text: &str) -> Result<(), DriveError> {
+        self.port.send(format!("{text}\r").as_bytes())?;
+        self.acknowledged()
+    }
+
+    /// Asks where it stands.
+    fn read_stand(&mut self) -> Result<(), DriveError> {
+        self.port.send(b"QS\r")?;
+        let steps = self.next_line(|line| line.contains(','))?;
+        self.acknowledged()?;
+        self.port.send(b"QP\r")?;
+        let pen = self.next_line(|line| line.ends_with('0') || line.ends_with('1'))?;
+        self.acknowledged()?;
+        self.stand = stand_of(&steps).map(|stand| Stand { servo: Some(if pen.ends_with('0') { 1.0 } else { 0.0 }), ..stand });
+        Ok(())
+    }
+
+    /// Commands in the queue, the one that runs among them.
+    fn in_flight(&mut self) -> usize {
+        let now = Instant::now();
+        while self.running.front().is_some_and(|end| *end <= now) {
+            self.running.pop_front();
+        }
+        self.running.len()
+    }
+
+    fn understand(&mut self, line: &str) -> Heard {
+        if line == "OK" {
+            return match self.questions.pop_front() {
+                // The end of an answer.
+                Some(_) => Heard::Said(String::new()),
+                None => self.window.pop_front().map_or(Heard::Said(String::new()), Heard::Taken),
+            };
+        }
+        if line.starts_with('!') {
+            return Heard::Failed(line.to_owned());
+        }
+        match self.questions.front() {
+            Some(Question::Motors) => {
+                // This one has no `OK`.
+                self.questions.pop_front();
+                let busy = line.split(',').skip(1).any(|field| field.trim() != "0");
+                Heard::State { is_still: !busy && self.window.is_empty() }
+            }
+            Some(Question::Steps) => {
+                let servo = self.stand.and_then(|stand| stand.servo);
+                self.stand = stand_of(line).map(|stand| Stand { servo, ..stand }).or(self.stand);
+                Heard::Said(String::new())
+            }
+            Some(Question::Pen) => {
+                if let Some(stand) = &mut self.stand {
+                    stand.servo = Some(if line.ends_with('0') { 1.0 } else { 0.0 });
+                }
+                Heard::Said(String::new())
+            }
+            None => Heard::Said(line.to_owned()),
+        }
+    }
+}
+
+/// The place of the steps of both motors, in millimetres.
+fn stand_of(line: &str) -> Option<Stand> {
+    let numbers: Vec<f64> = line.trim_start_matches("QS,").split(',').filter_map(|number| number.trim().parse().ok()).collect();
+    match numbers[..] {
+        [a, b] => Some(Stand { at: [0.5 * (a + b) / STEPS_PER_MM, 0.5 * (a - b) / STEPS_PER_MM, 0.0], servo: None }),
+        _ => None,
+    }
+}
+
+/// How long a command takes, in seconds.
+fn seconds_of(text: &str) -> f64 {
+    let mut fields = text.split(',');
+    let name = fields.next().unwrap_or("");
+    let numbers: Vec<f64> = fields.filter_map(|field| field.parse().ok()).collect();
+    match (name, &numbers[..]) {
+        ("SP", [_, milliseconds, ..]) => milliseconds / 1000.0,
+        ("LM", [rate, steps, acceleration, other, more, change, ..]) => {
+            lasting(*rate, steps.abs(), *acceleration).max(lasting(*other, more.abs(), *change)) / rates::TICKS
+        }
+        _ => 0.0,
+    }
+}
+
+/// Ticks in which steps are made from a rate at an acceleration.
+fn lasting(rate: f64, steps: f64, acceleration: f64) -> f64 {
+    let full = steps * 2_f64.powi(31);
+    if steps == 0.0 {
+        0.0
+    } else if acceleration == 0.0 {
+        full / rate.max(1.0)
+    } else {
+        // The first time at which rate * t + acceleration * t^2 / 2 is enough.
+        let root = (rate * rate + 2.0 * acceleration * full).max(0.0).sqrt();
+        2.0 * full / (rate + root).max(1.0)
+    }
+}
+
+impl Controller for Ebb {
+    fn has_room(&self, _: &str) -> bool {
+        let now = Instant::now();
+        let in_flight = self.running.iter().filter(|end| **end > now).count();
+        // One runs, the others wait; two places stay free, so that none blocks the stop. A queue of one holds one besides.
+        in_flight < (self.depth - 1).max(2) && self.window.len() < 2
+    }
+
+    fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError> {
+        self.in_flight();
+        self.port.send(format!("{text}\r").as_bytes())?;
+        self.window.push_back(line);
+        let begins = self.running.back().copied().unwrap_or_else(Instant::now).max(Instant::now());
+        self.running.push_back(begins + Duration::from_secs_f64(seconds_of(text) / self.pace));
+        Ok(())
+    }
+
+    fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError> {
+        // Short: room comes by time, not by an answer.
+        let lines = self.lines(wait.min(Duration::from_millis(2)))?;
+        Ok(lines.iter().map(|line| self.understand(line)).filter(|heard| *heard != Heard::Said(String::new())).collect())
+    }
+
+    fn outstanding(&self) -> Option<usize> {
+        self.window.front().copied()
+    }
+
+    fn ask_state(&mut self) -> Result<(), DriveError> {
+        // Answers have no names: nothing else may be on its way.
+        if self.questions.is_empty() && self.window.is_empty() {
+            self.port.send(b"QM\rQS\rQP\r")?;
+            self.questions.extend([Question::Motors, Question::Steps, Question::Pen]);
+        }
+        Ok(())
+    }
+
+    fn stand(&self) -> Option<Stand> {
+        self.stand
+    }
+
+    fn proves(&self, _: Act) -> bool {
+        false
+    }
+
+    fn hidden_moves(&self) -> usize {
+        self.depth + 2
+    }
+
+    fn halt(&mut self) -> Result<Option<Stand>, DriveError> {
+        self.port.send(b"ES\r")?;
+        // What was accepted before is answered before.
+        self.next_line(|line| line.matches(',').count() == 4 || line.starts_with("ES,"))?;
+        self.acknowledged()?;
+        self.window.clear();
+        self.running.clear();
+        self.questions.clear();
+        self.read_stand()?;
+        Ok(self.stand)
+    }
+
+    fn change_speed(&mut self, _: SpeedChange) -> Result<(), DriveError> {
+        Ok(())
+    }
+
+    fn ask(&mut self, text: &str) -> Result<(), DriveError> {
+        self.say(text)
+    }
+
+    fn wait_until_still(&mut self, most: Duration) -> Result<(), DriveError> {
+        let begun = Instant::now();
+        loop {
+            self.port.send(b"QM\r")?;
+            let state = self.next_line(|line| line.starts_with("QM"))?;
+            if state.split(',').skip(1).all(|field| field.trim() == "0") {
+                return self.read_stand();
+            }
+            if begun.elapsed() > most {
+                return Err(DriveError::Busy("that it still draws".to_owned()));
+            }
+            std::thread::sleep(LISTENING);
+        }
+    }
+
+    fn travel(&mut self, [x, y]: [f64; 2], rate: f64) -> Result<(), DriveError> {
+        self.wait_until_still(PATIENCE)?;
+        let from = self.stand.map_or([0.0; 2], |stand| [stand.at[0], stand.at[1]]);
+        let way = (x - from[0]).hypot(y - from[1]);
+        let [a, b] = [x - from[0] + (y - from[1]), x - from[0] - (y - from[1])].map(|mm| (mm * STEPS_PER_MM).round() as i64);
+        let ticks = (way / (rate / 60.0).min(50.0) * rates::TICKS).round() as u64;
+        if let Some(command) = rates::move_command([a, b], ticks, [1.0, 1.0]) {
+            self.say(&command)?;
+        }
+        // A long move takes its time.
+        self.wait_until_still(Duration::from_mins(2))
+    }
+
+    fn name(&self) -> &str {
+        &self.version
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_and_places_are_those_of_the_board() {
+        assert!((seconds_of("LM,85899346,10,0,17180814,2,0") - 0.01).abs() < 1e-5);
+        assert!((seconds_of("LM,42950000,50,13400,0,0,0") - 0.077).abs() < 1e-3);
+        assert!((seconds_of("SP,1,130") - 0.13).abs() < 1e-12);
+        assert_eq!(stand_of("800,-160").unwrap().at, [4.0, 6.0, 0.0]);
+        assert_eq!(stand_of("QS,80,80").unwrap().at, [1.0, 0.0, 0.0]);
+    }
+}

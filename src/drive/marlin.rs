@@ -1,0 +1,348 @@
+//! Marlin, and Klipper through its virtual serial port: numbered lines with checksums, `ok`, `busy`, and lines sent again.
+//!
+//! `N12 G1 X3*91`: the number counts up by one, the checksum is all bytes before the star, exclusive-or. After `Resend: 12` everything from
+//! line 12 on is sent again. Positions come from `M114`, which Marlin answers after the lines before it.
+
+use super::controller::{Controller, Heard, SpeedChange, Stand};
+use super::error::DriveError;
+use super::port::Port;
+use crate::plot::Act;
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// Lines on their way: Marlin's queue holds four (`BUFSIZE`), of which one is being read.
+const MOST_LINES: usize = 3;
+/// Bytes on their way: its serial buffer holds 128 (`RX_BUFFER_SIZE`).
+const MOST_BYTES: usize = 120;
+/// How long it may say nothing, not even that it is busy.
+const PATIENCE: Duration = Duration::from_secs(15);
+/// How long it may take from its start to its first answer.
+const STARTING: Duration = Duration::from_secs(10);
+/// Moves taken and not drawn: the planner's 15 blocks (`BLOCK_BUFFER_SIZE` 16), and the one that is being drawn.
+const HIDDEN_MOVES: usize = 16;
+const LISTENING: Duration = Duration::from_millis(20);
+
+/// A conversation with a machine.
+pub struct Marlin {
+    port: Box<dyn Port>,
+    unfinished: Vec<u8>,
+    firmware: String,
+    /// The number of the next line.
+    next: u64,
+    /// Lines that are not taken: number, line of the program, text as sent.
+    window: VecDeque<(u64, Option<usize>, String)>,
+    stand: Option<Stand>,
+    /// Percent of the file's speed.
+    speed: u32,
+    /// True while the answer to the question for the place is awaited: it comes when all before is drawn.
+    is_asked: bool,
+    /// Demands to send again whose own `ok` is still to come.
+    refused: usize,
+}
+
+/// A line that the machine sent.
+#[derive(Clone, Debug, PartialEq)]
+enum Reply {
+    Ok,
+    /// It is at work, and takes no more for now.
+    Busy,
+    Resend(u64),
+    /// `Error:...`.
+    Error(String),
+    /// It restarted.
+    Start,
+    Place([f64; 3]),
+    Firmware(String),
+    Other(String),
+}
+
+impl Reply {
+    fn of(line: &str) -> Option<Self> {
+        let line = line.trim();
+        if line.is_empty() {
+            return None;
+        }
+        let lower = line.to_ascii_lowercase();
+        let number = |text: &str| text.trim().trim_start_matches(['N', 'n', ':', ' ']).parse().ok();
+        Some(if lower.starts_with("resend:") || lower.starts_with("rs ") {
+            Self::Resend(number(&line[line.find([':', ' '])? + 1..])?)
+        } else if lower.starts_with("ok") {
+            Self::Ok
+        } else if lower.contains("busy:") {
+            Self::Busy
+        } else if lower.starts_with("error:") || line.starts_with("!!") {
+            Self::Error(line.split_once(':').map_or(line.trim_start_matches("!!"), |(_, text)| text).trim().to_owned())
+        } else if lower == "start" {
+            Self::Start
+        } else if let Some(place) = place(line) {
+            Self::Place(place)
+        } else if let Some((_, name)) = line.split_once("FIRMWARE_NAME:") {
+            Self::Firmware(
+                name.split(" SOURCE_CODE_URL").next().unwrap_or(name).split(" (").next().unwrap_or(name).trim().to_owned(),
+            )
+        } else {
+            Self::Other(line.trim_start_matches("echo:").to_owned())
+        })
+    }
+}
+
+/// `X:1.00 Y:2.00 Z:3.00 E:0.00 Count ...`.
+fn place(line: &str) -> Option<[f64; 3]> {
+    let before = line.split(" Count").next()?;
+    let value = |letter: &str| before.split_whitespace().find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok());
+    Some([value("X:")?, value("Y:")?, value("Z:").unwrap_or(0.0)])
+}
+
+/// The line as it is sent.
+fn numbered(number: u64, text: &str) -> String {
+    let body = format!("N{number} {text}");
+    let checksum = body.bytes().fold(0, |sum, byte| sum ^ byte);
+    format!("{body}*{checksum}\n")
+}
+
+impl Marlin {
+    /// Meets the machine at a port.
+    pub fn greet(port: Box<dyn Port>) -> Result<Self, DriveError> {
+        let mut marlin = Self {
+            port,
+            unfinished: Vec::new(),
+            firmware: String::new(),
+            next: 1,
+            window: VecDeque::new(),
+            stand: None,
+            speed: 100,
+            is_asked: false,
+            refused: 0,
+        };
+        let begun = Instant::now();
+        // Half a line of an earlier sender ends here; it is refused for its checksum.
+        marlin.port.send(b"\n")?;
+        loop {
+            marlin.port.send(numbered(0, "M110 N0").as_bytes())?;
+            let asked = Instant::now();
+            while asked.elapsed() < Duration::from_secs(1) {
+                if marlin.hear(LISTENING)?.contains(&Reply::Ok) {
+                    marlin.hear(Duration::from_millis(200))?;
+                    marlin.next = 1;
+                    Controller::ask(&mut marlin, "M115")?;
+                    Controller::ask(&mut marlin, "M114")?;
+                    return Ok(marlin);
+                }
+            }
+            if begun.elapsed() > STARTING {
+                return Err(DriveError::Silent { seconds: STARTING.as_secs(), expected: "Marlin or Klipper" });
+            }
+        }
+    }
+
+    fn hear(&mut self, wait: Duration) -> Result<Vec<Reply>, DriveError> {
+        let mut buffer = [0; 1024];
+        let count = self.port.receive(&mut buffer, wait)?;
+        let mut replies = Vec::new();
+        for &byte in &buffer[..count] {
+            match byte {
+                b'\n' => replies.extend(Reply::of(&String::from_utf8_lossy(&std::mem::take(&mut self.unfinished)))),
+                byte if self.unfinished.len() < 4096 => self.unfinished.push(byte),
+                _ => {}
+            }
+        }
+        for reply in &replies {
+            match reply {
+                Reply::Place(at) => self.stand = Some(Stand { at: *at, servo: None }),
+                Reply::Firmware(name) => self.firmware.clone_from(name),
+                _ => {}
+            }
+        }
+        Ok(replies)
+    }
+
+    fn push(&mut self, line: Option<usize>, text: &str) -> Result<(), DriveError> {
+        let sent = numbered(self.next, text);
+        self.port.send(sent.as_bytes())?;
+        self.window.push_back((self.next, line, sent));
+        self.next += 1;
+        Ok(())
+    }
+
+    /// Sends everything from a number on again.
+    fn send_again(&mut self, number: u64) -> Result<(), DriveError> {
+        for (_, _, text) in self.window.iter().filter(|(sent, ..)| *sent >= number) {
+            self.port.send(text.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn understand(&mut self, replies: Vec<Reply>) -> Result<Vec<Heard>, DriveError> {
+        let mut heard = Vec::new();
+        for reply in replies {
+            match reply {
+                // The `ok` after a demand to send again acknowledges nothing.
+                Reply::Ok if self.refused > 0 => self.refused -= 1,
+                Reply::Ok => match self.window.pop_front() {
+                    Some((_, Some(line), _)) => heard.push(Heard::Taken(line)),
+                    Some((_, None, text)) if text.contains(" M114*") => {
+                        self.is_asked = false;
+                        heard.push(Heard::State { is_still: self.window.is_empty() });
+                    }
+                    _ => {}
+                },
+                Reply::Busy => heard.push(Heard::State { is_still: false }),
+                Reply::Resend(number) => {
+                    self.refused += 1;
+                    self.send_again(number)?;
+                }
+                // What follows is the demand to send again.
+                Reply::Error(text) if is_of_the_line(&text) => {}
+                Reply::Error(text) => heard.push(Heard::Failed(text)),
+                Reply::Start => heard.push(Heard::Restarted),
+                Reply::Other(text) => heard.push(Heard::Said(text)),
+                Reply::Place(_) | Reply::Firmware(_) => {}
+            }
+        }
+        Ok(heard)
+    }
+}
+
+/// True for a fault of the transmission, after which the machine asks for the line again.
+fn is_of_the_line(text: &str) -> bool {
+    let text = text.to_ascii_lowercase();
+    ["checksum", "line number", "last line"].iter().any(|word| text.contains(word))
+}
+
+impl Controller for Marlin {
+    fn has_room(&self, text: &str) -> bool {
+        let bytes: usize = self.window.iter().map(|(_, _, sent)| sent.len()).sum();
+        // The number and the checksum take up to 16 bytes.
+        self.window.len() < MOST_LINES && bytes + text.len() + 16 <= MOST_BYTES
+    }
+
+    fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError> {
+        self.push(Some(line), text)
+    }
+
+    fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError> {
+        let replies = self.hear(wait)?;
+        self.understand(replies)
+    }
+
+    fn outstanding(&self) -> Option<usize> {
+        self.window.iter().find_map(|(_, line, _)| *line)
+    }
+
+    fn ask_state(&mut self) -> Result<(), DriveError> {
+        // While lines stream, their own answers say that it is there; M400 answers when all is drawn.
+        if self.window.is_empty() && !self.is_asked {
+            self.is_asked = true;
+            self.push(None, "M400")?;
+            self.push(None, "M114")?;
+        }
+        Ok(())
+    }
+
+    fn stand(&self) -> Option<Stand> {
+        self.stand
+    }
+
+    fn proves(&self, act: Act) -> bool {
+        matches!(act, Act::Wait(_))
+    }
+
+    fn hidden_moves(&self) -> usize {
+        HIDDEN_MOVES
+    }
+
+    fn patience(&self) -> Duration {
+        PATIENCE
+    }
+
+    fn halt(&mut self) -> Result<Option<Stand>, DriveError> {
+        // M410 stops the motors at once and forgets what is planned; an emergency parser takes it out of turn.
+        self.port.send(b"M410\n")?;
+        let begun = Instant::now();
+        while begun.elapsed() < Duration::from_millis(500) {
+            self.hear(LISTENING)?;
+        }
+        self.window.clear();
+        (self.is_asked, self.refused) = (false, 0);
+        self.port.send(numbered(0, "M110 N0").as_bytes())?;
+        let begun = Instant::now();
+        while !self.hear(LISTENING)?.contains(&Reply::Ok) && begun.elapsed() < PATIENCE {}
+        self.hear(Duration::from_millis(100))?;
+        self.next = 1;
+        self.ask("M114")?;
+        Ok(self.stand)
+    }
+
+    fn change_speed(&mut self, change: SpeedChange) -> Result<(), DriveError> {
+        self.speed = match change {
+            SpeedChange::Usual => 100,
+            SpeedChange::Faster => (self.speed + 10).min(200),
+            SpeedChange::Slower => self.speed.saturating_sub(10).max(10),
+        };
+        self.push(None, &format!("M220 S{}", self.speed))
+    }
+
+    fn ask(&mut self, text: &str) -> Result<(), DriveError> {
+        self.push(None, text)?;
+        let mut heard = Instant::now();
+        while !self.window.is_empty() {
+            let replies = self.hear(LISTENING)?;
+            if !replies.is_empty() {
+                heard = Instant::now();
+            }
+            for heard in self.understand(replies)? {
+                match heard {
+                    Heard::Failed(text) => return Err(DriveError::Failed(text)),
+                    Heard::Restarted => return Err(DriveError::Restarted),
+                    _ => {}
+                }
+            }
+            if heard.elapsed() > PATIENCE {
+                return Err(DriveError::Silent { seconds: PATIENCE.as_secs(), expected: "Marlin or Klipper" });
+            }
+        }
+        Ok(())
+    }
+
+    fn wait_until_still(&mut self, _: Duration) -> Result<(), DriveError> {
+        self.ask("M400")
+    }
+
+    fn travel(&mut self, [x, y]: [f64; 2], rate: f64) -> Result<(), DriveError> {
+        self.ask(&format!("G0 X{x:.3} Y{y:.3} F{rate:.0}"))
+    }
+
+    fn name(&self) -> &str {
+        if self.firmware.is_empty() { "Marlin" } else { &self.firmware }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_numbered_and_checked() {
+        // The example of the documentation: N123 M115 has the checksum of its bytes.
+        assert_eq!(numbered(3, "T0"), "N3 T0*57\n");
+        assert_eq!(numbered(4, "G92 E0"), "N4 G92 E0*67\n");
+    }
+
+    #[test]
+    fn answers_are_understood() {
+        assert_eq!(Reply::of("ok P15 B3"), Some(Reply::Ok));
+        assert_eq!(Reply::of("Resend: 12"), Some(Reply::Resend(12)));
+        assert_eq!(Reply::of("rs N12"), Some(Reply::Resend(12)));
+        assert_eq!(Reply::of("echo:busy: processing"), Some(Reply::Busy));
+        assert_eq!(Reply::of("X:1.00 Y:-2.50 Z:5.00 E:0.00 Count X:80 Y:-200 Z:2000"), Some(Reply::Place([1.0, -2.5, 5.0])));
+        assert_eq!(
+            Reply::of("Error:checksum mismatch, Last Line: 4"),
+            Some(Reply::Error("checksum mismatch, Last Line: 4".into()))
+        );
+        assert_eq!(
+            Reply::of("FIRMWARE_NAME:Marlin 2.1.2 (Jan  1 2026) SOURCE_CODE_URL:x"),
+            Some(Reply::Firmware("Marlin 2.1.2".into()))
+        );
+        assert_eq!(Reply::of(""), None);
+    }
+}

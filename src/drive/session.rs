@@ -1,0 +1,323 @@
+//! Drawing: lines go out as fast as the machine takes them; pauses, stops and changes of pen are handled between.
+//!
+//! ```text
+//!   Sending --pause--> Draining to the path's end --still--> Waiting --resume--> Sending
+//!      \--stop--> halted at once, pen lifted, place kept
+//!      \--pause line of the file--> Waiting for a pen
+//! ```
+
+use super::controller::{Controller, Heard, SpeedChange};
+use super::error::DriveError;
+use super::journal::Journal;
+use super::program::Program;
+use super::standing::{Standing, pressed};
+use crate::interrupt::Interrupt;
+use crate::plot::Act;
+use std::io;
+use std::time::{Duration, Instant};
+
+/// What a user wishes while the machine draws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wish {
+    /// Pause at the end of the path, with the pen up.
+    Pause,
+    /// Go on.
+    Resume,
+    /// Stop at once, lift the pen and end.
+    Stop,
+    /// Draw faster or slower.
+    Speed(SpeedChange),
+    /// Press the pen harder by steps, or with a negative number more lightly, from the next path on. A step is 0.05 mm of a z axis, or 5
+    /// of a servo's thousand.
+    Press(i32),
+}
+
+/// What happens.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening<'a> {
+    /// How far it is; several times a second.
+    Progress(Progress),
+    /// It will pause at the end of the path.
+    Pausing,
+    /// It stands still with the pen up.
+    Paused,
+    /// It waits for another pen.
+    PenWanted {
+        /// The pen's number.
+        number: u32,
+        /// Its name, as the file gives it.
+        name: &'a str,
+        /// Where the carriage is parked, in machine units.
+        parked: [f64; 2],
+    },
+    /// It goes on.
+    Resumed,
+    /// The machine said something.
+    Said(&'a str),
+}
+
+/// How far a drawing is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Fraction of the planned time that is drawn.
+    pub fraction: f64,
+    /// Planned seconds left.
+    pub seconds_left: f64,
+    /// Paths drawn.
+    pub paths: usize,
+    /// Paths in all.
+    pub paths_in_all: usize,
+    /// The pen in use.
+    pub pen: u32,
+    /// Where it was last, in machine units.
+    pub at: Option<[f64; 3]>,
+}
+
+/// Who watches a drawing and may change its course.
+pub trait Onlooker {
+    /// The next wish, if there is one.
+    fn wish(&mut self) -> Option<Wish>;
+
+    /// Something happened.
+    fn happens(&mut self, happening: &Happening<'_>);
+}
+
+/// How a drawing ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ending {
+    /// All is drawn.
+    Done,
+    /// It was stopped; the pen is up.
+    Stopped,
+}
+
+/// Waiting for something to be heard.
+const LISTENING: Duration = Duration::from_millis(10);
+/// Between two questions for the state, while it draws and while it comes to rest.
+const ASKING: [Duration; 2] = [Duration::from_millis(200), Duration::from_millis(40)];
+/// Between two reports of progress.
+const REPORTING: Duration = Duration::from_millis(200);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    Sending,
+    /// Sends up to a line, then pauses.
+    Draining(usize),
+    /// Waits for the user.
+    Waiting,
+}
+
+/// A drawing in progress.
+pub struct Session<'a> {
+    controller: &'a mut dyn Controller,
+    standing: Standing<'a>,
+    phase: Phase,
+    /// Steps by which the pen is pressed harder.
+    press: i32,
+    asked: Instant,
+    heard: Instant,
+    reported: Option<Instant>,
+    /// Consecutive reports of standing still since the last line was taken.
+    still: u32,
+}
+
+impl<'a> Session<'a> {
+    /// A drawing that begins.
+    pub fn new(controller: &'a mut dyn Controller, program: &'a Program) -> Self {
+        let standing = Standing { program, next: 0, taken: 0, drawn: 0, stand: None, is_done: false, is_stopped: false };
+        Self {
+            controller,
+            standing,
+            phase: Phase::Sending,
+            press: 0,
+            asked: Instant::now(),
+            heard: Instant::now(),
+            reported: None,
+            still: 0,
+        }
+    }
+
+    /// Draws until the end, a stop or a fault. After a fault or a stop the machine stands still with the pen up, if it still obeys.
+    pub fn run(
+        mut self,
+        journal: &mut Journal<'_>,
+        onlooker: &mut dyn Onlooker,
+        interrupt: &Interrupt,
+    ) -> Result<Ending, DriveError> {
+        loop {
+            if interrupt.is_raised() {
+                return self.stop(journal);
+            }
+            while let Some(wish) = onlooker.wish() {
+                if wish == Wish::Stop {
+                    return self.stop(journal);
+                }
+                self.follow(wish, onlooker)?;
+            }
+            self.feed()?;
+            if let Err(fault) = self.listen(onlooker) {
+                return Err(self.broken(fault, journal));
+            }
+            self.ask()?;
+            self.come_to_rest(onlooker);
+            journal.note(&self.standing)?;
+            self.report(onlooker);
+            if self.standing.is_done {
+                return Ok(Ending::Done);
+            }
+        }
+    }
+
+    fn follow(&mut self, wish: Wish, onlooker: &mut dyn Onlooker) -> Result<(), DriveError> {
+        match (wish, self.phase) {
+            (Wish::Pause, Phase::Sending) => {
+                self.phase = Phase::Draining(self.standing.end_of_path());
+                onlooker.happens(&Happening::Pausing);
+            }
+            (Wish::Resume, Phase::Draining(_) | Phase::Waiting) => {
+                self.phase = Phase::Sending;
+                onlooker.happens(&Happening::Resumed);
+            }
+            (Wish::Speed(change), _) => self.controller.change_speed(change)?,
+            (Wish::Press(steps), _) => self.press += steps,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Sends lines while there is room.
+    fn feed(&mut self) -> Result<(), DriveError> {
+        let end = match self.phase {
+            Phase::Sending => self.standing.program.lines.len(),
+            Phase::Draining(end) => end,
+            Phase::Waiting => return Ok(()),
+        };
+        while self.standing.next < end {
+            let line = &self.standing.program.lines[self.standing.next];
+            if line.act == Act::Pause {
+                break;
+            }
+            let text = pressed(self.standing.program, line, self.press);
+            if !text.is_empty() {
+                if !self.controller.has_room(&text) {
+                    break;
+                }
+                self.controller.send(self.standing.next, &text)?;
+                self.still = 0;
+            }
+            self.standing.next += 1;
+        }
+        self.standing.taken = self.controller.outstanding().unwrap_or(self.standing.next);
+        Ok(())
+    }
+
+    fn listen(&mut self, onlooker: &mut dyn Onlooker) -> Result<(), DriveError> {
+        let all = self.controller.listen(LISTENING)?;
+        if !all.is_empty() {
+            self.heard = Instant::now();
+        } else if self.heard.elapsed() > self.controller.patience() {
+            return Err(DriveError::Lost(io::Error::new(io::ErrorKind::TimedOut, "it no longer answers")));
+        }
+        for heard in all {
+            match heard {
+                Heard::Taken(line) => {
+                    self.still = 0;
+                    let proves = self.controller.proves(self.standing.program.lines[line].act);
+                    self.standing.take(line, proves, self.controller.hidden_moves());
+                }
+                Heard::State { is_still } => {
+                    self.still = if is_still { self.still + 1 } else { 0 };
+                    self.standing.stand = self.controller.stand();
+                }
+                Heard::Refused { line, code, meaning } => {
+                    let line = line.map(|line| &self.standing.program.lines[line]);
+                    let (number, text) = line.map_or((0, String::new()), |line| (line.number, line.text.clone()));
+                    return Err(DriveError::Refused { number, text, code, meaning });
+                }
+                Heard::Alarm { code, meaning } => return Err(DriveError::Alarm { code, meaning }),
+                Heard::Failed(text) => return Err(DriveError::Failed(text)),
+                Heard::Restarted => return Err(DriveError::Restarted),
+                Heard::Said(text) => onlooker.happens(&Happening::Said(&text)),
+            }
+        }
+        self.standing.taken = self.controller.outstanding().unwrap_or(self.standing.next);
+        Ok(())
+    }
+
+    /// Asks for the state now and then, and more often when all is taken.
+    fn ask(&mut self) -> Result<(), DriveError> {
+        let is_ending = self.controller.outstanding().is_none();
+        if self.asked.elapsed() >= ASKING[usize::from(is_ending)] {
+            self.controller.ask_state()?;
+            self.asked = Instant::now();
+        }
+        Ok(())
+    }
+
+    /// When all that may be sent is drawn: the end, a pause, or a change of pen.
+    fn come_to_rest(&mut self, onlooker: &mut dyn Onlooker) {
+        let is_still = self.controller.outstanding().is_none() && self.still >= 2;
+        if !is_still || self.phase == Phase::Waiting {
+            return;
+        }
+        let standing = &mut self.standing;
+        standing.drawn = standing.next;
+        let lines = &standing.program.lines;
+        match lines.get(standing.next) {
+            None => standing.is_done = true,
+            Some(line) if line.act == Act::Pause => {
+                standing.next += 1;
+                self.phase = Phase::Waiting;
+                let named = lines[..standing.next].iter().rev().find_map(|line| Some((line.act, line.name.as_deref()?)));
+                let (number, name) = match named {
+                    Some((Act::Pen(number), name)) => (number, name),
+                    _ => (1, ""),
+                };
+                let parked = [line.at[0], line.at[1]];
+                onlooker.happens(&Happening::PenWanted { number, name, parked });
+            }
+            Some(_) if matches!(self.phase, Phase::Draining(end) if standing.next >= end) => {
+                self.phase = Phase::Waiting;
+                onlooker.happens(&Happening::Paused);
+            }
+            Some(_) => {}
+        }
+    }
+
+    fn report(&mut self, onlooker: &mut dyn Onlooker) {
+        if self.standing.is_done || self.reported.is_none_or(|last| last.elapsed() >= REPORTING) {
+            self.reported = Some(Instant::now());
+            onlooker.happens(&Happening::Progress(self.standing.progress()));
+        }
+    }
+
+    /// Stops at once and lifts the pen.
+    fn stop(mut self, journal: &mut Journal<'_>) -> Result<Ending, DriveError> {
+        self.standing.stand = self.controller.halt()?;
+        self.lift()?;
+        self.standing.is_stopped = true;
+        journal.note(&self.standing)?;
+        Ok(Ending::Stopped)
+    }
+
+    /// Sets the modes again and lifts the pen, as the file's head does.
+    fn lift(&mut self) -> Result<(), DriveError> {
+        for line in &self.standing.program.lines[self.standing.program.head.clone()] {
+            if !line.text.is_empty() {
+                self.controller.ask(&line.text)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// After a fault: stops and lifts the pen if the machine still obeys; the fault is what is told.
+    fn broken(mut self, fault: DriveError, journal: &mut Journal<'_>) -> DriveError {
+        if matches!(fault, DriveError::Refused { .. }) {
+            self.standing.stand = self.controller.halt().ok().flatten().or(self.standing.stand);
+            let _ = self.lift();
+            self.standing.is_stopped = true;
+        }
+        let _ = journal.note(&self.standing);
+        fault
+    }
+}

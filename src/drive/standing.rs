@@ -1,0 +1,127 @@
+//! Where a drawing stands: what is sent, taken and certainly drawn.
+
+use super::controller::Stand;
+use super::journal::Record;
+use super::program::{Program, ProgramLine, word};
+use super::session::Progress;
+use crate::plot::Act;
+use std::borrow::Cow;
+
+/// Where a drawing stands.
+pub(super) struct Standing<'a> {
+    pub program: &'a Program,
+    /// The next line to send.
+    pub next: usize,
+    /// Lines before this one are taken.
+    pub taken: usize,
+    /// Lines before this one are certainly drawn.
+    pub drawn: usize,
+    pub stand: Option<Stand>,
+    pub is_done: bool,
+    pub is_stopped: bool,
+}
+
+impl Standing<'_> {
+    /// A line was taken.
+    pub fn take(&mut self, line: usize, proves: bool, hidden: usize) {
+        if proves {
+            self.drawn = self.drawn.max(line + 1);
+            return;
+        }
+        // The moves before the last `hidden` ones cannot all be waiting.
+        let mut moves = 0;
+        for i in (self.drawn..=line).rev() {
+            moves +=
+                usize::from(self.program.lines[i].act.moves() || matches!(self.program.lines[i].act, Act::Lift | Act::Lower));
+            if moves > hidden {
+                self.drawn = i + 1;
+                return;
+            }
+        }
+    }
+
+    /// The end of the path of which the last line sent is a part; else the next line.
+    pub fn end_of_path(&self) -> usize {
+        let path = self.program.paths.get(self.program.path_of(self.next.saturating_sub(1)));
+        path.filter(|path| path.begin < self.next).map_or(self.next, |path| path.end)
+    }
+
+    pub fn progress(&self) -> Progress {
+        let program = self.program;
+        let done = if self.drawn == 0 { 0.0 } else { program.lines[self.drawn - 1].until };
+        let path = program.path_of(self.drawn);
+        Progress {
+            fraction: if program.seconds() > 0.0 { done / program.seconds() } else { 1.0 },
+            seconds_left: program.seconds() - done,
+            paths: path,
+            paths_in_all: program.paths.len(),
+            pen: program.paths.get(path).or(program.paths.last()).map_or(1, |path| path.pen),
+            at: self.stand.map(|stand| stand.at),
+        }
+    }
+
+    /// The record for the journal.
+    pub fn record(&self) -> Record {
+        let lines = &self.program.lines;
+        let number = |i: usize| lines.get(i..).unwrap_or(&[]).iter().map(|line| line.number).find(|number| *number > 0);
+        let end = lines.iter().rev().map(|line| line.number).find(|number| *number > 0).map_or(1, |last| last + 1);
+        let path = self.program.paths.get(self.program.path_of(self.drawn));
+        Record {
+            drawn: number(self.drawn).unwrap_or(end),
+            taken: number(self.taken).unwrap_or(end),
+            sent: number(self.next).unwrap_or(end),
+            path: path.map_or(0, |path| path.number),
+            at: self.stand.map(|stand| stand.at),
+            is_down: self.stand.and_then(|stand| self.program.is_down(&stand)),
+            is_done: self.is_done,
+            is_stopped: self.is_stopped,
+        }
+    }
+}
+
+/// The text of a line; a lowering presses harder or more lightly if that was wished.
+pub(super) fn pressed<'a>(program: &Program, line: &'a ProgramLine, steps: i32) -> Cow<'a, str> {
+    if steps == 0 || line.act != Act::Lower {
+        return Cow::Borrowed(&line.text);
+    }
+    let lift = program.lines.iter().find(|line| line.act == Act::Lift).map_or("", |line| &line.text);
+    let words = line.text.split_whitespace().map(|text| {
+        let step = match text.chars().next() {
+            Some('S') => 5.0,
+            Some('Z') => 0.05,
+            _ => return text.to_owned(),
+        };
+        let letter = &text[..1];
+        let values = letter.chars().next().and_then(|letter| Some((word(lift, letter)?, word(text, letter)?)));
+        values.map_or_else(
+            || text.to_owned(),
+            |(up, down)| {
+                let value = down + step * f64::from(steps).copysign(f64::from(steps) * (down - up));
+                format!("{letter}{}", (value * 100.0).round() / 100.0)
+            },
+        )
+    });
+    Cow::Owned(words.collect::<Vec<_>>().join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interrupt::Interrupt;
+    use crate::plot::Profile;
+
+    #[test]
+    fn the_pen_presses_harder_in_its_own_direction() {
+        let texts = [
+            ("grbl-servo", "M3 S300\nG0 X1 Y1\nM3 S700\nG1 X2 Y2 F600\nM3 S300\n", "M3 S710", "M3 S695"),
+            ("grbl-z", "G0 Z5\nG0 X1 Y1\nG1 Z-1 F300\nG1 X2 Y2 F600\nG0 Z5\n", "G1 Z-1.1 F300", "G1 Z-0.95 F300"),
+        ];
+        for (machine, text, harder, lighter) in texts {
+            let program = Program::read(&Profile::built_in(machine).unwrap(), text, &Interrupt::never()).unwrap();
+            let line = &program.lines[program.paths[0].lower];
+            assert_eq!(pressed(&program, line, 2), harder);
+            assert_eq!(pressed(&program, line, -1), lighter);
+            assert_eq!(pressed(&program, line, 0), line.text);
+        }
+    }
+}

@@ -1,0 +1,423 @@
+//! The firmware behind its serial line: a line buffer of 128 bytes, real-time commands, status reports, feed hold and soft reset,
+//! and what the pen drew. Time is given from outside.
+//!
+//! Rules: gnea/grbl 1.1, `serial.c`, `protocol.c`, `system.c`, `report.c`, reimplemented.
+
+use super::planner::Planner;
+use super::program::{Command, Program};
+use super::stepper::Stepper;
+use super::{DWELL_STEP, Settings};
+use std::collections::VecDeque;
+use std::fmt::Write as _;
+
+/// `RX_BUFFER_SIZE`, of which one place stays free.
+const LINE_BUFFER: usize = 128;
+
+/// A straight piece that the pen drew, from and to, in mm.
+pub type Piece = [[f64; 2]; 2];
+
+// Flags of the firmware's own.
+#[allow(clippy::struct_excessive_bools)]
+pub struct Firmware {
+    settings: Settings,
+    /// `$` settings as reported.
+    reported: Vec<(u32, String)>,
+    program: Program<'static>,
+    planner: Planner,
+    stepper: Stepper,
+    /// Seconds since its start.
+    pub now: f64,
+    /// Seconds that the running segment has run.
+    ran: f64,
+    buffer: VecDeque<u8>,
+    line: Vec<u8>,
+    /// A line is being executed: its `ok` is owed.
+    is_busy: bool,
+    command: Option<Command>,
+    dwells_until: Option<f64>,
+    /// Blocks are executed.
+    is_cycling: bool,
+    is_held: bool,
+    is_alarmed: bool,
+    is_checking: bool,
+    /// Offset of the work, by `G92`.
+    offset: [f64; 3],
+    output: Vec<u8>,
+    /// Values of S above which the pen is down.
+    pen_down_above: f32,
+    /// What the pen drew.
+    pub drawn: Vec<Piece>,
+    /// Where the pen touched the paper: each lowering.
+    pub touches: Vec<[f64; 2]>,
+    last_spindle: f32,
+    /// Bytes lost because the line buffer was full.
+    pub lost: usize,
+    /// Seconds without anything to do between the first line and the last.
+    pub starved: f64,
+    is_starving: f64,
+    /// Lines received.
+    pub lines: usize,
+    /// Greatest number of bytes in the line buffer.
+    pub fullest: usize,
+    /// When motion last came to rest, and when the pen was last lifted.
+    pub rested: f64,
+    pub lifted: f64,
+}
+
+impl Firmware {
+    pub fn new(settings: &Settings) -> Self {
+        let mut firmware = Self {
+            settings: *settings,
+            reported: reported(settings),
+            program: Program::new("", settings),
+            planner: Planner::new(settings),
+            stepper: Stepper::default(),
+            now: 0.0,
+            ran: 0.0,
+            buffer: VecDeque::new(),
+            line: Vec::new(),
+            is_busy: false,
+            command: None,
+            dwells_until: None,
+            is_cycling: false,
+            is_held: false,
+            is_alarmed: false,
+            is_checking: false,
+            offset: [0.0; 3],
+            output: Vec::new(),
+            pen_down_above: 500.0,
+            drawn: Vec::new(),
+            touches: Vec::new(),
+            last_spindle: 0.0,
+            lost: 0,
+            starved: 0.0,
+            is_starving: 0.0,
+            lines: 0,
+            fullest: 0,
+            rested: 0.0,
+            lifted: 0.0,
+        };
+        firmware.greet();
+        firmware
+    }
+
+    fn greet(&mut self) {
+        self.say("\r\nGrbl 1.1h ['$' for help]");
+    }
+
+    fn say(&mut self, text: &str) {
+        self.output.extend_from_slice(text.as_bytes());
+        self.output.extend_from_slice(b"\r\n");
+    }
+
+    /// What it says.
+    pub fn output(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.output)
+    }
+
+    /// Bytes arrive.
+    pub fn receive(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            match byte {
+                b'?' => self.report(),
+                b'!' => {
+                    if self.is_moving() {
+                        self.stepper.hold();
+                    }
+                    self.is_held = true;
+                }
+                b'~' => {
+                    self.is_held = false;
+                    self.stepper.resume(&mut self.planner);
+                }
+                0x18 => self.reset(),
+                0x80.. => {}
+                byte if self.buffer.len() < LINE_BUFFER - 1 => {
+                    self.buffer.push_back(byte);
+                    self.fullest = self.fullest.max(self.buffer.len());
+                }
+                _ => self.lost += 1,
+            }
+        }
+    }
+
+    fn is_moving(&self) -> bool {
+        self.stepper.running().is_some() || self.is_cycling && !self.planner.is_empty()
+    }
+
+    fn is_idle(&self) -> bool {
+        !self.is_moving() && self.planner.is_empty() && self.command.is_none() && self.dwells_until.is_none()
+    }
+
+    fn report(&mut self) {
+        let state = if self.is_alarmed {
+            "Alarm"
+        } else if self.is_held && (self.stepper.is_held() || !self.is_moving()) {
+            "Hold:0"
+        } else if self.is_held {
+            "Hold:1"
+        } else if self.is_checking {
+            "Check"
+        } else if self.is_idle() {
+            "Idle"
+        } else {
+            "Run"
+        };
+        let at: Vec<String> = self.stepper.at.iter().map(|v| format!("{v:.3}")).collect();
+        let offset: Vec<String> = self.offset.iter().map(|v| format!("{v:.3}")).collect();
+        let mut text = format!("<{state}|MPos:{}", at.join(","));
+        let free = LINE_BUFFER - 1 - self.buffer.len();
+        let _ = write!(text, "|Bf:{},{free}|FS:0,{:.0}|WCO:{}>", self.planner.free(), self.last_spindle, offset.join(","));
+        self.say(&text);
+    }
+
+    /// Soft reset: in motion it loses its position.
+    fn reset(&mut self) {
+        let was_moving = self.is_moving() && !self.stepper.is_held();
+        self.stepper.reset();
+        let at = self.stepper.at;
+        self.planner.reset(at);
+        self.program.reset(at.map(|v| v as f32));
+        (self.command, self.dwells_until, self.is_busy, self.is_cycling, self.is_held) = (None, None, false, false, false);
+        self.buffer.clear();
+        self.line.clear();
+        self.offset = [0.0; 3];
+        self.ran = 0.0;
+        self.last_spindle = 0.0;
+        self.is_checking = false;
+        if was_moving {
+            self.is_alarmed = true;
+            self.say("ALARM:3");
+        }
+        self.greet();
+    }
+
+    /// Time passes.
+    pub fn run_until(&mut self, time: f64) {
+        // In steps of a millisecond, so that lines are taken as time passes.
+        while self.now < time {
+            let step = (time - self.now).min(0.001);
+            self.now += step;
+            self.take_lines();
+            self.move_for(step);
+        }
+    }
+
+    fn move_for(&mut self, seconds: f64) {
+        // On hold nothing begins.
+        if self.is_held && self.stepper.running().is_none() {
+            return;
+        }
+        self.is_cycling |=
+            self.planner.free() == 0 || (self.buffer.is_empty() || self.command.is_some()) && !self.planner.is_empty();
+        if self.is_cycling {
+            self.stepper.fill(&mut self.planner);
+        }
+        let was_moving = self.stepper.running().is_some();
+        self.ran += seconds;
+        while let Some(lasts) = self.stepper.running() {
+            if self.ran < lasts {
+                break;
+            }
+            self.ran -= lasts;
+            let from = self.stepper.at;
+            self.stepper.finish_segment();
+            let to = self.stepper.at;
+            if self.last_spindle > self.pen_down_above && from != to {
+                self.drawn.push([[from[0], from[1]], [to[0], to[1]]]);
+            }
+            self.stepper.fill(&mut self.planner);
+        }
+        if self.stepper.running().is_none() {
+            self.ran = 0.0;
+            if was_moving {
+                self.rested = self.now;
+            }
+            if self.planner.is_empty() {
+                self.is_cycling = false;
+            }
+            let has_nothing = self.planner.is_empty() && self.command.is_none() && self.dwells_until.is_none();
+            if has_nothing && !self.buffer.contains(&b'\n') {
+                self.is_starving += seconds;
+            }
+        }
+    }
+
+    fn take_lines(&mut self) {
+        while !self.is_held {
+            if self.is_busy {
+                if !self.continue_line() {
+                    return;
+                }
+                self.is_busy = false;
+                self.say("ok");
+            }
+            let Some(byte) = self.buffer.pop_front() else { return };
+            if byte == b'\n' || byte == b'\r' {
+                let text = String::from_utf8_lossy(&std::mem::take(&mut self.line)).into_owned();
+                if byte == b'\n' {
+                    self.begin_line(&text);
+                }
+            } else {
+                self.line.push(byte);
+            }
+        }
+    }
+
+    fn begin_line(&mut self, text: &str) {
+        if self.lines > 0 {
+            self.starved += self.is_starving;
+        }
+        self.is_starving = 0.0;
+        let code = text.trim();
+        if let Some(command) = code.strip_prefix('$') {
+            return self.system(command);
+        }
+        if self.is_alarmed {
+            return self.say("error:9");
+        }
+        if code.len() > 79 {
+            return self.say("error:11");
+        }
+        if let Some(place) = code.strip_prefix("G92 ") {
+            for word in place.split_whitespace() {
+                let value: f64 = word[1..].parse().unwrap();
+                let axis = usize::from(!word.starts_with('X'));
+                self.offset[axis] = self.stepper.at[axis] - value;
+            }
+            return self.say("ok");
+        }
+        if !code.is_empty() && !code.starts_with(['G', 'M', 'X', 'Y', 'Z', 'F', 'S', '(']) || code.contains('$') {
+            return self.say("error:1");
+        }
+        self.lines += 1;
+        if self.is_checking {
+            return self.say("ok");
+        }
+        self.program.line(code);
+        self.is_busy = true;
+    }
+
+    fn system(&mut self, command: &str) {
+        match command {
+            "$" => {
+                for (number, value) in self.reported.clone() {
+                    self.say(&format!("${number}={value}"));
+                }
+                self.say("ok");
+            }
+            "X" | "H" => {
+                self.is_alarmed = false;
+                self.say("ok");
+            }
+            "C" => {
+                self.is_checking = !self.is_checking;
+                self.say(if self.is_checking { "[MSG:Enabled]" } else { "[MSG:Disabled]" });
+                self.say("ok");
+            }
+            jog if jog.starts_with("J=") => {
+                let value = |letter: char| {
+                    jog.split_whitespace()
+                        .find_map(|word| word.trim_start_matches("J=").strip_prefix(letter)?.parse::<f64>().ok())
+                };
+                let at = self.stepper.at;
+                let target = [at[0] + value('X').unwrap_or(0.0), at[1] + value('Y').unwrap_or(0.0), at[2]].map(|v| v as f32);
+                self.planner.add(target, value('F'), &mut self.stepper);
+                self.program.reset(target);
+                self.say("ok");
+            }
+            _ => self.say("error:3"),
+        }
+    }
+
+    /// Goes on with the line; true if it is done.
+    fn continue_line(&mut self) -> bool {
+        if let Some(until) = self.dwells_until {
+            if self.now < until {
+                return false;
+            }
+            self.dwells_until = None;
+            self.command = None;
+        }
+        loop {
+            let Some(command) = self.command.take().or_else(|| self.program.next()) else {
+                self.follow_spindle();
+                return true;
+            };
+            let is_still = self.planner.is_empty() && self.stepper.running().is_none();
+            match command {
+                Command::Line { target, rate } if self.planner.free() > 0 => {
+                    let target = std::array::from_fn(|axis| target[axis] + self.offset[axis] as f32);
+                    self.planner.add(target, rate, &mut self.stepper);
+                }
+                Command::Synchronize if is_still => {}
+                Command::Dwell(seconds) if is_still => {
+                    let ticks = f64::from((seconds / DWELL_STEP - 1e-4).ceil());
+                    self.dwells_until = Some(self.now + ticks * f64::from(DWELL_STEP));
+                    self.command = Some(command);
+                    return false;
+                }
+                waiting => {
+                    self.command = Some(waiting);
+                    return false;
+                }
+            }
+        }
+    }
+
+    /// The servo follows S; the program has waited for the motion before.
+    fn follow_spindle(&mut self) {
+        let now = self.program.spindle_speed();
+        if now != self.last_spindle && (now > self.pen_down_above) != (self.last_spindle > self.pen_down_above) {
+            if now > self.pen_down_above {
+                self.touches.push([self.stepper.at[0], self.stepper.at[1]]);
+            } else {
+                self.lifted = self.now;
+            }
+        }
+        if now != 0.0 && now <= self.pen_down_above {
+            self.lifted = self.now;
+        }
+        self.last_spindle = now;
+    }
+
+    /// Changes a `$` setting in its reports.
+    pub fn set(&mut self, number: &str, value: &str) {
+        self.reported
+            .iter_mut()
+            .filter(|setting| setting.0.to_string() == number)
+            .for_each(|setting| value.clone_into(&mut setting.1));
+    }
+
+    /// It stops itself.
+    pub fn alarm(&mut self, code: u32) {
+        self.is_alarmed = true;
+        self.say(&format!("ALARM:{code}"));
+    }
+
+    /// True if nothing is left to do but half a line.
+    pub fn waits_for_line(&self) -> bool {
+        self.is_idle() && !self.buffer.contains(&b'\n')
+    }
+
+    /// True if the pen is down.
+    pub fn is_pen_down(&self) -> bool {
+        self.last_spindle > self.pen_down_above
+    }
+
+    /// True if nothing is left to do.
+    pub fn is_done(&self) -> bool {
+        self.is_idle() && self.buffer.is_empty()
+    }
+}
+
+fn reported(settings: &Settings) -> Vec<(u32, String)> {
+    let mut list = vec![(11, settings.junction_deviation), (12, settings.arc_tolerance), (20, 0.0), (32, 0.0)];
+    for axis in 0..3 {
+        list.push((100 + axis as u32, settings.steps_per_mm[axis]));
+        list.push((110 + axis as u32, settings.greatest_rate[axis]));
+        list.push((120 + axis as u32, settings.acceleration[axis]));
+        list.push((130 + axis as u32, 300.0));
+    }
+    list.into_iter().map(|(number, value)| (number, format!("{value:.3}"))).collect()
+}

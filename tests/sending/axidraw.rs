@@ -1,0 +1,371 @@
+//! The board of the `AxiDraw`, modelled tick by tick: its queue of one or 32 commands, its accumulators, its stop.
+
+use crate::machine::{Chance, Device, Job, Machine, many, said};
+use crate::streaming::{Memory, beginning, connected_at};
+use drypoint::drawing::{Colour, Handling, Page};
+use drypoint::drive::{Ebb, Ending, Happening, Journal, Onlooker, PenHeights, Program, Rest, Session, Wish};
+use drypoint::geometry::Point;
+use drypoint::interrupt::Interrupt;
+use drypoint::plot::{Act, PenPaths, Plot, Profile, Toolpath, mount};
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+const FULL: i64 = 1 << 31;
+const TICK: f64 = 1.0 / 25_000.0;
+/// How much faster than in life the board runs here.
+const PACE: f64 = 10.0;
+
+enum Motion {
+    Move { rate: [i64; 2], left: [i64; 2], change: [i64; 2], sign: [i64; 2] },
+    Pen { is_down: bool, ticks: i64 },
+}
+
+struct Board {
+    version: &'static str,
+    depth: usize,
+    queue: VecDeque<Motion>,
+    running: Option<Motion>,
+    sums: [i64; 2],
+    /// A command that found the queue full: nothing is read until it has room.
+    stuck: Option<Motion>,
+    input: VecDeque<u8>,
+    output: Vec<u8>,
+    now: f64,
+    steps: [i64; 2],
+    is_down: bool,
+    is_enabled: bool,
+    /// Steps at each lifting, and where the pen came down.
+    lifts: Vec<[i64; 2]>,
+    touches: Vec<[i64; 2]>,
+    unknown: Vec<String>,
+    blocked: usize,
+    stopped: Option<f64>,
+    stop_asked: Option<f64>,
+}
+
+impl Board {
+    fn new(version: &'static str) -> Self {
+        Self {
+            version,
+            depth: 1,
+            queue: VecDeque::new(),
+            running: None,
+            sums: [0; 2],
+            stuck: None,
+            input: VecDeque::new(),
+            output: Vec::new(),
+            now: 0.0,
+            steps: [0; 2],
+            is_down: false,
+            is_enabled: false,
+            lifts: Vec::new(),
+            touches: Vec::new(),
+            unknown: Vec::new(),
+            blocked: 0,
+            stopped: None,
+            stop_asked: None,
+        }
+    }
+
+    fn say(&mut self, text: &str) {
+        self.output.extend_from_slice(text.as_bytes());
+    }
+
+    fn accept(&mut self, motion: Motion) {
+        if self.running.is_none() && self.queue.is_empty() {
+            self.running = Some(motion);
+        } else if self.queue.len() < self.depth {
+            self.queue.push_back(motion);
+        } else {
+            self.blocked += 1;
+            self.stuck = Some(motion);
+            return;
+        }
+        self.say("OK\r\n");
+    }
+
+    fn command(&mut self, text: &str) {
+        let fields: Vec<&str> = text.split(',').collect();
+        let numbers: Vec<i64> = fields[1..].iter().filter_map(|field| field.parse().ok()).collect();
+        match (fields[0], &numbers[..]) {
+            ("", _) => {}
+            ("V", _) => self.say(&format!("{}\r\n", self.version)),
+            ("QE", _) => self.say(if self.is_enabled { "16,16\r\nOK\r\n" } else { "0,0\r\nOK\r\n" }),
+            ("EM", _) => {
+                (self.is_enabled, self.steps) = (true, [0; 2]);
+                self.say("OK\r\n");
+            }
+            ("SC", _) => self.say("OK\r\n"),
+            ("CU", [4, depth]) => {
+                self.depth = *depth as usize;
+                self.say("OK\r\n");
+            }
+            ("QS", _) => self.say(&format!("{},{}\n\rOK\r\n", self.steps[0], self.steps[1])),
+            ("QP", _) => self.say(if self.is_down { "0\n\rOK\r\n" } else { "1\n\rOK\r\n" }),
+            ("QM", _) => {
+                let busy = i32::from(self.running.is_some());
+                let waits = i32::from(!self.queue.is_empty());
+                self.say(&format!("QM,{busy},{busy},{busy},{waits}\n\r"));
+            }
+            ("ES", _) => {
+                self.queue.clear();
+                self.running = None;
+                self.stopped = Some(self.now);
+                self.say("1,0,0,0,0\n\rOK\r\n");
+            }
+            ("SP", [value, milliseconds]) => self.accept(Motion::Pen { is_down: *value == 0, ticks: milliseconds * 25 }),
+            ("LM", [rate, steps, change, other, more, turn, 3]) => {
+                let (rates, counts, changes) = ([*rate, *other], [*steps, *more], [*change, *turn]);
+                let motion = Motion::Move {
+                    rate: [rates[0] - changes[0] / 2, rates[1] - changes[1] / 2],
+                    left: counts.map(i64::abs),
+                    change: changes,
+                    sign: counts.map(i64::signum),
+                };
+                self.accept(motion);
+            }
+            _ => {
+                self.unknown.push(text.to_owned());
+                self.say("!8 Err: Unknown command\r\n");
+            }
+        }
+    }
+
+    fn tick(&mut self) {
+        if self.running.is_none() {
+            self.running = self.queue.pop_front();
+            self.sums = [0; 2];
+        }
+        let Some(motion) = &mut self.running else { return };
+        let is_done = match motion {
+            Motion::Pen { is_down, ticks } => {
+                if *is_down != self.is_down {
+                    if *is_down {
+                        self.touches.push(self.steps);
+                    } else {
+                        self.lifts.push(self.steps);
+                    }
+                    self.is_down = *is_down;
+                }
+                *ticks -= 1;
+                *ticks <= 0
+            }
+            Motion::Move { rate, left, change, sign } => {
+                for axis in (0..2).filter(|axis| left[*axis] > 0).collect::<Vec<_>>() {
+                    rate[axis] += change[axis];
+                    assert!(rate[axis] >= 0, "the rate rolled over");
+                    self.sums[axis] += rate[axis];
+                    if self.sums[axis] >= FULL {
+                        self.sums[axis] -= FULL;
+                        left[axis] -= 1;
+                        self.steps[axis] += sign[axis];
+                    }
+                }
+                *left == [0, 0]
+            }
+        };
+        if is_done {
+            self.running = None;
+            self.sums = [0; 2];
+            if self.queue.len() < self.depth
+                && let Some(stuck) = self.stuck.take()
+            {
+                self.queue.push_back(stuck);
+                self.say("OK\r\n");
+            }
+        }
+    }
+}
+
+impl Device for Board {
+    fn receive(&mut self, bytes: &[u8]) {
+        if bytes.windows(2).any(|pair| pair == b"ES") && self.stop_asked.is_none() {
+            self.stop_asked = Some(self.now);
+        }
+        self.input.extend(bytes);
+    }
+
+    fn run_until(&mut self, seconds: f64) {
+        loop {
+            while self.stuck.is_none()
+                && let Some(end) = self.input.iter().position(|byte| *byte == b'\r')
+            {
+                let line: Vec<u8> = self.input.drain(..=end).collect();
+                self.command(String::from_utf8_lossy(&line).trim());
+            }
+            if self.now >= seconds {
+                return;
+            }
+            self.now += TICK;
+            self.tick();
+        }
+    }
+
+    fn output(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.output)
+    }
+
+    fn is_done(&self) -> bool {
+        self.running.is_none() && self.queue.is_empty() && self.stuck.is_none()
+    }
+}
+
+fn pen(number: u32, paths: Vec<Vec<Point>>) -> PenPaths {
+    let paths = paths.into_iter().map(Toolpath::new).collect();
+    PenPaths { number, name: "lines".into(), colour: Colour::BLACK, nib: 0.3, handling: Handling::default(), paths }
+}
+
+/// Three drawings: rings, long lines with corners, and dots with short zigzags.
+fn drawings() -> Vec<Plot> {
+    let mut chance = Chance(4711);
+    let ring = |i: usize| {
+        let (x, y, r) = (15.0 + 12.0 * i as f64, 20.0, 1.0 + i as f64);
+        (0..=40)
+            .map(|k| f64::from(k) * std::f64::consts::TAU / 40.0)
+            .map(|t| Point::new(x + r * t.cos(), y + r * t.sin()))
+            .collect()
+    };
+    let rings: Vec<Vec<Point>> = (0..4).map(ring).collect();
+    let corners = vec![
+        vec![
+            Point::new(5.0, 5.0),
+            Point::new(90.0, 5.0),
+            Point::new(90.0, 50.0),
+            Point::new(20.0, 48.7),
+            Point::new(20.02, 48.6),
+        ],
+        vec![Point::new(33.333, 11.111), Point::new(34.0, 44.0)],
+    ];
+    let zigzags = (0..12).map(|i| {
+        let (x, y) = (6.0 + 7.0 * f64::from(i), 60.0);
+        (0..if i % 3 == 0 { 1 } else { 12 })
+            .map(|k| Point::new(x + 0.3 * f64::from(k), y + chance.below(200) as f64 / 100.0))
+            .collect()
+    });
+    [rings, corners, zigzags.collect()]
+        .into_iter()
+        .map(|paths| Plot { page: Page::new(150.0, 100.0), pens: vec![pen(1, paths)] })
+        .collect()
+}
+
+struct Stopping(Option<Instant>);
+
+impl Onlooker for Stopping {
+    fn wish(&mut self) -> Option<Wish> {
+        self.0.is_some_and(|at| Instant::now() >= at).then_some(Wish::Stop)
+    }
+
+    fn happens(&mut self, _: &Happening<'_>) {}
+}
+
+const OLD: &str = "EBBv13_and_above EB Firmware Version 2.8.1";
+const NEW: &str = "EBBv13_and_above EB Firmware Version 3.0.2";
+
+fn program(plot: &Plot) -> Program {
+    let profile = Profile::built_in("axidraw-v3").unwrap();
+    let mounting = mount(&profile, &plot.page).unwrap();
+    Program::of_plot(&profile, plot, &mounting, &Rest::default(), &Interrupt::never()).unwrap()
+}
+
+fn conversation(machine: &Machine<Board>) -> Ebb {
+    let mut ebb = Ebb::greet(connected_at(&machine.port()), PenHeights::default()).unwrap();
+    ebb.set_pace(PACE);
+    ebb
+}
+
+#[test]
+fn every_path_ends_on_the_planned_step_with_a_queue_of_one_and_of_32() {
+    for version in [OLD, NEW] {
+        for plot in drawings() {
+            let machine = Machine::of_pace(Board::new(version), PACE);
+            let program = program(&plot);
+            let mut ebb = conversation(&machine);
+            let mut memory = Memory(Vec::new());
+            let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
+            let begun = machine.firmware().now;
+            let ending = Session::new(&mut ebb, &program).run(&mut journal, &mut Stopping(None), &Interrupt::never()).unwrap();
+            assert_eq!(ending, Ending::Done);
+            let board = machine.firmware();
+            assert!(board.unknown.is_empty(), "{:?}", board.unknown);
+            assert_eq!(board.blocked, 0, "no command found the queue full");
+            let steps = |place: [f64; 3]| [place[0] + place[1], place[0] - place[1]].map(|mm| (mm * 80.0).round() as i64);
+            let planned = program.paths.iter().map(|path| steps(program.lines[path.lift].at)).collect::<Vec<_>>();
+            assert_eq!(board.lifts, planned, "{version}");
+            let taken = board.now - begun;
+            println!("{version}: {} paths in {taken:.2} s, told {:.2} s", planned.len(), program.seconds());
+        }
+    }
+}
+
+#[test]
+fn a_stop_gets_through_at_once_and_leaves_the_pen_up() {
+    let mut chance = Chance(5);
+    let mut slowest: f64 = 0.0;
+    for i in 0..many(60) {
+        let machine = Machine::of_pace(Board::new([OLD, NEW][i % 2]), PACE);
+        let program = program(&drawings()[i % 3]);
+        let mut ebb = conversation(&machine);
+        let mut memory = Memory(Vec::new());
+        let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
+        let mut onlooker = Stopping(Some(Instant::now() + Duration::from_millis(30 + chance.below(250))));
+        let ending = Session::new(&mut ebb, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
+        assert_eq!(ending, Ending::Stopped);
+        machine.rest();
+        let board = machine.firmware();
+        assert!(!board.is_down, "the pen is up");
+        slowest = slowest.max((board.stopped.unwrap() - board.stop_asked.unwrap()) / PACE);
+    }
+    println!("a stop takes at most {slowest:.3} s");
+    assert!(slowest <= 0.2, "{slowest}");
+}
+
+/// An SVG of tool paths, made by the command.
+fn tool_paths() -> Job {
+    let job = Job::named("drawing.svg", "");
+    let mut svg =
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"150mm\" height=\"100mm\" viewBox=\"0 0 150 100\">".to_owned();
+    for i in 0..24 {
+        let (x, y) = (5 + 5 * i, 10 + (i * 7) % 30);
+        svg += &["<path fill=\"none\" stroke=\"black\" stroke-width=\"0.3\" d=\"M", " h3 v3\"/>"].join(&format!("{x} {y}"));
+    }
+    std::fs::write(&job.file, svg + "</svg>").unwrap();
+    let paths = job.folder.path().join("paths.svg");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_drypoint"));
+    command.args(["plot", job.file.to_str().unwrap(), "-o", paths.to_str().unwrap(), "--profile", "axidraw-v3", "-q"]);
+    assert!(command.status().unwrap().success());
+    Job { file: paths, ..job }
+}
+
+#[test]
+fn the_command_draws_tool_paths_and_goes_on_after_a_kill() {
+    for seed in 0..many(20) as u64 {
+        let (machine, job) = (Machine::of_pace(Board::new([OLD, NEW][seed as usize % 2]), 1.0), tool_paths());
+        let mut child = job.start(&machine, &[]);
+        std::thread::sleep(Duration::from_millis(900 + Chance(seed + 3).below(6000)));
+        let _ = child.kill();
+        let _ = child.wait();
+        let options: &[&str] = if seed % 2 == 0 { &["--continue"] } else { &["--continue", "--overlap", "1mm"] };
+        let output = job.run(&machine, options);
+        assert!(output.status.success(), "seed {seed}: {}", said(&output));
+        let board = machine.firmware();
+        let mut places = board.touches.clone();
+        places.sort_unstable();
+        places.dedup();
+        let again = board.touches.len() - 24;
+        assert!(board.lifts.len() >= 24 && places.len() >= 24 && again <= 1, "seed {seed}: {again} paths twice");
+        assert!(board.unknown.is_empty() && board.is_done());
+    }
+}
+
+#[test]
+fn a_drawing_that_is_no_plot_is_refused_with_advice() {
+    let job = tool_paths();
+    let drawing = Job { file: job.folder.path().join("drawing.svg"), folder: tempfile::tempdir().unwrap() };
+    let output = drawing.run(&Machine::of_pace(Board::new(NEW), PACE), &[]);
+    assert!(!output.status.success() && said(&output).contains("drypoint plot"), "{}", said(&output));
+    let program = program(&drawings()[0]);
+    assert!(program.lines.iter().any(|line| line.act == Act::Lower));
+    let old = Machine::of_pace(Board::new("EBBv13_and_above EB Firmware Version 2.4.2"), PACE);
+    let refused = job.run(&old, &[]);
+    assert!(said(&refused).contains("2.7 or later"), "{}", said(&refused));
+}
