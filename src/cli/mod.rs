@@ -125,14 +125,21 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         // A redone drawing's recipe has become the options of `draw`.
         Command::Draw(options) | Command::Redo(options) => {
-            sent(&options.output, options.profile.as_deref(), &options.toolpaths, || draw::run(&options))
+            let what = Sent { output: &options.output, profile: options.profile.as_deref(), toolpaths: &options.toolpaths };
+            what.after(options.dry_run, || draw::run(&options))
         }
-        Command::Plot(options) => sent(&options.output, options.profile.as_deref(), &options.toolpaths, || plot::run(&options)),
+        Command::Plot(options) => {
+            let what = Sent { output: &options.output, profile: options.profile.as_deref(), toolpaths: &options.toolpaths };
+            what.after(options.dry_run, || plot::run(&options))
+        }
         Command::Stages(options) => stages::run(&options),
         Command::See(options) => see::run(&options),
         Command::Scene(options) => scene::run(&options),
         Command::Presets(options) => scene::presets(&options),
-        Command::Sheet(options) => sheet::run(&options),
+        Command::Sheet(options) => {
+            let what = Sent { output: &options.output, profile: options.profile.as_deref(), toolpaths: &options.toolpaths };
+            what.after(false, || sheet::run(&options))
+        }
         Command::Schema => scene::schema(),
         Command::Inspect(options) => inspect::run(&options),
         Command::Resume(options) => resume::run(&options),
@@ -140,7 +147,10 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::Send(options) => send::run(&options),
         #[cfg(feature = "drive")]
         Command::Ports(options) => send::list_ports(&options),
-        Command::Calibrate(options) => calibrate::run(&options),
+        Command::Calibrate(options) => {
+            let what = Sent { output: &options.output, profile: Some(&options.profile), toolpaths: &options.toolpaths };
+            what.after(options.dry_run, || calibrate::run(&options))
+        }
         Command::Styles(options) => lists::styles(&options),
         Command::Profiles(options) => lists::profiles(&options),
         Command::Completions { shell } => {
@@ -156,23 +166,28 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file and, with `--send`, sends it.
-#[cfg(feature = "drive")]
-fn sent(
-    output: &str,
-    profile: Option<&str>,
-    toolpaths: &ToolpathOptions,
-    work: impl FnOnce() -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    send::check_sendable(output, profile, toolpaths)?;
-    work()?;
-    send::written(output, profile, toolpaths)
+/// A machine's file that is written and, with `--send`, sent.
+#[cfg_attr(not(feature = "drive"), allow(dead_code))]
+struct Sent<'a> {
+    output: &'a str,
+    profile: Option<&'a str>,
+    toolpaths: &'a ToolpathOptions,
 }
 
-/// Writes a file.
-#[cfg(not(feature = "drive"))]
-fn sent(_: &str, _: Option<&str>, _: &ToolpathOptions, work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
-    work()
+impl Sent<'_> {
+    /// Writes the file, then sends it unless nothing was written.
+    #[cfg_attr(not(feature = "drive"), allow(clippy::unused_self))]
+    fn after(&self, is_dry: bool, write: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+        #[cfg(feature = "drive")]
+        send::check_sendable(self.output, self.profile, self.toolpaths)?;
+        write()?;
+        #[cfg(feature = "drive")]
+        if !is_dry {
+            send::written(self.output, self.profile, self.toolpaths)?;
+        }
+        let _ = is_dry;
+        Ok(())
+    }
 }
 
 /// Writes one manual page: the main command, then every subcommand.

@@ -13,3 +13,13 @@ mod plotter;
 mod printer;
 mod steering;
 mod streaming;
+
+/// A machine to try by hand, ten times faster than in life, for ten minutes:
+/// `cargo test --release --test sending machine_to_try -- --ignored --nocapture`.
+#[test]
+#[ignore = "it waits for somebody to try it"]
+fn machine_to_try() {
+    let machine = machine::Machine::at_pace(10.0);
+    println!("drypoint send FILE.gcode --port {}", machine.port());
+    std::thread::sleep(std::time::Duration::from_mins(10));
+}

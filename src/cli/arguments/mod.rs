@@ -37,7 +37,7 @@ pub(super) struct Arguments {
 /// How to send a file to its machine.
 const SENDING: &str = "\
 Sending a file to its plotter:
-  `drypoint send` sends G-code to GRBL and FluidNC, and HP-GL, with pause, stop and going on. Other ways:
+  `drypoint send` does it, with pause, stop and going on. Other ways:
   HP-GL   The plotter buffers a few hundred bytes and pauses the sender by handshake; without a handshake it loses lines. Plotters of
           the 1980s use DTR (pin 20), which the cable must connect to the computer's CTS:
               stty -F /dev/ttyUSB0 9600 cs8 -cstopb -parenb -ixon crtscts raw && cat drawing.hpgl > /dev/ttyUSB0
