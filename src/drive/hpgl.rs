@@ -44,6 +44,8 @@ pub struct Hpgl {
     /// Instructions that are, or may be, in the buffer, with their bytes.
     window: VecDeque<(usize, usize)>,
     unfinished: String,
+    /// Answers that were received and not looked at.
+    unread: VecDeque<String>,
     /// Questions that are not answered, in order.
     questions: VecDeque<Question>,
     stand: Option<Stand>,
@@ -69,6 +71,7 @@ impl Hpgl {
             errors_asked: Instant::now(),
             window: VecDeque::new(),
             unfinished: String::new(),
+            unread: VecDeque::new(),
             questions: VecDeque::new(),
             stand: None,
         };
@@ -96,6 +99,7 @@ impl Hpgl {
         let mut buffer = [0; 256];
         while self.port.receive(&mut buffer, Duration::from_millis(60))? > 0 {}
         self.unfinished.clear();
+        self.unread.clear();
         self.questions.clear();
         Ok(())
     }
@@ -121,14 +125,14 @@ impl Hpgl {
     /// The next answer, when no other question is open.
     fn answer(&mut self, most: Duration) -> Result<String, DriveError> {
         let begun = Instant::now();
-        loop {
-            if let Some(answer) = self.hear(Duration::from_millis(20))?.into_iter().next() {
-                return Ok(answer);
-            }
+        while self.unread.is_empty() {
+            let heard = self.hear(Duration::from_millis(20))?;
+            self.unread.extend(heard);
             if begun.elapsed() > most {
                 return Err(DriveError::Silent { seconds: most.as_secs(), expected: "an HP-GL plotter that is on line" });
             }
         }
+        Ok(self.unread.pop_front().unwrap_or_default())
     }
 
     fn number(&mut self, most: Duration) -> Result<u32, DriveError> {

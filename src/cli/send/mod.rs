@@ -319,7 +319,9 @@ fn conduct(
     options: &SendOptions,
 ) -> Result<(), Failure> {
     let journal_name = journal_of(options, &file.name);
-    claims::check_distinct([journal_name.as_str()].into_iter().chain(options.status.as_deref().filter(|name| *name != "-")))?;
+    // A journal that is continued was read, and is appended to.
+    let written = Some(journal_name.as_str()).filter(|_| !is_continued);
+    claims::check_distinct(written.into_iter().chain(options.status.as_deref().filter(|name| *name != "-")))?;
     if !options.quiet || !options.yes {
         say!("{}", summary(&file.name, program, profile));
     }

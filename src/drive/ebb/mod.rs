@@ -3,6 +3,7 @@
 //! Its queue holds one command, or with firmware 3 up to 32. A command that finds it full blocks everything after it, the stop too. So
 //! the queue is never filled: the sender knows how long each command takes.
 
+mod faults;
 mod plan;
 mod plot;
 mod rates;
@@ -19,6 +20,8 @@ use std::time::{Duration, Instant};
 /// How long an answer may take.
 const PATIENCE: Duration = Duration::from_secs(3);
 const LISTENING: Duration = Duration::from_millis(5);
+/// A command is held for done so long after its time: it began later by its way to the board. A stuck command waits no longer.
+const GUARD: Duration = Duration::from_millis(4);
 /// The deepest queue that is asked for.
 const DEEPEST: usize = 32;
 /// Motor steps per millimetre along each diagonal: 2032 an inch at sixteenths of a step.
@@ -45,6 +48,8 @@ impl Default for PenHeights {
 pub struct Ebb {
     port: Box<dyn Port>,
     unfinished: Vec<u8>,
+    /// Lines that were received and not looked at.
+    unread: VecDeque<String>,
     version: String,
     /// Commands that the queue may hold besides the one that runs.
     depth: usize,
@@ -73,6 +78,7 @@ impl Ebb {
         let mut ebb = Self {
             port,
             unfinished: Vec::new(),
+            unread: VecDeque::new(),
             version: String::new(),
             depth: 1,
             window: VecDeque::new(),
@@ -84,7 +90,8 @@ impl Ebb {
         };
         // Ends half a command of an earlier sender.
         ebb.port.send(b"\r")?;
-        while !ebb.lines(Duration::from_millis(60))?.is_empty() {}
+        ebb.receive(Duration::from_millis(100))?;
+        ebb.unread.clear();
         ebb.port.send(b"V\r")?;
         ebb.version = ebb.next_line(|line| line.contains("EBB"))?;
         let number = ebb.version.rsplit(' ').next().unwrap_or("").to_owned();
@@ -129,33 +136,37 @@ impl Ebb {
         self.pace = pace;
     }
 
-    fn lines(&mut self, wait: Duration) -> Result<Vec<String>, DriveError> {
+    /// Receives what has arrived.
+    fn receive(&mut self, wait: Duration) -> Result<(), DriveError> {
         let mut buffer = [0; 512];
         let count = self.port.receive(&mut buffer, wait)?;
-        let mut lines = Vec::new();
         for &byte in &buffer[..count] {
             match byte {
                 // Old answers end with a line feed before the return.
                 b'\r' | b'\n' if self.unfinished.is_empty() => {}
-                b'\r' | b'\n' => lines.push(String::from_utf8_lossy(&std::mem::take(&mut self.unfinished)).into_owned()),
+                b'\r' | b'\n' => {
+                    let line = std::mem::take(&mut self.unfinished);
+                    self.unread.push_back(String::from_utf8_lossy(&line).into_owned());
+                }
                 byte if self.unfinished.len() < 512 => self.unfinished.push(byte),
                 _ => {}
             }
         }
-        Ok(lines)
+        Ok(())
     }
 
     fn next_line(&mut self, is_it: impl Fn(&str) -> bool) -> Result<String, DriveError> {
         let begun = Instant::now();
         while begun.elapsed() < PATIENCE {
-            for line in self.lines(LISTENING)? {
+            while let Some(line) = self.unread.pop_front() {
                 if line.starts_with('!') {
-                    return Err(DriveError::Failed(line));
+                    return Err(DriveError::Failed(faults::told(&line)));
                 }
                 if is_it(&line) {
                     return Ok(line);
                 }
             }
+            self.receive(LISTENING)?;
         }
         Err(DriveError::Silent { seconds: PATIENCE.as_secs(), expected: "an AxiDraw or another machine with an EBB" })
     }
@@ -185,7 +196,7 @@ impl Ebb {
     /// Commands in the queue, the one that runs among them.
     fn in_flight(&mut self) -> usize {
         let now = Instant::now();
-        while self.running.front().is_some_and(|end| *end <= now) {
+        while self.running.front().is_some_and(|end| *end + GUARD <= now) {
             self.running.pop_front();
         }
         self.running.len()
@@ -200,7 +211,7 @@ impl Ebb {
             };
         }
         if line.starts_with('!') {
-            return Heard::Failed(line.to_owned());
+            return Heard::Failed(faults::told(line));
         }
         match self.questions.front() {
             Some(Question::Motors) => {
@@ -265,7 +276,7 @@ fn lasting(rate: f64, steps: f64, acceleration: f64) -> f64 {
 impl Controller for Ebb {
     fn has_room(&self, _: &str) -> bool {
         let now = Instant::now();
-        let in_flight = self.running.iter().filter(|end| **end > now).count();
+        let in_flight = self.running.iter().filter(|end| **end + GUARD > now).count();
         // One runs, the others wait; two places stay free, so that none blocks the stop. A queue of one holds one besides.
         in_flight < (self.depth - 1).max(2) && self.window.len() < 2
     }
@@ -281,7 +292,8 @@ impl Controller for Ebb {
 
     fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError> {
         // Short: room comes by time, not by an answer.
-        let lines = self.lines(wait.min(Duration::from_millis(2)))?;
+        self.receive(wait.min(Duration::from_millis(2)))?;
+        let lines = std::mem::take(&mut self.unread);
         Ok(lines.iter().map(|line| self.understand(line)).filter(|heard| *heard != Heard::Said(String::new())).collect())
     }
 
