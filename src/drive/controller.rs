@@ -34,6 +34,8 @@ pub enum Heard {
         /// True if it does, with nothing left to draw.
         is_still: bool,
     },
+    /// Its button was pressed.
+    Button,
     /// Anything else.
     Said(String),
 }

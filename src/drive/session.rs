@@ -237,6 +237,9 @@ impl<'a> Session<'a> {
                 Heard::Alarm { code, meaning } => return Err(DriveError::Alarm { code, meaning }),
                 Heard::Failed(text) => return Err(DriveError::Failed(text)),
                 Heard::Restarted => return Err(DriveError::Restarted),
+                // The machine's own button pauses, and goes on.
+                Heard::Button if self.phase == Phase::Waiting => self.follow(Wish::Resume, onlooker)?,
+                Heard::Button => self.follow(Wish::Pause, onlooker)?,
                 Heard::Said(text) => onlooker.happens(&Happening::Said(&text)),
             }
         }

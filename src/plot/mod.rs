@@ -53,7 +53,7 @@ pub use occlude::{Hides, occluded};
 pub use ordering::{Course, DrawingCorner, Duplicates, Sequence};
 pub use preview::ShownTravel;
 #[doc(hidden)]
-pub use profile::{Area, Axes, Corner, Limits, Motion, Paper, PenChange, PenSlot, Pens, Planner, Swell, Way};
+pub use profile::{Area, Axes, Corner, Limits, Link, Motion, Paper, PenChange, PenSlot, Pens, Planner, Swell, Way};
 pub use profile::{KeyPlace, Profile, ProfileError, built_in, built_in_names};
 #[doc(hidden)]
 pub use report::report;

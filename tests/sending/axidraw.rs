@@ -34,6 +34,7 @@ struct Board {
     steps: [i64; 2],
     is_down: bool,
     is_enabled: bool,
+    is_pressed: bool,
     /// Steps at each lifting, and where the pen came down.
     lifts: Vec<[i64; 2]>,
     touches: Vec<[i64; 2]>,
@@ -58,6 +59,7 @@ impl Board {
             steps: [0; 2],
             is_down: false,
             is_enabled: false,
+            is_pressed: false,
             lifts: Vec::new(),
             touches: Vec::new(),
             unknown: Vec::new(),
@@ -102,6 +104,10 @@ impl Board {
             }
             ("QS", _) => self.say(&format!("{},{}\n\rOK\r\n", self.steps[0], self.steps[1])),
             ("QP", _) => self.say(if self.is_down { "0\n\rOK\r\n" } else { "1\n\rOK\r\n" }),
+            ("QB", _) => {
+                let pressed = i32::from(std::mem::take(&mut self.is_pressed));
+                self.say(&format!("{pressed}\r\nOK\r\n"));
+            }
             ("QM", _) => {
                 let busy = i32::from(self.running.is_some());
                 let waits = i32::from(!self.queue.is_empty());
@@ -323,6 +329,49 @@ fn a_stop_gets_through_at_once_and_leaves_the_pen_up() {
     }
     println!("a stop takes at most {slowest:.3} s");
     assert!(slowest <= 0.2, "{slowest}");
+}
+
+/// Presses the board's button, and again when it has paused.
+struct Pressing<'a> {
+    machine: &'a Machine<Board>,
+    at: Instant,
+    paused: usize,
+    resumed: usize,
+}
+
+impl Onlooker for Pressing<'_> {
+    fn wish(&mut self) -> Option<Wish> {
+        if self.paused == 0 && Instant::now() >= self.at {
+            self.machine.firmware().is_pressed = true;
+            self.at += Duration::from_hours(1);
+        }
+        None
+    }
+
+    fn happens(&mut self, happening: &Happening<'_>) {
+        match happening {
+            Happening::Paused => {
+                let mut board = self.machine.firmware();
+                assert!(!board.is_down && board.running.is_none());
+                (self.paused, board.is_pressed) = (self.paused + 1, true);
+            }
+            Happening::Resumed => self.resumed += 1,
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn the_button_pauses_with_the_pen_up_and_goes_on() {
+    let machine = Machine::of_pace(Board::new(NEW), PACE);
+    let program = program(&drawings()[2]);
+    let mut ebb = conversation(&machine);
+    let mut memory = Memory(Vec::new());
+    let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
+    let at = Instant::now() + Duration::from_millis(150);
+    let mut onlooker = Pressing { machine: &machine, at, paused: 0, resumed: 0 };
+    let ending = Session::new(&mut ebb, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
+    assert_eq!((ending, onlooker.paused, onlooker.resumed), (Ending::Done, 1, 1));
 }
 
 /// An SVG of tool paths, made by the command.

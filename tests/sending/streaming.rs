@@ -198,3 +198,30 @@ fn nothing_answers_at_a_dead_port() {
     let missing = drypoint::drive::open_port("/dev/no-such-port", LineSettings { baud: 9600, handshake: Handshake::default() });
     assert!(missing.is_err());
 }
+
+/// `FluidNC` listens on a socket.
+#[test]
+fn a_machine_on_the_network_draws() {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let draws = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
+        let mut firmware = crate::grbl::firmware::Firmware::new(&crate::machine::SERVO);
+        let (begun, mut buffer) = (std::time::Instant::now(), [0; 1024]);
+        loop {
+            match std::io::Read::read(&mut stream, &mut buffer) {
+                Ok(0) => return firmware.touches.len(),
+                Ok(count) => firmware.receive(&buffer[..count]),
+                Err(_) => {}
+            }
+            firmware.run_until(40.0 * begun.elapsed().as_secs_f64());
+            let _ = std::io::Write::write_all(&mut stream, &firmware.output());
+        }
+    });
+    let job = Job::new(&plot(12, 6));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_drypoint"));
+    let output = command.arg("send").arg(&job.file).args(["--port", &format!("tcp://{address}"), "--yes"]).output().unwrap();
+    assert!(output.status.success() && said(&output).contains("Grbl 1.1h answers"), "{}", said(&output));
+    assert_eq!(draws.join().unwrap(), 12);
+}

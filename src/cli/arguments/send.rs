@@ -21,7 +21,7 @@ pub(in crate::cli) struct SendOptions {
     /// Set a key of the profile, such as area.x=[0,430]. May be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set_profile: Vec<(String, String)>,
-    /// Speed of the serial line in bits per second [default: 115200, for HP-GL 9600].
+    /// Speed of the serial line in bits per second [default: link.baud of the profile, else 115200, for HP-GL 9600].
     #[arg(long, value_name = "N")]
     pub baud: Option<u32>,
     /// What keeps an HP-GL plotter's buffer from running over.

@@ -26,8 +26,7 @@ pub(super) fn compare(
         _ => grbl.clear()?,
     }
     if !options.quiet {
-        let name = if greeting.firmware.is_empty() { "the machine" } else { &greeting.firmware };
-        say!("{}: {name} answers", options.port);
+        say!("{}: {} answers", options.port, grbl.name());
     }
     let settings = grbl.settings()?;
     for difference in profile.map(|profile| differences(&settings, profile)).unwrap_or_default() {

@@ -20,7 +20,7 @@ use super::inspect::usual_profile;
 use super::interruption::{interrupt, wait_for_machine};
 use super::messages::{say, warning};
 use super::output;
-use super::toolpaths::{duration, plain_profile};
+use super::toolpaths::plain_profile;
 use super::words::counted;
 use crate::drive::{
     Beginning, Controller, DriveError, Ending, Grbl, Handshake, Hpgl, Inkwell, Journal, LineSettings, Marlin, Program, Session,
@@ -30,7 +30,7 @@ use crate::plot::{Act, Dialect, GcodeDialect, Language, Profile, Protocol};
 use crate::read::Budget;
 use keys::Keys;
 use ledger::FileLedger;
-use onlooker::Terminal;
+use onlooker::{Terminal, lasting};
 use part::Chosen;
 use serde_json::json;
 use sha2::{Digest, Sha256};
@@ -96,7 +96,7 @@ pub(super) fn run(options: &SendOptions) -> Result<(), Failure> {
         }
         _ => {}
     }
-    let settings = LineSettings { baud: options.baud.unwrap_or(115_200), handshake: Handshake::None };
+    let settings = LineSettings { baud: baud(options, profile.as_ref(), 115_200), handshake: Handshake::None };
     let (mut grbl, greeting) = Grbl::greet(open_port(&options.port, settings)?)?;
     wait_for_machine();
     let (settings, stand) = meeting::compare(&mut grbl, &greeting, profile.as_ref(), options)?;
@@ -123,7 +123,7 @@ fn draw_on_plotter(profile: Option<Profile>, file: Option<File>, options: &SendO
         HandshakeOption::Xon => Handshake::Software,
         HandshakeOption::Rts => Handshake::Hardware,
     };
-    let port = open_port(&options.port, LineSettings { baud: options.baud.unwrap_or(9600), handshake })?;
+    let port = open_port(&options.port, LineSettings { baud: baud(options, Some(&profile), 9600), handshake })?;
     let mut plotter = Hpgl::greet(port, handshake)?;
     wait_for_machine();
     if !options.quiet {
@@ -138,7 +138,7 @@ fn draw_on_printer(profile: Option<Profile>, file: Option<File>, options: &SendO
     refuse_set_up(options, "it is for GRBL; set the machine up by its own panel or program")?;
     let (Some(profile), Some(file)) = (profile, file) else { return Ok(()) };
     meeting::check_reach(None, &file.program, &profile)?;
-    let settings = LineSettings { baud: options.baud.unwrap_or(115_200), handshake: Handshake::None };
+    let settings = LineSettings { baud: baud(options, Some(&profile), 115_200), handshake: Handshake::None };
     let mut printer = Marlin::greet(open_port(&options.port, settings)?)?;
     wait_for_machine();
     if !options.quiet {
@@ -228,6 +228,11 @@ fn checked(name: &str, text: &str, profile: &Profile) -> Result<File, Failure> {
     })?;
     let sha256 = digest(text.as_bytes());
     Ok(File { name: name.to_owned(), sha256, program })
+}
+
+/// The line's speed: as given, else the profile's, else the usual one.
+fn baud(options: &SendOptions, profile: Option<&Profile>, usual: u32) -> u32 {
+    options.baud.or_else(|| profile?.link.baud).unwrap_or(usual)
 }
 
 /// SHA-256 in hexadecimal.
@@ -372,7 +377,7 @@ fn summary(name: &str, program: &Program, profile: &Profile) -> String {
     format!(
         "{name}: {} in {}, {:.1} x {:.1} mm from x {x0:.1} y {y0:.1} to x {x1:.1} y {y1:.1}, on {}{}{}",
         counted(program.paths.len(), "path"),
-        duration(program.seconds()),
+        lasting(program.seconds()),
         x1 - x0,
         y1 - y0,
         profile.name,

@@ -4,7 +4,6 @@ use super::super::arguments::SendOptions;
 use super::super::claims;
 use super::super::failure::Failure;
 use super::super::messages::say;
-use super::super::toolpaths::duration;
 use super::keys::{Keys, pause_is_asked_for};
 use crate::drive::{DriveError, Ending, Happening, Onlooker, Progress, SpeedChange, Wish};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -15,6 +14,16 @@ use std::time::Instant;
 
 /// Steps of the bar.
 const STEPS: u64 = 1000;
+
+/// A time to the second, such as `2 h 05 min`, `7 min 30 s`.
+pub(super) fn lasting(seconds: f64) -> String {
+    let seconds = seconds.round() as u64;
+    match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes} min {seconds:02} s"),
+        (hours, minutes, _) => format!("{hours} h {minutes:02} min"),
+    }
+}
 
 pub(super) struct Terminal {
     keys: Option<Keys>,
@@ -63,7 +72,7 @@ impl Terminal {
         self.bar.set_message(format!(
             "{:.1} %, {} left, path {} of {}, pen {pen}",
             100.0 * progress.fraction,
-            duration(progress.seconds_left),
+            lasting(progress.seconds_left),
             (progress.paths + 1).min(progress.paths_in_all),
             progress.paths_in_all
         ));
@@ -90,7 +99,7 @@ impl Terminal {
         let fault = ending.as_ref().err().map(ToString::to_string);
         self.write_status(json!({ "state": state, "fault": fault }));
         if matches!(ending, Ok(Ending::Done)) && !self.is_quiet {
-            say!("drawn in {}", duration(self.begun.elapsed().as_secs_f64()));
+            say!("drawn in {}", lasting(self.begun.elapsed().as_secs_f64()));
         }
     }
 }

@@ -70,6 +70,7 @@ enum Question {
     Motors,
     Steps,
     Pen,
+    Button,
 }
 
 impl Ebb {
@@ -231,6 +232,8 @@ impl Ebb {
                 }
                 Heard::Said(String::new())
             }
+            Some(Question::Button) if line.ends_with('1') => Heard::Button,
+            Some(Question::Button) => Heard::Said(String::new()),
             None => Heard::Said(line.to_owned()),
         }
     }
@@ -304,8 +307,8 @@ impl Controller for Ebb {
     fn ask_state(&mut self) -> Result<(), DriveError> {
         // Answers have no names: nothing else may be on its way.
         if self.questions.is_empty() && self.window.is_empty() {
-            self.port.send(b"QM\rQS\rQP\r")?;
-            self.questions.extend([Question::Motors, Question::Steps, Question::Pen]);
+            self.port.send(b"QM\rQS\rQP\rQB\r")?;
+            self.questions.extend([Question::Motors, Question::Steps, Question::Pen, Question::Button]);
         }
         Ok(())
     }

@@ -210,7 +210,8 @@ impl Grbl {
         let begun = Instant::now();
         loop {
             let replies = self.hear(ASKING)?;
-            if replies.iter().any(|reply| matches!(reply, Reply::Banner(_))) {
+            if let Some(Reply::Banner(name)) = replies.iter().find(|reply| matches!(reply, Reply::Banner(_))) {
+                self.firmware.clone_from(name);
                 break;
             }
             if begun.elapsed() > STARTING {

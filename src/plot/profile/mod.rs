@@ -23,6 +23,14 @@ static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/plot-profiles");
 /// Maximum depth of `extends`; a deeper chain is a cycle.
 const DEEPEST: usize = 8;
 
+/// How a machine is connected to a computer.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Link {
+    /// Bits per second of its serial line. Default: 115200, for HP-GL 9600.
+    pub baud: Option<u32>,
+}
+
 /// One machine.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -63,6 +71,10 @@ pub struct Profile {
     /// Speeds and times.
     #[doc(hidden)]
     pub motion: Motion,
+    /// How it is connected.
+    #[serde(default)]
+    #[doc(hidden)]
+    pub link: Link,
     /// The pen's height for each width of line.
     #[doc(hidden)]
     pub swell: Option<Swell>,
