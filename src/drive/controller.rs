@@ -1,7 +1,8 @@
 //! What a session needs of a machine's protocol.
 
 use super::error::DriveError;
-use crate::plot::Act;
+use super::program::ProgramLine;
+use crate::interrupt::Interrupt;
 use std::time::Duration;
 
 /// What a machine said.
@@ -51,6 +52,17 @@ pub enum SpeedChange {
     Slower,
 }
 
+impl SpeedChange {
+    /// The percent of the file's speed after the change.
+    pub(super) fn of(self, percent: u32) -> u32 {
+        match self {
+            Self::Usual => 100,
+            Self::Faster => (percent + 10).min(200),
+            Self::Slower => percent.saturating_sub(10).max(10),
+        }
+    }
+}
+
 /// Where a machine stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
@@ -62,6 +74,9 @@ pub struct Stand {
 
 /// A machine's protocol.
 pub trait Controller {
+    /// The longest line that it can take, in bytes.
+    fn longest_line(&self) -> usize;
+
     /// True if a line may be sent now.
     fn has_room(&self, text: &str) -> bool;
 
@@ -77,16 +92,26 @@ pub trait Controller {
     /// Asks for the state, which [`listen`](Self::listen) hears.
     fn ask_state(&mut self) -> Result<(), DriveError>;
 
+    /// True if it answers such a question only after what was sent before, so that asking holds up what follows.
+    fn answers_in_turn(&self) -> bool {
+        false
+    }
+
     /// Where the pen was when it was last told.
     fn stand(&self) -> Option<Stand>;
 
-    /// True if taking such a line proves that everything before it is drawn.
-    fn proves(&self, act: Act) -> bool;
+    /// True if taking a line proves that everything before it is drawn.
+    fn proves(&self, line: &ProgramLine) -> bool;
+
+    /// A line that proves it, for a machine to which no line of a file does.
+    fn checkpoint(&self) -> Option<&'static str> {
+        None
+    }
 
     /// The number of moves that may be taken and not drawn.
     fn hidden_moves(&self) -> usize;
 
-    /// How long it may say nothing after it was asked.
+    /// How long it may say nothing after it was asked, besides the time of the line that it draws.
     fn patience(&self) -> Duration {
         Duration::from_secs(5)
     }
@@ -94,17 +119,21 @@ pub trait Controller {
     /// Stops at once and forgets what was sent; the machine keeps its position, which is returned.
     fn halt(&mut self) -> Result<Option<Stand>, DriveError>;
 
-    /// Draws faster or slower from now on.
-    fn change_speed(&mut self, change: SpeedChange) -> Result<(), DriveError>;
+    /// Draws faster or slower from now on; returns the percent of the file's speed, or `None` if the machine cannot.
+    fn change_speed(&mut self, change: SpeedChange) -> Result<Option<u32>, DriveError>;
 
     /// Sends a line of its own and waits until it is taken. Nothing may be outstanding.
     fn ask(&mut self, text: &str) -> Result<(), DriveError>;
 
-    /// Waits until the machine stands still with nothing left to do; at most so long.
-    fn wait_until_still(&mut self, most: Duration) -> Result<(), DriveError>;
+    /// Waits until the machine stands still with nothing left to do; at most so long. An interrupt halts it.
+    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError>;
 
-    /// Moves with the pen up to a place in machine units, at machine units per minute.
-    fn travel(&mut self, to: [f64; 2], rate: f64) -> Result<(), DriveError>;
+    /// Moves with the pen up to a place in machine units, at machine units per minute, and waits until it is there. An interrupt halts
+    /// it.
+    fn travel(&mut self, to: [f64; 2], rate: f64, interrupt: &Interrupt) -> Result<(), DriveError>;
+
+    /// Sets zero where the pen stands.
+    fn set_zero(&mut self) -> Result<(), DriveError>;
 
     /// What it calls itself.
     fn name(&self) -> &str;

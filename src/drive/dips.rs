@@ -35,7 +35,8 @@ impl Program {
             let most = match dip {
                 Dip::Millimetres(most) | Dip::Seconds(most) => most,
             };
-            if used >= most {
+            let is_dipped = used >= most;
+            if is_dipped {
                 lines.extend(self.dip(i, profile, ink));
                 used = 0.0;
             }
@@ -44,13 +45,10 @@ impl Program {
                 Dip::Seconds(_) => self.lines[path.lift].until - self.lines[path.lower].until,
             };
             let next = self.paths.get(i + 1).map_or(self.lines.len(), |next| next.begin);
-            lines.extend_from_slice(&self.lines[path.begin..next]);
+            lines.extend(if is_dipped { self.anew(i, None) } else { self.lines[path.begin..path.end].to_vec() });
+            lines.extend_from_slice(&self.lines[path.end..next]);
         }
-        let mut program = Self::of(profile, lines, interrupt)?;
-        for (path, own) in program.paths.iter_mut().zip(&self.paths) {
-            path.number = own.number;
-        }
-        Ok(program)
+        self.with_lines(profile, lines, interrupt)
     }
 
     /// The lines of a dip, with the pen commands of a path.

@@ -7,7 +7,8 @@
 use super::controller::{Controller, Heard, SpeedChange, Stand};
 use super::error::DriveError;
 use super::port::{Handshake, Port};
-use crate::plot::Act;
+use super::program::ProgramLine;
+use crate::interrupt::Interrupt;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
@@ -214,6 +215,10 @@ pub(super) fn fault(code: u32) -> &'static str {
 }
 
 impl Controller for Hpgl {
+    fn longest_line(&self) -> usize {
+        self.capacity.saturating_sub(SPARE)
+    }
+
     fn has_room(&self, text: &str) -> bool {
         match self.handshake {
             Handshake::None => self.free >= text.len() + SPARE,
@@ -262,7 +267,7 @@ impl Controller for Hpgl {
         self.stand
     }
 
-    fn proves(&self, _: Act) -> bool {
+    fn proves(&self, _: &ProgramLine) -> bool {
         false
     }
 
@@ -286,19 +291,23 @@ impl Controller for Hpgl {
         Ok(self.stand)
     }
 
-    fn change_speed(&mut self, _: SpeedChange) -> Result<(), DriveError> {
-        Ok(())
+    fn change_speed(&mut self, _: SpeedChange) -> Result<Option<u32>, DriveError> {
+        Ok(None)
     }
 
     fn ask(&mut self, text: &str) -> Result<(), DriveError> {
         self.port.send(text.as_bytes())?;
-        self.wait_until_still(PATIENCE)
+        self.wait_until_still(PATIENCE, &Interrupt::never())
     }
 
-    fn wait_until_still(&mut self, most: Duration) -> Result<(), DriveError> {
+    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
         let begun = Instant::now();
         self.drain()?;
         loop {
+            if interrupt.is_raised() {
+                self.halt()?;
+                return Err(DriveError::Interrupted);
+            }
             self.port.send(b"\x1b.O")?;
             let status = self.number(PATIENCE)?;
             if status & NOT_READY != 0 {
@@ -316,8 +325,13 @@ impl Controller for Hpgl {
         }
     }
 
-    fn travel(&mut self, [x, y]: [f64; 2], _: f64) -> Result<(), DriveError> {
-        self.ask(&format!("PU{x:.0},{y:.0};"))
+    fn travel(&mut self, [x, y]: [f64; 2], _: f64, interrupt: &Interrupt) -> Result<(), DriveError> {
+        self.port.send(format!("PU{x:.0},{y:.0};").as_bytes())?;
+        self.wait_until_still(PATIENCE, interrupt)
+    }
+
+    fn set_zero(&mut self) -> Result<(), DriveError> {
+        Err(DriveError::Unfit("an HP-GL plotter has its own zero, at a corner of its paper".to_owned()))
     }
 
     fn name(&self) -> &str {

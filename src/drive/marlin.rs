@@ -6,6 +6,8 @@
 use super::controller::{Controller, Heard, SpeedChange, Stand};
 use super::error::DriveError;
 use super::port::Port;
+use super::program::ProgramLine;
+use crate::interrupt::Interrupt;
 use crate::plot::Act;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -14,12 +16,22 @@ use std::time::{Duration, Instant};
 const MOST_LINES: usize = 3;
 /// Bytes on their way: its serial buffer holds 128 (`RX_BUFFER_SIZE`).
 const MOST_BYTES: usize = 120;
+/// The number and the checksum of a line take up to so many bytes.
+const NUMBERING: usize = 16;
+/// The longest line without them: Marlin reads 96 bytes (`MAX_CMD_SIZE`).
+const LONGEST_LINE: usize = 80;
 /// How long it may say nothing, not even that it is busy.
 const PATIENCE: Duration = Duration::from_secs(15);
+/// How long what was taken may take to be drawn, without a word: Klipper says nothing meanwhile.
+const OLD_WORK: Duration = Duration::from_mins(2);
 /// How long it may take from its start to its first answer.
 const STARTING: Duration = Duration::from_secs(10);
 /// Moves taken and not drawn: the planner's 15 blocks (`BLOCK_BUFFER_SIZE` 16), and the one that is being drawn.
 const HIDDEN_MOVES: usize = 16;
+/// The same for Klipper, which looks two seconds ahead, whatever the number of moves in them.
+const LOOKED_AHEAD: usize = 2000;
+/// Answered when everything before it is drawn.
+const FINISHED: &str = "M400";
 const LISTENING: Duration = Duration::from_millis(20);
 
 /// A conversation with a machine.
@@ -33,7 +45,7 @@ pub struct Marlin {
     window: VecDeque<(u64, Option<usize>, String)>,
     stand: Option<Stand>,
     /// Percent of the file's speed.
-    speed: u32,
+    percent: u32,
     /// True while the answer to the question for the place is awaited: it comes when all before is drawn.
     is_asked: bool,
     /// Demands to send again whose own `ok` is still to come.
@@ -102,7 +114,7 @@ fn numbered(number: u64, text: &str) -> String {
 
 impl Marlin {
     /// Meets the machine at a port.
-    pub fn greet(port: Box<dyn Port>) -> Result<Self, DriveError> {
+    pub fn greet(port: Box<dyn Port>, interrupt: &Interrupt) -> Result<Self, DriveError> {
         let mut marlin = Self {
             port,
             unfinished: Vec::new(),
@@ -110,7 +122,7 @@ impl Marlin {
             next: 1,
             window: VecDeque::new(),
             stand: None,
-            speed: 100,
+            percent: 100,
             is_asked: false,
             refused: 0,
         };
@@ -125,6 +137,8 @@ impl Marlin {
                     marlin.hear(Duration::from_millis(200))?;
                     marlin.next = 1;
                     Controller::ask(&mut marlin, "M115")?;
+                    // The place told is that of the last line taken: an earlier drawing comes to its end first.
+                    marlin.ask_until(FINISHED, OLD_WORK, interrupt)?;
                     Controller::ask(&mut marlin, "M114")?;
                     return Ok(marlin);
                 }
@@ -203,6 +217,36 @@ impl Marlin {
     }
 }
 
+impl Marlin {
+    fn is_klipper(&self) -> bool {
+        self.firmware.starts_with("Klipper")
+    }
+
+    /// Says a line and waits until it is taken, while the machine says something at least so often; an interrupt ends the waiting only.
+    fn ask_until(&mut self, text: &str, silence: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+        self.push(None, text)?;
+        let mut heard = Instant::now();
+        while !self.window.is_empty() {
+            interrupt.check()?;
+            let replies = self.hear(LISTENING)?;
+            if !replies.is_empty() {
+                heard = Instant::now();
+            }
+            for heard in self.understand(replies)? {
+                match heard {
+                    Heard::Failed(text) => return Err(DriveError::Failed(text)),
+                    Heard::Restarted => return Err(DriveError::Restarted),
+                    _ => {}
+                }
+            }
+            if heard.elapsed() > silence {
+                return Err(DriveError::Silent { seconds: silence.as_secs(), expected: "Marlin or Klipper" });
+            }
+        }
+        Ok(())
+    }
+}
+
 /// True for a fault of the transmission, after which the machine asks for the line again.
 fn is_of_the_line(text: &str) -> bool {
     let text = text.to_ascii_lowercase();
@@ -210,10 +254,13 @@ fn is_of_the_line(text: &str) -> bool {
 }
 
 impl Controller for Marlin {
+    fn longest_line(&self) -> usize {
+        LONGEST_LINE
+    }
+
     fn has_room(&self, text: &str) -> bool {
         let bytes: usize = self.window.iter().map(|(_, _, sent)| sent.len()).sum();
-        // The number and the checksum take up to 16 bytes.
-        self.window.len() < MOST_LINES && bytes + text.len() + 16 <= MOST_BYTES
+        self.window.len() < MOST_LINES && bytes + text.len() + NUMBERING <= MOST_BYTES
     }
 
     fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError> {
@@ -233,7 +280,7 @@ impl Controller for Marlin {
         // While lines stream, their own answers say that it is there; M400 answers when all is drawn.
         if self.window.is_empty() && !self.is_asked {
             self.is_asked = true;
-            self.push(None, "M400")?;
+            self.push(None, FINISHED)?;
             self.push(None, "M114")?;
         }
         Ok(())
@@ -243,12 +290,21 @@ impl Controller for Marlin {
         self.stand
     }
 
-    fn proves(&self, act: Act) -> bool {
-        matches!(act, Act::Wait(_))
+    fn answers_in_turn(&self) -> bool {
+        true
+    }
+
+    fn proves(&self, line: &ProgramLine) -> bool {
+        // Klipper answers a wait when it has planned it.
+        line.text == FINISHED || matches!(line.act, Act::Wait(_)) && !self.is_klipper()
+    }
+
+    fn checkpoint(&self) -> Option<&'static str> {
+        self.is_klipper().then_some(FINISHED)
     }
 
     fn hidden_moves(&self) -> usize {
-        HIDDEN_MOVES
+        if self.is_klipper() { LOOKED_AHEAD } else { HIDDEN_MOVES }
     }
 
     fn patience(&self) -> Duration {
@@ -273,43 +329,32 @@ impl Controller for Marlin {
         Ok(self.stand)
     }
 
-    fn change_speed(&mut self, change: SpeedChange) -> Result<(), DriveError> {
-        self.speed = match change {
-            SpeedChange::Usual => 100,
-            SpeedChange::Faster => (self.speed + 10).min(200),
-            SpeedChange::Slower => self.speed.saturating_sub(10).max(10),
-        };
-        self.push(None, &format!("M220 S{}", self.speed))
+    fn change_speed(&mut self, change: SpeedChange) -> Result<Option<u32>, DriveError> {
+        self.percent = change.of(self.percent);
+        self.push(None, &format!("M220 S{}", self.percent))?;
+        Ok(Some(self.percent))
     }
 
     fn ask(&mut self, text: &str) -> Result<(), DriveError> {
-        self.push(None, text)?;
-        let mut heard = Instant::now();
-        while !self.window.is_empty() {
-            let replies = self.hear(LISTENING)?;
-            if !replies.is_empty() {
-                heard = Instant::now();
-            }
-            for heard in self.understand(replies)? {
-                match heard {
-                    Heard::Failed(text) => return Err(DriveError::Failed(text)),
-                    Heard::Restarted => return Err(DriveError::Restarted),
-                    _ => {}
-                }
-            }
-            if heard.elapsed() > PATIENCE {
-                return Err(DriveError::Silent { seconds: PATIENCE.as_secs(), expected: "Marlin or Klipper" });
-            }
+        self.ask_until(text, PATIENCE, &Interrupt::never())
+    }
+
+    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+        let waited = self.ask_until(FINISHED, most, interrupt);
+        if matches!(waited, Err(DriveError::Interrupted)) {
+            self.halt()?;
         }
-        Ok(())
+        waited
     }
 
-    fn wait_until_still(&mut self, _: Duration) -> Result<(), DriveError> {
-        self.ask("M400")
+    fn travel(&mut self, [x, y]: [f64; 2], rate: f64, interrupt: &Interrupt) -> Result<(), DriveError> {
+        self.ask(&format!("G0 X{x:.3} Y{y:.3} F{rate:.0}"))?;
+        self.wait_until_still(OLD_WORK, interrupt)
     }
 
-    fn travel(&mut self, [x, y]: [f64; 2], rate: f64) -> Result<(), DriveError> {
-        self.ask(&format!("G0 X{x:.3} Y{y:.3} F{rate:.0}"))
+    fn set_zero(&mut self) -> Result<(), DriveError> {
+        self.ask("G92 X0 Y0")?;
+        self.ask("M114")
     }
 
     fn name(&self) -> &str {

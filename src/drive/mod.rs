@@ -16,6 +16,7 @@ mod grbl;
 mod hpgl;
 mod journal;
 mod marlin;
+mod modes;
 mod part;
 mod port;
 mod program;

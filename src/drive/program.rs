@@ -12,9 +12,9 @@
 
 use super::controller::Stand;
 use super::error::DriveError;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vec2};
 use crate::interrupt::Interrupt;
-use crate::plot::{Act, Language, Profile, line_times, replayed};
+use crate::plot::{Act, Language, Profile, line_times, replayed, word};
 use std::ops::Range;
 
 /// A line of the file.
@@ -126,6 +126,48 @@ impl Program {
         self.lines.last().map_or(0.0, |line| line.until)
     }
 
+    /// Seconds that the longest line takes.
+    pub(super) fn longest_line(&self) -> f64 {
+        self.lines.windows(2).map(|pair| pair[1].until - pair[0].until).fold(0.0, f64::max)
+    }
+
+    /// The program with a line after every so many seconds, between two paths.
+    pub fn with_checkpoints(
+        &self,
+        profile: &Profile,
+        text: &str,
+        seconds: f64,
+        interrupt: &Interrupt,
+    ) -> Result<Self, DriveError> {
+        let mut lines = Vec::with_capacity(self.lines.len());
+        let (mut from, mut last) = (0, 0.0);
+        for path in &self.paths {
+            lines.extend_from_slice(&self.lines[from..path.end]);
+            from = path.end;
+            let end = &self.lines[path.end - 1];
+            if end.until - last >= seconds {
+                last = end.until;
+                lines.push(ProgramLine { text: text.to_owned(), number: 0, act: Act::Mode, name: None, ..end.clone() });
+            }
+        }
+        lines.extend_from_slice(&self.lines[from..]);
+        self.with_lines(profile, lines, interrupt)
+    }
+
+    /// The same paths with lines of which some are not in the file.
+    pub(super) fn with_lines(
+        &self,
+        profile: &Profile,
+        lines: Vec<ProgramLine>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, DriveError> {
+        let mut program = Self::of(profile, lines, interrupt)?;
+        for (path, own) in program.paths.iter_mut().zip(&self.paths) {
+            path.number = own.number;
+        }
+        Ok(program)
+    }
+
     /// Length of a path in machine units.
     pub fn length(&self, path: usize) -> f64 {
         self.pieces(path).map(|(_, length)| length).sum()
@@ -194,10 +236,25 @@ impl Program {
         (fraction, place.distance(from + fraction * way))
     }
 
+    /// Places of a path whose box is the path's: the ends of its strokes, and where an arc reaches farthest along an axis.
+    pub fn places<'a>(&'a self, path: &PathLines) -> impl Iterator<Item = Point> + 'a {
+        (path.lower..path.lift).flat_map(|i| self.farthest(i).into_iter().flatten().chain([self.after(i)]))
+    }
+
+    /// Where an arc reaches farthest along each direction of the axes, if it does so between its ends.
+    fn farthest(&self, line: usize) -> [Option<Point>; 4] {
+        let Act::Arc { centre, sweep, .. } = self.lines[line].act else { return [None; 4] };
+        let arm = self.before(line) - centre;
+        [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), Vec2::new(-1.0, 0.0), Vec2::new(0.0, -1.0)].map(|axis| {
+            let turn = (axis.atan2() - arm.atan2()) * sweep.signum();
+            (turn.rem_euclid(std::f64::consts::TAU) < sweep.abs()).then(|| centre + arm.hypot() * axis)
+        })
+    }
+
     /// The box of what the pen draws, in machine units: least x and y, greatest x and y.
     pub fn bounds(&self) -> [f64; 4] {
-        let ends = self.paths.iter().flat_map(|path| path.lower..path.lift).map(|i| self.after(i));
-        ends.fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |b, p| {
+        let places = self.paths.iter().flat_map(|path| self.places(path));
+        places.fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |b, p| {
             [b[0].min(p.x), b[1].min(p.y), b[2].max(p.x), b[3].max(p.y)]
         })
     }
@@ -229,10 +286,10 @@ impl Program {
     }
 }
 
-/// The end of the lines before the first name, pause, approach or path.
+/// The end of the lines before the first name, pause, move or path.
 fn head_end(lines: &[ProgramLine], paths: &[PathLines]) -> usize {
     let first = paths.first().map_or(lines.len(), |path| path.begin);
-    let is_body = |line: &ProgramLine| matches!(line.act, Act::Pen(_) | Act::Pause);
+    let is_body = |line: &ProgramLine| matches!(line.act, Act::Pen(_) | Act::Pause) || line.act.moves();
     lines[..first].iter().position(is_body).unwrap_or(first)
 }
 
@@ -272,11 +329,6 @@ fn paths(lines: &[ProgramLine]) -> Vec<PathLines> {
     paths
 }
 
-/// The number after a letter in a line.
-pub(super) fn word(text: &str, letter: char) -> Option<f64> {
-    text.split_whitespace().find_map(|word| word.strip_prefix(letter)?.parse().ok())
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
@@ -301,6 +353,27 @@ pub(super) mod tests {
         assert_eq!(program.pens(), [(1, "dots 0.3".to_owned()), (2, "red 0.5".to_owned())]);
         assert!((program.length(0) - (4.0 + 4.0 * std::f64::consts::PI + 5.0)).abs() < 1e-9);
         assert_eq!((program.path_of(8), program.path_of(15), program.path_of(22), program.path_of(23)), (0, 1, 1, 2));
+    }
+
+    #[test]
+    fn arcs_reach_beyond_their_ends() {
+        let (_, program) = program();
+        let [x0, y0, x1, y1] = program.bounds();
+        assert!((x0 - 1.0).abs() < 1e-9 && (y0 - 1.0).abs() < 1e-9 && (x1 - 10.0).abs() < 1e-9 && (y1 - 9.0).abs() < 1e-9);
+        let text = "(pen up is M3 S300)\n(pen down is M3 S700)\nM3 S300\nG0 X3 Y5\nM3 S700\nG2 X5 Y3 I2 J0 F600\nM3 S300\n";
+        let program = Program::read(&Profile::built_in("grbl-servo").unwrap(), text, &Interrupt::never()).unwrap();
+        // Three quarters of a circle of radius 2 around 5, 5 from its left end over the top to its lowest point.
+        let bounds = program.bounds();
+        for (found, expected) in bounds.into_iter().zip([3.0, 3.0, 7.0, 7.0]) {
+            assert!((found - expected).abs() < 1e-9, "{bounds:?}");
+        }
+    }
+
+    #[test]
+    fn travels_before_the_first_path_are_no_head() {
+        let text = FILE.replace("(pen 1: dots 0.3)\n", "G0 X0 Y0\nG0 X90 Y0\nG0 X90 Y90\n(pen 1: dots 0.3)\n");
+        let program = Program::read(&Profile::built_in("grbl-servo").unwrap(), &text, &Interrupt::never()).unwrap();
+        assert_eq!(program.head, 0..6);
     }
 
     #[test]

@@ -119,12 +119,16 @@ pub struct Session<'a> {
     reported: Option<Instant>,
     /// Consecutive reports of standing still since the last line was taken.
     still: u32,
+    /// How long the machine may say nothing.
+    patience: Duration,
 }
 
 impl<'a> Session<'a> {
     /// A drawing that begins.
     pub fn new(controller: &'a mut dyn Controller, program: &'a Program) -> Self {
-        let standing = Standing { program, next: 0, taken: 0, drawn: 0, stand: None, is_done: false, is_stopped: false };
+        let standing =
+            Standing { program, next: 0, taken: 0, drawn: 0, stand: None, percent: 100, is_done: false, is_stopped: false };
+        let patience = controller.patience() + Duration::from_secs_f64(program.longest_line());
         Self {
             controller,
             standing,
@@ -134,6 +138,7 @@ impl<'a> Session<'a> {
             heard: Instant::now(),
             reported: None,
             still: 0,
+            patience,
         }
     }
 
@@ -145,27 +150,38 @@ impl<'a> Session<'a> {
         interrupt: &Interrupt,
     ) -> Result<Ending, DriveError> {
         loop {
-            if interrupt.is_raised() {
-                return self.stop(journal);
-            }
-            while let Some(wish) = onlooker.wish() {
-                if wish == Wish::Stop {
-                    return self.stop(journal);
-                }
-                self.follow(wish, onlooker)?;
-            }
-            self.feed()?;
-            if let Err(fault) = self.listen(onlooker) {
-                return Err(self.broken(fault, journal));
-            }
-            self.ask()?;
-            self.come_to_rest(onlooker);
-            journal.note(&self.standing)?;
-            self.report(onlooker);
-            if self.standing.is_done {
-                return Ok(Ending::Done);
+            match self.advance(journal, onlooker, interrupt) {
+                Ok(None) => {}
+                Ok(Some(ending)) => return Ok(ending),
+                Err(fault) => return Err(self.broken(fault, journal)),
             }
         }
+    }
+
+    /// Once around: wishes, lines that go out, what the machine says, the journal.
+    fn advance(
+        &mut self,
+        journal: &mut Journal<'_>,
+        onlooker: &mut dyn Onlooker,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Ending>, DriveError> {
+        let mut is_ended = interrupt.is_raised();
+        while let Some(wish) = onlooker.wish().filter(|_| !is_ended) {
+            is_ended = wish == Wish::Stop;
+            self.follow(wish, onlooker)?;
+        }
+        if is_ended {
+            self.halt()?;
+            journal.note(&self.standing)?;
+            return Ok(Some(Ending::Stopped));
+        }
+        self.feed()?;
+        self.listen(onlooker)?;
+        self.ask()?;
+        self.come_to_rest(onlooker);
+        journal.note(&self.standing)?;
+        self.report(onlooker);
+        Ok(self.standing.is_done.then_some(Ending::Done))
     }
 
     fn follow(&mut self, wish: Wish, onlooker: &mut dyn Onlooker) -> Result<(), DriveError> {
@@ -178,11 +194,24 @@ impl<'a> Session<'a> {
                 self.phase = Phase::Sending;
                 onlooker.happens(&Happening::Resumed);
             }
-            (Wish::Speed(change), _) => self.controller.change_speed(change)?,
+            (Wish::Speed(change), _) => match self.controller.change_speed(change)? {
+                Some(percent) => self.standing.percent = percent,
+                None => onlooker.happens(&Happening::Said("its speed cannot be changed while it draws")),
+            },
             (Wish::Press(steps), _) => self.press += steps,
             _ => {}
         }
         Ok(())
+    }
+
+    /// True if lines wait that may be sent.
+    fn has_more(&self) -> bool {
+        let Standing { program, next, .. } = self.standing;
+        match self.phase {
+            Phase::Sending => program.lines.get(next).is_some_and(|line| line.act != Act::Pause),
+            Phase::Draining(end) => next < end,
+            Phase::Waiting => false,
+        }
     }
 
     /// Sends lines while there is room.
@@ -215,14 +244,14 @@ impl<'a> Session<'a> {
         let all = self.controller.listen(LISTENING)?;
         if !all.is_empty() {
             self.heard = Instant::now();
-        } else if self.heard.elapsed() > self.controller.patience() {
+        } else if self.heard.elapsed() > self.patience {
             return Err(DriveError::Lost(io::Error::new(io::ErrorKind::TimedOut, "it no longer answers")));
         }
         for heard in all {
             match heard {
                 Heard::Taken(line) => {
                     self.still = 0;
-                    let proves = self.controller.proves(self.standing.program.lines[line].act);
+                    let proves = self.controller.proves(&self.standing.program.lines[line]);
                     self.standing.take(line, proves, self.controller.hidden_moves());
                 }
                 Heard::State { is_still } => {
@@ -247,8 +276,12 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Asks for the state now and then, and more often when all is taken.
+    /// Asks for the state now and then, and more often when all is taken. A question that holds up what follows is asked only where
+    /// nothing follows.
     fn ask(&mut self) -> Result<(), DriveError> {
+        if self.controller.answers_in_turn() && self.has_more() {
+            return Ok(());
+        }
         let is_ending = self.controller.outstanding().is_none();
         if self.asked.elapsed() >= ASKING[usize::from(is_ending)] {
             self.controller.ask_state()?;
@@ -294,31 +327,22 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Stops at once and lifts the pen.
-    fn stop(mut self, journal: &mut Journal<'_>) -> Result<Ending, DriveError> {
-        self.standing.stand = self.controller.halt()?;
-        self.lift()?;
-        self.standing.is_stopped = true;
-        journal.note(&self.standing)?;
-        Ok(Ending::Stopped)
-    }
-
-    /// Sets the modes again and lifts the pen, as the file's head does.
-    fn lift(&mut self) -> Result<(), DriveError> {
-        for line in &self.standing.program.lines[self.standing.program.head.clone()] {
-            if !line.text.is_empty() {
-                self.controller.ask(&line.text)?;
-            }
+    /// Stops at once, sets the modes again that a reset takes away, and lifts the pen.
+    fn halt(&mut self) -> Result<(), DriveError> {
+        self.standing.stand = self.controller.halt()?.or(self.standing.stand);
+        for line in self.standing.program.to_lift() {
+            self.controller.ask(&line.text)?;
         }
+        self.standing.is_stopped = true;
         Ok(())
     }
 
     /// After a fault: stops and lifts the pen if the machine still obeys; the fault is what is told.
-    fn broken(mut self, fault: DriveError, journal: &mut Journal<'_>) -> DriveError {
-        if matches!(fault, DriveError::Refused { .. }) {
-            self.standing.stand = self.controller.halt().ok().flatten().or(self.standing.stand);
-            let _ = self.lift();
-            self.standing.is_stopped = true;
+    fn broken(&mut self, fault: DriveError, journal: &mut Journal<'_>) -> DriveError {
+        let obeys =
+            !matches!(fault, DriveError::Lost(_) | DriveError::Silent { .. } | DriveError::Alarm { .. } | DriveError::Restarted);
+        if obeys && !self.standing.is_stopped {
+            let _ = self.halt();
         }
         let _ = journal.note(&self.standing);
         fault

@@ -2,9 +2,9 @@
 
 use super::controller::Stand;
 use super::journal::Record;
-use super::program::{Program, ProgramLine, word};
+use super::program::{Program, ProgramLine};
 use super::session::Progress;
-use crate::plot::Act;
+use crate::plot::{Act, word, words};
 use std::borrow::Cow;
 
 /// Where a drawing stands.
@@ -17,6 +17,8 @@ pub(super) struct Standing<'a> {
     /// Lines before this one are certainly drawn.
     pub drawn: usize,
     pub stand: Option<Stand>,
+    /// Percent of the file's speed at which the machine draws.
+    pub percent: u32,
     pub is_done: bool,
     pub is_stopped: bool,
 }
@@ -52,7 +54,7 @@ impl Standing<'_> {
         let path = program.path_of(self.drawn);
         Progress {
             fraction: if program.seconds() > 0.0 { done / program.seconds() } else { 1.0 },
-            seconds_left: program.seconds() - done,
+            seconds_left: (program.seconds() - done) * 100.0 / f64::from(self.percent),
             paths: path,
             paths_in_all: program.paths.len(),
             pen: program.paths.get(path).or(program.paths.last()).map_or(1, |path| path.pen),
@@ -65,11 +67,13 @@ impl Standing<'_> {
         let lines = &self.program.lines;
         let number = |i: usize| lines.get(i..).unwrap_or(&[]).iter().map(|line| line.number).find(|number| *number > 0);
         let end = lines.iter().rev().map(|line| line.number).find(|number| *number > 0).map_or(1, |last| last + 1);
-        let path = self.program.paths.get(self.program.path_of(self.drawn));
+        // The head says nothing of the drawing: in a part of a file, which has it too, much more is drawn before it.
+        let drawn = self.drawn.max(self.program.head.end);
+        let path = self.program.paths.get(self.program.path_of(drawn));
         Record {
-            drawn: number(self.drawn).unwrap_or(end),
-            taken: number(self.taken).unwrap_or(end),
-            sent: number(self.next).unwrap_or(end),
+            drawn: number(drawn).unwrap_or(end),
+            taken: number(self.taken.max(drawn)).unwrap_or(end),
+            sent: number(self.next.max(drawn)).unwrap_or(end),
             path: path.map_or(0, |path| path.number),
             at: self.stand.map(|stand| stand.at),
             is_down: self.stand.and_then(|stand| self.program.is_down(&stand)),
@@ -85,23 +89,19 @@ pub(super) fn pressed<'a>(program: &Program, line: &'a ProgramLine, steps: i32) 
         return Cow::Borrowed(&line.text);
     }
     let lift = program.lines.iter().find(|line| line.act == Act::Lift).map_or("", |line| &line.text);
-    let words = line.text.split_whitespace().map(|text| {
-        let step = match text.chars().next() {
-            Some('S') => 5.0,
-            Some('Z') => 0.05,
-            _ => return text.to_owned(),
+    let pressed = words(&line.text).into_iter().map(|(letter, down)| {
+        let step = match letter {
+            'S' => 5.0,
+            'Z' => 0.05,
+            _ => return format!("{letter}{down}"),
         };
-        let letter = &text[..1];
-        let values = letter.chars().next().and_then(|letter| Some((word(lift, letter)?, word(text, letter)?)));
-        values.map_or_else(
-            || text.to_owned(),
-            |(up, down)| {
-                let value = down + step * f64::from(steps).copysign(f64::from(steps) * (down - up));
-                format!("{letter}{}", (value * 100.0).round() / 100.0)
-            },
-        )
+        let Some(up) = word(lift, letter) else { return format!("{letter}{down}") };
+        let value = down + step * f64::from(steps).copysign(f64::from(steps) * (down - up));
+        format!("{letter}{}", (value * 100.0).round() / 100.0)
     });
-    Cow::Owned(words.collect::<Vec<_>>().join(" "))
+    let pressed = pressed.collect::<Vec<_>>().join(" ");
+    // A command of another kind has no pressure.
+    if pressed.is_empty() { Cow::Borrowed(&line.text) } else { Cow::Owned(pressed) }
 }
 
 #[cfg(test)]

@@ -43,6 +43,8 @@ pub use language::{Act, Replayed};
 #[doc(hidden)]
 pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, Protocol, SvgDialect, Travel};
 pub use language::{GcodeError, HpglError, Language, MotionError, ResumeError, StopPlace, Strokes};
+#[cfg(feature = "drive")]
+pub(crate) use language::{word, words};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::MountingError;
 #[doc(hidden)]

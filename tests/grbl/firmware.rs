@@ -16,6 +16,29 @@ const LINE_BUFFER: usize = 128;
 /// A straight piece that the pen drew, from and to, in mm.
 pub type Piece = [[f64; 2]; 2];
 
+/// What lowers the pen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pen {
+    /// Values of S above this.
+    Servo(f32),
+    /// Heights below this.
+    Height(f64),
+}
+
+/// What it says of its planner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Build {
+    /// `[OPT:V,15,128]`.
+    Told,
+    /// Nothing, as `FluidNC`.
+    Untold,
+}
+
+/// Reports between two that tell the offset of the work, at rest and in motion (`REPORT_WCO_REFRESH_IDLE_COUNT` and `_BUSY_COUNT`).
+const OFFSET_REPORTS: [u32; 2] = [10, 30];
+/// Seconds of homing.
+const HOMING: f32 = 4.0;
+
 // Flags of the firmware's own.
 #[allow(clippy::struct_excessive_bools)]
 pub struct Firmware {
@@ -40,11 +63,17 @@ pub struct Firmware {
     is_held: bool,
     is_alarmed: bool,
     is_checking: bool,
-    /// Offset of the work, by `G92`.
-    offset: [f64; 3],
+    /// Offset of the work by `G92`, which a reset takes away.
+    pub offset: [f64; 3],
+    /// Offset of the work by `G54`, which lasts.
+    pub work: [f64; 3],
+    /// Reports until the offset is told again.
+    offset_told: u32,
     output: Vec<u8>,
-    /// Values of S above which the pen is down.
-    pen_down_above: f32,
+    pub pen: Pen,
+    pub build: Build,
+    is_homing: bool,
+    was_down: bool,
     /// What the pen drew.
     pub drawn: Vec<Piece>,
     /// Where the pen touched the paper: each lowering.
@@ -84,8 +113,13 @@ impl Firmware {
             is_alarmed: false,
             is_checking: false,
             offset: [0.0; 3],
+            work: [0.0; 3],
+            offset_told: 0,
             output: Vec::new(),
-            pen_down_above: 500.0,
+            pen: Pen::Servo(500.0),
+            build: Build::Told,
+            is_homing: false,
+            was_down: false,
             drawn: Vec::new(),
             touches: Vec::new(),
             last_spindle: 0.0,
@@ -163,31 +197,48 @@ impl Firmware {
         } else {
             "Run"
         };
-        let at: Vec<String> = self.stepper.at.iter().map(|v| format!("{v:.3}")).collect();
-        let offset: Vec<String> = self.offset.iter().map(|v| format!("{v:.3}")).collect();
-        let mut text = format!("<{state}|MPos:{}", at.join(","));
+        let joined = |place: [f64; 3]| place.map(|v| format!("{v:.3}")).join(",");
+        let mut text = format!("<{state}|MPos:{}", joined(self.stepper.at));
         let free = LINE_BUFFER - 1 - self.buffer.len();
-        let _ = write!(text, "|Bf:{},{free}|FS:0,{:.0}|WCO:{}>", self.planner.free(), self.last_spindle, offset.join(","));
-        self.say(&text);
+        let _ = write!(text, "|Bf:{},{free}|FS:0,{:.0}", self.planner.free(), self.last_spindle);
+        if self.offset_told == 0 {
+            let _ = write!(text, "|WCO:{}", joined(self.zero()));
+            self.offset_told = OFFSET_REPORTS[usize::from(self.is_moving())];
+        }
+        self.offset_told -= 1;
+        self.say(&format!("{text}>"));
+    }
+
+    /// Where zero of the work lies on the machine.
+    fn zero(&self) -> [f64; 3] {
+        std::array::from_fn(|axis| self.offset[axis] + self.work[axis])
+    }
+
+    /// The pen's place in the work.
+    fn place(&self) -> [f64; 3] {
+        let zero = self.zero();
+        std::array::from_fn(|axis| self.stepper.at[axis] - zero[axis])
     }
 
     /// Soft reset: in motion it loses its position.
     fn reset(&mut self) {
         let was_moving = self.is_moving() && !self.stepper.is_held();
+        let was_homing = std::mem::take(&mut self.is_homing);
         self.stepper.reset();
         let at = self.stepper.at;
         self.planner.reset(at);
-        self.program.reset(at.map(|v| v as f32));
+        self.offset = [0.0; 3];
+        self.offset_told = 0;
+        self.program.reset(self.place().map(|v| v as f32));
         (self.command, self.dwells_until, self.is_busy, self.is_cycling, self.is_held) = (None, None, false, false, false);
         self.buffer.clear();
         self.line.clear();
-        self.offset = [0.0; 3];
         self.ran = 0.0;
         self.last_spindle = 0.0;
         self.is_checking = false;
-        if was_moving {
+        if was_moving || was_homing {
             self.is_alarmed = true;
-            self.say("ALARM:3");
+            self.say(if was_homing { "ALARM:6" } else { "ALARM:3" });
         }
         self.greet();
     }
@@ -223,9 +274,10 @@ impl Firmware {
             let from = self.stepper.at;
             self.stepper.finish_segment();
             let to = self.stepper.at;
-            if self.last_spindle > self.pen_down_above && from != to {
+            if self.is_pen_down() && from[..2] != to[..2] {
                 self.drawn.push([[from[0], from[1]], [to[0], to[1]]]);
             }
+            self.watch_pen();
             self.stepper.fill(&mut self.planner);
         }
         if self.stepper.running().is_none() {
@@ -282,9 +334,11 @@ impl Firmware {
         if let Some(place) = code.strip_prefix("G92 ") {
             for word in place.split_whitespace() {
                 let value: f64 = word[1..].parse().unwrap();
-                let axis = usize::from(!word.starts_with('X'));
-                self.offset[axis] = self.stepper.at[axis] - value;
+                let axis = ["X", "Y", "Z"].iter().position(|letter| word.starts_with(letter)).unwrap();
+                self.offset[axis] += self.place()[axis] - value;
             }
+            self.offset_told = 0;
+            self.program.reset_place(self.place().map(|v| v as f32));
             return self.say("ok");
         }
         if !code.is_empty() && !code.starts_with(['G', 'M', 'X', 'Y', 'Z', 'F', 'S', '(']) || code.contains('$') {
@@ -306,8 +360,21 @@ impl Firmware {
                 }
                 self.say("ok");
             }
-            "X" | "H" => {
+            "X" => {
                 self.is_alarmed = false;
+                self.say("ok");
+            }
+            "H" => {
+                self.is_alarmed = false;
+                (self.is_homing, self.is_busy) = (true, true);
+                self.command = Some(Command::Dwell(HOMING));
+            }
+            "I" => {
+                self.say("[VER:1.1h.20190825:]");
+                if self.build == Build::Told {
+                    let blocks = self.settings.blocks;
+                    self.say(&format!("[OPT:V,{blocks},{LINE_BUFFER}]"));
+                }
                 self.say("ok");
             }
             "C" => {
@@ -321,9 +388,10 @@ impl Firmware {
                         .find_map(|word| word.trim_start_matches("J=").strip_prefix(letter)?.parse::<f64>().ok())
                 };
                 let at = self.stepper.at;
-                let target = [at[0] + value('X').unwrap_or(0.0), at[1] + value('Y').unwrap_or(0.0), at[2]].map(|v| v as f32);
-                self.planner.add(target, value('F'), &mut self.stepper);
-                self.program.reset(target);
+                let target = [at[0] + value('X').unwrap_or(0.0), at[1] + value('Y').unwrap_or(0.0), at[2]];
+                self.planner.add(target.map(|v| v as f32), value('F'), &mut self.stepper);
+                let zero = self.zero();
+                self.program.reset_place(std::array::from_fn(|axis| (target[axis] - zero[axis]) as f32));
                 self.say("ok");
             }
             _ => self.say("error:3"),
@@ -338,6 +406,7 @@ impl Firmware {
             }
             self.dwells_until = None;
             self.command = None;
+            self.is_homing = false;
         }
         loop {
             let Some(command) = self.command.take().or_else(|| self.program.next()) else {
@@ -347,7 +416,8 @@ impl Firmware {
             let is_still = self.planner.is_empty() && self.stepper.running().is_none();
             match command {
                 Command::Line { target, rate } if self.planner.free() > 0 => {
-                    let target = std::array::from_fn(|axis| target[axis] + self.offset[axis] as f32);
+                    let zero = self.zero();
+                    let target = std::array::from_fn(|axis| target[axis] + zero[axis] as f32);
                     self.planner.add(target, rate, &mut self.stepper);
                 }
                 Command::Synchronize if is_still => {}
@@ -367,18 +437,39 @@ impl Firmware {
 
     /// The servo follows S; the program has waited for the motion before.
     fn follow_spindle(&mut self) {
-        let now = self.program.spindle_speed();
-        if now != self.last_spindle && (now > self.pen_down_above) != (self.last_spindle > self.pen_down_above) {
-            if now > self.pen_down_above {
-                self.touches.push([self.stepper.at[0], self.stepper.at[1]]);
-            } else {
-                self.lifted = self.now;
-            }
-        }
-        if now != 0.0 && now <= self.pen_down_above {
+        self.last_spindle = self.program.spindle_speed();
+        self.watch_pen();
+        if self.last_spindle != 0.0 && !self.is_pen_down() {
             self.lifted = self.now;
         }
-        self.last_spindle = now;
+    }
+
+    /// Notes where the pen comes down.
+    fn watch_pen(&mut self) {
+        let is_down = self.is_pen_down();
+        if is_down && !self.was_down {
+            self.touches.push([self.stepper.at[0], self.stepper.at[1]]);
+        }
+        self.was_down = is_down;
+    }
+
+    /// Hangs the pen on the z axis, 2 mm above the paper.
+    pub fn hang_pen(&mut self) {
+        self.pen = Pen::Height(1.0);
+        self.work[2] = -2.0;
+        self.program.reset_place(self.place().map(|v| v as f32));
+    }
+
+    /// The value of the servo.
+    pub fn servo(&self) -> f32 {
+        self.last_spindle
+    }
+
+    /// Puts the servo there, as an earlier program did.
+    pub fn set_servo(&mut self, value: f32) {
+        self.program.line(&format!("M3 S{value}"));
+        while self.program.next_pending().is_some() {}
+        (self.last_spindle, self.was_down) = (value, value > 500.0);
     }
 
     /// Changes a `$` setting in its reports.
@@ -402,7 +493,10 @@ impl Firmware {
 
     /// True if the pen is down.
     pub fn is_pen_down(&self) -> bool {
-        self.last_spindle > self.pen_down_above
+        match self.pen {
+            Pen::Servo(above) => self.last_spindle > above,
+            Pen::Height(below) => self.place()[2] < below,
+        }
     }
 
     /// True if nothing is left to do.

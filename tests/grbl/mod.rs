@@ -32,7 +32,23 @@ pub struct Settings {
     pub arc_tolerance: f64,
     /// `$32`.
     pub laser: Laser,
+    /// Blocks that the planner holds besides the one place that stays free.
+    pub blocks: usize,
 }
+
+/// A machine with the profile `grbl-servo`.
+pub const SERVO: Settings = Settings {
+    steps_per_mm: [80.0, 80.0, 400.0],
+    greatest_rate: [6000.0, 6000.0, 6000.0],
+    acceleration: [250.0, 250.0, 250.0],
+    junction_deviation: 0.01,
+    arc_tolerance: 0.002,
+    laser: Laser::Off,
+    blocks: 15,
+};
+
+/// A machine with the profile `grbl-z`.
+pub const Z: Settings = Settings { greatest_rate: [6000.0, 6000.0, 500.0], ..SERVO };
 
 /// `$32`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,6 @@ use super::stepper::Stepper;
 use super::{Real, Settings};
 use std::collections::VecDeque;
 
-/// Size of the ring, of which one place stays free.
-const BLOCK_BUFFER_SIZE: usize = 16;
 /// Corners with cosines closer to 1 than this are a straight line or a reversal.
 const STRAIGHT: Real = 0.999_999;
 /// The slowest rate, mm/min.
@@ -50,7 +48,7 @@ impl Planner {
     }
 
     pub fn is_full(&self) -> bool {
-        self.blocks.len() == BLOCK_BUFFER_SIZE - 1
+        self.blocks.len() == self.settings.blocks
     }
 
     pub fn is_empty(&self) -> bool {
@@ -59,7 +57,7 @@ impl Planner {
 
     /// Free places.
     pub fn free(&self) -> usize {
-        BLOCK_BUFFER_SIZE - 1 - self.blocks.len()
+        self.settings.blocks - self.blocks.len()
     }
 
     /// Forgets all blocks; the motors stand at a place in mm.

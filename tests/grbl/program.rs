@@ -105,6 +105,16 @@ impl<'a> Program<'a> {
         (self.mode, self.rate, self.spindle, self.spindle_speed, self.at) = (MotionMode::Rapid, 0.0, 5, 0.0, at);
     }
 
+    /// The place where it believes to be.
+    pub fn reset_place(&mut self, at: [f32; 3]) {
+        self.at = at;
+    }
+
+    /// The next of what the lines given so far ask for.
+    pub fn next_pending(&mut self) -> Option<Command> {
+        self.pending.pop_front()
+    }
+
     fn motion(&mut self, from: [f32; 3], centre: [f32; 2]) {
         match self.mode {
             MotionMode::Rapid => self.pending.push_back(Command::Line { target: self.at, rate: None }),

@@ -1,9 +1,9 @@
 //! The board of the `AxiDraw`, modelled tick by tick: its queue of one or 32 commands, its accumulators, its stop.
 
 use crate::machine::{Chance, Device, Job, Machine, many, said};
-use crate::streaming::{Memory, beginning, connected_at};
+use crate::streaming::{connected_at, drawn};
 use drypoint::drawing::{Colour, Handling, Page};
-use drypoint::drive::{Ebb, Ending, Happening, Journal, Onlooker, PenHeights, Program, Rest, Session, Wish};
+use drypoint::drive::{Ebb, Ending, Happening, Onlooker, PenHeights, Program, Rest, Wish};
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Act, PenPaths, Plot, Profile, Toolpath, mount};
@@ -98,6 +98,10 @@ impl Board {
                 self.say("OK\r\n");
             }
             ("SC", _) => self.say("OK\r\n"),
+            ("CS", _) => {
+                self.steps = [0; 2];
+                self.say("OK\r\n");
+            }
             ("CU", [4, depth]) => {
                 self.depth = *depth as usize;
                 self.say("OK\r\n");
@@ -286,10 +290,8 @@ fn every_path_ends_on_the_planned_step_with_a_queue_of_one_and_of_32() {
             let machine = Machine::of_pace(Board::new(version), PACE);
             let program = program(&plot);
             let mut ebb = conversation(&machine);
-            let mut memory = Memory(Vec::new());
-            let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
             let begun = machine.firmware().now;
-            let ending = Session::new(&mut ebb, &program).run(&mut journal, &mut Stopping(None), &Interrupt::never()).unwrap();
+            let ending = drawn(&mut ebb, &program, &mut Stopping(None)).0;
             assert_eq!(ending, Ending::Done);
             let board = machine.firmware();
             assert!(board.unknown.is_empty(), "{:?}", board.unknown);
@@ -317,10 +319,8 @@ fn a_stop_gets_through_at_once_and_leaves_the_pen_up() {
         let machine = Machine::of_pace(Board::new([OLD, NEW][i % 2]), PACE);
         let program = program(&drawings()[i % 3]);
         let mut ebb = conversation(&machine);
-        let mut memory = Memory(Vec::new());
-        let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
         let mut onlooker = Stopping(Some(Instant::now() + Duration::from_millis(30 + chance.below(250))));
-        let ending = Session::new(&mut ebb, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
+        let ending = drawn(&mut ebb, &program, &mut onlooker).0;
         assert_eq!(ending, Ending::Stopped);
         machine.rest();
         let board = machine.firmware();
@@ -366,11 +366,9 @@ fn the_button_pauses_with_the_pen_up_and_goes_on() {
     let machine = Machine::of_pace(Board::new(NEW), PACE);
     let program = program(&drawings()[2]);
     let mut ebb = conversation(&machine);
-    let mut memory = Memory(Vec::new());
-    let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
     let at = Instant::now() + Duration::from_millis(150);
     let mut onlooker = Pressing { machine: &machine, at, paused: 0, resumed: 0 };
-    let ending = Session::new(&mut ebb, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
+    let ending = drawn(&mut ebb, &program, &mut onlooker).0;
     assert_eq!((ending, onlooker.paused, onlooker.resumed), (Ending::Done, 1, 1));
 }
 
@@ -410,6 +408,24 @@ fn the_command_draws_tool_paths_and_goes_on_after_a_kill() {
         assert!(board.lifts.len() >= 24 && places.len() >= 24 && again <= 1, "seed {seed}: {again} paths twice");
         assert!(board.unknown.is_empty() && board.is_done());
     }
+}
+
+/// The board moves by steps from where it stands: what comes before must not shift the drawing.
+#[test]
+fn a_frame_and_a_new_zero_leave_the_drawing_in_its_place() {
+    let job = tool_paths();
+    let drawn = |options: &[&str], begun: [i64; 2]| {
+        let machine = Machine::of_pace(Board { steps: begun, is_enabled: true, ..Board::new(NEW) }, 1.0);
+        let output = job.run(&machine, options);
+        assert!(output.status.success(), "{}", said(&output));
+        let touches = machine.firmware().touches.clone();
+        assert_eq!(touches.len(), 24);
+        touches
+    };
+    let plain = drawn(&[], [0, 0]);
+    assert_eq!(drawn(&["--frame"], [0, 0]), plain);
+    assert_eq!(drawn(&["--frame"], [800, -160]), plain);
+    assert_eq!(drawn(&["--at-origin"], [800, -160]), plain);
 }
 
 #[test]

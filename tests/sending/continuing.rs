@@ -1,7 +1,8 @@
 //! After a kill, a pulled cable or a stop: nothing is missing, and at most one path, or two millimetres, is drawn twice.
 
-use crate::grbl::firmware::Piece;
-use crate::machine::{Chance, Job, Machine, many, plot, said};
+use crate::grbl::firmware::{Build, Piece};
+use crate::grbl::{Settings, Z};
+use crate::machine::{Chance, Job, Machine, many, plot, plot_on_z, said};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -40,10 +41,16 @@ fn inked(drawn: &[Piece]) -> std::collections::BTreeSet<(i64, i64)> {
     squares
 }
 
+/// A kind of machine, and a drawing for it.
+struct Bench {
+    machine: fn() -> Machine,
+    text: String,
+}
+
 /// What an undisturbed drawing leaves.
-fn whole(text: &str) -> Vec<Piece> {
-    let machine = Machine::at_pace(PACE);
-    let output = Job::new(text).run(&machine, &[]);
+fn whole(bench: &Bench) -> Vec<Piece> {
+    let machine = (bench.machine)();
+    let output = Job::new(&bench.text).run(&machine, &[]);
     assert!(output.status.success(), "{}", said(&output));
     machine.firmware().drawn.clone()
 }
@@ -73,8 +80,8 @@ fn compare(machine: &Machine, whole: &[Piece], paths: usize, overlap: Option<f64
 }
 
 /// Disturbs a drawing and continues it.
-fn disturbed(seed: u64, whole: &[Piece], text: &str, paths: usize, disturb: impl FnOnce(&Machine, &mut std::process::Child)) {
-    let (machine, job) = (Machine::at_pace(PACE), Job::new(text));
+fn disturbed(seed: u64, whole: &[Piece], bench: &Bench, disturb: impl FnOnce(&Machine, &mut std::process::Child)) {
+    let (machine, job) = ((bench.machine)(), Job::new(&bench.text));
     let mut child = job.start(&machine, &[]);
     disturb(&machine, &mut child);
     let _ = child.wait();
@@ -86,7 +93,7 @@ fn disturbed(seed: u64, whole: &[Piece], text: &str, paths: usize, disturb: impl
     if job.file.with_extension("gcode.journal").exists() {
         let output = job.run(&machine, &options);
         assert!(output.status.success(), "seed {seed}: {}", said(&output));
-        compare(&machine, whole, paths, overlap.map(|text| text[..1].parse().unwrap()));
+        compare(&machine, whole, PATHS, overlap.map(|text| text[..1].parse().unwrap()));
     }
 }
 
@@ -94,9 +101,8 @@ const PATHS: usize = 40;
 /// How much faster than in life the machine runs here: a minute in a second.
 const PACE: f64 = 60.0;
 
-fn in_parallel(runs: usize, disturb: impl Fn(u64, &Machine, &mut std::process::Child) + Sync) {
-    let text = plot(PATHS, 11);
-    let whole = whole(&text);
+fn in_parallel(bench: &Bench, runs: usize, disturb: impl Fn(u64, &Machine, &mut std::process::Child) + Sync) {
+    let whole = whole(bench);
     let next = std::sync::atomic::AtomicU64::new(0);
     std::thread::scope(|scope| {
         for _ in 0..4 {
@@ -106,11 +112,30 @@ fn in_parallel(runs: usize, disturb: impl Fn(u64, &Machine, &mut std::process::C
                     if seed >= runs as u64 {
                         return;
                     }
-                    disturbed(seed, &whole, &text, PATHS, |machine, child| disturb(seed, machine, child));
+                    disturbed(seed, &whole, bench, |machine, child| disturb(seed, machine, child));
                 }
             });
         }
     });
+}
+
+/// A machine with a servo.
+fn servo() -> Bench {
+    Bench { machine: || Machine::at_pace(PACE), text: plot(PATHS, 11) }
+}
+
+/// A machine with a z axis, on which neither lifting nor lowering proves anything.
+fn z_axis() -> Bench {
+    Bench { machine: || Machine::of_z_axis(PACE), text: plot_on_z(PATHS, 11) }
+}
+
+/// A machine whose planner holds so many moves, and either tells it or not.
+fn deep(build: Build) -> Machine {
+    let settings = Settings { blocks: 100, ..Z };
+    Machine::with_settings(&settings, PACE, |firmware| {
+        firmware.hang_pen();
+        firmware.build = build;
+    })
 }
 
 /// A moment between meeting the machine and the end.
@@ -118,17 +143,15 @@ fn moment(seed: u64) -> Duration {
     Duration::from_millis(450 + Chance(seed * 613 + 3).below(900))
 }
 
-#[test]
-fn killed_at_any_moment_it_goes_on() {
-    in_parallel(many(200), |seed, _, child| {
+fn kills(bench: &Bench, runs: usize) {
+    in_parallel(bench, runs, |seed, _, child| {
         std::thread::sleep(moment(seed));
         let _ = child.kill();
     });
 }
 
-#[test]
-fn a_pulled_cable_is_put_back_and_it_goes_on() {
-    in_parallel(many(100), |seed, machine, child| {
+fn pulls(bench: &Bench, runs: usize) {
+    in_parallel(bench, runs, |seed, machine, child| {
         std::thread::sleep(moment(seed + 1000));
         machine.connect(false);
         std::thread::sleep(Duration::from_millis(50));
@@ -138,18 +161,75 @@ fn a_pulled_cable_is_put_back_and_it_goes_on() {
 }
 
 #[test]
+fn killed_at_any_moment_it_goes_on() {
+    kills(&servo(), many(200));
+    kills(&z_axis(), many(200));
+}
+
+#[test]
+fn however_deep_the_planner_is() {
+    kills(&Bench { machine: || deep(Build::Told), text: plot_on_z(PATHS, 12) }, many(60));
+    kills(&Bench { machine: || deep(Build::Untold), text: plot_on_z(PATHS, 13) }, many(60));
+}
+
+#[test]
+fn a_pulled_cable_is_put_back_and_it_goes_on() {
+    pulls(&servo(), many(100));
+    pulls(&z_axis(), many(100));
+}
+
+#[test]
 fn stopped_by_a_signal_it_lifts_and_goes_on() {
-    in_parallel(many(50), |seed, machine, child| {
-        std::thread::sleep(moment(seed + 2000));
-        let killed = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-        let status = child.wait().unwrap();
-        assert!(killed.success());
-        // It may have been done by then.
-        let mut words = String::new();
-        let _ = std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut words);
-        assert!(matches!(status.code(), Some(0 | 143)), "seed {seed}, {status:?}: {words}");
-        assert!(!machine.firmware().is_pen_down(), "seed {seed}: the pen is down after a stop");
-    });
+    for bench in [servo(), z_axis()] {
+        in_parallel(&bench, many(50), |seed, machine, child| {
+            std::thread::sleep(moment(seed + 2000));
+            let killed = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+            let status = child.wait().unwrap();
+            assert!(killed.success());
+            // It may have been done by then.
+            let mut words = String::new();
+            let _ = std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut words);
+            assert!(matches!(status.code(), Some(0 | 143)), "seed {seed}, {status:?}: {words}");
+            machine.rest();
+            assert!(!machine.firmware().is_pen_down(), "seed {seed}: the pen is down after a stop");
+        });
+    }
+}
+
+/// The path of the last record.
+fn recorded(job: &Job) -> u64 {
+    let text = std::fs::read_to_string(job.file.with_extension("gcode.journal")).unwrap();
+    let last = text.lines().rev().find_map(|line| serde_json::from_str::<serde_json::Value>(line).ok()).unwrap();
+    last["path"].as_u64().unwrap_or(0)
+}
+
+#[test]
+fn a_drawing_that_is_disturbed_again_and_again_never_goes_back() {
+    let bench = servo();
+    let (machine, job, whole) = ((bench.machine)(), Job::new(&bench.text), whole(&bench));
+    let mut child = job.start(&machine, &[]);
+    let mut last = 0;
+    for seed in 0..8 {
+        // Some are killed before they have sent a line.
+        std::thread::sleep(Duration::from_millis(350 + 60 * seed));
+        let _ = child.kill();
+        let _ = child.wait();
+        machine.rest_with_half_lines();
+        if job.file.with_extension("gcode.journal").exists() {
+            let path = recorded(&job);
+            assert!(path >= last || path == 0, "from path {last} back to {path}");
+            last = path;
+        }
+        child = job.start(&machine, &["--continue"]);
+    }
+    let _ = child.wait();
+    let output = job.run(&machine, &["--continue"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let firmware = machine.firmware();
+    let (ink, wanted) = (inked(&firmware.drawn), inked(&whole));
+    let near = |&(x, y): &(i64, i64)| (-1..=1).any(|i| (-1..=1).any(|j| ink.contains(&(x + i, y + j))));
+    assert!(wanted.iter().all(near), "ink is missing");
+    assert!(firmware.touches.len() <= PATHS + 9, "{} paths begun", firmware.touches.len());
 }
 
 #[test]

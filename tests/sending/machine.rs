@@ -1,7 +1,7 @@
 //! A machine on a pseudo-terminal, and files for it.
 
 use crate::grbl::firmware::Firmware;
-use crate::grbl::{Laser, Settings};
+use crate::grbl::{SERVO, Settings, Z};
 use serialport::{SerialPort, TTYPort};
 use std::fmt::Write as _;
 use std::io::{Read, Write};
@@ -12,16 +12,6 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// A machine like the profile `grbl-servo`.
-pub const SERVO: Settings = Settings {
-    steps_per_mm: [80.0, 80.0, 400.0],
-    greatest_rate: [6000.0, 6000.0, 500.0],
-    acceleration: [250.0, 250.0, 250.0],
-    junction_deviation: 0.01,
-    arc_tolerance: 0.002,
-    laser: Laser::Off,
-};
 
 /// How much faster than in life the machine runs.
 pub const FASTER: f64 = 20.0;
@@ -69,16 +59,29 @@ pub struct Machine<D = Firmware> {
 
 impl Machine {
     pub fn start() -> Self {
-        let mut firmware = Firmware::new(&SERVO);
-        // The greeting was said before anybody listened.
-        firmware.output();
-        Self::of(firmware)
+        Self::at_pace(FASTER)
     }
 
     /// A machine that runs so many times faster than in life.
     pub fn at_pace(pace: f64) -> Self {
-        let mut firmware = Firmware::new(&SERVO);
+        Self::changed(pace, |_| {})
+    }
+
+    /// A machine with something about it changed.
+    pub fn changed(pace: f64, change: impl FnOnce(&mut Firmware)) -> Self {
+        Self::with_settings(&SERVO, pace, change)
+    }
+
+    /// A machine whose z axis lifts the pen, 2 mm above the paper.
+    pub fn of_z_axis(pace: f64) -> Self {
+        Self::with_settings(&Z, pace, Firmware::hang_pen)
+    }
+
+    pub fn with_settings(settings: &Settings, pace: f64, change: impl FnOnce(&mut Firmware)) -> Self {
+        let mut firmware = Firmware::new(settings);
+        // The greeting was said before anybody listened.
         firmware.output();
+        change(&mut firmware);
         Self::of_pace(firmware, pace)
     }
 
@@ -237,4 +240,13 @@ pub fn plot(paths: usize, seed: u64) -> String {
         text += "M3 S300\nG4 P.15\n";
     }
     text + "G0 X0 Y0\n"
+}
+
+/// The same for `grbl-z`.
+pub fn plot_on_z(paths: usize, seed: u64) -> String {
+    plot(paths, seed)
+        .replace("(pen up is M3 S300)\n(pen down is M3 S700)\n", "(pen up is G0 Z2)\n")
+        .replace("M3 S300\nG4 P.15\n", "G0 Z2\n")
+        .replace("M3 S700\nG4 P.2\n", "G1 Z0 F480\n")
+        .replace("grbl-servo", "grbl-z")
 }

@@ -7,6 +7,7 @@
 mod grbl;
 
 mod axidraw;
+mod by_hand;
 mod continuing;
 mod machine;
 mod plotter;

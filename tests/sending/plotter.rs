@@ -1,8 +1,8 @@
 //! An HP 7475A, modelled: a buffer of 1024 bytes that runs over as the real one does, escape sequences, slow drawing.
 
 use crate::machine::{Chance, Device, FASTER, Job, Machine, many, said};
-use crate::streaming::{Memory, beginning};
-use drypoint::drive::{Ending, Handshake, Happening, Hpgl, Journal, Onlooker, Port, Program, Session, Wish};
+use crate::streaming::{Nobody, drawn};
+use drypoint::drive::{Ending, Handshake, Hpgl, Port, Program};
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::Profile;
 use std::collections::{BTreeMap, VecDeque};
@@ -225,16 +225,6 @@ impl Port for Wired {
     }
 }
 
-struct Nobody;
-
-impl Onlooker for Nobody {
-    fn wish(&mut self) -> Option<Wish> {
-        None
-    }
-
-    fn happens(&mut self, _: &Happening<'_>) {}
-}
-
 const PATHS: usize = 300;
 
 fn check(plotter: &Plotter, paths: usize) {
@@ -251,9 +241,7 @@ fn no_handshake_overruns_the_buffer() {
         let holds_back = handshake == Handshake::Hardware;
         let wired = Wired { plotter: Arc::clone(&plotter), begun: Instant::now(), holds_back };
         let mut hpgl = Hpgl::greet(Box::new(wired), handshake).unwrap();
-        let mut memory = Memory(Vec::new());
-        let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
-        let ending = Session::new(&mut hpgl, &program).run(&mut journal, &mut Nobody, &Interrupt::never()).unwrap();
+        let ending = drawn(&mut hpgl, &program, &mut Nobody).0;
         assert_eq!(ending, Ending::Done);
         check(&plotter.lock().unwrap(), PATHS);
     }
@@ -313,4 +301,11 @@ fn a_pulled_cable_is_put_back_and_no_path_is_missing() {
         assert!(cells.len() == 120 && twice.len() <= 1, "seed {seed}: {} paths, twice {twice:?}", cells.len());
         assert!(length(&firmware.drawn) > whole - 1.0, "seed {seed}: {} of {whole}", length(&firmware.drawn));
     }
+}
+
+#[test]
+fn what_a_plotter_has_not_is_refused() {
+    let (machine, job) = (Machine::of(Plotter::default()), Job::named("plot.hpgl", &plot(3)));
+    let output = job.run(&machine, &["--at-origin"]);
+    assert!(output.status.code() == Some(2) && said(&output).contains("front panel"), "{}", said(&output));
 }

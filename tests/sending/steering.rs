@@ -1,11 +1,11 @@
 //! Pause, stop, change of pen, parts of a file, and what a hand does before drawing.
 
 use crate::machine::{Chance, FASTER, Job, Machine, many, plot, said};
-use crate::streaming::{Memory, beginning, connected};
-use drypoint::drive::{Ending, Grbl, Happening, Journal, Onlooker, Program, Session, SpeedChange, Wish};
+use crate::streaming::{Nobody, beginning, connected, drawn, program};
+use drypoint::drive::{DriveError, Ending, Grbl, Happening, Journal, Ledger, Onlooker, Session, SpeedChange, Wish};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::Profile;
 use std::collections::VecDeque;
+use std::io;
 use std::time::{Duration, Instant};
 
 /// Pauses at times of its own, looks at the pen, and goes on.
@@ -45,11 +45,7 @@ impl Onlooker for Pausing<'_> {
 
 fn pauses(seed: u64, most: usize) -> usize {
     let machine = Machine::start();
-    let profile = Profile::built_in("grbl-servo").unwrap();
-    let program = Program::read(&profile, &plot(120, seed), &Interrupt::never()).unwrap();
     let (mut grbl, _) = Grbl::greet(connected(&machine)).unwrap();
-    let mut memory = Memory(Vec::new());
-    let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
     let mut onlooker = Pausing {
         machine: &machine,
         chance: Chance(seed + 5),
@@ -59,8 +55,7 @@ fn pauses(seed: u64, most: usize) -> usize {
         most,
         is_waiting: false,
     };
-    let ending = Session::new(&mut grbl, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
-    assert_eq!(ending, Ending::Done);
+    assert_eq!(drawn(&mut grbl, &program(&plot(120, seed)), &mut onlooker).0, Ending::Done);
     assert_eq!(machine.firmware().touches.len(), 120, "each path once");
     onlooker.paused
 }
@@ -93,19 +88,15 @@ fn a_stop_lifts_soon_after_standing_still() {
     let mut slowest: f64 = 0.0;
     for seed in 0..many(100) as u64 {
         let machine = Machine::start();
-        let profile = Profile::built_in("grbl-servo").unwrap();
-        let program = Program::read(&profile, &plot(60, seed), &Interrupt::never()).unwrap();
         let (mut grbl, _) = Grbl::greet(connected(&machine)).unwrap();
-        let mut memory = Memory(Vec::new());
-        let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
         let mut onlooker = Stopping(Instant::now() + Duration::from_millis(20 + chance.below(600)));
-        let ending = Session::new(&mut grbl, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
+        let (ending, journal) = drawn(&mut grbl, &program(&plot(60, seed)), &mut onlooker);
         assert_eq!(ending, Ending::Stopped);
         let firmware = machine.firmware();
         assert!(!firmware.is_pen_down() && firmware.is_done());
         // In real seconds: the line is not faster than in life, only the machine is.
         slowest = slowest.max((firmware.lifted - firmware.rested) / FASTER);
-        assert!(memory.0.last().unwrap().contains("\"is_stopped\":true"), "{:?}", memory.0.last());
+        assert!(journal.last().unwrap().contains("\"is_stopped\":true"), "{:?}", journal.last());
     }
     println!("the pen was lifted at most {slowest:.3} s after standing still");
     assert!(slowest <= 0.5, "{slowest} s");
@@ -138,12 +129,9 @@ fn a_change_of_pen_waits_parked_with_the_pen_up() {
     let middle = text.match_indices("G0 X").nth(3).unwrap().0;
     let text = format!("{}G0 X0 Y0\n(pen 2: red 0.5)\nM0\n{}", &text[..middle], &text[middle..]);
     let machine = Machine::start();
-    let program = Program::read(&Profile::built_in("grbl-servo").unwrap(), &text, &Interrupt::never()).unwrap();
     let (mut grbl, _) = Grbl::greet(connected(&machine)).unwrap();
-    let mut memory = Memory(Vec::new());
-    let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
     let mut onlooker = Changing::default();
-    Session::new(&mut grbl, &program).run(&mut journal, &mut onlooker, &Interrupt::never()).unwrap();
+    drawn(&mut grbl, &program(&text), &mut onlooker);
     assert_eq!(onlooker.wanted, ["2 pen 2: red 0.5"]);
     assert_eq!(machine.firmware().touches.len(), 6);
 }
@@ -179,22 +167,6 @@ fn parts_of_a_file_are_drawn() {
 }
 
 #[test]
-fn hands_set_up_and_a_frame_is_traced_with_the_pen_up() {
-    let (machine, job) = (Machine::start(), Job::new(&plot(4, 5)));
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_drypoint"));
-    let by_hand = command.args(["send", "--port", &machine.port(), "--jog", "10,-2.5", "--profile", "grbl-servo", "--pen", "up"]);
-    let output = by_hand.output().unwrap();
-    assert!(output.status.success(), "{}", said(&output));
-    machine.rest();
-    let output = job.run(&machine, &["--at-origin", "--frame"]);
-    assert!(output.status.success(), "{}", said(&output));
-    let firmware = machine.firmware();
-    let [x, y] = firmware.touches[0];
-    assert!((x - 12.0).abs() < 0.02 && (y + 0.5).abs() < 0.02, "zero was set where the pen stood: {x} {y}");
-    assert_eq!(firmware.touches.len(), 4);
-}
-
-#[test]
 fn a_locked_machine_is_told_in_words() {
     let (machine, job) = (Machine::start(), Job::new(&plot(2, 5)));
     machine.firmware().alarm(1);
@@ -203,4 +175,34 @@ fn a_locked_machine_is_told_in_words() {
     assert!(said(&output).contains("locked") && said(&output).contains("--home"), "{}", said(&output));
     let output = job.run(&machine, &["--unlock"]);
     assert!(output.status.success(), "{}", said(&output));
+}
+
+/// A journal on a full disk.
+struct Full(usize);
+
+impl Ledger for Full {
+    fn append(&mut self, _: &str) -> io::Result<()> {
+        self.0 = self.0.checked_sub(1).ok_or(io::ErrorKind::StorageFull)?;
+        Ok(())
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_journal_that_cannot_be_written_stops_with_the_pen_up() {
+    for lines in [1, 4, 9, 14] {
+        let machine = Machine::start();
+        let (mut grbl, _) = Grbl::greet(connected(&machine)).unwrap();
+        let mut full = Full(lines);
+        let mut journal = Journal::begin(&mut full, &beginning()).unwrap();
+        let program = program(&plot(60, 3));
+        let ending = Session::new(&mut grbl, &program).run(&mut journal, &mut Nobody, &Interrupt::never());
+        assert!(matches!(ending, Err(DriveError::Journal(_))), "{ending:?}");
+        machine.rest();
+        let firmware = machine.firmware();
+        assert!(firmware.servo() == 300.0 && firmware.touches.len() < 60, "the pen is up");
+    }
 }

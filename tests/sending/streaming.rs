@@ -2,8 +2,8 @@
 
 use crate::machine::{Chance, FASTER, Job, Machine, many, plot, said};
 use drypoint::drive::{
-    Beginning, Ending, Grbl, Handshake, Happening, Journal, Ledger, LineSettings, Onlooker, Port, Program, Session, Wish,
-    open_port,
+    Beginning, Controller, Ending, Grbl, Handshake, Happening, Journal, Ledger, LineSettings, Onlooker, Port, Program, Session,
+    Wish, open_port,
 };
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::Profile;
@@ -39,7 +39,7 @@ impl Port for Stalling {
     }
 }
 
-pub struct Memory(pub Vec<String>);
+struct Memory(Vec<String>);
 
 impl Ledger for Memory {
     fn append(&mut self, line: &str) -> io::Result<()> {
@@ -52,7 +52,7 @@ impl Ledger for Memory {
     }
 }
 
-struct Nobody;
+pub struct Nobody;
 
 impl Onlooker for Nobody {
     fn wish(&mut self) -> Option<Wish> {
@@ -80,6 +80,19 @@ pub fn connected_at(port: &str) -> Box<dyn Port> {
     open_port(port, LineSettings { baud: 115_200, handshake: Handshake::None }).unwrap()
 }
 
+/// A drawing in this process: how it ended, and its journal.
+pub fn drawn(controller: &mut dyn Controller, program: &Program, onlooker: &mut dyn Onlooker) -> (Ending, Vec<String>) {
+    let mut memory = Memory(Vec::new());
+    let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
+    let ending = Session::new(controller, program).run(&mut journal, onlooker, &Interrupt::never()).unwrap();
+    (ending, memory.0)
+}
+
+/// A file for `grbl-servo`.
+pub fn program(text: &str) -> Program {
+    Program::read(&Profile::built_in("grbl-servo").unwrap(), text, &Interrupt::never()).unwrap()
+}
+
 /// Lines of a drawing of flattened curves: a thousand lines, 2 mm each.
 fn lines(seed: u64) -> String {
     let mut chance = Chance(seed + 99);
@@ -97,15 +110,11 @@ fn lines(seed: u64) -> String {
 /// One drawing in memory: bytes lost, greatest use of the line buffer, time starved and time in all, and lines received and sent.
 fn stream(seed: u64) -> (usize, usize, f64, f64, [usize; 2]) {
     let machine = Machine::start();
-    let profile = Profile::built_in("grbl-servo").unwrap();
-    let program = Program::read(&profile, &lines(seed), &Interrupt::never()).unwrap();
+    let program = program(&lines(seed));
     let port = Stalling { port: connected(&machine), chance: Chance(seed * 31 + 7) };
     let (mut grbl, _) = Grbl::greet(Box::new(port)).unwrap();
     let begun = machine.firmware().now;
-    let mut memory = Memory(Vec::new());
-    let mut journal = Journal::begin(&mut memory, &beginning()).unwrap();
-    let ending = Session::new(&mut grbl, &program).run(&mut journal, &mut Nobody, &Interrupt::never()).unwrap();
-    assert_eq!(ending, Ending::Done);
+    assert_eq!(drawn(&mut grbl, &program, &mut Nobody).0, Ending::Done);
     let firmware = machine.firmware();
     let sent = program.lines.iter().filter(|line| !line.text.is_empty()).count();
     (firmware.lost, firmware.fullest, firmware.starved, firmware.now - begun, [firmware.lines, sent])
@@ -178,7 +187,12 @@ fn nothing_moves_without_consent_or_beyond_the_reach() {
     assert_eq!(asked.status.code(), Some(2), "{}", said(&asked));
     let broken = Job::new(&plot(3, 1).replace("G1 ", "G1 Xnan ")).run(&machine, &[]);
     assert!(!broken.status.success(), "{}", said(&broken));
-    assert_eq!(machine.firmware().lines, 0);
+    let long = plot(3, 1).replace("G1 X", &format!("G1 X{}", "0".repeat(130)));
+    let output = Job::new(&long).run(&machine, &[]);
+    assert!(!output.status.success() && said(&output).contains("takes 126"), "{}", said(&output));
+    let firmware = machine.firmware();
+    assert!(firmware.rested == 0.0 && firmware.touches.is_empty(), "nothing moved");
+    assert_eq!(firmware.servo(), 300.0, "the reset took the servo's signal away; the pen is up again");
 }
 
 #[test]
@@ -207,7 +221,7 @@ fn a_machine_on_the_network_draws() {
     let draws = std::thread::spawn(move || {
         let (mut stream, _) = listener.accept().unwrap();
         stream.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
-        let mut firmware = crate::grbl::firmware::Firmware::new(&crate::machine::SERVO);
+        let mut firmware = crate::grbl::firmware::Firmware::new(&crate::grbl::SERVO);
         let (begun, mut buffer) = (std::time::Instant::now(), [0; 1024]);
         loop {
             match std::io::Read::read(&mut stream, &mut buffer) {

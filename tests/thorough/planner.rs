@@ -14,20 +14,10 @@ use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
 use drypoint::order::{Direction, Effort};
 use drypoint::plot::{InkModel, Nibs, PenPaths, PenTime, Plot, Profile, Toolpath, built_in, clock, lower, mount};
-use grbl::{Elapsed, Laser, Settings, run};
+use grbl::{Elapsed, Laser, SERVO, Settings, Z, run};
 use machine_file::written;
 use std::f64::consts::TAU;
 use std::process::Command;
-
-/// Settings of a machine with the profile `grbl-servo`, in the firmware's units.
-const SERVO: Settings = Settings {
-    steps_per_mm: [80.0, 80.0, 400.0],
-    greatest_rate: [6000.0, 6000.0, 6000.0],
-    acceleration: [250.0, 250.0, 250.0],
-    junction_deviation: 0.01,
-    arc_tolerance: 0.002,
-    laser: Laser::Off,
-};
 
 /// The profile, with some of its text replaced.
 fn profile(changes: &[(&str, &str)]) -> Profile {
@@ -207,9 +197,6 @@ fn sample_plot(name: &str, width: f64, profile: &Profile) -> Plot {
     plot.order_paths(mounting.to_machine.inverse() * Point::ORIGIN, Effort::Fast, Direction::Either, 0.1);
     plot
 }
-
-/// Settings of a machine with the profile `grbl-z`.
-const Z: Settings = Settings { greatest_rate: [6000.0, 6000.0, 500.0], ..SERVO };
 
 fn samples_take_what_is_told(names: &[&str], width: f64) {
     let (servo, z) = (profile(&[]), Profile::built_in("grbl-z").unwrap());

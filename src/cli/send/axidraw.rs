@@ -31,7 +31,10 @@ pub(super) fn run(name: &str, bytes: &[u8], options: &SendOptions) -> Result<(),
     if !options.quiet {
         say!("{}: {} answers", options.port, ebb.version());
     }
-    ebb.wait_until_still(super::OLD_WORK)?;
+    ebb.wait_until_still(super::OLD_WORK, interrupt())?;
+    if options.at_origin {
+        ebb.set_zero()?;
+    }
     let stand = ebb.stand().filter(|_| ebb.is_position_known());
     let from = stand.map_or([0.0; 2], |stand: Stand| [stand.at[0], stand.at[1]]);
     let planned = part::planned(stand, &picture.profile, &file, options)?;

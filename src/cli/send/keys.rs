@@ -13,10 +13,10 @@ pub(super) use none::{Keys, pause_is_asked_for};
 #[cfg(unix)]
 mod unix {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    use rustix::io::read;
     use rustix::stdio::stdin;
     use rustix::termios::{LocalModes, OptionalActions, Termios, isatty, tcgetattr, tcsetattr};
     use signal_hook::consts::SIGUSR1;
-    use std::io::{Read, stdin as input};
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
@@ -67,7 +67,8 @@ mod unix {
                 return None;
             }
             let mut key = [0];
-            (input().lock().read(&mut key).ok()? == 1).then_some(key[0])
+            // Not by the buffer of the standard library: keys that it holds would not be seen here.
+            (read(input_end, &mut key).ok()? == 1).then_some(key[0])
         }
     }
 

@@ -2,8 +2,9 @@
 
 use super::super::arguments::SendOptions;
 use super::super::failure::Failure;
+use super::super::interruption::interrupt;
 use super::super::messages::{say, warning};
-use super::OLD_WORK;
+use super::{OLD_WORK, by_hand};
 use crate::drive::{Controller, DriveError, Grbl, Greeting, MachineState, Program, Settings, Stand, differences, enforced_reach};
 use crate::plot::Profile;
 use std::io::{self, BufRead, IsTerminal};
@@ -16,15 +17,20 @@ pub(super) fn compare(
     profile: Option<&Profile>,
     options: &SendOptions,
 ) -> Result<(Settings, Option<Stand>), Failure> {
-    let state = grbl.wait_until_idle(OLD_WORK)?;
+    let state = grbl.wait_until_idle(OLD_WORK, interrupt())?;
+    grbl.locate()?;
     let stand = grbl.stand().filter(|_| !greeting.is_restarted);
     let may_unlock = options.home || options.unlock;
     match state {
         MachineState::Alarm if !may_unlock => return Err(DriveError::Locked.into()),
         MachineState::Alarm => {}
         // Forgets half a line that a broken cable has left, or a drawing on hold.
-        _ => grbl.clear()?,
+        _ => {
+            grbl.clear()?;
+            by_hand::lift_servo(grbl, profile)?;
+        }
     }
+    grbl.read_build()?;
     if !options.quiet {
         say!("{}: {} answers", options.port, grbl.name());
     }
@@ -40,6 +46,33 @@ pub(super) fn compare(
         );
     }
     Ok((settings, stand))
+}
+
+/// Refuses a file with a line that the machine cannot take.
+pub(super) fn check_lines(machine: &dyn Controller, program: &Program, name: &str) -> Result<(), Failure> {
+    let most = machine.longest_line();
+    match program.lines.iter().find(|line| line.text.len() > most) {
+        Some(line) => Err(Failure::Work(format!(
+            "{name}: line {} has {} bytes, and {} takes {most}; write shorter lines (gcode.line_length of the profile)",
+            line.number,
+            line.text.len(),
+            machine.name()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a place of the ink that the machine does not reach.
+pub(super) fn check_place((x, y): (f64, f64), profile: &Profile) -> Result<(), Failure> {
+    let Some(area) = &profile.area else { return Ok(()) };
+    let [x_mm, y_mm] = [area.x, area.y].map(|reach| reach.map(|v| v / profile.units_per_mm));
+    if (x_mm[0]..=x_mm[1]).contains(&x) && (y_mm[0]..=y_mm[1]).contains(&y) {
+        return Ok(());
+    }
+    Err(Failure::Work(format!(
+        "--at {x},{y}: {} reaches from {},{} to {},{} mm",
+        profile.name, x_mm[0], y_mm[0], x_mm[1], y_mm[1]
+    )))
 }
 
 /// Refuses what lies beyond the profile's reach, or beyond a reach that the machine enforces itself.

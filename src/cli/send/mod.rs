@@ -5,6 +5,7 @@
 //! ```
 
 mod axidraw;
+mod by_hand;
 mod keys;
 mod ledger;
 mod meeting;
@@ -13,7 +14,7 @@ mod part;
 
 pub(super) use keys::restore_terminal;
 
-use super::arguments::{HandshakeOption, PenPosition, PortsOptions, SendOptions, ToolpathOptions};
+use super::arguments::{HandshakeOption, PortsOptions, SendOptions, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;
 use super::inspect::usual_profile;
@@ -26,7 +27,7 @@ use crate::drive::{
     Beginning, Controller, DriveError, Ending, Grbl, Handshake, Hpgl, Inkwell, Journal, LineSettings, Marlin, Program, Session,
     Stand, adopted, open_port, ports,
 };
-use crate::plot::{Act, Dialect, GcodeDialect, Language, Profile, Protocol};
+use crate::plot::{Dialect, GcodeDialect, Language, Profile, Protocol};
 use crate::read::Budget;
 use keys::Keys;
 use ledger::FileLedger;
@@ -41,6 +42,9 @@ use std::time::Duration;
 const MOST_BYTES: u64 = 1 << 26;
 /// How long what is left of an earlier drawing may take to come to its end.
 const OLD_WORK: Duration = Duration::from_mins(2);
+
+/// Seconds of drawing between two checkpoints of a machine that needs them; each costs it a third of a second.
+const CHECKPOINTS: f64 = 10.0;
 
 impl From<DriveError> for Failure {
     fn from(error: DriveError) -> Self {
@@ -104,18 +108,22 @@ pub(super) fn run(options: &SendOptions) -> Result<(), Failure> {
         output::write(name, |out| out.write_all(adopted(&settings, profile).as_bytes()))?;
         say!("{name}: {} with the machine's own settings; use it with --profile {name}", profile.name);
     }
-    set_up(&mut grbl, profile.as_ref(), options)?;
+    by_hand::set_up(&mut grbl, profile.as_ref(), options)?;
     let (Some(profile), Some(file)) = (profile, file) else { return Ok(()) };
     meeting::check_reach(Some(&settings), &file.program, &profile)?;
     if options.check {
-        return check_on_machine(&mut grbl, &file);
+        return by_hand::check_file(&mut grbl, &file);
     }
     draw(&mut grbl, stand, &profile, &file, options)
 }
 
 /// The drawing of an HP-GL plotter, which has neither settings nor commands to be set up by.
 fn draw_on_plotter(profile: Option<Profile>, file: Option<File>, options: &SendOptions) -> Result<(), Failure> {
-    refuse_set_up(options, "an HP-GL plotter has no such command; use its front panel")?;
+    let why = "an HP-GL plotter has no such command; use its front panel";
+    refuse_set_up(options, why)?;
+    if options.at_origin {
+        return Err(Failure::Usage(format!("--at-origin: {why}")));
+    }
     let (Some(profile), Some(file)) = (profile, file) else { return Ok(()) };
     meeting::check_reach(None, &file.program, &profile)?;
     let handshake = match options.handshake {
@@ -136,14 +144,19 @@ fn draw_on_plotter(profile: Option<Profile>, file: Option<File>, options: &SendO
 /// The drawing of a machine that talks like a 3D printer.
 fn draw_on_printer(profile: Option<Profile>, file: Option<File>, options: &SendOptions) -> Result<(), Failure> {
     refuse_set_up(options, "it is for GRBL; set the machine up by its own panel or program")?;
-    let (Some(profile), Some(file)) = (profile, file) else { return Ok(()) };
-    meeting::check_reach(None, &file.program, &profile)?;
-    let settings = LineSettings { baud: baud(options, Some(&profile), 115_200), handshake: Handshake::None };
-    let mut printer = Marlin::greet(open_port(&options.port, settings)?)?;
+    if let (Some(profile), Some(file)) = (&profile, &file) {
+        meeting::check_reach(None, &file.program, profile)?;
+    }
+    let settings = LineSettings { baud: baud(options, profile.as_ref(), 115_200), handshake: Handshake::None };
+    let mut printer = Marlin::greet(open_port(&options.port, settings)?, interrupt())?;
     wait_for_machine();
     if !options.quiet {
         say!("{}: {} answers", options.port, printer.name());
     }
+    if options.at_origin {
+        printer.set_zero()?;
+    }
+    let (Some(profile), Some(file)) = (profile, file) else { return Ok(()) };
     let stand = printer.stand();
     draw(&mut printer, stand, &profile, &file, options)
 }
@@ -243,55 +256,6 @@ fn digest(bytes: &[u8]) -> String {
     })
 }
 
-/// What is done by hand before a drawing.
-fn set_up(grbl: &mut Grbl, profile: Option<&Profile>, options: &SendOptions) -> Result<(), Failure> {
-    if options.home {
-        grbl.home()?;
-    }
-    if options.unlock {
-        grbl.command("$X")?;
-    }
-    if options.at_origin {
-        grbl.command("G92 X0 Y0")?;
-    }
-    if let (Some(position), Some(profile)) = (options.pen, profile) {
-        let [up, down] = profile
-            .pen_commands()
-            .ok_or_else(|| Failure::Usage(format!("--pen: {} does not move its pen by G-code", profile.name)))?;
-        grbl.command(if position == PenPosition::Up { &up } else { &down })?;
-    }
-    if let Some((x, y)) = options.jog {
-        // Half of a usual travel: the user watches.
-        let feed = 60.0 * profile.map_or(50.0, |profile| 0.5 * profile.motion.travel_speed);
-        grbl.command(&format!("$J=G91 G21 X{x:.3} Y{y:.3} F{feed:.0}"))?;
-        grbl.wait_until_idle(OLD_WORK)?;
-    }
-    Ok(())
-}
-
-/// The machine reads the whole file without moving.
-fn check_on_machine(grbl: &mut Grbl, file: &File) -> Result<(), Failure> {
-    grbl.command("$C")?;
-    let mut faults = 0;
-    for line in file.program.lines.iter().filter(|line| !line.text.is_empty() && line.act != Act::Pause) {
-        match grbl.command(&line.text) {
-            Err(DriveError::Refused { code, meaning, .. }) => {
-                faults += 1;
-                warning!("line {}, '{}': error {code}, {meaning}", line.number, line.text);
-            }
-            other => drop(other?),
-        }
-    }
-    // Leaving the check resets the machine.
-    let _ = grbl.command("$C");
-    grbl.clear()?;
-    if faults > 0 {
-        return Err(Failure::Work(format!("{}: the machine refuses {}", file.name, counted(faults, "line"))));
-    }
-    say!("{}: the machine takes every line", file.name);
-    Ok(())
-}
-
 fn draw(
     machine: &mut dyn Controller,
     stand: Option<Stand>,
@@ -304,8 +268,13 @@ fn draw(
         return Ok(());
     };
     let program = planned.program(profile, &file.program)?;
+    let program = match machine.checkpoint() {
+        Some(text) => program.with_checkpoints(profile, text, CHECKPOINTS, interrupt())?,
+        None => program,
+    };
     let program = match (options.dip, options.at) {
         (Some(dip), Some((x, y))) => {
+            meeting::check_place((x, y), profile)?;
             let ink = Inkwell { at: [x, y].map(|v| v * profile.units_per_mm), seconds: options.dip_time };
             program.with_dips(profile, dip, ink, interrupt())?
         }
@@ -327,12 +296,13 @@ fn conduct(
     // A journal that is continued was read, and is appended to.
     let written = Some(journal_name.as_str()).filter(|_| !is_continued);
     claims::check_distinct(written.into_iter().chain(options.status.as_deref().filter(|name| *name != "-")))?;
+    meeting::check_lines(machine, program, &file.name)?;
     if !options.quiet || !options.yes {
         say!("{}", summary(&file.name, program, profile));
     }
     meeting::confirm(options.yes, "Draw it now?")?;
     if options.frame {
-        trace_frame(machine, program, profile)?;
+        by_hand::trace_frame(machine, program, profile)?;
         meeting::confirm(options.yes, "Was the frame where it should be?")?;
     }
     let mut ledger = if is_continued { FileLedger::append_to(&journal_name) } else { FileLedger::create(&journal_name) }?;
@@ -384,17 +354,4 @@ fn summary(name: &str, program: &Program, profile: &Profile) -> String {
         if pens.is_empty() { "" } else { "; " },
         pens.join(", then "),
     )
-}
-
-/// Goes around the drawing with the pen up.
-fn trace_frame(machine: &mut dyn Controller, program: &Program, profile: &Profile) -> Result<(), Failure> {
-    for line in program.lines[program.head.clone()].iter().filter(|line| !line.text.is_empty()) {
-        machine.ask(&line.text)?;
-    }
-    let [x0, y0, x1, y1] = program.bounds();
-    let rate = 60.0 * profile.motion.travel_speed * profile.units_per_mm;
-    for corner in [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]] {
-        machine.travel(corner, rate)?;
-    }
-    Ok(machine.wait_until_still(OLD_WORK)?)
 }

@@ -120,9 +120,9 @@ fn is_in_layer(program: &Program, path: usize, name: &str) -> bool {
 /// True if a path's box meets a region in millimetres.
 fn touches(program: &Program, path: usize, [x, y, width, height]: [f64; 4], per_mm: f64) -> bool {
     let path = &program.paths[path];
-    let places: Vec<[f64; 3]> = (path.lower..path.lift).map(|i| program.lines[i].at).collect();
+    let places: Vec<[f64; 2]> = program.places(path).map(|place| [place.x / per_mm, place.y / per_mm]).collect();
     let beyond = |axis: usize, low: f64, size: f64| {
-        places.iter().all(|at| at[axis] / per_mm < low) || places.iter().all(|at| at[axis] / per_mm > low + size)
+        places.iter().all(|at| at[axis] < low) || places.iter().all(|at| at[axis] > low + size)
     };
     !beyond(0, x, width) && !beyond(1, y, height)
 }

@@ -7,19 +7,24 @@ mod faults;
 mod plan;
 mod plot;
 mod rates;
+mod streaming;
 
 pub use plot::Rest;
 
-use super::controller::{Controller, Heard, SpeedChange, Stand};
+use super::controller::{Heard, Stand};
 use super::error::DriveError;
 use super::port::Port;
-use crate::plot::Act;
+use crate::geometry::Point;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 /// How long an answer may take.
 const PATIENCE: Duration = Duration::from_secs(3);
 const LISTENING: Duration = Duration::from_millis(5);
+/// The board reads lines of at most 256 bytes.
+const LONGEST_LINE: usize = 255;
+/// Travels before a drawing: their acceleration in mm/s^2, and the deviation at corners in mm.
+const TRAVELLING: (f64, f64) = (400.0, 0.05);
 /// A command is held for done so long after its time: it began later by its way to the board. A stuck command waits no longer.
 const GUARD: Duration = Duration::from_millis(4);
 /// The deepest queue that is asked for.
@@ -239,6 +244,11 @@ impl Ebb {
     }
 }
 
+/// Steps of both motors at a place: they pull along the diagonals.
+fn steps_of(place: Point) -> [i64; 2] {
+    [place.x + place.y, place.x - place.y].map(|mm| (mm * STEPS_PER_MM).round() as i64)
+}
+
 /// The place of the steps of both motors, in millimetres.
 fn stand_of(line: &str) -> Option<Stand> {
     let numbers: Vec<f64> = line.trim_start_matches("QS,").split(',').filter_map(|number| number.trim().parse().ok()).collect();
@@ -273,108 +283,6 @@ fn lasting(rate: f64, steps: f64, acceleration: f64) -> f64 {
         // The first time at which rate * t + acceleration * t^2 / 2 is enough.
         let root = (rate * rate + 2.0 * acceleration * full).max(0.0).sqrt();
         2.0 * full / (rate + root).max(1.0)
-    }
-}
-
-impl Controller for Ebb {
-    fn has_room(&self, _: &str) -> bool {
-        let now = Instant::now();
-        let in_flight = self.running.iter().filter(|end| **end + GUARD > now).count();
-        // One runs, the others wait; two places stay free, so that none blocks the stop. A queue of one holds one besides.
-        in_flight < (self.depth - 1).max(2) && self.window.len() < 2
-    }
-
-    fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError> {
-        self.in_flight();
-        self.port.send(format!("{text}\r").as_bytes())?;
-        self.window.push_back(line);
-        let begins = self.running.back().copied().unwrap_or_else(Instant::now).max(Instant::now());
-        self.running.push_back(begins + Duration::from_secs_f64(seconds_of(text) / self.pace));
-        Ok(())
-    }
-
-    fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError> {
-        // Short: room comes by time, not by an answer.
-        self.receive(wait.min(Duration::from_millis(2)))?;
-        let lines = std::mem::take(&mut self.unread);
-        Ok(lines.iter().map(|line| self.understand(line)).filter(|heard| *heard != Heard::Said(String::new())).collect())
-    }
-
-    fn outstanding(&self) -> Option<usize> {
-        self.window.front().copied()
-    }
-
-    fn ask_state(&mut self) -> Result<(), DriveError> {
-        // Answers have no names: nothing else may be on its way.
-        if self.questions.is_empty() && self.window.is_empty() {
-            self.port.send(b"QM\rQS\rQP\rQB\r")?;
-            self.questions.extend([Question::Motors, Question::Steps, Question::Pen, Question::Button]);
-        }
-        Ok(())
-    }
-
-    fn stand(&self) -> Option<Stand> {
-        self.stand
-    }
-
-    fn proves(&self, _: Act) -> bool {
-        false
-    }
-
-    fn hidden_moves(&self) -> usize {
-        self.depth + 2
-    }
-
-    fn halt(&mut self) -> Result<Option<Stand>, DriveError> {
-        self.port.send(b"ES\r")?;
-        // What was accepted before is answered before.
-        self.next_line(|line| line.matches(',').count() == 4 || line.starts_with("ES,"))?;
-        self.acknowledged()?;
-        self.window.clear();
-        self.running.clear();
-        self.questions.clear();
-        self.read_stand()?;
-        Ok(self.stand)
-    }
-
-    fn change_speed(&mut self, _: SpeedChange) -> Result<(), DriveError> {
-        Ok(())
-    }
-
-    fn ask(&mut self, text: &str) -> Result<(), DriveError> {
-        self.say(text)
-    }
-
-    fn wait_until_still(&mut self, most: Duration) -> Result<(), DriveError> {
-        let begun = Instant::now();
-        loop {
-            self.port.send(b"QM\r")?;
-            let state = self.next_line(|line| line.starts_with("QM"))?;
-            if state.split(',').skip(1).all(|field| field.trim() == "0") {
-                return self.read_stand();
-            }
-            if begun.elapsed() > most {
-                return Err(DriveError::Busy("that it still draws".to_owned()));
-            }
-            std::thread::sleep(LISTENING);
-        }
-    }
-
-    fn travel(&mut self, [x, y]: [f64; 2], rate: f64) -> Result<(), DriveError> {
-        self.wait_until_still(PATIENCE)?;
-        let from = self.stand.map_or([0.0; 2], |stand| [stand.at[0], stand.at[1]]);
-        let way = (x - from[0]).hypot(y - from[1]);
-        let [a, b] = [x - from[0] + (y - from[1]), x - from[0] - (y - from[1])].map(|mm| (mm * STEPS_PER_MM).round() as i64);
-        let ticks = (way / (rate / 60.0).min(50.0) * rates::TICKS).round() as u64;
-        if let Some(command) = rates::move_command([a, b], ticks, [1.0, 1.0]) {
-            self.say(&command)?;
-        }
-        // A long move takes its time.
-        self.wait_until_still(Duration::from_mins(2))
-    }
-
-    fn name(&self) -> &str {
-        &self.version
     }
 }
 

@@ -1,8 +1,8 @@
 //! A plot as the board's commands: each path planned as a whole, from rest to rest.
 
-use super::STEPS_PER_MM;
-use super::plan::{Limits, plan};
-use super::rates::{TICKS, move_command};
+use super::plan::{Limits, Piece, plan};
+use super::rates::{TICKS, move_command, ticks_of};
+use super::steps_of;
 use crate::drive::error::DriveError;
 use crate::drive::program::{Program, ProgramLine};
 use crate::geometry::{Point, polyline_length};
@@ -55,10 +55,8 @@ impl Program {
             let is_wanted = |number: usize| rest.paths.as_ref().is_none_or(|paths| paths.binary_search(&number).is_ok());
             let begins = count;
             count += pen.paths.len();
-            if !(begins + 1..=count).any(is_wanted) {
-                continue;
-            }
-            writer.number = LINES_PER_PATH * (begins + 1);
+            let Some(first) = (begins + 1..=count).find(|number| is_wanted(*number)) else { continue };
+            writer.number = LINES_PER_PATH * first;
             writer.change_pen(pen.number, &format!("pen {}: {} {}", pen.number, pen.name, pen.nib), last_pen);
             last_pen = Some(pen.number);
             for (i, path) in pen.paths.iter().enumerate() {
@@ -67,11 +65,9 @@ impl Program {
                 if !is_wanted(number) {
                     continue;
                 }
-                let mut points: Vec<Point> = path.points.iter().map(|p| mounting.place(pen.number, *p)).collect();
-                if std::mem::take(&mut is_first) && rest.along > 0.0 {
-                    points = cut(&points, rest.along);
-                }
-                writer.path(number, &points, pen.handling.speed(profile.motion.draw_speed));
+                let points: Vec<Point> = path.points.iter().map(|p| mounting.place(pen.number, *p)).collect();
+                let along = if std::mem::take(&mut is_first) { rest.along } else { 0.0 };
+                writer.path(number, &points, along, pen.handling.speed(profile.motion.draw_speed));
             }
         }
         writer.number = LINES_PER_PATH * (count + 1);
@@ -81,13 +77,8 @@ impl Program {
     }
 }
 
-/// Numbers of lines that a path may have.
+/// Numbers of lines that a path may have, of which the first half is for the way to it.
 const LINES_PER_PATH: usize = 1_000_000;
-
-/// Steps of both motors at a place: they pull along the diagonals.
-fn steps_of(place: Point) -> [i64; 2] {
-    [place.x + place.y, place.x - place.y].map(|mm| (mm * STEPS_PER_MM).round() as i64)
-}
 
 /// The rest of a line from a length along it.
 fn cut(points: &[Point], along: f64) -> Vec<Point> {
@@ -130,13 +121,29 @@ impl Writer<'_> {
         }
     }
 
-    fn path(&mut self, number: usize, points: &[Point], speed: f64) {
-        self.number = LINES_PER_PATH * number + 1000;
-        self.travel(points[0]);
-        self.pen(Act::Lower);
+    /// A path, or its rest from a length along it. A piece has the same number in the whole and in the rest: there it is that of the
+    /// whole's piece in which it begins.
+    fn path(&mut self, number: usize, points: &[Point], along: f64, speed: f64) {
         let motion = &self.profile.motion;
         let limits = Limits { speed, acceleration: motion.acceleration, deviation: motion.corner_deviation() };
-        self.moves(points, limits, Act::Line(60.0 * speed));
+        let rest = if along > 0.0 { cut(points, along) } else { points.to_vec() };
+        self.number = LINES_PER_PATH * number + 1000;
+        self.travel(rest[0]);
+        self.number = LINES_PER_PATH * number + LINES_PER_PATH / 2;
+        self.pen(Act::Lower);
+        let (first, act) = (self.number, Act::Line(60.0 * speed));
+        let whole = plan(points, limits);
+        if along > 0.0 {
+            let ends = distances(points[0], &whole);
+            let pieces = plan(&rest, limits);
+            let done = polyline_length(points) - polyline_length(&rest);
+            let begins = std::iter::once(0.0).chain(distances(rest[0], &pieces));
+            let numbers = begins.map(|begin| first + ends.partition_point(|end| *end <= done + begin + 1e-6));
+            self.moves(&pieces, numbers, act);
+        } else {
+            self.moves(&whole, first.., act);
+        }
+        self.number = first + whole.len();
         self.pen(Act::Lift);
     }
 
@@ -144,20 +151,20 @@ impl Writer<'_> {
         let motion = &self.profile.motion;
         let acceleration = motion.travel_acceleration.unwrap_or(motion.acceleration);
         let limits = Limits { speed: motion.travel_speed, acceleration, deviation: motion.corner_deviation() };
-        let from = self.at;
-        self.moves(&[from, to], limits, Act::Rapid);
+        self.moves(&plan(&[self.at, to], limits), self.number.., Act::Rapid);
+        self.number += 1;
     }
 
-    fn moves(&mut self, points: &[Point], limits: Limits, act: Act) {
+    /// Pieces of motion with the numbers of their lines.
+    fn moves(&mut self, pieces: &[Piece], numbers: impl Iterator<Item = usize>, act: Act) {
         // Pieces too short for a step go with the next one.
         let mut owed = 0.0;
-        for piece in plan(points, limits) {
+        for (piece, number) in pieces.iter().zip(numbers) {
             let steps = steps_of(piece.to);
             let moved = [steps[0] - self.steps[0], steps[1] - self.steps[1]];
             let seconds = piece.seconds + owed;
-            let ticks = (seconds * TICKS).round().max(1.0) as u64;
-            // No motor makes more than a step a tick.
-            let ticks = ticks.max(2 * moved[0].unsigned_abs().max(moved[1].unsigned_abs()));
+            let ticks = ticks_of(moved, seconds);
+            self.number = number;
             match move_command(moved, ticks, piece.speeds) {
                 Some(command) => {
                     (self.steps, self.at, owed) = (steps, piece.to, 0.0);
@@ -166,6 +173,18 @@ impl Writer<'_> {
                 None => owed = seconds,
             }
         }
-        self.at = *points.last().unwrap_or(&self.at);
+        self.at = pieces.last().map_or(self.at, |last| last.to);
     }
+}
+
+/// Lengths from a point to the ends of pieces that follow it.
+fn distances(from: Point, pieces: &[Piece]) -> Vec<f64> {
+    let mut at = from;
+    let mut length = 0.0;
+    let ends = pieces.iter().map(|piece| {
+        length += at.distance(piece.to);
+        at = piece.to;
+        length
+    });
+    ends.collect()
 }

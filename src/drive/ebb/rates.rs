@@ -10,6 +10,12 @@ const FULL: i128 = 1 << 31;
 /// The greatest rate: less than a step per tick.
 const MOST: i128 = FULL - 1;
 
+/// The ticks that a time lasts, but at least so many that no motor makes more than a step in two.
+pub(super) fn ticks_of(steps: [i64; 2], seconds: f64) -> u64 {
+    let ticks = (seconds * TICKS).round().max(1.0) as u64;
+    ticks.max(2 * steps[0].unsigned_abs().max(steps[1].unsigned_abs()))
+}
+
 /// The command for a number of steps of both motors within a number of ticks, whose speed changes in the ratio of two speeds; `None` for
 /// no step.
 pub(super) fn move_command(steps: [i64; 2], ticks: u64, speeds: [f64; 2]) -> Option<String> {
@@ -49,7 +55,7 @@ mod tests {
     use super::*;
 
     /// Ticks until a motor has made its steps, as the board counts.
-    fn ticks_of(rate: i128, steps: i128, acceleration: i128) -> i128 {
+    fn ticks_until(rate: i128, steps: i128, acceleration: i128) -> i128 {
         let (mut rate, mut sum, mut made, mut ticks) = (rate - acceleration / 2, 0, 0, 0);
         while made < steps {
             rate += acceleration;
@@ -78,7 +84,7 @@ mod tests {
             for axis in 0..2 {
                 let [rate, count, acceleration] = [numbers[3 * axis], numbers[3 * axis + 1].abs(), numbers[3 * axis + 2]];
                 if count > 0 {
-                    let taken = ticks_of(rate, count, acceleration);
+                    let taken = ticks_until(rate, count, acceleration);
                     assert!(taken <= i128::from(ticks) && i128::from(ticks) - taken <= 2, "{command}: {taken} of {ticks}");
                 }
             }

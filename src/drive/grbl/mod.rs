@@ -6,22 +6,30 @@
 mod faults;
 mod reply;
 mod settings;
+mod streaming;
 
 pub use reply::{MachineState, Status};
 pub use settings::{Difference, Settings, adopted, differences, enforced_reach};
 
-use super::controller::{Controller, Heard, SpeedChange, Stand};
 use super::error::DriveError;
 use super::port::Port;
-use crate::plot::Act;
+use crate::interrupt::Interrupt;
 use reply::Reply;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 /// Bytes that may be on their way or in the machine's line buffer of 128: one place of the ring stays free.
 const MOST_OUTSTANDING: usize = 127;
-/// Moves that may be acknowledged and not yet drawn: the planner's 15 blocks and the one that the stepper has begun.
-const HIDDEN_MOVES: usize = 16;
+/// Blocks of the planner where the machine does not tell their number: some builds of `grblHAL` and `FluidNC` have so many.
+const MOST_BLOCKS: usize = 128;
+/// Moves of which only segments are left, and that the planner has forgotten (`SEGMENT_BUFFER_SIZE`).
+const SEGMENTED: usize = 6;
+/// Reports after which an offset of the work was certainly told: every thirtieth does while it moves (`REPORT_WCO_REFRESH_BUSY_COUNT`).
+const REPORTS: usize = 40;
+/// How long a travel across the table may take.
+const TRAVELLING: Duration = Duration::from_mins(5);
+/// How long homing may take.
+const HOMING: Duration = Duration::from_mins(2);
 /// How long an answer to a command may take.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// How long a machine may take from its start to its greeting: the boot loader alone waits a second or two.
@@ -55,8 +63,12 @@ pub struct Grbl {
     /// Lines that are not acknowledged, with their bytes.
     window: VecDeque<(usize, usize)>,
     status: Status,
-    /// Offset of the work on the machine: reported now and then.
-    offset: [f64; 3],
+    /// Offset of the work on the machine, which is reported now and then.
+    offset: Option<[f64; 3]>,
+    /// Blocks of the planner.
+    blocks: usize,
+    /// Percent of the file's speed.
+    percent: u32,
     firmware: String,
 }
 
@@ -68,7 +80,9 @@ impl Grbl {
             unfinished: Vec::new(),
             window: VecDeque::new(),
             status: Status::default(),
-            offset: [0.0; 3],
+            offset: None,
+            blocks: MOST_BLOCKS,
+            percent: 100,
             firmware: String::new(),
         };
         let begun = Instant::now();
@@ -117,7 +131,7 @@ impl Grbl {
         for reply in &replies {
             if let Reply::Status(status) = reply {
                 self.status = status.clone();
-                self.offset = status.offset.unwrap_or(self.offset);
+                self.offset = status.offset.or(self.offset);
             }
         }
         Ok(replies)
@@ -128,10 +142,22 @@ impl Grbl {
         &self.status
     }
 
-    /// The position of the pen in the work's coordinates, in millimetres, as last reported.
+    /// The position of the pen in the work's coordinates, in millimetres, as last reported; `None` before it could be told.
     pub fn position(&self) -> Option<[f64; 3]> {
-        let from_machine = |machine: [f64; 3]| std::array::from_fn(|axis| machine[axis] - self.offset[axis]);
-        self.status.work.or_else(|| self.status.machine.map(from_machine))
+        let from_machine =
+            |machine: [f64; 3]| Some(self.offset?).map(|offset| std::array::from_fn(|axis| machine[axis] - offset[axis]));
+        self.status.work.or_else(|| from_machine(self.status.machine?))
+    }
+
+    /// Asks until the pen's position is known.
+    pub fn locate(&mut self) -> Result<(), DriveError> {
+        for _ in 0..REPORTS {
+            self.ask_status()?;
+            if self.position().is_some() {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Asks for the state until the answer comes.
@@ -146,11 +172,12 @@ impl Grbl {
         Err(DriveError::Silent { seconds: PATIENCE.as_secs(), expected: "GRBL or FluidNC" })
     }
 
-    /// Waits until the machine stands still with nothing left to do, as far as it knows.
-    pub fn wait_until_idle(&mut self, most: Duration) -> Result<MachineState, DriveError> {
+    /// Waits until the machine stands still with nothing left to do, as far as it knows. An interrupt ends the waiting only.
+    pub fn wait_until_idle(&mut self, most: Duration, interrupt: &Interrupt) -> Result<MachineState, DriveError> {
         let begun = Instant::now();
         let mut idle = 0;
         loop {
+            interrupt.check()?;
             match self.ask_status()? {
                 // Between taking a line and starting the motors it is idle for a moment.
                 MachineState::Idle | MachineState::Check if idle >= 1 => return Ok(self.status.state),
@@ -167,13 +194,18 @@ impl Grbl {
 
     /// Sends a line and waits for its answer; returns what the machine said besides.
     pub fn command(&mut self, text: &str) -> Result<Vec<String>, DriveError> {
-        Ok(self.ask(text, PATIENCE)?.0)
+        Ok(self.ask(text, PATIENCE, &Interrupt::never())?.0)
     }
 
-    fn ask(&mut self, text: &str, most: Duration) -> Result<(Vec<String>, Settings), DriveError> {
+    /// An interrupt resets the machine, which stops it at once.
+    fn ask(&mut self, text: &str, most: Duration, interrupt: &Interrupt) -> Result<(Vec<String>, Settings), DriveError> {
         self.port.send(format!("{text}\n").as_bytes())?;
         let (mut said, mut settings, begun) = (Vec::new(), Settings::new(), Instant::now());
         while begun.elapsed() < most {
+            if interrupt.is_raised() {
+                self.port.send(&[RESET])?;
+                return Err(DriveError::Interrupted);
+            }
             for reply in self.hear(ASKING)? {
                 match reply {
                     Reply::Ok => return Ok((said, settings)),
@@ -192,17 +224,28 @@ impl Grbl {
 
     /// Its settings (`$$`).
     pub fn settings(&mut self) -> Result<Settings, DriveError> {
-        Ok(self.ask("$$", PATIENCE)?.1)
+        Ok(self.ask("$$", PATIENCE, &Interrupt::never())?.1)
+    }
+
+    /// Asks how many blocks its planner has (`$I`, `[OPT:V,15,128]`); a machine that does not say keeps what is assumed.
+    pub fn read_build(&mut self) -> Result<(), DriveError> {
+        let said = self.command("$I")?;
+        let blocks = said.iter().find_map(|line| line.strip_prefix("[OPT:")?.split(',').nth(1)?.parse().ok());
+        self.blocks = blocks.filter(|blocks| *blocks > 0).unwrap_or(MOST_BLOCKS);
+        Ok(())
     }
 
     /// Homes it (`$H`); it answers when it is done.
-    pub fn home(&mut self) -> Result<(), DriveError> {
-        self.ask("$H", Duration::from_mins(2)).map(drop)
+    pub fn home(&mut self, interrupt: &Interrupt) -> Result<(), DriveError> {
+        self.ask("$H", HOMING, interrupt).map(drop)
     }
 
     /// Resets it softly: whatever it had not parsed or drawn is forgotten. A machine at rest keeps its position; an offset set by
-    /// `G92` is set again.
+    /// `G92`, which the reset takes away, is set again.
     pub fn clear(&mut self) -> Result<(), DriveError> {
+        if self.position().is_none() {
+            self.locate()?;
+        }
         let before = self.position();
         self.port.send(&[RESET])?;
         self.window.clear();
@@ -218,110 +261,26 @@ impl Grbl {
                 return Err(DriveError::Silent { seconds: STARTING.as_secs(), expected: "GRBL or FluidNC" });
             }
         }
-        self.ask_status()?;
-        // Reports tell the offset only now and then; the first after a reset does.
-        self.ask_status()?;
-        if let (Some(before), Some(after)) = (before, self.position())
-            && self.status.state != MachineState::Alarm
-            && (0..2).any(|axis| (before[axis] - after[axis]).abs() > SAME)
-        {
-            self.command(&format!("G92 X{:.3} Y{:.3}", before[0], before[1]))?;
-            self.ask_status()?;
+        // What was told of the offset before is no longer true.
+        (self.offset, self.status, self.percent) = (None, Status::default(), 100);
+        self.locate()?;
+        match (before, self.position()) {
+            (Some(before), Some(after)) if self.status.state != MachineState::Alarm => self.move_zero(before, after),
+            _ => Ok(()),
         }
-        Ok(())
-    }
-}
-
-impl Controller for Grbl {
-    fn has_room(&self, text: &str) -> bool {
-        self.window.iter().map(|(_, bytes)| bytes).sum::<usize>() + text.len() < MOST_OUTSTANDING
     }
 
-    fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError> {
-        self.port.send(format!("{text}\n").as_bytes())?;
-        self.window.push_back((line, text.len() + 1));
-        Ok(())
+    /// Gives the place where the pen stands its coordinates again.
+    fn move_zero(&mut self, wanted: [f64; 3], told: [f64; 3]) -> Result<(), DriveError> {
+        let differing = (0..3).filter(|axis| (wanted[*axis] - told[*axis]).abs() > SAME);
+        let words: Vec<String> = differing.map(|axis| format!("{}{:.3}", ["X", "Y", "Z"][axis], wanted[axis])).collect();
+        if words.is_empty() { Ok(()) } else { self.set_place(&words.join(" ")) }
     }
 
-    fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError> {
-        let mut heard = Vec::new();
-        for reply in self.hear(wait)? {
-            match reply {
-                Reply::Ok => heard.extend(self.window.pop_front().map(|(line, _)| Heard::Taken(line))),
-                Reply::Error(code) => {
-                    let line = self.window.pop_front().map(|(line, _)| line);
-                    heard.push(Heard::Refused { line, code, meaning: faults::error(code) });
-                }
-                Reply::Alarm(code) => heard.push(Heard::Alarm { code, meaning: faults::alarm(code) }),
-                Reply::Banner(_) => heard.push(Heard::Restarted),
-                Reply::Status(status) => heard.push(Heard::State { is_still: status.state == MachineState::Idle }),
-                Reply::Other(text) => heard.push(Heard::Said(text)),
-                Reply::Setting(..) => {}
-            }
-        }
-        Ok(heard)
-    }
-
-    fn outstanding(&self) -> Option<usize> {
-        self.window.front().map(|(line, _)| *line)
-    }
-
-    fn ask_state(&mut self) -> Result<(), DriveError> {
-        Ok(self.port.send(b"?")?)
-    }
-
-    fn stand(&self) -> Option<Stand> {
-        Some(Stand { at: self.position()?, servo: self.status.spindle })
-    }
-
-    fn proves(&self, act: Act) -> bool {
-        // The firmware waits for all motion before it switches the spindle, and before it dwells.
-        matches!(act, Act::Lift | Act::Lower | Act::Wait(_))
-    }
-
-    fn hidden_moves(&self) -> usize {
-        HIDDEN_MOVES
-    }
-
-    fn halt(&mut self) -> Result<Option<Stand>, DriveError> {
-        self.port.send(b"!")?;
-        let begun = Instant::now();
-        loop {
-            match self.ask_status()? {
-                MachineState::Held | MachineState::Idle => break,
-                MachineState::Alarm => return Err(DriveError::Locked),
-                _ if begun.elapsed() > BRAKING => return Err(DriveError::Busy("that it does not stop".to_owned())),
-                _ => {}
-            }
-        }
-        let stand = self.stand();
-        self.clear()?;
-        Ok(stand)
-    }
-
-    fn change_speed(&mut self, change: SpeedChange) -> Result<(), DriveError> {
-        let byte = match change {
-            SpeedChange::Usual => 0x90,
-            SpeedChange::Faster => 0x91,
-            SpeedChange::Slower => 0x92,
-        };
-        Ok(self.port.send(&[byte])?)
-    }
-
-    fn ask(&mut self, text: &str) -> Result<(), DriveError> {
-        // Longer than any wait of a pen.
-        self.ask(text, Duration::from_secs(65)).map(drop)
-    }
-
-    fn wait_until_still(&mut self, most: Duration) -> Result<(), DriveError> {
-        self.wait_until_idle(most).map(drop)
-    }
-
-    fn travel(&mut self, [x, y]: [f64; 2], rate: f64) -> Result<(), DriveError> {
-        self.command(&format!("G1 X{x:.3} Y{y:.3} F{rate:.0}")).map(drop)
-    }
-
-    fn name(&self) -> &str {
-        if self.firmware.is_empty() { "GRBL" } else { &self.firmware }
+    /// Says where the pen stands (`G92`), and asks for the new offset.
+    fn set_place(&mut self, words: &str) -> Result<(), DriveError> {
+        self.command(&format!("G92 {words}"))?;
+        self.offset = None;
+        self.locate()
     }
 }

@@ -9,6 +9,8 @@ mod stop;
 mod svg;
 
 pub use gcode::{Comment, GcodeDialect, GcodeError, Height, Lift, Protocol, Travel};
+#[cfg(feature = "drive")]
+pub(crate) use gcode::{word, words};
 pub use hpgl::{HpglDialect, HpglError};
 pub use replayed::{Act, Replayed};
 pub use stop::{ResumeError, StopPlace};

@@ -6,11 +6,13 @@ mod pen_action;
 mod read;
 mod replay;
 mod resume;
+mod words;
 mod write;
 
 pub use dialect::{Comment, GcodeDialect, Height, Lift, Protocol, Travel};
 pub use read::GcodeError;
 pub(super) use resume::resume;
+pub(crate) use words::{word, words};
 
 use super::{Language, MotionError, Orders, PenAction, PenMove, Rate, Refusal, Replayed, Speech, Strokes};
 use crate::read::Budget;

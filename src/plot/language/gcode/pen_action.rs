@@ -1,5 +1,6 @@
 //! The effect of a profile's pen commands on the machine.
 
+use super::words::{is_named, words};
 use super::{PenAction, Rate};
 
 /// The parts of a command of one or more lines. `dwell` is the profile's wait command, which shows its unit.
@@ -9,6 +10,9 @@ pub(super) fn pen_actions(command: &str, dwell: &str) -> Vec<PenAction> {
 
 fn action(line: &str, dwell: &str) -> Option<PenAction> {
     let words = words(line);
+    if is_named(line.trim()) {
+        return Some(PenAction::Rest);
+    }
     let value = |letter: char| words.iter().find(|word| word.0 == letter).map(|word| word.1);
     if words.is_empty() {
         return None;
@@ -26,18 +30,6 @@ fn action(line: &str, dwell: &str) -> Option<PenAction> {
     };
     let moves = (is_code(0.0) || is_code(1.0)) && target.iter().any(Option::is_some);
     Some(if moves { PenAction::Move { target, rate } } else { PenAction::Rest })
-}
-
-/// Letters with their numbers, separated by spaces or not.
-pub(super) fn words(line: &str) -> Vec<(char, f64)> {
-    let upper = line.to_ascii_uppercase();
-    let mut words = Vec::new();
-    for (i, letter) in upper.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()) {
-        let rest = upper[i + 1..].trim_start();
-        let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(rest.len());
-        words.push((letter, rest[..end].parse().unwrap_or(0.0)));
-    }
-    words
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! G-code line by line: what each line makes the machine do, and where it is then.
 
 use super::GcodeDialect;
-use super::pen_action::words;
 use super::resume::{PenWords, names_pen};
+use super::words::words;
 use crate::geometry::Point;
 use crate::plot::language::{Act, Replayed};
 use std::borrow::Cow;
@@ -44,7 +44,7 @@ impl Modes {
         if is_pause {
             return Act::Pause;
         }
-        let values = if is_named(code) { Vec::new() } else { words(code) };
+        let values = words(code);
         let value = |letter: char| values.iter().find(|word| word.0 == letter).map(|word| word.1);
         if let Some(z) = value('Z') {
             self.at[2] = z;
@@ -98,11 +98,6 @@ impl Modes {
             _ => Act::Arc { centre, sweep: if turn <= 5e-7 { turn + TAU } else { turn }, rate },
         }
     }
-}
-
-/// True if a line is a controller's named command, such as `SET_SERVO`.
-fn is_named(code: &str) -> bool {
-    code.len() > 2 && code.bytes().take(2).all(|b| b.is_ascii_alphabetic())
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Resumes G-code: one command per line; the header names the commands that lift and lower the pen.
 
 use super::numbers::check_gcode;
+use super::words::word;
 use crate::plot::language::{ResumeError, StopPlace};
 use std::fmt::Write as _;
 
@@ -101,14 +102,6 @@ pub(super) fn names_pen(line: &str) -> bool {
     let comment = line.strip_prefix(['(', ';']).map(str::trim_start);
     let number = comment.and_then(|text| text.strip_prefix("pen ")?.split_once(':')).map(|(number, _)| number);
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
-}
-
-/// The number after a letter, outside comments.
-fn word(line: &str, letter: char) -> Option<f64> {
-    let code = line.split(['(', ';']).next().unwrap_or("");
-    let after = code.split_once(letter)?.1;
-    let end = after.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(after.len());
-    after[..end].parse().ok()
 }
 
 /// A vertex of the path being drawn: the line that moves there, the position, and the height if it varies along the path.

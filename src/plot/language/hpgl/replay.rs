@@ -34,8 +34,15 @@ pub(super) fn replay<'a>(text: &'a str, rate: f64, per_mm: f64) -> Vec<Replayed<
             add(own, Act::Lower, from);
         }
         let act = if reader.is_down() { Act::Line(rate) } else { Act::Rapid };
-        for (i, place) in reader.since(count).iter().enumerate() {
-            add(if i == 0 { whole.clone() } else { Cow::Borrowed("") }, act, *place);
+        let places = reader.since(count);
+        let parts = parted(instruction, places.len());
+        for (i, place) in places.iter().enumerate() {
+            let own = match &parts {
+                Some(parts) if i % PAIRS == 0 => Cow::Owned(parts[i / PAIRS].clone()),
+                None if i == 0 => whole.clone(),
+                _ => Cow::Borrowed(""),
+            };
+            add(own, act, *place);
         }
         match name.as_str() {
             "SP" => add(whole, Act::Pen(number.unwrap_or(0.0) as u32), from),
@@ -49,6 +56,17 @@ pub(super) fn replay<'a>(text: &'a str, rate: f64, per_mm: f64) -> Vec<Replayed<
         }
     }
     acts
+}
+
+/// Pairs of coordinates in one instruction: small buffers take it, and what is drawn is known more closely.
+const PAIRS: usize = 16;
+
+/// A long instruction of moves as several; `None` for any other.
+fn parted(instruction: &str, places: usize) -> Option<Vec<String>> {
+    let name = instruction.get(..2).filter(|name| ["PU", "PD", "PA", "PR"].contains(&name.to_ascii_uppercase().as_str()))?;
+    let numbers: Vec<&str> = instruction[2..].split([',', ' ']).map(str::trim).filter(|number| !number.is_empty()).collect();
+    (places > PAIRS && numbers.len() == 2 * places)
+        .then(|| numbers.chunks(2 * PAIRS).map(|pairs| format!("{name}{};", pairs.join(","))).collect())
 }
 
 #[cfg(test)]
@@ -78,5 +96,16 @@ mod tests {
         ];
         assert_eq!(shown, expected);
         assert_eq!(acts[7].at, [500.0, 600.0, 0.0]);
+    }
+
+    #[test]
+    fn a_long_instruction_is_parted() {
+        let numbers: Vec<String> = (0..40).map(|i| format!("{i},{}", 2 * i)).collect();
+        let text = format!("SP1;PD{};PU;", numbers.join(","));
+        let acts = replay(&text, 60.0, 40.0);
+        let texts: Vec<&str> = acts.iter().map(|act| &*act.text).filter(|text| text.starts_with("PD")).collect();
+        assert_eq!(texts.len(), 3);
+        let joined: Vec<String> = texts.iter().map(|text| text[2..].trim_end_matches(';').to_owned()).collect();
+        assert_eq!(joined.join(","), numbers.join(","));
     }
 }
