@@ -12,6 +12,7 @@ mod write;
 pub use dialect::{Comment, GcodeDialect, Height, Lift, Protocol, Travel};
 pub use read::GcodeError;
 pub(super) use resume::resume;
+#[cfg(feature = "drive")]
 pub(crate) use words::{word, words};
 
 use super::{Language, MotionError, Orders, PenAction, PenMove, Rate, Refusal, Replayed, Speech, Strokes};
