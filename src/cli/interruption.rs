@@ -98,6 +98,15 @@ pub(super) fn wait_for_machine() {
     PATIENT.store(true, Ordering::SeqCst);
 }
 
+/// Work while the machine stands still with the pen up: a signal ends it as usual.
+#[cfg(feature = "drive")]
+pub(super) fn while_the_machine_rests<T>(work: impl FnOnce() -> T) -> T {
+    let was_patient = PATIENT.swap(false, Ordering::SeqCst);
+    let done = work();
+    PATIENT.store(was_patient, Ordering::SeqCst);
+    done
+}
+
 /// True if the parent process set a signal to be ignored, as `nohup` does with SIGHUP. (SIGINT is not checked: shells set it to be
 /// ignored in all background jobs.)
 #[cfg(unix)]

@@ -30,6 +30,8 @@ pub enum Heard {
     Failed(String),
     /// It restarted.
     Restarted,
+    /// Its motors have no power.
+    Unpowered,
     /// Whether it stands still.
     State {
         /// True if it does, with nothing left to draw.

@@ -1,9 +1,10 @@
 //! Dipping the pen: after a length of line or a time of drawing it goes to the ink, comes down, waits, and goes on with the next path.
 
 use super::error::DriveError;
+use super::modes::with_feed;
 use super::program::{Program, ProgramLine};
 use crate::interrupt::Interrupt;
-use crate::plot::{Act, Language, Profile};
+use crate::plot::{Act, Language, Profile, word};
 
 /// When a pen is dipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,14 +31,16 @@ impl Program {
             return Err(DriveError::Unfit("dips are for G-code".to_owned()));
         }
         let mut lines = self.lines[..self.paths.first().map_or(0, |path| path.begin)].to_vec();
-        let mut used = f64::INFINITY;
+        let (mut used, mut feed) = (f64::INFINITY, None);
         for (i, path) in self.paths.iter().enumerate() {
             let most = match dip {
                 Dip::Millimetres(most) | Dip::Seconds(most) => most,
             };
-            let is_dipped = used >= most;
+            let is_dipped = used >= most || self.has_fresh_pen(i);
+            let from = i.checked_sub(1).map_or(0, |before| self.paths[before].begin);
+            feed = self.lines[from..path.begin].iter().rev().find_map(|line| word(&line.text, 'F')).or(feed);
             if is_dipped {
-                lines.extend(self.dip(i, profile, ink));
+                lines.extend(self.dip(i, profile, ink, feed));
                 used = 0.0;
             }
             used += match dip {
@@ -45,23 +48,34 @@ impl Program {
                 Dip::Seconds(_) => self.lines[path.lift].until - self.lines[path.lower].until,
             };
             let next = self.paths.get(i + 1).map_or(self.lines.len(), |next| next.begin);
-            lines.extend(if is_dipped { self.anew(i, None) } else { self.lines[path.begin..path.end].to_vec() });
+            lines.extend(if is_dipped { self.anew(i, feed) } else { self.lines[path.begin..path.end].to_vec() });
             lines.extend_from_slice(&self.lines[path.end..next]);
         }
         self.with_lines(profile, lines, interrupt)
     }
 
+    /// True if the pen was changed before a path.
+    fn has_fresh_pen(&self, path: usize) -> bool {
+        let Some(before) = path.checked_sub(1).map(|before| &self.paths[before]) else { return true };
+        let own = &self.paths[path];
+        own.pen != before.pen || self.lines[before.end..own.begin].iter().any(|line| line.act == Act::Pause)
+    }
+
     /// The lines of a dip, with the pen commands of a path.
-    fn dip(&self, path: usize, profile: &Profile, ink: Inkwell) -> Vec<ProgramLine> {
+    fn dip(&self, path: usize, profile: &Profile, ink: Inkwell, feed: Option<f64>) -> Vec<ProgramLine> {
         let path = &self.paths[path];
         let [x, y] = ink.at;
-        let feed = 60.0 * profile.motion.travel_speed * profile.units_per_mm;
+        let travel = 60.0 * profile.motion.travel_speed * profile.units_per_mm;
         let line = |text: String, act: Act, z: f64| ProgramLine { text, number: 0, act, at: [x, y, z], until: 0.0, name: None };
         let copied = |range: std::ops::Range<usize>| {
-            self.lines[range].iter().map(|own| line(own.text.clone(), own.act, own.at[2])).collect::<Vec<_>>()
+            let with_own = |own: &ProgramLine| {
+                let feed = feed.filter(|_| word(&own.text, 'Z').is_some());
+                line(with_feed(own.text.clone(), feed), own.act, own.at[2])
+            };
+            self.lines[range].iter().map(with_own).collect::<Vec<_>>()
         };
         let up = self.lines[path.lift].at[2];
-        let mut lines = vec![line(format!("G0 X{x:.3} Y{y:.3} F{feed:.0}"), Act::Rapid, up)];
+        let mut lines = vec![line(format!("G0 X{x:.3} Y{y:.3} F{travel:.0}"), Act::Rapid, up)];
         lines.extend(copied(path.lower..path.draw));
         if let Some(text) = profile.wait_command(ink.seconds) {
             lines.push(line(text, Act::Wait(ink.seconds), self.lines[path.lower].at[2]));
@@ -94,5 +108,9 @@ mod tests {
         assert!(dips[1..].iter().all(|dip| dipped.paths.iter().any(|path| (path.begin..path.end).contains(dip))));
         let timed = program.with_dips(&profile, Dip::Seconds(1e9), ink, &Interrupt::never()).unwrap();
         assert_eq!(timed.lines.len(), program.lines.len() + 6, "once, at the beginning");
+        let changed = text.replace("G0 X0 Y3\n", "G0 X0 Y0\n(pen 2: red 0.5)\nM0\nG0 X0 Y3\n");
+        let program = Program::read(&profile, &changed, &Interrupt::never()).unwrap();
+        let fresh = program.with_dips(&profile, Dip::Seconds(1e9), ink, &Interrupt::never()).unwrap();
+        assert_eq!(fresh.lines.len(), program.lines.len() + 12, "each pen once");
     }
 }

@@ -59,6 +59,11 @@ pub enum DriveError {
     /// The machine restarted while it drew.
     #[error("the machine restarted: its power failed, or its reset button was pressed; it no longer knows where the pen is")]
     Restarted,
+    /// The motors have no power.
+    #[error(
+        "the motors have no power, so that nobody knows where the pen is; plug it in, and put the carriage into its home corner"
+    )]
+    Unpowered,
     /// The machine is at something else.
     #[error("the machine is not ready: it says {0}")]
     Busy(String),

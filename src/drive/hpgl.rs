@@ -6,6 +6,7 @@
 
 use super::controller::{Controller, Heard, SpeedChange, Stand};
 use super::error::DriveError;
+use super::lines::Lines;
 use super::port::{Handshake, Port};
 use super::program::ProgramLine;
 use crate::interrupt::Interrupt;
@@ -44,7 +45,7 @@ pub struct Hpgl {
     errors_asked: Instant,
     /// Instructions that are, or may be, in the buffer, with their bytes.
     window: VecDeque<(usize, usize)>,
-    unfinished: String,
+    lines: Lines,
     /// Answers that were received and not looked at.
     unread: VecDeque<String>,
     /// Questions that are not answered, in order.
@@ -71,7 +72,7 @@ impl Hpgl {
             asked: None,
             errors_asked: Instant::now(),
             window: VecDeque::new(),
-            unfinished: String::new(),
+            lines: Lines::default(),
             unread: VecDeque::new(),
             questions: VecDeque::new(),
             stand: None,
@@ -99,36 +100,17 @@ impl Hpgl {
     fn drain(&mut self) -> Result<(), DriveError> {
         let mut buffer = [0; 256];
         while self.port.receive(&mut buffer, Duration::from_millis(60))? > 0 {}
-        self.unfinished.clear();
+        self.lines.clear();
         self.unread.clear();
         self.questions.clear();
         Ok(())
-    }
-
-    /// Whole answers that have arrived.
-    fn hear(&mut self, wait: Duration) -> Result<Vec<String>, DriveError> {
-        let mut buffer = [0; 256];
-        let count = self.port.receive(&mut buffer, wait)?;
-        let mut answers = Vec::new();
-        for &byte in &buffer[..count] {
-            match byte {
-                b'\r' | b'\n' if self.unfinished.is_empty() => {}
-                b'\r' | b'\n' => answers.push(std::mem::take(&mut self.unfinished)),
-                // XON and XOFF are for the line.
-                0x11 | 0x13 => {}
-                byte if self.unfinished.len() < 256 => self.unfinished.push(char::from(byte)),
-                _ => {}
-            }
-        }
-        Ok(answers)
     }
 
     /// The next answer, when no other question is open.
     fn answer(&mut self, most: Duration) -> Result<String, DriveError> {
         let begun = Instant::now();
         while self.unread.is_empty() {
-            let heard = self.hear(Duration::from_millis(20))?;
-            self.unread.extend(heard);
+            self.unread.extend(self.lines.receive(&mut *self.port, Duration::from_millis(20))?);
             if begun.elapsed() > most {
                 return Err(DriveError::Silent { seconds: most.as_secs(), expected: "an HP-GL plotter that is on line" });
             }
@@ -245,7 +227,7 @@ impl Controller for Hpgl {
             self.errors_asked = Instant::now();
         }
         let mut heard = Vec::new();
-        for answer in self.hear(wait.min(ASKING))? {
+        for answer in self.lines.receive(&mut *self.port, wait.min(ASKING))? {
             self.understand(&answer, &mut heard);
         }
         Ok(heard)

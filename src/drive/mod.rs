@@ -15,6 +15,7 @@ mod error;
 mod grbl;
 mod hpgl;
 mod journal;
+mod lines;
 mod marlin;
 mod modes;
 mod part;

@@ -1,7 +1,7 @@
 //! Lines that set modes: said again after a reset, and where lines are left out.
 
 use super::program::{PathLines, Program, ProgramLine};
-use crate::plot::{Act, words};
+use crate::plot::{Act, word, words};
 
 /// Codes of G that move, set places or last for one line only.
 const NO_MODES: [f64; 11] = [4.0, 10.0, 28.0, 28.1, 29.0, 30.0, 30.1, 38.2, 53.0, 92.0, 92.1];
@@ -80,16 +80,25 @@ impl Program {
         modes.chain(self.lines.get(lift)).chain(waits).filter(|line| !line.text.is_empty()).collect()
     }
 
-    /// The lines of a path that does not follow the one before it in the file: it is approached even if the pen stood there already, and
-    /// its first stroke says its motion, and a feed that an earlier line has set.
-    pub(super) fn anew(&self, path: usize, feed: Option<f64>) -> Vec<ProgramLine> {
+    /// The lines of a path that does not follow the one before it in the file: it is approached along both axes, even if the pen stood
+    /// there already; its first stroke says its motion; lowering and stroke say a feed that an earlier line has set.
+    pub(super) fn anew(&self, path: usize, mut feed: Option<f64>) -> Vec<ProgramLine> {
         let PathLines { begin, lower, draw, lift, end, .. } = self.paths[path];
         let before = lower.checked_sub(1).map_or([0.0; 3], |before| self.lines[before].at);
-        let mut lines: Vec<ProgramLine> = (begin == lower).then(|| self.approach(before)).into_iter().collect();
+        let has_approach = begin < lower && {
+            let own = words(&self.lines[begin].text);
+            self.lines[begin].text.ends_with(';') || ['G', 'X', 'Y'].iter().all(|letter| own.iter().any(|word| word.0 == *letter))
+        };
+        let mut lines: Vec<ProgramLine> = (!has_approach).then(|| self.approach(before)).into_iter().collect();
         let first = (draw..lift).find(|i| self.lines[*i].act.moves());
-        for i in begin..end {
+        for i in if has_approach || begin == lower { begin } else { begin + 1 }..end {
             let own = &self.lines[i];
-            let text = if Some(i) == first { self.spelled_out(i, feed) } else { own.text.clone() };
+            feed = feed.filter(|_| word(&own.text, 'F').is_none());
+            let text = match own.act {
+                Act::Lower if word(&own.text, 'Z').is_some() => with_feed(own.text.clone(), feed),
+                _ if Some(i) == first => self.spelled_out(i, feed),
+                _ => own.text.clone(),
+            };
             lines.push(ProgramLine { text, ..own.clone() });
         }
         lines
@@ -102,7 +111,6 @@ impl Program {
             return text.clone();
         }
         let own = words(text);
-        let has = |letter: char| own.iter().any(|word| word.0 == letter);
         let motion = match act {
             Act::Rapid => "G0 ",
             Act::Line(_) => "G1 ",
@@ -111,8 +119,7 @@ impl Program {
             _ => "",
         };
         let motion = if own.iter().any(|word| word.0 == 'G' && word.1 < 4.0) { "" } else { motion };
-        let feed = feed.filter(|_| !has('F') && *act != Act::Rapid && act.moves()).map(|feed| format!(" F{feed}"));
-        format!("{motion}{text}{}", feed.unwrap_or_default())
+        with_feed(format!("{motion}{text}"), feed.filter(|_| *act != Act::Rapid && act.moves()))
     }
 
     /// A line that goes with the pen up to a place, in the words of the file.
@@ -128,6 +135,14 @@ impl Program {
             format!("{motion} X{x:.3} Y{y:.3}{feed}")
         };
         ProgramLine { text, number: 0, act: own.map_or(Act::Rapid, |line| line.act), at: [x, y, z], until: 0.0, name: None }
+    }
+}
+
+/// A line with a feed, if it has none.
+pub(super) fn with_feed(text: String, feed: Option<f64>) -> String {
+    match feed {
+        Some(feed) if word(&text, 'F').is_none() => format!("{text} F{feed}"),
+        _ => text,
     }
 }
 
@@ -152,5 +167,15 @@ mod tests {
         assert_eq!(program.spelled_out(6, Some(100.0)), "G1 X5 Y5 F100");
         assert_eq!(program.spelled_out(6, None), "G1 X5 Y5");
         assert_eq!(program.approach([2.0, 3.5, 0.0]).text, "G0 X2.000 Y3.500");
+        let lines = |path: usize| program.anew(path, Some(900.0)).into_iter().map(|line| line.text).collect::<Vec<_>>();
+        assert_eq!(lines(0), ["G0 X1 Y1", "G1 F100", "M3", "G1 X5 Y5", "X6", "M5"]);
+    }
+
+    #[test]
+    fn a_path_that_is_approached_along_one_axis_is_begun_in_its_place() {
+        let text = "(pen up is M5)\n(pen down is M3)\nM5\nG0 X10 Y0\nM3\nG1 X0 F100\nM5\nG0 Y5\nM3\nG1 X10\nM5\n";
+        let program = Program::read(&Profile::built_in("grbl-servo").unwrap(), text, &Interrupt::never()).unwrap();
+        let lines: Vec<String> = program.anew(1, Some(100.0)).into_iter().map(|line| line.text).collect();
+        assert_eq!(lines, ["G0 X0.000 Y5.000", "M3", "G1 X10 F100", "M5"]);
     }
 }

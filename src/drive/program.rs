@@ -265,7 +265,11 @@ impl Program {
         let (up, down) = (line(Act::Lift)?, line(Act::Lower)?);
         let nearer = |value: f64, up: f64, down: f64| (value - down).abs() < (value - up).abs();
         match (word(&up.text, 'S'), word(&down.text, 'S'), stand.servo) {
-            (Some(up), Some(down), Some(servo)) => Some(nearer(servo, up, down)),
+            // A value of neither, such as that after a start, tells nothing.
+            (Some(up), Some(down), Some(servo)) => {
+                let is_known = (servo - up).abs().min((servo - down).abs()) < 0.25 * (up - down).abs();
+                is_known.then(|| nearer(servo, up, down))
+            }
             _ if up.text.starts_with("PU") || up.text.starts_with("SP,") => stand.servo.map(|pen| pen > 0.5),
             _ if up.text.contains('Z') => Some(nearer(stand.at[2], up.at[2], down.at[2])),
             _ => None,

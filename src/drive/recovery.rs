@@ -69,6 +69,10 @@ fn certain(program: &Program, drawn: usize) -> Place {
 
 fn under_the_pen(program: &Program, window: &Range<usize>, found: Found) -> Option<Place> {
     let pen = Point::new(found.at[0], found.at[1]);
+    // A machine that has just started says that it stands at zero, wherever it is.
+    if found.is_down.is_none() && pen.distance(Point::ORIGIN) <= AT_END {
+        return None;
+    }
     let ends_here = |i: &usize| {
         let [x, y, _] = program.lines[*i].at;
         pen.distance(Point::new(x, y)) <= AT_END && found.is_down.is_none_or(|down| down == is_down_after(program, *i))
@@ -157,6 +161,8 @@ mod tests {
         let half = go_on(found(10.0, 13.5, false), Some(1.0));
         assert_eq!(half, Some((Place { path: 3, along: 0.0 }, Evidence::Pen)));
         assert_eq!(go_on(found(150.0, 3.0, true), Some(1.0)).unwrap().1, Evidence::Journal);
+        let started = Found { at: [0.0; 3], is_down: None };
+        assert_eq!(go_on(started, Some(1.0)).unwrap().1, Evidence::Journal);
     }
 
     #[test]

@@ -152,7 +152,13 @@ impl<'a> Session<'a> {
         loop {
             match self.advance(journal, onlooker, interrupt) {
                 Ok(None) => {}
-                Ok(Some(ending)) => return Ok(ending),
+                Ok(Some(ending)) => {
+                    // A machine may remember a changed speed for the next drawing.
+                    if self.standing.percent != 100 {
+                        let _ = self.controller.change_speed(SpeedChange::Usual);
+                    }
+                    return Ok(ending);
+                }
                 Err(fault) => return Err(self.broken(fault, journal)),
             }
         }
@@ -266,6 +272,7 @@ impl<'a> Session<'a> {
                 Heard::Alarm { code, meaning } => return Err(DriveError::Alarm { code, meaning }),
                 Heard::Failed(text) => return Err(DriveError::Failed(text)),
                 Heard::Restarted => return Err(DriveError::Restarted),
+                Heard::Unpowered => return Err(DriveError::Unpowered),
                 // The machine's own button pauses, and goes on.
                 Heard::Button if self.phase == Phase::Waiting => self.follow(Wish::Resume, onlooker)?,
                 Heard::Button => self.follow(Wish::Pause, onlooker)?,
@@ -339,8 +346,14 @@ impl<'a> Session<'a> {
 
     /// After a fault: stops and lifts the pen if the machine still obeys; the fault is what is told.
     fn broken(&mut self, fault: DriveError, journal: &mut Journal<'_>) -> DriveError {
-        let obeys =
-            !matches!(fault, DriveError::Lost(_) | DriveError::Silent { .. } | DriveError::Alarm { .. } | DriveError::Restarted);
+        let obeys = !matches!(
+            fault,
+            DriveError::Lost(_)
+                | DriveError::Silent { .. }
+                | DriveError::Alarm { .. }
+                | DriveError::Restarted
+                | DriveError::Unpowered
+        );
         if obeys && !self.standing.is_stopped {
             let _ = self.halt();
         }

@@ -1,6 +1,6 @@
 //! The board of the `AxiDraw`, modelled tick by tick: its queue of one or 32 commands, its accumulators, its stop.
 
-use crate::machine::{Chance, Device, Job, Machine, many, said};
+use crate::machine::{Chance, Device, Job, Machine, at_once, many, said};
 use crate::streaming::{connected_at, drawn};
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::drive::{Ebb, Ending, Happening, Onlooker, PenHeights, Program, Rest, Wish};
@@ -8,6 +8,7 @@ use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{Act, PenPaths, Plot, Profile, Toolpath, mount};
 use std::collections::VecDeque;
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 const FULL: i64 = 1 << 31;
@@ -20,6 +21,8 @@ enum Motion {
     Pen { is_down: bool, ticks: i64 },
 }
 
+// Flags of the board's own.
+#[allow(clippy::struct_excessive_bools)]
 struct Board {
     version: &'static str,
     depth: usize,
@@ -34,6 +37,12 @@ struct Board {
     steps: [i64; 2],
     is_down: bool,
     is_enabled: bool,
+    is_powered: bool,
+    /// The power was lost since it was asked for.
+    was_dark: bool,
+    /// Times that the count of steps was set to zero with the motors.
+    zeroed: usize,
+    is_new_syntax: bool,
     is_pressed: bool,
     /// Steps at each lifting, and where the pen came down.
     lifts: Vec<[i64; 2]>,
@@ -58,7 +67,12 @@ impl Board {
             steps: [0; 2],
             is_down: false,
             is_enabled: false,
-            is_pressed: false,
+            is_powered: true,
+            was_dark: false,
+            zeroed: 0,
+            is_new_syntax: version == NEW,
+            // Somebody pressed it long ago.
+            is_pressed: true,
             lifts: Vec::new(),
             touches: Vec::new(),
             unknown: Vec::new(),
@@ -89,19 +103,39 @@ impl Board {
         let numbers: Vec<i64> = fields[1..].iter().filter_map(|field| field.parse().ok()).collect();
         match (fields[0], &numbers[..]) {
             ("", _) => {}
+            ("V", _) if self.is_new_syntax => self.say(&format!("V,{}\n", self.version)),
             ("V", _) => self.say(&format!("{}\r\n", self.version)),
+            ("CU", [1, 1]) if self.is_new_syntax => self.say("CU\n"),
             ("QE", _) => self.say(if self.is_enabled { "16,16\r\nOK\r\n" } else { "0,0\r\nOK\r\n" }),
-            ("EM", _) => {
-                (self.is_enabled, self.steps) = (true, [0; 2]);
+            ("EM", [first, _]) => {
+                (self.is_enabled, self.steps, self.zeroed) = (*first != 0, [0; 2], self.zeroed + 1);
                 self.say("OK\r\n");
+            }
+            ("QC", _) => self.say(if self.is_powered { "0394,0300\r\nOK\r\n" } else { "0394,0008\r\nOK\r\n" }),
+            ("CU", [1, 1]) => self.say("OK\r\n"),
+            ("CU", [10, 0]) if self.version == NEW => {
+                // In the syntax that another program has set.
+                let was_new = std::mem::take(&mut self.is_new_syntax);
+                self.say(if was_new { "CUOK\r\n" } else { "OK\r\n" });
+            }
+            ("CU", [50, 1] | [61, 0] | [60, _]) if self.version == NEW => self.say("OK\r\n"),
+            ("QG", _) if self.version == NEW => {
+                let lost = if std::mem::take(&mut self.was_dark) { 0x40 } else { 0 };
+                self.say(&format!("{:02X}\r\n", lost | if self.is_down { 0 } else { 0x10 }));
+            }
+            ("QU", [2]) if self.version == NEW => self.say("QU,32\r\nOK\r\n"),
+            ("QU", [3]) if self.version == NEW => {
+                let depth = self.depth;
+                self.say(&format!("QU,{depth}\r\nOK\r\n"));
             }
             ("SC", _) => self.say("OK\r\n"),
             ("CS", _) => {
                 self.steps = [0; 2];
                 self.say("OK\r\n");
             }
-            ("CU", [4, depth]) => {
-                self.depth = *depth as usize;
+            ("CU", [4, depth]) if self.version == NEW => {
+                assert!(self.is_done(), "the queue's depth was changed while it held something");
+                self.depth = (*depth as usize).min(32);
                 self.say("OK\r\n");
             }
             ("QS", _) => self.say(&format!("{},{}\n\rOK\r\n", self.steps[0], self.steps[1])),
@@ -112,18 +146,24 @@ impl Board {
             }
             ("QM", _) => {
                 let busy = i32::from(self.running.is_some());
+                let moves = i32::from(matches!(self.running, Some(Motion::Move { .. })));
                 let waits = i32::from(!self.queue.is_empty());
-                self.say(&format!("QM,{busy},{busy},{busy},{waits}\n\r"));
+                self.say(&format!("QM,{busy},{moves},{moves},{waits}\n\r"));
             }
             ("ES", _) => {
-                self.queue.clear();
-                self.running = None;
+                // Firmware 2 forgets moves only: what the pen was told is still done.
+                let is_kept = |motion: &Motion| self.version == OLD && matches!(motion, Motion::Pen { .. });
+                self.queue.retain(is_kept);
+                self.running = self.running.take().filter(is_kept);
                 self.stopped = Some(self.now);
-                self.say("1,0,0,0,0\n\rOK\r\n");
+                // Firmware 3 has one value here.
+                self.say(if self.version == NEW { "1\n\rOK\r\n" } else { "1,0,0,0,0\n\rOK\r\n" });
             }
             ("SP", [value, milliseconds]) => self.accept(Motion::Pen { is_down: *value == 0, ticks: milliseconds * 25 }),
             ("LM", [rate, steps, change, other, more, turn, 3]) => {
                 let (rates, counts, changes) = ([*rate, *other], [*steps, *more], [*change, *turn]);
+                assert!(counts != [0; 2] && text.len() < 64, "{text}");
+                self.is_enabled = true;
                 let motion = Motion::Move {
                     rate: [rates[0] - changes[0] / 2, rates[1] - changes[1] / 2],
                     left: counts.map(i64::abs),
@@ -173,7 +213,7 @@ impl Board {
             }
         };
         if is_done {
-            self.running = None;
+            self.running = self.queue.pop_front();
             self.sums = [0; 2];
             if self.queue.len() < self.depth
                 && let Some(stuck) = self.stuck.take()
@@ -273,7 +313,7 @@ fn program(plot: &Plot) -> Program {
 }
 
 fn conversation(machine: &Machine<Board>) -> Ebb {
-    let mut ebb = Ebb::greet(connected_at(&machine.port()), PenHeights::default()).unwrap();
+    let mut ebb = Ebb::greet(connected_at(&machine.port()), PenHeights::default(), &Interrupt::never()).unwrap();
     ebb.set_pace(PACE);
     ebb
 }
@@ -388,7 +428,7 @@ fn tool_paths() -> Job {
 
 #[test]
 fn the_command_draws_tool_paths_and_goes_on_after_a_kill() {
-    for seed in 0..many(20) as u64 {
+    at_once(many(20) as u64, |seed| {
         let (machine, job) = (Machine::of_pace(Board::new([OLD, NEW][seed as usize % 2]), 1.0), tool_paths());
         let mut child = job.start(&machine, &[]);
         std::thread::sleep(Duration::from_millis(900 + Chance(seed + 3).below(6000)));
@@ -404,7 +444,51 @@ fn the_command_draws_tool_paths_and_goes_on_after_a_kill() {
         let again = board.touches.len() - 24;
         assert!(board.lifts.len() >= 24 && places.len() >= 24 && again <= 1, "seed {seed}: {again} paths twice");
         assert!(board.unknown.is_empty() && board.is_done());
+    });
+}
+
+#[test]
+fn power_lost_between_two_drawings_is_noticed() {
+    let (machine, job) = (Machine::of_pace(Board::new(NEW), 1.0), tool_paths());
+    assert!(job.run(&machine, &[]).status.success());
+    {
+        let mut board = machine.firmware();
+        (board.was_dark, board.steps) = (true, [500, 700]);
+        board.touches.clear();
     }
+    // The motors are switched off and on, which is zero; without that the drawing would be shifted.
+    assert!(job.run(&machine, &[]).status.success());
+    let board = machine.firmware();
+    assert_eq!((board.touches.len(), board.zeroed), (24, 3), "on, off and on");
+}
+
+#[test]
+fn motors_that_lose_their_power_are_noticed() {
+    at_once(2, |seed| {
+        let version = [OLD, NEW][seed as usize];
+        let (machine, job) = (Machine::of_pace(Board::new(version), 1.0), tool_paths());
+        let child = job.start(&machine, &[]);
+        std::thread::sleep(Duration::from_millis(2500));
+        machine.firmware().is_powered = false;
+        let output = child.wait_with_output().unwrap();
+        assert!(!output.status.success() && said(&output).contains("no power"), "{version}: {}", said(&output));
+        let dark = job.run(&machine, &["--continue"]);
+        assert!(said(&dark).contains("no power"), "{}", said(&dark));
+        {
+            let mut board = machine.firmware();
+            (board.is_powered, board.was_dark) = (true, version == NEW);
+        }
+        assert!(!machine.firmware().is_enabled, "the motors forget where they are");
+        let output = job.run(&machine, &["--continue", "--at-origin"]);
+        assert!(output.status.success(), "{version}: {}", said(&output));
+        let board = machine.firmware();
+        let mut places = board.touches.clone();
+        places.sort_unstable();
+        places.dedup();
+        let again = board.touches.len() - 24;
+        assert!(places.len() == 24 && again <= 2, "{version}: {} places, {again} again", places.len());
+        assert_eq!(board.depth, 1, "the queue is as it was");
+    });
 }
 
 /// The board moves by steps from where it stands: what comes before must not shift the drawing.
@@ -419,10 +503,15 @@ fn a_frame_and_a_new_zero_leave_the_drawing_in_its_place() {
         assert_eq!(touches.len(), 24);
         touches
     };
-    let plain = drawn(&[], [0, 0]);
-    assert_eq!(drawn(&["--frame"], [0, 0]), plain);
-    assert_eq!(drawn(&["--frame"], [800, -160]), plain);
-    assert_eq!(drawn(&["--at-origin"], [800, -160]), plain);
+    let cases: [(&[&str], [i64; 2]); 4] =
+        [(&[], [0, 0]), (&["--frame"], [0, 0]), (&["--frame"], [800, -160]), (&["--at-origin"], [800, -160])];
+    let found = Mutex::new(Vec::new());
+    at_once(4, |i| {
+        let touches = drawn(cases[i as usize].0, cases[i as usize].1);
+        found.lock().unwrap().push(touches);
+    });
+    let found = found.into_inner().unwrap();
+    assert!(found.len() == 4 && found.iter().all(|touches| *touches == found[0]), "{found:?}");
 }
 
 #[test]
@@ -435,5 +524,5 @@ fn a_drawing_that_is_no_plot_is_refused_with_advice() {
     assert!(program.lines.iter().any(|line| line.act == Act::Lower));
     let old = Machine::of_pace(Board::new("EBBv13_and_above EB Firmware Version 2.4.2"), PACE);
     let refused = job.run(&old, &[]);
-    assert!(said(&refused).contains("2.7 or later"), "{}", said(&refused));
+    assert!(said(&refused).contains("2.8 or later"), "{}", said(&refused));
 }

@@ -2,7 +2,7 @@
 
 use crate::grbl::firmware::{Build, Piece};
 use crate::grbl::{Settings, Z};
-use crate::machine::{Chance, Job, Machine, many, plot, plot_on_z, said};
+use crate::machine::{Chance, Job, Machine, at_once, many, plot, plot_on_z, said};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -103,20 +103,7 @@ const PACE: f64 = 60.0;
 
 fn in_parallel(bench: &Bench, runs: usize, disturb: impl Fn(u64, &Machine, &mut std::process::Child) + Sync) {
     let whole = whole(bench);
-    let next = std::sync::atomic::AtomicU64::new(0);
-    std::thread::scope(|scope| {
-        for _ in 0..4 {
-            scope.spawn(|| {
-                loop {
-                    let seed = next.fetch_add(1, std::sync::atomic::Ordering::SeqCst);
-                    if seed >= runs as u64 {
-                        return;
-                    }
-                    disturbed(seed, &whole, bench, |machine, child| disturb(seed, machine, child));
-                }
-            });
-        }
-    });
+    at_once(runs as u64, |seed| disturbed(seed, &whole, bench, |machine, child| disturb(seed, machine, child)));
 }
 
 /// A machine with a servo.

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -20,6 +20,23 @@ pub const FASTER: f64 = 20.0;
 pub fn many(full: usize) -> usize {
     if std::env::var_os("DRYPOINT_MANY").is_some() { full } else { full.div_ceil(20) }
 }
+
+/// Runs at the same time: most of them wait.
+pub fn at_once(runs: u64, run: impl Fn(u64) + Sync) {
+    let next = AtomicU64::new(0);
+    let work = || {
+        loop {
+            match next.fetch_add(1, Ordering::SeqCst) {
+                seed if seed < runs => run(seed),
+                _ => return,
+            }
+        }
+    };
+    std::thread::scope(|scope| (0..WORKERS).for_each(|_| drop(scope.spawn(work))));
+}
+
+/// Runs at a time.
+const WORKERS: usize = 4;
 
 /// A model of a machine, which sees bytes and time.
 pub trait Device: Send + 'static {

@@ -1,6 +1,6 @@
 //! An HP 7475A, modelled: a buffer of 1024 bytes that runs over as the real one does, escape sequences, slow drawing.
 
-use crate::machine::{Chance, Device, FASTER, Job, Machine, many, said};
+use crate::machine::{Chance, Device, FASTER, Job, Machine, at_once, many, said};
 use crate::streaming::{Nobody, drawn};
 use drypoint::drive::{Ending, Handshake, Hpgl, Port, Program};
 use drypoint::interrupt::Interrupt;
@@ -277,7 +277,7 @@ fn a_pulled_cable_is_put_back_and_no_path_is_missing() {
         assert!(Job::named("plot.hpgl", &plot(120)).run(&machine, &[]).status.success());
         length(&machine.firmware().drawn)
     };
-    for seed in 0..many(50) as u64 {
+    at_once(many(50) as u64, |seed| {
         let (machine, job) = (Machine::of(Plotter::default()), Job::named("plot.hpgl", &plot(120)));
         let mut child = job.start(&machine, &[]);
         std::thread::sleep(Duration::from_millis(200 + Chance(seed * 97 + 5).below(900)));
@@ -291,7 +291,7 @@ fn a_pulled_cable_is_put_back_and_no_path_is_missing() {
         }
         machine.connect(true);
         if !job.file.with_extension("hpgl.journal").exists() {
-            continue;
+            return;
         }
         let output = job.run(&machine, &["--continue"]);
         assert!(output.status.success(), "seed {seed}: {}", said(&output));
@@ -300,7 +300,7 @@ fn a_pulled_cable_is_put_back_and_no_path_is_missing() {
         let twice: Vec<_> = cells.iter().filter(|(_, count)| **count > 1).collect();
         assert!(cells.len() == 120 && twice.len() <= 1, "seed {seed}: {} paths, twice {twice:?}", cells.len());
         assert!(length(&firmware.drawn) > whole - 1.0, "seed {seed}: {} of {whole}", length(&firmware.drawn));
-    }
+    });
 }
 
 #[test]

@@ -26,12 +26,11 @@ pub(super) fn run(name: &str, bytes: &[u8], options: &SendOptions) -> Result<(),
     let whole = picture.program(&Rest::default())?;
     let file = File { name: name.to_owned(), sha256: digest(bytes), program: whole };
     let port = open_port(&options.port, LineSettings { baud: options.baud.unwrap_or(9600), handshake: Handshake::None })?;
-    let mut ebb = Ebb::greet(port, PenHeights { up: options.pen_heights.0, down: options.pen_heights.1 })?;
+    let mut ebb = Ebb::greet(port, PenHeights { up: options.pen_heights.0, down: options.pen_heights.1 }, interrupt())?;
     wait_for_machine();
     if !options.quiet {
         say!("{}: {} answers", options.port, ebb.version());
     }
-    ebb.wait_until_still(super::OLD_WORK, interrupt())?;
     if options.at_origin {
         ebb.set_zero()?;
     }

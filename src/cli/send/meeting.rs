@@ -2,7 +2,7 @@
 
 use super::super::arguments::SendOptions;
 use super::super::failure::Failure;
-use super::super::interruption::interrupt;
+use super::super::interruption::{interrupt, while_the_machine_rests};
 use super::super::messages::{say, warning};
 use super::{OLD_WORK, by_hand};
 use crate::drive::{Controller, DriveError, Grbl, Greeting, MachineState, Program, Settings, Stand, differences, enforced_reach};
@@ -110,6 +110,7 @@ pub(super) fn confirm(is_agreed: bool, question: &str) -> Result<(), Failure> {
     }
     say!("{question} [y/N]");
     let mut answer = String::new();
-    let _ = io::stdin().lock().read_line(&mut answer);
+    let _ = while_the_machine_rests(|| io::stdin().lock().read_line(&mut answer));
+    interrupt().check().map_err(DriveError::from)?;
     if answer.trim().to_lowercase().starts_with('y') { Ok(()) } else { Err(Failure::Work("nothing was drawn".to_owned())) }
 }

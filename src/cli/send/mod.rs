@@ -50,6 +50,7 @@ impl From<DriveError> for Failure {
     fn from(error: DriveError) -> Self {
         match error {
             DriveError::Interrupted => Self::Interrupted,
+            DriveError::Unpowered => Self::Work(format!("{error}; --at-origin says that it is there")),
             DriveError::Locked => Self::Work(format!("{error}: --home, or --unlock")),
             DriveError::Opening { .. } => {
                 Self::Work(format!("{error}; `drypoint ports` lists what there is, and docs/sending.md says who may open it"))

@@ -1,9 +1,11 @@
-//! The `EBB`, the board of the `AxiDraw` and its kin: firmware 2.7 and later (command reference, evil-mad/EggBot, `docs/ebb.html`).
+//! The `EBB`, the board of the `AxiDraw` and its kin: firmware 2.8 and later (command reference, evil-mad/EggBot, `docs/ebb.html` for 3.0
+//! and `docs/ebb2.html`). Firmware 3 is spoken to in its legacy syntax, which is that of 2.8 but for the answer to `ES`.
 //!
 //! Its queue holds one command, or with firmware 3 up to 32. A command that finds it full blocks everything after it, the stop too. So
 //! the queue is never filled: the sender knows how long each command takes.
 
 mod faults;
+mod greeting;
 mod plan;
 mod plot;
 mod rates;
@@ -12,7 +14,9 @@ mod streaming;
 pub use plot::Rest;
 
 use super::controller::{Heard, Stand};
+
 use super::error::DriveError;
+use super::lines::Lines;
 use super::port::Port;
 use crate::geometry::Point;
 use std::collections::VecDeque;
@@ -21,8 +25,8 @@ use std::time::{Duration, Instant};
 /// How long an answer may take.
 const PATIENCE: Duration = Duration::from_secs(3);
 const LISTENING: Duration = Duration::from_millis(5);
-/// The board reads lines of at most 256 bytes.
-const LONGEST_LINE: usize = 255;
+/// The longest line that firmware 2 reads; firmware 3 reads 256 bytes.
+const LONGEST_LINE: usize = 63;
 /// Travels before a drawing: their acceleration in mm/s^2, and the deviation at corners in mm.
 const TRAVELLING: (f64, f64) = (400.0, 0.05);
 /// A command is held for done so long after its time: it began later by its way to the board. A stuck command waits no longer.
@@ -31,6 +35,11 @@ const GUARD: Duration = Duration::from_millis(4);
 const DEEPEST: usize = 32;
 /// Motor steps per millimetre along each diagonal: 2032 an inch at sixteenths of a step.
 pub(super) const STEPS_PER_MM: f64 = 80.0;
+/// The answer to `QC` tells the voltage for the motors in steps of 0.03 V, or of 0.036 V on boards before 2.3; below 5.5 or 6.5 V they do
+/// not hold.
+const LEAST_POWER: u32 = 180;
+/// A dip of a moment is no loss: so many answers in a row tell one.
+const LOW_ANSWERS: u32 = 3;
 /// Positions of the pen's servo, in its units of 83 ns: the range of which percents are told.
 const SERVO: [f64; 2] = [9855.0, 27_831.0];
 
@@ -52,7 +61,7 @@ impl Default for PenHeights {
 /// A conversation with a board.
 pub struct Ebb {
     port: Box<dyn Port>,
-    unfinished: Vec<u8>,
+    lines: Lines,
     /// Lines that were received and not looked at.
     unread: VecDeque<String>,
     version: String,
@@ -68,6 +77,10 @@ pub struct Ebb {
     /// Questions on their way.
     questions: VecDeque<Question>,
     is_position_known: bool,
+    /// The depth of its queue before this session, if it can be set.
+    former_depth: Option<usize>,
+    /// Answers in a row that told too little power.
+    low: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,56 +89,10 @@ enum Question {
     Steps,
     Pen,
     Button,
+    Power,
 }
 
 impl Ebb {
-    /// Meets the board at a port. The motors are enabled if they are not, which sets zero where the pen stands.
-    pub fn greet(port: Box<dyn Port>, heights: PenHeights) -> Result<Self, DriveError> {
-        let mut ebb = Self {
-            port,
-            unfinished: Vec::new(),
-            unread: VecDeque::new(),
-            version: String::new(),
-            depth: 1,
-            window: VecDeque::new(),
-            running: VecDeque::new(),
-            stand: None,
-            pace: 1.0,
-            questions: VecDeque::new(),
-            is_position_known: true,
-        };
-        // Ends half a command of an earlier sender.
-        ebb.port.send(b"\r")?;
-        ebb.receive(Duration::from_millis(100))?;
-        ebb.unread.clear();
-        ebb.port.send(b"V\r")?;
-        ebb.version = ebb.next_line(|line| line.contains("EBB"))?;
-        let number = ebb.version.rsplit(' ').next().unwrap_or("").to_owned();
-        let mut parts = number.split('.').map(|part| part.parse::<u32>().unwrap_or(0));
-        let (major, minor) = (parts.next().unwrap_or(0), parts.next().unwrap_or(0));
-        if (major, minor) < (2, 7) {
-            return Err(DriveError::Busy(format!(
-                "firmware {number}; drypoint needs 2.7 or later, update it with the maker's program"
-            )));
-        }
-        if major >= 3 {
-            ebb.say(&format!("CU,4,{DEEPEST}"))?;
-            ebb.depth = DEEPEST;
-        }
-        ebb.port.send(b"QE\r")?;
-        let motors = ebb.next_line(|line| line.contains(','))?;
-        ebb.acknowledged()?;
-        if !motors.contains("16,16") {
-            ebb.say("EM,1,1")?;
-            ebb.is_position_known = false;
-        }
-        for (number, percent) in [(4, heights.up), (5, heights.down)] {
-            ebb.say(&format!("SC,{number},{:.0}", SERVO[0] + percent / 100.0 * (SERVO[1] - SERVO[0])))?;
-        }
-        ebb.read_stand()?;
-        Ok(ebb)
-    }
-
     /// Its firmware, as it says.
     pub fn version(&self) -> &str {
         &self.version
@@ -144,20 +111,7 @@ impl Ebb {
 
     /// Receives what has arrived.
     fn receive(&mut self, wait: Duration) -> Result<(), DriveError> {
-        let mut buffer = [0; 512];
-        let count = self.port.receive(&mut buffer, wait)?;
-        for &byte in &buffer[..count] {
-            match byte {
-                // Old answers end with a line feed before the return.
-                b'\r' | b'\n' if self.unfinished.is_empty() => {}
-                b'\r' | b'\n' => {
-                    let line = std::mem::take(&mut self.unfinished);
-                    self.unread.push_back(String::from_utf8_lossy(&line).into_owned());
-                }
-                byte if self.unfinished.len() < 512 => self.unfinished.push(byte),
-                _ => {}
-            }
-        }
+        self.unread.extend(self.lines.receive(&mut *self.port, wait)?);
         Ok(())
     }
 
@@ -238,6 +192,14 @@ impl Ebb {
                 Heard::Said(String::new())
             }
             Some(Question::Button) if line.ends_with('1') => Heard::Button,
+            Some(Question::Power) if !has_power(line) => {
+                self.low += 1;
+                if self.low >= LOW_ANSWERS { Heard::Unpowered } else { Heard::Said(String::new()) }
+            }
+            Some(Question::Power) => {
+                self.low = 0;
+                Heard::Said(String::new())
+            }
             Some(Question::Button) => Heard::Said(String::new()),
             None => Heard::Said(line.to_owned()),
         }
@@ -247,6 +209,21 @@ impl Ebb {
 /// Steps of both motors at a place: they pull along the diagonals.
 fn steps_of(place: Point) -> [i64; 2] {
     [place.x + place.y, place.x - place.y].map(|mm| (mm * STEPS_PER_MM).round() as i64)
+}
+
+impl Drop for Ebb {
+    /// Leaves the queue as it was found, if nothing is in it.
+    fn drop(&mut self) {
+        if let Some(depth) = self.former_depth.filter(|_| self.window.is_empty() && self.in_flight() == 0) {
+            let _ = self.port.send(format!("CU,4,{depth}\r").as_bytes());
+        }
+    }
+}
+
+/// True if the motors have power, by the answer to `QC`; of an answer that cannot be read nothing is concluded.
+fn has_power(answer: &str) -> bool {
+    let told = answer.trim_start_matches("QC,").split(',').nth(1).and_then(|value| value.trim().parse::<u32>().ok());
+    told.is_none_or(|value| value >= LEAST_POWER)
 }
 
 /// The place of the steps of both motors, in millimetres.
@@ -297,5 +274,6 @@ mod tests {
         assert!((seconds_of("SP,1,130") - 0.13).abs() < 1e-12);
         assert_eq!(stand_of("800,-160").unwrap().at, [4.0, 6.0, 0.0]);
         assert_eq!(stand_of("QS,80,80").unwrap().at, [1.0, 0.0, 0.0]);
+        assert!(has_power("0394,0300") && !has_power("0394,0012") && has_power("nonsense"));
     }
 }

@@ -46,7 +46,28 @@ pub(super) fn plan(points: &[Point], limits: Limits) -> Vec<Piece> {
     for (i, length) in lengths.iter().enumerate() {
         segment(&mut pieces, [places[i], places[i + 1]], *length, [speeds[i], speeds[i + 1]], limits);
     }
-    pieces
+    merged(pieces)
+}
+
+/// Pieces of which none is shorter than the board can take, but for a single one: short ones go with those after them, the last with the
+/// one before. At the speeds of a pen they are fractions of a millimetre, and none but a smooth bend is passed in so short a time.
+fn merged(pieces: Vec<Piece>) -> Vec<Piece> {
+    let mut whole: Vec<Piece> = Vec::with_capacity(pieces.len());
+    for piece in pieces {
+        match whole.last_mut() {
+            Some(last) if last.seconds < SHORTEST => {
+                *last = Piece { to: piece.to, speeds: [last.speeds[0], piece.speeds[1]], seconds: last.seconds + piece.seconds };
+            }
+            _ => whole.push(piece),
+        }
+    }
+    if let [.., before, last] = &mut whole[..]
+        && last.seconds < SHORTEST
+    {
+        *before = Piece { to: last.to, speeds: [before.speeds[0], last.speeds[1]], seconds: before.seconds + last.seconds };
+        whole.pop();
+    }
+    whole
 }
 
 /// The speed at each point: limited by its corner, and by what can be reached from both ends.

@@ -107,7 +107,7 @@ impl Writer<'_> {
     fn pen(&mut self, act: Act) {
         let motion = &self.profile.motion;
         let (value, seconds) = if act == Act::Lift { (1, motion.pen_up_seconds) } else { (0, motion.pen_down_seconds) };
-        self.push(format!("SP,{value},{:.0}", 1000.0 * seconds), act, seconds, None);
+        self.push(format!("SP,{value},{:.0}", (1000.0 * seconds).max(1.0)), act, seconds, None);
     }
 
     fn change_pen(&mut self, pen: u32, name: &str, last: Option<u32>) {

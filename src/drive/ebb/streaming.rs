@@ -9,14 +9,57 @@ use crate::geometry::Point;
 use crate::interrupt::Interrupt;
 use std::time::{Duration, Instant};
 
-impl Controller for Ebb {
-    fn longest_line(&self) -> usize {
-        LONGEST_LINE
+impl Ebb {
+    /// Hears the answers to commands and questions sent before `ES`, which the board owes in order, and its own, which has five values in
+    /// firmware 2 and one in firmware 3.
+    fn hear_stop(&mut self) -> Result<(), DriveError> {
+        let mut owed = self.window.len() + self.questions.iter().filter(|question| **question != Question::Motors).count();
+        let begun = Instant::now();
+        loop {
+            while let Some(line) = self.unread.pop_front() {
+                match owed {
+                    0 if line == "OK" => return Ok(()),
+                    _ if line == "OK" || line.starts_with('!') => owed = owed.saturating_sub(1),
+                    _ => {}
+                }
+            }
+            if begun.elapsed() > PATIENCE {
+                return Err(DriveError::Silent {
+                    seconds: PATIENCE.as_secs(),
+                    expected: "an AxiDraw or another machine with an EBB",
+                });
+            }
+            self.receive(LISTENING)?;
+        }
     }
 
-    fn has_room(&self, _: &str) -> bool {
+    /// The motors lost their power: the count of steps is no longer true. Motors that are disabled say so to whoever comes next.
+    fn give_up(&mut self) -> Result<(), DriveError> {
+        self.port.send(b"ES\r")?;
+        self.hear_stop()?;
+        self.forget();
+        self.say("EM,0,0")
+    }
+
+    fn forget(&mut self) {
+        self.window.clear();
+        self.running.clear();
+        self.questions.clear();
+    }
+}
+
+impl Controller for Ebb {
+    fn longest_line(&self) -> usize {
+        if self.former_depth.is_some() { 255 } else { LONGEST_LINE }
+    }
+
+    fn has_room(&self, text: &str) -> bool {
         let now = Instant::now();
         let in_flight = self.running.iter().filter(|end| **end + GUARD > now).count();
+        // In firmware 2 a stop forgets moves only: a lowering that waits would still be done.
+        if self.former_depth.is_none() && text.starts_with("SP,0") && (in_flight > 0 || !self.window.is_empty()) {
+            return false;
+        }
         // One runs, the others wait; two places stay free, so that none blocks the stop. A queue of one holds one besides.
         in_flight < (self.depth - 1).max(2) && self.window.len() < 2
     }
@@ -34,7 +77,12 @@ impl Controller for Ebb {
         // Short: room comes by time, not by an answer.
         self.receive(wait.min(Duration::from_millis(2)))?;
         let lines = std::mem::take(&mut self.unread);
-        Ok(lines.iter().map(|line| self.understand(line)).filter(|heard| *heard != Heard::Said(String::new())).collect())
+        let heard: Vec<Heard> =
+            lines.iter().map(|line| self.understand(line)).filter(|heard| *heard != Heard::Said(String::new())).collect();
+        if heard.contains(&Heard::Unpowered) {
+            self.give_up()?;
+        }
+        Ok(heard)
     }
 
     fn outstanding(&self) -> Option<usize> {
@@ -44,8 +92,8 @@ impl Controller for Ebb {
     fn ask_state(&mut self) -> Result<(), DriveError> {
         // Answers have no names: nothing else may be on its way.
         if self.questions.is_empty() && self.window.is_empty() {
-            self.port.send(b"QM\rQS\rQP\rQB\r")?;
-            self.questions.extend([Question::Motors, Question::Steps, Question::Pen, Question::Button]);
+            self.port.send(b"QM\rQS\rQP\rQB\rQC\r")?;
+            self.questions.extend([Question::Motors, Question::Steps, Question::Pen, Question::Button, Question::Power]);
         }
         Ok(())
     }
@@ -64,12 +112,8 @@ impl Controller for Ebb {
 
     fn halt(&mut self) -> Result<Option<Stand>, DriveError> {
         self.port.send(b"ES\r")?;
-        // What was accepted before is answered before; an answer to `QM` has as many commas.
-        self.next_line(|line| line.starts_with("ES,") || line.matches(',').count() == 4 && !line.starts_with("QM"))?;
-        self.acknowledged()?;
-        self.window.clear();
-        self.running.clear();
-        self.questions.clear();
+        self.hear_stop()?;
+        self.forget();
         self.read_stand()?;
         Ok(self.stand)
     }

@@ -12,6 +12,7 @@ pub use reply::{MachineState, Status};
 pub use settings::{Difference, Settings, adopted, differences, enforced_reach};
 
 use super::error::DriveError;
+use super::lines::Lines;
 use super::port::Port;
 use crate::interrupt::Interrupt;
 use reply::Reply;
@@ -58,8 +59,7 @@ pub struct Greeting {
 /// A conversation with a machine.
 pub struct Grbl {
     port: Box<dyn Port>,
-    /// Received bytes of an unfinished line.
-    unfinished: Vec<u8>,
+    lines: Lines,
     /// Lines that are not acknowledged, with their bytes.
     window: VecDeque<(usize, usize)>,
     status: Status,
@@ -77,7 +77,7 @@ impl Grbl {
     pub fn greet(port: Box<dyn Port>) -> Result<(Self, Greeting), DriveError> {
         let mut grbl = Self {
             port,
-            unfinished: Vec::new(),
+            lines: Lines::default(),
             window: VecDeque::new(),
             status: Status::default(),
             offset: None,
@@ -113,21 +113,8 @@ impl Grbl {
 
     /// Everything that was said within `wait`. Status reports are remembered.
     fn hear(&mut self, wait: Duration) -> Result<Vec<Reply>, DriveError> {
-        let mut buffer = [0; 1024];
-        let count = self.port.receive(&mut buffer, wait)?;
-        let mut replies = Vec::new();
-        for &byte in &buffer[..count] {
-            if byte != b'\n' {
-                // A line of any firmware is shorter; endless noise must not fill the memory.
-                if self.unfinished.len() < 4096 {
-                    self.unfinished.push(byte);
-                }
-                continue;
-            }
-            let line = String::from_utf8_lossy(&self.unfinished).into_owned();
-            self.unfinished.clear();
-            replies.extend(Reply::of(&line));
-        }
+        let lines = self.lines.receive(&mut *self.port, wait)?;
+        let replies: Vec<Reply> = lines.iter().filter_map(|line| Reply::of(line)).collect();
         for reply in &replies {
             if let Reply::Status(status) = reply {
                 self.status = status.clone();
@@ -249,7 +236,7 @@ impl Grbl {
         let before = self.position();
         self.port.send(&[RESET])?;
         self.window.clear();
-        self.unfinished.clear();
+        self.lines.clear();
         let begun = Instant::now();
         loop {
             let replies = self.hear(ASKING)?;

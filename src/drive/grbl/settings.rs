@@ -59,7 +59,19 @@ pub fn differences(settings: &Settings, profile: &Profile) -> Vec<Difference> {
         let differs = (machine - wanted).abs() > 1e-3 * wanted.abs().max(1e-3);
         differs.then_some(Difference { setting, what, machine, profile: wanted, effect })
     };
-    assumed(profile).into_iter().filter_map(differ).collect()
+    assumed(profile).into_iter().filter_map(differ).chain(shorter_travels(settings, profile)).collect()
+}
+
+/// Axes that reach less far on the machine than in the profile; to reach farther does no harm.
+fn shorter_travels(settings: &Settings, profile: &Profile) -> Vec<Difference> {
+    let Some(area) = &profile.area else { return Vec::new() };
+    let axes = [(130, "travel of x, mm", area.x), (131, "travel of y, mm", area.y)];
+    let shorter = axes.into_iter().filter_map(|(setting, what, [from, to])| {
+        let (machine, reach) = (*settings.get(&setting)?, (to - from) / profile.units_per_mm);
+        let effect = "a drawing that fills the profile's area runs into the end of the axis";
+        (machine < reach - 0.5).then_some(Difference { setting, what, machine, profile: reach, effect })
+    });
+    shorter.collect()
 }
 
 /// The machine's reach along x and y in millimetres (`$130`, `$131`), if soft limits (`$20`) enforce it.
@@ -110,7 +122,7 @@ mod tests {
     fn settings() -> Settings {
         let usual = [(11, 0.01), (12, 0.002), (20, 1.0), (32, 0.0), (100, 80.0), (101, 80.0), (102, 400.0)];
         let rates =
-            [(110, 6000.0), (111, 6000.0), (112, 500.0), (120, 250.0), (121, 250.0), (122, 250.0), (130, 280.0), (131, 400.0)];
+            [(110, 6000.0), (111, 6000.0), (112, 500.0), (120, 250.0), (121, 250.0), (122, 250.0), (130, 300.0), (131, 400.0)];
         usual.into_iter().chain(rates).collect()
     }
 
@@ -122,7 +134,10 @@ mod tests {
         other.extend([(32, 1.0), (101, 100.0), (110, 3000.0)]);
         let found: Vec<u32> = differences(&other, &profile).iter().map(|difference| difference.setting).collect();
         assert_eq!(found, [101, 110, 32]);
-        assert_eq!(enforced_reach(&settings()), Some([280.0, 400.0]));
+        assert_eq!(enforced_reach(&settings()), Some([300.0, 400.0]));
+        other.extend([(130, 200.0), (131, 900.0)]);
+        let last = differences(&other, &profile).pop().unwrap();
+        assert_eq!((last.setting, last.machine), (130, 200.0));
     }
 
     #[test]

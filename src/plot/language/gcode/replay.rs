@@ -40,11 +40,11 @@ impl Modes {
             return Act::Pen(number.parse().unwrap_or(1));
         }
         let code = text.split(['(', ';', '%']).next().unwrap_or("").trim();
-        let is_pause = ["M0", "M00", "M1", "PAUSE"].contains(&code) || dialect.pause.as_deref() == Some(code);
-        if is_pause {
+        let values = words(code);
+        let stops = |word: &(char, f64)| word.0 == 'M' && [0.0, 1.0].contains(&word.1);
+        if code == "PAUSE" || dialect.pause.as_deref() == Some(code) || values.iter().any(stops) {
             return Act::Pause;
         }
-        let values = words(code);
         let value = |letter: char| values.iter().find(|word| word.0 == letter).map(|word| word.1);
         if let Some(z) = value('Z') {
             self.at[2] = z;
@@ -131,6 +131,12 @@ mod tests {
             arc,
         ];
         assert_eq!(acts("grbl-servo", text), expected);
+    }
+
+    #[test]
+    fn every_way_to_say_a_pause_is_one() {
+        let acts = acts("grbl-servo", "M0\nm0\nN10 M00\nM1\nM0 P1\nM10\nM03 S5\n");
+        assert_eq!(acts.iter().filter(|act| **act == Act::Pause).count(), 5, "{acts:?}");
     }
 
     #[test]

@@ -3,12 +3,16 @@
 //! `N12 G1 X3*91`: the number counts up by one, the checksum is all bytes before the star, exclusive-or. After `Resend: 12` everything from
 //! line 12 on is sent again. Positions come from `M114`, which Marlin answers after the lines before it.
 
+mod reply;
+
 use super::controller::{Controller, Heard, SpeedChange, Stand};
 use super::error::DriveError;
+use super::lines::Lines;
 use super::port::Port;
 use super::program::ProgramLine;
 use crate::interrupt::Interrupt;
 use crate::plot::Act;
+use reply::Reply;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
@@ -30,6 +34,10 @@ const STARTING: Duration = Duration::from_secs(10);
 const HIDDEN_MOVES: usize = 16;
 /// The same for Klipper, which looks two seconds ahead, whatever the number of moves in them.
 const LOOKED_AHEAD: usize = 2000;
+/// After a stop it throws moves away for a second.
+const CLEANING: Duration = Duration::from_millis(1400);
+/// Of an answer that does not come for so long after a stop, nothing more is expected: a line in mid-air was lost.
+const SILENCE: Duration = Duration::from_secs(4);
 /// Answered when everything before it is drawn.
 const FINISHED: &str = "M400";
 const LISTENING: Duration = Duration::from_millis(20);
@@ -37,7 +45,7 @@ const LISTENING: Duration = Duration::from_millis(20);
 /// A conversation with a machine.
 pub struct Marlin {
     port: Box<dyn Port>,
-    unfinished: Vec<u8>,
+    lines: Lines,
     firmware: String,
     /// The number of the next line.
     next: u64,
@@ -50,59 +58,8 @@ pub struct Marlin {
     is_asked: bool,
     /// Demands to send again whose own `ok` is still to come.
     refused: usize,
-}
-
-/// A line that the machine sent.
-#[derive(Clone, Debug, PartialEq)]
-enum Reply {
-    Ok,
-    /// It is at work, and takes no more for now.
-    Busy,
-    Resend(u64),
-    /// `Error:...`.
-    Error(String),
-    /// It restarted.
-    Start,
-    Place([f64; 3]),
-    Firmware(String),
-    Other(String),
-}
-
-impl Reply {
-    fn of(line: &str) -> Option<Self> {
-        let line = line.trim();
-        if line.is_empty() {
-            return None;
-        }
-        let lower = line.to_ascii_lowercase();
-        let number = |text: &str| text.trim().trim_start_matches(['N', 'n', ':', ' ']).parse().ok();
-        Some(if lower.starts_with("resend:") || lower.starts_with("rs ") {
-            Self::Resend(number(&line[line.find([':', ' '])? + 1..])?)
-        } else if lower.starts_with("ok") {
-            Self::Ok
-        } else if lower.contains("busy:") {
-            Self::Busy
-        } else if lower.starts_with("error:") || line.starts_with("!!") {
-            Self::Error(line.split_once(':').map_or(line.trim_start_matches("!!"), |(_, text)| text).trim().to_owned())
-        } else if lower == "start" {
-            Self::Start
-        } else if let Some(place) = place(line) {
-            Self::Place(place)
-        } else if let Some((_, name)) = line.split_once("FIRMWARE_NAME:") {
-            Self::Firmware(
-                name.split(" SOURCE_CODE_URL").next().unwrap_or(name).split(" (").next().unwrap_or(name).trim().to_owned(),
-            )
-        } else {
-            Self::Other(line.trim_start_matches("echo:").to_owned())
-        })
-    }
-}
-
-/// `X:1.00 Y:2.00 Z:3.00 E:0.00 Count ...`.
-fn place(line: &str) -> Option<[f64; 3]> {
-    let before = line.split(" Count").next()?;
-    let value = |letter: &str| before.split_whitespace().find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok());
-    Some([value("X:")?, value("Y:")?, value("Z:").unwrap_or(0.0)])
+    /// True if it said that it starts.
+    is_restarted: bool,
 }
 
 /// The line as it is sent.
@@ -117,7 +74,7 @@ impl Marlin {
     pub fn greet(port: Box<dyn Port>, interrupt: &Interrupt) -> Result<Self, DriveError> {
         let mut marlin = Self {
             port,
-            unfinished: Vec::new(),
+            lines: Lines::default(),
             firmware: String::new(),
             next: 1,
             window: VecDeque::new(),
@@ -125,45 +82,62 @@ impl Marlin {
             percent: 100,
             is_asked: false,
             refused: 0,
+            is_restarted: false,
         };
-        let begun = Instant::now();
         // Half a line of an earlier sender ends here; it is refused for its checksum.
         marlin.port.send(b"\n")?;
-        loop {
-            marlin.port.send(numbered(0, "M110 N0").as_bytes())?;
+        marlin.begin_counting()?;
+        Controller::ask(&mut marlin, "M115")?;
+        // A speed that another program has left.
+        Controller::ask(&mut marlin, "M220 S100")?;
+        // The place told is that of the last line taken: an earlier drawing comes to its end first.
+        marlin.ask_until(FINISHED, OLD_WORK, interrupt)?;
+        Controller::ask(&mut marlin, "M114")?;
+        if marlin.is_restarted {
+            marlin.stand = None;
+        }
+        Ok(marlin)
+    }
+
+    /// Sets the number of the next line to 1, as often as it takes.
+    fn begin_counting(&mut self) -> Result<(), DriveError> {
+        let begun = Instant::now();
+        while begun.elapsed() < STARTING {
+            self.port.send(numbered(0, "M110 N0").as_bytes())?;
             let asked = Instant::now();
             while asked.elapsed() < Duration::from_secs(1) {
-                if marlin.hear(LISTENING)?.contains(&Reply::Ok) {
-                    marlin.hear(Duration::from_millis(200))?;
-                    marlin.next = 1;
-                    Controller::ask(&mut marlin, "M115")?;
-                    // The place told is that of the last line taken: an earlier drawing comes to its end first.
-                    marlin.ask_until(FINISHED, OLD_WORK, interrupt)?;
-                    Controller::ask(&mut marlin, "M114")?;
-                    return Ok(marlin);
+                if self.hear(LISTENING)?.contains(&Reply::Ok) {
+                    // Answers to half a line, or to the same question.
+                    self.hear(Duration::from_millis(200))?;
+                    self.next = 1;
+                    return Ok(());
                 }
             }
-            if begun.elapsed() > STARTING {
-                return Err(DriveError::Silent { seconds: STARTING.as_secs(), expected: "Marlin or Klipper" });
+        }
+        Err(DriveError::Silent { seconds: STARTING.as_secs(), expected: "Marlin or Klipper" })
+    }
+
+    /// Hears the answers to all lines on their way and to one more, or until it has said nothing for a while.
+    fn hear_out(&mut self) -> Result<(), DriveError> {
+        let mut owed = self.window.len() + self.refused + 1;
+        let mut heard = Instant::now();
+        while owed > 0 && heard.elapsed() < SILENCE {
+            for reply in self.hear(LISTENING)? {
+                heard = Instant::now();
+                owed = owed.saturating_sub(usize::from(reply == Reply::Ok));
             }
         }
+        Ok(())
     }
 
     fn hear(&mut self, wait: Duration) -> Result<Vec<Reply>, DriveError> {
-        let mut buffer = [0; 1024];
-        let count = self.port.receive(&mut buffer, wait)?;
-        let mut replies = Vec::new();
-        for &byte in &buffer[..count] {
-            match byte {
-                b'\n' => replies.extend(Reply::of(&String::from_utf8_lossy(&std::mem::take(&mut self.unfinished)))),
-                byte if self.unfinished.len() < 4096 => self.unfinished.push(byte),
-                _ => {}
-            }
-        }
+        let lines = self.lines.receive(&mut *self.port, wait)?;
+        let replies: Vec<Reply> = lines.iter().flat_map(|line| Reply::all(line)).collect();
         for reply in &replies {
             match reply {
                 Reply::Place(at) => self.stand = Some(Stand { at: *at, servo: None }),
                 Reply::Firmware(name) => self.firmware.clone_from(name),
+                Reply::Start => self.is_restarted = true,
                 _ => {}
             }
         }
@@ -312,19 +286,17 @@ impl Controller for Marlin {
     }
 
     fn halt(&mut self) -> Result<Option<Stand>, DriveError> {
-        // M410 stops the motors at once and forgets what is planned; an emergency parser takes it out of turn.
+        // M410 stops the motors at once and forgets what is planned; an emergency parser takes it out of turn, and then once more in turn.
         self.port.send(b"M410\n")?;
+        self.hear_out()?;
+        self.window.clear();
+        (self.is_asked, self.refused, self.stand) = (false, 0, None);
+        // For a second it throws away every move.
         let begun = Instant::now();
-        while begun.elapsed() < Duration::from_millis(500) {
+        while begun.elapsed() < CLEANING {
             self.hear(LISTENING)?;
         }
-        self.window.clear();
-        (self.is_asked, self.refused) = (false, 0);
-        self.port.send(numbered(0, "M110 N0").as_bytes())?;
-        let begun = Instant::now();
-        while !self.hear(LISTENING)?.contains(&Reply::Ok) && begun.elapsed() < PATIENCE {}
-        self.hear(Duration::from_millis(100))?;
-        self.next = 1;
+        self.begin_counting()?;
         self.ask("M114")?;
         Ok(self.stand)
     }
@@ -371,23 +343,5 @@ mod tests {
         // The example of the documentation: N123 M115 has the checksum of its bytes.
         assert_eq!(numbered(3, "T0"), "N3 T0*57\n");
         assert_eq!(numbered(4, "G92 E0"), "N4 G92 E0*67\n");
-    }
-
-    #[test]
-    fn answers_are_understood() {
-        assert_eq!(Reply::of("ok P15 B3"), Some(Reply::Ok));
-        assert_eq!(Reply::of("Resend: 12"), Some(Reply::Resend(12)));
-        assert_eq!(Reply::of("rs N12"), Some(Reply::Resend(12)));
-        assert_eq!(Reply::of("echo:busy: processing"), Some(Reply::Busy));
-        assert_eq!(Reply::of("X:1.00 Y:-2.50 Z:5.00 E:0.00 Count X:80 Y:-200 Z:2000"), Some(Reply::Place([1.0, -2.5, 5.0])));
-        assert_eq!(
-            Reply::of("Error:checksum mismatch, Last Line: 4"),
-            Some(Reply::Error("checksum mismatch, Last Line: 4".into()))
-        );
-        assert_eq!(
-            Reply::of("FIRMWARE_NAME:Marlin 2.1.2 (Jan  1 2026) SOURCE_CODE_URL:x"),
-            Some(Reply::Firmware("Marlin 2.1.2".into()))
-        );
-        assert_eq!(Reply::of(""), None);
     }
 }
