@@ -112,13 +112,11 @@ impl Board {
                 self.say("OK\r\n");
             }
             ("QC", _) => self.say(if self.is_powered { "0394,0300\r\nOK\r\n" } else { "0394,0008\r\nOK\r\n" }),
-            ("CU", [1, 1]) => self.say("OK\r\n"),
             ("CU", [10, 0]) if self.version == NEW => {
                 // In the syntax that another program has set.
                 let was_new = std::mem::take(&mut self.is_new_syntax);
                 self.say(if was_new { "CUOK\r\n" } else { "OK\r\n" });
             }
-            ("CU", [50, 1] | [61, 0] | [60, _]) if self.version == NEW => self.say("OK\r\n"),
             ("QG", _) if self.version == NEW => {
                 let lost = if std::mem::take(&mut self.was_dark) { 0x40 } else { 0 };
                 self.say(&format!("{:02X}\r\n", lost | if self.is_down { 0 } else { 0x10 }));
@@ -128,7 +126,8 @@ impl Board {
                 let depth = self.depth;
                 self.say(&format!("QU,{depth}\r\nOK\r\n"));
             }
-            ("SC", _) => self.say("OK\r\n"),
+            ("SC", _) | ("CU", [1, 1]) => self.say("OK\r\n"),
+            ("CU", [50, 1] | [61, 0] | [60, _]) if self.version == NEW => self.say("OK\r\n"),
             ("CS", _) => {
                 self.steps = [0; 2];
                 self.say("OK\r\n");
