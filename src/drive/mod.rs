@@ -28,7 +28,7 @@ mod standing;
 #[doc(hidden)]
 pub use controller::{Controller, Heard, SpeedChange, Stand};
 #[doc(hidden)]
-pub use dips::{Dip, Inkwell};
+pub use dips::{Dip, Inkwell, Refill};
 #[doc(hidden)]
 pub use ebb::{Ebb, PenHeights, Rest};
 pub use error::DriveError;

@@ -218,6 +218,19 @@ impl Program {
         None
     }
 
+    /// The last such point up to a length along the path. Where a path passes itself closely, a machine's place does not tell which pass
+    /// it is on.
+    pub(super) fn last_near(&self, path: usize, place: Point, most: f64, until: f64) -> Option<f64> {
+        let (mut along, mut last) = (0.0, None);
+        for (i, length) in self.pieces(path) {
+            let (fraction, distance) = self.nearest_on(i, place);
+            let here = along + fraction * length;
+            last = Some(here).filter(|_| distance <= most && here <= until).or(last);
+            along += length;
+        }
+        last
+    }
+
     /// The fraction of a stroke nearest to a place, and its distance.
     fn nearest_on(&self, line: usize, place: Point) -> (f64, f64) {
         let (from, to) = (self.before(line), self.after(line));

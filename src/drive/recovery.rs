@@ -53,7 +53,13 @@ pub fn place_to_continue(
     if place.path >= program.paths.len() {
         return None;
     }
-    let along = overlap.map_or(0.0, |overlap| (place.along - overlap).max(0.0));
+    let along = overlap.map_or(0.0, |overlap| {
+        // The overlap ends at the last pass where the pen may be, and begins before the first.
+        let pen =
+            found.filter(|_| evidence == Evidence::Pen && place.along > 0.0).map(|found| Point::new(found.at[0], found.at[1]));
+        let last = pen.and_then(|pen| program.last_near(place.path, pen, ON_STROKE, place.along + overlap));
+        (last.unwrap_or(place.along).max(place.along) - overlap).max(0.0)
+    });
     Some((Place { along, ..place }, evidence))
 }
 
@@ -157,6 +163,13 @@ mod tests {
         assert!((along - 15.0).abs() < 1e-9, "{along}");
         assert_eq!(go_on(found(14.0, 17.0, true), None), Some((Place { path: 3, along: 0.0 }, Evidence::Pen)));
         assert_eq!(go_on(found(20.0, 17.0, false), Some(1.0)), Some((Place { path: 4, along: 0.0 }, Evidence::Pen)));
+        // A stroke that comes back on itself: the overlap covers both passes, and no more.
+        let text =
+            "(pen up is M3 S300)\n(pen down is M3 S700)\nM3 S300\nG0 X0 Y0\nM3 S700\nG1 X10 Y0 F3000\nG1 X0 Y0.02\nM3 S300\n";
+        let back = Program::read(&Profile::built_in("grbl-servo").unwrap(), text, &Interrupt::never()).unwrap();
+        let begin = Record { drawn: 1, sent: 7, path: 1, ..Record::default() };
+        let again = |overlap| place_to_continue(&back, &begin, Some(found(9.8, 0.01, true)), Some(overlap)).unwrap().0.along;
+        assert!((again(1.0) - 9.2).abs() < 0.01 && (again(0.1) - 9.7).abs() < 0.01, "{} {}", again(1.0), again(0.1));
         // On its way from the third path to the fourth.
         let half = go_on(found(10.0, 13.5, false), Some(1.0));
         assert_eq!(half, Some((Place { path: 3, along: 0.0 }, Evidence::Pen)));

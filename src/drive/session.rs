@@ -50,6 +50,8 @@ pub enum Happening<'a> {
         /// Where the carriage is parked, in machine units.
         parked: [f64; 2],
     },
+    /// It waits for the user to see to the ink.
+    InkWanted,
     /// It goes on.
     Resumed,
     /// The machine said something.
@@ -311,6 +313,9 @@ impl<'a> Session<'a> {
             Some(line) if line.act == Act::Pause => {
                 standing.next += 1;
                 self.phase = Phase::Waiting;
+                if line.name.is_some() {
+                    return onlooker.happens(&Happening::InkWanted);
+                }
                 let named = lines[..standing.next].iter().rev().find_map(|line| Some((line.act, line.name.as_deref()?)));
                 let (number, name) = match named {
                     Some((Act::Pen(number), name)) => (number, name),

@@ -54,8 +54,9 @@ pub(in crate::cli) struct SendOptions {
     /// Heights of an `AxiDraw`'s pen, up and down, in percent of its servo's range.
     #[arg(long, value_name = "UP,DOWN", value_parser = pen_heights, default_value = "60,30")]
     pub pen_heights: (f64, f64),
-    /// Dip the pen after each such length of line or time of drawing, such as 3m or 5min.
-    #[arg(long, value_name = "LENGTH|TIME", value_parser = dip, requires = "at")]
+    /// Refill the pen after each such length of line or time of drawing, such as 3m or 5min: at the place --at, by gcode.refill of the
+    /// profile, or without both by you, while the machine waits.
+    #[arg(long, value_name = "LENGTH|TIME", value_parser = dip)]
     pub dip: Option<Dip>,
     /// Where the ink stands, in the machine's coordinates in mm.
     #[arg(long, value_name = "X,Y", value_parser = place, requires = "dip", allow_hyphen_values = true)]

@@ -5,8 +5,10 @@ use super::super::failure::Failure;
 use super::super::interruption::{interrupt, while_the_machine_rests};
 use super::super::messages::{say, warning};
 use super::{OLD_WORK, by_hand};
-use crate::drive::{Controller, DriveError, Grbl, Greeting, MachineState, Program, Settings, Stand, differences, enforced_reach};
-use crate::plot::Profile;
+use crate::drive::{
+    Controller, DriveError, Grbl, Greeting, Inkwell, MachineState, Program, Refill, Settings, Stand, differences, enforced_reach,
+};
+use crate::plot::{Dialect, Profile};
 use std::io::{self, BufRead, IsTerminal};
 
 /// Waits for what is left of an earlier drawing, reads the settings, and tells what differs from the profile. Returns the settings, and
@@ -62,8 +64,31 @@ pub(super) fn check_lines(machine: &dyn Controller, program: &Program, name: &st
     }
 }
 
+/// How the pen gets its ink: by the profile's own lines, at the place given, or by the user.
+pub(super) fn refill(profile: &Profile, options: &SendOptions) -> Result<Refill, Failure> {
+    let own = match &profile.dialect {
+        Dialect::Gcode(gcode) => &gcode.refill[..],
+        _ => &[],
+    };
+    let needs_place = own.iter().any(|line| line.contains("{x}") || line.contains("{y}"));
+    let Some((x, y)) = options.at else {
+        return match own {
+            _ if needs_place => Err(Failure::Usage(format!("--dip: gcode.refill of {} needs --at X,Y", profile.name))),
+            [] => Ok(Refill::User),
+            own => Ok(Refill::Lines(own.to_vec())),
+        };
+    };
+    check_place((x, y), profile)?;
+    let at = [x, y].map(|v| v * profile.units_per_mm);
+    if own.is_empty() {
+        return Ok(Refill::Well(Inkwell { at, seconds: options.dip_time }));
+    }
+    let filled_in = |line: &String| line.replace("{x}", &format!("{:.3}", at[0])).replace("{y}", &format!("{:.3}", at[1]));
+    Ok(Refill::Lines(own.iter().map(filled_in).collect()))
+}
+
 /// Refuses a place of the ink that the machine does not reach.
-pub(super) fn check_place((x, y): (f64, f64), profile: &Profile) -> Result<(), Failure> {
+fn check_place((x, y): (f64, f64), profile: &Profile) -> Result<(), Failure> {
     let Some(area) = &profile.area else { return Ok(()) };
     let [x_mm, y_mm] = [area.x, area.y].map(|reach| reach.map(|v| v / profile.units_per_mm));
     if (x_mm[0]..=x_mm[1]).contains(&x) && (y_mm[0]..=y_mm[1]).contains(&y) {

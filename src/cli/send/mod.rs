@@ -24,8 +24,8 @@ use super::output;
 use super::toolpaths::plain_profile;
 use super::words::counted;
 use crate::drive::{
-    Beginning, Controller, DriveError, Ending, Grbl, Handshake, Hpgl, Inkwell, Journal, LineSettings, Marlin, Program, Session,
-    Stand, adopted, open_port, ports,
+    Beginning, Controller, DriveError, Ending, Grbl, Handshake, Hpgl, Journal, LineSettings, Marlin, Program, Session, Stand,
+    adopted, open_port, ports,
 };
 use crate::plot::{Dialect, GcodeDialect, Language, Profile, Protocol};
 use crate::read::Budget;
@@ -273,13 +273,9 @@ fn draw(
         Some(text) => program.with_checkpoints(profile, text, CHECKPOINTS, interrupt())?,
         None => program,
     };
-    let program = match (options.dip, options.at) {
-        (Some(dip), Some((x, y))) => {
-            meeting::check_place((x, y), profile)?;
-            let ink = Inkwell { at: [x, y].map(|v| v * profile.units_per_mm), seconds: options.dip_time };
-            program.with_dips(profile, dip, ink, interrupt())?
-        }
-        _ => program,
+    let program = match options.dip {
+        Some(dip) => program.with_dips(profile, dip, &meeting::refill(profile, options)?, interrupt())?,
+        None => program,
     };
     conduct(machine, &program, planned.into_chosen(), profile, file, options)
 }

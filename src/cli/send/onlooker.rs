@@ -140,6 +140,11 @@ impl Onlooker for Terminal {
                 self.write_status(json!({ "state": "pen wanted", "pen": number, "name": name }));
                 self.tell(&format!("put in {name}, parked at x {x:.1} y {y:.1}; Enter goes on, q ends"));
             }
+            Happening::InkWanted => {
+                self.is_waiting = true;
+                self.write_status(json!({ "state": "ink wanted" }));
+                self.tell("fill or dip the pen, which is up; Enter goes on, q ends");
+            }
             Happening::Resumed => {
                 self.is_waiting = false;
                 self.write_status(json!({ "state": "drawing" }));

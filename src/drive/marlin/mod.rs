@@ -34,6 +34,8 @@ const STARTING: Duration = Duration::from_secs(10);
 const HIDDEN_MOVES: usize = 16;
 /// The same for Klipper, which looks two seconds ahead, whatever the number of moves in them.
 const LOOKED_AHEAD: usize = 2000;
+/// Before a line is sent again what is on its way arrives, and is refused too.
+const SETTLING: Duration = Duration::from_millis(60);
 /// After a stop it throws moves away for a second.
 const CLEANING: Duration = Duration::from_millis(1400);
 /// Of an answer that does not come for so long after a stop, nothing more is expected: a line in mid-air was lost.
@@ -58,6 +60,9 @@ pub struct Marlin {
     is_asked: bool,
     /// Demands to send again whose own `ok` is still to come.
     refused: usize,
+    /// Lines at the end of the window that are to be sent again, one at a time, and when the next is.
+    unsent: usize,
+    again_at: Instant,
     /// True if it said that it starts.
     is_restarted: bool,
 }
@@ -82,6 +87,8 @@ impl Marlin {
             percent: 100,
             is_asked: false,
             refused: 0,
+            unsent: 0,
+            again_at: Instant::now(),
             is_restarted: false,
         };
         // Half a line of an earlier sender ends here; it is refused for its checksum.
@@ -146,27 +153,42 @@ impl Marlin {
 
     fn push(&mut self, line: Option<usize>, text: &str) -> Result<(), DriveError> {
         let sent = numbered(self.next, text);
-        self.port.send(sent.as_bytes())?;
+        if self.unsent > 0 {
+            self.unsent += 1;
+        } else {
+            self.port.send(sent.as_bytes())?;
+        }
         self.window.push_back((self.next, line, sent));
         self.next += 1;
         Ok(())
     }
 
-    /// Sends everything from a number on again.
-    fn send_again(&mut self, number: u64) -> Result<(), DriveError> {
-        for (_, _, text) in self.window.iter().filter(|(sent, ..)| *sent >= number) {
+    /// Sends the next line again, if one is owed. They go one at a time: the lines that were on their way behind the one it refused may
+    /// still fill its buffer.
+    fn send_again(&mut self) -> Result<(), DriveError> {
+        if self.unsent > 0 && Instant::now() >= self.again_at {
+            let (_, _, text) = &self.window[self.window.len() - self.unsent];
             self.port.send(text.as_bytes())?;
+            self.unsent -= 1;
+            self.again_at = Instant::now() + PATIENCE;
         }
         Ok(())
     }
 
-    fn understand(&mut self, replies: Vec<Reply>) -> Result<Vec<Heard>, DriveError> {
+    /// The line that an `ok` is for; the next may be sent again.
+    fn acknowledged(&mut self) -> Option<(u64, Option<usize>, String)> {
+        self.again_at = Instant::now();
+        self.unsent = self.unsent.min(self.window.len().saturating_sub(1));
+        self.window.pop_front()
+    }
+
+    fn understand(&mut self, replies: Vec<Reply>) -> Vec<Heard> {
         let mut heard = Vec::new();
         for reply in replies {
             match reply {
                 // The `ok` after a demand to send again acknowledges nothing.
                 Reply::Ok if self.refused > 0 => self.refused -= 1,
-                Reply::Ok => match self.window.pop_front() {
+                Reply::Ok => match self.acknowledged() {
                     Some((_, Some(line), _)) => heard.push(Heard::Taken(line)),
                     Some((_, None, text)) if text.contains(" M114*") => {
                         self.is_asked = false;
@@ -177,7 +199,8 @@ impl Marlin {
                 Reply::Busy => heard.push(Heard::State { is_still: false }),
                 Reply::Resend(number) => {
                     self.refused += 1;
-                    self.send_again(number)?;
+                    self.unsent = self.window.iter().filter(|(sent, ..)| *sent >= number).count();
+                    self.again_at = Instant::now() + SETTLING;
                 }
                 // What follows is the demand to send again.
                 Reply::Error(text) if is_of_the_line(&text) => {}
@@ -187,7 +210,7 @@ impl Marlin {
                 Reply::Place(_) | Reply::Firmware(_) => {}
             }
         }
-        Ok(heard)
+        heard
     }
 }
 
@@ -202,11 +225,12 @@ impl Marlin {
         let mut heard = Instant::now();
         while !self.window.is_empty() {
             interrupt.check()?;
+            self.send_again()?;
             let replies = self.hear(LISTENING)?;
             if !replies.is_empty() {
                 heard = Instant::now();
             }
-            for heard in self.understand(replies)? {
+            for heard in self.understand(replies) {
                 match heard {
                     Heard::Failed(text) => return Err(DriveError::Failed(text)),
                     Heard::Restarted => return Err(DriveError::Restarted),
@@ -234,7 +258,7 @@ impl Controller for Marlin {
 
     fn has_room(&self, text: &str) -> bool {
         let bytes: usize = self.window.iter().map(|(_, _, sent)| sent.len()).sum();
-        self.window.len() < MOST_LINES && bytes + text.len() + NUMBERING <= MOST_BYTES
+        self.unsent == 0 && self.window.len() < MOST_LINES && bytes + text.len() + NUMBERING <= MOST_BYTES
     }
 
     fn send(&mut self, line: usize, text: &str) -> Result<(), DriveError> {
@@ -242,8 +266,9 @@ impl Controller for Marlin {
     }
 
     fn listen(&mut self, wait: Duration) -> Result<Vec<Heard>, DriveError> {
+        self.send_again()?;
         let replies = self.hear(wait)?;
-        self.understand(replies)
+        Ok(self.understand(replies))
     }
 
     fn outstanding(&self) -> Option<usize> {
@@ -290,7 +315,7 @@ impl Controller for Marlin {
         self.port.send(b"M410\n")?;
         self.hear_out()?;
         self.window.clear();
-        (self.is_asked, self.refused, self.stand) = (false, 0, None);
+        (self.is_asked, self.refused, self.unsent, self.stand) = (false, 0, 0, None);
         // For a second it throws away every move.
         let begun = Instant::now();
         while begun.elapsed() < CLEANING {

@@ -91,6 +91,8 @@ impl Language {
 }
 
 /// How one machine speaks its language.
+// A profile has one of them.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]

@@ -49,6 +49,10 @@ pub struct GcodeDialect {
     /// How the controller talks while lines are sent to it.
     #[serde(default)]
     pub protocol: Protocol,
+    /// Lines that refill the pen, with the pen up before and after; `{x}` and `{y}` are the ink's place in machine units. Without
+    /// them the pen goes to the ink, comes down, waits, and rises.
+    #[serde(default)]
+    pub refill: Vec<String>,
 }
 
 /// How a controller talks while lines are sent to it.
@@ -158,6 +162,7 @@ impl GcodeDialect {
         lines.push(("gcode.dwell", &self.dwell));
         lines.extend(self.start.iter().map(|line| ("gcode.start", line.as_str())));
         lines.extend(self.end.iter().map(|line| ("gcode.end", line.as_str())));
+        lines.extend(self.refill.iter().map(|line| ("gcode.refill", line.as_str())));
         for (key, line) in lines {
             self.check_line(key, line)?;
         }
