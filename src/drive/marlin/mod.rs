@@ -34,6 +34,8 @@ const STARTING: Duration = Duration::from_secs(10);
 const HIDDEN_MOVES: usize = 16;
 /// The same for Klipper, which looks two seconds ahead, whatever the number of moves in them.
 const LOOKED_AHEAD: usize = 2000;
+/// It has said everything if it says nothing for so long.
+const QUIET: Duration = Duration::from_millis(200);
 /// Before a line is sent again what is on its way arrives, and is refused too.
 const SETTLING: Duration = Duration::from_millis(60);
 /// After a stop it throws moves away for a second.
@@ -106,22 +108,39 @@ impl Marlin {
         Ok(marlin)
     }
 
-    /// Sets the number of the next line to 1, as often as it takes.
+    /// Begins to count lines anew, as often as it takes. The place is asked for too: the `ok` after it is known from any other.
     fn begin_counting(&mut self) -> Result<(), DriveError> {
         let begun = Instant::now();
         while begun.elapsed() < STARTING {
-            self.port.send(numbered(0, "M110 N0").as_bytes())?;
-            let asked = Instant::now();
+            let questions = [numbered(0, "M110 N0"), numbered(1, "M114")].concat();
+            self.port.send(questions.as_bytes())?;
+            let (asked, mut is_told) = (Instant::now(), false);
             while asked.elapsed() < Duration::from_secs(1) {
-                if self.hear(LISTENING)?.contains(&Reply::Ok) {
-                    // Answers to half a line, or to the same question.
-                    self.hear(Duration::from_millis(200))?;
-                    self.next = 1;
-                    return Ok(());
+                for reply in self.hear(LISTENING)? {
+                    match reply {
+                        Reply::Place(_) => is_told = true,
+                        Reply::Ok if is_told => {
+                            self.quiet()?;
+                            self.next = 2;
+                            return Ok(());
+                        }
+                        _ => {}
+                    }
                 }
             }
         }
         Err(DriveError::Silent { seconds: STARTING.as_secs(), expected: "Marlin or Klipper" })
+    }
+
+    /// Hears what is still said of earlier attempts, until it is quiet.
+    fn quiet(&mut self) -> Result<(), DriveError> {
+        let mut heard = Instant::now();
+        while heard.elapsed() < QUIET {
+            if !self.hear(LISTENING)?.is_empty() {
+                heard = Instant::now();
+            }
+        }
+        Ok(())
     }
 
     /// Hears the answers to all lines on their way and to one more, or until it has said nothing for a while.
