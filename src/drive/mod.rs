@@ -8,6 +8,7 @@
 //! Nothing here opens files or prints: a journal is kept by whoever implements [`Ledger`], a terminal or a page follows as
 //! [`Onlooker`]. Every protocol was proved against models of the machines, not on machines.
 
+mod checkpoints;
 mod controller;
 mod dips;
 mod ebb;

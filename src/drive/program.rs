@@ -131,29 +131,6 @@ impl Program {
         self.lines.windows(2).map(|pair| pair[1].until - pair[0].until).fold(0.0, f64::max)
     }
 
-    /// The program with a line after every so many seconds, between two paths.
-    pub fn with_checkpoints(
-        &self,
-        profile: &Profile,
-        text: &str,
-        seconds: f64,
-        interrupt: &Interrupt,
-    ) -> Result<Self, DriveError> {
-        let mut lines = Vec::with_capacity(self.lines.len());
-        let (mut from, mut last) = (0, 0.0);
-        for path in &self.paths {
-            lines.extend_from_slice(&self.lines[from..path.end]);
-            from = path.end;
-            let end = &self.lines[path.end - 1];
-            if end.until - last >= seconds {
-                last = end.until;
-                lines.push(ProgramLine { text: text.to_owned(), number: 0, act: Act::Mode, name: None, ..end.clone() });
-            }
-        }
-        lines.extend_from_slice(&self.lines[from..]);
-        self.with_lines(profile, lines, interrupt)
-    }
-
     /// The same paths with lines of which some are not in the file.
     pub(super) fn with_lines(
         &self,
