@@ -127,8 +127,17 @@ pub trait Controller {
     /// Sends a line of its own and waits until it is taken. Nothing may be outstanding.
     fn ask(&mut self, text: &str) -> Result<(), DriveError>;
 
-    /// Waits until the machine stands still with nothing left to do; at most so long. An interrupt halts it.
-    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError>;
+    /// Waits until the machine stands still with nothing left to do; at most so long. An interrupt ends the waiting only.
+    fn await_rest(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError>;
+
+    /// The same, but an interrupt halts the machine.
+    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+        let waited = self.await_rest(most, interrupt);
+        if matches!(waited, Err(DriveError::Interrupted)) {
+            self.halt()?;
+        }
+        waited
+    }
 
     /// Moves with the pen up to a place in machine units, at machine units per minute, and waits until it is there. An interrupt halts
     /// it.

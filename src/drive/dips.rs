@@ -131,12 +131,18 @@ impl Program {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_pen_is_dipped_between_paths_and_dips_are_no_paths() {
+    /// Paths of 10 mm for `grbl-servo`.
+    fn plot(paths: usize) -> String {
         let mut text = "(pen up is M3 S300)\n(pen down is M3 S700)\nG21\nM3 S300\nG4 P.15\n(pen 1: lines 0.3)\n".to_owned();
-        for y in 0..6 {
+        for y in 0..paths {
             text += &["G0 X0 Y", "\nM3 S700\nG4 P.2\nG1 X10 Y", " F3000\nM3 S300\nG4 P.15\n"].join(&y.to_string());
         }
+        text
+    }
+
+    #[test]
+    fn the_pen_is_dipped_between_paths_and_dips_are_no_paths() {
+        let text = plot(6);
         let profile = Profile::built_in("grbl-servo").unwrap();
         let program = Program::read(&profile, &text, &Interrupt::never()).unwrap();
         let ink = Refill::Well(Inkwell { at: [200.0, 5.0], seconds: 0.5 });
@@ -158,10 +164,7 @@ mod tests {
 
     #[test]
     fn a_user_or_the_profile_s_own_lines_may_see_to_the_ink() {
-        let mut text = "(pen up is M3 S300)\n(pen down is M3 S700)\nG21\nM3 S300\nG4 P.15\n(pen 1: lines 0.3)\n".to_owned();
-        for y in 0..4 {
-            text += &["G0 X0 Y", "\nM3 S700\nG4 P.2\nG1 X10 Y", " F3000\nM3 S300\nG4 P.15\n"].join(&y.to_string());
-        }
+        let text = plot(4);
         let profile = Profile::built_in("grbl-servo").unwrap();
         let program = Program::read(&profile, &text, &Interrupt::never()).unwrap();
         let by_user = program.with_dips(&profile, Dip::Millimetres(15.0), &Refill::User, &Interrupt::never()).unwrap();

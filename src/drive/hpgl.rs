@@ -282,14 +282,11 @@ impl Controller for Hpgl {
         self.wait_until_still(PATIENCE, &Interrupt::never())
     }
 
-    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+    fn await_rest(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
         let begun = Instant::now();
         self.drain()?;
         loop {
-            if interrupt.is_raised() {
-                self.halt()?;
-                return Err(DriveError::Interrupted);
-            }
+            interrupt.check()?;
             self.port.send(b"\x1b.O")?;
             let status = self.number(PATIENCE)?;
             if status & NOT_READY != 0 {

@@ -55,15 +55,20 @@ fn whole(bench: &Bench) -> Vec<Piece> {
     machine.firmware().drawn.clone()
 }
 
+/// No ink of the whole is missing.
+fn check_ink(drawn: &[Piece], whole: &[Piece]) {
+    let (ink, wanted) = (inked(drawn), inked(whole));
+    // A point at a seam may fall on the next square.
+    let near = |&(x, y): &(i64, i64)| (-1..=1).any(|i| (-1..=1).any(|j| ink.contains(&(x + i, y + j))));
+    assert!(wanted.iter().all(near), "ink is missing");
+}
+
 /// What was disturbed equals the whole, up to one path or a length drawn twice.
 fn compare(machine: &Machine, whole: &[Piece], paths: usize, overlap: Option<f64>) {
     let firmware = machine.firmware();
     let (drawn, expected) = (by_cell(&firmware.drawn, &firmware.touches), by_cell(whole, &[]));
     assert_eq!(drawn.len(), paths, "each path was begun");
-    let (ink, wanted) = (inked(&firmware.drawn), inked(whole));
-    // A point at a seam may fall on the next square.
-    let near = |&(x, y): &(i64, i64)| (-1..=1).any(|i| (-1..=1).any(|j| ink.contains(&(x + i, y + j))));
-    assert!(wanted.iter().all(near), "ink is missing");
+    check_ink(&firmware.drawn, whole);
     let mut repeated = Vec::new();
     for (cell, (length, touches)) in &drawn {
         let once = expected.get(cell).map_or(0.0, |known| known.0);
@@ -213,9 +218,7 @@ fn a_drawing_that_is_disturbed_again_and_again_never_goes_back() {
     let output = job.run(&machine, &["--continue"]);
     assert!(output.status.success(), "{}", said(&output));
     let firmware = machine.firmware();
-    let (ink, wanted) = (inked(&firmware.drawn), inked(&whole));
-    let near = |&(x, y): &(i64, i64)| (-1..=1).any(|i| (-1..=1).any(|j| ink.contains(&(x + i, y + j))));
-    assert!(wanted.iter().all(near), "ink is missing");
+    check_ink(&firmware.drawn, &whole);
     assert!(firmware.touches.len() <= PATHS + 9, "{} paths begun", firmware.touches.len());
 }
 

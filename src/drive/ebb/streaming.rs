@@ -126,13 +126,10 @@ impl Controller for Ebb {
         self.say(text)
     }
 
-    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+    fn await_rest(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
         let begun = Instant::now();
         loop {
-            if interrupt.is_raised() {
-                self.halt()?;
-                return Err(DriveError::Interrupted);
-            }
+            interrupt.check()?;
             self.port.send(b"QM\r")?;
             let state = self.next_line(|line| line.starts_with("QM"))?;
             if state.split(',').skip(1).all(|field| field.trim() == "0") {

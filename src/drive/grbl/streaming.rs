@@ -99,12 +99,8 @@ impl Controller for Grbl {
         self.ask(text, Duration::from_secs(65), &Interrupt::never()).map(drop)
     }
 
-    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
-        let waited = self.wait_until_idle(most, interrupt).map(drop);
-        if matches!(waited, Err(DriveError::Interrupted)) {
-            self.halt()?;
-        }
-        waited
+    fn await_rest(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+        self.wait_until_idle(most, interrupt).map(drop)
     }
 
     fn travel(&mut self, [x, y]: [f64; 2], rate: f64, interrupt: &Interrupt) -> Result<(), DriveError> {

@@ -355,12 +355,8 @@ impl Controller for Marlin {
         self.ask_until(text, PATIENCE, &Interrupt::never())
     }
 
-    fn wait_until_still(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
-        let waited = self.ask_until(FINISHED, most, interrupt);
-        if matches!(waited, Err(DriveError::Interrupted)) {
-            self.halt()?;
-        }
-        waited
+    fn await_rest(&mut self, most: Duration, interrupt: &Interrupt) -> Result<(), DriveError> {
+        self.ask_until(FINISHED, most, interrupt)
     }
 
     fn travel(&mut self, [x, y]: [f64; 2], rate: f64, interrupt: &Interrupt) -> Result<(), DriveError> {
