@@ -47,6 +47,15 @@ painting() {
     convert "$WORK/$name.png" -resize 50% "$WORK/$name.jpg"
 }
 
+# NAME PHOTO OPTIONS...: a drawing in four pens, as inks on paper look from afar.
+coloured() {
+    name=$1 photo=$2
+    shift 2
+    "$D" draw "$photo" --quiet -o "$WORK/$name.svg" --colours docs/four-pens.toml "$@"
+    rsvg-convert -w 2400 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
+    convert "$WORK/$name.png" -colorspace RGB -resize 760x -colorspace sRGB -quality 85 "$OUT/$name.jpg"
+}
+
 # Portraits are drawn as anybody would draw them: by what is found in the photograph.
 BUST="--mask subject=$S/bust-mask-subject.png"
 
@@ -97,6 +106,11 @@ done
 painting glass-astronaut $S/astronaut.jpg --set detail=0.06
 convert "$WORK/glass-astronaut.png" -quality 88 "$OUT/glass-astronaut.jpg"
 ink glass-one-pen $S/astronaut.jpg --style glass --set colors=mono
+
+coloured colour-raccoon $S/raccoon.jpg --size 120x90mm
+coloured colour-raccoon-lines $S/raccoon.jpg --size 120x90mm --style engrave
+coloured colour-astronaut $S/astronaut.jpg --background keep --pitch 0.45mm
+coloured colour-coffee $S/coffee.png --size 120x90mm --style engrave
 
 for preset in wsj-column wsj-large book banknote charcoal-loose poster pen-0.1 pen-0.5-one-hour scraperboard; do
     ink preset-$preset $S/grace-hopper.jpg --preset $preset

@@ -15,6 +15,7 @@
 //! | [`field`] | rasters, curves | edges, isophotes, distances, lanes, Voronoi cells, traced lines |
 //! | [`style`] | a portrait, parameters, a seed | [`drawing::Drawing`] |
 //! | [`scene`] | masks, drawings in several styles | which point belongs to which region; the drawings confined to them |
+//! | `colour` | a photograph's light, pens | the coverage of each pen, and the pen of each mark |
 //! | [`drawing`] | | the stroke model: page, layers, dots, strokes, areas |
 //! | [`geometry`] | | curves, clipping, areas, lengths |
 //! | [`order`] | ends of paths, stops | the order with the least way between them |
@@ -55,6 +56,8 @@
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
+pub mod colour;
 pub mod drawing;
 #[cfg(feature = "drive")]
 pub mod drive;

@@ -39,7 +39,7 @@ pub(super) fn run(options: &DrawOptions) -> Result<(), Failure> {
 fn draw(options: &DrawOptions) -> Result<(), Failure> {
     let (format, mut profile) = format_and_machine(options)?;
     press(options)?;
-    let mut pens = PenSet::read(options.toolpaths.pens.as_deref(), options.pen, profile.as_mut())?;
+    let mut pens = PenSet::read(pens_file(options), options.pen, profile.as_mut())?;
     let task = affordable::task(&options.picture, &options.placing, reach_of(profile.as_ref()))?;
     toolpaths::check_preview(&options.output, &options.toolpaths)?;
     let notice = layout::empty_box_notice(&options.picture, &task.layout).filter(|_| !options.reporting.quiet);
@@ -79,6 +79,11 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     tell();
     task.tell(options.reporting.quiet);
     report(options, &drawing, &pens, (&files, &jobs), &seconds, watcher.elapsed())
+}
+
+/// The file of the pens: one for colours is one for the machine too.
+fn pens_file(options: &DrawOptions) -> Option<&str> {
+    options.toolpaths.pens.as_deref().or(options.picture.colours.as_deref())
 }
 
 /// The format of the output and the machine that reads it, where they go together.

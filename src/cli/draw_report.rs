@@ -4,6 +4,7 @@ use super::arguments::DrawOptions;
 use super::failure::Failure;
 use super::layer_files::{self, LayerFile};
 use super::messages::{self, say};
+use super::palette::explained;
 use super::pens::PenSet;
 use super::words::counted;
 use super::{output, toolpaths};
@@ -35,6 +36,9 @@ pub(super) fn report(
             counted(counts[0], "dot"),
             counted(counts[1], "stroke")
         );
+        if options.explain {
+            explained(drawing, pens.nibs()).iter().for_each(|line| say!("{line}"));
+        }
         for (file, job) in files.iter().zip(jobs) {
             let name = if files.len() > 1 { format!("{}: ", file.name) } else { String::new() };
             say!("{name}{}", toolpaths::summary(job.report()));

@@ -1,6 +1,7 @@
 //! Errors as the user sees them, and their exit statuses.
 
 use super::remedies::advised;
+use super::words::counted;
 use std::io;
 use thiserror::Error;
 
@@ -15,6 +16,12 @@ pub(super) enum Failure {
     /// A drawing does not fit its machine; the advice depends on the command.
     #[error("{0}")]
     Misfit(crate::plot::MountingError),
+    /// Some pictures of a batch could not be drawn.
+    #[error("{} could not be drawn; their lines say why, and a second run tries them again", counted(*failed as usize, "picture"))]
+    Some {
+        /// How many.
+        failed: u64,
+    },
     /// The user stopped it.
     #[error("interrupted; unfinished files are not written")]
     Interrupted,
@@ -32,6 +39,7 @@ impl Failure {
         match self {
             Self::Usage(_) => 2,
             Self::Work(_) | Self::Misfit(_) => 1,
+            Self::Some { .. } => 3,
             Self::Interrupted => super::interruption::exit_status(),
             #[cfg(feature = "drive")]
             Self::Stopped => 130,

@@ -15,8 +15,13 @@ impl Format {
             Self::Svg => Some(Language::Svg),
             Self::Hpgl => Some(Language::Hpgl),
             Self::Gcode => Some(Language::Gcode),
-            Self::Pdf | Self::Inkml => None,
+            Self::Pdf | Self::Inkml | Self::Json => None,
         }
+    }
+
+    /// Whether it holds tool paths.
+    pub(super) const fn holds_toolpaths(self) -> bool {
+        !matches!(self, Self::Pdf | Self::Inkml)
     }
 
     /// The format of a drawing that is no machine's.
@@ -25,6 +30,7 @@ impl Format {
             Self::Svg => Ok(PrintFormat::Svg),
             Self::Pdf => Ok(PrintFormat::Pdf { seconds: output::source_date()? }),
             Self::Inkml => Ok(PrintFormat::Inkml),
+            Self::Json => Ok(PrintFormat::Json),
             Self::Hpgl | Self::Gcode => Err(needs_profile()),
         }
     }
@@ -34,6 +40,7 @@ impl Format {
         match self {
             Self::Pdf => &["pdf"],
             Self::Inkml => &["inkml"],
+            Self::Json => &["json"],
             Self::Svg => Language::Svg.extensions(),
             Self::Hpgl => Language::Hpgl.extensions(),
             Self::Gcode => Language::Gcode.extensions(),
@@ -81,6 +88,7 @@ fn needs_profile() -> Failure {
 pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Result<(), Failure> {
     let is_svg = format.language() == Some(Language::Svg);
     match (format.language(), profile) {
+        _ if format == Format::Json => Ok(()),
         (None, Some(_)) => Err(Failure::Usage(match format {
             Format::Inkml => "InkML holds a drawing's strokes, not a machine's tool paths; leave out --profile".to_owned(),
             _ => "PDF is for print, not for a plotter; leave out --profile, or write the plotter's format".to_owned(),

@@ -31,7 +31,7 @@ pub(super) fn inked(
     options: &DrawOptions,
     observer: &dyn Observer,
 ) -> Result<Drawing, Failure> {
-    for layer in &mut drawing.layers {
+    for layer in drawing.layers.iter_mut().filter(|_| task.palette.is_none()) {
         layer.ink = task.own_ink(layer).unwrap_or(&options.ink).clone();
     }
     drawing.layers = chosen(drawing.layers, &options.layers)?;

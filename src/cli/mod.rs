@@ -4,8 +4,10 @@ mod advice;
 mod affordable;
 mod amounts;
 mod arguments;
+mod batch;
 mod calibrate;
 mod claims;
+mod coloured;
 mod composed;
 mod crop;
 mod draw;
@@ -34,6 +36,7 @@ mod max_time;
 mod messages;
 mod output;
 mod overlay;
+mod palette;
 mod pen_file;
 mod pens;
 mod placing;
@@ -67,7 +70,20 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use failure::Failure;
 use scene::{Refusal, Spelled};
 use std::ffi::OsString;
+use std::io::IsTerminal;
 use std::process::ExitCode;
+
+/// What to do first, for those who have just installed the command.
+const FIRST_STEPS: &str = "\
+drypoint turns a photograph into vector stroke art for print or a pen plotter.
+
+  drypoint draw portrait.jpg -o portrait.svg                         a hedcut; open the file in a browser
+  drypoint draw portrait.jpg -o portrait.svg --style engrave         lines as on banknotes; `drypoint styles` lists the styles
+  drypoint draw portrait.jpg -o column.pdf --preset wsj-column       for print; `drypoint presets` lists the purposes
+  drypoint draw portrait.jpg -o portrait.gcode --profile grbl-servo  for a plotter; `drypoint profiles` lists the machines
+  drypoint see portrait.jpg -o sight                                 what is found in the photograph, to correct it
+
+`drypoint --help` lists all commands, `drypoint draw --help` all options.";
 
 /// Runs the command with the process's arguments.
 ///
@@ -75,6 +91,10 @@ use std::process::ExitCode;
 /// process quietly with status 0.
 pub fn main() -> ExitCode {
     let words: Vec<OsString> = std::env::args_os().collect();
+    if words.len() == 1 && std::io::stderr().is_terminal() {
+        messages::say!("{FIRST_STEPS}");
+        return ExitCode::from(2);
+    }
     let parsed = scene::matches(&words).and_then(|(matches, origins)| Ok((arguments(&matches)?, origins)));
     let (arguments, origins) = match parsed {
         Ok(parsed) => parsed,
@@ -100,6 +120,11 @@ fn arguments(matches: &ArgMatches) -> Result<Arguments, Refusal> {
     let mut arguments = Arguments::from_arg_matches(matches)?;
     if let (Command::Draw(options) | Command::Scene(options), Some((_, given))) = (&mut arguments.command, matches.subcommand()) {
         options.spelled = Spelled::of(given);
+    }
+    if let (Command::Batch(options), Some((_, given))) = (&mut arguments.command, matches.subcommand()) {
+        options.draw.spelled = Spelled::of(given);
+        let inputs = given.get_raw("photo").into_iter().flatten();
+        options.inputs = inputs.map(|input| input.to_string_lossy().into_owned()).collect();
     }
     Ok(arguments)
 }
@@ -136,6 +161,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Command::See(options) => see::run(&options),
         Command::Scene(options) => scene::run(&options),
         Command::Presets(options) => scene::presets(&options),
+        Command::Batch(options) => batch::run(&options),
         Command::Sheet(options) => {
             let what = Sent { output: &options.output, profile: options.profile.as_deref(), toolpaths: &options.toolpaths };
             what.after(false, || sheet::run(&options))
@@ -152,6 +178,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             what.after(options.dry_run, || calibrate::run(&options))
         }
         Command::Styles(options) => lists::styles(&options),
+        Command::Pens(options) => palette::list(&options),
         Command::Profiles(options) => lists::profiles(&options),
         Command::Completions { shell } => {
             let mut text = Vec::new();

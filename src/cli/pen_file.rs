@@ -3,6 +3,7 @@
 use super::arguments::NIBS;
 use super::failure::Failure;
 use super::words::line_of;
+use crate::colour::{Opacity, known_pen_named};
 use crate::drawing::Colour;
 use crate::geometry::parse_length;
 use toml::de::{DeTable, DeValue};
@@ -23,17 +24,23 @@ colour = "#cc0000"
 width = "0.5mm"
 slot = 2
 speed = 30          # mm/s with the pen down; without it the machine's, or --speed
+# like = "Pigma Micron 05 red" # width and estimated colour of a common pen; `drypoint pens` lists them
+# lab = [45, 62, 40] # its colour on the paper as measured, L*a*b* (D65), instead of `colour`, for --colours
+# opaque = true     # covers what lies below, as a white gel pen does, for --colours
 # dwell = 0.1       # seconds that a touch rests beyond the time that the pen takes to come down (G-code)
 # offset = [0, 0]   # how far its ink lies off, in mm along the machine's x and y: see docs/calibration.md
 "##;
 
 /// The keys of a pen and the values that each takes.
-const KEYS: [(&str, &str); 6] = [
+const KEYS: [(&str, &str); 9] = [
     ("width", "a length from 0.01 to 20 mm, such as \"0.3mm\" or 0.3"),
     ("slot", "a whole number from 1, such as 2"),
     ("colour", "a CSS colour, such as \"navy\" or \"#1f77b4\""),
     ("speed", "mm/s above 0, such as 30"),
     ("dwell", "seconds from 0 to 60, such as 0.1"),
+    ("like", "the name of a pen that `drypoint pens` lists, such as \"fine-liner cyan\""),
+    ("lab", "three numbers: L* from 0 to 100, a* and b*, such as [45, 62, 40]"),
+    ("opaque", "true or false"),
     ("offset", "two numbers in mm, along x and along y, such as [0.1, 0]"),
 ];
 
@@ -45,6 +52,10 @@ pub(super) struct PenEntry {
     pub width: Option<f64>,
     pub slot: Option<u32>,
     pub colour: Option<Colour>,
+    /// L\*a\*b\* under D65.
+    pub lab: Option<[f64; 3]>,
+    /// Covers what lies below.
+    pub is_opaque: bool,
     pub speed: Option<f64>,
     pub dwell: Option<f64>,
     pub offset: Option<[f64; 2]>,
@@ -105,6 +116,17 @@ impl Reader<'_> {
             "colour" => set(&mut pen.colour, value.as_str().and_then(|text| text.parse().ok())),
             "speed" => set(&mut pen.speed, number(value).filter(|speed| *speed > 0.0)),
             "dwell" => set(&mut pen.dwell, number(value).filter(|seconds| (0.0..=60.0).contains(seconds))),
+            "like" => match value.as_str().and_then(known_pen_named) {
+                Some(known) => {
+                    pen.width.get_or_insert(known.width_mm);
+                    pen.colour.get_or_insert(known.colour);
+                    pen.is_opaque |= known.opacity == Opacity::Opaque;
+                    true
+                }
+                None => false,
+            },
+            "lab" => set(&mut pen.lab, triple(value).filter(|[l, ..]| (0.0..=100.0).contains(l))),
+            "opaque" => value.as_bool().inspect(|is_opaque| pen.is_opaque = *is_opaque).is_some(),
             _ => set(&mut pen.offset, pair(value)),
         };
         if given {
@@ -159,6 +181,13 @@ fn length(value: &toml::Value) -> Option<f64> {
     value.as_str().map_or_else(|| number(value), |text| parse_length(text).ok())
 }
 
+fn triple(value: &toml::Value) -> Option<[f64; 3]> {
+    match &value.as_array()?[..] {
+        [l, a, b] => Some([number(l)?, number(a)?, number(b)?]),
+        _ => None,
+    }
+}
+
 fn pair(value: &toml::Value) -> Option<[f64; 2]> {
     match &value.as_array()?[..] {
         [x, y] => Some([number(x)?, number(y)?]),
@@ -193,7 +222,10 @@ mod tests {
             ("[a]\nslot = \"two\"\n", "pens.toml, line 2: [a] slot takes a whole number from 1, such as 2, not \"two\""),
             ("[a]\n\nslot = { x = 1 }\n", "line 3: [a] slot takes a whole number from 1, such as 2, not a table"),
             ("[a]\nwidth = \"wide\"\n", "line 2: [a] width takes a length from 0.01 to 20 mm"),
-            ("[a]\nwidht = 0.3\n", "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, offset"),
+            (
+                "[a]\nwidht = 0.3\n",
+                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, opaque, offset",
+            ),
             ("[pen.1]\nwidth = 0.3\n", "line 1: [pen.1] is a table within a table"),
             ("[[pen]]\nwidth = 0.3\n", "line 1: 'pen' is a list"),
             ("slot = 1\n", "line 1: 'slot' is outside any pen"),

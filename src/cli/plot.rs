@@ -28,8 +28,8 @@ pub(super) const MORE_WORK: &str = "; --most-work raises it";
 
 pub(super) fn run(options: &PlotOptions) -> Result<(), Failure> {
     let format = formats::format_of(&options.output, options.format)?;
-    if format.language().is_none() {
-        let message = "plot writes tool paths, as .svg or for a machine; `drypoint draw` writes PDF and InkML";
+    if !format.holds_toolpaths() {
+        let message = "plot writes tool paths, as .svg, .json or for a machine; `drypoint draw` writes PDF and InkML";
         return Err(Failure::Usage(message.to_owned()));
     }
     if options.reporting.json && options.output == "-" {

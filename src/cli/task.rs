@@ -11,6 +11,7 @@ use super::looking;
 use super::manner::{Manner, find_style, given};
 use super::masks::{RoleMask, photograph};
 use super::messages::say;
+use super::palette::Palette;
 use super::regions::{self, Region};
 use super::remedies::advised;
 use super::seen_stages;
@@ -37,6 +38,8 @@ pub(super) struct Task<'a> {
     pub layout: Layout,
     /// The parameters given by the user.
     given: Vec<(String, String)>,
+    /// The pens, if it is drawn in colours.
+    pub palette: Option<Palette>,
 }
 
 impl<'a> Task<'a> {
@@ -51,6 +54,7 @@ impl<'a> Task<'a> {
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
+        let palette = Palette::read(options)?;
         let mask_files: Vec<(MaskRole, &str)> = options
             .mask
             .iter()
@@ -83,7 +87,7 @@ impl<'a> Task<'a> {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
         let manner = Manner { style, settings, known, seed: options.seed };
-        Ok(Self { options, manner, regions, photograph, layout, given })
+        Ok(Self { options, manner, regions, photograph, layout, given, palette })
     }
 
     /// True if the picture with other options, including all its ink, would lie within the machine's reach.
@@ -111,6 +115,11 @@ impl<'a> Task<'a> {
         let mut given = self.given.clone();
         given.push(("pitch".to_owned(), pitch.to_string()));
         Settings::resolve(self.manner.style.name(), self.manner.style.parameters(), &given).ok()
+    }
+
+    /// The parameters given by the user.
+    pub(super) fn given(&self) -> &[(String, String)] {
+        &self.given
     }
 
     /// The largest pitch that the style accepts and that leaves the picture recognisable.
@@ -160,7 +169,9 @@ impl<'a> Task<'a> {
     /// Draws the picture with other parameters or at another placement.
     pub(super) fn draw_in(&self, settings: &Settings, placement: Placement, observer: &dyn Observer) -> Result<Drawing, Failure> {
         observer.begin("photograph");
-        let drawing = if self.regions.is_empty() {
+        let drawing = if self.palette.is_some() {
+            self.coloured(settings, placement, observer)?
+        } else if self.regions.is_empty() {
             let portrait = self.portrait(&self.manner.known, placement)?;
             self.manner.style.draw(&portrait, settings, self.options.seed, observer).map_err(|error| self.undrawn(&error))?
         } else {

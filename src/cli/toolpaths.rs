@@ -81,6 +81,7 @@ fn check_speed((option, speed): (&str, f64), does: &str, fastest: f64, key: &str
 pub(super) fn write(name: &str, format: Format, job: &Job<'_>, head: &SvgHead) -> Result<(), Failure> {
     let own = job.machine().map(Profile::language);
     output::write(name, |out| match format.language() {
+        _ if format == Format::Json => job.write_marks(out),
         Some(Language::Svg) if own != Some(Language::Svg) => job.write_picture(head, out),
         _ => job.write(head, out),
     })

@@ -3,6 +3,9 @@
 //! Device control instructions are those of the HP 7475A (Interfacing and Programming Manual, chapter on device control): `ESC.B` tells
 //! the free bytes of the buffer, `ESC.L` its size once it is empty, `ESC.O` the extended status, `ESC.E` the error, `ESC.K` forgets what
 //! is buffered, `ESC.J` an unfinished device control instruction. `OA` tells position and pen, `OI` the model.
+//!
+//! A Roland DXY-1100, 1200 or 1300 has the same ones in RD-GL I mode (DXY-1300/1200/1100 Command Reference Manual, sections 5.3 and 5.4),
+//! with the same codes of status; its buffer holds 1024 bytes too, and its pin 20 falls when that is full.
 
 use super::controller::{Controller, Heard, SpeedChange, Stand};
 use super::error::DriveError;

@@ -24,6 +24,7 @@ mod polyline;
 mod region;
 mod smooth;
 mod spline;
+pub(crate) mod stroke_letters;
 mod swell;
 mod tangle;
 mod thinning;

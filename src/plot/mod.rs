@@ -6,6 +6,7 @@
 mod budget;
 mod calibration;
 mod coverage;
+mod drawn;
 mod drying;
 mod extras;
 mod inkml;
@@ -41,7 +42,7 @@ pub use joining::{chain, drop_duplicates};
 #[doc(hidden)]
 pub use language::{Act, Replayed};
 #[doc(hidden)]
-pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, Protocol, SvgDialect, Travel};
+pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, PenLift, Protocol, SvgDialect, Travel};
 pub use language::{GcodeError, HpglError, Language, MotionError, ResumeError, StopPlace, Strokes};
 #[cfg(feature = "drive")]
 pub(crate) use language::{word, words};

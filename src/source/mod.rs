@@ -23,6 +23,8 @@ pub(crate) use encoded::grey_image;
 
 #[doc(hidden)]
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
+#[cfg(feature = "cli")]
+pub(crate) use decode::hexadecimal;
 #[doc(hidden)]
 pub use decode::sha256;
 pub use decode::{Limits, Photograph, SourceInfo};

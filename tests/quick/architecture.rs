@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 const MAY_USE: &[(&str, &[&str])] = &[
     ("raster", &[]),
     ("geometry", &[]),
+    ("colour", &["raster", "drawing", "geometry"]),
     ("drawing", &["geometry"]),
     ("source", &["raster", "geometry", "drawing"]),
     ("see", &["source", "field", "raster", "geometry"]),

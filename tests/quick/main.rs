@@ -14,8 +14,10 @@ mod custom_style;
 mod machine_file;
 
 mod architecture;
+mod batch;
 mod calibration;
 mod citations;
+mod colours;
 mod complete_hedcut;
 mod depth;
 mod foreign;

@@ -6,8 +6,8 @@ use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::drive::{Ebb, Ending, Happening, Onlooker, PenHeights, Program, Rest, Wish};
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Act, PenPaths, Plot, Profile, Toolpath, mount};
-use std::collections::VecDeque;
+use drypoint::plot::{Act, PenLift, PenPaths, Plot, Profile, Toolpath, mount};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -47,6 +47,9 @@ struct Board {
     /// Steps at each lifting, and where the pen came down.
     lifts: Vec<[i64; 2]>,
     touches: Vec<[i64; 2]>,
+    /// Settings of the pen's servo, and the pins at which it was moved.
+    servo: BTreeMap<i64, i64>,
+    pins: BTreeSet<i64>,
     unknown: Vec<String>,
     blocked: usize,
     stopped: Option<f64>,
@@ -75,6 +78,8 @@ impl Board {
             is_pressed: true,
             lifts: Vec::new(),
             touches: Vec::new(),
+            servo: BTreeMap::new(),
+            pins: BTreeSet::new(),
             unknown: Vec::new(),
             blocked: 0,
             stopped: None,
@@ -126,7 +131,11 @@ impl Board {
                 let depth = self.depth;
                 self.say(&format!("QU,{depth}\r\nOK\r\n"));
             }
-            ("SC", _) | ("CU", [1, 1]) => self.say("OK\r\n"),
+            ("SC", [number, value]) => {
+                self.servo.insert(*number, *value);
+                self.say("OK\r\n");
+            }
+            ("CU", [1, 1]) => self.say("OK\r\n"),
             ("CU", [50, 1] | [61, 0] | [60, _]) if self.version == NEW => self.say("OK\r\n"),
             ("CS", _) => {
                 self.steps = [0; 2];
@@ -158,7 +167,10 @@ impl Board {
                 // Firmware 3 has one value here.
                 self.say(if self.version == NEW { "1\n\rOK\r\n" } else { "1,0,0,0,0\n\rOK\r\n" });
             }
-            ("SP", [value, milliseconds]) => self.accept(Motion::Pen { is_down: *value == 0, ticks: milliseconds * 25 }),
+            ("SP", [value, milliseconds, pin]) => {
+                self.pins.insert(*pin);
+                self.accept(Motion::Pen { is_down: *value == 0, ticks: milliseconds * 25 });
+            }
             ("LM", [rate, steps, change, other, more, turn, 3]) => {
                 let (rates, counts, changes) = ([*rate, *other], [*steps, *more], [*change, *turn]);
                 assert!(counts != [0; 2] && text.len() < 64, "{text}");
@@ -306,15 +318,49 @@ const OLD: &str = "EBBv13_and_above EB Firmware Version 2.8.1";
 const NEW: &str = "EBBv13_and_above EB Firmware Version 3.0.2";
 
 fn program(plot: &Plot) -> Program {
-    let profile = Profile::built_in("axidraw-v3").unwrap();
+    program_for("axidraw-v3", plot)
+}
+
+fn program_for(machine: &str, plot: &Plot) -> Program {
+    let profile = Profile::built_in(machine).unwrap();
     let mounting = mount(&profile, &plot.page).unwrap();
     Program::of_plot(&profile, plot, &mounting, &Rest::default(), &Interrupt::never()).unwrap()
 }
 
 fn conversation(machine: &Machine<Board>) -> Ebb {
-    let mut ebb = Ebb::greet(connected_at(&machine.port()), PenHeights::default(), &Interrupt::never()).unwrap();
+    conversation_with(PenLift::Servo, machine)
+}
+
+fn conversation_with(lift: PenLift, machine: &Machine<Board>) -> Ebb {
+    let mut ebb = Ebb::greet(connected_at(&machine.port()), PenHeights::default(), lift, &Interrupt::never()).unwrap();
     ebb.set_pace(PACE);
     ebb
+}
+
+/// Heights, channels and rates are those that the maker's own program sends for 60 and 30 percent.
+#[test]
+fn each_pen_lift_is_moved_at_its_plug_and_in_its_range() {
+    for (machine_name, lift, pin, settings) in [
+        ("axidraw-v3", PenLift::Servo, 1, [(4, 20_641), (5, 15_248), (8, 8)]),
+        ("axidraw-v3-brushless", PenLift::Brushless, 2, [(4, 9720), (5, 7560), (8, 1)]),
+    ] {
+        let machine = Machine::of_pace(Board::new(NEW), PACE);
+        let plot = &drawings()[0];
+        let program = program_for(machine_name, plot);
+        let ending = drawn(&mut conversation_with(lift, &machine), &program, &mut Stopping(None)).0;
+        assert_eq!(ending, Ending::Done);
+        let board = machine.firmware();
+        assert_eq!(board.pins, BTreeSet::from([pin]));
+        settings.iter().for_each(|(number, value)| assert_eq!(board.servo[number], *value, "{machine_name} SC,{number}"));
+        // It arrives before the profile goes on: the rate, once per period, covers the way in time.
+        let period = 0.003 * board.servo[&8] as f64;
+        let way = (board.servo[&4] - board.servo[&5]) as f64;
+        let motion = Profile::built_in(machine_name).unwrap().motion;
+        for (number, seconds) in [(11, motion.pen_up_seconds), (12, motion.pen_down_seconds)] {
+            assert!(way / board.servo[&number] as f64 * period <= seconds, "{machine_name} SC,{number}");
+        }
+        assert!(board.unknown.is_empty(), "{:?}", board.unknown);
+    }
 }
 
 #[test]

@@ -35,6 +35,10 @@ fn folder() -> tempfile::TempDir {
     }
     broad("grace-hopper-depth.png", "depth.png");
     broad("astronaut-cutout.png", "cutout.png");
+    let pens = "[blue]\ncolour = \"#1f5fa8\"\n[orange]\ncolour = \"#f08020\"\n[black]\ncolour = \"#202020\"\n";
+    fs::write(folder.path().join("pens.toml"), pens).unwrap();
+    fs::create_dir(folder.path().join("photos")).unwrap();
+    fs::copy(folder.path().join("photo.jpg"), folder.path().join("photos/one.jpg")).unwrap();
     let anything = root().join("tests/data/foreign/inkscape.svg");
     fs::copy(anything, folder.path().join("anything.svg")).unwrap();
     fs::write(folder.path().join("my-plotter.toml"), "extends = \"grbl-servo\"\nname = \"my-plotter\"\nscale_x = 1.002\n")

@@ -39,6 +39,16 @@ pub(in crate::cli) enum Tone {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum BlackPen {
+    /// Drawn wherever it serves.
+    Tones,
+    /// Kept for outlines and features; tones are mixed from the other pens.
+    Lines,
+    /// Not used.
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Format {
     /// Scalable vector graphics.
     Svg,
@@ -50,6 +60,8 @@ pub(in crate::cli) enum Format {
     Gcode,
     /// `InkML`: strokes with force and time, for painting programs; `draw` only.
     Inkml,
+    /// JSON: every mark as numbers in millimetres, for programs; with a plotter its tool paths in drawing order.
+    Json,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

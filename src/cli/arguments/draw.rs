@@ -1,6 +1,6 @@
 //! Options of `draw` and `stages`: the photograph, its sheet and its style.
 
-use super::choices::{Background, Fit, Format, Tone};
+use super::choices::{Background, BlackPen, Fit, Format, Tone};
 use super::placing::PlacingOptions;
 use super::reporting::Reporting;
 use super::toolpaths::ToolpathOptions;
@@ -11,7 +11,7 @@ use super::values::{
 use crate::cli::lists::mask_roles;
 use crate::cli::region::{RegionOption, region};
 use crate::cli::scene::Spelled;
-use crate::drawing::Ink;
+use crate::drawing::{Colour, Ink};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -85,6 +85,19 @@ pub(in crate::cli) struct PictureOptions {
     /// Tone that becomes bare paper (0 to 1).
     #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = fraction, allow_negative_numbers = true)]
     pub white: f64,
+    /// Draw in the colours of the photograph with these pens, at most 8: a file as for --pens, which is used for that too, in which
+    /// each pen has its colour on the paper. One layer per pen, light ones first; the tone is the photograph's own.
+    #[arg(long, value_name = "FILE", conflicts_with = "region")]
+    pub colours: Option<String>,
+    /// The colour of the paper, any CSS colour.
+    #[arg(long, value_name = "COLOUR", default_value = "white")]
+    pub paper: Colour,
+    /// With --colours, how far to do with few pens where few will do (0 to 1).
+    #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = fraction, allow_negative_numbers = true)]
+    pub colours_simplify: f64,
+    /// With --colours, what the black pen draws.
+    #[arg(long, value_enum, default_value_t = BlackPen::Tones)]
+    pub black_pen: BlackPen,
     /// Seed of all random choices.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
@@ -99,7 +112,7 @@ pub(in crate::cli) struct DrawOptions {
     pub picture: PictureOptions,
     #[command(flatten)]
     pub placing: PlacingOptions,
-    /// The file to write, its format by extension: .svg, .svgz, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout.
+    /// The file to write, its format by extension: .svg, .svgz, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml, .json; `-` for stdout.
     /// With `{layer}` in the name, one file per layer.
     #[arg(long, short, value_name = "FILE")]
     pub output: String,
@@ -151,6 +164,9 @@ pub(in crate::cli) struct DrawOptions {
     /// from small pictures.
     #[arg(long)]
     pub dry_run: bool,
+    /// Say what each pen lays down: ink in mm2, metres of line, share.
+    #[arg(long)]
+    pub explain: bool,
     #[command(flatten)]
     pub reporting: Reporting,
 }

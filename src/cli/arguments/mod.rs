@@ -1,5 +1,6 @@
 //! Options, their units and their help.
 
+mod batch;
 mod choices;
 mod draw;
 mod files;
@@ -11,6 +12,7 @@ mod sheet;
 mod toolpaths;
 mod values;
 
+pub(super) use batch::*;
 pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
@@ -45,6 +47,14 @@ Sending a file to its plotter:
           into the file: --set-profile 'hpgl.preamble=\"\\u001B.I81;;17:\\u001B.N;19:\"' with stty ... ixon -crtscts.
   G-code  A sender that waits for `ok`, such as Universal G-code Sender, bCNC, Candle or cncjs; 3D printers read it from their card.
   SVG     For the AxiDraw: Inkscape's extension, axicli or saxi; layers are plotted in order, with a pause before those marked !.";
+
+/// What `batch` prints and keeps.
+const BATCHES: &str = "\
+For each picture, as it ends, one JSON line on stdout: photo, name, output, status (done, skipped or failed), reason, warnings,
+seconds, and sha256 and bytes of the output. {name} in any option's value is the picture's name, such as --mask 'hair=masks/{name}.png';
+pictures of a folder are named by their path in it. OUT/.drypoint/ holds a record per picture: it is skipped if the photograph, all
+options, the files that they name, the version and the output are as recorded. Any number of machines may share the folder.
+Exit status: 0 all done or skipped, 3 some failed, 1 could not start, 2 the command line is wrong.";
 
 /// How to steer a machine while it draws.
 #[cfg(feature = "drive")]
@@ -89,6 +99,14 @@ pub(super) enum Command {
     #[command(mut_arg("photo", |arg| arg.help("The drawing; its photograph and masks lie beside it or in this folder").value_name("DRAWING")),
         mut_arg("output", |arg| arg.help("The file to write [default: DRAWING-redone beside it]").required(false)))]
     Redo(DrawOptions),
+    /// Draw many photographs, each by the same options: one JSON line each, a second run draws only what is missing or has changed.
+    #[command(after_long_help = BATCHES,
+        mut_arg("photo", |arg| arg.num_args(1..).value_name("PHOTO|FOLDER|FILE.tsv").help("Photographs, folders of them, and \
+            manifests (.tsv, or `-` for stdin): one photograph per line, and after a tab its name")),
+        mut_arg("output", |arg| arg.help("The files to write, with {name} in the name, such as 'out/{name}.svg'; folders are made")),
+        mut_arg("threads", |arg| arg.help("Worker threads of each picture [default: cores / jobs]")),
+        mut_arg("json", |arg| arg.hide(true)), mut_arg("save_scene", |arg| arg.hide(true)), mut_arg("dry_run", |arg| arg.hide(true)))]
+    Batch(BatchOptions),
     /// Put several scenes and SVGs on one sheet, for print or a machine; the layers of each pen are merged and ordered as one.
     Sheet(SheetOptions),
     /// List the presets, or print one as TOML. Your own are TOML files in drypoint/presets in the folder of configurations.
@@ -113,6 +131,8 @@ pub(super) enum Command {
     Styles(ListOptions),
     /// List the plotters, or print one profile as TOML.
     Profiles(ProfilesOptions),
+    /// List common pens with their widths and estimated colours, for `like` in a file of pens; NAME: those whose name holds it.
+    Pens(ListOptions),
     /// Print shell completions.
     Completions {
         /// The shell.

@@ -11,7 +11,7 @@ pub(in crate::cli) struct SheetOptions {
     /// Scenes (.toml), which are drawn, and SVGs, which are placed by their page.
     #[arg(required = true, value_name = "SCENE|SVG")]
     pub files: Vec<String>,
-    /// The file to write, its format by extension: .svg, .svgz, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml; `-` for stdout.
+    /// The file to write, its format by extension: .svg, .svgz, .pdf, .hpgl or .plt, .gcode, .nc or .ngc, .inkml, .json; `-` for stdout.
     #[arg(long, short, value_name = "FILE")]
     pub output: String,
     /// The format, whatever the extension.

@@ -1,5 +1,6 @@
 //! Parsers of option values: lengths, times, fractions, crops.
 
+use super::batch::Shard;
 use crate::drawing::Ink;
 use crate::geometry::{parse_drawn_length, parse_length, parse_size};
 use std::ops::RangeInclusive;
@@ -236,6 +237,34 @@ pub(super) fn crop(text: &str) -> Result<CropPart, String> {
     numbers.try_into().map(CropPart::Box).map_err(|_| refuse())
 }
 
+/// A part of a batch, such as `3/8`.
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
+    let parsed = text.split_once('/').and_then(|(number, count)| Some((number.trim().parse().ok()?, count.trim().parse().ok()?)));
+    match parsed {
+        Some((number, count)) if (1..=count).contains(&number) => Ok(Shard { number, count }),
+        _ => Err("write it as I/N, such as 3/8, with I from 1 to N".to_owned()),
+    }
+}
+
+/// Bytes of memory, such as `4GB`, `512 MB` or `2GiB`; at least 64 MB, which the smallest drawing takes.
+pub(super) fn memory_size(text: &str) -> Result<u64, String> {
+    const UNITS: [(&str, f64); 8] = [
+        ("KIB", 1024.0),
+        ("MIB", 1_048_576.0),
+        ("GIB", 1_073_741_824.0),
+        ("KB", 1e3),
+        ("MB", 1e6),
+        ("GB", 1e9),
+        ("M", 1e6),
+        ("G", 1e9),
+    ];
+    let upper = text.trim().to_ascii_uppercase();
+    let sized = UNITS.iter().find_map(|(unit, bytes)| Some((upper.strip_suffix(unit)?, bytes)));
+    let bytes = sized.and_then(|(number, bytes)| Some(number.trim().parse::<f64>().ok()? * bytes));
+    let fits = bytes.filter(|bytes| (64e6..=1e15).contains(bytes));
+    fits.map(|bytes| bytes as u64).ok_or_else(|| "write it as 4GB, 512MB or 2GiB; at least 64MB".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,6 +291,19 @@ mod tests {
         assert_eq!(tolerance("1e-300").unwrap_err(), "must be from 0.001 to 1 mm");
         for wrong in ["0", "-1", "1e-9", "1001", "1e300", "inf", "NaN", ""] {
             assert_eq!(scale(wrong).unwrap_err(), "must be a number from 0.001 to 1000", "{wrong}");
+        }
+    }
+
+    #[test]
+    fn shards_and_memory() {
+        assert_eq!(shard("3/8"), Ok(Shard { number: 3, count: 8 }));
+        for wrong in ["0/8", "9/8", "3", "a/b", "1/0", "-1/2"] {
+            assert!(shard(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!((memory_size("4GB"), memory_size("512 mb")), (Ok(4_000_000_000), Ok(512_000_000)));
+        assert_eq!((memory_size("2GiB"), memory_size("1.5g")), (Ok(2_147_483_648), Ok(1_500_000_000)));
+        for wrong in ["4", "GB", "1MB", "-4GB", "nanGB"] {
+            assert!(memory_size(wrong).is_err(), "{wrong}");
         }
     }
 

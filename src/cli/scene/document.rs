@@ -37,7 +37,7 @@ pub(super) const REGION: &str = "region";
 /// Options that make no sense in a file.
 pub(super) const NOT_IN_FILES: [&str; 6] = ["help", "version", "preset", "params", "save-scene", "quiet"];
 /// Options whose values are paths.
-const PATHS: [&str; 8] = [PHOTOGRAPH, MASK, "sight", "depth", "profile", "pens", "preview", "output"];
+const PATHS: [&str; 9] = [PHOTOGRAPH, MASK, "sight", "depth", "profile", "pens", "colours", "preview", "output"];
 /// Those that are written.
 const OUTPUTS: [&str; 2] = ["preview", "output"];
 
@@ -50,6 +50,8 @@ pub(super) enum Role {
     Preset,
     /// A style's parameters, or options for any photograph.
     Params,
+    /// A scene or preset whose photograph and purpose are of no interest.
+    Recipe,
 }
 
 /// One option given by a file.
@@ -116,6 +118,19 @@ pub(in crate::cli) fn names_file(option: &str, value: &str) -> bool {
         }
 }
 
+/// The files and folders that a value of an option names.
+pub(in crate::cli) fn named_files(option: &str, value: &str) -> Vec<PathBuf> {
+    let path = match option {
+        MASK => value.split_once('=').map(|(_, file)| file.to_owned()),
+        REGION => inline_table(value).and_then(|keys| match keys.get(MASK) {
+            Some(toml::Value::String(mask)) if MaskRole::named(mask).is_none() => Some(mask.clone()),
+            _ => None,
+        }),
+        _ => Some(value.to_owned()).filter(|value| names_file(option, value) && !OUTPUTS.contains(&option)),
+    };
+    path.into_iter().map(PathBuf::from).collect()
+}
+
 /// A file's options and the files that they name.
 #[derive(Debug, Default)]
 pub(super) struct Document {
@@ -157,6 +172,7 @@ impl Reader<'_> {
 
     fn key(&mut self, key: &str, value: &DeValue<'_>, place: &str) -> Result<(), Failure> {
         match (key, value) {
+            (PHOTOGRAPH | PURPOSE, _) if self.role == Role::Recipe => Ok(()),
             (PHOTOGRAPH, _) if self.role == Role::Scene => self.add(PHOTOGRAPH, value, place),
             (PURPOSE, _) if self.role == Role::Preset => {
                 self.document.purpose = Some(scalar(value).ok_or_else(|| refuse(place, "purpose is a sentence in quotes"))?);

@@ -18,7 +18,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Commands that take scenes and presets.
-const COMMANDS: [&str; 4] = ["draw", "stages", "scene", "redo"];
+const COMMANDS: [&str; 5] = ["draw", "stages", "scene", "redo", "batch"];
 /// Pairs of options of which a command line's one replaces a file's other.
 const RIVALS: [[&str; 2]; 2] = [["center", "at"], ["at", "center"]];
 
@@ -82,10 +82,14 @@ fn documents(name: &str, given: &ArgMatches) -> Result<Vec<Document>, Failure> {
     if let Some(preset) = given.try_get_one::<String>("preset").ok().flatten() {
         documents.push(presets::find(preset)?);
     }
+    if let Some(recipe) = given.try_get_one::<std::path::PathBuf>("recipe").ok().flatten() {
+        let name = recipe.to_string_lossy();
+        documents.push(document::read(&name, &output::read_settings(&name)?, Role::Recipe)?);
+    }
     let photo = given.try_get_one::<String>("photo").ok().flatten();
     match photo {
         Some(drawing) if name == "redo" => documents.push(redo::document(drawing)?),
-        Some(scene) if is_toml(scene) => {
+        Some(scene) if is_toml(scene) && name != "batch" => {
             documents.push(document::read(scene, &output::read_settings(scene)?, Role::Scene)?);
         }
         _ => {}
@@ -175,7 +179,7 @@ impl<'a> Line<'a> {
         for arg in self.command.get_arguments().filter(|arg| !arg.is_positional()) {
             let id = arg.get_id().as_str();
             let is_own = self.given.try_contains_id(id).is_ok() && self.given.value_source(id) == Some(ValueSource::CommandLine);
-            if !is_own || matches!(id, "preset" | "params") {
+            if !is_own || matches!(id, "preset" | "params" | "recipe") {
                 continue;
             }
             let values: Vec<String> =
@@ -187,6 +191,14 @@ impl<'a> Line<'a> {
             }
         }
         entries
+    }
+
+    /// What the command works on, in the order given.
+    fn inputs(&self) -> Vec<String> {
+        if self.name != "batch" {
+            return self.photograph().into_iter().collect();
+        }
+        self.given.get_raw("photo").into_iter().flatten().map(|input| input.to_string_lossy().into_owned()).collect()
     }
 
     /// The photograph: on the command line, unless that names a scene or a drawing.
@@ -205,7 +217,7 @@ impl<'a> Line<'a> {
             words.push(format!("--output={}", redo::usual_output(&self.own("photo").unwrap_or_default())));
         }
         words.push("--".to_owned());
-        words.extend(self.photograph());
+        words.extend(self.inputs());
         words
     }
 
@@ -226,7 +238,7 @@ impl<'a> Line<'a> {
     }
 
     fn parsed(self) -> Result<(ArgMatches, Origins), Refusal> {
-        if self.photograph().is_none()
+        if self.inputs().is_empty()
             && let Some(scene) = self.own("photo")
         {
             return Err(Failure::Work(format!("{scene}: {PHOTOGRAPH} is missing; add {PHOTOGRAPH} = \"portrait.jpg\"")).into());

@@ -16,7 +16,7 @@ mod schema;
 mod spelled;
 mod writer;
 
-pub(super) use document::{names_file, with_mask};
+pub(super) use document::{named_files, names_file, with_mask};
 pub(super) use expansion::{Refusal, matches};
 pub(super) use presets::presets;
 pub(super) use schema::schema;

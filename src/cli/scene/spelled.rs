@@ -5,7 +5,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches};
 
 /// Options that say how to work, not what to draw: they are in no scene and no recipe.
-pub(super) const RUN_ONLY: [&str; 15] = [
+pub(super) const RUN_ONLY: [&str; 16] = [
     "send",
     "yes",
     "help",
@@ -21,6 +21,7 @@ pub(super) const RUN_ONLY: [&str; 15] = [
     "preset",
     "params",
     "save-scene",
+    "explain",
 ];
 
 /// The options of a drawing that differ from their defaults, by their long names, in the order of the help.

@@ -9,7 +9,7 @@ use super::super::toolpaths::plain_profile;
 use super::super::words::counted;
 use super::{File, MOST_BYTES, conduct, digest, meeting, output, part, refuse_set_up};
 use crate::drive::{Controller, Ebb, Handshake, LineSettings, PenHeights, Program, Rest, Stand, open_port};
-use crate::plot::{InkModel, Mounting, Nibs, Plot, Profile, lower, mount};
+use crate::plot::{Dialect, InkModel, Mounting, Nibs, PenLift, Plot, Profile, lower, mount};
 use crate::read::{Budget, read_svg_within};
 
 /// The paths of the file, where they lie on the machine.
@@ -26,7 +26,9 @@ pub(super) fn run(name: &str, bytes: &[u8], options: &SendOptions) -> Result<(),
     let whole = picture.program(&Rest::default())?;
     let file = File { name: name.to_owned(), sha256: digest(bytes), program: whole };
     let port = open_port(&options.port, LineSettings { baud: options.baud.unwrap_or(9600), handshake: Handshake::None })?;
-    let mut ebb = Ebb::greet(port, PenHeights { up: options.pen_heights.0, down: options.pen_heights.1 }, interrupt())?;
+    let heights = PenHeights { up: options.pen_heights.0, down: options.pen_heights.1 };
+    let lift = if let Dialect::Svg(svg) = &picture.profile.dialect { svg.pen_lift } else { PenLift::default() };
+    let mut ebb = Ebb::greet(port, heights, lift, interrupt())?;
     wait_for_machine();
     if !options.quiet {
         say!("{}: {} answers", options.port, ebb.version());

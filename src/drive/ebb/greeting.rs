@@ -1,11 +1,13 @@
 //! Meeting the board: whatever another program has set is set as it is needed here.
 
-use super::{DEEPEST, Ebb, LEAST_POWER, PenHeights, SERVO, has_power};
+use super::servo::Servo;
+use super::{DEEPEST, Ebb, LEAST_POWER, PenHeights, has_power};
 use crate::drive::controller::Controller;
 use crate::drive::error::DriveError;
 use crate::drive::lines::Lines;
 use crate::drive::port::Port;
 use crate::interrupt::Interrupt;
+use crate::plot::PenLift;
 use std::collections::VecDeque;
 use std::time::Duration;
 
@@ -13,16 +15,12 @@ use std::time::Duration;
 const OLD_WORK: Duration = Duration::from_mins(1);
 /// The board has ended its answer to half a command if it says nothing for so long.
 const QUIET: Duration = Duration::from_millis(60);
-/// Seconds in which the servo moves from one height to the other, up and down: less than the profile waits.
-const SERVO_SECONDS: [f64; 2] = [0.12, 0.19];
-/// The servo's rate is added once in so many seconds (`SC,11` and `SC,12`).
-const SERVO_PERIOD: f64 = 0.024;
 /// The bit of `QG` that tells that the power was lost since it was asked for (firmware 3).
 const POWER_LOST: u32 = 0x40;
 
 impl Ebb {
     /// Meets the board at a port. The motors are enabled if they are not, which sets zero where the pen stands.
-    pub fn greet(port: Box<dyn Port>, heights: PenHeights, interrupt: &Interrupt) -> Result<Self, DriveError> {
+    pub fn greet(port: Box<dyn Port>, heights: PenHeights, lift: PenLift, interrupt: &Interrupt) -> Result<Self, DriveError> {
         let mut ebb = Self {
             port,
             lines: Lines::default(),
@@ -54,7 +52,7 @@ impl Ebb {
             ebb.check_for_lost_power()?;
         }
         ebb.enable_motors()?;
-        ebb.set_servo(heights)?;
+        ebb.set_servo(heights, Servo::of(lift))?;
         // A press of the button before this moment is forgotten.
         ebb.port.send(b"QB\r")?;
         ebb.acknowledged()?;
@@ -141,11 +139,13 @@ impl Ebb {
     }
 
     /// Heights of the pen, and how fast it goes there.
-    fn set_servo(&mut self, heights: PenHeights) -> Result<(), DriveError> {
-        let units = |percent: f64| SERVO[0] + percent / 100.0 * (SERVO[1] - SERVO[0]);
+    fn set_servo(&mut self, heights: PenHeights, servo: &Servo) -> Result<(), DriveError> {
+        let [low, high] = servo.range;
+        let units = |percent: f64| low + percent / 100.0 * (high - low);
         let range = (units(heights.up) - units(heights.down)).abs();
-        let [up, down] = SERVO_SECONDS.map(|seconds| (range * SERVO_PERIOD / seconds).max(1.0));
-        for (number, value) in [(4, units(heights.up)), (5, units(heights.down)), (11, up), (12, down)] {
+        let [up, down] = servo.seconds.map(|seconds| (range * servo.period() / seconds).max(1.0));
+        let channels = f64::from(servo.channels);
+        for (number, value) in [(4, units(heights.up)), (5, units(heights.down)), (8, channels), (11, up), (12, down)] {
             self.say(&format!("SC,{number},{value:.0}"))?;
         }
         Ok(())

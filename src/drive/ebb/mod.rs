@@ -9,6 +9,7 @@ mod greeting;
 mod plan;
 mod plot;
 mod rates;
+mod servo;
 mod streaming;
 
 pub use plot::Rest;
@@ -40,8 +41,6 @@ pub(super) const STEPS_PER_MM: f64 = 80.0;
 const LEAST_POWER: u32 = 180;
 /// A dip of a moment is no loss: so many answers in a row tell one.
 const LOW_ANSWERS: u32 = 3;
-/// Positions of the pen's servo, in its units of 83 ns: the range of which percents are told.
-const SERVO: [f64; 2] = [9855.0, 27_831.0];
 
 /// How the pen is held.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,6 +2,7 @@
 
 use super::plan::{Limits, Piece, plan};
 use super::rates::{TICKS, move_command, ticks_of};
+use super::servo::Servo;
 use super::steps_of;
 use crate::drive::error::DriveError;
 use crate::drive::program::{Program, ProgramLine};
@@ -107,7 +108,8 @@ impl Writer<'_> {
     fn pen(&mut self, act: Act) {
         let motion = &self.profile.motion;
         let (value, seconds) = if act == Act::Lift { (1, motion.pen_up_seconds) } else { (0, motion.pen_down_seconds) };
-        self.push(format!("SP,{value},{:.0}", (1000.0 * seconds).max(1.0)), act, seconds, None);
+        let pin = Servo::of_machine(self.profile).pin;
+        self.push(format!("SP,{value},{:.0},{pin}", (1000.0 * seconds).max(1.0)), act, seconds, None);
     }
 
     fn change_pen(&mut self, pen: u32, name: &str, last: Option<u32>) {

@@ -1,6 +1,6 @@
 //! A test on the sheet: a small drawing with a label above it.
 
-use super::font;
+use crate::geometry::stroke_letters as font;
 use crate::geometry::{Point, Vec2};
 use crate::plot::Toolpath;
 

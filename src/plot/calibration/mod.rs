@@ -12,7 +12,7 @@
 //! ```
 
 mod cell;
-mod font;
+use crate::geometry::stroke_letters as font;
 mod trials;
 
 use super::profile::Profile;

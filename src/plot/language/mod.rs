@@ -14,8 +14,8 @@ pub(crate) use gcode::{word, words};
 pub use hpgl::{HpglDialect, HpglError};
 pub use replayed::{Act, Replayed};
 pub use stop::{ResumeError, StopPlace};
-pub use svg::SvgDialect;
 pub(super) use svg::write_picture;
+pub use svg::{PenLift, SvgDialect};
 
 use super::{Mounting, Plot, Profile};
 use crate::geometry::Point;

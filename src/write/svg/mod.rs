@@ -23,7 +23,7 @@ pub(crate) use names::Names;
 pub(crate) use path_data::path_data;
 
 use super::number::{decimal, thousandths};
-use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Mixing, Page, Stroke, Width};
 use crate::geometry::Point;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -67,9 +67,14 @@ const RADIUS_SCALE: f64 = 10_000.0;
 pub fn write_svg(drawing: &Drawing, head: &SvgHead, out: &mut impl io::Write) -> io::Result<()> {
     let names = Names::of(drawing, head);
     let mut document = document(&drawing.page, head, None, &names);
+    let mixes = drawing.layers.iter().any(|layer| layer.ink.colour() != drawing.layers[0].ink.colour());
     for (i, layer) in drawing.layers.iter().enumerate() {
         let name = names.of_layer(i);
         let mut group = layer_group(&name, &format!("{} {}", layer.pen, layer.name), layer.ink.colour());
+        if mixes && layer.mixing == Mixing::Add {
+            // As on paper: ink over ink is darker than either.
+            group = group.set("style", "mix-blend-mode:multiply");
+        }
         for run in runs(&name, layer) {
             group.append(run);
         }

@@ -19,6 +19,20 @@ pub struct SvgDialect {
     /// True if the program turns a portrait page onto the machine's long side.
     #[serde(default)]
     pub turns_portrait: bool,
+    /// What lifts the pen, for sending.
+    #[serde(default)]
+    pub pen_lift: PenLift,
+}
+
+/// The motor that lifts an `AxiDraw`'s pen. The two stand at different plugs of the board and take different signals.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum PenLift {
+    /// The servo that it comes with.
+    #[default]
+    Servo,
+    /// The brushless motor, an upgrade: quieter, and twice as fast.
+    Brushless,
 }
 
 /// True if a text without leading blanks begins as SVG.

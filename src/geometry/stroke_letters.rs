@@ -1,6 +1,6 @@
 //! A small single-stroke font, so that a test sheet needs no other: digits, `. + %` and the capitals that the sheet uses.
 
-use crate::geometry::Point;
+use super::Point;
 
 /// Height of the grid on which letters are drawn; its width is 4.
 const GRID: f64 = 6.0;
@@ -41,13 +41,13 @@ const LETTERS: [(char, &str); 27] = [
 ];
 
 /// Lines that write a text from its upper left corner, in millimetres. Letters missing from the font leave a gap.
-pub(super) fn written(text: &str, at: Point, height: f64) -> Vec<Vec<Point>> {
+pub(crate) fn written(text: &str, at: Point, height: f64) -> Vec<Vec<Point>> {
     let letters = text.chars().enumerate();
     letters.flat_map(|(i, letter)| strokes(letter, Point::new(at.x + i as f64 * ADVANCE * height, at.y), height)).collect()
 }
 
 /// Width of a text.
-pub(super) fn width(text: &str, height: f64) -> f64 {
+pub(crate) fn width(text: &str, height: f64) -> f64 {
     (text.chars().count() as f64 * ADVANCE - (ADVANCE - WIDTH)).max(0.0) * height
 }
 

@@ -1,0 +1,212 @@
+//! A drawing in the colours of the photograph, by several pens.
+//!
+//! ```text
+//!   photograph --separation--> coverage of each pen --together--> the style draws them as one tone
+//!                                       \---------------------> each mark is dealt to a pen
+//! ```
+//!
+//! What does not fit beside one another, in the darkest colours, is drawn over it in a second round.
+
+use super::failure::Failure;
+use super::palette::Palette;
+use super::task::Task;
+use crate::colour::{Candidate, deal};
+use crate::drawing::{Drawing, Layer, Mark, Width};
+use crate::geometry::{Affine, Point, Vec2};
+use crate::raster::Raster;
+use crate::source::{Placement, Portrait};
+use crate::style::{Observer, Settings, StyleError};
+
+/// Most of the paper that marks beside one another cover: above it round dots run together.
+const MOST_BESIDE: f32 = 0.75;
+/// Styles whose marks are long lines or smudges, which do not share their place: each pen draws for itself.
+const APART: [&str; 2] = [LINES, "charcoal"];
+/// The style of parallel lines.
+const LINES: &str = "engrave";
+/// Direction of the first pen's lines in degrees.
+const FIRST_ANGLE: f64 = 15.0;
+/// How fast the second round takes over where more is needed, until it draws half.
+const RISE: f32 = 1.5;
+/// A second round is drawn if it adds this much ink anywhere.
+const LEAST_SECOND: f32 = 0.04;
+/// Layers that draw features, not tone, by style.
+const FEATURES: [(&str, &[&str]); 4] = [
+    ("hedcut", &["outline", "solids"]),
+    ("grid", &["lines", "solids"]),
+    ("charcoal", &["edges", "features"]),
+    ("engrave", &["contour", "solids"]),
+];
+/// Parameters that fill areas with black, leave lights bare, draw long strokes, whose whole length would be of one pen, or give marks
+/// colours of their own; and what they are set to instead.
+const SOLID: [(&str, &str); 4] = [("reversed_from", "1"), ("highlights", "off"), ("parts", "dots"), ("colors", "mono")];
+/// Each round takes other random choices, so that the marks of the second lie across those of the first.
+const SEEDS: [u64; 2] = [0, 0x5eed];
+
+impl Task<'_> {
+    /// The photograph in the colours of the pens: a layer for each, light ones first.
+    pub(super) fn coloured(
+        &self,
+        settings: &Settings,
+        placement: Placement,
+        observer: &dyn Observer,
+    ) -> Result<Drawing, Failure> {
+        let Some(palette) = &self.palette else { return Err(Failure::Work("there are no pens".to_owned())) };
+        let portrait = self.portrait(&self.manner.known, placement)?;
+        let settings = &self.without_solids(settings, &portrait)?;
+        observer.begin("separation");
+        let coverages = palette.separate(&portrait);
+        let mut layers: Vec<Layer> = palette.layers();
+        if APART.contains(&self.manner.style.name()) {
+            self.apart(&portrait, &coverages, &mut layers, observer)?;
+            return palette.drawing(self.layout.page, layers).ok_or_else(|| self.nothing());
+        }
+        let (mut marks, mut candidates) = (Vec::new(), Vec::new());
+        for (round, tone) in rounds(&total(&coverages)).into_iter().enumerate() {
+            let mut together = portrait.clone();
+            together.tone = tone;
+            let drawn = match self.manner.style.draw(&together, settings, self.manner.seed ^ SEEDS[round], observer) {
+                Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,
+                drawn => drawn.map_err(|error| self.undrawn(&error))?,
+            };
+            let (features, tones): (Vec<Layer>, Vec<Layer>) = drawn.layers.into_iter().partition(|layer| self.is_features(layer));
+            if round == 0 {
+                layers[palette.line_pen()].marks.extend(features.into_iter().flat_map(|layer| layer.marks));
+            }
+            let tones: Vec<Mark> = tones.into_iter().flat_map(|layer| layer.marks).collect();
+            candidates.extend(tones.iter().map(|mark| candidate(mark, &portrait, &coverages, round as u8)));
+            marks.extend(tones);
+        }
+        observer.begin("pens");
+        for (mark, dealt) in marks.into_iter().zip(deal(&candidates)) {
+            let way = dealt.at - middle(&mark);
+            layers[dealt.pen].marks.push(adjusted(mark, way, dealt.ink_factor));
+        }
+        palette.drawing(self.layout.page, layers).ok_or_else(|| self.nothing())
+    }
+
+    /// A drawing for each pen. Parallel lines have a direction of their own: those of two pens then cross evenly, without moire.
+    fn apart(
+        &self,
+        portrait: &Portrait,
+        coverages: &[Raster<f32>],
+        layers: &mut [Layer],
+        observer: &dyn Observer,
+    ) -> Result<(), Failure> {
+        let line_pen = self.palette.as_ref().map_or(0, Palette::line_pen);
+        for (pen, coverage) in coverages.iter().enumerate() {
+            let settings = self.settings_of_pen(pen, coverages.len(), portrait)?;
+            let mut own = portrait.clone();
+            own.tone = coverage.map(|ink| 1.0 - ink);
+            let drawn = match self.manner.style.draw(&own, &settings, self.manner.seed ^ pen as u64, observer) {
+                Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,
+                drawn => drawn.map_err(|error| self.undrawn(&error))?,
+            };
+            let wanted = drawn.layers.into_iter().filter(|layer| pen == line_pen || !self.is_features(layer));
+            layers[pen].marks.extend(wanted.flat_map(|layer| layer.marks));
+        }
+        Ok(())
+    }
+
+    /// The style's settings for one of several pens.
+    fn settings_of_pen(&self, pen: usize, pens: usize, portrait: &Portrait) -> Result<Settings, Failure> {
+        let style = self.manner.style;
+        let mut given = self.given().to_vec();
+        let mut set = |key: &str, value: String| {
+            if style.parameters().iter().any(|parameter| parameter.name == key) {
+                given.push((key.to_owned(), value));
+            }
+        };
+        if style.name() == LINES {
+            set("angle", (FIRST_ANGLE + 180.0 * pen as f64 / pens as f64).to_string());
+            set("look", "hatch".to_owned());
+            if !portrait.faces.is_empty() {
+                set("directions", "straight".to_owned());
+            }
+        }
+        Ok(Settings::resolve(style.name(), style.parameters(), &given)?)
+    }
+
+    /// True for layers that draw features, not tone.
+    fn is_features(&self, layer: &Layer) -> bool {
+        let names = FEATURES.iter().find(|(style, _)| *style == self.manner.style.name()).map_or(&[][..], |(_, names)| names);
+        names.contains(&layer.name.as_str())
+    }
+
+    fn nothing(&self) -> Failure {
+        self.undrawn(&StyleError::NothingToDraw("no pen has anything to draw".to_owned()))
+    }
+
+    /// The settings without black areas, which would hide the other pens.
+    fn without_solids(&self, settings: &Settings, portrait: &Portrait) -> Result<Settings, Failure> {
+        let style = self.manner.style;
+        let mut given = self.given().to_vec();
+        for (key, value) in SOLID {
+            // Without regions there are no strokes in them.
+            if key == "parts" && portrait.masks.is_empty() {
+                continue;
+            }
+            if style.parameters().iter().any(|parameter| parameter.name == key) && !given.iter().any(|(known, _)| known == key) {
+                given.push((key.to_owned(), value.to_owned()));
+            }
+        }
+        if let Some(pitch) = settings.pitch() {
+            given.push(("pitch".to_owned(), pitch.to_string()));
+        }
+        Ok(Settings::resolve(style.name(), style.parameters(), &given)?)
+    }
+}
+
+/// The tone of what lies beside one another and, where that is not enough, of as much that lies over it.
+fn rounds(ink: &Raster<f32>) -> Vec<Raster<f32>> {
+    let over = ink.map(|ink| ((ink - MOST_BESIDE) * RISE).clamp(0.0, 0.5 * ink));
+    let most = over.pixels().iter().copied().fold(0.0, f32::max);
+    let first = ink.zip_map(&over, |ink, over| 1.0 - (ink - over));
+    if most < LEAST_SECOND { vec![first] } else { vec![first, over.map(|ink| 1.0 - ink)] }
+}
+
+/// The ink of all pens.
+fn total(coverages: &[Raster<f32>]) -> Raster<f32> {
+    let mut sum = coverages[0].clone();
+    for pen in &coverages[1..] {
+        sum = sum.zip_map(pen, |a, b| a + b);
+    }
+    sum
+}
+
+/// A mark with the shares of the pens where it lies.
+fn candidate(mark: &Mark, portrait: &Portrait, coverages: &[Raster<f32>], round: u8) -> Candidate {
+    let at = middle(mark);
+    let place = portrait.placement.to_grid(at);
+    let inks: Vec<f32> = coverages.iter().map(|pen| pen.sample(place.x, place.y).max(0.0)).collect();
+    let sum: f32 = inks.iter().sum();
+    let even = 1.0 / inks.len() as f32;
+    let shares = inks.iter().map(|ink| if sum > 0.0 { ink / sum } else { even }).collect();
+    Candidate { at, ink: mark.area().max(1e-6), shares, round }
+}
+
+/// Where a mark lies.
+fn middle(mark: &Mark) -> Point {
+    match mark {
+        Mark::Dot(dot) => dot.centre,
+        _ => mark.bounding_box().center(),
+    }
+}
+
+/// A mark with more or less ink; dots are moved too.
+fn adjusted(mark: Mark, way: Vec2, ink_factor: f64) -> Mark {
+    match mark {
+        Mark::Dot(dot) => {
+            let centre = dot.centre.to_vec2();
+            let grown = Affine::translate(centre + way) * Affine::scale(ink_factor.sqrt()) * Affine::translate(-centre);
+            Mark::Dot(dot).transformed(grown)
+        }
+        Mark::Stroke(mut stroke) => {
+            stroke.width = match stroke.width {
+                Width::Constant(width) => Width::Constant(width * ink_factor),
+                Width::Along(widths) => Width::Along(widths.into_iter().map(|width| width * ink_factor).collect()),
+            };
+            Mark::Stroke(stroke)
+        }
+        Mark::Area(area) => Mark::Area(area),
+    }
+}

@@ -1,0 +1,130 @@
+//! `--colours`: the pens in whose colours a photograph is drawn.
+
+use super::arguments::{BlackPen, ListOptions, PictureOptions};
+use super::failure::Failure;
+use super::messages::warning;
+use super::output;
+use super::pen_file::{PenEntry, read_pens};
+use crate::colour::{
+    Black, ColourPen, KnownPen, Lab, Opacity, Paper, PenSet, Separator, Settings, drawing_order, known_pens, on_screen,
+};
+use crate::drawing::{Colour, Drawing, Ink, Layer, Page};
+use crate::plot::Nibs;
+use crate::raster::Raster;
+use crate::source::Portrait;
+use serde_json::json;
+
+/// The pens, in the order in which they are drawn: light ones first.
+pub(super) struct Palette {
+    pens: PenSet,
+    paper: Colour,
+    separator: Separator,
+}
+
+impl Palette {
+    /// Reads and checks the pens; none if the photograph is not drawn in colours.
+    pub(super) fn read(options: &PictureOptions) -> Result<Option<Self>, Failure> {
+        let Some(file) = &options.colours else { return Ok(None) };
+        let entries = read_pens(file, &output::read_settings(file)?)?;
+        let about = |problem: &dyn std::fmt::Display| Failure::Work(format!("{file}: {problem}"));
+        let paper = Paper::new(options.paper);
+        let pens: Vec<ColourPen> =
+            entries.iter().map(|entry| pen_of(entry, paper).map_err(|why| about(&why))).collect::<Result<_, _>>()?;
+        let order = drawing_order(&pens);
+        let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
+        let pens = PenSet::new(pens, paper, Vec::new()).map_err(|error| about(&error))?;
+        for told in pens.warnings() {
+            warning!("{file}: {told}");
+        }
+        let black = match options.black_pen {
+            BlackPen::Tones => Black::Tones,
+            BlackPen::Lines => Black::Lines,
+            BlackPen::None => Black::None,
+        };
+        let settings = Settings { black, simplify: options.colours_simplify as f32, ..Settings::default() };
+        let separator = Separator::new(&pens, &settings).map_err(|error| about(&error))?;
+        Ok(Some(Self { pens, paper: options.paper, separator }))
+    }
+
+    /// How much of the paper each pen covers, 0 to 1, on the portrait's grid.
+    pub(super) fn separate(&self, portrait: &Portrait) -> Vec<Raster<f32>> {
+        self.separator.separate(&portrait.light).coverages
+    }
+
+    /// An empty layer for each pen.
+    pub(super) fn layers(&self) -> Vec<Layer> {
+        let layer = |(i, pen): (usize, &ColourPen)| Layer {
+            ink: Ink::Colour(on_screen(pen.colour)),
+            ..Layer::new(&pen.name, i as u32 + 1)
+        };
+        self.pens.pens().iter().enumerate().map(layer).collect()
+    }
+
+    /// The drawing of the pens that have anything to draw, on their paper; none if no pen has.
+    pub(super) fn drawing(&self, page: Page, mut layers: Vec<Layer>) -> Option<Drawing> {
+        layers.retain(|layer| !layer.marks.is_empty());
+        let page = Page { paper: self.paper, ..page };
+        (!layers.is_empty()).then_some(Drawing { page, layers })
+    }
+
+    /// The pen that draws lines: black, or the darkest.
+    pub(super) fn line_pen(&self) -> usize {
+        let last = self.pens.pens().iter().rposition(|pen| pen.opacity == Opacity::Transparent);
+        self.pens.black().or(last).unwrap_or(0)
+    }
+}
+
+/// What each pen lays down: its ink, the length of line that its nib draws for that, and its share.
+pub(super) fn explained(drawing: &Drawing, nibs: &Nibs) -> Vec<String> {
+    let inks = drawing.ink_mm2();
+    let all: f64 = inks.iter().sum();
+    let line = |(layer, ink): (&Layer, &f64)| {
+        let (name, nib) = (&layer.name, nibs.of(layer.pen));
+        let metres = ink / nib / 1000.0;
+        format!(
+            "  pen {} {name}: {ink:.0} mm2 of ink, {metres:.1} m of line {nib} mm wide, {:.0} % of the ink",
+            layer.pen,
+            100.0 * ink / all
+        )
+    };
+    drawing.layers.iter().zip(&inks).map(line).collect()
+}
+
+/// A pen as an ink on the paper: measured there, or known on white paper, through which a transparent ink shows another one.
+fn pen_of(entry: &PenEntry, paper: Paper) -> Result<ColourPen, String> {
+    const USUAL_WIDTH: f64 = 0.3;
+    let width = entry.width.unwrap_or(USUAL_WIDTH);
+    let pen = match (entry.lab, entry.colour) {
+        (Some([l, a, b]), _) => ColourPen::measured(&entry.key, width, Lab { l, a, b }),
+        (None, Some(colour)) if entry.is_opaque => ColourPen::new(&entry.key, width, colour),
+        (None, Some(colour)) => {
+            let pen = ColourPen::new(&entry.key, width, colour);
+            let colour = [0, 1, 2].map(|i| pen.colour[i] * paper.colour[i]);
+            ColourPen { colour, ..pen }
+        }
+        (None, None) => {
+            return Err(format!("[{}] needs its colour on this paper: colour = \"#1f77b4\", or lab = [L, a, b]", entry.key));
+        }
+    };
+    Ok(if entry.is_opaque { pen.opaque() } else { pen })
+}
+
+/// `drypoint pens`: the pens whose colour is known, or those whose name holds a word.
+pub(super) fn list(options: &ListOptions) -> Result<(), Failure> {
+    let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
+    let name = |pen: &KnownPen| format!("{} {}", pen.maker, pen.name);
+    let found: Vec<KnownPen> = known_pens().into_iter().filter(|pen| name(pen).to_lowercase().contains(&wanted)).collect();
+    if found.is_empty() {
+        return Err(Failure::Usage(format!("no pen's name holds '{wanted}'; `drypoint pens` lists all")));
+    }
+    if options.json {
+        let pen = |pen: &KnownPen| {
+            json!({ "maker": pen.maker, "name": pen.name, "width_mm": pen.width_mm, "colour": pen.colour.to_string(),
+                "opaque": pen.opacity == Opacity::Opaque, "source": pen.source })
+        };
+        return output::print_json(&json!({ "pens": found.iter().map(pen).collect::<Vec<_>>() }));
+    }
+    let line = |pen: &KnownPen| format!("{:40} {} {} mm\n", name(pen), pen.colour, pen.width_mm);
+    let note = "Colours are estimates, on white paper; `drypoint pens --json` gives their sources.\n";
+    output::to_stdout((found.iter().map(line).collect::<String>() + note).as_bytes())
+}
