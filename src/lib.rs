@@ -72,6 +72,9 @@ pub mod read;
 pub mod scene;
 pub mod see;
 pub mod source;
+#[cfg(feature = "studio")]
+#[doc(hidden)]
+pub mod studio;
 pub mod style;
 pub mod tone;
 pub mod write;

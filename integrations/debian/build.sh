@@ -41,7 +41,7 @@ lay_out_project() {
 
 # Pages and completions come from the binary itself, so they fit it.
 describe_program() {
-    "$drypoint" man | awk -v folder="$stage/packaged/man" -v version="$("$drypoint" --version)" -f "$folder/split-manual.awk"
+    "$drypoint" man -o "$stage/packaged/man"
     "$drypoint" completions bash >"$stage/packaged/completions/drypoint"
     "$drypoint" completions zsh >"$stage/packaged/completions/_drypoint"
     "$drypoint" completions fish >"$stage/packaged/completions/drypoint.fish"

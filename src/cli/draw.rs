@@ -78,7 +78,7 @@ fn draw(options: &DrawOptions) -> Result<(), Failure> {
     max_time::warn_if_longer(&jobs, options.max_time);
     tell();
     task.tell(options.reporting.quiet);
-    report(options, &drawing, &pens, (&files, &jobs), &seconds, watcher.elapsed())
+    report(options, &task, &drawing, &pens, (&files, &jobs), &seconds, watcher.elapsed())
 }
 
 /// The file of the pens: one for colours is one for the machine too.

@@ -6,6 +6,7 @@ use super::layer_files::{self, LayerFile};
 use super::messages::{self, say};
 use super::palette::explained;
 use super::pens::PenSet;
+use super::task::Task;
 use super::words::counted;
 use super::{output, toolpaths};
 use crate::drawing::{Drawing, Layer};
@@ -14,6 +15,7 @@ use serde_json::{Value, json};
 
 pub(super) fn report(
     options: &DrawOptions,
+    task: &Task<'_>,
     drawing: &Drawing,
     pens: &PenSet,
     (files, jobs): (&[LayerFile], &[Job<'_>]),
@@ -21,7 +23,7 @@ pub(super) fn report(
     elapsed: f64,
 ) -> Result<(), Failure> {
     if options.reporting.json {
-        return output::print_json(&report_json(drawing, pens, (files, jobs), seconds));
+        return output::print_json(&report_json(task, drawing, pens, (files, jobs), seconds));
     }
     if !options.reporting.quiet {
         let counts =
@@ -48,7 +50,13 @@ pub(super) fn report(
     Ok(())
 }
 
-fn report_json(drawing: &Drawing, pens: &PenSet, (files, jobs): (&[LayerFile], &[Job<'_>]), seconds: &[(String, f64)]) -> Value {
+fn report_json(
+    task: &Task<'_>,
+    drawing: &Drawing,
+    pens: &PenSet,
+    (files, jobs): (&[LayerFile], &[Job<'_>]),
+    seconds: &[(String, f64)],
+) -> Value {
     let layers: Vec<Value> = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink)| {
         let [dots, strokes, areas] = layer.counts();
         json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": ink })
@@ -56,6 +64,8 @@ fn report_json(drawing: &Drawing, pens: &PenSet, (files, jobs): (&[LayerFile], &
     let mut value = json!({
         "files": files.iter().map(|file| &file.name).collect::<Vec<_>>(),
         "page_mm": [drawing.page.width, drawing.page.height],
+        // The photograph's pixel (x, y) lies at (a x + c y + e, b x + d y + f) mm.
+        "picture": { "pixels": [task.photograph.width(), task.photograph.height()], "to_sheet": task.to_sheet().as_coeffs() },
         "layers": layers,
         "seconds": seconds_of_steps(seconds),
     });

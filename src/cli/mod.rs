@@ -31,6 +31,7 @@ mod lists;
 mod long_waits;
 mod looking;
 mod manner;
+mod manual;
 mod masks;
 mod max_time;
 mod messages;
@@ -59,6 +60,8 @@ mod send;
 mod sheet;
 mod sight_folder;
 mod stages;
+#[cfg(feature = "studio")]
+mod studio;
 mod task;
 mod threads;
 mod toolpaths;
@@ -185,11 +188,9 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             clap_complete::generate(shell, &mut Arguments::command(), "drypoint", &mut text);
             output::to_stdout(&text)
         }
-        Command::Man => {
-            let mut text = Vec::new();
-            manual(&mut text).map_err(Failure::writing("stdout"))?;
-            output::to_stdout(&text)
-        }
+        #[cfg(feature = "studio")]
+        Command::Studio(options) => studio::run(&options),
+        Command::Man(options) => manual::run(&options),
     }
 }
 
@@ -215,15 +216,4 @@ impl Sent<'_> {
         let _ = is_dry;
         Ok(())
     }
-}
-
-/// Writes one manual page: the main command, then every subcommand.
-fn manual(text: &mut Vec<u8>) -> std::io::Result<()> {
-    let command = Arguments::command();
-    clap_mangen::Man::new(command.clone()).render(text)?;
-    for subcommand in command.get_subcommands() {
-        let named = subcommand.clone().name(format!("drypoint-{}", subcommand.get_name()));
-        clap_mangen::Man::new(named).render(text)?;
-    }
-    Ok(())
 }

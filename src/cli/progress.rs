@@ -19,6 +19,8 @@ pub(super) struct Watcher {
     bar: ProgressBar,
     started: Instant,
     steps: Mutex<Vec<(String, Instant)>>,
+    /// True if another program reads the progress: a line on stderr for each step.
+    is_told: bool,
 }
 
 impl Watcher {
@@ -30,7 +32,8 @@ impl Watcher {
         if !is_quiet && std::io::stderr().is_terminal() {
             show_later(bar.clone());
         }
-        Self { bar, started: Instant::now(), steps: Mutex::new(Vec::new()) }
+        let is_told = std::env::var_os("DRYPOINT_PROGRESS").is_some_and(|manner| manner == "lines");
+        Self { bar, started: Instant::now(), steps: Mutex::new(Vec::new()), is_told }
     }
 
     /// Ends the last step; returns the seconds of each step.
@@ -60,6 +63,9 @@ fn show_later(bar: ProgressBar) {
 impl Observer for Watcher {
     fn begin(&self, step: &str) {
         self.steps.lock().unwrap_or_else(PoisonError::into_inner).push((step.to_owned(), Instant::now()));
+        if self.is_told {
+            messages::say!("step: {step}");
+        }
         self.bar.set_message(step.to_owned());
         self.bar.set_position(0);
     }

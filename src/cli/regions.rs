@@ -3,7 +3,7 @@
 use super::arguments::PictureOptions;
 use super::failure::Failure;
 use super::known;
-use super::manner::{Manner, find_style, given};
+use super::manner::{Manner, find_style, given, resolved};
 use super::masks::{RoleMask, mask};
 use super::region::RegionOption;
 use super::seen::Seen;
@@ -11,7 +11,6 @@ use super::words::file_name;
 use crate::drawing::{Ink, Layer};
 use crate::scene::Border;
 use crate::source::{MaskRole, Photograph};
-use crate::style::Settings;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -54,7 +53,7 @@ pub(super) fn regions(
             given.extend(self::given(options));
         }
         given.extend(option.set.iter().cloned());
-        let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
+        let settings = resolved(style, &given, options)?;
         let own: Vec<RoleMask> = painted.iter().filter(|mask| known::takes(style, mask.role)).cloned().collect();
         let known = known::of(options, style, photograph, own, seen.clone())?;
         let seed = option.seed.unwrap_or(options.seed);

@@ -8,7 +8,7 @@ use super::known::{self, Known, Wanted};
 use super::layout::{Layout, lay_out, reach_of};
 use super::lists::{role_names, roles_of, styles_with_role};
 use super::looking;
-use super::manner::{Manner, find_style, given};
+use super::manner::{Manner, find_style, given, resolved};
 use super::masks::{RoleMask, photograph};
 use super::messages::say;
 use super::palette::Palette;
@@ -16,7 +16,7 @@ use super::regions::{self, Region};
 use super::remedies::advised;
 use super::seen_stages;
 use crate::drawing::{Drawing, Page};
-use crate::geometry::Rect;
+use crate::geometry::{Affine, Rect};
 use crate::plot::{Profile, mount};
 use crate::source::{DepthSense, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
@@ -50,7 +50,7 @@ impl<'a> Task<'a> {
     ) -> Result<Self, Failure> {
         let style = find_style(&options.style)?;
         let given = given(options);
-        let settings = Settings::resolve(style.name(), style.parameters(), &given)?;
+        let settings = resolved(style, &given, options)?;
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
@@ -151,6 +151,14 @@ impl<'a> Task<'a> {
         let others = masks.chain(known.depth.iter().chain(&unused.depth).map(|depth| &*depth.map));
         let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
         Cost { bytes: cost.bytes + photographs as f64, ..cost }
+    }
+
+    /// Where the photograph lies on the turned sheet: from its pixels to millimetres.
+    pub(super) fn to_sheet(&self) -> Affine {
+        let Layout { crop, picture, page, turning } = self.layout;
+        let scale = picture.width() / crop.width;
+        let placed = Affine::translate((picture.x0, picture.y0)) * Affine::scale(scale) * Affine::translate((-crop.x, -crop.y));
+        turning.matrix(&page) * placed
     }
 
     /// Working resolution in pixels per millimetre.

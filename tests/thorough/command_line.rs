@@ -377,3 +377,15 @@ fn lists_help_and_completions() {
     }
     refuses(tempfile::tempdir().unwrap().path(), 2, "there is no style 'x'", &["styles", "x"]);
 }
+
+#[test]
+fn each_manual_page_gets_a_file_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    drypoint().current_dir(folder.path()).args(["man", "-o", "man/pages"]).assert().success();
+    for (file, title) in [("drypoint.1", "drypoint"), ("drypoint-draw.1", "drypoint-draw"), ("drypoint-send.1", "drypoint-send")]
+    {
+        let page = std::fs::read_to_string(folder.path().join("man/pages").join(file)).unwrap();
+        let version = format!(".TH {title} 1  \"{title} {}\"", env!("CARGO_PKG_VERSION"));
+        assert!(page.matches(".TH ").count() == 1 && page.contains(&version), "{file}: {}", &page[..200]);
+    }
+}

@@ -35,7 +35,7 @@ fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Op
         "draw",
         "face.jpg",
         "--size",
-        "25x30mm",
+        "17x20mm",
         "--fit",
         "cover",
         "-q",

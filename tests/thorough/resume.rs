@@ -76,16 +76,18 @@ fn g_code_goes_on_at_any_line() {
         let profile = Profile::built_in(name).unwrap();
         let text = machine_file::written(&plot, &profile).unwrap();
         let lines: Vec<&str> = text.lines().collect();
+        // A pen's number stands in a comment, which both parts keep.
+        let unnumbered = |text: &str| {
+            let mut strokes = read_back(text, &profile);
+            strokes.paths.iter_mut().for_each(|(pen, _)| *pen = 0);
+            strokes
+        };
+        let whole = unnumbered(&text);
         for i in 1..=50 {
             let line = 1 + spread(i, lines.len());
             let rest = Language::Gcode.resume(&text, StopPlace::Line(line), 3.0).unwrap();
             let before = lines[..line - 1].join("\n") + "\n";
-            // A pen's number stands in a comment, which both parts keep.
-            let [whole, before, rest] = [&text, &before, &rest].map(|text| {
-                let mut strokes = read_back(text, &profile);
-                strokes.paths.iter_mut().for_each(|(pen, _)| *pen = 0);
-                strokes
-            });
+            let [before, rest] = [&before, &rest].map(|text| unnumbered(text));
             assert!(rest.ends_up, "{name}, line {line}");
             check(&format!("{name}, line {line}"), &whole, &before, &rest, profile.units_per_mm);
         }
@@ -97,10 +99,11 @@ fn hp_gl_goes_on_at_any_byte() {
     let plot = plot();
     let profile = Profile::built_in("hp7475a").unwrap();
     let text = machine_file::written(&plot, &profile).unwrap();
+    let whole = read_back(&text, &profile);
     for i in 1..=50 {
         let byte = spread(i, text.len());
         let rest = Language::Hpgl.resume(&text, StopPlace::Byte(byte), 3.0).unwrap();
-        let [whole, before, rest] = [&text, &taken(&text[..byte]), &rest].map(|text| read_back(text, &profile));
+        let [before, rest] = [&taken(&text[..byte]), &rest].map(|text| read_back(text, &profile));
         assert!(rest.ends_up, "byte {byte}");
         check(&format!("byte {byte}"), &whole, &before, &rest, profile.units_per_mm);
     }

@@ -101,6 +101,9 @@ pub(in crate::cli) struct PictureOptions {
     /// Seed of all random choices.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
+    /// A quick look: marks twice as far apart, in less than half the time.
+    #[arg(long)]
+    pub draft: bool,
     /// Worker threads [default: all cores]; the bytes written do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

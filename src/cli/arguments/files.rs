@@ -92,3 +92,10 @@ pub(in crate::cli) struct ListOptions {
     #[arg(long)]
     pub json: bool,
 }
+
+#[derive(Args, Clone, Debug)]
+pub(in crate::cli) struct ManualOptions {
+    /// The folder for the pages, drypoint.1, drypoint-draw.1 and so on; it is made if need be [default: all pages on stdout].
+    #[arg(short = 'o', long = "output", value_name = "FOLDER")]
+    pub folder: Option<String>,
+}

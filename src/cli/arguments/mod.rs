@@ -9,6 +9,8 @@ mod reporting;
 #[cfg(feature = "drive")]
 mod send;
 mod sheet;
+#[cfg(feature = "studio")]
+mod studio;
 mod toolpaths;
 mod values;
 
@@ -20,6 +22,8 @@ pub(super) use placing::*;
 #[cfg(feature = "drive")]
 pub(super) use send::*;
 pub(super) use sheet::*;
+#[cfg(feature = "studio")]
+pub(super) use studio::*;
 pub(super) use toolpaths::*;
 pub(super) use values::{CropNumber, CropPart, NIBS};
 
@@ -124,6 +128,9 @@ pub(super) enum Command {
     /// List the ports of this computer to which a machine may be connected.
     #[cfg(feature = "drive")]
     Ports(PortsOptions),
+    /// Open a page in the browser in which a portrait is tuned by eye. Nothing leaves this computer.
+    #[cfg(feature = "studio")]
+    Studio(StudioOptions),
     /// Draw a test sheet for a machine and its pens.
     #[command(after_help = READING)]
     Calibrate(CalibrateOptions),
@@ -138,8 +145,8 @@ pub(super) enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
-    /// Print the manual page.
-    Man,
+    /// Print the manual pages, or write each to a file of its own.
+    Man(ManualOptions),
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ pub(super) const SET: &str = "set";
 pub(super) const MASK: &str = "mask";
 pub(super) const REGION: &str = "region";
 /// Options that make no sense in a file.
-pub(super) const NOT_IN_FILES: [&str; 6] = ["help", "version", "preset", "params", "save-scene", "quiet"];
+pub(super) const NOT_IN_FILES: [&str; 7] = ["help", "version", "preset", "params", "save-scene", "quiet", "draft"];
 /// Options whose values are paths.
 const PATHS: [&str; 9] = [PHOTOGRAPH, MASK, "sight", "depth", "profile", "pens", "colours", "preview", "output"];
 /// Those that are written.
