@@ -141,6 +141,8 @@ class Busy:
 
     def __str__(self) -> str:
         per_second = self.seconds * (os.cpu_count() or 1)
+        if not per_second:
+            return "nothing was seen drawing"
         return (
             f"busy {self.share:.1%} of what other programs left; over {self.seconds:.0f} s and {os.cpu_count()} processors: "
             f"drypoint {self.drawing / per_second:.1%}, engine {self.engine / per_second:.1%}, idle {self.idle / per_second:.1%}"

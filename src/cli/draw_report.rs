@@ -61,11 +61,12 @@ fn report_json(
         let [dots, strokes, areas] = layer.counts();
         json!({ "name": layer.name, "pen": layer.pen, "pen_mm": pens.nibs().of(layer.pen), "ink": layer.ink.to_string(), "dots": dots, "strokes": strokes, "areas": areas, "ink_mm2": ink })
     }).collect();
+    let placed = task.layout.placed();
     let mut value = json!({
         "files": files.iter().map(|file| &file.name).collect::<Vec<_>>(),
         "page_mm": [drawing.page.width, drawing.page.height],
-        // The photograph's pixel (x, y) lies at (a x + c y + e, b x + d y + f) mm.
-        "picture": { "pixels": [task.photograph.width(), task.photograph.height()], "to_sheet": task.to_sheet().as_coeffs() },
+        // The photograph's pixel (x, y) lies at (a x + c y + e, b x + d y + f) mm; the box is of the part drawn.
+        "picture": { "pixels": [task.photograph.width(), task.photograph.height()], "to_sheet": task.to_sheet().as_coeffs(), "box": [placed.x0, placed.y0, placed.width(), placed.height()] },
         "layers": layers,
         "seconds": seconds_of_steps(seconds),
     });

@@ -29,11 +29,11 @@ pub(super) fn run(options: &ManualOptions) -> Result<(), Failure> {
 fn pages() -> Vec<Man> {
     let mut command = Arguments::command();
     command.build();
-    let version = command.get_version().unwrap_or_default().to_owned();
+    let source = format!("drypoint {}", command.get_version().unwrap_or_default());
     let mut pages = vec![Man::new(command.clone())];
     for subcommand in command.get_subcommands().filter(|one| !one.is_hide_set() && one.get_name() != "help") {
         let name = format!("drypoint-{}", subcommand.get_name());
-        pages.push(Man::new(subcommand.clone().name(name.clone()).display_name(name).version(version.clone())));
+        pages.push(Man::new(subcommand.clone().name(name.clone()).display_name(name)).source(source.clone()));
     }
     pages
 }

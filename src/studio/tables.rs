@@ -13,10 +13,16 @@ impl Studio {
         for name in names.iter().filter_map(|style| style["name"].as_str()) {
             styles.push(self.list(&["styles", name, "--json"]).await?);
         }
+        let mut presets = self.list(&["presets", "--json"]).await?["presets"].take();
+        for preset in presets.as_array_mut().into_iter().flatten() {
+            let name = preset["name"].as_str().unwrap_or_default().to_owned();
+            let whole = self.list(&["presets", &name, "--json"]).await?;
+            preset["values"] = toml::from_str(whole["toml"].as_str().unwrap_or_default()).unwrap_or_default();
+        }
         Ok(json!({
             "version": env!("CARGO_PKG_VERSION"),
             "styles": styles,
-            "presets": self.list(&["presets", "--json"]).await?["presets"],
+            "presets": presets,
             "profiles": self.list(&["profiles", "--json"]).await?["profiles"],
             "schema": self.list(&["schema"]).await?,
         }))

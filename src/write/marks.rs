@@ -5,12 +5,13 @@
 //!   {"name", "pen", "pen_mm", "color",
 //!    "dots":    [[x, y, radius], ...],  "outlines": [[index of the dot, ring], ...],
 //!    "strokes": [{"points": [[x, y], ...], "widths": [...], "closed"}, ...],
-//!    "areas":   [[ring, ...], ...]}]}
+//!    "areas":   [[ring, ...], ...], "order": [n, ...]}]}
 //! ```
 //!
 //! Lengths are in millimetres on the grid of 0.001 mm. A ring is a closed polygon without its first point again; areas are filled by
 //! the nonzero rule. `outlines` gives the shape of dots that are no discs. A mark with a colour of its own stands in `colors`, by
-//! kind and index.
+//! kind and index. `order` gives the order in which marks are laid, if it is not dots, strokes, areas: mark n is a dot, and from the
+//! number of dots on a stroke, and then an area.
 
 use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, flatten};
@@ -44,6 +45,8 @@ struct LayerData<'a> {
     outlines: Vec<(usize, Ring)>,
     strokes: Vec<StrokeData>,
     areas: Vec<Vec<Ring>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    order: Vec<usize>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     colors: BTreeMap<&'static str, BTreeMap<usize, String>>,
 }
@@ -83,6 +86,26 @@ fn rings(outline: &BezPath) -> Vec<Ring> {
     flatten(outline, TOLERANCE).into_iter().map(|(points, _)| points.into_iter().map(place).collect()).collect()
 }
 
+/// The places of a layer's marks among its dots, strokes and areas; empty if they lie in that order.
+fn order(layer: &Layer) -> Vec<usize> {
+    let kind = |mark: &Mark| match mark {
+        Mark::Dot(_) => 0,
+        Mark::Stroke(_) => 1,
+        Mark::Area(_) => 2,
+    };
+    if layer.marks.is_sorted_by_key(kind) {
+        return Vec::new();
+    }
+    let [dots, strokes, _] = layer.counts();
+    let mut next = [0, dots, dots + strokes];
+    let mut place = |mark| {
+        let next = &mut next[kind(mark)];
+        *next += 1;
+        *next - 1
+    };
+    layer.marks.iter().map(&mut place).collect()
+}
+
 impl<'a> LayerData<'a> {
     fn of(layer: &'a Layer, nib: f64) -> Self {
         let mut data = Self {
@@ -94,6 +117,7 @@ impl<'a> LayerData<'a> {
             outlines: Vec::new(),
             strokes: Vec::new(),
             areas: Vec::new(),
+            order: order(layer),
             colors: BTreeMap::new(),
         };
         layer.marks.iter().for_each(|mark| data.add(mark));
@@ -170,11 +194,21 @@ mod tests {
         assert_eq!(layer["dots"], json!([[1.0, 2.0, 0.25], [0.3, 0.3, 0.4]]));
         assert_eq!(layer["outlines"], json!([[1, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]]));
         assert_eq!(layer["strokes"][0], json!({"points": [[0.0, 0.0], [0.1, 0.0]], "widths": [0.1, 0.2], "closed": false}));
+        assert!(layer.get("order").is_none());
         assert_eq!(
             layer["strokes"][1],
             json!({"points": [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0]], "widths": [0.3, 0.3, 0.3], "closed": true})
         );
         assert_eq!(layer["areas"][0].as_array().unwrap().len(), 2);
         assert_eq!(layer["colors"], json!({"strokes": {"1": "#ffffff"}}));
+    }
+
+    #[test]
+    fn marks_that_are_mixed_keep_their_order() {
+        let dot = || Mark::Dot(Dot::circle(Point::ZERO, 0.2));
+        let stroke = || Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L1,0").unwrap(), Width::Constant(0.3)));
+        let layer = Layer { marks: vec![stroke(), dot(), stroke(), dot()], ..Layer::new("mixed", 1) };
+        assert_eq!(order(&layer), [2, 0, 3, 1]);
+        assert!(order(&Layer { marks: vec![dot(), dot(), stroke()], ..Layer::new("sorted", 1) }).is_empty());
     }
 }

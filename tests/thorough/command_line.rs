@@ -385,7 +385,7 @@ fn each_manual_page_gets_a_file_of_its_own() {
     for (file, title) in [("drypoint.1", "drypoint"), ("drypoint-draw.1", "drypoint-draw"), ("drypoint-send.1", "drypoint-send")]
     {
         let page = std::fs::read_to_string(folder.path().join("man/pages").join(file)).unwrap();
-        let version = format!(".TH {title} 1  \"{title} {}\"", env!("CARGO_PKG_VERSION"));
+        let version = format!(".TH {title} 1  \"drypoint {}\"", env!("CARGO_PKG_VERSION"));
         assert!(page.matches(".TH ").count() == 1 && page.contains(&version), "{file}: {}", &page[..200]);
     }
 }

@@ -5,7 +5,8 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches};
 
 /// Options that say how to work, not what to draw: they are in no scene and no recipe.
-pub(super) const RUN_ONLY: [&str; 16] = [
+pub(super) const RUN_ONLY: [&str; 17] = [
+    "draft",
     "send",
     "yes",
     "help",

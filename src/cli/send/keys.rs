@@ -6,9 +6,9 @@ pub(in crate::cli) use unix::restore_terminal;
 pub(super) use unix::{Keys, pause_is_asked_for};
 
 #[cfg(not(unix))]
-pub(in crate::cli) use none::restore_terminal;
+pub(in crate::cli) use waiting::restore_terminal;
 #[cfg(not(unix))]
-pub(super) use none::{Keys, pause_is_asked_for};
+pub(super) use waiting::{Keys, pause_is_asked_for};
 
 #[cfg(unix)]
 mod unix {
@@ -79,24 +79,61 @@ mod unix {
     }
 }
 
-/// Systems where single keys are not read: Ctrl-C stops.
+/// Systems without terminal modes of Unix: a thread waits for keys of the console.
 #[cfg(not(unix))]
-mod none {
+mod waiting {
+    use console::{Key, Term};
+    use std::io::IsTerminal;
+    use std::sync::mpsc::{Receiver, Sender, channel};
+    use std::sync::{LazyLock, Mutex, PoisonError};
+
+    /// Keys that were pressed and not yet looked at.
+    static PRESSED: LazyLock<Mutex<Receiver<u8>>> = LazyLock::new(|| {
+        let (sender, receiver) = channel();
+        std::thread::spawn(move || wait(&sender));
+        Mutex::new(receiver)
+    });
+
+    /// Passes keys on until the console is gone.
+    fn wait(sender: &Sender<u8>) {
+        let console = Term::stdout();
+        while let Ok(key) = console.read_key() {
+            let key = match key {
+                Key::Char(letter) => u8::try_from(letter).ok(),
+                Key::Enter => Some(b'\n'),
+                Key::CtrlC => Some(b'q'),
+                _ => None,
+            };
+            if key.is_some_and(|key| sender.send(key).is_err()) {
+                return;
+            }
+        }
+    }
+
+    /// A console gives single keys without being changed.
     pub(in crate::cli) fn restore_terminal() {}
 
+    /// There is no signal for that.
     pub(in crate::cli::send) fn pause_is_asked_for() -> bool {
         false
     }
 
+    /// A console that gives single keys, without showing them.
     pub(in crate::cli::send) struct Keys;
 
     impl Keys {
+        /// The console on stdin, if it is one.
         pub fn of_terminal() -> Option<Self> {
-            None
+            if !std::io::stdin().is_terminal() {
+                return None;
+            }
+            LazyLock::force(&PRESSED);
+            Some(Self)
         }
 
+        /// The next key, if one was pressed.
         pub fn pressed() -> Option<u8> {
-            None
+            PRESSED.lock().unwrap_or_else(PoisonError::into_inner).try_recv().ok()
         }
     }
 }
