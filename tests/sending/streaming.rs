@@ -9,6 +9,7 @@ use drypoint::interrupt::Interrupt;
 use drypoint::plot::Profile;
 use std::fmt::Write as _;
 use std::io;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// A port of ours that stalls now and then, as a busy computer does.
@@ -143,6 +144,60 @@ fn a_hundred_thousand_lines_with_stalls_lose_no_byte_and_starve_nobody() {
         100.0 * starved / all
     );
     assert!(fullest <= 127 && starved <= 0.001 * all, "starved {starved} s of {all} s");
+}
+
+/// A port through which a hand presses the machine's own buttons: hold after twenty lines, start once the hold was told.
+struct Buttons {
+    port: Box<dyn Port>,
+    sent: usize,
+    told: Arc<Mutex<Vec<String>>>,
+    has_started: bool,
+}
+
+impl Port for Buttons {
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.sent += usize::from(bytes.len() > 1);
+        if self.sent == 20 {
+            self.sent += 1;
+            self.port.send(b"!")?;
+        }
+        if !self.has_started && !self.told.lock().unwrap().is_empty() {
+            self.has_started = true;
+            self.port.send(b"~")?;
+        }
+        self.port.send(bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
+        self.port.receive(buffer, wait)
+    }
+}
+
+/// Remembers what the machine says.
+struct Listener(Arc<Mutex<Vec<String>>>);
+
+impl Onlooker for Listener {
+    fn wish(&mut self) -> Option<Wish> {
+        None
+    }
+
+    fn happens(&mut self, happening: &Happening<'_>) {
+        if let Happening::Said(text) = happening {
+            self.0.lock().unwrap().push((*text).to_owned());
+        }
+    }
+}
+
+#[test]
+fn a_hold_by_the_machine_s_own_button_is_told_once() {
+    let (machine, told) = (Machine::start(), Arc::new(Mutex::new(Vec::new())));
+    let program = program(&lines(3));
+    let port = Buttons { port: connected(&machine), sent: 0, told: Arc::clone(&told), has_started: false };
+    let (mut grbl, _) = Grbl::greet(Box::new(port)).unwrap();
+    assert_eq!(drawn(&mut grbl, &program, &mut Listener(Arc::clone(&told))).0, Ending::Done);
+    let told = told.lock().unwrap();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("its start button goes on"), "{told:?}");
 }
 
 #[test]

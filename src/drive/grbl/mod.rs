@@ -69,6 +69,8 @@ pub struct Grbl {
     blocks: usize,
     /// Percent of the file's speed.
     percent: u32,
+    /// True while it holds without having been asked to.
+    holds: bool,
     firmware: String,
 }
 
@@ -83,6 +85,7 @@ impl Grbl {
             offset: None,
             blocks: MOST_BLOCKS,
             percent: 100,
+            holds: false,
             firmware: String::new(),
         };
         let begun = Instant::now();

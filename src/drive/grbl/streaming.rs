@@ -9,6 +9,9 @@ use crate::interrupt::Interrupt;
 use crate::plot::Act;
 use std::time::{Duration, Instant};
 
+/// What is said when the machine's own button, or its door, holds it.
+const ON_HOLD: &str = "on hold, by its own button or door; its start button goes on";
+
 impl Controller for Grbl {
     fn longest_line(&self) -> usize {
         MOST_OUTSTANDING - 1
@@ -35,7 +38,15 @@ impl Controller for Grbl {
                 }
                 Reply::Alarm(code) => heard.push(Heard::Alarm { code, meaning: faults::alarm(code) }),
                 Reply::Banner(_) => heard.push(Heard::Restarted),
-                Reply::Status(status) => heard.push(Heard::State { is_still: status.state == MachineState::Idle }),
+                Reply::Status(status) => {
+                    heard.push(Heard::State { is_still: status.state == MachineState::Idle });
+                    // Halting asks for the state by itself, so this hold is nobody's wish here.
+                    let holds = matches!(status.state, MachineState::Holding | MachineState::Held);
+                    if holds && !std::mem::replace(&mut self.holds, holds) {
+                        heard.push(Heard::Said(ON_HOLD.to_owned()));
+                    }
+                    self.holds = holds;
+                }
                 Reply::Other(text) => heard.push(Heard::Said(text)),
                 Reply::Setting(..) => {}
             }
