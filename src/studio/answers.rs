@@ -150,6 +150,15 @@ pub(super) async fn plot(State(studio): Shared, Query(Machine { profile }): Quer
     Ok(bytes("application/json", studio.plot(&profile).await?))
 }
 
+pub(super) async fn stages(State(studio): Shared) -> Answer {
+    Ok(json(&studio.stages().await?))
+}
+
+pub(super) async fn stage(State(studio): Shared, UrlPath(file): UrlPath<String>) -> Answer {
+    let (kind, picture) = studio.stage(&file)?;
+    Ok(bytes(kind, picture))
+}
+
 #[derive(Deserialize)]
 pub(super) struct Export {
     file: String,

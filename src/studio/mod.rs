@@ -20,6 +20,7 @@ mod page;
 mod photographs;
 mod server;
 mod session;
+mod stages;
 mod tables;
 mod watching;
 

@@ -74,6 +74,8 @@ fn router(studio: Arc<Studio>) -> Router {
         .route("/api/drawing/{id}", get(answers::drawing))
         .route("/api/masks", get(answers::masks))
         .route("/api/mask/{role}", get(answers::mask).put(answers::paint).delete(answers::unpaint))
+        .route("/api/stages", get(answers::stages))
+        .route("/api/stage/{file}", get(answers::stage))
         .route("/api/plot", get(answers::plot))
         .route("/api/export", get(answers::download).post(answers::export))
         .route("/api/events", get(events::listen))

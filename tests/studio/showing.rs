@@ -105,6 +105,10 @@ fn faults_of_a_recipe_are_told_in_the_command_s_words() {
     assert!(studio.drawn().is_ok());
     let plot = studio.get("/api/plot?profile=grbl-servo").accepted();
     assert!(plot["seconds"].as_f64().unwrap() > 1.0 && !plot["marks"]["layers"].as_array().unwrap().is_empty());
+    let stages = studio.get("/api/stages").accepted()["stages"].as_array().unwrap().clone();
+    assert!(stages.iter().any(|stage| stage["name"] == "tone") && stages.last().unwrap()["name"] == "drawing", "{stages:?}");
+    let picture = studio.get(&format!("/api/stage/{}", stages[0]["file"].as_str().unwrap()));
+    assert!(picture.status == 200 && picture.body.starts_with(b"\x89PNG"));
     let tables = studio.get("/api/start").accepted();
     assert_eq!(tables["styles"].as_array().unwrap().len(), 5);
     assert!(tables["styles"][0]["parameters"].as_array().unwrap().len() > 5);

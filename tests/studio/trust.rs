@@ -30,8 +30,14 @@ fn only_the_page_itself_is_answered() {
 fn nothing_outside_the_scene_s_folder_is_read_or_written() {
     let folder = folder();
     let studio = Studio::open(folder.path(), Some("portrait.jpg"));
-    for path in ["/../etc/passwd", "/api/../../etc/passwd", "/api/mask/..%2f..%2fetc%2fpasswd", "/api/mask/sight", "/etc/passwd"]
-    {
+    for path in [
+        "/../etc/passwd",
+        "/api/../../etc/passwd",
+        "/api/mask/..%2f..%2fetc%2fpasswd",
+        "/api/mask/sight",
+        "/etc/passwd",
+        "/api/stage/..%2f..%2fetc",
+    ] {
         assert_eq!(studio.get(path).status, 404, "{path}");
     }
     for file in ["/etc/passwd", "../x.svg", "a/b.svg", "..", "", "-o", "portrait.toml"] {

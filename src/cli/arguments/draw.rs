@@ -101,7 +101,7 @@ pub(in crate::cli) struct PictureOptions {
     /// Seed of all random choices.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
-    /// A quick look: marks twice as far apart, in less than half the time.
+    /// A quick look: marks three times as far apart, in less than half the time.
     #[arg(long)]
     pub draft: bool,
     /// Worker threads [default: all cores]; the bytes written do not depend on it.
