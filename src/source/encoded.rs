@@ -5,7 +5,7 @@ use super::decode::{Photograph, SourceInfo};
 use super::error::SourceError;
 use super::linear::Lineariser;
 use super::placement::Crop;
-use super::portrait::resample_by;
+use super::resample::resample_by;
 use crate::raster::Raster;
 use fast_image_resize::images::{TypedImage, TypedImageRef};
 use fast_image_resize::pixels::{U8, U8x3};

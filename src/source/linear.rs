@@ -77,6 +77,22 @@ impl Lineariser {
         }
     }
 
+    /// True for a grey picture without alpha whose samples are sRGB.
+    pub(super) const fn has_plain_grey(&self, pixels: &DynamicImage) -> bool {
+        self.transform.is_none() && matches!(pixels, DynamicImage::ImageLuma8(_) | DynamicImage::ImageLuma16(_))
+    }
+
+    /// Rows of a plain grey picture as linear light; others have none.
+    pub(super) fn grey_rows(&self, pixels: &DynamicImage, first: u32, count: u32) -> Vec<f32> {
+        let width = pixels.width() as usize;
+        let range = first as usize * width..(first + count) as usize * width;
+        match pixels {
+            DynamicImage::ImageLuma8(grey) => grey.as_raw()[range].iter().map(|&v| self.table[usize::from(v) * 257]).collect(),
+            DynamicImage::ImageLuma16(grey) => grey.as_raw()[range].iter().map(|&v| self.table[usize::from(v)]).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     fn band<P: Pixel>(
         &self,
         samples: &[P::Subpixel],

@@ -16,6 +16,7 @@ mod mask_role;
 mod placement;
 mod png;
 mod portrait;
+mod resample;
 mod scribbles;
 
 #[cfg(feature = "cli")]

@@ -6,24 +6,17 @@ use super::depth::{DepthSense, read_depth};
 use super::error::SourceError;
 use super::landmarks::Landmarks;
 use super::mask_role::MaskRole;
-use super::placement::{Crop, Placement, crop_on_grid, inside};
+use super::placement::{Crop, Placement, crop_on_grid};
+use super::resample::{resample, resample_grey};
 use super::scribbles::Scribbles;
 use crate::drawing::Page;
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
-use fast_image_resize::images::{TypedImage, TypedImageRef};
-use fast_image_resize::pixels::F32x4;
-use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Most working pixels, whatever the style; a style takes 80 to 500 bytes for each, and reports its need beforehand.
-const WORK_LIMIT: u64 = 60_000_000;
 /// The mesh's point on the tip of the nose, the middle of a face.
 const NOSE_TIP: usize = 1;
-/// Rows of the working raster resampled at once.
-const BAND: usize = 64;
 
 /// The measure of tone that the ink must match.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -255,64 +248,13 @@ pub fn mask_on(mask: &Photograph, photograph: &Photograph, crop: Crop, placement
 
 /// The fraction of each working pixel that a mask covers.
 fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<f32>, SourceError> {
+    if mask.lineariser.has_plain_grey(&mask.pixels) {
+        return Ok(resample_grey(mask, crop, placement)?.map(lightness));
+    }
     // L* is close to linear in the encoded grey, and 50 % grey of a mask means half.
     Ok(resample(mask, crop, placement)?.map(|[r, g, b, alpha]| {
         let on_white = luminance([r, g, b]);
         let on_black = (on_white - (1.0 - alpha)).max(0.0);
         lightness(on_black)
     }))
-}
-
-/// Linear light on white, and alpha, at the working resolution; in bands, so that memory does not grow with the photograph.
-fn resample(photograph: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<[f32; 4]>, SourceError> {
-    resample_by(photograph, inside(crop, photograph), (placement.columns, placement.rows), FilterType::Lanczos3)
-}
-
-/// Linear light on white, and alpha, of a crop inside the photograph, resampled to another size by a filter that reaches at most
-/// three pixels.
-pub(super) fn resample_by(
-    photograph: &Photograph,
-    crop: Crop,
-    (columns, rows): (usize, usize),
-    filter: FilterType,
-) -> Result<Raster<[f32; 4]>, SourceError> {
-    let pixels = columns as u64 * rows as u64;
-    if pixels > WORK_LIMIT {
-        return Err(SourceError::WorkTooLarge { pixels, limit: WORK_LIMIT });
-    }
-    let scale = crop.height / rows as f64;
-    // Lanczos 3 reaches three working pixels, and at least three of the photograph's.
-    let reach = (3.0 * scale.max(1.0)).ceil() + 1.0;
-    let bands: Vec<Vec<[f32; 4]>> = (0..rows.div_ceil(BAND))
-        .into_par_iter()
-        .map(|band| {
-            let (first, last) = (band * BAND, ((band + 1) * BAND).min(rows));
-            let (top, bottom) = (crop.y + first as f64 * scale, crop.y + last as f64 * scale);
-            let first_source = (top - reach).floor().max(0.0) as u32;
-            let end_source = ((bottom + reach).ceil() as u32).min(photograph.height());
-            let source = photograph.lineariser.rows(&photograph.pixels, first_source, end_source - first_source);
-            let window = Rect::new(crop.x, top - f64::from(first_source), crop.x + crop.width, bottom - f64::from(first_source));
-            resize_band(&source, photograph.width(), window, (columns, last - first), filter)
-        })
-        .collect();
-    Ok(Raster::from_vec(columns, rows, bands.concat()))
-}
-
-fn resize_band(
-    source: &[[f32; 4]],
-    width: u32,
-    window: Rect,
-    (columns, rows): (usize, usize),
-    filter: FilterType,
-) -> Vec<[f32; 4]> {
-    let pixels: Vec<F32x4> = source.iter().map(|&p| F32x4::new(p)).collect();
-    let height = (pixels.len() / width as usize) as u32;
-    let view = TypedImageRef::new(width, height, &pixels).expect("the band fills its rows");
-    let mut band = TypedImage::<F32x4>::new(columns as u32, rows as u32);
-    let options = ResizeOptions::new()
-        .resize_alg(ResizeAlg::Convolution(filter))
-        .crop(window.x0, window.y0, window.width(), window.height().min(f64::from(height) - window.y0))
-        .use_alpha(false);
-    Resizer::new().resize_typed(&view, &mut band, &options).expect("the window lies inside the band");
-    band.pixels().iter().map(|p| p.0).collect()
 }
