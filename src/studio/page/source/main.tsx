@@ -46,8 +46,8 @@ function listenToServer(): void {
       },
       failed: ({ revision, message }) => set({ work: null, failure: { revision, message } }),
       sight: (sight) => {
-        set({ sight });
-        if (sight.state !== "looking") void reloadMasks();
+        if (sight.state === "looking") set({ sight });
+        else void reloadMasks().then(() => set({ sight }));
       },
     },
     (isConnected) => set({ isConnected }),

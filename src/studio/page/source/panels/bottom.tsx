@@ -1,6 +1,6 @@
 // The strip at the bottom: the plot played back, and the status in one line.
 
-import { now, set, useStudio, type Playback } from "../model/store.ts";
+import { now, set, useStudio, type Playback, type PlotShown } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
 import { askPlot, pathEnd, pathsDone, redraw } from "../stage/engine.ts";
 import { isOutOfDate } from "../stage/shown.tsx";
@@ -63,7 +63,6 @@ export function Bottom() {
 
 function Player() {
   const plot = useStudio((state) => state.plot);
-  const playback = useStudio((state) => state.playback);
   const isPlotting = useStudio((state) => state.isPlotting);
   if (!plot) {
     return (
@@ -74,44 +73,71 @@ function Player() {
       </div>
     );
   }
-  const share = plot.seconds > 0 ? (100 * playback.time) / plot.seconds : 0;
-  const done = pathsDone(playback.time + 1e-6);
   return (
     <div class="player" role="group" aria-label="Playback of the plot">
+      <Steps />
+      <Time plot={plot} />
+      <HowPlayed />
+    </div>
+  );
+}
+
+function Steps() {
+  const isPlaying = useStudio((state) => state.playback.isPlaying);
+  return (
+    <>
       <IconButton icon="back" name="One path back" keys="," act={() => step(-1)} />
-      <IconButton icon={playback.isPlaying ? "pause" : "play"} name={playback.isPlaying ? "Pause" : "Play"} keys="K" act={play} />
+      <IconButton icon={isPlaying ? "pause" : "play"} name={isPlaying ? "Pause" : "Play"} keys="K" act={play} />
       <IconButton icon="forward" name="One path on" keys="." act={() => step(1)} />
+    </>
+  );
+}
+
+function Time({ plot }: { plot: PlotShown }) {
+  const time = useStudio((state) => state.playback.time);
+  const share = plot.seconds > 0 ? (100 * time) / plot.seconds : 0;
+  const done = pathsDone(time + 1e-6);
+  return (
+    <>
       <input
         type="range"
         class="slider time"
         min={0}
         max={plot.seconds}
         step="any"
-        value={playback.time}
+        value={time}
         style={{ "--share": `${share}%` }}
         aria-label="Time in the plot"
-        aria-valuetext={`${clock(playback.time)} of ${clock(plot.seconds)}, path ${done} of ${plot.paths}`}
+        aria-valuetext={`${clock(time)} of ${clock(plot.seconds)}, path ${done} of ${plot.paths}`}
         onInput={(event) => changePlayback({ isOn: true, time: Number(event.currentTarget.value) })}
       />
       <span class="figure">
-        {clock(playback.time)} / {clock(plot.seconds)}
+        {clock(time)} / {clock(plot.seconds)}
       </span>
       <span class="figure paths">
         path {done} / {plot.paths}
       </span>
-      <select aria-label="Speed" value={String(playback.speed)} onChange={(event) => changePlayback({ speed: Number(event.currentTarget.value) })}>
-        {SPEEDS.map((speed) => (
-          <option value={String(speed)}>{speed}×</option>
+    </>
+  );
+}
+
+function HowPlayed() {
+  const { isOn, speed, hasTravel } = useStudio((state) => state.playback);
+  return (
+    <>
+      <select aria-label="Speed" value={String(speed)} onChange={(event) => changePlayback({ speed: Number(event.currentTarget.value) })}>
+        {SPEEDS.map((one) => (
+          <option value={String(one)}>{one}×</option>
         ))}
       </select>
       <label class="check">
-        <input type="checkbox" checked={playback.hasTravel} onChange={(event) => changePlayback({ hasTravel: event.currentTarget.checked })} />
+        <input type="checkbox" checked={hasTravel} onChange={(event) => changePlayback({ hasTravel: event.currentTarget.checked })} />
         Travel
       </label>
-      <button class="quiet" aria-pressed={playback.isOn} onClick={() => changePlayback({ isOn: !playback.isOn, isPlaying: false })}>
-        {playback.isOn ? "Show the drawing" : "Show the plot"}
+      <button class="quiet" aria-pressed={isOn} onClick={() => changePlayback({ isOn: !isOn, isPlaying: false })}>
+        {isOn ? "Show the drawing" : "Show the plot"}
       </button>
-    </div>
+    </>
   );
 }
 

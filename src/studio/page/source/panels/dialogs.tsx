@@ -7,6 +7,7 @@ import { set, useStudio } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
 import { address } from "../server/requests.ts";
 import { camera } from "../stage/camera.ts";
+import type { Profile } from "../server/shapes.ts";
 import { KEYS } from "./keys.ts";
 import { chosenProfile } from "./sheet.tsx";
 
@@ -42,17 +43,17 @@ const FORMATS = [
   { name: "gcode", purpose: "for G-code machines", needsMachine: true },
 ];
 
-function Export() {
+/** What the export's form holds: the format, the name, the machine that suits the format, and how writing went. */
+function useExport() {
   const file = useStudio((state) => state.scene?.file ?? "drawing.toml");
   const profiles = useStudio((state) => state.start?.profiles ?? []);
-  const exported = useStudio((state) => state.exported);
   const [format, setFormat] = useState("svg");
   const [stem, setStem] = useState(file.replace(/\.toml$/, ""));
   const [profile, setProfile] = useState(chosenProfile());
   const [fault, setFault] = useState<string | null>(null);
   const [isBusy, setBusy] = useState(false);
   useEffect(() => set({ exported: null }), []);
-  const needsMachine = FORMATS.find((one) => one.name === format)!.needsMachine;
+  const { needsMachine } = FORMATS.find((one) => one.name === format)!;
   const suits = profiles.filter((one) => format === "svg" || format === "json" || fits(one.description, format));
   const machine = suits.some((one) => one.name === profile) ? profile : needsMachine ? (suits[0]?.name ?? "") : "";
   const name = `${stem}.${format}`;
@@ -61,6 +62,12 @@ function Export() {
     setFault(await exportFile(name, machine || null));
     setBusy(false);
   };
+  return { format, setFormat, stem, setStem, setProfile, needsMachine, suits, machine, name, fault, isBusy, write };
+}
+
+function Export() {
+  const { format, setFormat, stem, setStem, setProfile, needsMachine, suits, machine, name, fault, isBusy, write } = useExport();
+  const exported = useStudio((state) => state.exported);
   return (
     <Dialog title="Export">
       <form onSubmit={(event) => (event.preventDefault(), void write())}>
@@ -69,19 +76,7 @@ function Export() {
           <span>Name</span>
           <input class="text" value={stem} required pattern="[^\/\\]+" onInput={(event) => setStem(event.currentTarget.value)} />
         </label>
-        {format !== "pdf" && (
-          <label class="line">
-            <span>Machine</span>
-            <select value={machine} onChange={(event) => setProfile(event.currentTarget.value)}>
-              {!needsMachine && <option value="">none: for print</option>}
-              {suits.map((one) => (
-                <option value={one.name}>
-                  {one.name}: {one.description}
-                </option>
-              ))}
-            </select>
-          </label>
-        )}
+        {format !== "pdf" && <Machine machine={machine} suits={suits} needsMachine={needsMachine} choose={setProfile} />}
         {fault && (
           <p class="failure" role="alert">
             {fault}
@@ -101,13 +96,36 @@ function Export() {
   );
 }
 
+interface MachineProps {
+  machine: string;
+  suits: Profile[];
+  needsMachine: boolean;
+  choose: (name: string) => void;
+}
+
+function Machine({ machine, suits, needsMachine, choose }: MachineProps) {
+  return (
+    <label class="line">
+      <span>Machine</span>
+      <select value={machine} onChange={(event) => choose(event.currentTarget.value)}>
+        {!needsMachine && <option value="">none: for print</option>}
+        {suits.map((one) => (
+          <option value={one.name}>
+            {one.name}: {one.description}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
 function Formats({ format, choose }: { format: string; choose: (format: string) => void }) {
   return (
     <fieldset class="formats">
       <legend>Format</legend>
       {FORMATS.map((one) => (
         <label class={one.name === format ? "is-chosen" : ""}>
-          <input type="radio" name="format" checked={one.name === format} onChange={() => choose(one.name)} />
+          <input type="radio" name="format" autofocus={one.name === format} checked={one.name === format} onChange={() => choose(one.name)} />
           <strong>{one.name}</strong>
           <span>{one.purpose}</span>
         </label>
@@ -121,7 +139,9 @@ function fits(description: string, format: string): boolean {
 }
 
 function Written() {
-  const { file, bytes, command } = useStudio((state) => state.exported)!;
+  const exported = useStudio((state) => state.exported);
+  if (!exported) return null;
+  const { file, bytes, command } = exported;
   return (
     <div class="written" role="status">
       <p>

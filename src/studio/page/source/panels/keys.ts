@@ -6,7 +6,7 @@ import { camera } from "../stage/camera.ts";
 import { redraw } from "../stage/engine.ts";
 import { paintInMiddle } from "../stage/gestures.ts";
 import { nudge } from "../stage/placing.ts";
-import { setDivider } from "../stage/stage.tsx";
+import { setDivider, showBrushAfterKey } from "../stage/stage.tsx";
 import { changePlayback, play, step } from "./bottom.tsx";
 import { chooseTool } from "./left.tsx";
 import { changeMaskTools } from "./masks.tsx";
@@ -137,6 +137,7 @@ function pressed(event: KeyboardEvent): void {
   if (!act) return;
   event.preventDefault();
   if (!event.repeat || direction || "+-=[]{}<>,.".includes(event.key)) act();
+  if (document.activeElement instanceof HTMLCanvasElement) showBrushAfterKey(direction !== undefined || name === "enter");
 }
 
 export function listenToKeys(): void {

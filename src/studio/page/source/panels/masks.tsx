@@ -20,7 +20,7 @@ export function MasksPanel() {
   return (
     <>
       <p class="lead">What was found in the photograph. Choose a part and paint where it was seen wrong.</p>
-      {sight && sight.state !== "found" && <p class="remark">{sight.message}</p>}
+      {sight && sight.state !== "found" && <p class="remark">{sight.state === "looking" ? "Looking for its parts…" : sight.message}</p>}
       <ul class="masks">
         {masks.map((mask) => (
           <li class={mask.role === role ? "is-chosen" : ""} key={mask.role}>

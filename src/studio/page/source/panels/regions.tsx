@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import { change, valueAt } from "../model/scene.ts";
 import { useStudio } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
+import { Pick } from "../parts/pick.tsx";
 import { ParameterRow } from "../parts/parameter.tsx";
 import { ChoiceRow, TextRow } from "../parts/row.tsx";
 import type { Path, Table, Value } from "../server/shapes.ts";
@@ -53,25 +54,17 @@ export function RegionsPanel() {
                 <IconButton icon="down" name={`Lower ${region["mask"]}`} isDisabled={index === 0} act={() => move(index, -1)} />
                 <IconButton icon="remove" name={`Remove ${region["mask"]}`} act={() => (setOpen(-1), replace("remove region", list.filter((_, other) => other !== index)))} />
               </div>
-              {open === index && <Region index={index} region={region} />}
+              {open === index && <Region index={index} />}
             </li>
           ))
           .reverse()}
       </ol>
-      <label class="preset">
-        <span>Add</span>
-        <select value="" aria-label="Add a region for" onChange={(event) => (event.currentTarget.value && add(event.currentTarget.value), (event.currentTarget.value = ""))}>
-          <option value="">A region for…</option>
-          {ROLES.map((role) => (
-            <option value={role}>{role}</option>
-          ))}
-        </select>
-      </label>
+      <Pick title="Add" label="Add a region for" hint="A region for…" choices={ROLES.map((role) => ({ value: role, text: role }))} act={add} />
     </>
   );
 }
 
-function Region({ index, region }: { index: number; region: Table }) {
+function Region({ index }: { index: number }) {
   const start = useStudio((state) => state.start)!;
   const base: Path = ["region", index];
   const act = (key: string) => (value: Value) => change(`region: ${key}`, { path: [...base, key], value });
@@ -80,14 +73,15 @@ function Region({ index, region }: { index: number; region: Table }) {
       name={key}
       help={help}
       hint={hint}
-      isSet={region[key] !== undefined}
+      isSet={valueAt([...base, key]) !== undefined}
       reset={() => act(key)(null)}
-      value={String(region[key] ?? "")}
+      value={String(valueAt([...base, key]) ?? "")}
       act={(value) => act(key)(value === "" ? null : key === "pen" || key === "seed" ? Number(value) || value : value)}
     />
   );
   const own = String(valueAt(["style"]) ?? "hedcut");
-  const name = String(region["style"] ?? own);
+  const chosen = String(valueAt([...base, "style"]) ?? "");
+  const name = chosen || own;
   const style = start.styles.find((one) => one.name === name);
   const pitch = currentPitch(style?.parameters ?? []);
   const chooseStyle = (value: string) =>
@@ -97,10 +91,11 @@ function Region({ index, region }: { index: number; region: Table }) {
       <ChoiceRow
         name="style"
         help="Its style; without one, the drawing's own with its parameters"
-        isSet={region["style"] !== undefined}
+        isSet={chosen !== ""}
         reset={() => chooseStyle("")}
         choices={["", ...start.styles.map((one) => one.name)]}
-        value={String(region["style"] ?? "")}
+        value={chosen}
+        none="as the drawing"
         act={chooseStyle}
       />
       {text("pen", "1", "The number of its pen, from 1")}

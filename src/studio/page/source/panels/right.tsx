@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import { change, valueAt } from "../model/scene.ts";
 import { set, useStudio } from "../model/store.ts";
 import { isIdle, ParameterRow } from "../parts/parameter.tsx";
+import { Pick } from "../parts/pick.tsx";
 import { OptionRow } from "../parts/option.tsx";
 import type { Parameter, Preset } from "../server/shapes.ts";
 import { asNumber, defaultNumber } from "../style/range.ts";
@@ -70,19 +71,8 @@ function PresetChooser({ presets }: { presets: Preset[] }) {
     change(`preset ${name}`, { path: ["set"], value: null }, ...Object.entries(values).map(([key, value]) => ({ path: [key], value })));
     set({ note: `${preset.name}: ${preset.purpose}` });
   };
-  return (
-    <label class="preset">
-      <span>Preset</span>
-      <select value="" onChange={(event) => (apply(event.currentTarget.value), (event.currentTarget.value = ""))}>
-        <option value="">Start from…</option>
-        {presets.map((preset) => (
-          <option value={preset.name} title={preset.purpose}>
-            {preset.name}: {preset.purpose}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
+  const choices = presets.map((preset) => ({ value: preset.name, text: `${preset.name}: ${preset.purpose}`, help: preset.purpose }));
+  return <Pick title="Preset" hint="Start from…" choices={choices} act={apply} />;
 }
 
 export function currentPitch(parameters: Parameter[]): number {

@@ -11,6 +11,8 @@ import { clock } from "./bottom.tsx";
 
 const PAGES = ["", "a6", "a5", "a4", "a3", "a2", "a1", "a0", "letter", "legal", "tabloid"];
 const PLACING = ["margin", "size", "fit", "at", "center", "rotate"];
+/** Names that say more than the key alone: the style has a "size" too, and pens have numbers. */
+const TITLES: { [name: string]: string } = { size: "size of the picture", pen: "width of the pen" };
 const MACHINE = ["pen", "max-time", "order", "speed", "clip"];
 
 export function SheetPanel() {
@@ -18,7 +20,7 @@ export function SheetPanel() {
   useStudio((state) => state.scene?.values);
   useStudio((state) => state.pending);
   const page = useStudio((state) => state.shown?.page);
-  const rows = (keys: string[]) => keys.flatMap((key) => (schema[key] ? [<OptionRow key={key} name={key} option={schema[key]} />] : []));
+  const rows = (keys: string[]) => keys.flatMap((key) => (schema[key] ? [<OptionRow key={key} name={key} title={TITLES[key]} option={schema[key]} />] : []));
   return (
     <>
       <section class="sub" aria-label="Sheet">
@@ -59,7 +61,7 @@ function PageRow({ help }: { help: string }) {
   const choices = PAGES.includes(base) ? PAGES : [...PAGES, value];
   return (
     <>
-      <ChoiceRow name="page" help={help} isSet={value !== ""} reset={() => act("")} choices={choices} value={PAGES.includes(base) ? base : value} act={(next) => act(next && isLandscape ? `${next}-landscape` : next)} />
+      <ChoiceRow name="page" help={help} isSet={value !== ""} reset={() => act("")} choices={choices} none="the picture alone" value={PAGES.includes(base) ? base : value} act={(next) => act(next && isLandscape ? `${next}-landscape` : next)} />
       {value !== "" && PAGES.includes(base) && (
         <label class="check">
           <input type="checkbox" checked={isLandscape} onChange={(event) => act(event.currentTarget.checked ? `${base}-landscape` : base)} />
@@ -84,7 +86,7 @@ function Machine() {
   return (
     <section class="sub" aria-label="Machine">
       <h2>Machine</h2>
-      <ChoiceRow name="machine" help={help} isSet={profile !== ""} reset={() => act("")} choices={["", ...profiles.map((one) => one.name)]} value={profile} act={act} />
+      <ChoiceRow name="machine" help={help} isSet={profile !== ""} reset={() => act("")} choices={["", ...profiles.map((one) => one.name)]} none="none" value={profile} act={act} />
       <p class="lead">{profile ? help : "Choose a plotter to see its paths, time and ink."}</p>
       <div class="buttons">
         <button class="primary" disabled={!profile || isPlotting} onClick={() => askPlot(profile)}>
@@ -109,7 +111,9 @@ function Pens() {
     <>
       {plot.revision !== revision && <p class="remark">This plan is older than the drawing; plan again.</p>}
       <table class="pens">
-        <caption>{plot.summary}</caption>
+        <caption>
+          {plot.summary}; {clock(plot.seconds)} in all
+        </caption>
         <thead>
           <tr>
             <th scope="col">Pen</th>

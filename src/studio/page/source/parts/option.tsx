@@ -13,6 +13,10 @@ function rangeOf(option: Option): Extract<Kind, { kind: "number" }> | null {
   return { kind: "number", least: Number(found[1]), most: Number(found[2]), isWhole: false, unit: found[3] ? "mm" : "" };
 }
 
+/** What can be written, where the schema's words are too long for the field. */
+const EXAMPLES: { [name: string]: string } = { size: "such as 38x50mm", crop: "head, face or X,Y,W,H", at: "such as 20,30mm", "max-time": "such as 2h" };
+const SUGGESTIONS: { [name: string]: string[] } = { crop: ["head", "face"] };
+
 function firstSentence(text: string): string {
   return text.length > 220 ? `${text.slice(0, text.indexOf(". ") + 1 || 220)}` : text;
 }
@@ -35,8 +39,8 @@ export function OptionRow({ name, option, title }: { name: string; option: Optio
     const send = (number: number) => act(range.unit ? `${number}${range.unit}` : number);
     return <NumberRow {...row} kind={range} value={asNumber(value) ?? usual} usual={usual} act={send} />;
   }
-  const hint = option.default === undefined ? hintOf(option) : String(option.default);
-  return <TextRow {...row} value={String(value ?? "")} hint={hint} act={(text) => act(text === "" ? null : text)} />;
+  const hint = EXAMPLES[name] ?? (option.default === undefined ? hintOf(option) : String(option.default));
+  return <TextRow {...row} value={String(value ?? "")} hint={hint} suggestions={SUGGESTIONS[name]} act={(text) => act(text === "" ? null : text)} />;
 }
 
 function hintOf(option: Option): string {

@@ -118,16 +118,18 @@ function Entry({ id, value, unit, name, least, most, act }: EntryProps) {
 interface ChoiceProps extends RowProps {
   choices: string[];
   value: string;
+  /** What the empty choice is called. */
+  none?: string;
   act: (value: string) => void;
 }
 
-export function ChoiceRow({ choices, value, act, ...row }: ChoiceProps) {
+export function ChoiceRow({ choices, value, none = "default", act, ...row }: ChoiceProps) {
   const id = useId();
   return (
     <Row {...row} id={id}>
       <select id={id} value={value} title={row.help} aria-describedby={`${id}-help`} onChange={(event) => act(event.currentTarget.value)}>
         {choices.map((choice) => (
-          <option value={choice}>{choice === "" ? "default" : choice}</option>
+          <option value={choice}>{choice === "" ? none : choice}</option>
         ))}
       </select>
     </Row>
@@ -137,23 +139,40 @@ export function ChoiceRow({ choices, value, act, ...row }: ChoiceProps) {
 interface TextProps extends RowProps {
   value: string;
   hint: string;
+  suggestions?: string[];
   act: (value: string) => void;
 }
 
-export function TextRow({ value, hint, act, ...row }: TextProps) {
+/** Sent with Enter or on leaving: what is being written stays when the scene changes beneath it. */
+export function TextRow({ value, hint, suggestions = [], act, ...row }: TextProps) {
   const id = useId();
+  const [text, setText] = useState<string | null>(null);
+  const settle = () => {
+    if (text !== null && text.trim() !== value) act(text.trim());
+    setText(null);
+  };
   return (
     <Row {...row} id={id}>
       <input
         id={id}
         class="text"
         type="text"
-        value={value}
+        value={text ?? value}
         placeholder={hint}
         title={row.help}
+        list={suggestions.length > 0 ? `${id}-list` : undefined}
         aria-describedby={`${id}-help`}
-        onChange={(event) => act(event.currentTarget.value.trim())}
+        onInput={(event) => setText(event.currentTarget.value)}
+        onBlur={settle}
+        onKeyDown={(event) => (event.key === "Enter" ? settle() : event.key === "Escape" && setText(null))}
       />
+      {suggestions.length > 0 && (
+        <datalist id={`${id}-list`}>
+          {suggestions.map((one) => (
+            <option value={one} />
+          ))}
+        </datalist>
+      )}
     </Row>
   );
 }

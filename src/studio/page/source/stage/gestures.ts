@@ -11,6 +11,8 @@ import { dropPicture, liftPicture, movePicture } from "./placing.ts";
 
 type Action = { kind: "pan" } | { kind: "place" } | { kind: "paint"; last: Touch } | { kind: "lasso"; points: Touch[] };
 
+const TOO_EARLY = "The mask is not there yet; wait a moment";
+
 const pointers = new Map<number, { x: number; y: number }>();
 let action: Action | null = null;
 
@@ -62,8 +64,8 @@ function startPainting(event: PointerEvent, tool: string): void {
   const { role } = now().mask;
   const canvas = canvasToPaint(role);
   const touch = touchOf(event);
-  if (!canvas) return say("The masks are not there yet");
   if (!now().masks.find((mask) => mask.role === role)?.isVisible) setVisible(role, true);
+  if (!canvas) return say(TOO_EARLY);
   if (tool === "fill") {
     if (touch.x < 0 || touch.y < 0 || touch.x >= canvas.width || touch.y >= canvas.height) return;
     flood(canvas, brushOf(isErasing(event)), touch.x, touch.y);
@@ -142,7 +144,7 @@ export function wheeled(event: WheelEvent): void {
 export function paintInMiddle(): void {
   const { tool, mask } = now();
   const canvas = canvasToPaint(mask.role);
-  if (!canvas) return;
+  if (!canvas) return (setVisible(mask.role, true), say(TOO_EARLY));
   const { pixels, affine } = photographToSheet(camera.page);
   const [px, py] = apply(inverse(affine), ...camera.toSheet(camera.width / 2, camera.height / 2));
   const touch = { x: (px * canvas.width) / pixels[0], y: (py * canvas.height) / pixels[1], pressure: 1 };

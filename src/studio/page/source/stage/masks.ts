@@ -36,15 +36,16 @@ export function maskCanvas(role: string): OffscreenCanvas | null {
   return canvases.get(role) ?? null;
 }
 
-/** The mask to paint on; an empty one if there is none yet. */
+/** The mask to paint on; an empty one if nothing was found. */
 export function canvasToPaint(role: string): OffscreenCanvas | null {
-  const size = now().maskSize;
-  if (!size) return null;
-  let canvas = canvases.get(role);
-  if (!canvas) {
-    canvas = new OffscreenCanvas(...size);
-    canvases.set(role, canvas);
-  }
+  const { maskSize, masks, sight } = now();
+  const known = canvases.get(role);
+  if (known || !maskSize) return known ?? null;
+  // Painted on too early, an empty mask would replace the one that was found or is still looked for.
+  const isThere = masks.find((mask) => mask.role === role)?.isThere;
+  if (isThere !== false || sight?.state === "looking") return null;
+  const canvas = new OffscreenCanvas(...maskSize);
+  canvases.set(role, canvas);
   return canvas;
 }
 

@@ -59,7 +59,7 @@ export function Stage() {
         onPointerMove={(event) => (moved(event), followBrush(event))}
         onPointerUp={released}
         onPointerCancel={released}
-        onPointerLeave={() => showBrush(null)}
+        onPointerLeave={() => showBrush((pointer = null))}
         onDblClick={() => now().tool === "hand" && camera.fit()}
         onContextMenu={(event) => event.preventDefault()}
       />
@@ -81,9 +81,13 @@ function PaneNames() {
   );
 }
 
-function showBrush(place: { x: number; y: number } | null): void {
+/** Where the pointer is over the canvas. */
+let pointer: { x: number; y: number } | null = null;
+
+function showBrush(place: { x: number; y: number } | null, isByKey = false): void {
   const ring = document.getElementById("brush-ring")!;
-  const isBrush = now().tool === "brush" || now().tool === "eraser";
+  const { tool } = now();
+  const isBrush = tool === "brush" || tool === "eraser" || (isByKey && (tool === "lasso" || tool === "fill"));
   ring.hidden = !place || !isBrush;
   if (!place || !isBrush) return;
   const size = brushOnScreen();
@@ -93,7 +97,14 @@ function showBrush(place: { x: number; y: number } | null): void {
 
 function followBrush(event: PointerEvent): void {
   const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
-  showBrush({ x: event.clientX - box.left, y: event.clientY - box.top });
+  pointer = { x: event.clientX - box.left, y: event.clientY - box.top };
+  showBrush(pointer);
+}
+
+/** After a key: the brush in its new size at the pointer or, for whoever paints by keyboard, in the middle where Enter paints. */
+export function showBrushAfterKey(isMoved: boolean): void {
+  const middle = { x: camera.width / 2 / camera.density, y: camera.height / 2 / camera.density };
+  showBrush(isMoved ? middle : (pointer ?? middle), true);
 }
 
 export function setDivider(divider: number): void {
