@@ -24,7 +24,8 @@ const READABLE: f64 = 3.5;
 /// // Yellow, red and black, of 0.3 mm each, on A5 with a margin of 8 mm; black draws the marks.
 /// let sheet = PenSheet::new([148.0, 210.0], 8.0, &[0.3, 0.3, 0.3], 2)?;
 /// assert_eq!(sheet.cell(), 13.0);
-/// let filled = sheet.marks().iter().filter(|mark| mark.pen == 0 && matches!(mark.shape, SheetShape::Rect(_)));
+/// let marks = sheet.marks();
+/// let filled = marks.iter().filter(|mark| mark.pen == 0 && matches!(mark.shape, SheetShape::Rect(_)));
 /// assert!(filled.count() > 8);
 /// # Ok::<(), drypoint::colour::sheet::SheetError>(())
 /// ```
