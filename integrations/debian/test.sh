@@ -6,24 +6,9 @@ folder=$(cd "$(dirname "$0")" && pwd)
 repository=$(cd "$folder/../.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+# shellcheck source=../checks.sh
+source "$folder/../checks.sh"
 root=$scratch/root
-passed=0
-failed=0
-
-# In the background, so that a step ends at its first failing command.
-check() {
-    local name=$1
-    shift
-    (set -e; "$@") >"$scratch/said" 2>&1 &
-    if wait $!; then
-        passed=$((passed + 1))
-        echo "passed: $name" >&2
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name" >&2
-        head -n 20 "$scratch/said" >&2
-    fi
-}
 
 finish() {
     echo "$passed passed, $failed failed"

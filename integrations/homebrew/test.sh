@@ -6,24 +6,9 @@ folder=$(cd "$(dirname "$0")" && pwd)
 repository=$(cd "$folder/../.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-passed=0
-failed=0
+# shellcheck source=../checks.sh
+source "$folder/../checks.sh"
 sum=$(printf '0123456789abcdef%.0s' 1 2 3 4)
-
-# In the background, so that a step ends at its first failing command.
-check() {
-    local name=$1
-    shift
-    (set -e; "$@") >"$scratch/said" 2>&1 &
-    if wait $!; then
-        passed=$((passed + 1))
-        echo "passed: $name" >&2
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name" >&2
-        head -n 20 "$scratch/said" >&2
-    fi
-}
 
 install_ruby() {
     if ! command -v ruby; then

@@ -5,25 +5,10 @@ set -euo pipefail
 folder=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-passed=0
-failed=0
+# shellcheck source=../checks.sh
+source "$folder/../checks.sh"
 sum=$(printf '0123456789abcdef%.0s' 1 2 3 4)
 url=https://example.org/someone/drypoint/releases/download/v1.2.3/drypoint-windows.zip
-
-# In the background, so that a step ends at its first failing command.
-check() {
-    local name=$1
-    shift
-    (set -e; "$@") >"$scratch/said" 2>&1 &
-    if wait $!; then
-        passed=$((passed + 1))
-        echo "passed: $name" >&2
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name" >&2
-        head -n 20 "$scratch/said" >&2
-    fi
-}
 
 install_yaml() {
     if ! /usr/bin/python3 -c "import yaml"; then
