@@ -61,6 +61,7 @@ pub mod colour;
 pub mod drawing;
 #[cfg(feature = "drive")]
 pub mod drive;
+pub(crate) mod elementary;
 pub mod field;
 pub mod geometry;
 pub mod interrupt;

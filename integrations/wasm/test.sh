@@ -25,7 +25,7 @@ tools=${DRYPOINT_WASM_TOOLS:-$folder/tools}
 "$tools/bin/wasm-bindgen" --target nodejs --out-dir "$folder/node" "$CARGO_TARGET_DIR/wasm32-unknown-unknown/release/drypoint_wasm.wasm"
 echo "$(stat -c %s "$folder/node/drypoint_wasm_bg.wasm") bytes of WebAssembly"
 
-for style in hedcut grid engrave; do
+for style in hedcut grid engrave charcoal glass; do
   for sample in grace-hopper.jpg chelsea.png; do
     native=$folder/native.svg drawn=$folder/wasm.svg
     "$CARGO_TARGET_DIR/release/examples/native" "$here/../../samples/$sample" $style 60 "$native"

@@ -9,6 +9,7 @@ use super::pens::PenSet;
 use super::task::Task;
 use super::toolpaths::{self, duration};
 use super::{long_waits, output};
+use crate::elementary::Elementary as _;
 use crate::plot::Profile;
 use serde_json::{Value, json};
 
@@ -61,7 +62,7 @@ fn rounded(count: f64) -> f64 {
     if count < 100.0 {
         return count.round();
     }
-    let unit = 10_f64.powf(count.log10().floor() - 1.0);
+    let unit = 10_f64.power(count.decimal_logarithm().floor() - 1.0);
     (count / unit).round() * unit
 }
 

@@ -18,6 +18,7 @@ use super::job;
 use super::pens::PenSet;
 use super::task::{Task, UNKNOWN_PITCH};
 use crate::drawing::{Drawing, Mixing, Painted};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect};
 use crate::plot::{InkModel, PenPaths, Plot, Profile, Toolpath, lower, mount};
 use crate::source::MaskRole;
@@ -192,7 +193,7 @@ pub(super) fn quickly(options: &ToolpathOptions) -> ToolpathOptions {
 
 /// Extrapolates the amounts linearly over the inverse root of the side.
 fn extrapolated(small: &DrawingEstimate, large: &DrawingEstimate) -> Amounts {
-    let over_root = |share: f64| share.powf(-0.25);
+    let over_root = |share: f64| share.power(-0.25);
     let (near, far) = (over_root(large.share), over_root(small.share));
     let reach = (near - 1.0) / (far - near);
     let bounded = |amount: f64, before: f64| (amount - (before - amount) * reach).clamp(0.5 * amount, 1.5 * amount);

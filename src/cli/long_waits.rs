@@ -8,6 +8,7 @@ use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::task::Task;
 use super::toolpaths::{LONG_HOURS, duration};
+use crate::elementary::Elementary as _;
 use crate::geometry::Rect;
 use crate::plot::Profile;
 
@@ -108,8 +109,8 @@ impl Shortened {
             return None;
         }
         let plan = Plan { settings: teller.task.settings_at(guess)?, picture: teller.task.layout.picture };
-        let power = (self.quick / quick(teller, &plan)?).ln() / (guess / pitch).ln();
-        let wanted = (pitch * self.times.powf(1.0 / power) * 100.0).ceil() / 100.0;
+        let power = (self.quick / quick(teller, &plan)?).logarithm() / (guess / pitch).logarithm();
+        let wanted = (pitch * self.times.power(1.0 / power) * 100.0).ceil() / 100.0;
         (power > 0.2 && wanted <= most).then_some(wanted)
     }
 

@@ -14,6 +14,7 @@ use super::messages::{say, warning};
 use super::pens::PenSet;
 use super::task::Task;
 use super::toolpaths::{self, duration};
+use crate::elementary::Elementary as _;
 use crate::plot::{InkModel, Job, Profile, lower};
 use crate::style::{Observer, Picture};
 
@@ -102,8 +103,8 @@ fn search(
         if fits.seconds >= NEAR_ENOUGH * limit || fits.pitch - low.pitch < 0.0025 {
             break;
         }
-        let share = ((low.seconds / limit).ln() / (low.seconds / fits.seconds).ln() + 0.02).clamp(0.1, 0.9);
-        let next = at(rounded(low.pitch * (fits.pitch / low.pitch).powf(share)))?;
+        let share = ((low.seconds / limit).logarithm() / (low.seconds / fits.seconds).logarithm() + 0.02).clamp(0.1, 0.9);
+        let next = at(rounded(low.pitch * (fits.pitch / low.pitch).power(share)))?;
         if next.seconds <= limit { high = Some(next) } else { low = next }
     }
     Ok(high.ok_or(low))
@@ -201,7 +202,7 @@ mod tests {
         // Times like those of a style of dots and of a style of lines, with a ripple like that of a row of dots dropping out.
         for power in [2.0, 1.3, 1.0] {
             for limit in [3600.0, 7200.0, 30_000.0] {
-                let time = |pitch: f64| Ok(40_000.0 * (0.7 / pitch).powf(power) + 40.0 * (pitch * 37.0).sin());
+                let time = |pitch: f64| Ok(40_000.0 * (0.7 / pitch).power(power) + 40.0 * (pitch * 37.0).sine());
                 let found = search(0.7, 50.0, limit, time).unwrap().unwrap();
                 assert!(found.seconds <= limit && found.seconds > 0.9 * limit, "{power} {limit} {found:?}");
             }

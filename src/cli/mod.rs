@@ -64,6 +64,7 @@ mod stages;
 mod studio;
 mod task;
 mod threads;
+mod tone_error;
 mod toolpaths;
 mod vector_mask;
 mod words;

@@ -1,5 +1,6 @@
 //! The overlay: what was found, drawn over the photograph.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, resample};
 use crate::raster::Raster;
 use crate::source::{Crop, Landmarks, Photograph, SourceError, outlines};
@@ -67,7 +68,7 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Overlaid<'_>, scale: f64) {
     }
     for iris in face.landmarks.irises {
         let round = |i: i32| {
-            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 32.0).sin_cos();
+            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 32.0).sine_and_cosine();
             Point::new(iris.centre.x + iris.radius * cos, iris.centre.y + iris.radius * sin)
         };
         draw_line(pixels, &(0..=32).map(round).collect::<Vec<_>>(), scale, [0, 255, 255]);

@@ -8,6 +8,7 @@ use super::output;
 use super::png::png;
 use super::progress::Watcher;
 use super::threads::limit_threads;
+use super::tone_error;
 use super::words::counted;
 use crate::drawing::Drawing;
 use crate::raster::Raster;
@@ -33,6 +34,11 @@ pub(super) fn run(options: &StagesOptions) -> Result<(), Failure> {
         recorder.write(name, |stem| png(&format!("{stem}.png"), &picture));
     }
     let drawn = task.draw(&recorder);
+    if let Ok(drawing) = &drawn
+        && let Some(error) = tone_error::picture(&task, drawing)?
+    {
+        recorder.write("tone-error", |stem| png(&format!("{stem}.png"), &error));
+    }
     recorder.watcher.finish();
     let taken = recorder.taken.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Some(failure) = taken.failure {

@@ -6,6 +6,7 @@
 //! in 95 %; multiplied in linear sRGB 5.3 and 22.9. With 6 bands it is the same, with 31 no better; 8 fill the registers.
 
 use super::space::XYZ_TO_LMS;
+use crate::elementary::Elementary as _;
 
 /// Number of bands.
 pub(super) const BANDS: usize = 8;
@@ -58,7 +59,7 @@ pub(super) fn xyz_of(bands: &Bands) -> [f64; 3] {
 /// smooth, so that it stays between 0 and [`MOST`]; least squares by Levenberg and Marquardt.
 pub(super) fn smoothest(xyz: [f64; 3]) -> Bands {
     let grey = (xyz[1] / MOST).clamp(1e-3, 1.0 - 1e-3);
-    let mut at = [(grey / (1.0 - grey)).ln(); BANDS];
+    let mut at = [(grey / (1.0 - grey)).logarithm(); BANDS];
     let mut damping = 1e-3;
     let mut cost = cost_of(&at, xyz);
     for _ in 0..MOST_STEPS {
@@ -80,7 +81,7 @@ pub(super) fn smoothest(xyz: [f64; 3]) -> Bands {
 }
 
 fn reflectance(logit: f64) -> f64 {
-    MOST / (1.0 + (-logit).exp())
+    MOST / (1.0 + (-logit).exponential())
 }
 
 fn residuals(at: &[f64; BANDS], xyz: [f64; 3]) -> [f64; BANDS + 2] {

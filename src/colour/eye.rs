@@ -4,6 +4,7 @@ use super::bands::{BANDS, Bands, TO_LMS};
 use super::overlap::Mixed;
 use super::pens::MOST_PENS;
 use super::space::{ROOTS_TO_OKLAB, XYZ_TO_LMS, rgb_to_xyz, times};
+use crate::elementary::Elementary as _;
 
 /// A colour in Oklab: lightness 0 to 1, a, b.
 pub(super) type Oklab = [f32; 3];
@@ -35,13 +36,13 @@ impl Eye {
 
     /// The look of a reflectance.
     pub fn look(&self, bands: &Bands) -> Oklab {
-        let roots = self.to_lms.map(|row| dot(&row, bands).max(0.0).cbrt());
+        let roots = self.to_lms.map(|row| dot(&row, bands).max(0.0).cube_root());
         ROOTS_TO_OKLAB.map(|row| (0..3).map(|i| row[i] as f32 * roots[i]).sum())
     }
 
     /// The look of a tint, and its slopes along each coverage.
     pub fn look_and_slopes(&self, tint: &Mixed, pens: usize) -> (Oklab, [Oklab; MOST_PENS]) {
-        let roots = self.to_lms.map(|row| dot(&row, &tint.value).max(1e-7).cbrt());
+        let roots = self.to_lms.map(|row| dot(&row, &tint.value).max(1e-7).cube_root());
         let matrix = ROOTS_TO_OKLAB.map(|row| row.map(|v| v as f32));
         let look = matrix.map(|row| row[0] * roots[0] + row[1] * roots[1] + row[2] * roots[2]);
         let mut slopes = [[0.0; 3]; MOST_PENS];
@@ -57,7 +58,7 @@ impl Eye {
 /// The look of linear sRGB light on a screen whose white is taken for white.
 pub(super) fn look_of_light(rgb: [f32; 3]) -> Oklab {
     let lms = times(&XYZ_TO_LMS, rgb_to_xyz(rgb.map(f64::from)));
-    times(&ROOTS_TO_OKLAB, lms.map(|v| v.max(0.0).cbrt())).map(|v| v as f32)
+    times(&ROOTS_TO_OKLAB, lms.map(|v| v.max(0.0).cube_root())).map(|v| v as f32)
 }
 
 /// A look to come near to, with the weights of differences from it.
@@ -71,7 +72,7 @@ pub(super) struct Aim {
 impl Aim {
     /// `hue` multiplies the weight of differences in hue, `chroma` that of chroma.
     pub fn new(look: Oklab, chroma: f32, hue: f32) -> Self {
-        let c = look[1].hypot(look[2]);
+        let c = look[1].hypotenuse(look[2]);
         let (x, y) = if c > 1e-6 { (look[1] / c, look[2] / c) } else { (1.0, 0.0) };
         // Neutral colours have no hue: both weights are those of colour.
         let certain = (c / HAS_HUE).min(1.0);

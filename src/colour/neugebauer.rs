@@ -9,6 +9,7 @@ use super::bands::{BANDS, Bands, xyz_of};
 use super::overlap::{Mixed, Overlap};
 use super::overprints::overprints;
 use super::pens::PenSet;
+use crate::elementary::Elementary as _;
 
 /// Mean way of light in drawing paper, in mm.
 const SPREAD_MM: f64 = 0.06;
@@ -26,14 +27,14 @@ pub struct Model {
 /// The exponent for marks of a width in mm: 1.7 at 0.1 mm, 1.4 at 0.3 mm, 1.1 at 0.8 mm. Fitted to tints of round marks 2 to 13
 /// times as wide as the way of light, looked at through a simulated microscope.
 pub fn yule_nielsen(width_mm: f64) -> f64 {
-    1.0 + 1.0 / (1.0 + (width_mm.max(0.0) / (3.6 * SPREAD_MM)).powf(1.4))
+    1.0 + 1.0 / (1.0 + (width_mm.max(0.0) / (3.6 * SPREAD_MM)).power(1.4))
 }
 
 impl Model {
     /// The model of a set of pens. `n` is clamped to 1..=10.
     pub fn new(set: &PenSet, n: f64, overlap: Overlap) -> Self {
         let n = if n.is_finite() { n.clamp(1.0, 10.0) as f32 } else { 1.0 };
-        let roots = overprints(set).iter().map(|r| r.map(|v| v.powf(1.0 / n))).collect();
+        let roots = overprints(set).iter().map(|r| r.map(|v| v.power(1.0 / n))).collect();
         Self { pens: set.pens().len(), n, overlap, roots }
     }
 
@@ -52,7 +53,7 @@ impl Model {
         let mut mixed = self.overlap.mix(coverages, &self.roots);
         for band in 0..BANDS {
             let root = mixed.value[band].max(1e-6);
-            let power = root.powf(self.n - 1.0);
+            let power = root.power(self.n - 1.0);
             mixed.value[band] = root * power;
             mixed.slopes[..self.pens].iter_mut().for_each(|slope| slope[band] *= self.n * power);
         }

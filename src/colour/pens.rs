@@ -2,6 +2,7 @@
 
 use super::space::{D65, Lab, rgb_to_xyz, srgb_to_linear};
 use crate::drawing::Colour;
+use crate::elementary::Elementary as _;
 use thiserror::Error;
 
 /// Most pens at once: with 8 there are 256 overprints.
@@ -206,7 +207,7 @@ impl PenSet {
     /// The black pen: the darkest that is dark and nearly neutral.
     pub fn black(&self) -> Option<usize> {
         let labs = self.pens.iter().map(|pen| self.lab(pen)).enumerate();
-        let black = labs.filter(|(_, lab)| lab.l < DARK && lab.a.hypot(lab.b) < NEUTRAL);
+        let black = labs.filter(|(_, lab)| lab.l < DARK && lab.a.hypotenuse(lab.b) < NEUTRAL);
         black.min_by(|(_, one), (_, two)| one.l.total_cmp(&two.l)).map(|(i, _)| i)
     }
 

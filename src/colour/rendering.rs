@@ -1,6 +1,7 @@
 //! What the photograph's colours are to become on paper: white the lightest that there is, black the darkest.
 
 use super::eye::{Oklab, look_of_light};
+use crate::elementary::Elementary as _;
 
 /// Lightness (L\*) up to this multiple of the darkest is lifted; lighter tones stay as they are.
 const KNEE: f32 = 2.5;
@@ -59,12 +60,12 @@ impl Rendering {
 /// L\*/100 of a grey by its lightness in Oklab, and back.
 fn lightness(l: f32) -> f32 {
     let y = l.max(0.0).powi(3);
-    if y > 216.0 / 24_389.0 { 1.16 * y.cbrt() - 0.16 } else { y * 24_389.0 / 2_700.0 }
+    if y > 216.0 / 24_389.0 { 1.16 * y.cube_root() - 0.16 } else { y * 24_389.0 / 2_700.0 }
 }
 
 fn root(l: f32) -> f32 {
     let y = if l > 0.08 { ((l + 0.16) / 1.16).powi(3) } else { l * 2_700.0 / 24_389.0 };
-    y.max(0.0).cbrt()
+    y.max(0.0).cube_root()
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 //!
 //! All of XYZ is relative: white paper, or whatever is taken as white, has Y = 1.
 
+use crate::elementary::Elementary as _;
+
 /// CIE XYZ of the illuminant D65 for the 2 degree observer.
 pub const D65: [f64; 3] = [0.950_47, 1.0, 1.088_83];
 
@@ -46,7 +48,7 @@ impl Lab {
     pub fn from_xyz(xyz: [f64; 3], white: [f64; 3]) -> Self {
         let f = |i: usize| {
             let t = xyz[i] / white[i];
-            if t > EPSILON { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 }
+            if t > EPSILON { t.cube_root() } else { (KAPPA * t + 16.0) / 116.0 }
         };
         let [x, y, z] = [f(0), f(1), f(2)];
         Self { l: 116.0 * y - 16.0, a: 500.0 * (x - y), b: 200.0 * (y - z) }
@@ -79,12 +81,12 @@ impl Lab {
 
 /// The linear light of an encoded sRGB value, both 0 to 1.
 pub fn srgb_to_linear(v: f64) -> f64 {
-    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).power(2.4) }
 }
 
 /// The encoded sRGB value of linear light, both 0 to 1.
 pub fn linear_to_srgb(v: f64) -> f64 {
-    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.power(1.0 / 2.4) - 0.055 }
 }
 
 /// From linear sRGB to XYZ.
@@ -100,7 +102,7 @@ pub fn xyz_to_rgb(xyz: [f64; 3]) -> [f64; 3] {
 /// Oklab (L 0 to 1, a, b) of XYZ beside D65 (Ottosson 2020).
 #[cfg(test)]
 pub fn xyz_to_oklab(xyz: [f64; 3]) -> [f64; 3] {
-    times(&ROOTS_TO_OKLAB, times(&XYZ_TO_LMS, xyz).map(f64::cbrt))
+    times(&ROOTS_TO_OKLAB, times(&XYZ_TO_LMS, xyz).map(f64::cube_root))
 }
 
 /// Matrix times vector.
@@ -109,11 +111,11 @@ pub(super) fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
 }
 
 fn ciede2000(one: Lab, two: Lab) -> f64 {
-    let mean_chroma = 0.5 * (one.a.hypot(one.b) + two.a.hypot(two.b));
+    let mean_chroma = 0.5 * (one.a.hypotenuse(one.b) + two.a.hypotenuse(two.b));
     let stretch = 1.5 - 0.5 * (chroma_share(mean_chroma)).sqrt();
     let (a1, a2) = (one.a * stretch, two.a * stretch);
-    let (c1, c2) = (a1.hypot(one.b), a2.hypot(two.b));
-    let hue = |a: f64, b: f64| if a == 0.0 && b == 0.0 { 0.0 } else { b.atan2(a).to_degrees().rem_euclid(360.0) };
+    let (c1, c2) = (a1.hypotenuse(one.b), a2.hypotenuse(two.b));
+    let hue = |a: f64, b: f64| if a == 0.0 && b == 0.0 { 0.0 } else { b.angle_over(a).to_degrees().rem_euclid(360.0) };
     let (h1, h2) = (hue(a1, one.b), hue(a2, two.b));
     let is_grey = c1 * c2 == 0.0;
     let turn = match h2 - h1 {
@@ -129,15 +131,15 @@ fn ciede2000(one: Lab, two: Lab) -> f64 {
         sum => 0.5 * (sum - 360.0),
     };
     let (lightness, chroma) = (0.5 * (one.l + two.l), 0.5 * (c1 + c2));
-    let cosine = |degrees: f64| degrees.to_radians().cos();
+    let cosine = |degrees: f64| degrees.to_radians().cosine();
     let t = 1.0 - 0.17 * cosine(mean_hue - 30.0) + 0.24 * cosine(2.0 * mean_hue) + 0.32 * cosine(3.0 * mean_hue + 6.0)
         - 0.20 * cosine(4.0 * mean_hue - 63.0);
     let off = (lightness - 50.0) * (lightness - 50.0);
     let by_lightness = (two.l - one.l) / (1.0 + 0.015 * off / (20.0 + off).sqrt());
     let by_chroma = (c2 - c1) / (1.0 + 0.045 * chroma);
-    let by_hue = 2.0 * (c1 * c2).sqrt() * (0.5 * turn).to_radians().sin() / (1.0 + 0.015 * chroma * t);
-    let bend = (-((mean_hue - 275.0) / 25.0) * ((mean_hue - 275.0) / 25.0)).exp();
-    let rotation = -2.0 * chroma_share(chroma).sqrt() * (60.0 * bend).to_radians().sin();
+    let by_hue = 2.0 * (c1 * c2).sqrt() * (0.5 * turn).to_radians().sine() / (1.0 + 0.015 * chroma * t);
+    let bend = (-((mean_hue - 275.0) / 25.0) * ((mean_hue - 275.0) / 25.0)).exponential();
+    let rotation = -2.0 * chroma_share(chroma).sqrt() * (60.0 * bend).to_radians().sine();
     (by_lightness * by_lightness + by_chroma * by_chroma + by_hue * by_hue + rotation * by_chroma * by_hue).max(0.0).sqrt()
 }
 

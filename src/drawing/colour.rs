@@ -1,5 +1,6 @@
 //! Colours and inks.
 
+use crate::elementary::Elementary as _;
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -31,17 +32,22 @@ impl Colour {
         a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
     }
 
+    /// CIE L*/100, 0 to 1.
+    pub(crate) fn lightness(self) -> f64 {
+        self.lab()[0] / 100.0
+    }
+
     fn lab(self) -> [f64; 3] {
         let light = |v: u8| {
             let v = f64::from(v) / 255.0;
-            if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+            if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).power(2.4) }
         };
         let [r, g, b] = [self.r, self.g, self.b].map(light);
         // IEC 61966-2-1, divided by D65's white.
         let x = (0.412_4 * r + 0.357_6 * g + 0.180_5 * b) / 0.950_5;
         let y = 0.212_6 * r + 0.715_2 * g + 0.072_2 * b;
         let z = (0.019_3 * r + 0.119_2 * g + 0.950_5 * b) / 1.089;
-        let f = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+        let f = |t: f64| if t > 0.008_856 { t.cube_root() } else { 7.787 * t + 16.0 / 116.0 };
         [116.0 * f(y) - 16.0, 500.0 * (f(x) - f(y)), 200.0 * (f(y) - f(z))]
     }
 }

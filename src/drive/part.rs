@@ -3,6 +3,7 @@
 use super::error::DriveError;
 use super::modes::Modes;
 use super::program::{PathLines, Program, ProgramLine};
+use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::interrupt::Interrupt;
 use crate::plot::{Act, Language, Profile, word};
@@ -153,7 +154,7 @@ impl Program {
     fn on(&self, line: usize, fraction: f64) -> Point {
         match self.lines[line].act {
             Act::Arc { centre, sweep, .. } => {
-                let (sin, cos) = (fraction * sweep).sin_cos();
+                let (sin, cos) = (fraction * sweep).sine_and_cosine();
                 let arm = self.before(line) - centre;
                 Point::new(centre.x + arm.x * cos - arm.y * sin, centre.y + arm.x * sin + arm.y * cos)
             }

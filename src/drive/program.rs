@@ -12,6 +12,7 @@
 
 use super::controller::Stand;
 use super::error::DriveError;
+use crate::elementary::{Elementary as _, angle_of};
 use crate::geometry::{Point, Vec2};
 use crate::interrupt::Interrupt;
 use crate::plot::{Act, Language, Profile, line_times, replayed, word};
@@ -213,7 +214,7 @@ impl Program {
         let (from, to) = (self.before(line), self.after(line));
         if let Act::Arc { centre, sweep, .. } = self.lines[line].act {
             let (a, b) = (from - centre, place - centre);
-            let turn = a.cross(b).atan2(a.dot(b));
+            let turn = a.cross(b).angle_over(a.dot(b));
             let turn = if turn * sweep < 0.0 { turn + std::f64::consts::TAU.copysign(sweep) } else { turn };
             if turn.abs() <= sweep.abs() {
                 return (turn / sweep, (b.hypot() - a.hypot()).abs());
@@ -236,7 +237,7 @@ impl Program {
         let Act::Arc { centre, sweep, .. } = self.lines[line].act else { return [None; 4] };
         let arm = self.before(line) - centre;
         [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), Vec2::new(-1.0, 0.0), Vec2::new(0.0, -1.0)].map(|axis| {
-            let turn = (axis.atan2() - arm.atan2()) * sweep.signum();
+            let turn = (angle_of(axis) - angle_of(arm)) * sweep.signum();
             (turn.rem_euclid(std::f64::consts::TAU) < sweep.abs()).then(|| centre + arm.hypot() * axis)
         })
     }

@@ -143,9 +143,10 @@ impl BSpline {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     fn wavy(p: Point) -> [f32; 3] {
-        [(p.x / 17.0).sin() as f32, (p.y / 23.0).cos() as f32, 0.3]
+        [(p.x / 17.0).sine() as f32, (p.y / 23.0).cosine() as f32, 0.3]
     }
 
     #[test]

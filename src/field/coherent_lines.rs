@@ -5,6 +5,7 @@ use super::curve::Curve;
 use super::distance::nearest_seed;
 use super::flow_dog::FlowLines;
 use super::trace::trace;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2, smooth_polyline};
 use crate::raster::{Raster, components, remove_components, thin};
 
@@ -77,7 +78,7 @@ fn widths(curve: &Curve, kept: &Raster<u8>, outside: Option<&Raster<u32>>, smoot
             let (mut sum, mut total) = (0.0, 0.0);
             for j in -reach..=reach {
                 let k = if curve.closed { (i + j).rem_euclid(count) } else { (i + j).clamp(0, count - 1) };
-                let weight = (-0.5 * (j as f64 * SPACING / smoothing).powi(2)).exp();
+                let weight = (-0.5 * (j as f64 * SPACING / smoothing).powi(2)).exponential();
                 sum += weight * raw[k as usize];
                 total += weight;
             }

@@ -106,10 +106,11 @@ fn chain(raster: &Raster<f32>, starts: &[EdgeKey], mut next: HashMap<EdgeKey, (E
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_cone_gives_a_circle() {
-        let cone = Raster::from_fn(80, 80, |x, y| (x as f32 + 0.5 - 40.2).hypot(y as f32 + 0.5 - 39.7));
+        let cone = Raster::from_fn(80, 80, |x, y| (x as f32 + 0.5 - 40.2).hypotenuse(y as f32 + 0.5 - 39.7));
         let lines = contours(&cone, 25.0);
         assert_eq!(lines.len(), 1);
         assert!(lines[0].closed);

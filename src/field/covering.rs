@@ -4,6 +4,7 @@
 //! its ink is subtracted from the target around it: the cover is even, and denser where darker.
 
 use super::orientation::OrientationField;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use rand::{Rng, RngExt};
@@ -102,7 +103,7 @@ fn splat_reach(covering: Covering) -> isize {
 /// A Gaussian with the ink of one step.
 fn splat(covering: Covering) -> Vec<f32> {
     let reach = splat_reach(covering);
-    let weight = |dx: isize, dy: isize| (-0.5 * ((dx * dx + dy * dy) as f64) / covering.reach.max(0.3).powi(2)).exp();
+    let weight = |dx: isize, dy: isize| (-0.5 * ((dx * dx + dy * dy) as f64) / covering.reach.max(0.3).powi(2)).exponential();
     let weights: Vec<f64> = (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| weight(dx, dy))).collect();
     let total: f64 = weights.iter().sum();
     weights.into_iter().map(|w| (w / total * covering.width * STEP) as f32).collect()
@@ -175,7 +176,7 @@ impl Run<'_> {
     }
 
     fn direction(&self, p: Point) -> Option<Vec2> {
-        self.field.angle(p.x, p.y).map(|angle| Vec2::from_angle(angle + self.turn))
+        self.field.angle(p.x, p.y).map(|angle| unit_at(angle + self.turn))
     }
 }
 

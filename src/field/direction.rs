@@ -2,6 +2,7 @@
 
 use super::b_spline::{Datum, multilevel_b_spline};
 use super::curve::Curve;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, resample};
 use crate::raster::{Raster, gaussian_blur};
 
@@ -84,7 +85,7 @@ pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, param
 
 /// Doubled angles normalised to length 1; zero where there is no direction.
 fn unit([x, y]: [f32; 2]) -> [f32; 2] {
-    let length = x.hypot(y);
+    let length = x.hypotenuse(y);
     if length < 1e-12 { [0.0, 0.0] } else { [x / length, y / length] }
 }
 
@@ -115,7 +116,7 @@ fn tensors(curve: &Curve, weight: f32) -> Vec<Datum> {
 
 /// The larger eigenvalue's vector from the tensor's deviator `(a - c, 2b)`, which is the direction's doubled angle.
 fn eigenvector([x, y]: [f32; 2]) -> [f32; 2] {
-    let length = x.hypot(y);
+    let length = x.hypotenuse(y);
     if length < 1e-9 {
         return [std::f32::consts::FRAC_1_SQRT_2; 2];
     }
@@ -133,7 +134,7 @@ fn singularities(deviator: &Raster<[f32; 2]>, side: usize) -> Vec<Singularity> {
             let turn: f32 = (0..4)
                 .map(|k| {
                     let (a, b) = (corners[k], corners[(k + 1) % 4]);
-                    (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+                    (a[0] * b[1] - a[1] * b[0]).angle_over(a[0] * b[0] + a[1] * b[1])
                 })
                 .sum();
             let turns = (turn / std::f32::consts::TAU).round();
@@ -149,10 +150,11 @@ fn singularities(deviator: &Raster<[f32; 2]>, side: usize) -> Vec<Singularity> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
     use crate::geometry::Vec2;
 
     fn circle(centre: Point, radius: f64) -> Curve {
-        let at = |i: u32| centre + Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 90.0) * radius;
+        let at = |i: u32| centre + unit_at(f64::from(i) * std::f64::consts::TAU / 90.0) * radius;
         Curve { points: (0..90).map(at).collect(), closed: true }
     }
 

@@ -179,6 +179,7 @@ fn draw(pieces: &[[Point; 2]], width: usize, height: usize) -> Raster<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
     use proptest::prelude::*;
 
     proptest! {
@@ -214,11 +215,8 @@ mod tests {
 
     #[test]
     fn distance_to_a_circle_is_sub_pixel() {
-        let points = (0..200)
-            .map(|i| {
-                Point::new(50.3, 49.8) + crate::geometry::Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 200.0) * 20.0
-            })
-            .collect();
+        let points =
+            (0..200).map(|i| Point::new(50.3, 49.8) + unit_at(f64::from(i) * std::f64::consts::TAU / 200.0) * 20.0).collect();
         let field = distance_to_curves(&[Curve { points, closed: true }], 100, 100).unwrap();
         for y in 0..100 {
             for x in 0..100 {

@@ -69,12 +69,13 @@ pub fn lines_of(skeleton: &Raster<u8>, smoothing: f32, least: f32) -> Vec<Curve>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_disc_s_edge_is_one_closed_line_at_its_radius_and_specks_are_gone() {
         let picture = Raster::from_fn(120, 120, |x, y| {
-            let r = (x as f32 - 59.5).hypot(y as f32 - 59.5);
-            let speck = (x as f32 - 10.0).hypot(y as f32 - 10.0) < 2.5;
+            let r = (x as f32 - 59.5).hypotenuse(y as f32 - 59.5);
+            let speck = (x as f32 - 10.0).hypotenuse(y as f32 - 10.0) < 2.5;
             if r < 35.0 || speck { 0.2 } else { 0.9 }
         });
         let parameters =

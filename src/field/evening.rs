@@ -1,6 +1,7 @@
 //! The density at which lines along a field of directions need not end: where lines part, they stand farther from one another.
 
 use super::least_squares::{negative_laplacian, solved};
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 
 /// How soon the density goes back to the one wanted, in pixels, and the weight of its smoothness.
@@ -13,7 +14,7 @@ const ROUNDS: usize = 50;
 ///
 /// A family of lines along unit vectors `t` needs no ends if its density `f` satisfies `t grad(ln f) = -div t`.
 pub(crate) fn evening(angles: &Raster<f32>, limits: [f32; 2]) -> Raster<f32> {
-    let along = angles.map(|a| [a.cos(), a.sin()]);
+    let along = angles.map(|a| [a.cosine(), a.sine()]);
     let parting = Raster::from_fn(angles.width(), angles.height(), |x, y| {
         let (i, j) = (x as isize, y as isize);
         0.5 * (along.clamped(i + 1, j)[0] - along.clamped(i - 1, j)[0] + along.clamped(i, j + 1)[1] - along.clamped(i, j - 1)[1])
@@ -26,10 +27,11 @@ pub(crate) fn evening(angles: &Raster<f32>, limits: [f32; 2]) -> Raster<f32> {
     };
     let scale = angles.map(|_| 1.0 / (0.5 + 40.0 * SMOOTH * keep * 10.0 + keep));
     let g = solved(image, &right, &scale, angles.map(|_| 0.0), ROUNDS);
-    let [least, most] = limits.map(|limit| limit.ln().abs());
+    let [least, most] = limits.map(|limit| limit.logarithm().abs());
     // Softly, so that the density has no corners.
-    let bounded = |g: f32| if g < 0.0 { least * (g / least).tanh() } else { most * (g / most).tanh() };
-    g.map(|g| bounded(g).exp())
+    let bounded =
+        |g: f32| if g < 0.0 { least * (g / least).hyperbolic_tangent() } else { most * (g / most).hyperbolic_tangent() };
+    g.map(|g| bounded(g).exponential())
 }
 
 /// The growth of values along the directions, per pixel.
@@ -76,7 +78,7 @@ mod tests {
     fn the_transpose_is_one() {
         let along = Raster::from_fn(17, 13, |x, y| {
             let a = 0.3 * x as f32 - 0.2 * y as f32;
-            [a.cos(), a.sin()]
+            [a.cosine(), a.sine()]
         });
         let noise = |seed: usize| Raster::from_fn(17, 13, move |x, y| ((x * 31 + y * 17 + seed * 7) % 23) as f32 / 23.0);
         let (g, v) = (noise(1), noise(5));
@@ -87,7 +89,7 @@ mod tests {
     /// Rays from a point: their density falls with the distance.
     #[test]
     fn parting_lines_stand_farther_apart() {
-        let angles = Raster::from_fn(60, 40, |x, y| (y as f32 - 20.0).atan2(x as f32 + 40.0));
+        let angles = Raster::from_fn(60, 40, |x, y| (y as f32 - 20.0).angle_over(x as f32 + 40.0));
         let factor = evening(&angles, [0.33, 3.0]);
         let (near, far) = (factor.get(5, 20), factor.get(55, 20));
         assert!((near / far / (95.0 / 45.0) - 1.0).abs() < 0.2, "{near} {far}");

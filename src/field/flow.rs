@@ -1,5 +1,6 @@
 //! The flow that strokes follow: a unit vector at each pixel, at a fixed angle to the gradient (Papari 2009, equation 7.10).
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, fast_gaussian};
 
@@ -59,7 +60,7 @@ impl Flow {
     /// The field with every vector turned by an angle in radians, from x towards y.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Self {
-        let (sin, cos) = (angle.sin() as f32, angle.cos() as f32);
+        let (sin, cos) = (angle.sine() as f32, angle.cosine() as f32);
         Self { directions: self.directions.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]) }
     }
 
@@ -161,19 +162,19 @@ impl Flow {
 }
 
 fn unit([x, y]: [f32; 2]) -> [f32; 2] {
-    let length = x.hypot(y);
+    let length = x.hypotenuse(y);
     if length > 1e-12 { [x / length, y / length] } else { [0.0; 2] }
 }
 
 /// The eigenvector of the larger eigenvalue, with the root of the eigenvalues' difference as its length; zero if they are equal.
 fn principal_axis([xx, xy, yy]: [f32; 3]) -> [f32; 2] {
     let (across, along) = (xx - yy, 2.0 * xy);
-    let gap = across.hypot(along);
+    let gap = across.hypotenuse(along);
     if gap < LEAST_SQUARED_GRADIENT {
         return [0.0; 2];
     }
-    let angle = 0.5 * along.atan2(across);
-    [gap.sqrt() * angle.cos(), gap.sqrt() * angle.sin()]
+    let angle = 0.5 * along.angle_over(across);
+    [gap.sqrt() * angle.cosine(), gap.sqrt() * angle.sine()]
 }
 
 fn blurred(vectors: &Raster<[f32; 2]>, sigma: f32) -> Raster<[f32; 2]> {
@@ -206,11 +207,11 @@ mod tests {
     fn on_every_side_of_a_faint_spot_it_points_to_the_light() {
         let spot = Raster::from_fn(80, 80, |x, y| {
             let (dx, dy) = ((x as f32 - 40.0) / 12.0, (y as f32 - 40.0) / 12.0);
-            0.02 * (-0.5 * (dx * dx + dy * dy)).exp()
+            0.02 * (-0.5 * (dx * dx + dy * dy)).exponential()
         });
         let flow = flow_of(&[spot]);
         for k in 0..16 {
-            let (sin, cos) = (f64::from(k) * std::f64::consts::PI / 8.0).sin_cos();
+            let (sin, cos) = (f64::from(k) * std::f64::consts::PI / 8.0).sine_and_cosine();
             let outwards = Vec2::new(cos, sin);
             let direction = flow.at(Point::new(40.5, 40.5) + outwards * 14.0);
             assert!(direction.dot(outwards) < -0.97, "{outwards:?}: {direction:?}");
@@ -219,11 +220,11 @@ mod tests {
 
     #[test]
     fn flat_parts_have_none_until_they_are_completed() {
-        let disc = Raster::from_fn(160, 160, |x, y| f32::from((x as f32 - 80.0).hypot(y as f32 - 80.0) < 20.0));
+        let disc = Raster::from_fn(160, 160, |x, y| f32::from((x as f32 - 80.0).hypotenuse(y as f32 - 80.0) < 20.0));
         let flow = flow_of(&[disc]);
         assert_eq!(flow.at(Point::new(5.0, 5.0)), Vec2::ZERO);
         let full = flow.turned(std::f64::consts::FRAC_PI_2).completed();
-        assert!(full.directions().pixels().iter().all(|v| (v[0].hypot(v[1]) - 1.0).abs() < 1e-3));
+        assert!(full.directions().pixels().iter().all(|v| (v[0].hypotenuse(v[1]) - 1.0).abs() < 1e-3));
         let away = Vec2::new(-1.0, -1.0).normalize();
         assert!(full.at(Point::new(30.0, 30.0)).dot(away).abs() < 0.1, "rings go on outside");
     }

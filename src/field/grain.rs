@@ -38,6 +38,7 @@ fn inked_beside(labels: &Raster<u32>, p: Point) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
     use crate::geometry::polygon_area;
     use crate::raster::paper_texture;
 
@@ -55,7 +56,7 @@ mod tests {
     #[test]
     fn holes_stay_with_their_border() {
         let ring = Raster::from_fn(30, 30, |x, y| {
-            let r = (x as f32 - 14.5).hypot(y as f32 - 14.5);
+            let r = (x as f32 - 14.5).hypotenuse(y as f32 - 14.5);
             if (5.0..11.0).contains(&r) { 0.0 } else { 1.0 }
         });
         let areas = grain_areas(&ring, &Raster::filled(30, 30, 0.5));

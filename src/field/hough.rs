@@ -11,6 +11,7 @@
 //! one pixel only adds the points on one rim and drops those on the other.
 
 use super::orientation::OrientationField;
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -82,8 +83,8 @@ impl HoughFilter {
             form,
             radius,
             half_widths: (-reach..=reach).map(half_width).collect(),
-            normals: (0..angles).map(|i| (fixed(angle(i).cos()), fixed(angle(i).sin()))).collect(),
-            doubled: (0..angles).map(|i| [-(2.0 * angle(i)).cos() as f32, -(2.0 * angle(i)).sin() as f32]).collect(),
+            normals: (0..angles).map(|i| (fixed(angle(i).cosine()), fixed(angle(i).sine()))).collect(),
+            doubled: (0..angles).map(|i| [-(2.0 * angle(i)).cosine() as f32, -(2.0 * angle(i)).sine() as f32]).collect(),
             cells,
             ring: cells.next_power_of_two(),
             expected: Vec::new(),

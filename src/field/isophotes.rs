@@ -39,10 +39,11 @@ pub fn detect_isophotes(lightness: &Raster<f32>, levels: u32, lightest: u32, smo
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_lit_ball_has_rings() {
-        let ball = Raster::from_fn(100, 100, |x, y| (1.0 - (x as f32 - 50.0).hypot(y as f32 - 50.0) / 60.0).max(0.0));
+        let ball = Raster::from_fn(100, 100, |x, y| (1.0 - (x as f32 - 50.0).hypotenuse(y as f32 - 50.0) / 60.0).max(0.0));
         let steps = detect_isophotes(&ball, 5, 2, 2.0, 10.0);
         assert_eq!(steps.lines.len(), 2);
         for (line, radius) in steps.lines.iter().zip([12.0, 24.0]) {

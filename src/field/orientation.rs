@@ -1,5 +1,6 @@
 //! A field of orientations: directions without a sign, as doubled-angle vectors (Jaehne; Wong 1999, section 4.3).
 
+use crate::elementary::Elementary as _;
 use crate::geometry::Vec2;
 use crate::raster::{Raster, gaussian_blur};
 
@@ -24,7 +25,7 @@ impl OrientationField {
     #[must_use]
     pub fn squared(&self) -> Self {
         Self::new(self.doubled.map(|[x, y]| {
-            let length = x.hypot(y);
+            let length = x.hypotenuse(y);
             [x * length, y * length]
         }))
     }
@@ -49,7 +50,7 @@ impl OrientationField {
         let upper = at(ix, iy).lerp(at(ix + 1, iy), tx);
         let lower = at(ix, iy + 1).lerp(at(ix + 1, iy + 1), tx);
         let mean = upper.lerp(lower, ty);
-        (mean.hypot2() > 0.0).then(|| 0.5 * mean.y.atan2(mean.x))
+        (mean.hypot2() > 0.0).then(|| 0.5 * mean.y.angle_over(mean.x))
     }
 }
 
@@ -61,7 +62,7 @@ mod tests {
     fn opposite_directions_are_one_orientation() {
         let field = OrientationField::new(Raster::from_fn(20, 20, |x, _| {
             let angle = if x < 10 { 1.5_f32 } else { 1.5 - std::f32::consts::PI };
-            [(2.0 * angle).cos(), (2.0 * angle).sin()]
+            [(2.0 * angle).cosine(), (2.0 * angle).sine()]
         }));
         for x in 0..20 {
             assert!((field.smoothed(4.0).angle(f64::from(x) + 0.5, 9.5).unwrap() - 1.5).abs() < 1e-3);

@@ -145,10 +145,11 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_disc_bulges_to_a_paraboloid() {
-        let radius = |x: usize, y: usize| (x as f32 - 99.5).hypot(y as f32 - 79.5);
+        let radius = |x: usize, y: usize| (x as f32 - 99.5).hypotenuse(y as f32 - 79.5);
         let given = Raster::from_fn(200, 160, |x, y| (radius(x, y) >= 70.0).then_some(0.0_f32));
         let z = poisson(&Raster::filled(200, 160, -4.0), &given, 10);
         for (x, y) in [(99, 79), (130, 79), (60, 100), (99, 20)] {
@@ -162,7 +163,7 @@ mod tests {
         let given = Raster::from_fn(200, 20, |x, _| (x == 0).then_some(0.0_f32));
         let z = screened_poisson(&Raster::filled(200, 20, -0.25), &given, 20.0, 10);
         for x in [1, 10, 40, 150] {
-            let expected = 100.0 * (1.0 - (-(x as f32) / 20.0).exp());
+            let expected = 100.0 * (1.0 - (-(x as f32) / 20.0).exponential());
             assert!((z.get(x, 10) - expected).abs() < 1.0, "{x}: {} for {expected}", z.get(x, 10));
         }
     }

@@ -2,6 +2,7 @@
 
 use super::distance::nearest_seed;
 use super::poisson::poisson;
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, gaussian_blur};
 
 /// V-cycles of the solver.
@@ -47,7 +48,7 @@ fn distances(nearest: &Raster<u32>) -> Raster<f32> {
     let width = nearest.width();
     Raster::from_fn(width, nearest.height(), |x, y| {
         let seed = nearest.get(x, y) as usize;
-        (x as f32 - (seed % width) as f32).hypot(y as f32 - (seed / width) as f32)
+        (x as f32 - (seed % width) as f32).hypotenuse(y as f32 - (seed / width) as f32)
     })
 }
 
@@ -96,7 +97,7 @@ mod tests {
     #[test]
     fn two_discs_become_two_domes() {
         let labels = Raster::from_fn(120, 60, |x, y| {
-            let within = |cx: f32, r: f32| (x as f32 - cx).hypot(y as f32 - 29.5) < r;
+            let within = |cx: f32, r: f32| (x as f32 - cx).hypotenuse(y as f32 - 29.5) < r;
             if within(35.0, 25.0) { 1 } else { i32::from(within(95.0, 15.0)) * 2 }
         });
         let domes = inflate(&labels);
@@ -119,7 +120,7 @@ mod tests {
 
     #[test]
     fn a_lit_bump_is_found_again() {
-        let bump = |x: f32, y: f32| 6.0 * (-((x - 40.0).powi(2) + (y - 40.0).powi(2)) / 150.0).exp();
+        let bump = |x: f32, y: f32| 6.0 * (-((x - 40.0).powi(2) + (y - 40.0).powi(2)) / 150.0).exponential();
         let shading = Raster::from_fn(80, 80, |x, y| {
             let (x, y) = (x as f32, y as f32);
             let slope_x = bump(x + 0.5, y) - bump(x - 0.5, y);

@@ -127,6 +127,7 @@ fn maxima(noise: &Raster<f32>) -> Vec<(usize, usize)> {
 mod tests {
     use super::super::glass_pattern;
     use super::*;
+    use crate::elementary::Elementary as _;
     use crate::geometry::{Ends, Ring, catmull_rom, swelling_outline};
     use kurbo::Shape;
     use std::f64::consts::PI;
@@ -134,13 +135,13 @@ mod tests {
     fn bump(sx: f32, sy: f32) -> Raster<f32> {
         Raster::from_fn(80, 60, |x, y| {
             let (dx, dy) = ((x as f32 - 60.0) / sx, (y as f32 - 30.0) / sy);
-            (-0.5 * (dx * dx + dy * dy)).exp()
+            (-0.5 * (dx * dx + dy * dy)).exponential()
         })
     }
 
     fn only(noise: &Raster<f32>, flow: &Flow) -> Ribbon {
         let pattern = glass_pattern(noise, flow, 30.0);
-        let ribbons = glass_ribbons(noise, &pattern, flow, 30.0, RibbonFit::Faithful, |_| vec![(-0.5_f32).exp()]);
+        let ribbons = glass_ribbons(noise, &pattern, flow, 30.0, RibbonFit::Faithful, |_| vec![(-0.5_f32).exponential()]);
         assert_eq!(ribbons.len(), 1);
         ribbons[0].clone()
     }

@@ -8,6 +8,8 @@
 //!         +------------> grey
 //! ```
 
+use crate::elementary::Elementary as _;
+
 /// A feature of a histogram: a hill that persists while the histogram is blurred.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
@@ -56,13 +58,13 @@ pub fn histogram_modes(histogram: &[u32], least_samples: u32) -> Vec<Mode> {
 }
 
 fn scale(step: usize) -> f64 {
-    SCALES.0 * (SCALES.1 / SCALES.0).powf(step as f64 / (STEPS - 1) as f64)
+    SCALES.0 * (SCALES.1 / SCALES.0).power(step as f64 / (STEPS - 1) as f64)
 }
 
 /// The histogram blurred by a Gaussian, 0 beyond its ends.
 fn blurred(histogram: &[u32], sigma: f64) -> Vec<f64> {
     let reach = (4.0 * sigma).ceil() as usize;
-    let weights: Vec<f64> = (0..=reach).map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exp()).collect();
+    let weights: Vec<f64> = (0..=reach).map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exponential()).collect();
     let total = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
     (0..histogram.len())
         .map(|i| {
@@ -242,7 +244,7 @@ mod tests {
     fn bell(histogram: &mut [u32], mean: f64, sigma: f64, samples: f64) {
         for (bin, count) in histogram.iter_mut().enumerate() {
             let z = (bin as f64 - mean) / sigma;
-            *count += (samples * (-0.5 * z * z).exp() / (sigma * 2.506_628)).round() as u32;
+            *count += (samples * (-0.5 * z * z).exponential() / (sigma * 2.506_628)).round() as u32;
         }
     }
 

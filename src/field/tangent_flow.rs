@@ -2,6 +2,7 @@
 //!
 //! Uses the separable form: the window is summed along the rows, then along the columns.
 
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, sobel};
 use rayon::prelude::*;
 
@@ -23,14 +24,14 @@ pub struct EdgeTangentFlow {
 /// `w_d = |t(x).t(y)|`, `w_m = (1 + tanh(g(y) - g(x))) / 2`. Kang's value: 2 to 3 rounds.
 pub fn edge_tangent_flow(grey: &Raster<f32>, radius: usize, rounds: u32) -> EdgeTangentFlow {
     let gradient = sobel(grey);
-    let magnitude = gradient.map(|[x, y]| x.hypot(y));
+    let magnitude = gradient.map(|[x, y]| x.hypotenuse(y));
     let greatest = magnitude.pixels().iter().copied().fold(0.0, f32::max).max(NO_GRADIENT);
     let strength = magnitude.map(|m| m / greatest);
     let mut flow = Planes {
         x: gradient.map(|g| unit(g)[1]),
         y: gradient.map(|g| -unit(g)[0]),
         // (1 + tanh(b - a)) / 2 = e^2b / (e^2a + e^2b).
-        power: strength.map(|s| (2.0 * s).exp()),
+        power: strength.map(|s| (2.0 * s).exponential()),
     };
     for _ in 0..rounds {
         flow = flow.smoothed_along_rows(radius);
@@ -40,7 +41,7 @@ pub fn edge_tangent_flow(grey: &Raster<f32>, radius: usize, rounds: u32) -> Edge
 }
 
 fn unit([x, y]: [f32; 2]) -> [f32; 2] {
-    let length = x.hypot(y);
+    let length = x.hypotenuse(y);
     if length < NO_GRADIENT { [0.0, 0.0] } else { [x / length, y / length] }
 }
 
@@ -133,16 +134,16 @@ mod tests {
     #[test]
     fn the_flow_runs_around_a_noisy_disc() {
         let grey = Raster::from_fn(120, 120, |x, y| {
-            let r = (x as f32 - 59.5).hypot(y as f32 - 59.5);
-            0.8 / (1.0 + (35.0 - r).exp()) + 0.04 * ((x * 31 + y * 57) % 7) as f32 / 7.0
+            let r = (x as f32 - 59.5).hypotenuse(y as f32 - 59.5);
+            0.8 / (1.0 + (35.0 - r).exponential()) + 0.04 * ((x * 31 + y * 57) % 7) as f32 / 7.0
         });
         let flow = edge_tangent_flow(&grey, 5, 3);
         for degrees in 0..360 {
             let angle = (degrees as f32).to_radians();
-            let (x, y) = ((60.0 + 35.0 * angle.cos()) as usize, (60.0 + 35.0 * angle.sin()) as usize);
+            let (x, y) = ((60.0 + 35.0 * angle.cosine()) as usize, (60.0 + 35.0 * angle.sine()) as usize);
             let [tx, ty] = flow.tangent.get(x, y);
-            assert!((tx.hypot(ty) - 1.0).abs() < 1e-3);
-            let across = tx * angle.cos() + ty * angle.sin();
+            assert!((tx.hypotenuse(ty) - 1.0).abs() < 1e-3);
+            let across = tx * angle.cosine() + ty * angle.sine();
             assert!(across.abs() < 0.1, "at {degrees} degrees {across}");
         }
     }
@@ -166,12 +167,12 @@ mod tests {
             for other in x.saturating_sub(3)..=(x + 3).min(39) {
                 let there = before.tangent.get(other, 0);
                 let dot = here[0] * there[0] + here[1] * there[1];
-                let weight = 0.5 * (1.0 + (before.strength.get(other, 0) - before.strength.get(x, 0)).tanh());
+                let weight = 0.5 * (1.0 + (before.strength.get(other, 0) - before.strength.get(x, 0)).hyperbolic_tangent());
                 let sign = if dot < 0.0 { -1.0 } else { 1.0 };
                 sum[0] += sign * there[0] * weight * dot.abs();
                 sum[1] += sign * there[1] * weight * dot.abs();
             }
-            let length = sum[0].hypot(sum[1]).max(1e-12);
+            let length = sum[0].hypotenuse(sum[1]).max(1e-12);
             // The column pass over a single row changes nothing but the length, which is 1 again.
             let found = after.tangent.get(x, 0);
             assert!((found[0] - sum[0] / length).abs() < 1e-4 && (found[1] - sum[1] / length).abs() < 1e-4);

@@ -204,6 +204,7 @@ fn most_opposite(directions: &[Vec2]) -> Vec<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     /// Draws segments one pixel wide.
     fn drawn(size: usize, lines: &[&[(f64, f64)]]) -> Raster<u8> {
@@ -225,7 +226,7 @@ mod tests {
     }
 
     fn circle(x: f64, y: f64, r: f64) -> Vec<(f64, f64)> {
-        (0..=120).map(|i| f64::from(i) * std::f64::consts::TAU / 120.0).map(|a| (x + r * a.cos(), y + r * a.sin())).collect()
+        (0..=120).map(|i| f64::from(i) * std::f64::consts::TAU / 120.0).map(|a| (x + r * a.cosine(), y + r * a.sine())).collect()
     }
 
     fn distance_to(curve: &Curve, p: Point) -> f64 {
@@ -287,7 +288,7 @@ mod tests {
 
     #[test]
     fn borders_curves_and_parallels() {
-        let wave: Vec<(f64, f64)> = (0..100).map(|i| (f64::from(i), 30.0 + 12.0 * (f64::from(i) / 12.0).sin())).collect();
+        let wave: Vec<(f64, f64)> = (0..100).map(|i| (f64::from(i), 30.0 + 12.0 * (f64::from(i) / 12.0).sine())).collect();
         let edges = drawn(100, &[&wave, &[(0.0, 60.5), (99.9, 60.5)], &[(0.0, 66.5), (99.9, 66.5)], &[(0.5, 80.0), (0.5, 99.9)]]);
         let lines = trace(&edges);
         check(&edges, &lines);

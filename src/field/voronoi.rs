@@ -3,6 +3,7 @@
 //! A label-carrying distance transform costs the same for any number of sites; with one site per 36 pixels or so, a uniform grid is
 //! faster and gives the same exact result. (`benches/` compares both.)
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2, half_plane};
 use crate::raster::Raster;
 use rayon::prelude::*;
@@ -116,7 +117,7 @@ impl<'a> Sites<'a> {
                         continue;
                     }
                     let centre = Point::new(0.5 * (x0 + x1) as f64, y0 as f64 + 0.5 * rows as f64);
-                    let radius = 0.5 * ((x1 - x0) as f64).hypot(rows as f64);
+                    let radius = 0.5 * ((x1 - x0) as f64).hypotenuse(rows as f64);
                     candidates.clear();
                     self.candidates(centre, radius, candidates);
                     candidates.sort_unstable();

@@ -40,11 +40,12 @@ pub fn watershed(relief: &Raster<f32>, markers: &Raster<i32>) -> Raster<i32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn basins_meet_on_the_ridge() {
         // A ridge along x = 30 that bends, markers far off it on both sides.
-        let ridge = |y: usize| 30.0 + 6.0 * (y as f32 / 9.0).sin();
+        let ridge = |y: usize| 30.0 + 6.0 * (y as f32 / 9.0).sine();
         let relief = Raster::from_fn(70, 50, |x, y| (1.0 - (x as f32 - ridge(y)).abs() / 8.0).max(0.0));
         let mut markers = Raster::filled(70, 50, 0);
         markers.set(3, 4, 1);

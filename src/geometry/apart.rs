@@ -86,6 +86,7 @@ impl Gap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
     use crate::geometry::{Point, distance_to_segment};
 
     /// Minimum distance of two polylines that do not cross.
@@ -111,7 +112,7 @@ mod tests {
             let apart = distance(&points(&pair[0]), &points(&pair[1]));
             assert!(apart >= 0.4, "{apart}");
         }
-        let calm: Vec<Vec<f64>> = (0..5).map(|k| (0..50).map(|i| f64::from(k) + (f64::from(i) * 0.1).sin()).collect()).collect();
+        let calm: Vec<Vec<f64>> = (0..5).map(|k| (0..50).map(|i| f64::from(k) + (f64::from(i) * 0.1).sine()).collect()).collect();
         assert_eq!(gap.keep(&calm), calm);
     }
 }

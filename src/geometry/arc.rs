@@ -1,5 +1,6 @@
 //! Circular arcs fitted to polylines.
 
+use crate::elementary::Elementary as _;
 use kurbo::{Point, Vec2};
 use std::f64::consts::PI;
 
@@ -95,7 +96,7 @@ fn swept(points: &[Point], centre: Point) -> Option<f64> {
     let mut sum: f64 = 0.0;
     for pair in points.windows(2) {
         let (a, b) = (pair[0] - centre, pair[1] - centre);
-        let angle = a.cross(b).atan2(a.dot(b));
+        let angle = a.cross(b).angle_over(a.dot(b));
         if angle == 0.0 || angle * sum < 0.0 {
             return None;
         }
@@ -107,7 +108,7 @@ fn swept(points: &[Point], centre: Point) -> Option<f64> {
 /// Number of points that [`flatten_arc`] gives for an arc; not finite if the radius or the sweep is not.
 pub fn arc_points(radius: f64, sweep: f64, tolerance: f64) -> f64 {
     // The sine of a quarter step keeps its precision where the cosine of a half step rounds to 1.
-    let step = if radius > tolerance { 4.0 * (0.5 * tolerance / radius).sqrt().asin() } else { PI };
+    let step = if radius > tolerance { 4.0 * (0.5 * tolerance / radius).sqrt().arc_sine() } else { PI };
     (sweep.abs() / step).ceil().max(1.0)
 }
 
@@ -122,7 +123,7 @@ pub fn flatten_arc(from: Point, to: Point, centre: Point, sweep: f64, tolerance:
     let mut points: Vec<Point> = (1..count as usize)
         .map(|i| {
             let part = i as f64 / count;
-            let (sin, cos) = (sweep * part).sin_cos();
+            let (sin, cos) = (sweep * part).sine_and_cosine();
             let turned = Vec2::new(start.x * cos - start.y * sin, start.x * sin + start.y * cos);
             let scale = if radius > 0.0 { (radius + (end_radius - radius) * part) / radius } else { 1.0 };
             centre + turned * scale
@@ -135,6 +136,7 @@ pub fn flatten_arc(from: Point, to: Point, centre: Point, sweep: f64, tolerance:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
     use crate::geometry::distance_to_segment;
     use proptest::prelude::*;
 
@@ -162,7 +164,7 @@ mod tests {
     #[test]
     fn a_circle_becomes_two_or_three_arcs_and_a_square_none() {
         let circle: Vec<Point> = (0..=72)
-            .map(|i| Point::new((f64::from(i) * PI / 36.0).cos() * 3.0, (f64::from(i) * PI / 36.0).sin() * 3.0))
+            .map(|i| Point::new((f64::from(i) * PI / 36.0).cosine() * 3.0, (f64::from(i) * PI / 36.0).sine() * 3.0))
             .collect();
         let steps = fit_arcs(&circle, 0.02);
         assert!(steps.len() <= 3, "{steps:?}");
@@ -176,7 +178,7 @@ mod tests {
         let spiral: Vec<Point> = (0..=400)
             .map(|i| {
                 let angle = f64::from(i) * 0.1;
-                Point::new(angle.cos(), angle.sin()).to_vec2() * (0.27 * angle / (2.0 * PI))
+                Point::new(angle.cosine(), angle.sine()).to_vec2() * (0.27 * angle / (2.0 * PI))
             })
             .map(Vec2::to_point)
             .collect();
@@ -192,7 +194,7 @@ mod tests {
             for (turn, leg, legs) in turns {
                 for _ in 0..legs {
                     heading += turn;
-                    at += Vec2::from_angle(heading) * leg;
+                    at += unit_at(heading) * leg;
                     points.push(at);
                 }
             }

@@ -1,5 +1,6 @@
 //! Ink blobs: the dot of a hand-held pen as a closed smooth outline (Bruehl 2023, section 4.4 asks for a dictionary of them).
 
+use crate::elementary::{Elementary as _, unit_at};
 use kurbo::{BezPath, Point, Shape, Vec2};
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
@@ -17,7 +18,7 @@ pub fn blob(centre: Point, radius: f64, irregularity: f64, random: &mut impl Rng
         let step = TAU / NODES as f64;
         let angle = turn + step * (i as f64 + irregularity * random.random_range(-0.25..0.25));
         let stretch = 1.0 + irregularity * random.random_range(-0.33..0.33);
-        *node = Vec2::from_angle(angle) * stretch;
+        *node = unit_at(angle) * stretch;
     }
     let unit = closed_spline(&nodes);
     let scale = radius * (std::f64::consts::PI / unit.area().abs()).sqrt();
@@ -29,7 +30,7 @@ pub fn blob(centre: Point, radius: f64, irregularity: f64, random: &mut impl Rng
 
 /// A smooth closed curve through the nodes whose handles follow the circle's: 4/3 tan(step/4) of the radius.
 fn closed_spline(nodes: &[Vec2; NODES]) -> BezPath {
-    let handle = 4.0 / 3.0 * (TAU / NODES as f64 / 4.0).tan();
+    let handle = 4.0 / 3.0 * (TAU / NODES as f64 / 4.0).tangent();
     let tangent = |i: usize| {
         let chord = nodes[(i + 1) % NODES] - nodes[(i + NODES - 1) % NODES];
         chord.normalize() * nodes[i].hypot() * handle

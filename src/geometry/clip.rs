@@ -1,5 +1,6 @@
 //! Clipping by straight lines: convex polygons by a half plane, polygons, discs and polylines by a rectangle.
 
+use crate::elementary::{Elementary as _, unit_at};
 use kurbo::{BezPath, Point, Rect, Vec2};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -48,7 +49,7 @@ pub fn clip_polygon(polygon: &[Point], rect: Rect) -> Vec<Point> {
 ///   +------`--'-+
 /// ```
 pub fn clip_disc(centre: Point, radius: f64, rect: Rect) -> BezPath {
-    let on_circle = |angle: f64| centre + Vec2::from_angle(angle) * radius;
+    let on_circle = |angle: f64| centre + unit_at(angle) * radius;
     let mut angles = crossings(centre, radius, rect);
     angles.sort_by(f64::total_cmp);
     angles.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
@@ -89,16 +90,16 @@ fn crossings(centre: Point, radius: f64, rect: Rect) -> Vec<f64> {
     for x in [rect.x0, rect.x1] {
         let cosine = (x - centre.x) / radius;
         if cosine.abs() < 1.0 {
-            let angle = cosine.acos();
-            angles.extend([angle, -angle].into_iter().filter(|a| (rect.y0..=rect.y1).contains(&(centre.y + radius * a.sin()))));
+            let angle = cosine.arc_cosine();
+            angles.extend([angle, -angle].into_iter().filter(|a| (rect.y0..=rect.y1).contains(&(centre.y + radius * a.sine()))));
         }
     }
     for y in [rect.y0, rect.y1] {
         let sine = (y - centre.y) / radius;
         if sine.abs() < 1.0 {
-            let angle = sine.asin();
+            let angle = sine.arc_sine();
             let both = [angle, 2.0 * FRAC_PI_2 - angle];
-            angles.extend(both.into_iter().filter(|a| (rect.x0..=rect.x1).contains(&(centre.x + radius * a.cos()))));
+            angles.extend(both.into_iter().filter(|a| (rect.x0..=rect.x1).contains(&(centre.x + radius * a.cosine()))));
         }
     }
     angles.into_iter().map(|a| a.rem_euclid(TAU)).collect()
@@ -118,15 +119,15 @@ fn corner_between(a: Point, b: Point, rect: Rect) -> Option<Point> {
 fn append_arc(path: &mut BezPath, centre: Point, radius: f64, from: f64, to: f64) {
     let count = ((to - from) / FRAC_PI_2 - 1e-9).ceil().max(1.0);
     let step = (to - from) / count;
-    let handle = radius * 4.0 / 3.0 * (step / 4.0).tan();
-    let start = centre + Vec2::from_angle(from) * radius;
+    let handle = radius * 4.0 / 3.0 * (step / 4.0).tangent();
+    let start = centre + unit_at(from) * radius;
     if path.elements().is_empty() {
         path.move_to(start);
     } else {
         path.line_to(start);
     }
     for i in 0..count as usize {
-        let (a, b) = (Vec2::from_angle(from + step * i as f64), Vec2::from_angle(from + step * (i as f64 + 1.0)));
+        let (a, b) = (unit_at(from + step * i as f64), unit_at(from + step * (i as f64 + 1.0)));
         let (p, q) = (centre + a * radius, centre + b * radius);
         path.curve_to(p + a.turn_90() * handle, q - b.turn_90() * handle, q);
     }

@@ -58,11 +58,14 @@ pub fn crossings<'a>(polygons: impl IntoIterator<Item = &'a Vec<Point>>, most: u
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_star_crosses_itself_five_times_and_a_square_never() {
-        let star: Vec<Point> =
-            (0..5).map(|i| f64::from(i) * 0.8 * std::f64::consts::PI).map(|angle| Point::new(angle.cos(), angle.sin())).collect();
+        let star: Vec<Point> = (0..5)
+            .map(|i| f64::from(i) * 0.8 * std::f64::consts::PI)
+            .map(|angle| Point::new(angle.cosine(), angle.sine()))
+            .collect();
         let square = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)].map(Point::from).to_vec();
         assert_eq!(crossings([&star], 1000).crossings, 5);
         assert_eq!(crossings([&square], 1000).crossings, 0);

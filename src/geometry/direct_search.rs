@@ -1,6 +1,7 @@
 //! Direct binary search (Analoui and Allebach 1992) over scattered points: chooses which of them get a whole dot when each should
 //! get a share of one.
 
+use crate::elementary::Elementary as _;
 use crate::interrupt::Interrupt;
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
@@ -189,7 +190,7 @@ impl Eye {
         let at = |step: usize| {
             let share = step as f64 / Self::STEPS as f64;
             let squared = share * edge * edge;
-            (1.0 - share) * BLURS.iter().map(|blur| (-0.5 * squared / (blur * blur)).exp() / (blur * blur)).sum::<f64>()
+            (1.0 - share) * BLURS.iter().map(|blur| (-0.5 * squared / (blur * blur)).exponential() / (blur * blur)).sum::<f64>()
         };
         let reach = edge * spacing;
         Self { table: (0..=Self::STEPS).map(at).collect(), per_square: Self::STEPS as f64 / (reach * reach) }

@@ -3,6 +3,7 @@
 //! This makes the dots' tone exact (Bruehl 2023, section 4.4 asks for it; Son et al. 2011, appendix B approximates it for the
 //! square cell).
 
+use crate::elementary::Elementary as _;
 use kurbo::Point;
 
 /// Area of the disc around `centre` that lies inside the polygon (any simple polygon, either orientation).
@@ -33,7 +34,7 @@ fn wedge(a: (f64, f64), b: (f64, f64), radius: f64) -> (f64, f64) {
         return (0.0, 0.0);
     }
     let cross = a.0 * b.1 - a.1 * b.0;
-    let sector = |p: (f64, f64), q: (f64, f64)| (p.0 * q.1 - p.1 * q.0).atan2(p.0 * q.0 + p.1 * q.1);
+    let sector = |p: (f64, f64), q: (f64, f64)| (p.0 * q.1 - p.1 * q.0).angle_over(p.0 * q.0 + p.1 * q.1);
     // Where the line through a and b meets the circle: parameters t0 <= t1 of a + t (b - a).
     let half_chord_squared = radius * radius * length_squared - cross * cross;
     if half_chord_squared <= 0.0 {

@@ -125,12 +125,13 @@ fn direction(cubic: &CubicBez, t: f64) -> Option<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
     use crate::geometry::{Ends, Ring, catmull_rom, swelling_outline};
     use kurbo::{ParamCurveNearest, Shape};
 
     fn wave() -> (BezPath, Vec<f64>) {
-        let points: Vec<Point> = (0..60).map(|i| Point::new(0.4 * f64::from(i), (0.05 * f64::from(i)).sin())).collect();
-        let widths: Vec<f64> = (0..60).map(|i| 0.3 + 0.1 * (0.1 * f64::from(i)).cos()).collect();
+        let points: Vec<Point> = (0..60).map(|i| Point::new(0.4 * f64::from(i), (0.05 * f64::from(i)).sine())).collect();
+        let widths: Vec<f64> = (0..60).map(|i| 0.3 + 0.1 * (0.1 * f64::from(i)).cosine()).collect();
         (catmull_rom(&points, Ring::Open), widths)
     }
 

@@ -215,6 +215,7 @@ fn monotone_slopes(at: &[f64], values: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     fn piece(pair: &[GraphNode]) -> Cubic {
         let knot = |node: &GraphNode, slope| Knot { at: node.at, height: node.height, slope };
@@ -225,10 +226,10 @@ mod tests {
 
     #[test]
     fn a_wave_takes_few_pieces_and_stays_near() {
-        let wave = |u: f64| (u / 4.0).sin() * 2.0;
+        let wave = |u: f64| (u / 4.0).sine() * 2.0;
         let heights: Vec<f64> = (0..1001).map(|i| wave(f64::from(i) * 0.04)).collect();
         let graph = Graph { first: 0.0, step: 0.04, heights: &heights };
-        let nodes = graph.fit(&[0.0, 40.0], |u| 0.3 + 0.2 * (u / 5.0).cos(), FINE);
+        let nodes = graph.fit(&[0.0, 40.0], |u| 0.3 + 0.2 * (u / 5.0).cosine(), FINE);
         assert!(nodes.len() <= 18, "{}", nodes.len());
         for pair in nodes.windows(2) {
             let cubic = piece(pair);

@@ -6,6 +6,7 @@
 //!   start 3 ----------------> end 3       apart on average
 //! ```
 
+use crate::elementary::{Elementary as _, unit_at};
 use kurbo::{Point, Vec2};
 use rand::{Rng, RngExt};
 
@@ -38,12 +39,12 @@ impl HandShading {
     /// its nominal position on the chain's border, so skews stay local and the mean spacing is exact.
     pub fn arcs(&self, random: &mut impl Rng) -> Vec<Vec<Point>> {
         let radius = self.radius.max(self.length / 3.0);
-        let chord = 2.0 * radius * (0.5 * self.length / radius).sin();
-        let along = Vec2::from_angle(self.orientation);
+        let chord = 2.0 * radius * (0.5 * self.length / radius).sine();
+        let along = unit_at(self.orientation);
         let across = Vec2::new(-along.y, along.x);
         // The thesis's turn moves an end by chord * sin(turn), two spacings to first order.
-        let turn = (2.0 * self.spacing / chord).atan();
-        let step = chord * turn.tan();
+        let turn = (2.0 * self.spacing / chord).arc_tangent();
+        let step = chord * turn.tangent();
         let mut vary = |size: f64| if self.skew > 0.0 { random.random_range(-self.skew..self.skew) * size } else { 0.0 };
         let mut from = self.centre - along * (0.5 * chord);
         // Distance of the ends along either border so far, the start's border first.
@@ -108,7 +109,7 @@ mod tests {
         for pair in arcs.windows(2) {
             assert_eq!(pair[0].last(), pair[1].first());
         }
-        let across = Vec2::new(-SHADING.orientation.sin(), SHADING.orientation.cos());
+        let across = Vec2::new(-SHADING.orientation.sine(), SHADING.orientation.cosine());
         let way = (midpoint(&arcs[199]) - midpoint(&arcs[0])).dot(across);
         assert!((way / 199.0 / SHADING.spacing - 1.0).abs() < 0.01, "spacing {}", way / 199.0);
         let mean = arcs.iter().map(|arc| crate::geometry::polyline_length(arc)).sum::<f64>() / 200.0;
@@ -120,8 +121,8 @@ mod tests {
         let arcs = HandShading { skew: 0.0, ..SHADING }.arcs(&mut ChaCha8Rng::seed_from_u64(4));
         let chord = |arc: &[Point]| arc[arc.len() - 1] - arc[0];
         let (first, second) = (chord(&arcs[0]), -chord(&arcs[1]));
-        let turn = (first.cross(second) / (first.hypot() * second.hypot())).asin().abs();
-        let printed = (2.0 * SHADING.spacing / first.hypot()).atan();
+        let turn = (first.cross(second) / (first.hypot() * second.hypot())).arc_sine().abs();
+        let printed = (2.0 * SHADING.spacing / first.hypot()).arc_tangent();
         assert!((turn - printed).abs() < 1e-9, "{turn} for {printed}");
     }
 }

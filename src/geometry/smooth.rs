@@ -1,6 +1,7 @@
 //! Smooths traced polylines into curves.
 
 use super::polyline::resample;
+use crate::elementary::Elementary as _;
 use kurbo::{BezPath, Point, Vec2};
 
 /// Whether a line's last point is joined to its first.
@@ -34,7 +35,7 @@ pub fn smooth_polyline(points: &[Point], ring: Ring, sigma: f64, spacing: f64) -
         return even;
     }
     let radius = (3.0 * sigma / spacing).ceil() as isize;
-    let weights: Vec<f64> = (0..=radius).map(|i| (-0.5 * (i as f64 * spacing / sigma).powi(2)).exp()).collect();
+    let weights: Vec<f64> = (0..=radius).map(|i| (-0.5 * (i as f64 * spacing / sigma).powi(2)).exponential()).collect();
     let at = |i: isize| if closed { even[i.rem_euclid(even.len() as isize) as usize] } else { reflected(&even, i) };
     (0..even.len() as isize)
         .map(|i| {
@@ -93,6 +94,7 @@ pub fn catmull_rom(points: &[Point], ring: Ring) -> BezPath {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
 
     #[test]
     fn smoothing_a_staircase_gives_its_slope() {
@@ -108,7 +110,7 @@ mod tests {
     #[test]
     fn the_spline_meets_its_points_and_follows_a_circle() {
         let circle: Vec<Point> =
-            (0..24).map(|i| Point::ORIGIN + Vec2::from_angle(f64::from(i) * std::f64::consts::TAU / 24.0) * 10.0).collect();
+            (0..24).map(|i| Point::ORIGIN + unit_at(f64::from(i) * std::f64::consts::TAU / 24.0) * 10.0).collect();
         let spline = catmull_rom(&circle, Ring::Closed);
         assert_eq!(spline.elements().len(), 26);
         for piece in spline.segments() {

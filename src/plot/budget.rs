@@ -180,6 +180,7 @@ fn threads_along(line: &[Point], half_width: f64) -> Vec<WideSegment> {
 mod tests {
     use super::*;
     use crate::drawing::{Area, Layer, Page, Stroke, Width};
+    use crate::elementary::Elementary as _;
 
     fn check(marks: Vec<Mark>, hides: Option<Hides>) -> Result<(), TooMuch> {
         let drawing = Drawing { page: Page::new(200.0, 200.0), layers: vec![Layer { marks, ..Layer::new("x", 1) }] };
@@ -200,7 +201,7 @@ mod tests {
         assert!(matches!(refused, TooMuch::Crossings { crossings, .. } if crossings > 1e7), "{refused}");
         let fine = path((0..200_000).map(|i| {
             let angle = f64::from(i) * std::f64::consts::TAU / 200_000.0;
-            Point::new(100.0 + 90.0 * angle.cos(), 100.0 + 90.0 * angle.sin())
+            Point::new(100.0 + 90.0 * angle.cosine(), 100.0 + 90.0 * angle.sine())
         }));
         assert_eq!(check(vec![Mark::Area(Area { outline: fine.clone(), colour: None })], None), Ok(()));
         // A wide line of short legs follows itself, but does not cover itself.

@@ -2,6 +2,7 @@
 //! its separable form (Pham and van Vliet 2005): along the rows, then along the columns.
 
 use super::Raster;
+use crate::elementary::Elementary as _;
 use rayon::prelude::*;
 
 /// Smooths within regions and keeps their edges.
@@ -18,7 +19,7 @@ pub fn bilateral(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Ra
 fn filter_rows(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Raster<f32> {
     let width = raster.width();
     let radius = (2.0 * sigma_space).ceil() as usize;
-    let near: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma_space).powi(2)).exp()).collect();
+    let near: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma_space).powi(2)).exponential()).collect();
     let mut out = Raster::filled(width, raster.height(), 0.0_f32);
     out.pixels_mut().par_chunks_mut(width.max(1)).zip(raster.pixels().par_chunks(width.max(1))).for_each_init(
         || (vec![0.0_f32; width], vec![0.0_f32; width]),
@@ -71,7 +72,7 @@ mod tests {
     fn the_weight_is_nearly_gaussian() {
         for i in 0..60 {
             let d = i as f32 / 10.0;
-            assert!((value_weight(d) - (-0.5 * d * d).exp()).abs() < 0.04, "{d}: {}", value_weight(d));
+            assert!((value_weight(d) - (-0.5 * d * d).exponential()).abs() < 0.04, "{d}: {}", value_weight(d));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Box and Gaussian blur, both separable and independent of thread count.
 
 use super::Raster;
+use crate::elementary::Elementary as _;
 use rayon::prelude::*;
 
 /// Mean over a `(2r+1) x (2r+1)` window, borders clamped; time does not depend on `radius`.
@@ -40,7 +41,7 @@ pub fn gaussian_blur(raster: &Raster<f32>, sigma: f32) -> Raster<f32> {
 /// The right half of a normalised Gaussian kernel, centre first.
 pub(super) fn gaussian_kernel(sigma: f32) -> Vec<f32> {
     let radius = (3.5 * sigma).ceil() as i32;
-    let mut half: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
+    let mut half: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exponential()).collect();
     let sum = half[0] + 2.0 * half[1..].iter().sum::<f32>();
     for weight in &mut half {
         *weight /= sum;

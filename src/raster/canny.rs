@@ -1,6 +1,7 @@
 //! Canny's edge detector (Canny 1986; Bruehl 2023, sections 1.4.3 and 2.1) on real-valued rasters.
 
 use super::{Raster, sobel};
+use crate::elementary::Elementary as _;
 
 /// Gradient thresholds, in raster units per pixel; `low <= high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +17,7 @@ pub struct Thresholds {
 /// The raster is not blurred here: blur it first. The outermost ring of pixels is never an edge.
 pub fn canny(raster: &Raster<f32>, thresholds: Thresholds) -> Raster<u8> {
     let gradient = sobel(raster);
-    let strength = gradient.map(|[gx, gy]| gx.hypot(gy));
+    let strength = gradient.map(|[gx, gy]| gx.hypotenuse(gy));
     let ridges = suppress_non_maxima(&gradient, &strength, thresholds.low);
     follow_from_strong(&ridges, &strength, thresholds.high)
 }
@@ -72,7 +73,7 @@ mod tests {
     use crate::raster::gaussian_blur;
 
     fn disc(radius: f32) -> Raster<f32> {
-        Raster::from_fn(64, 64, |x, y| f32::from((x as f32 - 31.5).hypot(y as f32 - 31.5) < radius))
+        Raster::from_fn(64, 64, |x, y| f32::from((x as f32 - 31.5).hypotenuse(y as f32 - 31.5) < radius))
     }
 
     #[test]
@@ -83,7 +84,7 @@ mod tests {
             for x in 0..64 {
                 if edges.get(x, y) == 1 {
                     count += 1;
-                    let r = (x as f32 - 31.5).hypot(y as f32 - 31.5);
+                    let r = (x as f32 - 31.5).hypotenuse(y as f32 - 31.5);
                     assert!((r - 20.0).abs() < 1.5, "edge pixel at radius {r}");
                 }
             }

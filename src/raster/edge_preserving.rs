@@ -1,6 +1,7 @@
 //! Edge-preserving smoothing (Papari 2009, appendix A): a mean of local means that gives uneven neighbourhoods little weight.
 
 use super::{Raster, fast_gaussian};
+use crate::elementary::Elementary as _;
 
 /// Least variance, for values from 0 to 1: half a step of 8 bits (errata).
 const LEAST_VARIANCE: f32 = (0.5 / 255.0) * (0.5 / 255.0);
@@ -42,7 +43,7 @@ fn evenness(planes: &[Raster<f32>], means: &[Raster<f32>], sigma: f32, q: f32) -
         squares.zip_map(mean, |square, mean| (square - mean * mean).max(0.0))
     });
     let variance = variances.reduce(|a, b| a.zip_map(&b, |a, b| a + b))?;
-    Some(variance.map(|variance| (variance.max(LEAST_VARIANCE) / LEAST_VARIANCE).powf(-0.5 * q)))
+    Some(variance.map(|variance| (variance.max(LEAST_VARIANCE) / LEAST_VARIANCE).power(-0.5 * q)))
 }
 
 #[cfg(test)]

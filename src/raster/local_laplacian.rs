@@ -2,6 +2,7 @@
 //! contrast at chosen scales without halos.
 
 use super::{Raster, doubled, halved};
+use crate::elementary::Elementary as _;
 
 /// Remapping of the contrasts of one level: `d`, a value's distance from the local mean, becomes `sigma (d / sigma)^alpha` below
 /// `sigma`; beyond it the slope is `beta`.
@@ -20,7 +21,7 @@ impl Remapping {
         let d = value - mean;
         let size = d.abs();
         let mapped = if size < self.sigma {
-            self.sigma * (size.max(1e-6) / self.sigma).powf(self.alpha)
+            self.sigma * (size.max(1e-6) / self.sigma).power(self.alpha)
         } else {
             self.sigma + self.beta * (size - self.sigma)
         };
@@ -76,7 +77,7 @@ mod tests {
     use super::*;
 
     fn waves(strength: f32) -> Raster<f32> {
-        Raster::from_fn(120, 90, |x, y| 0.3 + 0.002 * x as f32 + strength * ((x as f32 * 0.6).sin() * (y as f32 * 0.7).sin()))
+        Raster::from_fn(120, 90, |x, y| 0.3 + 0.002 * x as f32 + strength * ((x as f32 * 0.6).sine() * (y as f32 * 0.7).sine()))
     }
 
     #[test]

@@ -50,7 +50,7 @@ pub use local_laplacian::{Remapping, local_laplacian};
 #[doc(hidden)]
 pub use paper::paper_texture;
 #[doc(hidden)]
-pub use polygon::filled_polygon;
+pub use polygon::{each_pixel_inside, filled_polygon};
 #[doc(hidden)]
 pub use pyramid::{doubled, halved};
 pub(crate) use rank::median;

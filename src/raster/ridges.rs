@@ -5,6 +5,7 @@
 //! transform that follows counts thin lines.
 
 use super::Raster;
+use crate::elementary::Elementary as _;
 
 /// Marks (1) the pixels on a dark or light line: the magnitude of the second derivative across the line is the largest among its
 /// neighbours and at least `least` (raster units per square pixel). Blur the raster first: the blur sets the width of the lines
@@ -33,7 +34,7 @@ fn across(raster: &Raster<f32>, x: isize, y: isize) -> [f32; 3] {
     let value = if mean >= 0.0 { mean + spread } else { mean - spread };
     // The eigenvector, from the row of the matrix with the larger entry.
     let (a, b) = if (value - yy).abs() > (value - xx).abs() { (value - yy, xy) } else { (xy, value - xx) };
-    let length = a.hypot(b);
+    let length = a.hypotenuse(b);
     if length > 0.0 { [value, a / length, b / length] } else { [value, 1.0, 0.0] }
 }
 

@@ -57,12 +57,13 @@ fn is_removable(lines: &Raster<u8>, index: usize, pass: Pass) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
     use crate::raster::components;
 
     #[test]
     fn a_thick_ring_becomes_a_thin_ring() {
         let ring = Raster::from_fn(50, 50, |x, y| {
-            let r = (x as f32 - 24.5).hypot(y as f32 - 24.5);
+            let r = (x as f32 - 24.5).hypotenuse(y as f32 - 24.5);
             u8::from((14.0..19.0).contains(&r))
         });
         let lines = thin(&ring);
@@ -95,7 +96,7 @@ mod tests {
         };
         assert!(!centre_and_corner, "the hole stays closed off");
         for (i, _) in lines.pixels().iter().enumerate().filter(|(_, v)| **v != 0) {
-            let r = ((i % 50) as f32 - 24.5).hypot((i / 50) as f32 - 24.5);
+            let r = ((i % 50) as f32 - 24.5).hypotenuse((i / 50) as f32 - 24.5);
             assert!((r - 16.5).abs() < 1.6, "pixel at radius {r}");
         }
     }

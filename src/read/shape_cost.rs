@@ -1,5 +1,6 @@
 //! What one shape costs: its path data, its circles and its corners.
 
+use crate::elementary::Elementary as _;
 use roxmltree::Node;
 
 /// 1 if each shape gets its own copy, in units of its bounding box; else 0.
@@ -39,7 +40,7 @@ const SHIFTED: f64 = 1e-3;
 
 /// Number of curves that a whole ellipse becomes, at the tolerance of 0.1 pixel that usvg gives kurbo.
 pub(super) fn curves(radius: f64) -> f64 {
-    match (1.1163 * radius.abs() / 0.1).powf(1.0 / 6.0) {
+    match (1.1163 * radius.abs() / 0.1).power(1.0 / 6.0) {
         number if number <= 4.0 => 4.0,
         // Each quarter is rounded up.
         number => number.ceil() + 4.0,
@@ -70,7 +71,7 @@ pub(super) fn segments(data: &str) -> (f64, f64) {
                 (x, y)
             }
             svgtypes::PathSegment::EllipticalArc { abs, rx, ry, large_arc, x, y, .. } => {
-                let chord = x.hypot(y) + if abs { reach } else { 0.0 };
+                let chord = x.hypotenuse(y) + if abs { reach } else { 0.0 };
                 // Radii too small for the chord are scaled up until they fit.
                 let radius = rx.abs().max(ry.abs()) * (chord / rx.abs().min(ry.abs())).max(1.0);
                 // The smaller radius bounds the sweep: a tall ellipse goes half round within a short chord.

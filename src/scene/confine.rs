@@ -2,6 +2,7 @@
 
 use super::Parts;
 use crate::drawing::{Area, Dot, Drawing, Mark, Stroke, Width};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Region, lengths_along};
 use kurbo::Shape;
 use rayon::prelude::*;
@@ -42,7 +43,7 @@ fn within(mark: &Mark, region: &Region) -> Vec<Mark> {
 
 fn dot_within(dot: &Dot, region: &Region) -> Option<Dot> {
     let reach = Mark::Dot(dot.clone()).bounding_box();
-    let reach = (reach.width().hypot(reach.height()) * 0.5).max(dot.radius);
+    let reach = (reach.width().hypotenuse(reach.height()) * 0.5).max(dot.radius);
     if !region.is_near_border(dot.centre, reach) {
         return region.contains(dot.centre).then(|| dot.clone());
     }

@@ -4,6 +4,7 @@
 //! evidence for a pixel is the ratio of both counts at its position and colour. A red beside black hair is flag if there is red
 //! flag nearby and no red on the person nearby; the same red in a jacket is not.
 
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 use crate::source::{lab, srgb_to_linear};
 use rayon::prelude::*;
@@ -51,7 +52,7 @@ impl Colours {
         }
         self.0.map(|place| {
             let [subject, ground] = at(&lattice, place);
-            ((subject + UNKNOWN) / (ground + UNKNOWN)).ln()
+            ((subject + UNKNOWN) / (ground + UNKNOWN)).logarithm()
         })
     }
 }

@@ -9,6 +9,7 @@ mod heads;
 
 use super::sight::Face;
 use super::view::View;
+use crate::elementary::Elementary as _;
 use crate::field::{poisson, screened_poisson};
 use crate::geometry::Point;
 use crate::raster::{Raster, enlarge_smoothly, gaussian_blur, reduce};
@@ -101,7 +102,7 @@ fn as_nearness(heights: &Raster<f32>, subject: &Raster<u8>, least_range: f64) ->
     let range = f64::from(highest - lowest).max(least_range).max(1e-6);
     heights.zip_map(subject, |height, subject| {
         let share = (1.0 - f64::from(highest - height) / range).clamp(0.0, 1.0);
-        let nearness = FARTHEST + (1.0 - FARTHEST) * share.powf(POWER);
+        let nearness = FARTHEST + (1.0 - FARTHEST) * share.power(POWER);
         if subject < LEAST_SUBJECT { 0 } else { (65535.0 * nearness).round() as u16 }
     })
 }

@@ -3,6 +3,7 @@
 use super::SeeError;
 use super::networks::{Network, sigmoid, sixteenths, thousandths};
 use super::view::{Outside, View, Window};
+use crate::elementary::{Elementary as _, angle_of};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::interrupt::Interrupt;
 
@@ -39,7 +40,7 @@ pub(super) struct Found {
 impl Found {
     /// The angle of the line through the eyes, in radians, clockwise; 0 for an upright head.
     pub(super) fn angle(&self) -> f64 {
-        (self.keys[1] - self.keys[0]).atan2()
+        angle_of(self.keys[1] - self.keys[0])
     }
 
     /// The longer side of its box.
@@ -70,7 +71,7 @@ pub(super) fn strangers(detector: &Network, view: &View, known: &[Found]) -> Res
 fn is_beside(a: Rect, b: Rect) -> bool {
     let between = a.center() - b.center();
     let half = 0.5 * (a.size() + b.size());
-    (between.x / half.width).hypot(between.y / half.height) > BESIDE
+    (between.x / half.width).hypotenuse(between.y / half.height) > BESIDE
 }
 
 /// True if there may be more faces than a pass over the whole picture finds.

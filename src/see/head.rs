@@ -1,5 +1,6 @@
 //! The pose of a head: where the picture certainly shows the person, and where head, shoulders and body are expected.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, filled_polygon};
 use crate::source::LEAST_FACE_WIDTH;
@@ -119,7 +120,7 @@ impl Head {
         let reach = side * through_corners([(-0.2, 1.0), (0.6, 1.0 - SHORT_JAW)], down);
         let down_from_middle = down + RAISED;
         let height = if down_from_middle >= 0.0 { 1.0 } else { SHORT_HEIGHT };
-        down <= SHOULDERS && (across / reach).hypot(down_from_middle / height) >= 1.0
+        down <= SHOULDERS && (across / reach).hypotenuse(down_from_middle / height) >= 1.0
     }
 
     /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.
@@ -128,7 +129,7 @@ impl Head {
         let reach = self.reach[usize::from(across >= 0.0)] * through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down);
         let down_from_middle = down + RAISED;
         let height = HEIGHTS[usize::from(down_from_middle >= 0.0)];
-        let head = through_corners([(0.9, 1.0), (1.25, 0.0)], (across / reach).hypot(down_from_middle / height));
+        let head = through_corners([(0.9, 1.0), (1.25, 0.0)], (across / reach).hypotenuse(down_from_middle / height));
         // Below the chin, half a width down, shoulders widen to either side.
         let shoulders = through_corners([(0.5, 0.4), (0.8, 1.15), (1.2, 2.2)], down);
         let body = if down > 0.45 { through_corners([(1.0, 1.0), (1.4, 0.0)], across.abs() / shoulders) } else { 0.0 };
@@ -144,7 +145,7 @@ pub(super) mod tests {
     pub(in super::super) fn face(x: f64, y: f64, nose: f64) -> Vec<[f64; 3]> {
         let mut points = vec![[x, y, 0.0]; 468];
         for (i, k) in OVAL.iter().enumerate() {
-            let (sin, cos) = (i as f64 / OVAL.len() as f64 * std::f64::consts::TAU).sin_cos();
+            let (sin, cos) = (i as f64 / OVAL.len() as f64 * std::f64::consts::TAU).sine_and_cosine();
             points[*k] = [x + 50.0 * sin, y - 70.0 * cos, 0.0];
         }
         (points[33], points[263], points[1]) = ([x - 30.0, y - 20.0, 0.0], [x + 30.0, y - 20.0, 0.0], [x + nose, y, 0.0]);

@@ -3,6 +3,7 @@
 use super::SeeError;
 use super::networks::{Network, sixteenths};
 use super::view::{Outside, View, Window};
+use crate::elementary::angle_of;
 use crate::geometry::Point;
 use crate::source::Iris;
 
@@ -15,7 +16,7 @@ const ROOM: f64 = 2.3;
 pub(super) fn irises(network: &Network, view: &View, points: &[[f64; 3]]) -> Result<[Iris; 2], SeeError> {
     let window = |(a, b): (usize, usize)| {
         let [a, b] = [a, b].map(|i| Point::new(points[i][0], points[i][1]));
-        Window::square(a.midpoint(b), ROOM * (b - a).hypot().max(1.0), (b - a).atan2())
+        Window::square(a.midpoint(b), ROOM * (b - a).hypot().max(1.0), angle_of(b - a))
     };
     Ok([iris(network, view, window(CORNERS[0]).mirrored())?, iris(network, view, window(CORNERS[1]))?])
 }

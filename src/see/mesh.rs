@@ -4,6 +4,7 @@ use super::SeeError;
 use super::faces::Found;
 use super::networks::{Network, sigmoid, sixteenths};
 use super::view::{Outside, View, Window};
+use crate::elementary::angle_of;
 use crate::geometry::{Point, Vec2};
 use crate::source::POINTS;
 
@@ -36,7 +37,7 @@ fn window_of(points: &[[f64; 3]]) -> Window {
     };
     let ((left, right), (top, bottom)) = (ends(across), ends(down));
     let centre = (0.5 * (left + right) * across + 0.5 * (top + bottom) * down).to_point();
-    Window::square(centre, ROOM * (right - left).max(bottom - top), across.atan2())
+    Window::square(centre, ROOM * (right - left).max(bottom - top), angle_of(across))
 }
 
 fn points_in(network: &Network, view: &View, window: Window) -> Result<Mesh, SeeError> {
@@ -60,17 +61,18 @@ fn points_in(network: &Network, view: &View, window: Window) -> Result<Mesh, See
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn the_window_of_points_is_level_with_their_eyes() {
         let angle = 0.3_f64;
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = angle.sine_and_cosine();
         let turned = |x: f64, y: f64| [50.0 + x * cos - y * sin, 70.0 + x * sin + y * cos, 0.0];
         let mut points = vec![turned(0.0, 0.0); POINTS];
         (points[33], points[263]) = (turned(-10.0, -5.0), turned(10.0, -5.0));
         (points[10], points[152]) = (turned(0.0, -20.0), turned(0.0, 20.0));
         let window = window_of(&points);
-        assert!((window.across.atan2() - angle).abs() < 1e-9 && (window.across.hypot() - 60.0).abs() < 1e-9);
+        assert!((angle_of(window.across) - angle).abs() < 1e-9 && (window.across.hypot() - 60.0).abs() < 1e-9);
         assert!((window.place(0.5, 0.5) - Point::new(50.0, 70.0)).hypot() < 1e-9);
     }
 }

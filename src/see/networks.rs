@@ -1,6 +1,7 @@
 //! The networks and the engine that runs them. `models/README.md` describes their inputs and outputs.
 
 use super::SeeError;
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 use rten::{Model, ModelOptions, RunOptions, ThreadPool, Value, op_registry};
 use std::sync::Arc;
@@ -107,7 +108,7 @@ impl Network {
 
 /// The logistic function, which turns a network's output into a probability.
 pub(super) fn sigmoid(v: f32) -> f64 {
-    1.0 / (1.0 + f64::from(-v).exp())
+    1.0 / (1.0 + f64::from(-v).exponential())
 }
 
 /// Rounds a length in pixels to 1/16.

@@ -157,13 +157,14 @@ fn apportioned(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
     use crate::geometry::Point;
     use crate::source::Iris;
 
     /// A face `width` pixels wide, turned by `yaw` radians; only the landmarks that heads are measured by are in place.
     pub(in crate::see) fn face(centre: Point, width: f64, yaw: f64) -> Landmarks {
         let mut points = vec![[centre.x, centre.y, 0.0]; 468];
-        let (sin, cos) = yaw.sin_cos();
+        let (sin, cos) = yaw.sine_and_cosine();
         let mut put = |i: usize, x: f64, y: f64, z: f64| {
             points[i] = [centre.x + width * (x * cos + z * sin), centre.y + width * y, width * (z * cos - x * sin)];
         };

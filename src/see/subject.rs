@@ -8,6 +8,7 @@ use super::looks::PersonMaps;
 use super::networks::Network;
 use super::unseen_black::without_unseen_black;
 use super::view::{Outside, View, Window, on_view};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, components, dilate, guided_enlargement};
 
@@ -133,7 +134,7 @@ impl Decision {
             let is_for = if said > NOBODY { FOR * (colour - SUPPORT[1]).clamp(0.0, MOST_FOR) } else { 0.0 };
             let against = (WEIGHT * (colour - DEMANDED * (1.0 - expected))).clamp(-MOST_AGAINST, 0.0);
             let said = said.clamp(CERTAIN, 1.0 - CERTAIN);
-            let odds = said / (1.0 - said) * (is_for + against).exp();
+            let odds = said / (1.0 - said) * (is_for + against).exponential();
             sharpened_probability(odds / (1.0 + odds))
         })
     }
@@ -161,7 +162,7 @@ fn between(a: f32, b: f32, t: f32) -> f32 {
 fn is_in_head(bounds: Rect, place: Point) -> bool {
     let from = place - bounds.center();
     let (across, down) = (from.x / bounds.width(), from.y / bounds.height() + STRANGER_RAISED);
-    (across / STRANGER[0]).hypot(down / STRANGER[1]) < 1.0
+    (across / STRANGER[0]).hypotenuse(down / STRANGER[1]) < 1.0
 }
 
 /// Maps a probability to 0 below [`DOUBT`], to 1 above it, smoothly between.

@@ -77,12 +77,13 @@ fn near(labels: &Raster<u32>, rim: &Raster<u8>, x: usize, y: usize) -> Option<us
 mod tests {
     use super::super::head::tests::face;
     use super::*;
+    use crate::elementary::Elementary as _;
 
     /// A head with black beside its left cheek, on a wall that is this grey there.
     fn beside_the_cheek(wall: f32) -> f32 {
         let part = Rect::new(0.0, 0.0, 600.0, 600.0);
         let head = Head::new(&face(300.0, 250.0, 0.0));
-        let is_face = |x: f64, y: f64| ((x - 300.0) / 50.0).hypot((y - 250.0) / 70.0) < 1.0;
+        let is_face = |x: f64, y: f64| ((x - 300.0) / 50.0).hypotenuse((y - 250.0) / 70.0) < 1.0;
         let is_black = |x: f64, y: f64| (205.0..250.0).contains(&x) && (200.0..300.0).contains(&y);
         let at = |i: usize| (i as f64 + 0.5) * 600.0 / 256.0;
         let picture = Raster::from_fn(256, 256, |x, y| {

@@ -2,6 +2,7 @@
 
 use super::SeeError;
 use super::turn::Turn;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::{Crop, Photograph};
@@ -64,7 +65,7 @@ impl View {
         let step = self.step();
         let in_view = |v: Vec2, count: usize| Vec2::new(v.x / step.x, v.y / step.y) / count as f64;
         let (across, down) = (in_view(window.across, size[0]), in_view(window.down, size[1]));
-        let halvings = (across.hypot().max(down.hypot()).max(1.0).log2() as usize).min(self.halves.len());
+        let halvings = (across.hypot().max(down.hypot()).max(1.0).binary_logarithm() as usize).min(self.halves.len());
         let pixels = halvings.checked_sub(1).map_or(&self.pixels, |last| &self.halves[last]);
         let scale = 0.5_f64.powi(halvings as i32);
         let (across, down) = (across * scale, down * scale);
@@ -140,7 +141,7 @@ impl Window {
 
     /// A square rotated clockwise by an angle in radians.
     pub(super) fn square(centre: Point, side: f64, angle: f64) -> Self {
-        let across = Vec2::from_angle(angle) * side;
+        let across = unit_at(angle) * side;
         let down = Vec2::new(-across.y, across.x);
         Self { origin: centre - 0.5 * (across + down), across, down }
     }

@@ -1,13 +1,15 @@
 //! Light and lightness.
 
+use crate::elementary::Elementary as _;
+
 /// The linear light (0 to 1) of an sRGB-encoded value (0 to 1), IEC 61966-2-1.
 pub fn srgb_to_linear(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).power(2.4) }
 }
 
 /// The sRGB encoding (0 to 1) of linear light (0 to 1), IEC 61966-2-1.
 pub fn linear_to_srgb(light: f32) -> f32 {
-    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.power(1.0 / 2.4) - 0.055 }
 }
 
 /// Luminance Y (0 to 1) of linear sRGB.
@@ -18,7 +20,7 @@ pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
 /// CIE L*/100 (0 to 1) of a luminance: `1.16 f(Y) - 0.16`, `f` the cube root above 0.008856, else `7.787 Y + 16/116`
 /// (Bruehl 2023, appendix A, as corrected: the scan shows a power for the product).
 pub fn lightness(luminance: f32) -> f32 {
-    let f = if luminance > 0.008_856 { luminance.cbrt() } else { 7.787 * luminance + 16.0 / 116.0 };
+    let f = if luminance > 0.008_856 { luminance.cube_root() } else { 7.787 * luminance + 16.0 / 116.0 };
     (1.16 * f - 0.16).clamp(0.0, 1.0)
 }
 
@@ -28,7 +30,7 @@ pub fn lab(light: [f32; 3]) -> [f32; 3] {
     let x = (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505;
     let y = luminance(light);
     let z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0891;
-    let f = |t: f32| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+    let f = |t: f32| if t > 0.008_856 { t.cube_root() } else { 7.787 * t + 16.0 / 116.0 };
     [100.0 * lightness(y), 500.0 * (f(x) - f(y)), 200.0 * (f(y) - f(z))]
 }
 

@@ -10,6 +10,7 @@ use super::placement::{Crop, Placement, crop_on_grid};
 use super::resample::{resample, resample_grey};
 use super::scribbles::Scribbles;
 use crate::drawing::Page;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use std::collections::BTreeMap;
@@ -48,7 +49,7 @@ impl Default for ToneCurve {
 impl ToneCurve {
     fn apply(self, tone: f32) -> f32 {
         let level = ((tone - self.black) / (self.white - self.black)).clamp(0.0, 1.0);
-        if (self.gamma - 1.0).abs() < 1e-6 { level } else { level.powf(1.0 / self.gamma) }
+        if (self.gamma - 1.0).abs() < 1e-6 { level } else { level.power(1.0 / self.gamma) }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The frame of a head: across from ear to ear, down to the chin.
 
+use crate::elementary::angle_of;
 use crate::geometry::{Point, Vec2};
 use crate::source::Landmarks;
 
@@ -38,7 +39,7 @@ impl Head {
 
     /// The angle of its line between the ears on the page, in radians.
     pub(super) fn roll(&self) -> f64 {
-        self.across.atan2()
+        angle_of(self.across)
     }
 
     /// How many widths of its face a place lies from the middle of the face.

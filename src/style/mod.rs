@@ -24,6 +24,7 @@ mod random;
 mod reversed;
 mod settings;
 mod solids;
+mod tone_error;
 
 pub use cost::Cost;
 use drawer::Drawer;
@@ -32,6 +33,8 @@ pub use observer::{Observer, Picture, Silent};
 pub use parameter::{DefaultLength, Kind, Parameter, ParameterError};
 pub use places::Places;
 pub use settings::Settings;
+#[doc(hidden)]
+pub use tone_error::tone_error;
 
 use crate::drawing::Drawing;
 use crate::geometry::{Millimetres, Rect};

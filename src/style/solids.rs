@@ -2,6 +2,7 @@
 
 use super::head::Head;
 use crate::drawing::{Area, Layer, Mark};
+use crate::elementary::Elementary as _;
 use crate::field::contours;
 use crate::geometry::{BezPath, Point, Rect, Region, Ring, catmull_rom, polygon_area, smooth_polyline};
 use crate::raster::{Raster, filled_polygon, gaussian_blur};
@@ -119,7 +120,7 @@ impl Darks<'_> {
     fn rims(&self) -> BezPath {
         let longest = |curve: &[Point]| {
             let bounds = curve.iter().fold(Rect::from_points(curve[0], curve[0]), |bounds, p| bounds.union_pt(*p));
-            bounds.width().hypot(bounds.height())
+            bounds.width().hypotenuse(bounds.height())
         };
         let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
         self.shapes(&self.thin_darks(), THIN_DARK, |curve| longest(curve) > LONG * widest)

@@ -5,6 +5,7 @@ use super::curve::Curve;
 use super::mixing::mixed;
 use super::openings::opened;
 use super::zones::Zones;
+use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::raster::{Raster, Remapping, box_blur, fast_gaussian, local_laplacian};
 use crate::source::Landmarks;
@@ -117,7 +118,7 @@ fn local_contrast(zones: &Zones, evened: &Raster<f32>, subject: &Raster<f32>) ->
     let weight = subject.map(|v| v + 1e-6);
     let beyond = zones.over_skin(evened, &weight, 0.1);
     let filled = mixed(&beyond, evened, subject);
-    let count = ((zones.width / 10.0).max(1.0).log2().round() as usize).max(3);
+    let count = ((zones.width / 10.0).max(1.0).binary_logarithm().round() as usize).max(3);
     let levels: Vec<Remapping> =
         (0..count).map(|level| if f64::from(1 << level) < FINE * zones.width / DOTS { LEFT } else { CONTRAST }).collect();
     local_laplacian(&filled, &levels, SAMPLES)

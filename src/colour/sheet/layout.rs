@@ -3,6 +3,7 @@
 use super::SheetError;
 use super::code;
 use super::grid::{self, Cell, Patch};
+use crate::elementary::turned_by;
 use crate::geometry::stroke_letters as font;
 use crate::geometry::{Affine, Point, Rect, Vec2};
 
@@ -112,7 +113,7 @@ impl PenSheet {
         }
         let middle = Vec2::new(0.5 * page[0], 0.5 * page[1]);
         let turn = if is_upright { 0.0 } else { -std::f64::consts::FRAC_PI_2 };
-        let placed = Affine::translate(middle) * Affine::rotate(turn) * Affine::scale(cell);
+        let placed = Affine::translate(middle) * turned_by(turn) * Affine::scale(cell);
         let placed = placed * Affine::translate((-0.5 * columns, -0.5 * rows));
         Ok(Self { nibs: nibs.to_vec(), darkest, cell, placed })
     }

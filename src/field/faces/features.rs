@@ -6,6 +6,7 @@
 
 use super::super::dark_relief::dark_relief;
 use super::frame::FaceFrame;
+use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, gaussian_blur};
 
@@ -168,7 +169,7 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
         let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
         let off = |feature: usize| {
             let [cx, cy, hx, hy] = frame.windows[feature];
-            ((across - cx) / hx).hypot((down - cy) / hy)
+            ((across - cx) / hx).hypotenuse((down - cy) / hy)
         };
         let nearest = (0..6).min_by(|a, b| off(*a).total_cmp(&off(*b)));
         // Dark pixels at the face's upper border are hair, not a brow.
@@ -218,7 +219,7 @@ fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) ->
     for (i, cluster) in clusters.pixels().iter().enumerate().filter(|(_, cluster)| **cluster != 0) {
         let p = Point::new((i % clusters.width()) as f64 + 0.5, (i / clusters.width()) as f64 + 0.5);
         let (across, down) = frame.relative(p);
-        weights[*cluster as usize] += (-(((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exp();
+        weights[*cluster as usize] += (-(((across - cx) / hx).powi(2) + ((down - cy) / hy).powi(2))).exponential();
     }
     weights
 }

@@ -11,6 +11,7 @@
 use super::super::dark_relief::dark_relief;
 use super::fit::fitted;
 use super::frame::{FaceFrame, FeatureWindow};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
 use rayon::prelude::*;
@@ -91,7 +92,7 @@ pub fn find_face(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExp
 fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation, size: f64) -> Option<FaceFrame> {
     // Relative to the surrounding light, so that the dark side of a face and dark skin are treated equally.
     let relief = dark_relief(lightness, size).relief.map(|relief| relief.clamp(LEAST_RELIEF, 1.0));
-    let tone = gaussian_blur(lightness, (0.08 * size) as f32).map(|tone| (tone + 0.02).ln());
+    let tone = gaussian_blur(lightness, (0.08 * size) as f32).map(|tone| (tone + 0.02).logarithm());
     // A feature may lie slightly off its place.
     let darkest = least_around(&relief, (0.08 * size) as usize);
     let likeness = Likeness { relief: &relief, darkest: &darkest, tone: &tone, skin };
@@ -104,7 +105,7 @@ fn best_of_size(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpe
             let off = [
                 offset.x / expected.tolerance.x,
                 offset.y / expected.tolerance.y,
-                (size / expected.eye_distance).ln() / SIZE_TOLERANCE,
+                (size / expected.eye_distance).logarithm() / SIZE_TOLERANCE,
             ];
             let surprise = SURPRISE * off.iter().map(|o| o * o).sum::<f64>();
             for (stretch, tilt) in STRETCHES.into_iter().flat_map(|s| TILTS.map(|t| (s, t))) {

@@ -6,6 +6,7 @@
 
 use super::super::dark_relief::dark_relief;
 use super::frame::FaceFrame;
+use crate::elementary::{Elementary as _, angle_of};
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, components};
 
@@ -123,7 +124,7 @@ fn best_frame(first: &FaceFrame, clusters: &[Cluster]) -> Option<(f64, FaceFrame
 /// Score of two clusters as eyes, and their frame; none if they cannot be eyes.
 fn eyes(first: &FaceFrame, left: &Cluster, right: &Cluster) -> Option<(f64, FaceFrame)> {
     let along = right.middle - left.middle;
-    let (distance, tilt) = (along.hypot(), along.atan2());
+    let (distance, tilt) = (along.hypot(), angle_of(along));
     let share = distance / first.eye_distance;
     let is_eye = |cluster: &Cluster| cluster.size.0 <= LARGEST_EYE.0 && cluster.size.1 <= LARGEST_EYE.1;
     if tilt.abs() > STEEPEST || share < SIZES.0 || share > SIZES.1 || !is_eye(left) || !is_eye(right) {
@@ -131,8 +132,9 @@ fn eyes(first: &FaceFrame, left: &Cluster, right: &Cluster) -> Option<(f64, Face
     }
     let middle = left.middle.midpoint(right.middle);
     let offset = (middle - first.between_eyes).hypot() / first.eye_distance;
-    let off = [tilt / TOLERANCES.0, share.ln() / TOLERANCES.1, offset / TOLERANCES.2];
-    let surprise = COSTS.0 * off.iter().map(|off| off * off).sum::<f64>() + COSTS.1 * (left.darkness / right.darkness).ln().abs();
+    let off = [tilt / TOLERANCES.0, share.logarithm() / TOLERANCES.1, offset / TOLERANCES.2];
+    let surprise =
+        COSTS.0 * off.iter().map(|off| off * off).sum::<f64>() + COSTS.1 * (left.darkness / right.darkness).logarithm().abs();
     let frame = FaceFrame { between_eyes: middle, eye_distance: distance, tilt, ..*first };
     Some((EYES_WEIGHT * (weight(left) + weight(right)) - surprise, frame))
 }
@@ -143,9 +145,9 @@ fn likeness(frame: &FaceFrame, clusters: impl Iterator<Item = Cluster>) -> f64 {
     for cluster in clusters {
         let (across, down) = frame.relative(cluster.middle);
         for (most, [x, y, reach_x, reach_y, width, _]) in most.iter_mut().zip(OTHERS) {
-            let size = (cluster.size.0.max(0.05) / width).ln() / WIDTH_TOLERANCE;
+            let size = (cluster.size.0.max(0.05) / width).logarithm() / WIDTH_TOLERANCE;
             let off = ((across - x) / reach_x).powi(2) + ((down - y) / reach_y).powi(2) + size * size;
-            *most = most.max(weight(&cluster) * (-0.5 * off).exp());
+            *most = most.max(weight(&cluster) * (-0.5 * off).exponential());
         }
     }
     most.iter().zip(OTHERS).map(|(most, [.., weight])| weight * most).sum()
@@ -153,7 +155,7 @@ fn likeness(frame: &FaceFrame, clusters: impl Iterator<Item = Cluster>) -> f64 {
 
 /// Weight of a cluster, 0 to 1.
 fn weight(cluster: &Cluster) -> f64 {
-    1.0 - (-cluster.darkness / DARK_ENOUGH).exp()
+    1.0 - (-cluster.darkness / DARK_ENOUGH).exponential()
 }
 
 #[cfg(test)]
@@ -172,7 +174,7 @@ mod tests {
         ];
         let lightness = Raster::from_fn(260, 300, |x, y| {
             let (across, down) = ((x as f64 - 130.0) / 80.0, (y as f64 - 120.0) / 80.0);
-            let is_mark = marks.iter().any(|&(cx, cy, w, h)| ((across - cx) / w).hypot((down - cy) / h) < 1.0);
+            let is_mark = marks.iter().any(|&(cx, cy, w, h)| ((across - cx) / w).hypotenuse((down - cy) / h) < 1.0);
             if down < -0.5 || is_mark { 0.25 } else { 0.8 }
         });
         let first = FaceFrame {

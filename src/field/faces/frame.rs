@@ -1,5 +1,6 @@
 //! Coordinates of a face.
 
+use crate::elementary::unit_at;
 use crate::geometry::{Point, Vec2};
 
 /// Where the crown of a head begins: above it a head has only hair or skin. Between the hairlines of a high and a low forehead.
@@ -25,14 +26,14 @@ pub struct FaceFrame {
 impl FaceFrame {
     /// A place of the template on the page's raster: `across` and `down` in eye distances from the midpoint between the eyes.
     pub fn place(&self, across: f64, down: f64) -> Point {
-        let along = Vec2::from_angle(self.tilt);
+        let along = unit_at(self.tilt);
         let downwards = Vec2::new(-along.y, along.x);
         self.between_eyes + along * (across * self.eye_distance) + downwards * (down * self.eye_distance * self.stretch)
     }
 
     /// Converts a place of the raster to eye distances from the midpoint between the eyes: across and down.
     pub fn relative(&self, p: Point) -> (f64, f64) {
-        let along = Vec2::from_angle(self.tilt);
+        let along = unit_at(self.tilt);
         let offset = p - self.between_eyes;
         let downwards = Vec2::new(-along.y, along.x);
         (offset.dot(along) / self.eye_distance, offset.dot(downwards) / (self.eye_distance * self.stretch))

@@ -3,6 +3,7 @@
 use super::super::dark_relief::dark_relief;
 use super::features::{SkinTone, skin_tone};
 use super::frame::{CROWN, FaceFrame};
+use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::raster::{Raster, components, dilate, remove_components};
 
@@ -29,7 +30,7 @@ pub fn hair_over_face(lightness: &Raster<f32>, subject: &Raster<f32>, frame: &Fa
     let relative = |x: usize, y: usize| frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let within =
         |[breadth, top, bottom]: [f64; 3], (across, down): (f64, f64)| across.abs() < breadth && (top..bottom).contains(&down);
-    let is_core = |(across, down): (f64, f64)| (across / CORE[0]).hypot((down - CORE[1]) / CORE[2]) < 1.0;
+    let is_core = |(across, down): (f64, f64)| (across / CORE[0]).hypotenuse((down - CORE[1]) / CORE[2]) < 1.0;
     let (width, height) = (lightness.width(), lightness.height());
     let cheeks = Raster::from_fn(width, height, |x, y| f32::from(u8::from(within(CHEEKS, relative(x, y)))));
     let skin = skin_tone(lightness, &cheeks, frame, SkinTone::Found);

@@ -11,6 +11,7 @@ mod stencil;
 mod streamline;
 
 use super::tangent_flow::EdgeTangentFlow;
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate};
 use padded::Padded;
 use rayon::prelude::*;
@@ -88,7 +89,7 @@ fn difference_kernel(sigma: f32, rho: f32) -> Vec<f32> {
 fn half_gaussian(sigma: f32) -> Vec<f32> {
     let sigma = sigma.max(0.1);
     let reach = (CUT * sigma).ceil() as i32;
-    let half: Vec<f32> = (0..=reach).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
+    let half: Vec<f32> = (0..=reach).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exponential()).collect();
     let sum = half[0] + 2.0 * half[1..].iter().sum::<f32>();
     half.iter().map(|weight| weight / sum).collect()
 }
@@ -162,8 +163,8 @@ mod tests {
     #[test]
     fn a_dark_ring_is_a_line_and_flat_grey_is_none() {
         let grey = Raster::from_fn(120, 120, |x, y| {
-            let r = (x as f32 - 59.5).hypot(y as f32 - 59.5);
-            1.0 - 0.5 * (-0.5 * ((r - 35.0) / 1.2).powi(2)).exp()
+            let r = (x as f32 - 59.5).hypotenuse(y as f32 - 59.5);
+            1.0 - 0.5 * (-0.5 * ((r - 35.0) / 1.2).powi(2)).exponential()
         });
         let lines = flow_lines(&grey, &edge_tangent_flow(&grey, 5, 3), KANG);
         let mut count = 0;
@@ -171,7 +172,7 @@ mod tests {
             for x in 0..120 {
                 if lines.line.get(x, y) == 1 {
                     count += 1;
-                    let r = (x as f32 - 59.5).hypot(y as f32 - 59.5);
+                    let r = (x as f32 - 59.5).hypotenuse(y as f32 - 59.5);
                     assert!((r - 35.0).abs() < 3.0, "a line at radius {r}");
                 }
             }
@@ -187,7 +188,7 @@ mod tests {
     #[test]
     fn gaps_are_bridged_along_the_flow() {
         let dashed = Raster::from_fn(100, 60, |x, y| {
-            let line = (-0.5 * ((y as f32 - 29.5) / 1.2).powi(2)).exp() * f32::from(x % 20 >= 2);
+            let line = (-0.5 * ((y as f32 - 29.5) / 1.2).powi(2)).exponential() * f32::from(x % 20 >= 2);
             1.0 - 0.6 * line
         });
         let lines = flow_lines(&dashed, &edge_tangent_flow(&dashed, 5, 3), KANG);

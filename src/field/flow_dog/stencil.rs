@@ -1,6 +1,7 @@
 //! A kernel across the flow as pixel weights, precomputed for each direction.
 
 use super::padded::Padded;
+use crate::elementary::Elementary as _;
 use std::collections::BTreeMap;
 
 /// Number of distinct slopes in each half of the directions; at the stencil's end neighbouring slopes are a twentieth of a pixel apart.
@@ -51,7 +52,7 @@ impl Stencils {
 }
 
 fn taps_across([x, y]: [f32; 2], kernel: &[f32], stride: isize) -> Vec<Tap> {
-    let length = x.hypot(y);
+    let length = x.hypotenuse(y);
     let mut sums: BTreeMap<isize, f32> = BTreeMap::new();
     for (i, weight) in kernel.iter().enumerate().skip(1) {
         let (px, py) = (-y / length * i as f32, x / length * i as f32);

@@ -1,5 +1,6 @@
 //! The noise above a level around one of its maxima.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use std::f64::consts::TAU;
@@ -30,7 +31,7 @@ impl Blob {
     pub(super) fn new(noise: &Raster<f32>, maximum: Point, along: Vec2, level: f32) -> Self {
         let mut blob = Self { maximum, along, front: 0.0, back: 0.0, low: 0.0, high: 0.0 };
         for k in 0..RAYS {
-            let (sin, cos) = (TAU * k as f64 / RAYS as f64).sin_cos();
+            let (sin, cos) = (TAU * k as f64 / RAYS as f64).sine_and_cosine();
             let reach = reach_above(noise, maximum, along * cos + along.turn_90() * sin, level);
             blob.low = blob.low.max(-reach * sin);
             blob.high = blob.high.max(reach * sin);
@@ -75,9 +76,9 @@ mod tests {
     fn it_reaches_as_far_as_the_noise_is_higher() {
         let noise = Raster::from_fn(60, 60, |x, y| {
             let (dx, dy) = ((x as f32 - 30.0) / 8.0, (y as f32 - 30.0) / 3.0);
-            (-0.5 * (dx * dx + dy * dy)).exp()
+            (-0.5 * (dx * dx + dy * dy)).exponential()
         });
-        let blob = Blob::new(&noise, Point::new(30.5, 30.5), Vec2::new(1.0, 0.0), (-0.5_f32).exp());
+        let blob = Blob::new(&noise, Point::new(30.5, 30.5), Vec2::new(1.0, 0.0), (-0.5_f32).exponential());
         for (reach, expected) in [(blob.front, 8.0), (blob.back, 8.0), (blob.low, 3.0), (blob.high, 3.0)] {
             assert!((reach - expected).abs() < 0.1, "{reach} for {expected}");
         }

@@ -2,6 +2,7 @@
 
 use super::RibbonFit;
 use super::blob::Blob;
+use crate::elementary::Elementary as _;
 use crate::field::Flow;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
@@ -240,7 +241,7 @@ fn thinned(stations: &[(Point, f64)]) -> Vec<(Point, f64)> {
 fn narrow_turns(nodes: &[Point], widths: &mut [f64]) {
     for (triple, width) in nodes.windows(3).zip(&mut widths[1..]) {
         let (a, b) = (triple[1] - triple[0], triple[2] - triple[1]);
-        let turn = a.cross(b).atan2(a.dot(b)).abs();
+        let turn = a.cross(b).angle_over(a.dot(b)).abs();
         *width = width.min(WIDEST_TURN * a.hypot().min(b.hypot()) / turn.max(1e-9));
     }
 }

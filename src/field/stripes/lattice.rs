@@ -1,5 +1,6 @@
 //! Nodes with waves and phases, and the transport of phase between nodes.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use std::f64::consts::{PI, TAU};
@@ -47,7 +48,7 @@ impl StripeLattice {
     /// The node's phase in radians.
     pub fn angle(&self, i: usize, j: usize) -> f64 {
         let [re, im] = self.phase.get(i, j);
-        f64::from(im).atan2(f64::from(re))
+        f64::from(im).angle_over(f64::from(re))
     }
 
     /// Actual growth of the phase from one node to its neighbour, seen with the first node's wave: the target gain, and the remainder to
@@ -93,7 +94,7 @@ impl StripeLattice {
                 if j + 1 < height { growth(i, j + 1) } else { 0.0 },
                 usize::from(j > 0) + usize::from(j + 1 < height),
             );
-            x.hypot(y) as f32
+            x.hypotenuse(y) as f32
         })
     }
 

@@ -1,6 +1,7 @@
 //! Relaxation in rounds, from coarse to fine: each node becomes the prediction of its neighbourhood.
 
 use super::lattice::{MARGIN, StripeLattice, Wave, vector};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 use rayon::prelude::*;
@@ -48,7 +49,7 @@ pub fn stripes(
             None => Raster::from_fn(waves.width(), waves.height(), |i, j| {
                 let place = Point::new((i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin);
                 let angle = std::f32::consts::TAU * start((j * waves.width() + i) as u64, place, waves.get(i, j));
-                [angle.cos(), angle.sin()]
+                [angle.cosine(), angle.sine()]
             }),
             Some(coarse) => refined(coarse, &finest, &waves, step),
         };
@@ -78,7 +79,7 @@ fn wave_at(wave: &Raster<Wave>, x: f64, y: f64) -> Wave {
         sum = [sum[0] + weight * wx, sum[1] + weight * wy];
     }
     // Averaging different directions shortens the mean; the stripes' frequency must not fall for that reason.
-    let (length, wanted) = (sum[0].hypot(sum[1]), first[0].hypot(first[1]));
+    let (length, wanted) = (sum[0].hypotenuse(sum[1]), first[0].hypotenuse(first[1]));
     if length > 1e-12 { [sum[0] * wanted / length, sum[1] * wanted / length] } else { first }
 }
 
@@ -122,13 +123,13 @@ fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, s
 }
 
 fn rotated([re, im]: [f32; 2], angle: f32) -> [f32; 2] {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = angle.sine_and_cosine();
     [re * cos - im * sin, re * sin + im * cos]
 }
 
 /// Normalises to length 1; a value of zero length, which predicts nothing, becomes 1.
 fn unit([re, im]: [f32; 2]) -> [f32; 2] {
-    let length = re.hypot(im);
+    let length = re.hypotenuse(im);
     if length > 1e-20 { [re / length, im / length] } else { [1.0, 0.0] }
 }
 
@@ -176,7 +177,7 @@ impl Edges {
                 let (gain, carried) = gain_along(fine, from, to, lattice.wave.get(i, j));
                 (gain, carried.dot(vector(lattice.wave.get(ni, nj))) < 0.0)
             };
-            let (sin, cos) = (gain as f32).sin_cos();
+            let (sin, cos) = (gain as f32).sine_and_cosine();
             Edge { cos, sin, sign: if turned { -1.0 } else { 1.0 } }
         };
         Self {

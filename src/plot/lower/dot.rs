@@ -7,6 +7,7 @@
 
 use super::super::Toolpath;
 use crate::drawing::Dot;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::geometry::{BezPath, Point, Vec2, flatten};
 use crate::interrupt::Interrupt;
 use std::f64::consts::TAU;
@@ -65,7 +66,7 @@ impl Rim {
         let position = angle.rem_euclid(TAU) / TAU * count as f64;
         let (i, t) = (position as usize % count, position.fract());
         let distance = self.distances[i] * (1.0 - t) + self.distances[(i + 1) % count] * t;
-        self.centre + Vec2::from_angle(angle) * (share * distance)
+        self.centre + unit_at(angle) * (share * distance)
     }
 
     fn largest(&self) -> f64 {
@@ -83,7 +84,7 @@ fn distances(outline: &BezPath, centre: Point) -> Vec<f64> {
     let polygon: Vec<Point> = flatten(outline, 0.002).into_iter().flat_map(|(points, _)| points).collect();
     (0..DIRECTIONS)
         .map(|i| {
-            let ray = Vec2::from_angle(TAU * i as f64 / DIRECTIONS as f64);
+            let ray = unit_at(TAU * i as f64 / DIRECTIONS as f64);
             let crossing = |a: Vec2, b: Vec2| {
                 let edge = b - a;
                 let (along, across) = (a.cross(edge) / ray.cross(edge), a.cross(ray) / ray.cross(edge));
@@ -115,14 +116,14 @@ fn spiral(rim: &Rim, pitch: f64, tolerance: f64, interrupt: &Interrupt, points: 
 fn ring(rim: &Rim, tolerance: f64, points: &mut Vec<Point>) {
     let count = (TAU / step(rim.largest(), tolerance)).ceil();
     // Vertices lie slightly outside, so that the chords' mean distance is the rim's.
-    let share = 1.0 / (1.0 - 2.0 / 3.0 * (1.0 - (0.5 * TAU / count).cos()));
+    let share = 1.0 / (1.0 - 2.0 / 3.0 * (1.0 - (0.5 * TAU / count).cosine()));
     points.extend((0..count as usize).map(|i| rim.at(TAU * i as f64 / count, share)));
     points.push(rim.at(0.0, share));
 }
 
 /// The angle whose chord stays within the tolerance; at most a twelfth of a turn, so that small rings stay round.
 fn step(radius: f64, tolerance: f64) -> f64 {
-    (2.0 * (1.0 - (tolerance / radius).min(1.0)).acos()).clamp(0.02, TAU / 12.0)
+    (2.0 * (1.0 - (tolerance / radius).min(1.0)).arc_cosine()).clamp(0.02, TAU / 12.0)
 }
 
 #[cfg(test)]

@@ -91,12 +91,13 @@ fn tips(polygon: &[Point]) -> Option<(usize, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_bent_strip_is_its_middle_line() {
         let arc = |radius: f64, k: i32| {
             let angle = f64::from(k) * 0.05;
-            Point::new(radius * angle.cos(), radius * angle.sin())
+            Point::new(radius * angle.cosine(), radius * angle.sine())
         };
         let strip: Vec<Point> = (0..=30).map(|k| arc(10.1, k)).chain((0..=30).rev().map(|k| arc(9.9, k))).collect();
         let line = needle(&[strip], 0.3);

@@ -4,6 +4,7 @@
 
 use super::ground::Ground;
 use super::needle::ink_of;
+use crate::elementary::unit_at;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::interrupt::Interrupt;
 use std::collections::HashMap;
@@ -157,7 +158,7 @@ impl<'a> Net<'a> {
         if self.owed <= 0.0 || self.interrupt.is_raised() {
             return None;
         }
-        let ways = (0..WAYS).map(|k| from + Vec2::from_angle(TAU * k as f64 / WAYS as f64) * (STEP * self.nib));
+        let ways = (0..WAYS).map(|k| from + unit_at(TAU * k as f64 / WAYS as f64) * (STEP * self.nib));
         let least = LEAST_STEP * STEP / (CELL * CELL);
         let steps = ways.map(|to| (to, self.laid(patch, self.cell(to))));
         let good = steps.filter(|(_, laid)| laid.hit() >= level && laid.covered as f64 >= least);

@@ -11,6 +11,7 @@ use super::super::Toolpath;
 use super::dash::{NEARLY_WHOLE, Sample, dashes};
 use super::dot::{OVERLAP, fill_dot};
 use crate::drawing::{Dot, Ends, Stroke, Width};
+use crate::elementary::Elementary as _;
 use crate::geometry::{BezPath, Point, Vec2};
 use crate::interrupt::Interrupt;
 use kurbo::PathEl;
@@ -72,7 +73,7 @@ pub(in crate::plot) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
     }
     samples.windows(3).any(|run| {
         let (before, after) = (run[1].at - run[0].at, run[2].at - run[1].at);
-        let angle = before.cross(after).atan2(before.dot(after)).abs();
+        let angle = before.cross(after).angle_over(before.dot(after)).abs();
         let step = 0.5 * (before.hypot() + after.hypot());
         run[1].width > ONE_PASS * nib && angle > (step / (0.6 * run[1].width)).clamp(0.02, 1.0)
     })
@@ -222,7 +223,7 @@ fn arc(centre: Point, from: Point, to: Point, forward: Vec2) -> Vec<Point> {
     (1..8)
         .map(|k| {
             let angle = std::f64::consts::PI * f64::from(k) / 8.0;
-            centre + (a - b) * (0.5 * angle.cos()) + ahead * angle.sin()
+            centre + (a - b) * (0.5 * angle.cosine()) + ahead * angle.sine()
         })
         .collect()
 }

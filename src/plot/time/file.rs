@@ -114,13 +114,14 @@ impl FileRun<'_> {
 mod tests {
     use super::*;
     use crate::drawing::{Colour, Handling, Page};
+    use crate::elementary::Elementary as _;
     use crate::plot::language::written;
     use crate::plot::{PenPaths, PenTime, Plot, Toolpath, clock, mount};
 
     /// Lines, an arc, dots and a second pen.
     fn plot() -> Plot {
         let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
-        let round = (0..=60).map(|i| 0.05 * f64::from(i)).map(|t| Point::new(60.0 + 9.0 * t.cos(), 20.0 + 9.0 * t.sin()));
+        let round = (0..=60).map(|i| 0.05 * f64::from(i)).map(|t| Point::new(60.0 + 9.0 * t.cosine(), 20.0 + 9.0 * t.sine()));
         let paths = vec![path(&[(1.0, 2.0), (30.0, 2.0), (30.0, 31.0)]), Toolpath::new(round.collect()), path(&[(80.0, 8.0)])];
         let handling = Handling::default();
         let pen = PenPaths { number: 1, name: "lines".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };

@@ -16,6 +16,7 @@ pub use file::{line_times, replayed};
 use super::language::{PenAction, PenMove, Rate};
 use super::profile::{Limits, Profile};
 use super::{Mounting, PenPaths, Plot, Toolpath};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Step, Vec2, fit_arcs};
 use crate::interrupt::{Interrupt, Interrupted};
 use look_ahead::{LookAhead, Place, whole};
@@ -194,7 +195,7 @@ impl<'a> Run<'a> {
                 let per_mm = self.profile.speech().places_per_unit() * self.profile.units_per_mm;
                 let centre = from + ((centre - from) * per_mm).round() / per_mm;
                 let (a, b) = (from - centre, to - centre);
-                let sweep = sweep + (a.cross(b).atan2(a.dot(b)) - sweep + PI).rem_euclid(2.0 * PI) - PI;
+                let sweep = sweep + (a.cross(b).angle_over(a.dot(b)) - sweep + PI).rem_euclid(2.0 * PI) - PI;
                 let radius = from.distance(centre);
                 let rise = (tolerance * (2.0 * radius - tolerance)).max(1e-12).sqrt();
                 let count = (0.5 * sweep.abs() * radius / rise).floor();
@@ -318,7 +319,7 @@ fn turned(start: Vec2, angle: f64, count: usize) -> impl Iterator<Item = Vec2> {
     let mut arm = start;
     (1..count).map(move |i| {
         let is_exact = i % (CHORDS_BY_TURNING + 1) == 0;
-        let ((sin, cos), from) = if is_exact { ((angle * i as f64).sin_cos(), start) } else { (small, arm) };
+        let ((sin, cos), from) = if is_exact { ((angle * i as f64).sine_and_cosine(), start) } else { (small, arm) };
         arm = Vec2::new(from.x * cos - from.y * sin, from.x * sin + from.y * cos);
         arm
     })

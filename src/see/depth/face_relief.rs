@@ -1,6 +1,7 @@
 //! A face's own relief, from the depths of its landmarks.
 
 use super::centre;
+use crate::elementary::Elementary as _;
 use crate::field::{BSpline, Datum, multilevel_b_spline, nearest_seed};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, filled_polygon};
@@ -57,7 +58,7 @@ impl FaceRelief {
             // A face that fills the whole picture has no border.
             let Some(border) = &border else { return 1.0 };
             let nearest = border.get(x, y) as usize;
-            let away = (x as f64 - (nearest % width) as f64).hypot(y as f64 - (nearest / width) as f64);
+            let away = (x as f64 - (nearest % width) as f64).hypotenuse(y as f64 - (nearest / width) as f64);
             let t = (away / self.seam).clamp(0.0, 1.0);
             (t * t * (3.0 - 2.0 * t)) as f32
         });
@@ -83,10 +84,9 @@ impl FaceRelief {
 
 /// The landmarks that no nearer part of the face hides.
 fn seen(points: &[[f64; 3]], width: f64) -> impl Iterator<Item = [f64; 3]> {
-    points
-        .iter()
-        .copied()
-        .filter(move |[x, y, z]| !points.iter().any(|[a, b, c]| *c < z - BEHIND * width && (a - x).hypot(b - y) < BESIDE * width))
+    points.iter().copied().filter(move |[x, y, z]| {
+        !points.iter().any(|[a, b, c]| *c < z - BEHIND * width && (a - x).hypotenuse(b - y) < BESIDE * width)
+    })
 }
 
 /// The slope in the same direction, limited to `STEEPEST`.

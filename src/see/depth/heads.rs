@@ -1,6 +1,7 @@
 //! How far bodies are behind their faces, and people behind each other.
 
 use super::centre;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, fast_gaussian, filled_polygon};
 use crate::source::Landmarks;
@@ -78,7 +79,7 @@ impl Heads {
         Raster::from_fn(columns, rows, |x, y| {
             let (mut sum, mut weights) = (0.0, 0.0);
             for head in &self.heads {
-                let farther = FARTHER * self.largest * (self.largest / head.width).log2();
+                let farther = FARTHER * self.largest * (self.largest / head.width).binary_logarithm();
                 let weight = head.weight(centre(x, y));
                 sum += weight * (BEHIND * head.width * head.body(x, y) + farther);
                 weights += weight;

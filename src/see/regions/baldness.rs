@@ -2,6 +2,7 @@
 //! skin's colour; shade and shine on a bare scalp come gradually and keep the hue.
 
 use super::plate::Plate;
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::srgb_to_linear;
 
@@ -107,7 +108,7 @@ fn mean(spots: &[Spot]) -> Spot {
 }
 
 fn chroma(spot: Spot) -> f32 {
-    spot.lab[1].hypot(spot.lab[2])
+    spot.lab[1].hypotenuse(spot.lab[2])
 }
 
 /// Red minus blue, in linear light; unchanged by added white.
@@ -129,7 +130,7 @@ mod tests {
         let spot = |i: usize| {
             let light = colour(i as f32 / 30.0);
             let y = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
-            let l = 116.0 * y.cbrt() - 16.0;
+            let l = 116.0 * y.cube_root() - 16.0;
             Spot { lab: [l, 15.0, 15.0], light }
         };
         (0..30).map(spot).collect()

@@ -3,6 +3,7 @@
 use super::plate::Plate;
 use super::segmentation::{CLOTHING, HAIR, Shares};
 use super::smoothing::Guide;
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, components, dilate, gaussian_blur, median};
 use crate::source::outlines::{LIPS, MOUTH};
 
@@ -51,7 +52,7 @@ impl<'a> Face<'a> {
     fn new(plate: &'a Plate) -> Option<Self> {
         let cheeks = plate.round(&CHEEKS, 0.06);
         let light = plate.lab.map(|c| c[0]);
-        let colour = plate.lab.map(|c| c[1].hypot(c[2]) / (c[0] + 8.0));
+        let colour = plate.lab.map(|c| c[1].hypotenuse(c[2]) / (c[0] + 8.0));
         let (light_there, colour_there) = (median_in(&light, &cheeks)?.max(1.0), median_in(&colour, &cheeks)?.max(0.01));
         let smooth = gaussian_blur(&light, 0.02 * plate.face_width);
         let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), 0.03 * plate.face_width);

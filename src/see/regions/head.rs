@@ -1,5 +1,6 @@
 //! A head's own coordinates: across in widths of the face, up in heights of the face.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::source::{LEAST_FACE_WIDTH, Landmarks};
 
@@ -32,7 +33,7 @@ impl Head {
         let [forehead, chin, right, left] = [FOREHEAD, CHIN, EARS[0], EARS[1]].map(|i| face.point(i));
         let rise = forehead - chin;
         let deep = |a: usize, b: usize| face.points[a][2] - face.points[b][2];
-        let width = (left - right).hypot().hypot(deep(EARS[0], EARS[1]));
+        let width = (left - right).hypot().hypotenuse(deep(EARS[0], EARS[1]));
         // The line from ear to ear leans into the picture by the turn of the head.
         let turn = deep(EARS[0], EARS[1]) / width.max(LEAST);
         let up = rise / rise.hypot().max(f64::MIN_POSITIVE);

@@ -4,6 +4,7 @@ use super::mixture::Mixture;
 use super::plate::Plate;
 use super::segmentation::{HAIR, Shares, greatest};
 use super::smoothing::Guide;
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate, gaussian_blur};
 
 /// Range of hair's hues in degrees from red towards yellow, for chroma above `LEAST_CHROMA`; a* above `REDDEST` is dyed or no
@@ -53,8 +54,8 @@ fn is_hat(plate: &Plate, is_hair: &Raster<bool>) -> bool {
     let above = is_hair.pixels().iter().zip(plate.at.pixels()).enumerate().filter(|(_, (is, at))| **is && at[1] > 1.0);
     for (i, _) in above {
         let [_, a, b] = plate.lab.pixels()[i];
-        let hue = b.atan2(a).to_degrees();
-        let is_odd = (a.hypot(b) > LEAST_CHROMA && !(HUES.0..=HUES.1).contains(&hue)) || a > REDDEST;
+        let hue = b.angle_over(a).to_degrees();
+        let is_odd = (a.hypotenuse(b) > LEAST_CHROMA && !(HUES.0..=HUES.1).contains(&hue)) || a > REDDEST;
         let light = smooth.pixels()[i];
         let count = |is: bool| f32::from(u8::from(is));
         all += 1.0;

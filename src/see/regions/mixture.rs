@@ -1,6 +1,7 @@
 //! Mixtures of Gaussians over colour and texture, fitted deterministically to samples.
 
 use super::plate::Feature;
+use crate::elementary::Elementary as _;
 
 /// Most samples that a mixture is fitted to: more give no visible change.
 const MOST_SAMPLES: usize = 4000;
@@ -31,7 +32,7 @@ pub(super) struct Gaussian {
 impl Gaussian {
     pub(super) fn new(mean: Feature, covariance: Matrix) -> Self {
         let factor = cholesky(covariance);
-        let half_log_determinant = (0..4).map(|i| factor[i][i].ln()).sum::<f64>() as f32;
+        let half_log_determinant = (0..4).map(|i| factor[i][i].logarithm()).sum::<f64>() as f32;
         Self { mean, whitening: inverse_of_lower(factor).map(|row| row.map(|v| v as f32)), half_log_determinant }
     }
 
@@ -73,7 +74,7 @@ impl Mixture {
             let mut spread =
                 if own.len() > LEAST_FOR_SPREAD { covariance(&own, middle) } else { diagonal([UNKNOWN_VARIANCE; 4]) };
             add_diagonal(&mut spread, [LEAST_VARIANCE; 4]);
-            (!own.is_empty()).then(|| ((own.len() as f32 / total).ln(), Gaussian::new(middle, spread)))
+            (!own.is_empty()).then(|| ((own.len() as f32 / total).logarithm(), Gaussian::new(middle, spread)))
         });
         Some(Self(parts.collect()))
     }
@@ -94,7 +95,11 @@ impl Mixture {
 #[inline]
 pub(super) fn log_sum(logs: impl Iterator<Item = f32> + Clone) -> f32 {
     let greatest = logs.clone().fold(f32::NEG_INFINITY, f32::max);
-    if greatest == f32::NEG_INFINITY { greatest } else { greatest + logs.map(|v| (v - greatest).exp()).sum::<f32>().ln() }
+    if greatest == f32::NEG_INFINITY {
+        greatest
+    } else {
+        greatest + logs.map(|v| (v - greatest).exponential()).sum::<f32>().logarithm()
+    }
 }
 
 /// Centres and, for each sample, the index of the nearest.
@@ -200,6 +205,6 @@ mod tests {
             Gaussian::new([1.0; 4], [[4.0, 1.0, 0.0, 0.0], [1.0, 4.0, 0.0, 0.0], [0.0, 0.0, 9.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
         assert!((gaussian.distance([1.0, 1.0, 4.0, 1.0]) - 1.0).abs() < 1e-5);
         assert!((gaussian.distance([3.0, 1.0, 1.0, 1.0]) - 4.0 * 4.0 / 15.0).abs() < 1e-5);
-        assert!((gaussian.half_log_determinant() - 0.5 * 135.0_f32.ln()).abs() < 1e-5);
+        assert!((gaussian.half_log_determinant() - 0.5 * 135.0_f32.logarithm()).abs() < 1e-5);
     }
 }

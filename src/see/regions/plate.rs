@@ -1,6 +1,7 @@
 //! The surroundings of one head at a working size, with colour, texture and head coordinates.
 
 use super::head::Head;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2, convex_hull};
 use crate::raster::{Raster, dilate, filled_polygon, gaussian_blur};
 use crate::source::outlines::OVAL;
@@ -202,5 +203,5 @@ fn features(lab: &Raster<[f32; 3]>) -> Raster<Feature> {
     let light = lab.map(|c| LIGHTNESS_WEIGHT * c[0]);
     let smooth = gaussian_blur(&light, TEXTURE_BLUR);
     let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), TEXTURE_REACH);
-    lab.zip_map(&energy, |c, e| [LIGHTNESS_WEIGHT * c[0], c[1], c[2], TEXTURE_WEIGHT * e.max(0.0).sqrt().ln_1p()])
+    lab.zip_map(&energy, |c, e| [LIGHTNESS_WEIGHT * c[0], c[1], c[2], TEXTURE_WEIGHT * e.max(0.0).sqrt().logarithm_above_1()])
 }

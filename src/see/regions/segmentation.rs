@@ -7,6 +7,7 @@ use super::path::path_from;
 use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
 use super::skin_model::{BARE, BARE_REACH, LEAST_SEEDS, Place, Skin, apart, median, shadeless};
 use super::smoothing::Guide;
+use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate, gaussian_blur};
 
 /// Shares of a pixel: background, skin, hair (of any kind, and hats), clothing.
@@ -80,7 +81,7 @@ impl Hair {
     /// True if hair hangs down on the side of `u`: hair that looks like the jacket must cover the area beside the jaw, of other
     /// hair some is enough.
     fn hangs(&self, u: f32) -> bool {
-        let is_coloured = self.middle[1].hypot(self.middle[2]) > COLOURED;
+        let is_coloured = self.middle[1].hypotenuse(self.middle[2]) > COLOURED;
         self.beside_jaw(u) > if is_coloured || self.is_unlike_clothing { 0.25 } else { 0.6 }
     }
 
@@ -169,7 +170,7 @@ impl<'a> Segmentation<'a> {
         let seeds = plate.pixels_where(|[u, v], i| {
             let (f, a) = (plate.features.pixels()[i], u.abs());
             let is_no_skin = self.from_skin.pixels()[i] > NO_SKIN;
-            let is_blush = f[1].hypot(f[2]) > 40.0 && f[1] > 30.0;
+            let is_blush = f[1].hypotenuse(f[2]) > 40.0 && f[1] > 30.0;
             let beside = v > 0.35 && v < 1.25 && a > 0.52 && a < 1.05 && is_no_skin && !is_blush;
             let is_far = self.path.pixels()[i] > 2.0 && self.from_skin.pixels()[i] > 2.0;
             let crown = v > 1.05 && a < 0.55 && (is_no_skin || (v > 1.14 && edge.pixels()[i] != 0 && is_far));
@@ -354,7 +355,7 @@ impl<'a> Segmentation<'a> {
         let mut shares = Raster::from_fn(width, plate.height(), |x, y| {
             let e = self.class_scores(y * width + x);
             let greatest = e.iter().copied().fold(f32::MIN, f32::max);
-            normalised(e.map(|v| (0.5 * (v - greatest)).max(-40.0).exp()))
+            normalised(e.map(|v| (0.5 * (v - greatest)).max(-40.0).exponential()))
         });
         for guide in guides {
             let planes = [SKIN, HAIR, CLOTHING].map(|k| guide.filtered(&shares.map(|s| s[k])));

@@ -2,6 +2,7 @@
 
 use super::mixture::{Gaussian, Mixture, add_diagonal, covariance, square};
 use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
+use crate::elementary::Elementary as _;
 use crate::raster;
 
 /// Fewest pixels to learn a class from.
@@ -138,7 +139,7 @@ pub(super) fn shadeless(f: Feature) -> [f32; 2] {
 }
 
 pub(super) fn apart(a: [f32; 2], b: [f32; 2]) -> f32 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    (a[0] - b[0]).hypotenuse(a[1] - b[1])
 }
 
 /// The discs that show skin: those with the median disc's colour in any light, or with a deeper colour in shade if most of the
@@ -155,7 +156,7 @@ fn sound(discs: Vec<Vec<Feature>>) -> Vec<Vec<Feature>> {
     let (light, usual) = (middle(&|look| look.0), [middle(&|look| look.1[0]), middle(&|look| look.1[1])]);
     let is_skin = |(l, colour): (f32, [f32; 2])| {
         let is_deeper = light > SHINING * LIGHTNESS_WEIGHT && l < light && apart(colour, [0.0; 2]) > apart(usual, [0.0; 2]);
-        let turn = colour[1].atan2(colour[0]) - usual[1].atan2(usual[0]);
+        let turn = colour[1].angle_over(colour[0]) - usual[1].angle_over(usual[0]);
         apart(colour, usual) < SAME_COLOUR || (is_deeper && turn.abs() < SAME_HUE)
     };
     discs.into_iter().filter(|disc| looks(disc).is_some_and(is_skin)).collect()

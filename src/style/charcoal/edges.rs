@@ -5,6 +5,7 @@ use super::features::Features;
 use super::regions::Regions;
 use super::strokes::Touch;
 use crate::drawing::Mark;
+use crate::elementary::Elementary as _;
 use crate::field::{Curve, EdgeParameters, contours, detect_edges, distance_to_curves, lines_of};
 use crate::geometry::{Point, Ring, Vec2, polyline_length, smooth_polyline};
 use crate::raster::{Raster, Thresholds, dilate, thin};
@@ -149,7 +150,7 @@ impl Drawer<'_> {
             let across = Vec2::new(-along.y, along.x) / along.hypot().max(1e-9) * reach;
             let at = |p: Point| f64::from(lightness.sample(p.x, p.y));
             let step = (at(pair[0] + across) - at(pair[0] - across)).abs();
-            let wander = 1.0 - WANDER.1 * (0.5 + 0.5 * (wave * travelled + phase).sin());
+            let wander = 1.0 - WANDER.1 * (0.5 + 0.5 * (wave * travelled + phase).sine());
             ((0.1 + 2.1 * step) * wander).clamp(0.08, 1.0)
         });
         let firm: Vec<f64> = steps.collect();

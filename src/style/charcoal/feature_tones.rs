@@ -4,6 +4,7 @@
 use super::Drawer;
 use super::patch::{Patch, Pressing};
 use crate::drawing::Mark;
+use crate::elementary::Elementary as _;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, histogram_modes};
 use crate::geometry::{Millimetres, Point};
 use crate::raster::{Raster, gaussian_blur};
@@ -138,7 +139,8 @@ impl Oval {
         let [middle, lies_down, half_across, half_down] = window;
         Raster::from_fn(width, height, |x, y| {
             let (across, down) = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            (1.0 - ((across - middle) / (half_across * self.half.0)).hypot((down - lies_down) / (half_down * self.half.1))) as f32
+            (1.0 - ((across - middle) / (half_across * self.half.0)).hypotenuse((down - lies_down) / (half_down * self.half.1)))
+                as f32
         })
     }
 }

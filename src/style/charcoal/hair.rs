@@ -3,6 +3,7 @@
 use super::Drawer;
 use super::strokes::Touch;
 use crate::drawing::Mark;
+use crate::elementary::Elementary as _;
 use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
 use crate::geometry::{Millimetres, Ring, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur, ridges};
@@ -72,7 +73,7 @@ impl Drawer<'_> {
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
         let field = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
         self.observer.picture("hair-orientation", &|| {
-            Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.atan2(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
+            Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.angle_over(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });
         field
     }

@@ -3,6 +3,7 @@
 use super::Drawer;
 use super::strokes::Touch;
 use crate::drawing::Mark;
+use crate::elementary::unit_at;
 use crate::field::{contours, distance_to_curves, pieces_inside};
 use crate::geometry::{HandShading, Millimetres, Point, Rect, Vec2, polyline_length};
 use crate::raster::Raster;
@@ -75,7 +76,7 @@ impl Drawer<'_> {
 
     /// Strokes that cover the region's bounds in its orientation: groups of arcs, one below another in swaths.
     fn chains(&self, patch: &Patch, random: &mut impl Rng) -> Vec<Vec<Point>> {
-        let along = Vec2::from_angle(patch.orientation);
+        let along = unit_at(patch.orientation);
         let across = Vec2::new(-along.y, along.x);
         let Some(bounds) = turned_bounds(&patch.region, along, across) else { return Vec::new() };
         let spacing = self.pixels(patch.spacing);

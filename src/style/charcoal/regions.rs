@@ -3,6 +3,7 @@
 use super::Drawer;
 use super::seen_face;
 use super::skin::may_be_skin;
+use crate::elementary::Elementary as _;
 use crate::field::{CROWN, FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster;
@@ -156,7 +157,7 @@ impl Drawer<'_> {
 
     /// Encoded light, a little blurred.
     fn colours(&self) -> Raster<[f32; 3]> {
-        let channel = |i: usize| gaussian_blur(&self.portrait.light.map(|rgb| rgb[i].cbrt()), 1.5);
+        let channel = |i: usize| gaussian_blur(&self.portrait.light.map(|rgb| rgb[i].cube_root()), 1.5);
         channel(0).zip_map(&channel(1), |r, g| [r, g]).zip_map(&channel(2), |[r, g], b| [r, g, b])
     }
 

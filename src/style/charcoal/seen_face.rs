@@ -1,5 +1,6 @@
 //! A face with known landmarks: its frame, its features' windows and its outline, without a search.
 
+use crate::elementary::angle_of;
 use crate::field::{FaceFrame, FeatureWindow};
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, filled_polygon, gaussian_blur};
@@ -30,7 +31,7 @@ pub(super) fn frame(face: &Landmarks) -> FaceFrame {
     let mouth = face.point(LIPS_MEET.0).midpoint(face.point(LIPS_MEET.1));
     let between_eyes = right.midpoint(left);
     let eye_distance = across.hypot().max(LEAST_DISTANCE * face.width()).max(1.0);
-    let tilt = across.atan2();
+    let tilt = angle_of(across);
     let plain = FaceFrame { between_eyes, eye_distance, stretch: 1.0, tilt, score: 1.0, windows: crate::field::USUAL_WINDOWS };
     let stretch = (plain.relative(mouth).1 / MOUTH_DOWN).clamp(STRETCHES.0, STRETCHES.1);
     let frame = FaceFrame { stretch, ..plain };

@@ -1,5 +1,6 @@
 //! Pixels that may be skin, by colour.
 
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 
 /// Ranges of differences of encoded red, green and blue (0 to 1) for dark to light skin in white light: redder than green, not bluer
@@ -12,7 +13,7 @@ const COLOURLESS: f32 = 0.01;
 
 /// 1 where a colour may be skin, 0 elsewhere; 1 everywhere in a black and white photograph.
 pub(super) fn may_be_skin(light: &Raster<[f32; 3]>) -> Raster<f32> {
-    let encoded = light.map(|rgb| rgb.map(f32::cbrt));
+    let encoded = light.map(|rgb| rgb.map(f32::cube_root));
     let spread: f64 = encoded.pixels().iter().map(|[r, g, b]| f64::from((r - g).abs() + (g - b).abs())).sum();
     if spread < f64::from(COLOURLESS) * encoded.len() as f64 {
         return light.map(|_| 1.0);

@@ -4,6 +4,7 @@ use super::Drawer;
 use super::features::Features;
 use super::regions::Regions;
 use crate::drawing::{Area, Mark};
+use crate::elementary::Elementary as _;
 use crate::field::{Curve, grain_areas};
 use crate::geometry::{BezPath, Point, simplify};
 use crate::raster::{Raster, gaussian_blur, paper_texture};
@@ -69,7 +70,7 @@ impl Drawer<'_> {
 
 /// The tone `d(s, t)` of section 6.3.1, with the texture shifted so that its mean, and with it the mean of `d`, is `s` (errata).
 fn on_texture(s: f32, t: f32, bias: f32) -> f32 {
-    let weight = f32::midpoint(1.0, (2.0 * PI * (s - 0.5)).cos());
+    let weight = f32::midpoint(1.0, (2.0 * PI * (s - 0.5)).cosine());
     let t = t - 0.5 + s;
     ((t * weight + s * (1.0 - weight) + bias * s) / (bias + 1.0)).clamp(0.0, 1.0)
 }

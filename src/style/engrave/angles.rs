@@ -2,6 +2,7 @@
 
 use super::Drawer;
 use super::parameters::{AnglesFrom, Division};
+use crate::elementary::Elementary as _;
 use crate::field::edge_tangent_flow;
 use crate::raster::Raster;
 use crate::style::random::stream;
@@ -55,7 +56,7 @@ impl Drawer<'_> {
         }
         let mut directions: Vec<[f64; 2]> = sums[1..].iter().map(|s| [s[0] / s[2].max(1.0), s[1] / s[2].max(1.0)]).collect();
         fill_weak(&mut directions, &neighbours(labels, count));
-        directions.iter().map(|[c, s]| upright(0.5 * s.atan2(*c))).collect()
+        directions.iter().map(|[c, s]| upright(0.5 * s.angle_over(*c))).collect()
     }
 }
 
@@ -102,8 +103,8 @@ pub(super) fn neighbours(labels: &Raster<i32>, count: i32) -> Vec<Vec<usize>> {
 
 /// Repeatedly replaces weak doubled directions by the mean of their neighbours', until all are filled.
 fn fill_weak(directions: &mut [[f64; 2]], neighbours: &[Vec<usize>]) {
-    let strongest = directions.iter().map(|d| d[0].hypot(d[1])).fold(0.0, f64::max);
-    let is_weak: Vec<bool> = directions.iter().map(|d| d[0].hypot(d[1]) < WEAK * strongest).collect();
+    let strongest = directions.iter().map(|d| d[0].hypotenuse(d[1])).fold(0.0, f64::max);
+    let is_weak: Vec<bool> = directions.iter().map(|d| d[0].hypotenuse(d[1]) < WEAK * strongest).collect();
     for (direction, _) in directions.iter_mut().zip(&is_weak).filter(|(_, weak)| **weak) {
         *direction = [0.0, 0.0];
     }

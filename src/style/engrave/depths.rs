@@ -3,8 +3,8 @@
 use super::Drawer;
 use super::parameters::DepthFrom;
 use super::relief::Relief;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{bend_by_shading, inflate};
-use crate::geometry::Vec2;
 use crate::raster::{Raster, bilateral, enlarge, gaussian_blur, reduce};
 
 /// Smoothing of a photograph before its light is used as depth, in pitches: finer detail is texture, not form.
@@ -48,7 +48,7 @@ impl Drawer<'_> {
         let side = lightness.width().min(lightness.height()) as f64;
         let local = gaussian_blur(lightness, (LOCAL * side) as f32);
         let shading = lightness.zip_map(&local, |v, mean| v - mean);
-        let light = Vec2::from_angle(-self.parameters.light_azimuth.to_radians());
+        let light = unit_at(-self.parameters.light_azimuth.to_radians());
         let bent = bend_by_shading(&inflate(regions), &shading, regions, [light.x as f32, light.y as f32], SHADING_GAIN);
         unit(&bent).zip_map(lightness, |form, light| ((1.0 - NEAR_IS_LIGHT) * form + NEAR_IS_LIGHT * light).max(1e-4))
     }
@@ -56,8 +56,8 @@ impl Drawer<'_> {
     /// Tone of the relief under a distant lamp (Lambert): the cosine between the surface's normal and the light.
     pub(super) fn lit(&self, relief: &Relief) -> Raster<f32> {
         let height = self.pixels(self.parameters.relief) as f32;
-        let (sin, cos) = self.parameters.light_height.to_radians().sin_cos();
-        let lamp = Vec2::from_angle(-self.parameters.light_azimuth.to_radians()) * cos;
+        let (sin, cos) = self.parameters.light_height.to_radians().sine_and_cosine();
+        let lamp = unit_at(-self.parameters.light_azimuth.to_radians()) * cos;
         let (lx, ly, lz) = (lamp.x as f32, lamp.y as f32, sin as f32);
         let near = &relief.nearness;
         Raster::from_fn(near.width(), near.height(), |x, y| {

@@ -1,5 +1,6 @@
 //! Parallel lines displaced by depth (Galarza 2017, sections 3.5 and 3.6), kept in order and at a minimum distance.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Gap, Point, Rect, Vec2};
 use rayon::prelude::*;
 
@@ -13,7 +14,7 @@ pub(super) struct Frame {
 impl Frame {
     /// Lines at an angle in degrees, anticlockwise from the right.
     pub(super) fn new(degrees: f64) -> Self {
-        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (sin, cos) = degrees.to_radians().sine_and_cosine();
         Self { along: Vec2::new(cos, -sin), across: Vec2::new(-sin, -cos) }
     }
 

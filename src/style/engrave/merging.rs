@@ -1,6 +1,7 @@
 //! Merging of regions whose lines have nearly the same direction.
 
 use super::angles::{neighbours, upright};
+use crate::elementary::{Elementary as _, unit_at};
 use crate::geometry::Vec2;
 use crate::raster::Raster;
 use std::collections::BTreeSet;
@@ -14,7 +15,7 @@ const SIMILAR_DEGREES: f64 = 18.0;
 pub(super) fn merge_similar(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, Vec<f64>) {
     let mut area = vec![0.0_f64; angles.len()];
     labels.pixels().iter().filter(|label| **label > 0).for_each(|&label| area[label as usize - 1] += 1.0);
-    let doubled = |(angle, area): (&f64, f64)| Vec2::from_angle(2.0 * angle.to_radians()) * area;
+    let doubled = |(angle, area): (&f64, f64)| unit_at(2.0 * angle.to_radians()) * area;
     let mut sums: Vec<Vec2> = angles.iter().zip(area).map(doubled).collect();
     let mut touching: Vec<BTreeSet<usize>> =
         neighbours(labels, angles.len() as i32).into_iter().map(|list| list.into_iter().collect()).collect();
@@ -38,14 +39,14 @@ pub(super) fn merge_similar(labels: &Raster<i32>, angles: &[f64]) -> (Vec<i32>, 
             }
         }
     }
-    let angle = |sum: &Vec2| upright(0.5 * sum.y.atan2(sum.x));
+    let angle = |sum: &Vec2| upright(0.5 * sum.y.angle_over(sum.x));
     (owner.into_iter().map(|i| i as i32 + 1).collect(), sums.iter().map(angle).collect())
 }
 
 /// The neighbour whose direction differs least, by less than [`SIMILAR_DEGREES`]; ties go to the pair with the lowest numbers, so that the most
 /// similar pair choose each other.
 fn most_similar(i: usize, touching: &BTreeSet<usize>, sums: &[Vec2]) -> Option<usize> {
-    let apart = |j: usize| 0.5 * sums[i].cross(sums[j]).atan2(sums[i].dot(sums[j])).abs().to_degrees();
+    let apart = |j: usize| 0.5 * sums[i].cross(sums[j]).angle_over(sums[i].dot(sums[j])).abs().to_degrees();
     let candidates = touching.iter().map(|&j| (apart(j), i.min(j), i.max(j), j)).filter(|c| c.0 < SIMILAR_DEGREES);
     candidates.min_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2)))).map(|c| c.3)
 }

@@ -1,6 +1,7 @@
 //! More lines where displacement widens the spacing, fewer where it narrows it; their ends taper.
 
 use super::lines::{Family, Line};
+use crate::elementary::Elementary as _;
 use rayon::prelude::*;
 
 /// Spacing above which a line is inserted between two, in pitches.
@@ -126,7 +127,7 @@ impl Family {
         for i in 0..below.len() {
             let (a, b) = (i.saturating_sub(2), (i + 2).min(last));
             let slope = 0.5 * (below[b] - below[a] + above[b] - above[a]) / ((b - a).max(1) as f64 * self.step);
-            let spacing = (above[i] - below[i]) / slope.hypot(1.0);
+            let spacing = (above[i] - below[i]) / slope.hypotenuse(1.0);
             match (holds(spacing, start.is_some()), start) {
                 (true, None) => start = Some(i),
                 (false, Some(from)) => {

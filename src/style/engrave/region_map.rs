@@ -1,6 +1,7 @@
 //! The regions on the page: how far inside its region a point lies, and raster values there.
 
 use super::lines::{FIT_ROOM, Frame};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 use crate::source::Placement;
@@ -164,7 +165,7 @@ impl RegionMap {
         let origin = (0..BACK_ROUNDS).fold(v, |origin, _| v - displacement(frame.to_page(u, origin)));
         let step = self.grid.pixel_mm();
         let rise = displacement(frame.to_page(u + step, origin)) - displacement(frame.to_page(u - step, origin));
-        (0.5 * rise / step).atan().to_degrees()
+        (0.5 * rise / step).arc_tangent().to_degrees()
     }
 
     /// Direction towards the inside of a region.

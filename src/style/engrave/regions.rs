@@ -6,6 +6,7 @@ use super::merging::merge_similar;
 use super::parameters::Division;
 use super::region_map::{Grid, Region, RegionMap};
 use super::relief::Relief;
+use crate::elementary::Elementary as _;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
 use crate::geometry::{Rect, Vec2};
 use crate::raster::{Raster, gaussian_blur, sobel};
@@ -82,7 +83,7 @@ impl Drawer<'_> {
     fn flooded_scribbles(&self) -> Option<Raster<i32>> {
         let scribbles = self.portrait.scribbles.as_ref()?;
         let smoothed = gaussian_blur(&self.portrait.lightness, 1.5);
-        let slope = sobel(&smoothed).map(|[x, y]| x.hypot(y));
+        let slope = sobel(&smoothed).map(|[x, y]| x.hypotenuse(y));
         let steepest = slope.pixels().iter().copied().fold(1e-6, f32::max);
         // The root separates faint edges, which most of a face's are.
         Some(watershed(&slope.map(|s| (s / steepest).sqrt()), &scribbles.labels))
@@ -187,7 +188,7 @@ fn bounds_of(labels: &Raster<i32>, count: i32) -> Vec<Option<Rect>> {
 
 /// CIE Lab (white D65, L from 0 to 100) of linear sRGB.
 fn lab([r, g, b]: [f32; 3]) -> [f32; 3] {
-    let f = |t: f32| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+    let f = |t: f32| if t > 0.008_856 { t.cube_root() } else { 7.787 * t + 16.0 / 116.0 };
     let x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505);
     let y = f(0.2126 * r + 0.7152 * g + 0.0722 * b);
     let z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);

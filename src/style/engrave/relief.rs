@@ -1,6 +1,7 @@
 //! Step 1: the depth that bends the lines, smooth and continued everywhere, and the drawn part of the page.
 
 use super::Drawer;
+use crate::elementary::Elementary as _;
 use crate::field::nearest_seed;
 use crate::raster::{Raster, bilateral, fast_gaussian, gaussian_blur};
 use crate::style::Picture;
@@ -59,7 +60,7 @@ fn continued(depth: &Raster<f32>, cover: &Raster<f32>, smoothing: f32) -> Raster
     let width = depth.width();
     Raster::from_fn(width, depth.height(), |x, y| {
         let seed = nearest.get(x, y) as usize;
-        let away = (x as f32 - (seed % width) as f32).hypot(y as f32 - (seed / width) as f32);
+        let away = (x as f32 - (seed % width) as f32).hypotenuse(y as f32 - (seed / width) as f32);
         let share = (away / smoothing).min(1.0);
         plain.get(x, y) * (1.0 - share) + smooth.get(x, y) * share
     })

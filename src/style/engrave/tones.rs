@@ -1,6 +1,7 @@
 //! Ink of each layer (Galarza 2017, sections 3.2, 3.6 and 4.4).
 
 use super::parameters::Look;
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 
 /// Maximum share of the paper that a crossed layer covers: beyond it the holes of the net close in print.
@@ -27,7 +28,7 @@ pub(super) fn layers(ink: &Raster<f32>, look: Look, threshold: f64) -> Layers {
         Look::Net => both(ink, |tone| 1.0 - tone.sqrt()),
         // The lines stop growing where the cross lines begin, and continue before both are equal.
         Look::Engraving | Look::Crosshatch => {
-            both(ink, |tone| (1.0 - tone.powf(LINES_SHARE)).max((1.0 - tone).min(1.0 - threshold)))
+            both(ink, |tone| (1.0 - tone.power(LINES_SHARE)).max((1.0 - tone).min(1.0 - threshold)))
         }
     }
 }

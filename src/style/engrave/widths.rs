@@ -3,6 +3,7 @@
 use super::lines::{Family, Line};
 use super::region_map::{Region, RegionMap};
 use super::span::Span;
+use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::raster::Raster;
 use rayon::prelude::*;
@@ -122,7 +123,7 @@ impl<'a> LineReadings<'a> {
                     let (a, b) = (i.saturating_sub(1), (i + 1).min(count - 1));
                     let slope =
                         (self.height(line, course.first + b) - self.height(line, course.first + a)) / ((b - a) as f64 * step);
-                    let stretch = slope.hypot(1.0);
+                    let stretch = slope.hypotenuse(1.0);
                     let (area, within) = self.strip(self.place(r), self.height(line, r), sides[i], f64::from(course.inside[i]));
                     course.ink[i] = (area / within.max(1e-9)) as f32;
                     course.stretch[i] = stretch as f32;

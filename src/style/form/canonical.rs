@@ -4,6 +4,7 @@
 //! length 1, y from forehead to chin): arches over brow and nose, hollows below the eyes, bows from nose to ear and around the chin. Each
 //! is one signed angle, so that no singular point can arise inside a face: eyes and mouth are lenses, over and under which lines part.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::source::{Landmarks, POINTS};
 use crate::style::head::Head;
@@ -39,7 +40,7 @@ static CANONICAL: LazyLock<Vec<CanonicalPoint>> = LazyLock::new(|| {
         near.sort_by(|a, b| a.1.total_cmp(&b.1));
         near.truncate(NEIGHBOURS);
         let farthest = near[near.len() - 1].1;
-        near.iter_mut().for_each(|(_, away)| *away = (-*away / (0.5 * farthest + 1e-9)).exp());
+        near.iter_mut().for_each(|(_, away)| *away = (-*away / (0.5 * farthest + 1e-9)).exponential());
         CanonicalPoint { place: place(*row), angle: row[2].to_radians(), near }
     };
     rows.iter().map(point).collect()
@@ -52,9 +53,9 @@ pub(super) fn directions(face: &Landmarks, head: &Head) -> Vec<(Point, f64)> {
         .map(|i| {
             let canonical = &CANONICAL[i];
             let [along, down] = map_about(face, head, i);
-            let (sin, cos) = canonical.angle.sin_cos();
+            let (sin, cos) = canonical.angle.sine_and_cosine();
             let line = along * cos + down * sin;
-            let angle = line.dot(head.down).atan2(line.dot(head.across));
+            let angle = line.dot(head.down).angle_over(line.dot(head.across));
             (face.point(i), angle.clamp(-STEEPEST, STEEPEST))
         })
         .collect()
@@ -103,7 +104,7 @@ pub(in crate::style) mod tests {
 
     /// The mean face itself, turned by an angle.
     fn mean_face(middle: Point, width: f64, turn: f64) -> Landmarks {
-        let (sin, cos) = turn.sin_cos();
+        let (sin, cos) = turn.sine_and_cosine();
         let points = CANONICAL.iter().map(|point| {
             let p = point.place * width;
             [middle.x + p.x * cos - p.y * sin, middle.y + p.x * sin + p.y * cos, 0.0]

@@ -9,6 +9,7 @@
 
 use super::canonical;
 use super::surfaces::{Surface, Surfaces};
+use crate::elementary::Elementary as _;
 use crate::field::spread;
 use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, filled_polygon, gaussian_gradient, median, reduce, structure_tensor};
@@ -114,9 +115,9 @@ impl Texture {
         let (tone, fine, wide) = (&reduce(tone, HALF), fine / HALF as f64, wide / HALF as f64);
         let tensor = structure_tensor(&[gaussian_gradient(tone, fine as f32)]).unwrap_or_else(|| tone.map(|_| [0.0; 3]));
         let [xx, xy, yy] = [0, 1, 2].map(|k| fast_gaussian(&tensor.map(|t| t[k]), wide as f32));
-        let along = xx.zip_map(&yy, |xx, yy| xx - yy).zip_map(&xy, |d, xy| 0.5 * (2.0 * xy).atan2(d) + 0.5 * PI as f32);
+        let along = xx.zip_map(&yy, |xx, yy| xx - yy).zip_map(&xy, |d, xy| 0.5 * (2.0 * xy).angle_over(d) + 0.5 * PI as f32);
         let energy = xx.zip_map(&yy, |xx, yy| xx + yy);
-        let strength = xx.zip_map(&yy, |xx, yy| xx - yy).zip_map(&xy, |d, xy| d.hypot(2.0 * xy));
+        let strength = xx.zip_map(&yy, |xx, yy| xx - yy).zip_map(&xy, |d, xy| d.hypotenuse(2.0 * xy));
         Self { along, coherence: strength.zip_map(&energy, |s, e| s / (e + 2e-7)), energy }
     }
 
@@ -182,7 +183,7 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
         let around = |p: Point| {
             let head = nearest(p);
             let (u, v) = head.relative(p);
-            (v + 0.75).atan2(u) + 0.5 * PI + head.roll()
+            (v + 0.75).angle_over(u) + 0.5 * PI + head.roll()
         };
         let double = |turn: fn(f32) -> f32| {
             let seen = clear.zip_map(&texture.along, |clear, along| clear * turn(2.0 * along));
@@ -192,10 +193,10 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
             let weight = half.mean(&clear).zip_map(&hair, |clear, h| clear + 0.003 * h + 1e-5);
             (known.zip_map(&weight, |k, w| k / w), weight)
         };
-        let ((cos, weight), (sin, _)) = (double(f32::cos), double(f32::sin));
+        let ((cos, weight), (sin, _)) = (double(f32::cosine), double(f32::sine));
         let planes = spread(&[cos, sin], &weight, HAIR_BENDING);
         self.fine(|x, y| {
-            let angle = 0.5 * f64::from(cells.at(&planes[1], x, y)).atan2(f64::from(cells.at(&planes[0], x, y)));
+            let angle = 0.5 * f64::from(cells.at(&planes[1], x, y)).angle_over(f64::from(cells.at(&planes[0], x, y)));
             let way = around(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             (angle + PI * ((way - angle) / PI).round()) as f32
         })
@@ -206,7 +207,7 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
         let texture = Texture::new(&self.portrait.lightness, 3.0 * unit, 10.0 * unit);
         let slope = |p: Point| {
             let head = nearest(p);
-            SHOULDER * (head.relative(p).0 / SHOULDER_REACH).tanh() + head.roll()
+            SHOULDER * (head.relative(p).0 / SHOULDER_REACH).hyperbolic_tangent() + head.roll()
         };
         let clear = texture.clear(&reduce(&surfaces.cloth, HALF));
         let half = cells.on_half();
@@ -244,9 +245,9 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
 fn guessed(head: &Head, p: Point) -> (f32, f32) {
     let (u, v) = head.relative(p);
     let (angle, weight) = if v < SCALP {
-        (-(SCALP_ROUND * u).atan(), SCALP_WEIGHT)
+        (-(SCALP_ROUND * u).arc_tangent(), SCALP_WEIGHT)
     } else if v > NECK {
-        ((NECK_ROUND * u).atan(), NECK_WEIGHT)
+        ((NECK_ROUND * u).arc_tangent(), NECK_WEIGHT)
     } else {
         (BESIDE_ROUND * u, BESIDE_WEIGHT)
     };

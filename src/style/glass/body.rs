@@ -1,6 +1,7 @@
 //! A stroke's centre line and width in working pixels.
 
 use crate::drawing::{Stroke, Width};
+use crate::elementary::Elementary as _;
 use crate::field::Ribbon;
 use crate::geometry::{Point, Ring, catmull_rom};
 use kurbo::ParamCurve;
@@ -28,7 +29,7 @@ impl Body {
     pub(super) fn new(nodes: Vec<Point>, mut widths: Vec<f64>) -> Self {
         for (triple, width) in nodes.windows(3).zip(&mut widths[1..]) {
             let (a, b) = (triple[1] - triple[0], triple[2] - triple[1]);
-            let turn = a.cross(b).atan2(a.dot(b)).abs();
+            let turn = a.cross(b).angle_over(a.dot(b)).abs();
             *width = width.min(WIDEST_TURN * a.hypot().min(b.hypot()) / turn.max(1e-9));
         }
         let mut fine = vec![(nodes[0], widths[0])];

@@ -17,6 +17,7 @@ mod visible;
 
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer};
+use crate::elementary::Elementary as _;
 use crate::field::{Flow, glass_pattern, line_integral_convolution};
 use crate::geometry::{Millimetres, Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
@@ -78,7 +79,7 @@ impl Glass {
     /// long.
     fn painting(settings: &Settings, picture: Rect) -> GlassParameters {
         let mut painting = GlassParameters::new(settings);
-        painting.length = painting.length.min(Millimetres(picture.width().hypot(picture.height())));
+        painting.length = painting.length.min(Millimetres(picture.width().hypotenuse(picture.height())));
         painting
     }
 }
@@ -106,7 +107,7 @@ impl Ground {
     /// colour.
     fn holds(&self, middle: Point, radius: f64) -> bool {
         (0..8).all(|i| {
-            let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
+            let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sine_and_cosine();
             let (x, y) = (middle.x + radius * cos, middle.y + radius * sin);
             self.subject.clamped(x.floor() as isize, y.floor() as isize) >= 0.5
         })
@@ -233,7 +234,7 @@ fn grey(planes: &[Raster<f32>]) -> Raster<f32> {
 }
 
 fn shown_gradient(gradient: &Raster<[f32; 2]>) -> Raster<f32> {
-    let size = gradient.map(|[x, y]| x.hypot(y));
+    let size = gradient.map(|[x, y]| x.hypotenuse(y));
     let most = size.pixels().iter().copied().fold(1e-6, f32::max);
     size.map(|g| 1.0 - g / most)
 }

@@ -5,6 +5,7 @@
 
 use super::parameters::{Strokes, Transform};
 use super::{Drawer, noise};
+use crate::elementary::{Elementary as _, unit_at};
 use crate::field::Flow;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, fast_gaussian, gradient};
@@ -86,7 +87,7 @@ impl Drawer<'_> {
         let people = self.portrait.people();
         let surfaces = self.surfaces(people);
         let directions = self.directions(&surfaces);
-        let slope = gradient(&fast_gaussian(light, CLEAR_BLUR * sigma)).map(|[x, y]| x.hypot(y) * sigma);
+        let slope = gradient(&fast_gaussian(light, CLEAR_BLUR * sigma)).map(|[x, y]| x.hypotenuse(y) * sigma);
         let turn = self.parameters.angle.0 - FRAC_PI_2;
         let reach = self.pixels(WANDER_REACH * self.parameters.pitch) as f32;
         let wander = noise::wandering(light.width(), light.height(), reach, self.seed);
@@ -101,7 +102,7 @@ impl Drawer<'_> {
             let on = |surface| surfaces.of(surface).get(x, y);
             let surface = [Surface::Hair, Surface::Cloth].into_iter().find(|surface| on(*surface) > 0.5);
             let along = f64::from(directions.of(surface.unwrap_or(Surface::Skin)).get(x, y));
-            let form = Vec2::from_angle(along + turn + f64::from(WANDER * wander.get(x, y)));
+            let form = unit_at(along + turn + f64::from(WANDER * wander.get(x, y)));
             let usual = if surface == Some(Surface::Hair) { CLEAR_HAIR } else { CLEAR };
             let clear = slope.get(x, y).powi(2) / (slope.get(x, y).powi(2) + usual * usual);
             let weight = f64::from(share * (1.0 - clear));
@@ -121,7 +122,7 @@ fn in_band(head: &Head, p: Point) -> f64 {
 fn between(a: Vec2, b: Vec2, weight: f64) -> Vec2 {
     let doubled = |v: Vec2| Vec2::new(v.x * v.x - v.y * v.y, 2.0 * v.x * v.y);
     let mean = doubled(a) * (1.0 - weight) + doubled(b) * weight;
-    let axis = Vec2::from_angle(0.5 * mean.y.atan2(mean.x));
+    let axis = unit_at(0.5 * mean.y.angle_over(mean.x));
     if axis.dot(b) < 0.0 { -axis } else { axis }
 }
 
@@ -137,7 +138,7 @@ mod tests {
     fn strokes_run_over_a_highlight_and_do_not_whirl_around_it() {
         // A soft highlight on one cheek.
         let middle = Point::new(25.0, 33.0);
-        let portrait = mean_portrait(4.0, 0.0, |p| (120.0 + 60.0 * (-(p - middle).hypot2() / 50.0).exp()) as u8);
+        let portrait = mean_portrait(4.0, 0.0, |p| (120.0 + 60.0 * (-(p - middle).hypot2() / 50.0).exponential()) as u8);
         let parameters = crate::style::find("glass").unwrap().parameters();
         let off = |strokes: &str| {
             let settings = Settings::resolve("glass", parameters, &[("strokes".to_owned(), strokes.to_owned())]).unwrap();
@@ -147,10 +148,10 @@ mod tests {
             let flow = ground.flow.unframed(ground.margin);
             assert_eq!(grey(&ground.smoothed).width(), portrait.placement.columns + 2 * ground.margin);
             // Around the highlight, where the photograph's flow is a circle.
-            let places = (0..48).map(|i| Point::new(100.0, 132.0) + 14.0 * Vec2::from_angle(f64::from(i) * 0.131));
+            let places = (0..48).map(|i| Point::new(100.0, 132.0) + 14.0 * unit_at(f64::from(i) * 0.131));
             let angles = places.map(|p| {
-                let wanted = Vec2::from_angle(f64::from(skin.get(p.x as usize, p.y as usize)));
-                flow.at(p).cross(wanted).abs().min(1.0).asin().to_degrees()
+                let wanted = unit_at(f64::from(skin.get(p.x as usize, p.y as usize)));
+                flow.at(p).cross(wanted).abs().min(1.0).arc_sine().to_degrees()
             });
             angles.sum::<f64>() / 48.0
         };
@@ -160,10 +161,10 @@ mod tests {
 
     #[test]
     fn axes_are_mixed_whatever_their_signs() {
-        let (a, b) = (Vec2::new(1.0, 0.0), Vec2::from_angle(0.5));
+        let (a, b) = (Vec2::new(1.0, 0.0), unit_at(0.5));
         for sign in [1.0, -1.0] {
             let mixed = between(a * sign, b, 0.5);
-            assert!((mixed - Vec2::from_angle(0.25)).hypot() < 1e-9, "{mixed}");
+            assert!((mixed - unit_at(0.25)).hypot() < 1e-9, "{mixed}");
         }
     }
 }

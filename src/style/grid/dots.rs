@@ -108,13 +108,14 @@ fn mark(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell, radius: f64, ind
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
 
     #[test]
     fn dot_and_lines_together_have_the_ink() {
         let polygon = vec![Point::new(-3.2, -2.9), Point::new(3.0, -3.1), Point::new(2.9, 3.0), Point::new(-3.0, 3.1)];
         let area = polygon_area(&polygon).abs();
         for darkness in [0.6, 0.75, 0.9] {
-            let tangent = Vec2::from_angle(0.1);
+            let tangent = unit_at(0.1);
             let cell = Cell {
                 centre: Point::ORIGIN,
                 tangent,

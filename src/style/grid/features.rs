@@ -2,6 +2,7 @@
 
 use super::Drawer;
 use crate::drawing::{Colour, Ink, Layer, Mark, Stroke, Width};
+use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{
     CoherentLine, Curve, DirectionField, FieldParameters, Guides, LineParameters, coherent_lines, contours, detect_isophotes,
     direction_field, edge_tangent_flow, flow_lines, lines_of,
@@ -83,7 +84,7 @@ impl Drawer<'_> {
             Picture::Grey(flow.tangent.map(|[x, y]| if x == 0.0 && y == 0.0 { 1.0 } else { 0.5 + 0.5 * (x * x - y * y) }))
         });
         let found = flow_lines(lightness, &flow, self.line_parameters());
-        self.observer.picture("flow-dog", &|| Picture::Grey(found.response.map(|h| 1.0 + h.min(0.0).tanh())));
+        self.observer.picture("flow-dog", &|| Picture::Grey(found.response.map(|h| 1.0 + h.min(0.0).hyperbolic_tangent())));
         self.observer.picture("coherent-lines", &|| Picture::Mask(found.line.clone()));
         let steps = coherent_lines(&found, lightness, self.pixels(parameters.smoothing), self.pixels(parameters.line_least));
         self.observer.picture("lines-kept", &|| Picture::Mask(steps.kept.clone()));
@@ -152,7 +153,7 @@ impl Drawer<'_> {
     fn field_layers(&self, field: &DirectionField) -> Vec<Layer> {
         let step = 2.0 * self.pitch();
         let ring = |centre: Point| {
-            let points = (0..12).map(|k| centre + Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 12.0) * step).collect();
+            let points = (0..12).map(|k| centre + unit_at(f64::from(k) * std::f64::consts::TAU / 12.0) * step).collect();
             Curve { points, closed: true }
         };
         let singular = |sign: f32| -> Vec<Curve> {

@@ -8,6 +8,7 @@
 
 use super::Drawer;
 use super::parameters::Hatching;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, disc_area_in};
 
 /// Share of a tone between dots and lines.
@@ -86,7 +87,7 @@ pub(super) fn paper_radius(tone: f64, pitch: f64) -> f64 {
         return apart;
     }
     let k = 0.5 * pitch - pitch * (tone.max(0.0) / (4.0 - PI)).sqrt();
-    k.hypot(0.5 * pitch)
+    k.hypotenuse(0.5 * pitch)
 }
 
 #[cfg(test)]

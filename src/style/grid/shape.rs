@@ -6,6 +6,7 @@
 use super::Drawer;
 use super::cells::Cell;
 use super::structure::StructureGrid;
+use crate::elementary::{Elementary as _, angle_of, unit_at};
 use crate::geometry::{Affine, BezPath, Point, Ring, Vec2, catmull_rom};
 use kurbo::Shape;
 use std::f64::consts::{PI, TAU};
@@ -16,10 +17,10 @@ const NODES: u32 = 12;
 /// Outline on the page of a dot of this radius (pixels).
 pub(super) fn grid_shape(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell, radius: f64) -> BezPath {
     let blend = drawer.parameters.dot_shape;
-    let base = cell.tangent.atan2();
+    let base = angle_of(cell.tangent);
     let nodes: Vec<Point> = (0..NODES)
         .map(|k| {
-            let way = Vec2::from_angle(base + TAU * f64::from(k) / f64::from(NODES));
+            let way = unit_at(base + TAU * f64::from(k) / f64::from(NODES));
             cell.centre + way * reach(drawer, grid, cell, way, radius, blend)
         })
         .collect();
@@ -40,7 +41,7 @@ fn reach(drawer: &Drawer<'_>, grid: &StructureGrid, cell: &Cell, way: Vec2, radi
             let cycles = grid.stripes[family].phase_at(p) / TAU;
             (cycles - cycles.round()).abs() * drawer.pitch()
         });
-        distance[0].hypot(distance[1])
+        distance[0].hypotenuse(distance[1])
     };
     let (mut low, mut high) = (0.5 * radius, 1.6 * radius);
     for _ in 0..12 {

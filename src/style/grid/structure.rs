@@ -4,6 +4,7 @@ use super::Drawer;
 use super::features::Features;
 use super::parameters::{DETAIL_CLOSENESS, FeatureRows};
 use crate::drawing::{Colour, Dot, Layer, Mark};
+use crate::elementary::Elementary as _;
 use crate::field::{
     Curve, DirectionField, FeatureDistance, StripeLattice, StripeParameters, Wave, crossings, distance_to_curves, holes,
     stripe_lines, stripes,
@@ -245,7 +246,7 @@ fn held(distance: &FeatureDistance, wave: Wave, p: Point, spacing: f64, offset: 
         return [0.0, 0.0];
     }
     let phase = TAU * (signed_distance(distance, wave, p) / spacing + offset);
-    [(strength * phase.cos()) as f32, (strength * phase.sin()) as f32]
+    [(strength * phase.cosine()) as f32, (strength * phase.sine()) as f32]
 }
 
 /// The distance from the nearest feature line, negative on one side.

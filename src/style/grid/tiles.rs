@@ -3,6 +3,7 @@
 use super::Drawer;
 use super::cells::Cell;
 use crate::drawing::{Area, Colour, Layer, Mark, Stroke, Width};
+use crate::elementary::Elementary as _;
 use crate::geometry::{BezPath, Point, Vec2, half_plane, polygon_area};
 
 /// Width of a tile's outline and hatching for a pen, in pitches.
@@ -127,7 +128,7 @@ fn on_page(drawer: &Drawer<'_>, points: &[Point], closing: Closing) -> BezPath {
 fn colour(light: [f32; 3]) -> Colour {
     let encode = |v: f32| {
         let v = v.clamp(0.0, 1.0);
-        let encoded = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        let encoded = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.power(1.0 / 2.4) - 0.055 };
         (encoded * 255.0).round() as u8
     };
     Colour { r: encode(light[0]), g: encode(light[1]), b: encode(light[2]) }

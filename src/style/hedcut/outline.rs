@@ -5,6 +5,7 @@ use super::Drawer;
 use super::features::Features;
 use super::parts::Parts;
 use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::elementary::Elementary as _;
 use crate::field::{CoherentLine, Curve};
 use crate::geometry::{catmull_rom, resample};
 use crate::style::creases::{Creases, share};
@@ -64,5 +65,5 @@ fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
 
 /// Width along the stroke, 0 at both ends and 1 in the middle; fuller than a half sine, as a pen's.
 fn swell(along: f64) -> f64 {
-    (std::f64::consts::PI * along).sin().max(0.0).powf(0.7)
+    (std::f64::consts::PI * along).sine().max(0.0).power(0.7)
 }

@@ -119,7 +119,7 @@ impl Drawer<'_> {
         let placement = &self.portrait.placement;
         let around =
             |ink: &Raster<f32>| gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), (TONE_REACH * self.pitch()) as f32);
-        let drawn = around(&covered(marks, placement));
+        let drawn = around(&covered(&*marks, placement));
         let asked = around(&self.portrait.ink());
         let ratio = asked.zip_map(&drawn, |asked, drawn| {
             let most = 1.0 + (TONE_STEP[1] - 1.0) * ((asked - LIGHT_HAIR[0]) / (LIGHT_HAIR[1] - LIGHT_HAIR[0])).clamp(0.0, 1.0);

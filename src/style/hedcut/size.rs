@@ -2,6 +2,7 @@
 
 use super::{Drawer, SizedDot};
 use crate::drawing::Mark;
+use crate::elementary::Elementary as _;
 use crate::field::{Sites, cell_polygon};
 use crate::geometry::{BezPath, Point, Rect, Vec2, blob, polygon_area, radius_for_area};
 use crate::raster::{Raster, gaussian_blur};
@@ -93,7 +94,7 @@ pub(super) fn paper(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
         .iter()
         .map(|&centre| {
             let ink = f64::from(ink.sample(centre.x, centre.y)).clamp(0.0, 1.0);
-            SizedDot { centre, radius: largest * ink.powf(drawer.parameters.size_gamma) }
+            SizedDot { centre, radius: largest * ink.power(drawer.parameters.size_gamma) }
         })
         .filter(|dot| dot.radius > 0.0)
         .collect();

@@ -133,11 +133,12 @@ fn blob([area, x, y, xx, xy, yy]: [f64; 6]) -> Blob {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_disc_is_full_and_a_ring_is_not() {
         let picture = Raster::from_fn(203, 101, |x, y| {
-            let r = |cx: f64| (x as f64 + 0.5 - cx).hypot(y as f64 + 0.5 - 50.0);
+            let r = |cx: f64| (x as f64 + 0.5 - cx).hypotenuse(y as f64 + 0.5 - 50.0);
             let is_dark = r(50.0) < 20.0 || (14.0..20.0).contains(&r(150.0));
             if is_dark { 0.1 } else { 0.8 }
         });

@@ -4,6 +4,7 @@ use super::picture::Probe;
 use super::solve::solved;
 use super::view::View;
 use crate::colour::sheet::grid::{COLUMNS, Cell, Patch, ROWS};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2};
 
 /// Degree of the polynomial, in the logarithm of light, and its number of terms.
@@ -104,17 +105,17 @@ impl Light {
         let basis = basis(p);
         let (mut sum, mut whole) = ([0.0; 3], INERTIA);
         for (at, rest, weight) in &self.rests {
-            let near = weight * (-0.5 * (at.distance(p) / NEAR).powi(2)).exp();
+            let near = weight * (-0.5 * (at.distance(p) / NEAR).powi(2)).exponential();
             whole += near;
             sum = std::array::from_fn(|c| sum[c] + near * rest[c]);
         }
-        std::array::from_fn(|c| (dot(&self.terms[c], &basis) + sum[c] / whole).exp())
+        std::array::from_fn(|c| (dot(&self.terms[c], &basis) + sum[c] / whole).exponential())
     }
 
     /// Logarithm of a spot's light over the polynomial.
     fn rest(&self, spot: &Spot) -> [f64; 3] {
         let basis = basis(spot.at);
-        std::array::from_fn(|c| spot.light[c].ln() - dot(&self.terms[c], &basis))
+        std::array::from_fn(|c| spot.light[c].logarithm() - dot(&self.terms[c], &basis))
     }
 
     /// Brightest light over darkest, over the corners and the middle of the sheet.
@@ -151,7 +152,7 @@ fn basis(p: Point) -> [f64; TERMS] {
 fn polynomial(spots: &[Spot], weights: &[f64], channel: usize) -> Option<Vec<f64>> {
     let (mut left, mut right) = (vec![vec![0.0; TERMS]; TERMS], vec![0.0; TERMS]);
     for (spot, weight) in spots.iter().zip(weights) {
-        let (basis, value) = (basis(spot.at), spot.light[channel].ln());
+        let (basis, value) = (basis(spot.at), spot.light[channel].logarithm());
         for i in 0..TERMS {
             right[i] += weight * basis[i] * value;
             (0..TERMS).for_each(|j| left[i][j] += weight * basis[i] * basis[j]);
@@ -167,7 +168,7 @@ mod tests {
 
     #[test]
     fn light_is_found_below_ink_that_strayed_onto_paper() {
-        let truth = |p: Point| [0.8, 0.7, 0.5].map(|v: f64| v * (-0.04 * p.x - 0.002 * p.y * p.y).exp());
+        let truth = |p: Point| [0.8, 0.7, 0.5].map(|v: f64| v * (-0.04 * p.x - 0.002 * p.y * p.y).exponential());
         let spots: Vec<Spot> = (0..160)
             .map(|i| {
                 let at = Point::new(f64::from(i % 10) + 0.5, 0.8 * f64::from(i / 10) + 0.9);

@@ -2,6 +2,7 @@
 
 use super::blobs::Blob;
 use crate::colour::sheet::grid::{DISC, HOLE, RING};
+use crate::elementary::Elementary as _;
 
 /// A ring with something round in its middle.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +56,11 @@ fn mark(ring: &Blob, discs: &[&Blob]) -> Option<Mark> {
     let faults = near.filter_map(|disc| {
         let (off, sizes) = (ring.distance(disc.centre), ring.size() / disc.size().max(1e-9));
         let fits = off < OFF_CENTRE && (SIZES[0]..SIZES[1]).contains(&sizes);
-        fits.then(|| off / OFF_CENTRE + 0.5 * (sizes / expected_sizes()).ln().abs() + (ring.fullness() / FULL_RING).ln().abs())
+        fits.then(|| {
+            off / OFF_CENTRE
+                + 0.5 * (sizes / expected_sizes()).logarithm().abs()
+                + (ring.fullness() / FULL_RING).logarithm().abs()
+        })
     });
     faults.reduce(f64::min).map(|fault| Mark { ring: *ring, fault })
 }
@@ -76,7 +81,8 @@ mod tests {
         // A leaning mark, a ring alone, a disc alone, and a ring with a speck.
         let inked = |r: f64, disc: f64, ring: bool| r < disc || (ring && (RING[1]..RING[0]).contains(&r));
         let picture = Raster::from_fn(480, 120, |x, y| {
-            let at = |cx: f64| ((x as f64 + 0.5 - cx - 0.3 * (y as f64 - 60.0)) / 90.0).hypot((y as f64 + 0.5 - 60.0) / 90.0);
+            let at =
+                |cx: f64| ((x as f64 + 0.5 - cx - 0.3 * (y as f64 - 60.0)) / 90.0).hypotenuse((y as f64 + 0.5 - 60.0) / 90.0);
             let is_dark = inked(at(60.0), DISC, true)
                 || inked(at(180.0), 0.0, true)
                 || inked(at(300.0), DISC, false)

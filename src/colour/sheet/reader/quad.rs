@@ -4,6 +4,7 @@ use super::blobs::Blob;
 use super::marks::Mark;
 use super::view::View;
 use crate::colour::sheet::grid::{COLUMNS, CORNERS, RING, ROWS};
+use crate::elementary::{Elementary as _, angle_of};
 use crate::geometry::{Point, Vec2};
 
 /// Four marks in their order on the sheet; they may still be turned by half.
@@ -73,7 +74,7 @@ fn corner_fault(ring: &Blob, one: Point, other: Point) -> f64 {
     let (a, b) = (dot(u, u).max(1e-9), dot(v, v).max(1e-9));
     let [long, short] = [a.max(b), a.min(b)].map(|square| (square * unit()).sqrt());
     let [wide, high] = sides();
-    (dot(u, v).abs() / (a * b).sqrt()).max((short / wide).ln().abs()).max((long / high).ln().abs())
+    (dot(u, v).abs() / (a * b).sqrt()).max((short / wide).logarithm().abs()).max((long / high).logarithm().abs())
 }
 
 /// Whether the distance of two marks is, by their own measures, a side or the diagonal of the sheet.
@@ -81,7 +82,7 @@ fn may_belong(a: &Mark, b: &Mark) -> bool {
     let (s, t) = (a.ring.size(), b.ring.size());
     let apart = (a.ring.distance(b.ring.centre) * b.ring.distance(a.ring.centre)).sqrt() * unit().sqrt();
     let [wide, high] = sides();
-    s.max(t) < SIZES * s.min(t) && [wide, high, wide.hypot(high)].iter().any(|side| (apart / side).ln().abs() < APART)
+    s.max(t) < SIZES * s.min(t) && [wide, high, wide.hypotenuse(high)].iter().any(|side| (apart / side).logarithm().abs() < APART)
 }
 
 /// Variance of a ring along each direction, in cells.
@@ -98,7 +99,7 @@ fn sides() -> [f64; 2] {
 fn both_ways(mut marks: [Mark; 4], width: usize, height: usize) -> impl Iterator<Item = Quad> {
     let middle = marks.iter().fold(Vec2::ZERO, |sum, mark| sum + 0.25 * mark.ring.centre.to_vec2());
     marks.sort_by(|a, b| {
-        let [a, b] = [a, b].map(|mark| (mark.ring.centre.to_vec2() - middle).atan2());
+        let [a, b] = [a, b].map(|mark| angle_of(mark.ring.centre.to_vec2() - middle));
         a.total_cmp(&b)
     });
     let at = |i: usize| marks[i % 4].ring;
@@ -120,7 +121,7 @@ fn fault(view: &View, marks: &[Mark; 4]) -> f64 {
         let (whole, measured) = ((xx * yy - xy * xy).max(1e-9), (mxx * myy - mxy * mxy).max(1e-9));
         // Both ellipses in one frame: the mean of the axes' squared ratios, against their product.
         let trace = 0.5 * (yy * mxx - 2.0 * xy * mxy + xx * myy) / whole;
-        (measured / whole).ln().abs().mul_add(0.5, (trace / (measured / whole).sqrt()).ln().abs() * 4.0)
+        (measured / whole).logarithm().abs().mul_add(0.5, (trace / (measured / whole).sqrt()).logarithm().abs() * 4.0)
     });
     differences.fold(0.0, f64::max) + 0.05 * marks.iter().map(|mark| mark.fault).sum::<f64>()
 }

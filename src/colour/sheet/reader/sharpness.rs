@@ -4,6 +4,7 @@ use super::picture::Probe;
 use super::spotting::Grey;
 use super::view::View;
 use crate::colour::sheet::grid::{CORNERS, RING};
+use crate::elementary::Elementary as _;
 use crate::geometry::Vec2;
 
 /// Rays from each mark's centre, steps along them, and where they begin and end, in cells.
@@ -22,7 +23,7 @@ pub(super) fn blur(view: &View, probe: &Probe<'_>, grey: Grey) -> f64 {
             .map(|i| {
                 let r = FROM + (TO - FROM) * i as f64 / STEPS as f64;
                 let turns = (0..RAYS).map(|k| std::f64::consts::TAU * k as f64 / RAYS as f64);
-                turns.map(|t| grey.of(probe.at(view.at(corner + r * Vec2::new(t.cos(), t.sin()))))).sum::<f64>()
+                turns.map(|t| grey.of(probe.at(view.at(corner + r * Vec2::new(t.cosine(), t.sine()))))).sum::<f64>()
             })
             .collect();
         width(&profile) * (TO - FROM) / STEPS as f64
@@ -55,7 +56,7 @@ mod tests {
         // The rise of a Gaussian of deviation 3, summed up.
         let mut sum = 0.0;
         let mut edge = |i: usize| {
-            sum += (-0.5 * ((i as f64 - 24.0) / 3.0).powi(2)).exp();
+            sum += (-0.5 * ((i as f64 - 24.0) / 3.0).powi(2)).exponential();
             sum
         };
         let width = width(&(0..49).map(&mut edge).collect::<Vec<_>>());

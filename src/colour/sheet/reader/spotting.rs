@@ -2,6 +2,7 @@
 
 use super::picture::Probe;
 use super::view::View;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 
 /// Distance of samples around a mark, in cells.
@@ -81,7 +82,7 @@ impl Stamp {
 fn between(from: f64, to: f64) -> Vec<[i32; 2]> {
     let most = (to / STEP).ceil() as i32;
     let all = (-most..=most).flat_map(|j| (-most..=most).map(move |i| [i, j]));
-    all.filter(|[i, j]| (from - 1e-9..=to + 1e-9).contains(&(STEP * f64::from(*i).hypot(f64::from(*j))))).collect()
+    all.filter(|[i, j]| (from - 1e-9..=to + 1e-9).contains(&(STEP * f64::from(*i).hypotenuse(f64::from(*j))))).collect()
 }
 
 /// The value below which a share of the values lies.

@@ -1,6 +1,7 @@
 //! G-code as motion: modal absolute moves; the pen moves by the profile's own commands.
 
 use super::Strokes;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
 use crate::read::{Budget, PATH, POINT, TooMuchWork};
 use thiserror::Error;
@@ -165,7 +166,7 @@ impl Reader<'_> {
         }
         let centre = self.at + Vec2::new(words.i, words.j);
         let (from, end) = (self.at - centre, to - centre);
-        let turn = from.cross(end).atan2(from.dot(end));
+        let turn = from.cross(end).angle_over(from.dot(end));
         let whole = std::f64::consts::TAU;
         let sweep = match (self.mode, turn) {
             (3, turn) if turn <= 0.0 => turn + whole,

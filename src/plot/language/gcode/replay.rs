@@ -3,6 +3,7 @@
 use super::GcodeDialect;
 use super::resume::{PenWords, names_pen};
 use super::words::words;
+use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::plot::language::{Act, Replayed};
 use std::borrow::Cow;
@@ -90,7 +91,7 @@ impl Modes {
         let (to, rate) = (Point::new(self.at[0], self.at[1]), self.feed);
         let centre = Point::new(from.x + i, from.y + j);
         let (a, b) = (from - centre, to - centre);
-        let turn = a.cross(b).atan2(a.dot(b));
+        let turn = a.cross(b).angle_over(a.dot(b));
         match self.motion {
             0 => Act::Rapid,
             1 => Act::Line(rate),

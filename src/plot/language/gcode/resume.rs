@@ -2,6 +2,7 @@
 
 use super::numbers::check_gcode;
 use super::words::word;
+use crate::elementary::Elementary as _;
 use crate::plot::language::{ResumeError, StopPlace};
 use std::fmt::Write as _;
 
@@ -177,7 +178,7 @@ impl State {
         let mut first = self.path.len() - 1;
         while first > 0 && length < again {
             let (a, b) = (self.path[first - 1].at, self.path[first].at);
-            length += (a.0 - b.0).hypot(a.1 - b.1);
+            length += (a.0 - b.0).hypotenuse(a.1 - b.1);
             first -= 1;
         }
         let start = self.path[first];

@@ -1,6 +1,7 @@
 //! HP-GL as motion: the subset that plotter programs write.
 
 use super::Strokes;
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2, arc_points, flatten_arc, parse_finite};
 use crate::read::{Budget, PATH, POINT, TooMuchWork};
 use std::ops::Range;
@@ -180,7 +181,7 @@ impl Reader<'_> {
     fn arc(&mut self, numbers: &[f64], is_relative: bool) -> Option<Result<(), TooMuchWork>> {
         let &[x, y, degrees, ..] = numbers else { return None };
         let centre = if is_relative { self.at + Vec2::new(x, y) } else { Point::new(x, y) };
-        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (sin, cos) = degrees.to_radians().sine_and_cosine();
         let spoke = self.at - centre;
         let to = centre + Vec2::new(spoke.x * cos - spoke.y * sin, spoke.x * sin + spoke.y * cos);
         if let Err(work) = self.budget.spend(POINT * arc_points(spoke.hypot(), degrees.to_radians(), ARC_TOLERANCE), "arcs") {

@@ -1,6 +1,7 @@
 //! Resumes HP-GL: instructions that end with a semicolon, absolute after each pen-up move.
 
 use super::read::instructions as instructions_of;
+use crate::elementary::Elementary as _;
 use crate::geometry::parse_finite;
 use crate::plot::language::{ResumeError, StopPlace};
 use std::collections::BTreeMap;
@@ -182,7 +183,7 @@ impl<'a> State<'a> {
     /// Moves to an arc's end, approximately; the next absolute point is exact.
     fn turn(&mut self, arc: &Instruction) {
         let (Some(at), [(x, _), (y, _), (degrees, _), ..]) = (self.at, &arc.numbers[..]) else { return };
-        let ((sin, cos), (dx, dy)) = (degrees.to_radians().sin_cos(), (at.0 - x, at.1 - y));
+        let ((sin, cos), (dx, dy)) = (degrees.to_radians().sine_and_cosine(), (at.0 - x, at.1 - y));
         let end = (x + dx * cos - dy * sin, y + dx * sin + dy * cos);
         self.at = Some(end);
         if self.is_down {
@@ -203,7 +204,7 @@ impl<'a> State<'a> {
         let mut first = self.path.len() - 1;
         while first > 0 && length < again {
             let (a, b) = (self.path[first - 1].at, self.path[first].at);
-            length += (a.0 - b.0).hypot(a.1 - b.1);
+            length += (a.0 - b.0).hypotenuse(a.1 - b.1);
             first -= 1;
         }
         let start = self.path[first];

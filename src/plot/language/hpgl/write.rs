@@ -13,6 +13,7 @@
 //! accumulate.
 
 use super::{HpglDialect, Orders, SPEED_STEP};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Step, Vec2, fit_arcs};
 use crate::plot::{Mounting, PenChange, Profile};
 use std::fmt::Write as _;
@@ -142,7 +143,7 @@ fn arc_is_true(from: Point, centre: Point, sweep: f64, tolerance: f64) -> bool {
 
 /// A point turned around a centre, counterclockwise where y goes up, by an angle in radians.
 fn turned(from: Point, centre: Point, angle: f64) -> Point {
-    let ((sin, cos), v) = (angle.sin_cos(), from - centre);
+    let ((sin, cos), v) = (angle.sine_and_cosine(), from - centre);
     centre + Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
 }
 
@@ -151,7 +152,7 @@ fn first_beyond(points: &[Point], centre: Point, angle: f64) -> usize {
     let mut swept = 0.0;
     for (i, pair) in points.windows(2).enumerate() {
         let (a, b) = (pair[0] - centre, pair[1] - centre);
-        swept += a.cross(b).atan2(a.dot(b));
+        swept += a.cross(b).angle_over(a.dot(b));
         if swept.abs() > angle.abs() {
             return i + 1;
         }
@@ -161,7 +162,7 @@ fn first_beyond(points: &[Point], centre: Point, angle: f64) -> usize {
 
 /// The largest whole chord angle, in degrees, at which the arc deviates from its chord by less than half the tolerance.
 fn chord_degrees(radius: f64, tolerance: f64) -> i64 {
-    let angle = 2.0 * (1.0 - 0.5 * tolerance / radius.max(tolerance)).acos();
+    let angle = 2.0 * (1.0 - 0.5 * tolerance / radius.max(tolerance)).arc_cosine();
     (angle.to_degrees().floor() as i64).clamp(1, 45)
 }
 
@@ -215,7 +216,7 @@ mod tests {
     #[test]
     fn arcs_end_where_they_should() {
         let circle: Vec<Unit> = (0..=90)
-            .map(|i| (f64::from(i) * 4.0).to_radians().sin_cos())
+            .map(|i| (f64::from(i) * 4.0).to_radians().sine_and_cosine())
             .map(|(sin, cos)| ((1000.0 * cos).round() as i64 + 5000, (1000.0 * sin).round() as i64 + 5000))
             .collect();
         let mut text = String::new();

@@ -1,6 +1,7 @@
 //! Hand-worked times of short ways.
 
 use super::*;
+use crate::elementary::Elementary as _;
 use crate::plot::profile::Planner;
 
 const MOTION: Motion = Motion {
@@ -68,7 +69,7 @@ fn a_short_buffer_never_runs_faster_than_it_can_stop() {
 
 #[test]
 fn settled_blocks_are_timed_early_without_a_difference() {
-    let wave: Vec<[f64; 2]> = (1..=40_000).map(|i| [0.05 * f64::from(i), (0.02 * f64::from(i)).sin()]).collect();
+    let wave: Vec<[f64; 2]> = (1..=40_000).map(|i| [0.05 * f64::from(i), (0.02 * f64::from(i)).sine()]).collect();
     let limited = with_planner(Planner { block_buffer: Some(16), ..Planner::default() });
     let mut whole = LookAhead::new(&limited, 1);
     let mut from = [0.0; 3];

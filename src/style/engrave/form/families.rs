@@ -1,6 +1,7 @@
 //! Families of even lines along a field of directions: stripes whose phase is made regular from coarse to fine.
 
 use super::super::Drawer;
+use crate::elementary::Elementary as _;
 use crate::field::{Curve, StripeLattice, StripeParameters, Wave, evening, stripe_lines, stripes};
 use crate::geometry::{Point, Vec2, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur};
@@ -97,7 +98,7 @@ impl Drawer<'_> {
             if close <= 0.0 {
                 return [0.0; 2];
             }
-            let (sin, cos) = (directions.get(left + x, top + y) + turn as f32).sin_cos();
+            let (sin, cos) = (directions.get(left + x, top + y) + turn as f32).sine_and_cosine();
             let evened = evened.sample((x as f64 + 0.5) / cell, (y as f64 + 0.5) / cell);
             let dense = evened * close / pitch as f32;
             [-sin * dense, cos * dense]

@@ -2,7 +2,8 @@
 
 use super::super::Drawer;
 use super::LEAST_SHARE;
-use crate::geometry::{Point, Vec2};
+use crate::elementary::unit_at;
+use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
 
 /// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
@@ -34,7 +35,7 @@ impl Drawer<'_> {
             if hair.get(x, y) <= 0.0 {
                 return ink.get(x, y);
             }
-            let way = Vec2::from_angle(f64::from(directions.get(x, y))) * step;
+            let way = unit_at(f64::from(directions.get(x, y))) * step;
             let place = |i: i32| Point::new(x as f64 + 0.5, y as f64 + 0.5) + way * f64::from(i);
             let sum: f32 = (-ALONG_STEPS..=ALONG_STEPS).map(|i| ink.sample(place(i).x, place(i).y)).sum();
             sum / (2 * ALONG_STEPS + 1) as f32

@@ -3,7 +3,8 @@
 use super::super::Drawer;
 use super::super::parameters::EngraveParameters;
 use super::families::{Extent, Family};
-use crate::geometry::{Millimetres, Point, Vec2};
+use crate::elementary::{Elementary as _, unit_at};
+use crate::geometry::{Millimetres, Point};
 use crate::raster::Raster;
 use crate::source::Landmarks;
 use crate::style::form::Surface;
@@ -29,8 +30,8 @@ fn measured(family: &Family, directions: &Raster<f32>, face: &Landmarks, pitch: 
         for pair in line.points.windows(5).filter(|points| is_on_face(points[2])) {
             let way = pair[4] - pair[0];
             let p = pair[2];
-            let wanted = Vec2::from_angle(f64::from(directions.get(p.x as usize, p.y as usize)) + turn);
-            off.push((way.cross(wanted).abs() / way.hypot().max(1e-9)).min(1.0).asin().to_degrees());
+            let wanted = unit_at(f64::from(directions.get(p.x as usize, p.y as usize)) + turn);
+            off.push((way.cross(wanted).abs() / way.hypot().max(1e-9)).min(1.0).arc_sine().to_degrees());
             spacing.push(family.spacing(p) / pitch);
         }
         if !line.closed {

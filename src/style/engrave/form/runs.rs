@@ -2,8 +2,9 @@
 
 use super::families::Family;
 use crate::drawing::{Dot, Mark, Stroke, Width};
+use crate::elementary::unit_at;
 use crate::field::{Curve, pieces_inside};
-use crate::geometry::{Ends, Point, Rect, Ring, Vec2, catmull_rom, lengths_along, resample};
+use crate::geometry::{Ends, Point, Rect, Ring, catmull_rom, lengths_along, resample};
 use crate::raster::Raster;
 use crate::source::Placement;
 use rayon::prelude::*;
@@ -124,7 +125,7 @@ impl Course<'_> {
             let way = places[(i + reach).min(last)] - places[i.saturating_sub(reach)];
             let p = reading.place;
             let angle = f64::from(self.directions.clamped(p.x as isize, p.y as isize)) + self.turn;
-            if way.cross(Vec2::from_angle(angle)).abs() > MOST_OFF * way.hypot() {
+            if way.cross(unit_at(angle)).abs() > MOST_OFF * way.hypot() {
                 reading.excess = reading.excess.min(-0.5);
             }
         }

@@ -1,5 +1,6 @@
 //! Measured ink of lines, and the spacing that gives each tone its ink.
 
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, distance_to_segment};
 use crate::raster::{Raster, fast_gaussian};
 
@@ -88,12 +89,14 @@ impl Calibration {
                 continue;
             }
             // Close lines cover like 1 - exp(-1 / spacing), so the uncovered part is compared.
-            let depth = |ink: f64| (-(1.0 - (ink / count).clamp(0.002, 0.99)).ln()).ln();
-            tried.push((f64::from(*factor).ln(), depth(laid)));
+            let depth = |ink: f64| (-(1.0 - (ink / count).clamp(0.002, 0.99)).logarithm()).logarithm();
+            tried.push((f64::from(*factor).logarithm(), depth(laid)));
             let (middle, slope) = trend(tried);
             let wanted = middle.0 + (depth(wanted) - middle.1) / slope;
-            *factor =
-                wanted.clamp(f64::from(factor.ln()) - MOST_STEP, f64::from(factor.ln()) + MOST_STEP).exp().clamp(0.3, 2.5) as f32;
+            *factor = wanted
+                .clamp(f64::from(factor.logarithm()) - MOST_STEP, f64::from(factor.logarithm()) + MOST_STEP)
+                .exponential()
+                .clamp(0.3, 2.5) as f32;
         }
     }
 }
