@@ -11,7 +11,7 @@ pub fn filled_polygon(width: usize, height: usize, corners: &[[f64; 2]]) -> Rast
 
 /// Calls with column and row of each pixel whose centre lies inside closed polygons, by the nonzero rule over all of them.
 pub fn each_pixel_inside(width: usize, height: usize, polygons: &[impl AsRef<[[f64; 2]]>], mut paint: impl FnMut(usize, usize)) {
-    let corners = || polygons.iter().flat_map(|polygon| polygon.as_ref());
+    let corners = || polygons.iter().flat_map(AsRef::as_ref);
     let (top, bottom) = corners().fold((f64::MAX, f64::MIN), |(top, bottom), [_, y]| (top.min(*y), bottom.max(*y)));
     let nearest = |at: f64, most: usize| ((at - 0.5).ceil().max(0.0) as usize).min(most);
     let mut crossings = Vec::new();

@@ -27,7 +27,7 @@ pub(super) fn darkened<'a>(marks: impl IntoIterator<Item = (&'a Mark, f32)>, pla
                 points.iter().zip(widths).for_each(|(p, width)| cover_disc(&mut fine, placement, (*p, 0.5 * width * scale), ink));
             }
             Mark::Dot(Dot { centre, radius, outline: None, .. }) => {
-                cover_disc(&mut fine, placement, (*centre, radius * scale), ink)
+                cover_disc(&mut fine, placement, (*centre, radius * scale), ink);
             }
             Mark::Dot(dot) => cover_area(&mut fine, placement, &dot.path(), ink),
             Mark::Area(area) => cover_area(&mut fine, placement, &area.outline, ink),
