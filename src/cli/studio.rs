@@ -2,11 +2,14 @@
 
 use super::arguments::StudioOptions;
 use super::failure::Failure;
+use super::interruption::is_interrupted;
 use super::masks::photograph;
 use super::messages::say;
 use super::output;
+use super::scene::check;
 use crate::source::Crop;
-use crate::studio::{Settings, Shown, serve};
+use crate::studio::{Settings, Shown, Ties, serve};
+use etcetera::BaseStrategy;
 use rand::TryRng;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -26,8 +29,9 @@ pub(super) fn run(options: &StudioOptions) -> Result<(), Failure> {
         token: token()?,
         show,
     };
+    let ties = Ties { recent: recent(), check, is_ending: is_interrupted };
     let mut told = Ok(());
-    let served = serve(settings, |address| {
+    let served = serve(settings, ties, |address| {
         told = output::to_stdout(format!("{address}\n").as_bytes());
         say!("drypoint: the studio is open at that address, on this computer alone; Ctrl-C ends it");
         if !options.no_browser && !opens(address) {
@@ -36,6 +40,13 @@ pub(super) fn run(options: &StudioOptions) -> Result<(), Failure> {
     });
     told?;
     served.map_err(|error| Failure::Work(error.to_string()))
+}
+
+/// The file of the scenes that were open last, in the user's folder of states, or of configurations where there is none.
+fn recent() -> Option<PathBuf> {
+    let strategy = etcetera::choose_base_strategy().ok()?;
+    let folder = strategy.state_dir().unwrap_or_else(|| strategy.config_dir());
+    Some(folder.join("drypoint").join("recent"))
 }
 
 fn token() -> Result<String, Failure> {

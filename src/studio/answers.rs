@@ -1,8 +1,10 @@
 //! The answers to the page's requests.
 
 use super::document::Change;
+use super::drawings::Quality;
 use super::error::StudioError;
 use super::folder;
+use super::sending::Wanted;
 use super::session::Studio;
 use axum::body::Bytes;
 use axum::extract::{Path as UrlPath, Query, State};
@@ -11,6 +13,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use std::path::Path;
 use std::sync::Arc;
 
 type Shared = State<Arc<Studio>>;
@@ -93,7 +96,7 @@ pub(super) async fn drop_photograph(State(studio): Shared, Query(Named { name })
         None => folder::unused(&home, &name)?,
     };
     folder::write(&file, &body)?;
-    studio.open(&file)?;
+    studio.open(&file).await?;
     state(&studio).await
 }
 
@@ -105,7 +108,10 @@ struct Opened {
 pub(super) async fn open(State(studio): Shared, body: Bytes) -> Answer {
     let Opened { file } = parsed(&body)?;
     let home = studio.document().map_or_else(|_| studio.home.clone(), |document| document.folder().to_owned());
-    studio.open(&folder::inside(&home, &file)?)?;
+    // Scenes elsewhere only if they were open before: the list is the user's own.
+    let known = studio.recent.list().into_iter().find(|scene| *scene == Path::new(&file));
+    let file = known.map_or_else(|| folder::inside(&home, &file), Ok)?;
+    studio.open(&file).await?;
     state(&studio).await
 }
 
@@ -150,13 +156,64 @@ pub(super) async fn plot(State(studio): Shared, Query(Machine { profile }): Quer
     Ok(bytes("application/json", studio.plot(&profile).await?))
 }
 
-pub(super) async fn stages(State(studio): Shared) -> Answer {
-    Ok(json(&studio.stages().await?))
+#[derive(Deserialize)]
+pub(super) struct How {
+    #[serde(default)]
+    quality: Quality,
 }
 
-pub(super) async fn stage(State(studio): Shared, UrlPath(file): UrlPath<String>) -> Answer {
-    let (kind, picture) = studio.stage(&file)?;
+pub(super) async fn stages(State(studio): Shared, Query(How { quality }): Query<How>) -> Answer {
+    Ok(json(&studio.stages(quality).await?))
+}
+
+pub(super) async fn stage(State(studio): Shared, UrlPath(file): UrlPath<String>, Query(How { quality }): Query<How>) -> Answer {
+    let (kind, picture) = studio.stage(&file, quality)?;
     Ok(bytes(kind, picture))
+}
+
+pub(super) async fn thumbnail(State(studio): Shared, UrlPath(preset): UrlPath<String>) -> Answer {
+    Ok(bytes("image/svg+xml", studio.thumbnail(&preset).await?))
+}
+
+pub(super) async fn recent(State(studio): Shared) -> Answer {
+    let own = studio.document().map(|document| document.file).ok();
+    let scenes = studio.recent.list().into_iter().filter(|scene| own.as_ref() != Some(scene));
+    let files: Vec<String> = scenes.map(|scene| scene.to_string_lossy().into_owned()).collect();
+    Ok(json(&serde_json::json!({ "files": files })))
+}
+
+pub(super) async fn ports(State(studio): Shared) -> Answer {
+    Ok(json(&studio.ports().await?))
+}
+
+#[derive(Deserialize)]
+pub(super) struct Part {
+    profile: String,
+    x: f64,
+    y: f64,
+    width: f64,
+    height: f64,
+}
+
+pub(super) async fn part(State(studio): Shared, Query(part): Query<Part>) -> Answer {
+    let Part { profile, x, y, width, height } = part;
+    Ok(json(&studio.part_command(&profile, [x, y, width, height]).await?))
+}
+
+pub(super) async fn send(State(studio): Shared, body: Bytes) -> Answer {
+    Ok(json(&studio.send(parsed::<Wanted>(&body)?).await?))
+}
+
+pub(super) async fn send_on(State(studio): Shared) -> Answer {
+    Ok(json(&studio.send_on()?))
+}
+
+pub(super) async fn send_pause(State(studio): Shared) -> Answer {
+    Ok(json(&studio.send_pause()?))
+}
+
+pub(super) async fn send_stop(State(studio): Shared) -> Answer {
+    Ok(json(&studio.send_stop()?))
 }
 
 #[derive(Deserialize)]

@@ -49,8 +49,7 @@ async fn draw(studio: &Studio, revision: u64, looked_at: &mut Option<Seal>) {
                 studio.events.tell("finished", json!({ "id": id, "quality": quality.name(), "revision": revision }));
             }
             Err(error) => {
-                let message = error.to_string();
-                studio.events.tell("failed", json!({ "quality": quality.name(), "revision": revision, "message": message }));
+                studio.tell_failure(json!({ "quality": quality.name(), "revision": revision, "message": error.to_string() }));
                 return;
             }
         }
@@ -77,12 +76,9 @@ async fn one(studio: &Studio, id: u64, revision: u64, quality: Quality) -> Resul
     let document = studio.document()?;
     let started = Instant::now();
     let marks = studio.scratch.path().join("drawing.json");
-    let (scene, output, found) = (document.name(), marks.to_string_lossy().into_owned(), studio.found());
-    let found = found.to_string_lossy();
+    let (scene, output, found) = (document.name(), marks.to_string_lossy().into_owned(), studio.usable_sight(&document));
     let mut words = vec!["draw", &scene, "-o", &output, "--format", "json", "--json"];
-    if document.string("sight").is_none() && Path::new(&*found).join("sight.json").exists() {
-        words.extend(["--sight", &found]);
-    }
+    words.extend(found.iter().flat_map(|found| ["--sight", found]));
     if quality == Quality::Coarse {
         words.push("--draft");
     }

@@ -4,7 +4,7 @@ use super::error::StudioError;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use tokio::io::{AsyncBufReadExt, AsyncReadExt, BufReader};
-use tokio::process::{Child, Command};
+use tokio::process::{Child, ChildStderr, ChildStdout, Command};
 
 /// What our own messages begin with.
 const OWN: &str = "drypoint: ";
@@ -70,8 +70,81 @@ impl Program {
     }
 }
 
+/// A process that sends a drawing to its machine. It outlives the page, and no signal of the terminal reaches it: the studio passes
+/// one on, so that it hears it once and has the time to lift the pen.
+pub(super) struct Sender(Child);
+
+impl Program {
+    /// Starts to send.
+    pub(super) fn send(&self, folder: &Path, words: &[&str]) -> Result<Sender, StudioError> {
+        if !cfg!(unix) {
+            let why = "the page cannot pause or stop a machine on this system";
+            return Err(StudioError::Refused(format!("{why}; export the file and use drypoint send in a terminal")));
+        }
+        let mut command = Command::new(&self.0);
+        command.args(words).current_dir(folder);
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).kill_on_drop(false);
+        #[cfg(unix)]
+        command.process_group(0);
+        let cannot = |error| StudioError::Failed(format!("{} cannot be started: {error}", self.0.display()));
+        command.spawn().map(Sender).map_err(cannot)
+    }
+}
+
+impl Sender {
+    pub(super) fn id(&self) -> Option<u32> {
+        self.0.id()
+    }
+
+    /// Its status lines and its messages.
+    pub(super) fn pipes(&mut self) -> (ChildStdout, ChildStderr) {
+        (self.0.stdout.take().expect("it is piped"), self.0.stderr.take().expect("it is piped"))
+    }
+
+    /// Waits for its end; returns its status unless it succeeded.
+    pub(super) async fn ended(&mut self) -> Option<String> {
+        match self.0.wait().await {
+            Ok(status) => (!status.success()).then(|| status.to_string()),
+            Err(error) => Some(error.to_string()),
+        }
+    }
+
+    /// Pauses at the end of the path, or goes on.
+    pub(super) fn pause(id: u32) -> Result<(), StudioError> {
+        signalled(id, Signal::Pause)
+    }
+
+    /// Stops at once and lifts the pen.
+    pub(super) fn stop(id: u32) -> Result<(), StudioError> {
+        signalled(id, Signal::Stop)
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Signal {
+    Pause,
+    Stop,
+}
+
+#[cfg(unix)]
+fn signalled(id: u32, signal: Signal) -> Result<(), StudioError> {
+    use rustix::process::{Pid, kill_process};
+    let signal = match signal {
+        Signal::Pause => rustix::process::Signal::USR1,
+        Signal::Stop => rustix::process::Signal::TERM,
+    };
+    let process = i32::try_from(id).ok().and_then(Pid::from_raw);
+    let process = process.ok_or_else(|| StudioError::Failed("the sender's process has no number".to_owned()))?;
+    kill_process(process, signal).map_err(|error| StudioError::Failed(format!("the sender cannot be told: {error}")))
+}
+
+#[cfg(not(unix))]
+fn signalled(_: u32, _: Signal) -> Result<(), StudioError> {
+    Err(StudioError::Refused("this system has no signals by which a sender could be told".to_owned()))
+}
+
 /// Why a process failed, from what it said.
-fn reason(said: &[String], status: &str) -> String {
+pub(super) fn reason(said: &[String], status: &str) -> String {
     let own = said.iter().rev().find_map(|line| line.strip_prefix(OWN).filter(|line| !line.starts_with(WARNING)));
     // The parser's messages begin otherwise, and their first line says what is wrong.
     let parsers = said.iter().find_map(|line| line.strip_prefix("error: "));

@@ -27,6 +27,11 @@ enum Step {
 }
 
 impl Change {
+    /// Names the file of a mask.
+    pub(super) fn of_mask(role: &str, value: Json) -> Self {
+        Self { path: vec![Step::Key("mask".to_owned()), Step::Key(role.to_owned())], value }
+    }
+
     /// Sets a key at the top.
     pub(super) fn of_key(key: &str, value: Json) -> Self {
         Self { path: vec![Step::Key(key.to_owned())], value }
@@ -78,6 +83,11 @@ impl Document {
     /// A value at the top.
     pub(super) fn string(&self, key: &str) -> Option<&str> {
         self.parsed.get(key)?.as_str()
+    }
+
+    /// The file that the scene names for a mask.
+    pub(super) fn mask(&self, role: &str) -> Option<&str> {
+        self.parsed.get("mask")?.get(role)?.as_str()
     }
 
     /// All values as JSON.

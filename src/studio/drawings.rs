@@ -1,6 +1,7 @@
 //! Drawings that the page may fetch.
 
 use super::error::StudioError;
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,9 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 const KEPT: usize = 4;
 
 /// How finely something is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(super) enum Quality {
     /// With marks farther apart, at once.
+    #[default]
     Coarse,
     /// As the command draws it.
     Full,
@@ -88,6 +91,13 @@ impl Drawings {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let found = kept.iter().find(|drawn| drawn.id == id).cloned();
         found.ok_or_else(|| StudioError::Missing("that drawing has been replaced by a newer one".to_owned()))
+    }
+
+    /// Width and height of the sheet that was drawn last, in millimetres.
+    pub(super) fn page(&self) -> Option<[f64; 2]> {
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let page = &kept.back()?.report["page_mm"];
+        Some([page[0].as_f64()?, page[1].as_f64()?])
     }
 
     /// The best drawing of a revision.

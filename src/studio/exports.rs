@@ -13,7 +13,7 @@ pub(super) fn command_line(scene: &str, file: &str, profile: Option<&str>) -> St
 }
 
 /// A word for a shell.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let is_plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "._-+/".contains(c)) && !word.is_empty();
     if is_plain { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
@@ -27,6 +27,7 @@ impl Studio {
             return Err(StudioError::Refused(format!("{file} is the scene itself; choose another name")));
         }
         self.made(file, profile).await?;
+        self.note_export(file, profile);
         let bytes = std::fs::metadata(&output).map_or(0, |found| found.len());
         Ok(json!({ "file": file, "bytes": bytes, "command": command_line(&document.name(), file, profile) }))
     }
@@ -41,6 +42,7 @@ impl Studio {
         let made = self.made(&output.to_string_lossy(), profile).await;
         let bytes = made.and_then(|()| std::fs::read(&output).map_err(StudioError::about(&output)));
         let _ = std::fs::remove_dir_all(&passing);
+        self.note_export(file, profile);
         bytes
     }
 
@@ -81,7 +83,7 @@ impl Studio {
 }
 
 /// A profile's name; a file of a profile is named in the scene.
-fn checked(profile: &str) -> Result<&str, StudioError> {
+pub(super) fn checked(profile: &str) -> Result<&str, StudioError> {
     let is_name = !profile.starts_with('-')
         && profile.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
         && !profile.contains("..");

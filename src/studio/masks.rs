@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// Roles that are shown and painted, as the folder of sight names its pictures.
 const ROLES: [&str; 8] = ["subject", "skin", "hair", "facial-hair", "headwear", "clothing", "detail", "depth"];
+/// Roles of lines that are drawn by hand, instead of those that the style detects. They lie beside the scene, which names them.
+const LINES: [&str; 2] = ["edges", "isophotes"];
 /// Bytes of a mask.
 const MOST_BYTES: usize = 32 << 20;
 /// The first bytes of a PNG.
@@ -23,7 +25,20 @@ fn file_of(folder: &Path, role: &str) -> Result<PathBuf, StudioError> {
     if ROLES.contains(&role) {
         return Ok(folder.join(format!("{role}.png")));
     }
-    Err(StudioError::Missing(format!("there is no mask '{role}'; there are {}", ROLES.join(", "))))
+    Err(StudioError::Missing(format!("there is no mask '{role}'; there are {}", [&ROLES[..], &LINES[..]].concat().join(", "))))
+}
+
+/// The file's name of lines drawn by hand.
+fn lines_name(document: &Document, role: &str) -> String {
+    format!("{}-{role}.png", document.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// Where the scene's own mask of a role lies, if it has a place.
+fn own_file(folder: &Path, document: &Document, role: &str) -> Result<Option<PathBuf>, StudioError> {
+    if LINES.contains(&role) {
+        return Ok(Some(folder.join(lines_name(document, role))));
+    }
+    own_folder(folder, document).map(|own| file_of(&own, role)).transpose()
 }
 
 /// The folder of sight that a scene names.
@@ -37,10 +52,9 @@ pub(super) fn painted<'a>(
     document: &Document,
     roles: impl Iterator<Item = &'a String>,
 ) -> Result<Masks, StudioError> {
-    let own = own_folder(folder, document);
     roles
         .map(|role| {
-            let file = own.as_ref().map(|own| file_of(own, role)).transpose()?;
+            let file = own_file(folder, document, role)?;
             Ok((role.clone(), file.and_then(|file| fs::read(file).ok()).map(Arc::from)))
         })
         .collect()
@@ -48,9 +62,8 @@ pub(super) fn painted<'a>(
 
 /// Writes masks into the scene's own folder, or takes them out of it.
 pub(super) fn put(folder: &Path, document: &Document, masks: &Masks) -> Result<(), StudioError> {
-    let Some(own) = own_folder(folder, document) else { return Ok(()) };
     for (role, mask) in masks {
-        let file = file_of(&own, role)?;
+        let Some(file) = own_file(folder, document, role)? else { continue };
         match mask {
             Some(mask) => folder::write(&file, mask)?,
             None if file.exists() => fs::remove_file(&file).map_err(StudioError::about(&file))?,
@@ -66,6 +79,13 @@ impl Studio {
         self.scratch.path().join("sight")
     }
 
+    /// The folder of what was found, for a command; `None` if the scene says itself what is seen, or nothing was found.
+    pub(super) fn usable_sight(&self, document: &Document) -> Option<String> {
+        let found = self.found();
+        let is_used = document.string("sight").is_none() && found.join("sight.json").exists();
+        is_used.then(|| found.to_string_lossy().into_owned())
+    }
+
     /// The folder of sight that holds now: the scene's own, or what was found.
     fn sight(&self, document: &Document) -> PathBuf {
         own_folder(document.folder(), document).unwrap_or_else(|| self.found())
@@ -75,22 +95,37 @@ impl Studio {
     pub(super) fn masks(&self) -> Result<Value, StudioError> {
         let document = self.document()?;
         let (sight, found) = (self.sight(&document), self.found());
-        let roles = ROLES.map(|role| {
+        let found_roles = ROLES.map(|role| {
             let name = format!("{role}.png");
             let (used, first) = (fs::read(sight.join(&name)).ok(), fs::read(found.join(&name)).ok());
             json!({ "role": role, "is_there": used.is_some(), "is_painted": sight != found && used != first })
         });
-        Ok(json!({ "roles": roles }))
+        let size = ROLES.iter().find_map(|role| image::image_dimensions(sight.join(format!("{role}.png"))).ok());
+        let lines = LINES.map(|role| {
+            let is_named = document.mask(role).is_some();
+            json!({ "role": role, "is_there": is_named, "is_painted": is_named })
+        });
+        let roles = [&found_roles[..], &lines[..]].concat();
+        Ok(json!({ "roles": roles, "size": size }))
     }
 
     /// `GET /api/mask/ROLE`: the picture.
     pub(super) fn mask(&self, role: &str) -> Result<Vec<u8>, StudioError> {
-        let file = file_of(&self.sight(&self.document()?), role)?;
+        let document = self.document()?;
+        if LINES.contains(&role) {
+            let none = || StudioError::Missing(format!("no {role} are drawn yet; draw them"));
+            let name = document.mask(role).ok_or_else(none)?;
+            return fs::read(document.folder().join(name)).map_err(|_| none());
+        }
+        let file = file_of(&self.sight(&document), role)?;
         fs::read(&file).map_err(|_| StudioError::Missing(format!("no {role} was found in this photograph; paint it")))
     }
 
     /// `PUT /api/mask/ROLE`: a painted picture, or the one that was found again.
     pub(super) fn paint(&self, role: &str, picture: Option<Vec<u8>>) -> Result<(), StudioError> {
+        if LINES.contains(&role) {
+            return self.draw_lines(role, picture);
+        }
         file_of(Path::new(""), role)?;
         if let Some(picture) = &picture {
             check(picture)?;
@@ -105,6 +140,16 @@ impl Studio {
         let masks = BTreeMap::from([(role.to_owned(), picture.map(Arc::from))]);
         let change = [Change::of_key("sight", json!(name))];
         self.step(&format!("{role} painted"), masks, |document| document.changed(&change))
+    }
+
+    /// Lines drawn by hand, or none of them: then the style detects its own again.
+    fn draw_lines(&self, role: &str, picture: Option<Vec<u8>>) -> Result<(), StudioError> {
+        picture.as_deref().map_or(Ok(()), check)?;
+        let document = self.document()?;
+        let name = picture.as_ref().map(|_| lines_name(&document, role));
+        let change = [Change::of_mask(role, json!(name))];
+        let masks = BTreeMap::from([(role.to_owned(), picture.map(Arc::from))]);
+        self.step(&format!("{role} drawn"), masks, |document| document.changed(&change))
     }
 
     /// Copies what was found into the scene's own folder.

@@ -17,13 +17,18 @@ mod guard;
 mod history;
 mod masks;
 mod page;
+mod part;
 mod photographs;
+mod recent;
+mod sending;
 mod server;
 mod session;
 mod stages;
 mod tables;
+mod thumbnails;
 mod watching;
 
 pub use error::StudioError;
 pub use photographs::{Shower, Shown};
 pub use server::{Settings, serve};
+pub use session::{SceneCheck, Ties};

@@ -2,7 +2,7 @@
 
 use super::error::StudioError;
 use super::photographs::Shower;
-use super::session::Studio;
+use super::session::{Studio, Ties};
 use super::{answers, artist, events, guard, page, watching};
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -33,25 +33,24 @@ pub struct Settings {
     pub show: Shower,
 }
 
-/// Serves the page until the process ends. `announce` is given its address.
-pub fn serve(settings: Settings, announce: impl FnOnce(&str)) -> Result<(), StudioError> {
+/// Serves the page until the process ends, with what the command line lends it. `announce` is given its address.
+pub fn serve(settings: Settings, ties: Ties, announce: impl FnOnce(&str)) -> Result<(), StudioError> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| StudioError::Failed(format!("the server cannot start: {error}")))?;
-    runtime.block_on(run(settings, announce))
+    runtime.block_on(run(settings, ties, announce))
 }
 
-async fn run(settings: Settings, announce: impl FnOnce(&str)) -> Result<(), StudioError> {
+async fn run(settings: Settings, ties: Ties, announce: impl FnOnce(&str)) -> Result<(), StudioError> {
     let taken = |error| {
         let other = if settings.port == 0 { "" } else { "; choose another, or 0 for any that is free" };
         StudioError::Failed(format!("port {}: {error}{other}", settings.port))
     };
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, settings.port)).await.map_err(taken)?;
     let port = listener.local_addr().map_err(taken)?.port();
-    let Settings { program, file, home, token, show, .. } = settings;
-    let address = format!("http://127.0.0.1:{port}/?token={token}");
-    let studio = Arc::new(Studio::new(port, token, program, show, home)?);
-    if let Some(file) = file {
-        studio.open(&file)?;
+    let address = format!("http://127.0.0.1:{port}/?token={}", settings.token);
+    let studio = Arc::new(Studio::new(port, &settings, ties)?);
+    if let Some(file) = &settings.file {
+        studio.open(file).await?;
     }
     tokio::spawn(artist::draw_always(Arc::clone(&studio)));
     tokio::spawn(watching::watch_always(Arc::clone(&studio)));
@@ -76,6 +75,14 @@ fn router(studio: Arc<Studio>) -> Router {
         .route("/api/mask/{role}", get(answers::mask).put(answers::paint).delete(answers::unpaint))
         .route("/api/stages", get(answers::stages))
         .route("/api/stage/{file}", get(answers::stage))
+        .route("/api/thumbnail/{preset}", get(answers::thumbnail))
+        .route("/api/recent", get(answers::recent))
+        .route("/api/ports", get(answers::ports))
+        .route("/api/part", get(answers::part))
+        .route("/api/send", post(answers::send))
+        .route("/api/send/pause", post(answers::send_pause))
+        .route("/api/send/stop", post(answers::send_stop))
+        .route("/api/send/continue", post(answers::send_on))
         .route("/api/plot", get(answers::plot))
         .route("/api/export", get(answers::download).post(answers::export))
         .route("/api/events", get(events::listen))

@@ -8,6 +8,11 @@ use super::events::{Events, Told};
 use super::history::{History, Masks, State};
 use super::masks;
 use super::photographs::Photographs;
+use super::recent::Recent;
+use super::sending::Sending;
+use super::server::Settings;
+use super::stages::Stages;
+use super::thumbnails::Thumbnails;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,6 +27,14 @@ pub(super) struct Studio {
     pub events: Events,
     pub drawings: Drawings,
     pub photographs: Photographs,
+    pub stages: Stages,
+    pub thumbnails: Thumbnails,
+    pub sending: Sending,
+    pub recent: Recent,
+    /// Refuses a scene whose keys the command would not take, in words.
+    check: SceneCheck,
+    /// True once the process was told to end.
+    pub is_ending: fn() -> bool,
     /// For drawings on their way and for what was found in photographs; gone when the studio ends.
     pub scratch: tempfile::TempDir,
     /// The folder for a photograph that is dropped before a scene is open.
@@ -32,6 +45,26 @@ pub(super) struct Studio {
     next_drawing: AtomicU64,
 }
 
+/// Says what is wrong with a scene's text.
+pub type SceneCheck = fn(&str) -> Result<(), String>;
+
+/// What the command line lends the studio. Without it, no scene is remembered, any key is taken, and the process ends unheard.
+#[derive(Clone, Debug)]
+pub struct Ties {
+    /// The file of recent scenes; it need not be there yet.
+    pub recent: Option<PathBuf>,
+    /// Refuses a scene whose keys or values the command does not know.
+    pub check: SceneCheck,
+    /// True once the process was told to end: a machine that draws is then stopped.
+    pub is_ending: fn() -> bool,
+}
+
+impl Default for Ties {
+    fn default() -> Self {
+        Self { recent: None, check: |_| Ok(()), is_ending: || false }
+    }
+}
+
 #[derive(Default)]
 struct Session {
     document: Option<Document>,
@@ -40,16 +73,16 @@ struct Session {
     history: History,
     /// What was last told of sight.
     sight: Option<Value>,
+    /// Why the last drawing failed.
+    failure: Option<Value>,
+    /// The file that was last exported, and its machine: the command to copy makes the like.
+    exported: Option<(String, Option<String>)>,
 }
 
 impl Studio {
-    pub(super) fn new(
-        port: u16,
-        token: String,
-        program: PathBuf,
-        show: super::photographs::Shower,
-        home: PathBuf,
-    ) -> Result<Self, StudioError> {
+    pub(super) fn new(port: u16, settings: &Settings, ties: Ties) -> Result<Self, StudioError> {
+        let Settings { program, home, token, show, .. } = settings.clone();
+        let Ties { recent, check, is_ending } = ties;
         let scratch = tempfile::Builder::new().prefix("drypoint-studio-").tempdir();
         Ok(Self {
             port,
@@ -58,6 +91,12 @@ impl Studio {
             events: Events::new(),
             drawings: Drawings::default(),
             photographs: Photographs::new(show),
+            stages: Stages::default(),
+            thumbnails: Thumbnails::default(),
+            sending: Sending::default(),
+            recent: Recent(recent),
+            check,
+            is_ending,
             scratch: scratch.map_err(|error| StudioError::Failed(format!("no folder for drawings on their way: {error}")))?,
             home,
             session: Mutex::default(),
@@ -88,13 +127,32 @@ impl Studio {
     }
 
     /// Opens a scene's file, or begins one of a photograph.
-    pub(super) fn open(&self, file: &Path) -> Result<(), StudioError> {
-        let document = opened(file)?;
+    pub(super) async fn open(&self, file: &Path) -> Result<(), StudioError> {
+        if !is_scene(file) && file.is_file() {
+            // What is no photograph gets no scene.
+            self.photographs.shown(file, None).await?;
+        }
+        let document = self.checked(opened(file)?)?;
+        self.recent.note(&document.file);
         let mut session = self.session();
         *session = Session { document: Some(document), ..Session::default() };
         drop(session);
         self.tell_change();
         Ok(())
+    }
+
+    /// Refuses a scene with keys or values that the command does not know.
+    fn checked(&self, document: Document) -> Result<Document, StudioError> {
+        match (self.check)(document.text()) {
+            Ok(()) => Ok(document),
+            Err(why) => Err(StudioError::Refused(format!("{}: {why}", document.name()))),
+        }
+    }
+
+    /// Remembers what was exported, for the command to copy.
+    pub(super) fn note_export(&self, file: &str, profile: Option<&str>) {
+        let profile = profile.filter(|profile| !profile.is_empty()).map(str::to_owned);
+        self.session().exported = Some((file.to_owned(), profile));
     }
 
     /// Changes the scene's keys as one step of undo.
@@ -116,7 +174,7 @@ impl Studio {
     ) -> Result<(), StudioError> {
         let mut session = self.session();
         let before = session.document.as_ref().ok_or_else(no_scene)?;
-        let after = change(before)?;
+        let after = self.checked(change(before)?)?;
         let masks_before = masks::painted(after.folder(), &after, painted.keys())?;
         masks::put(after.folder(), &after, &painted)?;
         after.write()?;
@@ -179,7 +237,7 @@ impl Studio {
         if text == document.text() && session.error.is_none() {
             return;
         }
-        match Document::of(&document.file, &text) {
+        match Document::of(&document.file, &text).and_then(|read| self.checked(read)) {
             Ok(read) => {
                 let states = [document.text(), read.text()].map(|text| State { text: text.to_owned(), masks: Masks::new() });
                 let [before, after] = states;
@@ -212,11 +270,20 @@ impl Studio {
         self.events.tell("sight", told);
     }
 
+    /// Says why a drawing failed.
+    pub(super) fn tell_failure(&self, told: Value) {
+        self.session().failure = Some(told.clone());
+        self.events.tell("failed", told);
+    }
+
     /// What a page that begins to listen must know.
     pub(super) fn greeting(&self) -> Vec<Told> {
         let revision = *self.revision.borrow();
         let mut told = vec![Told::new("scene", json!({ "revision": revision }))];
         told.extend(self.session().sight.clone().map(|sight| Told::new("sight", sight)));
+        let failure = self.session().failure.clone().filter(|failure| failure["revision"] == revision);
+        told.extend(failure.map(|failure| Told::new("failed", failure)));
+        told.extend(self.sending.last().map(|sending| Told::new("sending", sending)));
         if let Some(drawn) = self.drawings.of_revision(revision) {
             told.push(Told::new("finished", json!({ "id": drawn.id, "quality": drawn.quality.name(), "revision": revision })));
         }
@@ -236,7 +303,10 @@ impl Studio {
         let (undo_label, redo_label) = session.history.labels();
         let document = session.document.as_ref();
         let name = document.map(Document::name);
-        let output = name.as_ref().map(|name| Path::new(name).with_extension("svg"));
+        let exported = session.exported.clone().or_else(|| {
+            let output = Path::new(name.as_ref()?).with_extension("svg");
+            Some((output.to_string_lossy().into_owned(), None))
+        });
         json!({
             "revision": *self.revision.borrow(),
             "file": name,
@@ -247,7 +317,7 @@ impl Studio {
             "redo": redo,
             "undo_label": undo_label,
             "redo_label": redo_label,
-            "command": name.zip(output).map(|(name, output)| super::exports::command_line(&name, &output.to_string_lossy(), None)),
+            "command": name.zip(exported).map(|(name, (file, profile))| super::exports::command_line(&name, &file, profile.as_deref())),
             "error": session.error,
             "photograph": photograph,
         })
@@ -258,10 +328,14 @@ fn no_scene() -> StudioError {
     StudioError::Missing("no scene is open; drop a photograph on the page".to_owned())
 }
 
+fn is_scene(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+}
+
 /// The scene in a file; for a photograph, the scene beside it, which is begun if it is not there.
 fn opened(file: &Path) -> Result<Document, StudioError> {
     let file = &std::path::absolute(file).map_err(StudioError::about(file))?;
-    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+    if is_scene(file) {
         return Document::read(file);
     }
     if !file.is_file() {
@@ -279,4 +353,39 @@ fn opened(file: &Path) -> Result<Document, StudioError> {
     let document = Document::of_photograph(&scene, &name)?;
     document.write()?;
     Ok(document)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn settings(home: &Path) -> Settings {
+        let show = |_: &Path, _| Err("no photograph".to_owned());
+        Settings { program: PathBuf::new(), file: None, home: home.to_owned(), port: 0, token: String::new(), show }
+    }
+
+    #[tokio::test]
+    async fn a_scene_that_the_command_would_refuse_is_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let check = |text: &str| if text.contains("stile") { Err("there is no key 'stile'".to_owned()) } else { Ok(()) };
+        let studio = Studio::new(1, &settings(folder.path()), Ties { check, ..Ties::default() }).unwrap();
+        let scene = folder.path().join("a.toml");
+        std::fs::write(&scene, "stile = 3\n").unwrap();
+        assert_eq!(studio.open(&scene).await.unwrap_err().to_string(), "a.toml: there is no key 'stile'");
+        std::fs::write(&scene, "photograph = 'a.jpg'\n").unwrap();
+        studio.open(&scene).await.unwrap();
+        assert!(studio.replace("text", "stile = 3\n").is_err());
+        let change: Change = serde_json::from_value(json!({ "path": ["stile"], "value": 3 })).unwrap();
+        assert!(studio.change("stile", &[change]).is_err());
+        assert_eq!(std::fs::read_to_string(&scene).unwrap(), "photograph = 'a.jpg'\n");
+    }
+
+    #[tokio::test]
+    async fn what_is_no_photograph_gets_no_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let studio = Studio::new(1, &settings(folder.path()), Ties::default()).unwrap();
+        std::fs::write(folder.path().join("notes.txt"), "words").unwrap();
+        assert!(studio.open(&folder.path().join("notes.txt")).await.is_err());
+        assert!(!folder.path().join("notes.toml").exists());
+    }
 }

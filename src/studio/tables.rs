@@ -28,7 +28,7 @@ impl Studio {
         }))
     }
 
-    async fn list(&self, words: &[&str]) -> Result<Value, StudioError> {
+    pub(super) async fn list(&self, words: &[&str]) -> Result<Value, StudioError> {
         let done = self.program.run(self.scratch.path(), words, |_| {}).await?;
         serde_json::from_slice(&done.stdout).map_err(|error| StudioError::Failed(format!("{}: {error}", words.join(" "))))
     }

@@ -85,6 +85,7 @@ fn painted_masks_belong_to_the_scene_and_are_undone() {
     assert_eq!(state["values"]["sight"], "portrait-sight");
     assert_eq!(studio.get("/api/mask/subject").body, *painted.get_ref());
     let roles = studio.get("/api/masks").accepted();
+    assert_eq!(roles["size"], json!([width, height]));
     let subject = roles["roles"].as_array().unwrap().iter().find(|role| role["role"] == "subject").unwrap().clone();
     assert_eq!(subject["is_painted"], true);
     let after = studio.drawn().unwrap();
@@ -97,6 +98,13 @@ fn painted_masks_belong_to_the_scene_and_are_undone() {
     assert_eq!(studio.drawn().unwrap()["marks"], before["marks"]);
     studio.post("/api/redo", &json!(null)).accepted();
     assert_eq!(studio.get("/api/mask/subject").body, *painted.get_ref());
+    let state = studio.ask("PUT", "/api/mask/edges", painted.get_ref()).accepted();
+    assert_eq!(state["values"]["mask"], json!({ "edges": "portrait-edges.png" }));
+    assert_eq!(studio.get("/api/mask/edges").body, *painted.get_ref());
+    assert!(studio.post("/api/undo", &json!(null)).accepted()["values"].get("mask").is_none());
+    assert!(!folder.path().join("portrait-edges.png").exists() && studio.get("/api/mask/edges").status == 404);
+    studio.post("/api/redo", &json!(null)).accepted();
+    assert!(studio.ask("DELETE", "/api/mask/edges", &[]).accepted()["values"].get("mask").is_none());
     studio.ask("DELETE", "/api/mask/subject", &[]).accepted();
     assert_eq!(studio.get("/api/mask/subject").body, found);
 }

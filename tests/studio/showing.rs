@@ -45,6 +45,7 @@ fn exports_are_the_copied_command_byte_for_byte() {
         let query = profile.map(|profile| format!("&profile={profile}")).unwrap_or_default();
         let downloaded = studio.get(&format!("/api/export?file={file}{query}")).body;
         assert!(downloaded == exported, "recipe {number}: the download differs");
+        assert_eq!(studio.get("/api/scene").accepted()["command"], told["command"]);
         fs::remove_file(folder.path().join(&file)).unwrap();
         typed(folder.path(), told["command"].as_str().unwrap());
         assert!(fs::read(folder.path().join(&file)).unwrap() == exported, "recipe {number}: the command makes something else");
@@ -106,9 +107,19 @@ fn faults_of_a_recipe_are_told_in_the_command_s_words() {
     let plot = studio.get("/api/plot?profile=grbl-servo").accepted();
     assert!(plot["seconds"].as_f64().unwrap() > 1.0 && !plot["marks"]["layers"].as_array().unwrap().is_empty());
     let stages = studio.get("/api/stages").accepted()["stages"].as_array().unwrap().clone();
-    assert!(stages.iter().any(|stage| stage["name"] == "tone") && stages.last().unwrap()["name"] == "drawing", "{stages:?}");
+    assert!(
+        stages.iter().any(|stage| stage["name"] == "tone") && stages.iter().any(|stage| stage["name"] == "drawing"),
+        "{stages:?}"
+    );
+    assert_eq!(stages.last().unwrap()["name"], "tone error");
     let picture = studio.get(&format!("/api/stage/{}", stages[0]["file"].as_str().unwrap()));
+    // Made once for each state of the scene.
+    let revision = |answer: Value| answer["revision"].clone();
+    assert_eq!(revision(studio.get("/api/stages").accepted()), revision(studio.get("/api/scene").accepted()));
     assert!(picture.status == 200 && picture.body.starts_with(b"\x89PNG"));
+    let thumbnail = studio.get("/api/thumbnail/wsj-column");
+    assert!(thumbnail.status == 200 && thumbnail.body.starts_with(b"<svg"), "{}", String::from_utf8_lossy(&thumbnail.body));
+    assert!(studio.get("/api/thumbnail/none-such").refusal().contains("none-such"));
     let tables = studio.get("/api/start").accepted();
     assert_eq!(tables["styles"].as_array().unwrap().len(), 5);
     assert!(tables["styles"][0]["parameters"].as_array().unwrap().len() > 5);

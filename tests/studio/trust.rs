@@ -37,6 +37,7 @@ fn nothing_outside_the_scene_s_folder_is_read_or_written() {
         "/api/mask/sight",
         "/etc/passwd",
         "/api/stage/..%2f..%2fetc",
+        "/api/thumbnail/..%2f..%2fetc",
     ] {
         assert_eq!(studio.get(path).status, 404, "{path}");
     }
@@ -56,6 +57,12 @@ fn nothing_outside_the_scene_s_folder_is_read_or_written() {
         let refusal = studio.change("x", &json!([{ "path": [key], "value": value }])).refusal();
         assert!(refusal.contains("studio"), "{key}: {refusal}");
     }
+    for port in ["", "-o", "--yes"] {
+        assert!(studio.post("/api/send", &json!({ "port": port, "profile": "grbl-servo" })).refusal().contains("port"), "{port}");
+    }
+    assert!(studio.post("/api/send", &json!({ "port": "/dev/null", "profile": "../x" })).refusal().contains("machine"));
+    assert!(studio.post("/api/send/continue", &json!(null)).refusal().contains("nothing was sent"));
+    assert!(studio.post("/api/send/stop", &json!(null)).refusal().contains("nothing is being sent"));
     let text = json!({ "toml": "photograph = \"/etc/passwd\"\n" });
     assert!(studio.ask("PUT", "/api/scene", text.to_string().as_bytes()).refusal().contains("/etc/passwd"));
     std::fs::write(folder.path().join("evil.toml"), "photograph = \"/etc/passwd\"\n").unwrap();
@@ -86,6 +93,14 @@ fn what_cannot_be_used_is_told_in_words() {
     assert!(studio.ask("PUT", "/api/mask/moustache", b"").refusal().contains("facial-hair"));
     assert!(studio.change("x", &json!([{ "path": [], "value": 1 }])).refusal().contains("path"));
     assert!(studio.post("/api/scene", &json!({ "label": 3 })).refusal().contains("cannot be read"));
+    std::fs::write(folder.path().join("notes.txt"), "words").unwrap();
+    assert!(studio.post("/api/open", &json!({ "file": "notes.txt" })).refusal().contains("notes.txt"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_drypoint"));
+    let ended = command.current_dir(folder.path()).args(["studio", "--no-browser", "notes.txt"]).output().unwrap();
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(!ended.status.success() && ended.stdout.is_empty(), "{said}");
+    assert!(said.contains("notes.txt") && said.trim().lines().count() == 1, "{said}");
+    assert!(!folder.path().join("notes.toml").exists());
     let wrong = json!({ "toml": "photograph = " });
     assert!(studio.ask("PUT", "/api/scene", wrong.to_string().as_bytes()).refusal().contains("portrait.toml"));
 }

@@ -264,8 +264,11 @@ fn a_full_disk_keeps_the_old_file() {
 fn bytes_do_not_depend_on_threads_and_differ_by_seed() {
     let (folder, _) = folder();
     let draw = |name: &str, extra: &[&str]| {
-        let status =
-            drypoint().current_dir(folder.path()).args(["draw", "photo.png", "-q", "-o", name]).args(extra).status_code();
+        let status = drypoint()
+            .current_dir(folder.path())
+            .args(["draw", "photo.png", "--size", "60x80mm", "-q", "-o", name])
+            .args(extra)
+            .status_code();
         assert_eq!(status, Some(0));
         fs::read(folder.path().join(name)).unwrap()
     };

@@ -14,7 +14,7 @@ use drypoint::plot::{
     InkModel, Language, Nibs, PenChange, PenPaths, Plot, Profile, StopPlace, Strokes, Toolpath, built_in_names, lower,
 };
 use machine_file::read_back;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 
 /// A small portrait with three pens, ordered.
 fn plot() -> Plot {
@@ -30,38 +30,72 @@ fn plot() -> Plot {
     plot
 }
 
-/// Cells of 0.05 mm that the pen passes over, by pen.
-fn inked(strokes: &Strokes, units_per_mm: f64) -> HashSet<(u32, i64, i64)> {
-    let cell = 0.05 * units_per_mm;
-    let mut cells = HashSet::new();
-    for (pen, points) in &strokes.paths {
-        let mut mark = |p: Point| {
-            cells.insert((*pen, (p.x / cell).round() as i64, (p.y / cell).round() as i64));
-        };
-        points.iter().for_each(|p| mark(*p));
-        for pair in points.windows(2) {
-            let steps = (pair[0].distance(pair[1]) / (0.25 * cell)).ceil().max(1.0) as usize;
-            (0..=steps).for_each(|i| mark(pair[0].lerp(pair[1], i as f64 / steps as f64)));
-        }
+/// What is drawn, and the cells of 0.05 mm around it, row by row; a cell has a bit for each pen.
+struct Whole {
+    strokes: Strokes,
+    units_per_mm: f64,
+    first: [i64; 2],
+    columns: usize,
+    cells: Vec<u8>,
+}
+
+impl Whole {
+    /// Cells free of ink around the whole.
+    const ROOM: i64 = 40;
+
+    fn new(strokes: Strokes, units_per_mm: f64) -> Self {
+        let mut whole = Self { strokes, units_per_mm, first: [0; 2], columns: 0, cells: Vec::new() };
+        let places = || whole.strokes.paths.iter().flat_map(|(_, points)| points).map(|p| whole.cell(*p));
+        let first = places().fold([i64::MAX; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]).map(|v| v - Self::ROOM);
+        let last = places().fold([i64::MIN; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]).map(|v| v + Self::ROOM);
+        let [columns, rows] = [0, 1].map(|i| (last[i] - first[i] + 1) as usize);
+        (whole.first, whole.columns, whole.cells) = (first, columns, vec![0; columns * rows]);
+        whole.cells = whole.inked(&whole.strokes);
+        whole
     }
-    cells
-}
 
-/// Cells of one set with no cell of the other beside them.
-fn missing(of: &HashSet<(u32, i64, i64)>, from: &HashSet<(u32, i64, i64)>) -> usize {
-    let has = |&(pen, x, y): &(u32, i64, i64)| (-1..=1).any(|dx| (-1..=1).any(|dy| from.contains(&(pen, x + dx, y + dy))));
-    of.iter().filter(|cell| !has(cell)).count()
-}
+    fn cell(&self, p: Point) -> [i64; 2] {
+        [p.x, p.y].map(|v| (v / (0.05 * self.units_per_mm)).round() as i64)
+    }
 
-fn check(what: &str, whole: &Strokes, before: &Strokes, rest: &Strokes, units_per_mm: f64) {
-    let (all, done, left) = (inked(whole, units_per_mm), inked(before, units_per_mm), inked(rest, units_per_mm));
-    let together: HashSet<_> = done.union(&left).copied().collect();
-    assert_eq!(missing(&all, &together), 0, "{what}: ink is lost");
-    assert_eq!(missing(&together, &all), 0, "{what}: ink is drawn that is not the drawing's");
-    // A few millimetres are drawn again, no more: three, and the rest of a vertex or an arc.
-    let length = |strokes: &Strokes| -> f64 { strokes.paths.iter().map(|(_, points)| polyline_length(points)).sum() };
-    let again = (length(before) + length(rest) - length(whole)) / units_per_mm;
-    assert!((-0.01..20.0).contains(&again), "{what}: {again} mm twice");
+    /// The cells that the pens pass over.
+    fn inked(&self, strokes: &Strokes) -> Vec<u8> {
+        let mut cells = vec![0; self.cells.len()];
+        for (pen, points) in &strokes.paths {
+            let mut mark = |p: Point| {
+                let [column, row] = [0, 1].map(|i| usize::try_from(self.cell(p)[i] - self.first[i]).unwrap());
+                assert!(column < self.columns, "ink at {p:?} is not the drawing's");
+                cells[row * self.columns + column] |= 1 << pen;
+            };
+            points.iter().for_each(|p| mark(*p));
+            for pair in points.windows(2) {
+                let steps = (pair[0].distance(pair[1]) / (0.0125 * self.units_per_mm)).ceil().max(1.0) as usize;
+                (0..=steps).for_each(|i| mark(pair[0].lerp(pair[1], i as f64 / steps as f64)));
+            }
+        }
+        cells
+    }
+
+    /// Cells of the first with ink of a pen that the second has neither there nor beside it.
+    fn missing(&self, of: &[u8], from: &[u8]) -> usize {
+        let inner = self.columns + 1..of.len() - self.columns - 1;
+        inner
+            .filter(|&at| {
+                let rows = [at - self.columns, at, at + self.columns];
+                of[at] != 0 && of[at] & !rows.iter().fold(0, |bits, row| bits | from[row - 1] | from[*row] | from[row + 1]) != 0
+            })
+            .count()
+    }
+
+    fn check(&self, what: &str, before: &Strokes, rest: &Strokes) {
+        let together: Vec<u8> = self.inked(before).iter().zip(self.inked(rest)).map(|(a, b)| a | b).collect();
+        assert_eq!(self.missing(&self.cells, &together), 0, "{what}: ink is lost");
+        assert_eq!(self.missing(&together, &self.cells), 0, "{what}: ink is drawn that is not the drawing's");
+        // A few millimetres are drawn again, no more: three, and the rest of a vertex or an arc.
+        let length = |strokes: &Strokes| -> f64 { strokes.paths.iter().map(|(_, points)| polyline_length(points)).sum() };
+        let again = (length(before) + length(rest) - length(&self.strokes)) / self.units_per_mm;
+        assert!((-0.01..20.0).contains(&again), "{what}: {again} mm twice");
+    }
 }
 
 /// Indices spread evenly over a range, out of order.
@@ -82,14 +116,14 @@ fn g_code_goes_on_at_any_line() {
             strokes.paths.iter_mut().for_each(|(pen, _)| *pen = 0);
             strokes
         };
-        let whole = unnumbered(&text);
+        let whole = Whole::new(unnumbered(&text), profile.units_per_mm);
         for i in 1..=50 {
             let line = 1 + spread(i, lines.len());
             let rest = Language::Gcode.resume(&text, StopPlace::Line(line), 3.0).unwrap();
             let before = lines[..line - 1].join("\n") + "\n";
             let [before, rest] = [&before, &rest].map(|text| unnumbered(text));
             assert!(rest.ends_up, "{name}, line {line}");
-            check(&format!("{name}, line {line}"), &whole, &before, &rest, profile.units_per_mm);
+            whole.check(&format!("{name}, line {line}"), &before, &rest);
         }
     }
 }
@@ -99,13 +133,13 @@ fn hp_gl_goes_on_at_any_byte() {
     let plot = plot();
     let profile = Profile::built_in("hp7475a").unwrap();
     let text = machine_file::written(&plot, &profile).unwrap();
-    let whole = read_back(&text, &profile);
+    let whole = Whole::new(read_back(&text, &profile), profile.units_per_mm);
     for i in 1..=50 {
         let byte = spread(i, text.len());
         let rest = Language::Hpgl.resume(&text, StopPlace::Byte(byte), 3.0).unwrap();
         let [before, rest] = [&taken(&text[..byte]), &rest].map(|text| read_back(text, &profile));
         assert!(rest.ends_up, "byte {byte}");
-        check(&format!("byte {byte}"), &whole, &before, &rest, profile.units_per_mm);
+        whole.check(&format!("byte {byte}"), &before, &rest);
     }
 }
 
@@ -168,7 +202,7 @@ fn written(profile: &Profile) -> String {
 
 /// Pens, pauses, position and pen of the rest match those of the whole.
 fn assert_rest(what: &str, whole: &Strokes, before: &Strokes, rest: &Strokes, profile: &Profile) {
-    check(what, whole, before, rest, profile.units_per_mm);
+    Whole::new(whole.clone(), profile.units_per_mm).check(what, before, rest);
     assert!(rest.ends_up, "{what}");
     assert_eq!(rest.visited.last(), whole.visited.last(), "{what}: it ends elsewhere");
     // Each pen except the first is asked for once, and no pen without anything left to draw.

@@ -38,6 +38,7 @@ impl Streamlines {
     }
 
     /// Weighted mean of the responses along the streamline through a pixel.
+    #[inline]
     pub(super) fn mean(&self, responses: &Padded<f32>, x: usize, y: usize) -> f32 {
         let here = (y + self.margin()) * responses.stride + x + self.margin();
         let step = self.steps.data[here].map(i32::from);
@@ -51,6 +52,7 @@ impl Streamlines {
     }
 
     /// Takes one step and returns the bilinear response there.
+    #[inline]
     fn advance(&self, walker: &mut Walker, responses: &Padded<f32>, here: usize) -> f32 {
         let Walker { place: [x, y], step: [dx, dy] } = walker;
         (*x, *y) = (*x + *dx, *y + *dy);

@@ -6,13 +6,16 @@ import { now, set, subscribe } from "./model/store.ts";
 import { Bottom } from "./panels/bottom.tsx";
 import { Dialogs } from "./panels/dialogs.tsx";
 import { listenToKeys } from "./panels/keys.ts";
+import { FilmStrip } from "./panels/film.tsx";
 import { Left } from "./panels/left.tsx";
 import { Right } from "./panels/right.tsx";
 import { Top } from "./panels/top.tsx";
 import { listen } from "./server/events.ts";
 import { get } from "./server/requests.ts";
 import type { Scene, Start } from "./server/shapes.ts";
+import { hearSending } from "./model/sending.ts";
 import { clearDrawing, redraw, showDrawing } from "./stage/engine.ts";
+import { whenFilmChanges } from "./stage/film.ts";
 import { reloadMasks, whenMasksChange } from "./stage/masks.ts";
 import { followPhotograph } from "./stage/photograph.ts";
 import { Stage } from "./stage/stage.tsx";
@@ -24,6 +27,7 @@ function Studio() {
       <Left />
       <Stage />
       <Right />
+      <FilmStrip />
       <Bottom />
       <Dialogs />
     </div>
@@ -45,6 +49,7 @@ function listenToServer(): void {
         showDrawing(String(id), quality, revision);
       },
       failed: ({ revision, message }) => set({ work: null, failure: { revision, message } }),
+      sending: hearSending,
       sight: (sight) => {
         if (sight.state === "looking") set({ sight });
         else void reloadMasks().then(() => set({ sight }));
@@ -76,6 +81,7 @@ function followScene(): void {
 
 async function begin(): Promise<void> {
   whenMasksChange(redraw);
+  whenFilmChanges(redraw);
   whenTravelled(() => void reloadMasks());
   listenToKeys();
   render(<Studio />, document.getElementById("page")!);

@@ -22,7 +22,9 @@ export async function folderWith(...names) {
 /// Starts `drypoint studio` in the folder; `end` stops it.
 export async function startStudio(folder, file) {
   const words = ["studio", "--no-browser", ...(file ? [file] : [])];
-  const child = spawn(command, words, { cwd: folder, stdio: ["ignore", "pipe", "ignore"] });
+  // Not among the recent scenes of whoever runs the trial.
+  const env = { ...process.env, XDG_STATE_HOME: join(folder, ".state") };
+  const child = spawn(command, words, { cwd: folder, env, stdio: ["ignore", "pipe", "ignore"] });
   const [line] = await once(child.stdout, "data");
   const address = String(line).trim();
   const end = async () => {

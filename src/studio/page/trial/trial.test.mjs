@@ -6,6 +6,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
+import { startMachine } from "./machine.mjs";
 import { command, folderWith, openPage, scene, shownInFull, startStudio } from "./studio.mjs";
 
 const run = promisify(execFile);
@@ -75,6 +76,11 @@ async function exported(file) {
   return { bytes, made };
 }
 
+test("without a scene nothing fails", async () => {
+  await page.waitForLoadState("networkidle");
+  assert.equal(await page.locator(".failure").count(), 0);
+});
+
 test("a text file that is dropped is refused in words", async () => {
   await drop("note.txt", "text/plain", Buffer.from("this is no photograph"));
   await page.waitForSelector(".failure");
@@ -92,6 +98,41 @@ test("a photograph that is dropped is drawn", async () => {
   });
   await shownInFull(page);
   assert.deepEqual(await barriers(), []);
+});
+
+test("the stages between photograph and drawing are shown and explained", async () => {
+  await page.locator("canvas").first().focus();
+  await page.keyboard.press("i");
+  await page.waitForSelector(".frame", { timeout: 120_000 });
+  await page.locator(".frame", { hasText: "seeds" }).first().click();
+  await page.waitForSelector("[data-shown='Stage: seeds']");
+  assert.match(await page.locator(".film-text").innerText(), /row by row/);
+  assert.deepEqual(await barriers(), []);
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("[data-shown='Stage: offset lines']");
+  await page.keyboard.press("i");
+  await page.waitForSelector("[data-shown='Full']");
+  await page.keyboard.press("o");
+  await page.waitForFunction(() => /too dark|no picture/.test(document.querySelector(".tone-legend")?.textContent ?? ""), null, { timeout: 120_000 });
+  assert.deepEqual(await barriers(), []);
+  await page.keyboard.press("o");
+  assert.equal(await page.locator(".frame").count(), 0);
+});
+
+test("presets are shown as pictures of this portrait, and one is taken", async () => {
+  await page.locator("canvas").first().focus();
+  await page.keyboard.press("y");
+  const first = page.locator(".preset-picture").first();
+  await first.locator("img").waitFor({ timeout: 120_000 });
+  assert.deepEqual(await barriers(), []);
+  const before = await scene(page);
+  await first.press("Enter");
+  await until(({ values }) => values.style === "engrave");
+  await page.keyboard.press("y");
+  await page.keyboard.press("Control+z");
+  await until(({ toml }) => toml === before.toml);
+  await shownInFull(page);
 });
 
 test("a slider changes the scene and the drawing, and is undone", async () => {
@@ -129,6 +170,71 @@ test("a mask is painted and undone", async () => {
   await until(({ values }) => values.sight === "portrait-sight");
 });
 
+test("an edge is drawn and undone", async () => {
+  await page.locator("canvas").first().focus();
+  await page.keyboard.press("n");
+  const { x, y, width, height } = await page.locator("canvas").first().boundingBox();
+  await page.mouse.move(x + width / 2 - 60, y + height / 2);
+  await page.mouse.down();
+  for (let i = 1; i <= 12; i++) await page.mouse.move(x + width / 2 - 60 + 10 * i, y + height / 2 + 2 * i);
+  await page.mouse.up();
+  await page.keyboard.press("Escape");
+  await until(({ values }) => values.mask?.edges === "portrait-edges.png");
+  await shownInFull(page);
+  assert.deepEqual(await barriers(), []);
+  await page.locator("canvas").first().focus();
+  await page.keyboard.press("Control+z");
+  await until(({ values }) => values.mask === undefined);
+  await page.keyboard.press("v");
+  await shownInFull(page);
+});
+
+test("letters typed in a list choose there and do nothing else", async () => {
+  await page.locator("#tab-regions").click();
+  const before = await scene(page);
+  await page.getByLabel("Add a region for").focus();
+  for (const key of ["b", "i", "y", "m", "x", "g", "r", "n"]) await page.keyboard.press(key);
+  assert.equal(await page.locator("dialog, .film, .preset-pictures").count(), 0);
+  assert.equal(await page.locator(".tool-hand").count(), 1);
+  assert.equal((await scene(page)).toml, before.toml);
+  assert.match(await page.locator(".top").innerText(), /Keep as B/);
+  await page.keyboard.press("Tab");
+});
+
+test("a mask that is not there yet is not painted over", async () => {
+  const other = await startStudio(await folderWith("astronaut.jpg"), "astronaut.jpg");
+  const early = await openPage(other.address);
+  try {
+    const painted = early.page;
+    // The page is kept from hearing what masks there are, as long as it is painted on.
+    let isHeld = true;
+    await painted.route("**/api/masks", async (route) => {
+      while (isHeld) await new Promise((resolve) => setTimeout(resolve, 20));
+      await route.continue();
+    });
+    await painted.reload();
+    const canvas = painted.locator("canvas").first();
+    await canvas.focus();
+    await painted.keyboard.press("b");
+    const { x, y, width, height } = await canvas.boundingBox();
+    await painted.mouse.move(x + width / 2, y + height / 2);
+    await painted.mouse.down();
+    await painted.mouse.move(x + width / 2 + 40, y + height / 2 + 20);
+    await painted.mouse.up();
+    await painted.keyboard.press("Enter");
+    await painted.getByText("The mask is not there yet").waitFor();
+    isHeld = false;
+    await painted.waitForSelector(".masks .mask-name");
+    await shownInFull(painted);
+    const { toml, undo } = await scene(painted);
+    assert.deepEqual([toml, undo], ['photograph = "astronaut.jpg"\n', 0]);
+    assert.deepEqual(early.faults, []);
+  } finally {
+    await early.browser.close();
+    await other.end();
+  }
+});
+
 test("a region has a style of its own", async () => {
   await page.locator("#tab-regions").click();
   await page.getByLabel("Add a region for").selectOption("hair");
@@ -143,6 +249,7 @@ test("what is exported is what the copied command makes", async () => {
   for (const file of ["first.svg", "first.pdf", "first.json"]) {
     const { bytes, made } = await exported(file);
     assert.ok(bytes.length > 1000 && bytes.equals(made), `${file} differs`);
+    assert.equal((await scene(page)).command, `drypoint draw portrait.toml -o ${file}`);
   }
 });
 
@@ -177,6 +284,42 @@ test("the plot is played back", async () => {
   const [done, all] = (await time.getAttribute("aria-valuetext")).match(/path (\d+) of (\d+)/).slice(1).map(Number);
   assert.ok(all > 10 && done === all, `${done} of ${all}`);
   assert.deepEqual(await barriers(), []);
+});
+
+test("a part of the sheet is chosen and sent to a machine, paused, stopped and finished", async () => {
+  const machine = await startMachine();
+  try {
+    await page.locator("canvas").first().focus();
+    await page.keyboard.press("0");
+    await page.keyboard.press("r");
+    const { x, y, width, height } = await page.locator("canvas").first().boundingBox();
+    await page.mouse.move(x + width / 2 - 60, y + height / 2 - 60);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 60, y + height / 2 + 60);
+    await page.mouse.up();
+    await page.keyboard.press("m");
+    await page.getByLabel("Port").fill(machine.port);
+    await page.waitForFunction(() => document.querySelector(".send .command")?.textContent.includes("--region="));
+    assert.deepEqual(await barriers(), []);
+    assert.equal(machine.lines.length, 0);
+    await page.getByRole("button", { name: "Draw this part" }).click();
+    await page.getByRole("button", { name: "Pause", exact: true }).click();
+    await page.locator(".send strong", { hasText: "Paused with the pen up" }).waitFor();
+    assert.deepEqual(await barriers(), []);
+    // Another page that is opened meanwhile is told, too.
+    await page.reload();
+    await page.locator(".sending").click();
+    await page.getByRole("button", { name: "Go on", exact: true }).click();
+    await page.getByRole("button", { name: "Stop now" }).click();
+    await page.getByText("was stopped with the pen up").waitFor();
+    machine.hurry();
+    await page.getByRole("button", { name: "Go on where it stopped" }).click();
+    await page.getByText("is drawn.").waitFor({ timeout: 120_000 });
+    assert.ok(machine.lines.length > 10);
+    await page.keyboard.press("Escape");
+  } finally {
+    machine.end();
+  }
 });
 
 test("nothing was asked of another computer, and no script failed", () => {

@@ -39,6 +39,15 @@ export async function attempt<T>(work: () => Promise<T>): Promise<T | null> {
   }
 }
 
+/** Runs a request whose failure is told where it was asked for. */
+export async function attemptQuietly<T>(work: () => Promise<T>): Promise<{ value: T | null; fault: string | null }> {
+  try {
+    return { value: await work(), fault: null };
+  } catch (error) {
+    return { value: null, fault: error instanceof Error ? error.message : String(error) };
+  }
+}
+
 export function change(label: string, ...changes: Change[]): void {
   if (waiting && waiting.label !== label) void flush();
   waiting ??= { label, changes: new Map() };
@@ -171,6 +180,7 @@ export async function swapRecipes(): Promise<void> {
 
 export async function copyCommand(): Promise<void> {
   await flush();
+  await reload();
   const command = now().scene?.command;
   if (!command) return;
   try {
@@ -186,6 +196,8 @@ export async function exportFile(file: string, profile: string | null): Promise<
   try {
     const exported = await send<Exported>("POST", "/api/export", { file, profile });
     set({ exported, note: `${exported.file} is written` });
+    // The command to copy is now the one that makes this file.
+    await reload();
     return null;
   } catch (error) {
     return error instanceof Error ? error.message : String(error);

@@ -4,7 +4,7 @@ import { useEffect, useReducer, useRef } from "preact/hooks";
 import type { Exported, PenUse, Photograph, Placement, Quality, Scene, Start, Value } from "../server/shapes.ts";
 
 export type ViewMode = "drawing" | "divider" | "side" | "photograph";
-export type Tool = "hand" | "place" | "brush" | "eraser" | "lasso" | "fill";
+export type Tool = "line" | "hand" | "part" | "place" | "brush" | "eraser" | "lasso" | "fill";
 export type Panel = "masks" | "regions" | "sheet" | "scene";
 
 /** What is on the sheet now, without its marks: the worker has those. */
@@ -50,6 +50,33 @@ export interface MaskTools {
   isErasing: boolean;
 }
 
+export interface Film {
+  isOpen: boolean;
+  stages: { file: string; name: string }[];
+  /** Of the scene from which they were made. */
+  revision: number;
+  isBusy: boolean;
+  fault: string | null;
+  chosen: string | null;
+}
+
+/** What the sender last said of the drawing that is on its way to a machine. */
+export interface Sending {
+  state: string;
+  file: string;
+  port: string;
+  machine: string;
+  fraction?: number;
+  seconds_left?: number;
+  paths?: number;
+  paths_in_all?: number;
+  pen?: number;
+  name?: string;
+  fault?: string | null;
+}
+
+export type Box = [number, number, number, number];
+
 export interface State {
   start: Start | null;
   scene: Scene | null;
@@ -67,7 +94,7 @@ export interface State {
   panel: Panel;
   isLeftOpen: boolean;
   isRightOpen: boolean;
-  dialog: null | "export" | "help" | "calibrate";
+  dialog: null | "send" | "export" | "help" | "calibrate";
   exported: Exported | null;
   zoom: number;
   masks: { role: string; isThere: boolean; isPainted: boolean; isVisible: boolean }[];
@@ -77,6 +104,13 @@ export interface State {
   isPlotting: boolean;
   plotFault: string | null;
   playback: Playback;
+  film: Film;
+  /** The error of tone over the drawing: its picture, and of which state of the scene. */
+  tone: { isOn: boolean; isBusy: boolean; fault: string | null; file: string | null; revision: number };
+  sending: Sending | null;
+  /** The part of the sheet that is to be plotted: x, y, width, height in millimetres. */
+  part: Box | null;
+  hasPresets: boolean;
   other: string | null;
   /** Changes that are on their way, so that a slider does not jump back meanwhile. */
   pending: { [path: string]: Value };
@@ -109,6 +143,11 @@ const state: State = {
   isPlotting: false,
   plotFault: null,
   playback: { isOn: false, isPlaying: false, time: 0, speed: 100, hasTravel: true, path: 0 },
+  hasPresets: false,
+  tone: { isOn: false, isBusy: false, fault: null, file: null, revision: -1 },
+  sending: null,
+  part: null,
+  film: { isOpen: false, stages: [], revision: -1, isBusy: false, fault: null, chosen: null },
   other: null,
   pending: {},
 };

@@ -1,9 +1,12 @@
 // The strip at the bottom: the plot played back, and the status in one line.
 
+import { isSending } from "../model/sending.ts";
 import { now, set, useStudio, type Playback, type PlotShown } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
 import { askPlot, pathEnd, pathsDone, redraw } from "../stage/engine.ts";
 import { isOutOfDate } from "../stage/shown.tsx";
+import { toggleFilm } from "./film.tsx";
+import { openSend, sendingInWords } from "./send.tsx";
 import { chosenProfile } from "./sheet.tsx";
 
 const SPEEDS = [1, 10, 100, 1000];
@@ -56,8 +59,32 @@ export function Bottom() {
   return (
     <footer class="bottom" id="bottom" tabIndex={-1} aria-label="Playback and status">
       <Player />
+      <Stages />
+      <OnItsWay />
       <Status />
     </footer>
+  );
+}
+
+function Stages() {
+  const isOpen = useStudio((state) => state.film.isOpen);
+  return (
+    <button class="quiet stages" title="Steps between photograph and drawing (I)" aria-expanded={isOpen} aria-keyshortcuts="I" onClick={toggleFilm}>
+      Stages
+    </button>
+  );
+}
+
+/** While a machine draws, how far it is stands here on every page. */
+function OnItsWay() {
+  const sending = useStudio((state) => state.sending);
+  if (!isSending(sending)) return null;
+  const left = sending.seconds_left === undefined ? "" : `, ${clock(sending.seconds_left)} left`;
+  return (
+    <button class="quiet sending" title="Pause or stop (M)" onClick={openSend}>
+      <span class="lamp is-working" aria-hidden="true" />
+      {sendingInWords(sending)} {Math.round(100 * (sending.fraction ?? 0))} %{left}
+    </button>
   );
 }
 

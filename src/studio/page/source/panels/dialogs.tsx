@@ -9,12 +9,20 @@ import { address } from "../server/requests.ts";
 import { camera } from "../stage/camera.ts";
 import type { Profile } from "../server/shapes.ts";
 import { KEYS } from "./keys.ts";
+import { SendView } from "./send.tsx";
 import { chosenProfile } from "./sheet.tsx";
 
 export function Dialogs() {
   const dialog = useStudio((state) => state.dialog);
   const hasScene = useStudio((state) => state.scene !== null);
   if (dialog === "export" && hasScene) return <Export />;
+  if (dialog === "send" && hasScene) {
+    return (
+      <Dialog title="Send to the machine">
+        <SendView />
+      </Dialog>
+    );
+  }
   if (dialog === "help") return <Help />;
   if (dialog === "calibrate") return <Calibrate />;
   return null;

@@ -4,12 +4,18 @@ import { copyCommand, redo, swapRecipes, undo } from "../model/scene.ts";
 import { now, set, type Tool } from "../model/store.ts";
 import { camera } from "../stage/camera.ts";
 import { redraw } from "../stage/engine.ts";
+import { toggleToneError } from "../stage/film.ts";
 import { paintInMiddle } from "../stage/gestures.ts";
+import { endLine } from "../stage/line.ts";
+import { partInView } from "../stage/part.ts";
 import { nudge } from "../stage/placing.ts";
 import { setDivider, showBrushAfterKey } from "../stage/stage.tsx";
 import { changePlayback, play, step } from "./bottom.tsx";
+import { toggleFilm } from "./film.tsx";
 import { chooseTool } from "./left.tsx";
 import { changeMaskTools } from "./masks.tsx";
+import { togglePresets } from "./presets.tsx";
+import { openSend } from "./send.tsx";
 import { setMode } from "./top.tsx";
 
 interface Key {
@@ -35,7 +41,13 @@ function featherBrush(by: number): void {
   changeMaskTools({ feather: Math.min(1, Math.max(0, Math.round(20 * (now().mask.feather + by)) / 20)) });
 }
 
-const PARTS = ["left", "stage", "right", "bottom"];
+function enter(): void {
+  const { tool } = now();
+  if (tool === "part") partInView();
+  else if (tool !== "hand" && tool !== "place") paintInMiddle();
+}
+
+const PARTS = ["left", "stage", "right", "film", "bottom"];
 
 /** To the next part of the page: tools, drawing, parameters, playback. */
 function nextPart(): void {
@@ -59,6 +71,8 @@ export const KEYS: { name: string; keys: Key[] }[] = [
       { keys: "D", name: "Divider; the arrows move it when it has the focus", act: () => setMode("divider") },
       { keys: "S", name: "Side by side", act: () => setMode("side") },
       { keys: "P", name: "Photograph, while held", act: () => (set({ showsPhotograph: true }), redraw()) },
+      { keys: "I", name: "Stages between photograph and drawing", act: toggleFilm },
+      { keys: "O", name: "Error of tone over the drawing", act: toggleToneError },
       { keys: "<", name: "Divider to the left", act: () => setDivider(now().divider - 0.05) },
       { keys: ">", name: "Divider to the right", act: () => setDivider(now().divider + 0.05) },
     ],
@@ -69,6 +83,7 @@ export const KEYS: { name: string; keys: Key[] }[] = [
       { keys: "Ctrl+Z", name: "Undo", act: () => void undo() },
       { keys: "Ctrl+Shift+Z", name: "Redo", act: () => void redo() },
       { keys: "X", name: "Keep as B, then swap A and B", act: () => void swapRecipes() },
+      { keys: "Y", name: "Presets as pictures", act: togglePresets },
       { keys: "Ctrl+Shift+C", name: "Copy as command", act: () => void copyCommand() },
       { keys: "Ctrl+E", name: "Export", act: () => set({ dialog: "export" }) },
     ],
@@ -78,15 +93,18 @@ export const KEYS: { name: string; keys: Key[] }[] = [
     keys: [
       tool("V", "hand", "Move the view"),
       tool("G", "place", "Place the picture; arrows move it by 1 mm"),
+      tool("R", "part", "Part to plot; Enter takes what is in view"),
       tool("B", "brush", "Brush"),
       tool("E", "eraser", "Eraser"),
       tool("L", "lasso", "Lasso"),
+      tool("N", "line", "Pen for edges: clicks or Enter join corners"),
+      { keys: "Escape", name: "End the pen's line", act: endLine },
       tool("F", "fill", "Fill"),
       { keys: "[", name: "Smaller brush", act: () => resizeBrush(1 / 1.2) },
       { keys: "]", name: "Larger brush", act: () => resizeBrush(1.2) },
       { keys: "{", name: "Harder brush", act: () => featherBrush(-0.05) },
       { keys: "}", name: "Softer brush", act: () => featherBrush(0.05) },
-      { keys: "Enter", name: "Paint in the middle of the view", act: () => now().tool !== "hand" && now().tool !== "place" && paintInMiddle() },
+      { keys: "Enter", name: "Paint in the middle of the view", act: enter },
     ],
   },
   {
@@ -95,6 +113,7 @@ export const KEYS: { name: string; keys: Key[] }[] = [
       { keys: "K", name: "Play or pause", act: play },
       { keys: ",", name: "One path back", act: () => step(-1) },
       { keys: ".", name: "One path on", act: () => step(1) },
+      { keys: "M", name: "Send to the machine", act: openSend },
       { keys: "T", name: "Travel on or off", act: () => changePlayback({ hasTravel: !now().playback.hasTravel }) },
     ],
   },

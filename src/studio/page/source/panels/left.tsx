@@ -3,6 +3,7 @@
 import type { ComponentType } from "preact";
 import { set, useStudio, type Panel, type Tool } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
+import { chooseLines, endLine } from "../stage/line.ts";
 import { redraw } from "../stage/engine.ts";
 import { MasksPanel } from "./masks.tsx";
 import { RegionsPanel } from "./regions.tsx";
@@ -12,9 +13,11 @@ import { SheetPanel } from "./sheet.tsx";
 export const TOOLS: { tool: Tool; name: string; keys: string }[] = [
   { tool: "hand", name: "Move the view", keys: "V" },
   { tool: "place", name: "Place the picture on the sheet", keys: "G" },
+  { tool: "part", name: "Part to plot: drag a box", keys: "R" },
   { tool: "brush", name: "Brush: add to the mask", keys: "B" },
   { tool: "eraser", name: "Eraser: take from the mask", keys: "E" },
   { tool: "lasso", name: "Lasso: add what is inside; Alt takes away", keys: "L" },
+  { tool: "line", name: "Pen: draw edges that the rows follow", keys: "N" },
   { tool: "fill", name: "Fill what the mask encloses; Alt empties", keys: "F" },
 ];
 
@@ -26,8 +29,10 @@ const PANELS: { panel: Panel; name: string; View: ComponentType }[] = [
 ];
 
 export function chooseTool(tool: Tool): void {
-  const isPainting = tool !== "hand" && tool !== "place";
-  set(isPainting ? { tool, panel: "masks", isLeftOpen: true } : tool === "place" ? { tool, panel: "sheet", isLeftOpen: true } : { tool });
+  endLine();
+  if (tool === "line" && !chooseLines()) return;
+  if (tool === "hand") set({ tool });
+  else set({ tool, panel: tool === "place" || tool === "part" ? "sheet" : "masks", isLeftOpen: true });
 }
 
 export function Left() {

@@ -4,7 +4,7 @@ import { useId } from "preact/hooks";
 import { deleteMask } from "../model/scene.ts";
 import { now, set, useStudio, type MaskTools } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
-import { colorOf, exportMask, importMask, reloadMasks, setVisible } from "../stage/masks.ts";
+import { colorOf, exportMask, importMask, isTaken, LINE_ROLES, reloadMasks, setVisible } from "../stage/masks.ts";
 import { redraw } from "../stage/engine.ts";
 
 export function changeMaskTools(tools: Partial<MaskTools>): void {
@@ -13,7 +13,8 @@ export function changeMaskTools(tools: Partial<MaskTools>): void {
 }
 
 export function MasksPanel() {
-  const masks = useStudio((state) => state.masks);
+  const masks = useStudio((state) => state.masks).filter((mask) => isTaken(mask.role));
+  useStudio((state) => state.scene?.values["style"]);
   const role = useStudio((state) => state.mask.role);
   const sight = useStudio((state) => state.sight);
   const choose = (name: string) => (changeMaskTools({ role: name }), setVisible(name, true));
@@ -38,6 +39,9 @@ export function MasksPanel() {
           </li>
         ))}
       </ul>
+      {LINE_ROLES.includes(role) && isTaken(role) && (
+        <p class="remark">Draw with the pen (N): click for corners, or drag. Rows follow these lines instead of those that are detected. As found takes them all away.</p>
+      )}
       <Brush />
       <Files role={role} />
     </>

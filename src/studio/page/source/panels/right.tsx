@@ -2,12 +2,12 @@
 
 import { useState } from "preact/hooks";
 import { change, valueAt } from "../model/scene.ts";
-import { set, useStudio } from "../model/store.ts";
+import { useStudio } from "../model/store.ts";
 import { isIdle, ParameterRow } from "../parts/parameter.tsx";
-import { Pick } from "../parts/pick.tsx";
 import { OptionRow } from "../parts/option.tsx";
-import type { Parameter, Preset } from "../server/shapes.ts";
+import type { Parameter } from "../server/shapes.ts";
 import { asNumber, defaultNumber } from "../style/range.ts";
+import { PresetChooser } from "./presets.tsx";
 
 /** How many parameters stand above the fold: tables are in the order that matters. */
 const MAIN = 8;
@@ -61,18 +61,6 @@ function StyleChooser({ name, summary }: { name: string; summary: string }) {
 function chooseStyle(name: string): void {
   const pitch = valueAt(["set", "pitch"]);
   change("style", { path: ["style"], value: name }, { path: ["set"], value: pitch === undefined ? null : { pitch } });
-}
-
-function PresetChooser({ presets }: { presets: Preset[] }) {
-  const apply = (name: string) => {
-    const preset = presets.find((one) => one.name === name);
-    if (!preset?.values) return;
-    const { purpose: _, photograph: __, ...values } = preset.values;
-    change(`preset ${name}`, { path: ["set"], value: null }, ...Object.entries(values).map(([key, value]) => ({ path: [key], value })));
-    set({ note: `${preset.name}: ${preset.purpose}` });
-  };
-  const choices = presets.map((preset) => ({ value: preset.name, text: `${preset.name}: ${preset.purpose}`, help: preset.purpose }));
-  return <Pick title="Preset" hint="Start from…" choices={choices} act={apply} />;
 }
 
 export function currentPitch(parameters: Parameter[]): number {

@@ -93,6 +93,14 @@ function Machine() {
           {isPlotting ? "Planning…" : "Plan the plot"}
         </button>
       </div>
+      <div class="buttons">
+        <button title="Then drag a box on the sheet; Enter takes what is in view (R)" disabled={!profile} onClick={() => set({ tool: "part" })}>
+          Plot a part
+        </button>
+        <button title="To a machine that is connected (M)" disabled={!profile} onClick={() => set({ dialog: "send" })}>
+          Send…
+        </button>
+      </div>
       {fault && (
         <p class="failure" role="alert">
           {fault}

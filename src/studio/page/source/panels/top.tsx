@@ -6,6 +6,7 @@ import { set, useStudio, type ViewMode } from "../model/store.ts";
 import { IconButton } from "../parts/button.tsx";
 import { get } from "../server/requests.ts";
 import { camera } from "../stage/camera.ts";
+import { toggleToneError } from "../stage/film.ts";
 import { redraw } from "../stage/engine.ts";
 
 const MODES: { mode: ViewMode; name: string; keys: string }[] = [
@@ -38,6 +39,7 @@ export function Top() {
         </button>
       </div>
       <Modes />
+      <ToneError />
       <Zoom />
       <div class="cluster last">
         <button class="quiet copies" title="Copy the command that makes this drawing (Ctrl+Shift+C)" onClick={() => void copyCommand()}>
@@ -74,7 +76,7 @@ function FileMenu() {
           Open a photograph…
           <input type="file" accept="image/*" class="unseen" onChange={choose} />
         </label>
-        {recent && recent.length > 0 && <p class="menu-title">Recent</p>}
+        {recent && recent.length > 0 && <p class="menu-title">Open recent</p>}
         {recent?.map((one) => (
           <button class="menu-item" title={one} onClick={(event) => (event.currentTarget.closest("details")!.removeAttribute("open"), void openScene(one))}>
             {one.split("/").slice(-2).join("/")}
@@ -96,6 +98,15 @@ function Modes() {
         </label>
       ))}
     </div>
+  );
+}
+
+function ToneError() {
+  const isOn = useStudio((state) => state.tone.isOn);
+  return (
+    <button class="quiet tone-toggle" aria-pressed={isOn} aria-keyshortcuts="O" title="Where the drawing is too dark or too light (O)" onClick={toggleToneError}>
+      Tone error
+    </button>
   );
 }
 

@@ -30,7 +30,7 @@ export function Pick({ title, label, hint, choices, act }: Props) {
         onPointerDown={() => (isByKey.current = false)}
         onKeyDown={key}
         onChange={(event) => (isByKey.current ? say("Enter takes what is chosen") : take(event.currentTarget))}
-        onBlur={(event) => (event.currentTarget.value = "")}
+        onBlur={(event) => ((isByKey.current = false), (event.currentTarget.value = ""))}
       >
         <option value="">{hint}</option>
         {choices.map(({ value, text, help }) => (

@@ -1,6 +1,7 @@
 // What the server tells by itself.
 
 import { address } from "./requests.ts";
+import type { Sending } from "../model/store.ts";
 import type { Quality } from "./shapes.ts";
 
 export interface Told {
@@ -9,6 +10,7 @@ export interface Told {
   stage: { id: string | number; stage: string };
   finished: { id: string | number; quality: Quality; revision: number };
   failed: { quality: Quality; revision: number; message: string };
+  sending: Sending;
   sight: { state: string; message: string };
 }
 

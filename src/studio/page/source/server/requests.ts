@@ -27,12 +27,12 @@ async function sentence(answer: Response): Promise<string> {
   return `the server answered ${answer.status} ${answer.statusText}`;
 }
 
-export async function request(method: string, path: string, body?: BodyInit, type?: string): Promise<Response> {
+export async function request(method: string, path: string, body?: BodyInit, type?: string, signal?: AbortSignal): Promise<Response> {
   const headers: { [name: string]: string } = { "X-Drypoint-Token": token };
   if (type) headers["Content-Type"] = type;
   let answer: Response;
   try {
-    answer = await fetch(path, { method, headers, body: body ?? null });
+    answer = await fetch(path, { method, headers, body: body ?? null, signal: signal ?? null });
   } catch {
     throw new Refusal("drypoint does not answer; is it still running?");
   }

@@ -143,6 +143,11 @@ export interface Masks {
   size?: [number, number];
 }
 
+export interface StageList {
+  stages: { file: string; name: string }[];
+  revision: number;
+}
+
 export interface Exported {
   file: string;
   bytes: number;

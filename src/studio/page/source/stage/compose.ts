@@ -3,6 +3,7 @@
 import type { View } from "../marks/messages.ts";
 import { now } from "../model/store.ts";
 import { camera } from "./camera.ts";
+import { drawStage, drawToneError, isStageShown } from "./film.ts";
 import { mergedMasks } from "./masks.ts";
 import { photographPicture, photographToSheet } from "./photograph.ts";
 import type { Tiles } from "./tiles.ts";
@@ -96,11 +97,13 @@ function drawing(context: Context, tiles: Tiles, overlay: Overlay, played: Playe
   const [dx, dy] = overlay.shift;
   context.save();
   context.translate(Math.round(dx * camera.scale), Math.round(dy * camera.scale));
-  if (now().playback.isOn && played) plot(context, played);
+  if (isStageShown()) drawStage(context);
+  else if (now().playback.isOn && played) plot(context, played);
   else if (tiles.hasDrawing()) tiles.draw(context);
   else if (now().scene?.photograph) faintPhotograph(context);
   context.restore();
-  masks(context);
+  if (!isStageShown()) (drawToneError(context), masks(context));
+  part(context);
   guides(context, overlay);
   if (overlay.lasso.length > 1) lasso(context, overlay.lasso);
 }
@@ -123,6 +126,22 @@ function guides(context: Context, { guides }: Overlay): void {
   const line = Math.max(1, Math.round(camera.density));
   if (guides.x !== null) context.fillRect(camera.x + guides.x * camera.scale, 0, line, context.canvas.height);
   if (guides.y !== null) context.fillRect(0, camera.y + guides.y * camera.scale, context.canvas.width, line);
+}
+
+/** What is not in the part that is plotted is veiled. */
+function part(context: Context): void {
+  const { part } = now();
+  if (!part) return;
+  const { x, y, scale, page } = camera;
+  const [left, top, width, height] = part.map((v) => v * scale) as [number, number, number, number];
+  context.beginPath();
+  context.rect(x, y, page[0] * scale, page[1] * scale);
+  context.rect(x + left, y + top, width, height);
+  context.fillStyle = "rgba(120, 110, 95, 0.35)";
+  context.fill("evenodd");
+  context.strokeStyle = "#c44c1c";
+  context.lineWidth = 1.5 * camera.density;
+  context.strokeRect(x + left, y + top, width, height);
 }
 
 function lasso(context: Context, points: [number, number][]): void {

@@ -64,7 +64,7 @@ export function clearDrawing(): void {
   tiles.clear();
   wanted = "";
   camera.isFitted = true;
-  set({ shown: null });
+  set({ shown: null, part: null });
   redraw();
 }
 

@@ -7,9 +7,11 @@ import { camera } from "./camera.ts";
 import { overlay, redraw } from "./engine.ts";
 import { canvasToPaint, maskPainted, sendSoon, setVisible } from "./masks.ts";
 import { apply, inverse, photographToSheet } from "./photograph.ts";
+import { addCorner, endLine, lineBrush } from "./line.ts";
+import { dragPart, settlePart } from "./part.ts";
 import { dropPicture, liftPicture, movePicture } from "./placing.ts";
 
-type Action = { kind: "pan" } | { kind: "place" } | { kind: "paint"; last: Touch } | { kind: "lasso"; points: Touch[] };
+type Action = { kind: "pan" } | { kind: "part"; from: { x: number; y: number } } | { kind: "place" } | { kind: "paint"; last: Touch; hasMoved: boolean } | { kind: "lasso"; points: Touch[] };
 
 const TOO_EARLY = "The mask is not there yet; wait a moment";
 
@@ -56,6 +58,7 @@ export function pressed(event: PointerEvent): void {
   pointers.set(event.pointerId, at(event));
   const { tool } = now();
   if (pointers.size > 1 || event.button === 1 || tool === "hand") action = { kind: "pan" };
+  else if (tool === "part") action = { kind: "part", from: at(event) };
   else if (tool === "place") action = liftPicture() ? { kind: "place" } : { kind: "pan" };
   else startPainting(event, tool);
 }
@@ -70,10 +73,14 @@ function startPainting(event: PointerEvent, tool: string): void {
     if (touch.x < 0 || touch.y < 0 || touch.x >= canvas.width || touch.y >= canvas.height) return;
     flood(canvas, brushOf(isErasing(event)), touch.x, touch.y);
     finishPainting();
+  } else if (tool === "line") {
+    addCorner(canvas, touch, isErasing(event));
+    action = { kind: "paint", last: touch, hasMoved: false };
+    maskPainted();
   } else if (tool === "lasso") action = { kind: "lasso", points: [touch] };
   else {
     stroke(canvas, brushOf(isErasing(event)), touch, touch);
-    action = { kind: "paint", last: touch };
+    action = { kind: "paint", last: touch, hasMoved: false };
     maskPainted();
   }
 }
@@ -85,6 +92,7 @@ export function moved(event: PointerEvent): void {
   pointers.set(event.pointerId, point);
   if (pointers.size === 2) return pinch(event.pointerId, last, point);
   if (action.kind === "pan") camera.pan(point.x - last.x, point.y - last.y);
+  else if (action.kind === "part") dragPart(action.from, point);
   else if (action.kind === "place") movePicture((point.x - last.x) / camera.scale, (point.y - last.y) / camera.scale, event.altKey);
   else for (const one of event.getCoalescedEvents?.().length ? event.getCoalescedEvents() : [event]) paintOn(event, one);
 }
@@ -95,8 +103,11 @@ function paintOn(event: PointerEvent, one: PointerEvent): void {
   Object.defineProperty(one, "currentTarget", { value: event.currentTarget, configurable: true });
   const touch = touchOf(one);
   if (action?.kind === "paint") {
-    stroke(canvas, brushOf(isErasing(event)), action.last, touch);
+    // A hand that trembles while it sets a corner draws nothing.
+    if (now().tool === "line" && !action.hasMoved && Math.hypot(touch.x - action.last.x, touch.y - action.last.y) < 3) return;
+    stroke(canvas, now().tool === "line" ? lineBrush(isErasing(event)) : brushOf(isErasing(event)), action.last, touch);
     action.last = touch;
+    action.hasMoved = true;
     maskPainted();
   } else if (action?.kind === "lasso") {
     action.points.push(touch);
@@ -120,8 +131,10 @@ export function released(event: PointerEvent): void {
   if (!action || pointers.size > 0) return;
   const canvas = canvasToPaint(now().mask.role);
   if (action.kind === "lasso" && canvas) fillLasso(canvas, brushOf(isErasing(event)), action.points);
+  if (action.kind === "paint" && action.hasMoved) endLine();
   if (action.kind === "paint" || action.kind === "lasso") finishPainting();
   if (action.kind === "place") dropPicture();
+  if (action.kind === "part") settlePart();
   overlay.lasso = [];
   action = null;
   redraw();
@@ -149,6 +162,7 @@ export function paintInMiddle(): void {
   const [px, py] = apply(inverse(affine), ...camera.toSheet(camera.width / 2, camera.height / 2));
   const touch = { x: (px * canvas.width) / pixels[0], y: (py * canvas.height) / pixels[1], pressure: 1 };
   if (tool === "fill") flood(canvas, brushOf(false), touch.x, touch.y);
+  else if (tool === "line") addCorner(canvas, touch, false);
   else stroke(canvas, brushOf(tool === "eraser"), touch, touch);
   setVisible(mask.role, true);
   finishPainting();

@@ -1,6 +1,6 @@
 // Masks as canvases on the photograph's grid: the colour is the role's, the opacity of a pixel is how far it is inside.
 
-import { accept, attempt, say } from "../model/scene.ts";
+import { accept, attempt, say, valueAt } from "../model/scene.ts";
 import { now, set } from "../model/store.ts";
 import { get, request, sendBytes } from "../server/requests.ts";
 import type { Masks, Scene } from "../server/shapes.ts";
@@ -14,7 +14,19 @@ export const ROLE_COLORS: { [role: string]: string } = {
   headwear: "#2f9e9a",
   clothing: "#4c9a4a",
   detail: "#c9a21d",
+  edges: "#d0337c",
+  isophotes: "#2b79c9",
 };
+
+/** Roles of lines, which only some styles take. */
+export const LINE_ROLES = ["edges", "isophotes"];
+
+/** True unless the drawing's style takes no lines of this role. */
+export function isTaken(role: string): boolean {
+  const { start } = now();
+  const style = start?.styles.find((one) => one.name === String(valueAt(["style"]) ?? "hedcut"));
+  return !LINE_ROLES.includes(role) || Boolean(style?.masks.some((mask) => mask.role === role));
+}
 
 /** How long after a stroke the mask is sent, in milliseconds. */
 const PAUSE = 400;
@@ -52,6 +64,13 @@ export function canvasToPaint(role: string): OffscreenCanvas | null {
 /** Forgets what was fetched and fetches what is visible. */
 export async function reloadMasks(): Promise<void> {
   if (timers.size > 0) return;
+  if (!now().scene?.photograph) {
+    canvases.clear();
+    merged = null;
+    set({ masks: [], maskSize: null });
+    redraw();
+    return;
+  }
   const told = await attempt(() => get<Masks>("/api/masks"));
   if (!told) return;
   const known = new Map(now().masks.map((mask) => [mask.role, mask.isVisible]));
@@ -156,7 +175,7 @@ export async function exportMask(role: string): Promise<void> {
 
 /** All visible masks in one canvas, made anew only when one changes. */
 export function mergedMasks(): OffscreenCanvas | null {
-  const visible = now().masks.filter((mask) => mask.isVisible).flatMap((mask) => canvases.get(mask.role) ?? []);
+  const visible = now().masks.filter((mask) => mask.isVisible && isTaken(mask.role)).flatMap((mask) => canvases.get(mask.role) ?? []);
   if (visible.length === 0) return null;
   if (visible.length === 1) return visible[0]!;
   if (merged) return merged;

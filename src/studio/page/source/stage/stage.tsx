@@ -87,7 +87,7 @@ let pointer: { x: number; y: number } | null = null;
 function showBrush(place: { x: number; y: number } | null, isByKey = false): void {
   const ring = document.getElementById("brush-ring")!;
   const { tool } = now();
-  const isBrush = tool === "brush" || tool === "eraser" || (isByKey && (tool === "lasso" || tool === "fill"));
+  const isBrush = tool === "brush" || tool === "eraser" || (isByKey && (tool === "lasso" || tool === "fill" || tool === "line"));
   ring.hidden = !place || !isBrush;
   if (!place || !isBrush) return;
   const size = brushOnScreen();

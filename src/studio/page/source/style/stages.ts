@@ -1,0 +1,70 @@
+// What each stage between photograph and drawing shows, in plain words, by the name that the command gives it.
+
+const STAGES: { [name: string]: string } = {
+  subject: "What is drawn, in white. The rest is background.",
+  skin: "Where skin was found.",
+  hair: "Where hair was found. Styles draw it in flowing strokes.",
+  "facial hair": "Where a beard or moustache was found.",
+  headwear: "Where a hat, cap or scarf was found.",
+  clothing: "Where clothing was found. It may be shaded in a way of its own.",
+  detail: "Eyes, brows, nose and mouth: marks are denser there.",
+  faces: "The faces over the photograph, with the features that were found. Green is taken for background.",
+  depth: "How near each place is: white is near, black is far or unknown.",
+  "depth smoothed": "The depth without its small steps. Lines bend over it as over a relief.",
+  tone: "How dark the marks shall make each place. White stays paper.",
+  "tone of lines": "The tone that the first lines give.",
+  "tone of cross lines": "The tone that is left for the lines across the first.",
+  "coherent lines": "The edges of the photograph, joined into lines that run on: dark beside light.",
+  blurred: "The photograph without its grain, so that small things give no edges.",
+  canny: "Edges, one pixel thin, found where lightness changes fastest.",
+  "edges thickened": "The edges made thick, so that breaks in them close.",
+  "edges kept": "The edges that are long enough to be kept.",
+  "edges skeleton": "The kept edges, thinned to lines again.",
+  smoothed: "The photograph without its small detail: areas are smooth, their borders stay sharp.",
+  posterised: "Lightness in a few steps. The borders between steps follow the forms.",
+  "hand made": "What was painted by hand takes the place of what was found.",
+  features: "The lines that the marks will follow: edges, and borders between light and dark.",
+  "distance to edges": "How far each place is from the next edge: black is near.",
+  "distance to isophotes": "How far each place is from the next border between light and dark.",
+  lanes: "Strips at equal distance along edges and borders, one colour each. Rows of dots run in them.",
+  "offset lines": "The borders of the strips. No row crosses them, so rows follow the forms.",
+  seeds: "The first dots, laid out row by row along the strips.",
+  relaxed: "The dots after they have moved apart to an even distance.",
+  highlights: "Where the paper stays bare for the brightest lights.",
+  "hair lines": "Thin dark lines in the hair, from which its direction is read.",
+  "hair orientation": "The direction of the hair at each place, as a shade of grey.",
+  "hair ink": "How much ink the hair gets.",
+  "hair pattern": "The pattern that runs along the hair.",
+  "edge tangent flow": "The direction of the nearest edges at each place, as a shade of grey.",
+  "flow dog": "How strongly each place is a line along that direction: dark is strong.",
+  "lines kept": "The lines that are long and strong enough to be kept.",
+  "lines skeleton": "The kept lines, thinned to one pixel.",
+  field: "The direction in which lines will run at each place.",
+  "stripes along": "Waves along the directions. Their crests become the lines of the grid.",
+  "stripes across": "Waves across the directions, for the lines that cross the first.",
+  grid: "The lines of both waves: a grid that follows the forms.",
+  regions: "Parts that are drawn in ways of their own, one colour each.",
+  normalised: "The photograph with its light evened out, in which eyes, nose and mouth are looked for.",
+  "feature tones": "How dark eyes, nose and mouth are drawn.",
+  smudged: "The tone that is rubbed into the paper first.",
+  background: "Where the background is shaded by hand.",
+  gradient: "The way in which lightness falls. The pattern runs along or across it.",
+  noise: "Grey specks by chance, from which the pattern is made.",
+  "glass pattern": "The specks drawn out along the directions: strokes without an outline.",
+  "line integral": "The same specks blurred along the directions, to compare.",
+  drawing: "The drawing that the marks make.",
+  "tone error": "Where the drawing is too dark (red) or too light (blue), seen from some way off. Clear where it is right.",
+};
+
+/** What the same name means in one style only. */
+const OF_STYLE: { [style: string]: { [name: string]: string } } = {
+  charcoal: {
+    features: "What was found in the face, one colour for each feature.",
+    "edges kept": "The edges that become sketched contours.",
+  },
+  glass: { smoothed: "The photograph without its small detail; the pattern takes its tone and direction from it." },
+};
+
+export function explanation(style: string, name: string): string {
+  return OF_STYLE[style]?.[name] ?? STAGES[name] ?? "A step between photograph and drawing.";
+}
