@@ -4,6 +4,7 @@
 //! between Linux, Windows and a browser. `libm` computes them from additions and multiplications, which are exact everywhere.
 
 /// Elementary functions of floating-point numbers. Angles are in radians.
+#[allow(dead_code, reason = "the library alone does not use all")]
 pub(crate) trait Elementary: Sized {
     fn sine(self) -> Self;
     fn cosine(self) -> Self;

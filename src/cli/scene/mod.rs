@@ -7,6 +7,7 @@
 //!
 //! A key of such a file is a long option of `draw`, so a scene and a command line that say the same are the same.
 
+#[cfg(feature = "studio")]
 mod check;
 mod document;
 mod expansion;
@@ -17,6 +18,7 @@ mod schema;
 mod spelled;
 mod writer;
 
+#[cfg(feature = "studio")]
 pub(super) use check::check;
 pub(super) use document::{named_files, names_file, with_mask};
 pub(super) use expansion::{Refusal, matches};
