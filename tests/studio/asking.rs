@@ -46,7 +46,7 @@ impl Studio {
         let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
         command.current_dir(folder).args(["studio", "--no-browser"]).args(file);
         // Not among the recent scenes of whoever runs the tests.
-        command.env("XDG_STATE_HOME", folder.join(".state"));
+        command.env("XDG_STATE_HOME", env!("CARGO_TARGET_TMPDIR"));
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
         let mut address = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
