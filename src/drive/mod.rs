@@ -9,6 +9,7 @@
 //! [`Onlooker`]. Every protocol was proved against models of the machines, not on machines.
 
 mod checkpoints;
+mod clock;
 mod controller;
 mod dips;
 mod ebb;

@@ -210,7 +210,7 @@ impl Program {
     }
 
     /// The fraction of a stroke nearest to a place, and its distance.
-    fn nearest_on(&self, line: usize, place: Point) -> (f64, f64) {
+    pub(super) fn nearest_on(&self, line: usize, place: Point) -> (f64, f64) {
         let (from, to) = (self.before(line), self.after(line));
         if let Act::Arc { centre, sweep, .. } = self.lines[line].act {
             let (a, b) = (from - centre, place - centre);

@@ -128,12 +128,10 @@ pub struct Session<'a> {
 impl<'a> Session<'a> {
     /// A drawing that begins.
     pub fn new(controller: &'a mut dyn Controller, program: &'a Program) -> Self {
-        let standing =
-            Standing { program, next: 0, taken: 0, drawn: 0, stand: None, percent: 100, is_done: false, is_stopped: false };
         let patience = controller.patience() + Duration::from_secs_f64(program.longest_line());
         Self {
             controller,
-            standing,
+            standing: Standing::new(program),
             phase: Phase::Sending,
             press: 0,
             asked: Instant::now(),
@@ -187,6 +185,7 @@ impl<'a> Session<'a> {
         self.listen(onlooker)?;
         self.ask()?;
         self.come_to_rest(onlooker);
+        self.standing.pass_time(if self.phase == Phase::Waiting { 0 } else { self.standing.percent });
         journal.note(&self.standing)?;
         self.report(onlooker);
         Ok(self.standing.is_done.then_some(Ending::Done))
@@ -264,7 +263,7 @@ impl<'a> Session<'a> {
                 }
                 Heard::State { is_still } => {
                     self.still = if is_still { self.still + 1 } else { 0 };
-                    self.standing.stand = self.controller.stand();
+                    self.standing.stands(self.controller.stand());
                 }
                 Heard::Refused { line, code, meaning } => {
                     let line = line.map(|line| &self.standing.program.lines[line]);

@@ -1,11 +1,13 @@
 //! Where a drawing stands: what is sent, taken and certainly drawn.
 
+use super::clock::Clock;
 use super::controller::Stand;
 use super::journal::Record;
 use super::program::{Program, ProgramLine};
 use super::session::Progress;
 use crate::plot::{Act, word, words};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Where a drawing stands.
 pub(super) struct Standing<'a> {
@@ -19,11 +21,37 @@ pub(super) struct Standing<'a> {
     pub stand: Option<Stand>,
     /// Percent of the file's speed at which the machine draws.
     pub percent: u32,
+    pub clock: Clock,
     pub is_done: bool,
     pub is_stopped: bool,
 }
 
-impl Standing<'_> {
+impl<'a> Standing<'a> {
+    /// A drawing that begins.
+    pub fn new(program: &'a Program) -> Self {
+        let clock = Clock::new();
+        Self { program, next: 0, taken: 0, drawn: 0, stand: None, percent: 100, clock, is_done: false, is_stopped: false }
+    }
+
+    /// The lines that may be under the pen: a machine takes some only when it has done them.
+    fn under_the_pen(&self) -> Range<usize> {
+        self.drawn..(self.taken + 1).min(self.next).max(self.drawn)
+    }
+
+    /// The machine told where it stands.
+    pub fn stands(&mut self, stand: Option<Stand>) {
+        // A machine that says nothing new stands still, or was not asked where it stands.
+        if let Some(stand) = stand.as_ref().filter(|_| stand != self.stand) {
+            self.clock.set(self.program, self.under_the_pen(), stand);
+        }
+        self.stand = stand;
+    }
+
+    /// Time passed, in which the machine drew or waited for the user.
+    pub fn pass_time(&mut self, percent: u32) {
+        self.clock.run(self.program, &self.under_the_pen(), percent);
+    }
+
     /// A line was taken.
     pub fn take(&mut self, line: usize, proves: bool, hidden: usize) {
         if proves {
@@ -50,7 +78,7 @@ impl Standing<'_> {
 
     pub fn progress(&self) -> Progress {
         let program = self.program;
-        let done = if self.drawn == 0 { 0.0 } else { program.lines[self.drawn - 1].until };
+        let done = self.clock.done();
         let path = program.path_of(self.drawn);
         Progress {
             fraction: if program.seconds() > 0.0 { done / program.seconds() } else { 1.0 },

@@ -8,6 +8,7 @@ mod grbl;
 
 mod axidraw;
 mod by_hand;
+mod clock;
 mod continuing;
 mod machine;
 mod plotter;
