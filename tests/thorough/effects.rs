@@ -216,7 +216,7 @@ fn trial(style: &'static str, set: &'static [(&'static str, &'static str)]) -> T
         (MaskRole::FacialHair, png_of_light(240, 240, |_, y| f64::from(u8::from(y > 200)))),
     ];
     let depth = png_of_light(240, 240, |x, y| 0.2 + 0.003 * f64::from(x.min(y)));
-    Trial { style, photo: still_life(), mm: (30.0, 30.0), set, masks, depth, plain: Mutex::default() }
+    Trial { style, photo: still_life(), mm: (24.0, 24.0), set, masks, depth, plain: Mutex::default() }
 }
 
 fn check(trial: &Trial) {

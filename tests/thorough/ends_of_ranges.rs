@@ -35,7 +35,7 @@ fn fault(folder: &tempfile::TempDir, style: &str, name: &str, value: &str) -> Op
         "draw",
         "face.jpg",
         "--size",
-        "17x20mm",
+        "12x14mm",
         "--fit",
         "cover",
         "-q",

@@ -221,7 +221,7 @@ fn the_advice_of_a_refused_drawing_works() {
                 "--page a4 --at 0,0",
                 "--page a4 --at 150,150 --size 100x100mm",
             ] {
-                let line = format!("draw {photo} -q --pitch 4 --order none -o {out} --profile {machine} {more}");
+                let line = format!("draw {photo} -q --pitch 5 --order none -o {out} --profile {machine} {more}");
                 refused += advice_works(folder.path(), &line);
             }
         }
