@@ -21,6 +21,12 @@ pub(super) fn drawing_of(
 ) -> Result<(Drawing, Vec<Painted>), Failure> {
     let mut drawing = inked(task.draw(observer)?, task, options, observer)?;
     let painting = pens.assign(&mut drawing, profile)?;
+    if let Some(palette) = &task.palette {
+        palette.ink(&mut drawing);
+        if profile.is_none() {
+            palette.cover(&mut drawing);
+        }
+    }
     Ok((drawing, painting))
 }
 

@@ -178,7 +178,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         #[cfg(feature = "drive")]
         Command::Ports(options) => send::list_ports(&options),
         Command::Calibrate(options) => {
-            let what = Sent { output: &options.output, profile: Some(&options.profile), toolpaths: &options.toolpaths };
+            let what = Sent { output: &options.output, profile: options.profile.as_deref(), toolpaths: &options.toolpaths };
             what.after(options.dry_run, || calibrate::run(&options))
         }
         Command::Styles(options) => lists::styles(&options),

@@ -8,7 +8,7 @@ use super::pen_file::{PenEntry, read_pens};
 use crate::colour::{
     Black, ColourPen, KnownPen, Lab, Opacity, Paper, PenSet, Separator, Settings, drawing_order, known_pens, on_screen,
 };
-use crate::drawing::{Colour, Drawing, Ink, Layer, Page};
+use crate::drawing::{Colour, Drawing, Ink, Layer, Mixing, Page};
 use crate::plot::Nibs;
 use crate::raster::Raster;
 use crate::source::Portrait;
@@ -17,6 +17,8 @@ use serde_json::json;
 /// The pens, in the order in which they are drawn: light ones first.
 pub(super) struct Palette {
     pens: PenSet,
+    /// Where the machine holds each.
+    numbers: Vec<u32>,
     paper: Colour,
     separator: Separator,
 }
@@ -31,6 +33,7 @@ impl Palette {
         let pens: Vec<ColourPen> =
             entries.iter().map(|entry| pen_of(entry, paper).map_err(|why| about(&why))).collect::<Result<_, _>>()?;
         let order = drawing_order(&pens);
+        let numbers = numbers(order.iter().map(|pen| &entries[*pen]));
         let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
         let pens = PenSet::new(pens, paper, Vec::new()).map_err(|error| about(&error))?;
         for told in pens.warnings() {
@@ -43,7 +46,7 @@ impl Palette {
         };
         let settings = Settings { black, simplify: options.colours_simplify as f32, ..Settings::default() };
         let separator = Separator::new(&pens, &settings).map_err(|error| about(&error))?;
-        Ok(Some(Self { pens, paper: options.paper, separator }))
+        Ok(Some(Self { pens, numbers, paper: options.paper, separator }))
     }
 
     /// How much of the paper each pen covers, 0 to 1, on the portrait's grid.
@@ -53,11 +56,26 @@ impl Palette {
 
     /// An empty layer for each pen.
     pub(super) fn layers(&self) -> Vec<Layer> {
-        let layer = |(i, pen): (usize, &ColourPen)| Layer {
-            ink: Ink::Colour(on_screen(pen.colour)),
-            ..Layer::new(&pen.name, i as u32 + 1)
+        let layer = |(pen, number): (&ColourPen, &u32)| Layer {
+            ink: shown_ink(pen, self.pens.paper()),
+            ..Layer::new(&pen.name, *number)
         };
-        self.pens.pens().iter().enumerate().map(layer).collect()
+        self.pens.pens().iter().zip(&self.numbers).map(layer).collect()
+    }
+
+    /// Gives the pens' layers their inks, which are measured better than the file's `colour` says.
+    pub(super) fn ink(&self, drawing: &mut Drawing) {
+        for layer in &mut drawing.layers {
+            let pen = self.pens.pens().iter().find(|pen| pen.name == layer.name);
+            pen.into_iter().for_each(|pen| layer.ink = shown_ink(pen, self.pens.paper()));
+        }
+    }
+
+    /// For print: the layers of opaque pens cover what lies below. A plotter draws all ink.
+    pub(super) fn cover(&self, drawing: &mut Drawing) {
+        let is_opaque = |name: &str| self.pens.pens().iter().any(|pen| pen.name == name && pen.opacity == Opacity::Opaque);
+        let layers = drawing.layers.iter_mut().filter(|layer| is_opaque(&layer.name));
+        layers.for_each(|layer| layer.mixing = Mixing::Paint);
     }
 
     /// The drawing of the pens that have anything to draw, on their paper; none if no pen has.
@@ -90,8 +108,22 @@ pub(super) fn explained(drawing: &Drawing, nibs: &Nibs) -> Vec<String> {
     drawing.layers.iter().zip(&inks).map(line).collect()
 }
 
+/// The ink as files show it: a transparent one without the paper, on which it is multiplied.
+pub(super) fn shown_ink(pen: &ColourPen, paper: Paper) -> Ink {
+    const LEAST: f64 = 0.001;
+    let bare = if pen.opacity == Opacity::Opaque { Paper::WHITE } else { paper };
+    Ink::Colour(on_screen([0, 1, 2].map(|i| pen.colour[i] / bare.colour[i].max(LEAST))))
+}
+
+/// The number of each pen: its slot, else the lowest that no slot has taken.
+pub(super) fn numbers<'a>(entries: impl Iterator<Item = &'a PenEntry> + Clone) -> Vec<u32> {
+    let taken: Vec<u32> = entries.clone().filter_map(PenEntry::fixed_slot).collect();
+    let mut free = (1_u32..).filter(|number| !taken.contains(number));
+    entries.map(|entry| entry.fixed_slot().or_else(|| free.next()).unwrap_or(1)).collect()
+}
+
 /// A pen as an ink on the paper: measured there, or known on white paper, through which a transparent ink shows another one.
-fn pen_of(entry: &PenEntry, paper: Paper) -> Result<ColourPen, String> {
+pub(super) fn pen_of(entry: &PenEntry, paper: Paper) -> Result<ColourPen, String> {
     const USUAL_WIDTH: f64 = 0.3;
     let width = entry.width.unwrap_or(USUAL_WIDTH);
     let pen = match (entry.lab, entry.colour) {

@@ -33,7 +33,7 @@ impl PenEntry {
     }
 
     /// Its slot, if that does not depend on the layer.
-    fn fixed_slot(&self) -> Option<u32> {
+    pub(super) fn fixed_slot(&self) -> Option<u32> {
         self.slot.or_else(|| self.key.parse().ok())
     }
 }

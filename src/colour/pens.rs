@@ -1,5 +1,6 @@
 //! Pens as inks on a paper, checked.
 
+use super::bands::{smoothest, xyz_of};
 use super::space::{D65, Lab, rgb_to_xyz, srgb_to_linear};
 use crate::drawing::Colour;
 use crate::elementary::Elementary as _;
@@ -15,6 +16,8 @@ const DARK: f64 = 45.0;
 const NEUTRAL: f64 = 18.0;
 /// A transparent ink reflects no more than its paper; above it by more than this share of white, one of the two was misread.
 const MISREAD: f64 = 0.03;
+/// A colour this far (CIEDE2000) from what any ink reflects is a slip of the pen; fluorescent inks go a little beyond.
+const IMPOSSIBLE: f64 = 5.0;
 
 /// What an ink does to what lies below it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -125,6 +128,12 @@ pub enum PensError {
          call it opaque, or measure the pen and the paper again"
     )]
     BrighterThanPaper(String, &'static str),
+    /// A colour that nothing reflects.
+    #[error(
+        "{0} cannot have this colour: nothing reflects so much light and is so vivid; check the order and the signs of its L*, a*, b*, \
+         or measure it again"
+    )]
+    Impossible(String),
     /// A paper that is no paper.
     #[error("the paper's colour must be between black and white, and lighter than black; got {0:?} in linear light")]
     Paper([f64; 3]),
@@ -257,12 +266,11 @@ fn checked(pen: &ColourPen, paper: Paper) -> Result<(), PensError> {
     // In XYZ, whose curves are nowhere below 0: taking blue light away raises sRGB's red.
     let (ink, bare) = (rgb_to_xyz(pen.colour), rgb_to_xyz(paper.colour));
     let brighter = (0..3).find(|i| ink[*i] > bare[*i] + MISREAD);
-    match brighter {
-        Some(i) if pen.opacity == Opacity::Transparent => {
-            Err(PensError::BrighterThanPaper(pen.name.clone(), ["red", "green", "blue"][i]))
-        }
-        _ => Ok(()),
+    if let (Some(i), Opacity::Transparent) = (brighter, pen.opacity) {
+        return Err(PensError::BrighterThanPaper(pen.name.clone(), ["red", "green", "blue"][i]));
     }
+    let is_possible = Lab::from_xyz(ink, D65).difference(Lab::from_xyz(xyz_of(&smoothest(ink)), D65)) <= IMPOSSIBLE;
+    if is_possible { Ok(()) } else { Err(PensError::Impossible(pen.name.clone())) }
 }
 
 /// Linear light of a colour on screen.
@@ -309,6 +317,21 @@ mod tests {
         assert_eq!(PenSet::new(vec![pen("k", "black")], Paper::WHITE, vec![nowhere]), Err(PensError::Overprint(3, 1)));
         let dark = Paper { colour: [0.0; 3] };
         assert_eq!(PenSet::new(vec![pen("k", "#222").opaque()], dark, Vec::new()), Err(PensError::Paper([0.0; 3])));
+    }
+
+    #[test]
+    fn colours_that_nothing_reflects_are_told() {
+        let measured = |l: f64, a: f64, b: f64| vec![ColourPen::measured("green", 0.3, Lab { l, a, b })];
+        assert!(
+            told(measured(50.0, -90.0, -60.0)).contains("check the order and the signs"),
+            "{}",
+            told(measured(50.0, -90.0, -60.0))
+        );
+        assert!(set(measured(60.0, -70.0, 30.0)).is_ok());
+        // What a screen shows is possible.
+        for css in ["lime", "yellow", "cyan", "magenta", "red", "blue"] {
+            assert!(PenSet::new(vec![pen(css, css)], Paper::WHITE, Vec::new()).is_ok(), "{css}");
+        }
     }
 
     #[test]

@@ -151,6 +151,22 @@ fn light_pens_come_first_and_the_paper_is_kept() {
         ["yellow", "cyan", "black", "white"].iter().map(|name| svg.find(&format!(" {name}\"")).unwrap_or(0)).collect();
     assert!(places.is_sorted() && places[0] > 0, "{places:?}");
     assert!(svg.contains("fill=\"#c9b28f\"") && svg.contains("mix-blend-mode:multiply"));
+    let white = svg.lines().flat_map(|line| line.split('<')).find(|tag| tag.contains(" white\"")).unwrap();
+    assert!(!white.contains("multiply"), "white ink covers the paper: {white}");
+}
+
+#[test]
+fn pens_without_a_slot_take_a_free_one_and_measured_colours_are_shown() {
+    let text =
+        "[black]\ncolour = \"#222\"\n[yellow]\ncolour = \"#f0d428\"\nslot = 3\n[red]\ncolour = \"red\"\nlab = [50, 60, 40]\n";
+    let folder = with_pens(text);
+    flat(folder.path(), [170, 120, 90]);
+    drawn(folder.path(), &["flat.png", "-o", "flat.svg", "--colours", "pens.toml", "--size", "30x30mm"]);
+    let svg = fs::read_to_string(folder.path().join("flat.svg")).unwrap();
+    for label in ["3 yellow", "1 red", "2 black"] {
+        assert!(svg.contains(&format!("\"{label}\"")), "{label}");
+    }
+    assert!(svg.contains("#d93d36") && !svg.contains("#ff0000"), "{:?}", svg.find("fill=\"#").map(|at| &svg[at..at + 15]));
 }
 
 #[test]

@@ -12,11 +12,15 @@ mod common;
 mod custom_style;
 #[path = "../common/machine_file.rs"]
 mod machine_file;
+#[cfg(feature = "cli")]
+#[path = "../common/photographed.rs"]
+mod photographed;
 
 mod architecture;
 mod batch;
 mod calibration;
 mod citations;
+mod colour_sheet;
 mod colours;
 mod complete_hedcut;
 mod depth;

@@ -13,11 +13,14 @@ mod grbl;
 mod machine_file;
 #[path = "../common/paper_stripes.rs"]
 mod paper_stripes;
+#[path = "../common/photographed.rs"]
+mod photographed;
 #[path = "../common/rasterised.rs"]
 mod rasterised;
 
 mod bounds;
 mod charcoal;
+mod colour_sheet;
 mod command_line;
 mod effects;
 mod ends_of_ranges;

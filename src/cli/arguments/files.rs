@@ -1,41 +1,8 @@
-//! Options of `calibrate`, `inspect`, `resume`, `styles` and `profiles`.
+//! Options of `inspect`, `resume`, `styles` and `profiles`.
 
-use super::choices::Format;
-use super::toolpaths::ToolpathOptions;
-use super::values::{length_from_zero, nib, work};
+use super::values::{length_from_zero, work};
 use clap::Args;
 
-/// Options of `calibrate`.
-#[derive(Args, Clone, Debug)]
-pub(in crate::cli) struct CalibrateOptions {
-    /// The plotter: a name (`drypoint profiles` lists them) or a TOML file.
-    #[arg(long, value_name = "NAME|FILE")]
-    pub profile: String,
-    /// The file to write, its format by extension: .svg, .hpgl or .plt, .gcode, .nc or .ngc; `-` for stdout.
-    #[arg(long, short, value_name = "FILE")]
-    pub output: String,
-    /// The format, whatever the extension.
-    #[arg(long, value_enum)]
-    pub format: Option<Format>,
-    /// Nib width as marked on the pen (0.01 to 20 mm).
-    #[arg(long, value_name = "LENGTH", default_value = "0.3mm", value_parser = nib, allow_negative_numbers = true)]
-    pub pen: f64,
-    /// Number of pens that draw a cross [default: as many as the machine holds].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
-    pub pen_count: Option<u32>,
-    /// The sheet: a6 to a0, letter, legal, tabloid, with -landscape, or `WxH` [default: the machine's first, else a4-landscape or
-    /// smaller].
-    #[arg(long, value_name = "NAME|WxH")]
-    pub page: Option<String>,
-    #[command(flatten)]
-    pub toolpaths: ToolpathOptions,
-    /// Do all the work and write nothing.
-    #[arg(long)]
-    pub dry_run: bool,
-    /// No summary; warnings and errors are still shown.
-    #[arg(long, short)]
-    pub quiet: bool,
-}
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct InspectOptions {
     /// SVG, HP-GL or G-code; `-` for stdin.

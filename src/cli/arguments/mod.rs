@@ -1,6 +1,7 @@
 //! Options, their units and their help.
 
 mod batch;
+mod calibrate;
 mod choices;
 mod draw;
 mod files;
@@ -15,6 +16,7 @@ mod toolpaths;
 mod values;
 
 pub(super) use batch::*;
+pub(super) use calibrate::*;
 pub(super) use choices::*;
 pub(super) use draw::*;
 pub(super) use files::*;
@@ -69,6 +71,13 @@ While it draws, on a terminal:
   + -     Draw a tenth faster or slower; = as the file says.
   [ ]     Press the pen more lightly or harder, from the next path on.
   Enter   Go on after a change of pen.";
+
+/// How to measure pens; docs/colour.md has the details.
+const CALIBRATING: &str = "\
+The colours of your pens, in two steps:
+  drypoint calibrate --colours pens.toml --profile grbl-servo -o colours.gcode    plot it and let it dry
+  drypoint calibrate --colours pens.toml --read photo.jpg -o measured.toml        the same pens with their colours on this paper
+";
 
 /// How to read a test sheet; docs/calibration.md has the details.
 pub(super) const READING: &str = "\
@@ -131,8 +140,8 @@ pub(super) enum Command {
     /// Open a page in the browser in which a portrait is tuned by eye. Nothing leaves this computer.
     #[cfg(feature = "studio")]
     Studio(StudioOptions),
-    /// Draw a test sheet for a machine and its pens.
-    #[command(after_help = READING)]
+    /// Draw a test sheet for a machine and its pens, or with --colours a sheet from which the pens' colours are measured with --read.
+    #[command(after_help = format!("{CALIBRATING}\n{READING}"))]
     Calibrate(CalibrateOptions),
     /// List the styles, or one style's parameters with default, unit, range, meaning and source.
     Styles(ListOptions),

@@ -202,6 +202,12 @@ pub(super) fn fraction(text: &str) -> Result<f64, String> {
     text.parse::<f64>().ok().filter(|f| (0.0..=1.0).contains(f)).ok_or_else(|| "must be a number from 0 to 1".to_owned())
 }
 
+/// The reflectance of a grey card.
+pub(super) fn reflectance(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|f| (0.02..=0.98).contains(f));
+    value.ok_or_else(|| "must be a number from 0.02 to 0.98, such as 0.18".to_owned())
+}
+
 pub(super) fn dot_gain(text: &str) -> Result<f64, String> {
     fraction(text).ok().filter(|gain| *gain <= 0.5).ok_or_else(|| "must be a number from 0 to 0.5".to_owned())
 }

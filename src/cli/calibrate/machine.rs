@@ -1,21 +1,21 @@
-//! `drypoint calibrate`: a test sheet for a machine and its pens.
+//! The test sheet of a machine: `drypoint calibrate --profile P`.
 
-use super::advice;
-use super::arguments::{CalibrateOptions, Order, READING};
-use super::failure::Failure;
-use super::formats;
-use super::messages::say;
-use super::pens::PenSet;
-use super::remedies::advised;
-use super::{job, layout, toolpaths};
+use crate::cli::advice;
+use crate::cli::arguments::{CalibrateOptions, Order, READING, ToolpathOptions};
+use crate::cli::failure::Failure;
+use crate::cli::formats;
+use crate::cli::messages::say;
+use crate::cli::pens::PenSet;
+use crate::cli::remedies::advised;
+use crate::cli::{job, layout, toolpaths};
 use crate::drawing::Page;
 use crate::plot::{calibration_page, calibration_sheet, mount};
 use crate::write::SvgHead;
 use serde_json::json;
 
-pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
+pub(super) fn run(options: &CalibrateOptions, profile: &str) -> Result<(), Failure> {
     let format = formats::format_of(&options.output, options.format)?;
-    let mut profile = toolpaths::profile(&options.profile, &options.toolpaths)?;
+    let mut profile = toolpaths::profile(profile, &options.toolpaths)?;
     formats::check_language(format, Some(&profile))?;
     // Touches rest exactly as long as their label says.
     profile.motion.touch_seconds = 0.0;
@@ -31,7 +31,7 @@ pub(super) fn run(options: &CalibrateOptions) -> Result<(), Failure> {
     let sheet = calibration_sheet(&profile, page, drawable, options.pen, count)
         .map_err(|error| Failure::Work(format!("{}: {}", profile.name, advised(&error))))?;
     // Keep the sheet's order: the result of a trial must not depend on what was drawn before it.
-    let toolpath_options = super::arguments::ToolpathOptions { order: Order::None, ..options.toolpaths.clone() };
+    let toolpath_options = ToolpathOptions { order: Order::None, ..options.toolpaths.clone() };
     let job = job::of_paths(sheet.plot, Some(&profile), &toolpath_options, &pens).map_err(advice::for_test_sheet)?;
     let head = SvgHead {
         title: format!("Test sheet for {}", profile.name),
