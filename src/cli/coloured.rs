@@ -7,20 +7,23 @@
 //!
 //! What does not fit beside one another, in the darkest colours, is drawn over it in a second round.
 
+use super::exact_ink::{grown, with_exact_ink};
 use super::failure::Failure;
 use super::palette::Palette;
 use super::task::Task;
 use crate::colour::{Candidate, deal};
-use crate::drawing::{Drawing, Layer, Mark, Width};
-use crate::geometry::{Affine, Point, Vec2};
+use crate::drawing::{Drawing, Layer, Mark};
+use crate::geometry::Point;
 use crate::raster::Raster;
-use crate::source::{Placement, Portrait};
+use crate::source::{MaskRole, Placement, Portrait};
 use crate::style::{Observer, Settings, StyleError};
+use rayon::prelude::*;
 
 /// Most of the paper that marks beside one another cover: above it round dots run together.
 const MOST_BESIDE: f32 = 0.75;
-/// Styles whose marks are long lines or smudges, which do not share their place: each pen draws for itself.
-const APART: [&str; 2] = [LINES, "charcoal"];
+/// Styles whose marks are long lines or smudges, which do not share their place: each pen draws for itself, and its marks cross those
+/// of the others by chance.
+pub(super) const APART: [&str; 2] = [LINES, "charcoal"];
 /// The style of parallel lines.
 const LINES: &str = "engrave";
 /// Direction of the first pen's lines in degrees.
@@ -60,27 +63,37 @@ impl Task<'_> {
             self.apart(&portrait, &coverages, &mut layers, observer)?;
             return palette.drawing(self.layout.page, layers).ok_or_else(|| self.nothing());
         }
-        let (mut marks, mut candidates) = (Vec::new(), Vec::new());
+        let (mut marks, mut candidates, mut outlines) = (Vec::new(), Vec::new(), Vec::new());
         for (round, tone) in rounds(&total(&coverages)).into_iter().enumerate() {
             let mut together = portrait.clone();
             together.tone = tone;
+            if round > 0 && self.manner.style.card().masks.contains(&MaskRole::Edges) {
+                // Lines belong to the first round alone; they need not be looked for again.
+                let nothing = together.tone.map(|_| 0.0);
+                together.masks.insert(MaskRole::Edges, nothing);
+            }
             let drawn = match self.manner.style.draw(&together, settings, self.manner.seed ^ SEEDS[round], observer) {
                 Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,
                 drawn => drawn.map_err(|error| self.undrawn(&error))?,
             };
             let (features, tones): (Vec<Layer>, Vec<Layer>) = drawn.layers.into_iter().partition(|layer| self.is_features(layer));
-            if round == 0 {
-                layers[palette.line_pen()].marks.extend(features.into_iter().flat_map(|layer| layer.marks));
-            }
             let tones: Vec<Mark> = tones.into_iter().flat_map(|layer| layer.marks).collect();
+            if round == 0 {
+                outlines.extend(features.into_iter().flat_map(|layer| layer.marks));
+            }
             candidates.extend(tones.iter().map(|mark| candidate(mark, &portrait, &coverages, round as u8)));
             marks.extend(tones);
         }
         observer.begin("pens");
         for (mark, dealt) in marks.into_iter().zip(deal(&candidates)) {
             let way = dealt.at - middle(&mark);
-            layers[dealt.pen].marks.push(adjusted(mark, way, dealt.ink_factor));
+            layers[dealt.pen].marks.push(grown(&mark, dealt.ink_factor, way));
         }
+        layers.par_iter_mut().zip(&coverages).enumerate().for_each(|(pen, (layer, coverage))| {
+            let outlines = if pen == palette.line_pen() { &outlines[..] } else { &[] };
+            layer.marks = with_exact_ink(std::mem::take(&mut layer.marks), outlines, coverage, &portrait.placement);
+            layer.marks.splice(0..0, outlines.iter().cloned());
+        });
         palette.drawing(self.layout.page, layers).ok_or_else(|| self.nothing())
     }
 
@@ -189,24 +202,5 @@ fn middle(mark: &Mark) -> Point {
     match mark {
         Mark::Dot(dot) => dot.centre,
         _ => mark.bounding_box().center(),
-    }
-}
-
-/// A mark with more or less ink; dots are moved too.
-fn adjusted(mark: Mark, way: Vec2, ink_factor: f64) -> Mark {
-    match mark {
-        Mark::Dot(dot) => {
-            let centre = dot.centre.to_vec2();
-            let grown = Affine::translate(centre + way) * Affine::scale(ink_factor.sqrt()) * Affine::translate(-centre);
-            Mark::Dot(dot).transformed(grown)
-        }
-        Mark::Stroke(mut stroke) => {
-            stroke.width = match stroke.width {
-                Width::Constant(width) => Width::Constant(width * ink_factor),
-                Width::Along(widths) => Width::Along(widths.into_iter().map(|width| width * ink_factor).collect()),
-            };
-            Mark::Stroke(stroke)
-        }
-        Mark::Area(area) => Mark::Area(area),
     }
 }

@@ -15,6 +15,7 @@ mod draw_report;
 mod dry_run;
 mod estimate;
 mod estimate_plot;
+mod exact_ink;
 mod eyes;
 mod failure;
 mod few_pens;

@@ -1,12 +1,14 @@
 //! `--colours`: the pens in whose colours a photograph is drawn.
 
 use super::arguments::{BlackPen, ListOptions, PictureOptions};
+use super::coloured::APART;
 use super::failure::Failure;
 use super::messages::warning;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
 use crate::colour::{
-    Black, ColourPen, KnownPen, Lab, Opacity, Paper, PenSet, Separator, Settings, drawing_order, known_pens, on_screen,
+    Black, ColourPen, KnownPen, Lab, Opacity, Overlap, Paper, PenSet, PensError, Separator, Settings, choose, drawing_order,
+    known_pens, on_screen,
 };
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mixing, Page};
 use crate::plot::Nibs;
@@ -19,23 +21,43 @@ pub(super) struct Palette {
     pens: PenSet,
     /// Where the machine holds each.
     numbers: Vec<u32>,
+    /// What each is printed with.
+    inks: Vec<Ink>,
     paper: Colour,
     separator: Separator,
+    /// What was chosen, if not all pens.
+    pub choice: Option<String>,
 }
 
 impl Palette {
-    /// Reads and checks the pens; none if the photograph is not drawn in colours.
-    pub(super) fn read(options: &PictureOptions) -> Result<Option<Self>, Failure> {
+    /// Reads and checks the pens; none if the photograph is not drawn in colours. `light` is the photograph, linear sRGB, for which
+    /// pens are chosen if not all are taken.
+    pub(super) fn read(
+        options: &PictureOptions,
+        light: impl FnOnce() -> Result<Raster<[f32; 3]>, Failure>,
+    ) -> Result<Option<Self>, Failure> {
         let Some(file) = &options.colours else { return Ok(None) };
-        let entries = read_pens(file, &output::read_settings(file)?)?;
+        let mut entries = read_pens(file, &output::read_settings(file)?)?;
         let about = |problem: &dyn std::fmt::Display| Failure::Work(format!("{file}: {problem}"));
         let paper = Paper::new(options.paper);
-        let pens: Vec<ColourPen> =
+        let mut pens: Vec<ColourPen> =
             entries.iter().map(|entry| pen_of(entry, paper).map_err(|why| about(&why))).collect::<Result<_, _>>()?;
+        let mut choice = None;
+        if let Some(count) = options.choose.map(usize::from).filter(|count| *count < pens.len()) {
+            let chosen = choose(&pens, paper, &Settings::default(), &light()?, count).map_err(|error| about(&error))?;
+            let of = pens.len();
+            (entries, pens) =
+                entries.into_iter().zip(pens).enumerate().filter(|(i, _)| chosen.contains(i)).map(|(_, pen)| pen).unzip();
+            choice = Some(format!("{count} of {of} pens chosen: {}", names(&pens)));
+        }
         let order = drawing_order(&pens);
         let numbers = numbers(order.iter().map(|pen| &entries[*pen]));
+        let inks = order.iter().map(|pen| entries[*pen].ink(shown_colour(&pens[*pen], paper))).collect();
         let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
-        let pens = PenSet::new(pens, paper, Vec::new()).map_err(|error| about(&error))?;
+        let pens = PenSet::new(pens, paper, Vec::new()).map_err(|error| match error {
+            PensError::TooMany(_) => about(&format!("{error}: --choose 4")),
+            error => about(&error),
+        })?;
         for told in pens.warnings() {
             warning!("{file}: {told}");
         }
@@ -44,9 +66,10 @@ impl Palette {
             BlackPen::Lines => Black::Lines,
             BlackPen::None => Black::None,
         };
-        let settings = Settings { black, simplify: options.colours_simplify as f32, ..Settings::default() };
+        let overlap = if APART.contains(&options.style.as_str()) { Overlap::Random } else { Settings::default().overlap };
+        let settings = Settings { black, overlap, simplify: options.colours_simplify as f32, ..Settings::default() };
         let separator = Separator::new(&pens, &settings).map_err(|error| about(&error))?;
-        Ok(Some(Self { pens, numbers, paper: options.paper, separator }))
+        Ok(Some(Self { pens, numbers, inks, paper: options.paper, separator, choice }))
     }
 
     /// How much of the paper each pen covers, 0 to 1, on the portrait's grid.
@@ -56,18 +79,16 @@ impl Palette {
 
     /// An empty layer for each pen.
     pub(super) fn layers(&self) -> Vec<Layer> {
-        let layer = |(pen, number): (&ColourPen, &u32)| Layer {
-            ink: shown_ink(pen, self.pens.paper()),
-            ..Layer::new(&pen.name, *number)
-        };
-        self.pens.pens().iter().zip(&self.numbers).map(layer).collect()
+        let layer =
+            |((pen, number), ink): ((&ColourPen, &u32), &Ink)| Layer { ink: ink.clone(), ..Layer::new(&pen.name, *number) };
+        self.pens.pens().iter().zip(&self.numbers).zip(&self.inks).map(layer).collect()
     }
 
     /// Gives the pens' layers their inks, which are measured better than the file's `colour` says.
     pub(super) fn ink(&self, drawing: &mut Drawing) {
         for layer in &mut drawing.layers {
-            let pen = self.pens.pens().iter().find(|pen| pen.name == layer.name);
-            pen.into_iter().for_each(|pen| layer.ink = shown_ink(pen, self.pens.paper()));
+            let mut inks = self.pens.pens().iter().zip(&self.inks);
+            inks.find(|(pen, _)| pen.name == layer.name).into_iter().for_each(|(_, ink)| layer.ink = ink.clone());
         }
     }
 
@@ -108,11 +129,15 @@ pub(super) fn explained(drawing: &Drawing, nibs: &Nibs) -> Vec<String> {
     drawing.layers.iter().zip(&inks).map(line).collect()
 }
 
-/// The ink as files show it: a transparent one without the paper, on which it is multiplied.
-pub(super) fn shown_ink(pen: &ColourPen, paper: Paper) -> Ink {
+/// The ink's colour in files: a transparent one without the paper, on which it is multiplied.
+pub(super) fn shown_colour(pen: &ColourPen, paper: Paper) -> Colour {
     const LEAST: f64 = 0.001;
     let bare = if pen.opacity == Opacity::Opaque { Paper::WHITE } else { paper };
-    Ink::Colour(on_screen([0, 1, 2].map(|i| pen.colour[i] / bare.colour[i].max(LEAST))))
+    on_screen([0, 1, 2].map(|i| pen.colour[i] / bare.colour[i].max(LEAST)))
+}
+
+fn names(pens: &[ColourPen]) -> String {
+    pens.iter().map(|pen| pen.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// The number of each pen: its slot, else the lowest that no slot has taken.

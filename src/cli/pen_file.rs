@@ -4,7 +4,7 @@ use super::arguments::NIBS;
 use super::failure::Failure;
 use super::words::line_of;
 use crate::colour::{Opacity, known_pen_named};
-use crate::drawing::Colour;
+use crate::drawing::{Colour, Ink};
 use crate::geometry::parse_length;
 use toml::de::{DeTable, DeValue};
 
@@ -26,13 +26,14 @@ slot = 2
 speed = 30          # mm/s with the pen down; without it the machine's, or --speed
 # like = "Pigma Micron 05 red" # width and estimated colour of a common pen; `drypoint pens` lists them
 # lab = [45, 62, 40] # its colour on the paper as measured, L*a*b* (D65), instead of `colour`, for --colours
+# ink = "spot:Warm Red" # its name for the press: a plate of its own in PDF; or "k", the black plate
 # opaque = true     # covers what lies below, as a white gel pen does, for --colours
 # dwell = 0.1       # seconds that a touch rests beyond the time that the pen takes to come down (G-code)
 # offset = [0, 0]   # how far its ink lies off, in mm along the machine's x and y: see docs/calibration.md
 "##;
 
 /// The keys of a pen and the values that each takes.
-const KEYS: [(&str, &str); 9] = [
+const KEYS: [(&str, &str); 10] = [
     ("width", "a length from 0.01 to 20 mm, such as \"0.3mm\" or 0.3"),
     ("slot", "a whole number from 1, such as 2"),
     ("colour", "a CSS colour, such as \"navy\" or \"#1f77b4\""),
@@ -40,6 +41,7 @@ const KEYS: [(&str, &str); 9] = [
     ("dwell", "seconds from 0 to 60, such as 0.1"),
     ("like", "the name of a pen that `drypoint pens` lists, such as \"fine-liner cyan\""),
     ("lab", "three numbers: L* from 0 to 100, a* and b*, such as [45, 62, 40]"),
+    ("ink", "\"k\", the black plate, or \"spot:NAME\", a plate of that name; a colour goes into colour"),
     ("opaque", "true or false"),
     ("offset", "two numbers in mm, along x and along y, such as [0.1, 0]"),
 ];
@@ -54,11 +56,24 @@ pub(super) struct PenEntry {
     pub colour: Option<Colour>,
     /// L\*a\*b\* under D65.
     pub lab: Option<[f64; 3]>,
+    /// The plate that a press prints it with; none for a colour.
+    pub plate: Option<Ink>,
     /// Covers what lies below.
     pub is_opaque: bool,
     pub speed: Option<f64>,
     pub dwell: Option<f64>,
     pub offset: Option<[f64; 2]>,
+}
+
+impl PenEntry {
+    /// What its layer is printed with, where it looks like `shown`.
+    pub(super) fn ink(&self, shown: Colour) -> Ink {
+        match &self.plate {
+            Some(Ink::Spot { name, .. }) => Ink::Spot { name: name.clone(), shown },
+            Some(black) => black.clone(),
+            None => Ink::Colour(shown),
+        }
+    }
 }
 
 /// Reads the file's text; `file` is its name in messages.
@@ -126,6 +141,7 @@ impl Reader<'_> {
                 None => false,
             },
             "lab" => set(&mut pen.lab, triple(value).filter(|[l, ..]| (0.0..=100.0).contains(l))),
+            "ink" => set(&mut pen.plate, value.as_str().and_then(plate)),
             "opaque" => value.as_bool().inspect(|is_opaque| pen.is_opaque = *is_opaque).is_some(),
             _ => set(&mut pen.offset, pair(value)),
         };
@@ -181,6 +197,10 @@ fn length(value: &toml::Value) -> Option<f64> {
     value.as_str().map_or_else(|| number(value), |text| parse_length(text).ok())
 }
 
+fn plate(text: &str) -> Option<Ink> {
+    text.parse().ok().filter(|ink| !matches!(ink, Ink::Colour(_)))
+}
+
 fn triple(value: &toml::Value) -> Option<[f64; 3]> {
     match &value.as_array()?[..] {
         [l, a, b] => Some([number(l)?, number(a)?, number(b)?]),
@@ -224,12 +244,13 @@ mod tests {
             ("[a]\nwidth = \"wide\"\n", "line 2: [a] width takes a length from 0.01 to 20 mm"),
             (
                 "[a]\nwidht = 0.3\n",
-                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, opaque, offset",
+                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, ink, opaque, offset",
             ),
             ("[pen.1]\nwidth = 0.3\n", "line 1: [pen.1] is a table within a table"),
             ("[[pen]]\nwidth = 0.3\n", "line 1: 'pen' is a list"),
             ("slot = 1\n", "line 1: 'slot' is outside any pen"),
             ("[a]\ncolour = \"purplish\"\n", "[a] colour takes a CSS colour"),
+            ("[a]\nink = \"red\"\n", "line 2: [a] ink takes \"k\", the black plate, or \"spot:NAME\""),
             ("[a]\nspeed = -1\n", "[a] speed takes mm/s above 0"),
             ("[a]\noffset = [1, 2]\n", "line 2: [a] needs a slot for its offset"),
         ] {

@@ -15,7 +15,7 @@ use super::few_pens::{PenAssignment, fit_to_pens, warn_of_colours};
 use super::messages::warning_line;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
-use crate::drawing::{Colour, Drawing, Ink, Layer, Mark, Painted};
+use crate::drawing::{Colour, Drawing, Layer, Mark, Painted};
 use crate::plot::{Nibs, PenSlot, Profile};
 use std::collections::BTreeMap;
 
@@ -119,13 +119,8 @@ impl PenSet {
                 let Some((i, (entry, ink))) = nearest else { continue };
                 let number = entry.fixed_slot().unwrap_or(i as u32 + 1);
                 let at = sorted.iter().position(|known| known.name == entry.key).unwrap_or_else(|| {
-                    let empty = Layer {
-                        marks: Vec::new(),
-                        ink: Ink::Colour(*ink),
-                        pen: number,
-                        name: entry.key.clone(),
-                        ..layer.clone()
-                    };
+                    let empty =
+                        Layer { marks: Vec::new(), ink: entry.ink(*ink), pen: number, name: entry.key.clone(), ..layer.clone() };
                     sorted.push(empty);
                     sorted.len() - 1
                 });
@@ -141,8 +136,8 @@ impl PenSet {
 impl PenEntry {
     fn give(&self, layer: &mut Layer, profile: Option<&Profile>) -> Result<(), Failure> {
         layer.pen = self.slot.unwrap_or(layer.pen);
-        if let Some(colour) = self.colour {
-            layer.ink = Ink::Colour(colour);
+        if self.colour.is_some() || self.plate.is_some() {
+            layer.ink = self.ink(self.colour.unwrap_or(layer.ink.colour()));
             layer.marks = layer.marks.iter().map(without_own_colour).collect();
         }
         if let (Some(speed), Some(profile)) = (self.speed, profile) {

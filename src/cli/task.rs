@@ -18,6 +18,7 @@ use super::seen_stages;
 use crate::drawing::{Drawing, Page};
 use crate::geometry::{Affine, Rect};
 use crate::plot::{Profile, mount};
+use crate::raster::Raster;
 use crate::source::{DepthSense, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget};
 use crate::style::{self, Cost, Observer, Settings, Style, StyleError};
 use crate::tone::portrait_tone;
@@ -54,7 +55,6 @@ impl<'a> Task<'a> {
         if options.black >= options.white {
             return Err(Failure::Usage(format!("--black {} must be below --white {}", options.black, options.white)));
         }
-        let palette = Palette::read(options)?;
         let mask_files: Vec<(MaskRole, &str)> = options
             .mask
             .iter()
@@ -86,6 +86,8 @@ impl<'a> Task<'a> {
         if style.card().leaves_out_background {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
+        let palette = Palette::read(options, || roughly(options, &photograph, &layout))?;
+        known.notices.extend(palette.iter().filter_map(|palette| palette.choice.clone()));
         let manner = Manner { style, settings, known, seed: options.seed };
         Ok(Self { options, manner, regions, photograph, layout, given, palette })
     }
@@ -247,4 +249,13 @@ fn role_of(style: &dyn Style, name: &str, options: &PictureOptions) -> Result<Ma
         Failure::Usage(format!("--mask {name}: {} takes {}{others}", style.name(), role_names(style)))
     };
     roles_of(style).find(|(known, _)| *known == name).map(|(_, role)| role).ok_or_else(refuse)
+}
+
+/// The light of the picture's part that is drawn, small.
+fn roughly(options: &PictureOptions, photograph: &Photograph, layout: &Layout) -> Result<Raster<[f32; 3]>, Failure> {
+    const SIDE: f64 = 256.0;
+    let Layout { page, picture, crop, .. } = *layout;
+    let placement = Placement::new(picture, SIDE / picture.width().max(picture.height()));
+    let portrait = Portrait::new(photograph, crop, page, placement, ToneTarget::Linear, ToneCurve::default());
+    Ok(portrait.map_err(|error| Failure::about(&options.photo)(&error))?.light)
 }

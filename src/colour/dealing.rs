@@ -10,6 +10,7 @@
 //! for its pen, where a pen's reach grows as its marks get rarer. (Direct binary search of halftoning: Analoui and Allebach 1992, for
 //! several inks and on marks instead of pixels.)
 
+use super::pens::MOST_PENS;
 use crate::geometry::{Point, Vec2};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -60,7 +61,8 @@ pub fn deal(marks: &[Candidate]) -> Vec<Dealt> {
         return marks.iter().map(|mark| Dealt { pen: 0, at: mark.at, ink_factor: 1.0 }).collect();
     }
     let around = Neighbours::of(marks);
-    let mut search = Search { marks, around: &around, pen: vec![None; marks.len()] };
+    let shares = Shares { pens, all: marks.iter().flat_map(|mark| mark.shares.iter().copied()).collect() };
+    let mut search = Search { marks, shares: &shares, around: &around, pen: vec![None; marks.len()] };
     for _ in 0..ROUNDS {
         let changed = around.order.iter().filter(|mark| search.improve(**mark)).count();
         if changed * 1000 < marks.len() {
@@ -68,7 +70,7 @@ pub fn deal(marks: &[Candidate]) -> Vec<Dealt> {
         }
     }
     let pens: Vec<usize> = search.pen.into_iter().map(Option::unwrap_or_default).collect();
-    let places = moved_apart(marks, &pens, &around);
+    let places = moved_apart(marks, &shares, &pens, &around);
     let factor = |mark: usize| ink_factor(marks, &pens, &around, mark);
     (0..marks.len()).into_par_iter().map(|mark| Dealt { pen: pens[mark], at: places[mark], ink_factor: factor(mark) }).collect()
 }
@@ -145,8 +147,22 @@ fn mean_of_nearest(near: &[(u32, f32)]) -> Option<f64> {
     Some(f64::from(sum / count as f32).sqrt())
 }
 
+/// The shares of all marks, side by side.
+struct Shares {
+    pens: usize,
+    all: Vec<f32>,
+}
+
+impl Shares {
+    #[inline]
+    fn of(&self, mark: usize) -> &[f32] {
+        &self.all[mark * self.pens..][..self.pens]
+    }
+}
+
 struct Search<'a> {
     marks: &'a [Candidate],
+    shares: &'a Shares,
     around: &'a Neighbours,
     pen: Vec<Option<usize>>,
 }
@@ -154,32 +170,38 @@ struct Search<'a> {
 impl Search<'_> {
     /// Gives a mark to the pen that is missed most around it; true if it changed.
     fn improve(&mut self, mark: usize) -> bool {
-        let shares = &self.marks[mark].shares;
+        let shares = self.shares.of(mark);
+        let excess = self.excess(mark);
         let wanted = (0..shares.len()).filter(|pen| shares[*pen] >= LEAST_SHARE);
-        let costs: Vec<(usize, f64)> = wanted.map(|pen| (pen, self.excess(mark, pen))).collect();
-        let best = costs.iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(pen, _)| *pen);
+        let best = wanted.min_by(|a, b| excess[*a].total_cmp(&excess[*b]));
         let best = best.or_else(|| (0..shares.len()).max_by(|a, b| shares[*a].total_cmp(&shares[*b]).then(b.cmp(a))));
         let has_changed = self.pen[mark] != best;
         self.pen[mark] = best;
         has_changed
     }
 
-    /// How much more of a pen's ink lies around a mark than should, relative to what the mark itself would add.
-    fn excess(&self, mark: usize, pen: usize) -> f64 {
-        let share = f64::from(self.marks[mark].shares[pen]);
+    /// How much more of each pen's ink lies around a mark than should, relative to what the mark itself would add.
+    fn excess(&self, mark: usize) -> [f64; MOST_PENS] {
+        let shares = self.shares.of(mark);
         let spacing = self.around.spacing[mark];
-        let own = (1.0 / reach_of(share, spacing).powi(2)) as f32;
+        let mut own = [0.0_f32; MOST_PENS];
+        own.iter_mut().zip(shares).for_each(|(own, share)| *own = (1.0 / reach_of(f64::from(*share), spacing).powi(2)) as f32);
         let wide = (1.0 / (FARTHEST * spacing).powi(2)) as f32;
-        let mut sum = 0.0;
+        let mut sums = [0.0; MOST_PENS];
         for (other, distance) in &self.around.near[mark] {
-            let neighbour = &self.marks[*other as usize];
             // A mark not yet dealt counts as it will be on average.
             let Some(its) = self.pen[*other as usize] else { continue };
-            let present = if its == pen { 1.0 } else { 0.0 };
-            let weight = f64::from(bell(distance * own) + KEEPING * bell(distance * wide));
-            sum += neighbour.ink * weight * (present - f64::from(neighbour.shares[pen]));
+            let ink = self.marks[*other as usize].ink;
+            let kept = KEEPING * bell(distance * wide);
+            for (pen, share) in self.shares.of(*other as usize).iter().enumerate() {
+                let present = if its == pen { 1.0 } else { 0.0 };
+                sums[pen] += ink * f64::from(bell(distance * own[pen]) + kept) * (present - f64::from(*share));
+            }
         }
-        sum / ((1.0 - share).max(0.02) * self.marks[mark].ink)
+        for (sum, share) in sums.iter_mut().zip(shares) {
+            *sum /= f64::from((1.0 - share).max(0.02)) * self.marks[mark].ink;
+        }
+        sums
     }
 }
 
@@ -192,18 +214,22 @@ const FARTHEST_MOVE: f64 = 0.35;
 const UNION: f64 = 2.0;
 
 /// Marks moved a little so that those of each pen lie evenly, and all of them still do.
-fn moved_apart(marks: &[Candidate], pens: &[usize], around: &Neighbours) -> Vec<Point> {
+fn moved_apart(marks: &[Candidate], shares: &Shares, pens: &[usize], around: &Neighbours) -> Vec<Point> {
     let force = |places: &[Point], mark: usize| {
         let (pen, spacing) = (pens[mark], around.spacing[mark]);
-        let own = 1.0 / reach_of(f64::from(marks[mark].shares[pen]), spacing).powi(2);
+        let reach = reach_of(f64::from(shares.of(mark)[pen]), spacing);
+        let own = 1.0 / reach.powi(2);
         let all = 1.0 / (REACH * spacing).powi(2);
         let mut sum = [Vec2::ZERO; 3];
         for (other, _) in &around.near[mark] {
             let j = *other as usize;
             let way = places[mark] - places[j];
-            let present = if pens[j] == pen { 1.0 } else { 0.0 };
             let distance = way.hypot2();
-            sum[0] += way * (f64::from(bell((distance * own) as f32)) * (present - f64::from(marks[j].shares[pen])));
+            if distance >= reach * reach {
+                continue;
+            }
+            let present = if pens[j] == pen { 1.0 } else { 0.0 };
+            sum[0] += way * (f64::from(bell((distance * own) as f32)) * (present - f64::from(shares.of(j)[pen])));
             let apart = way * f64::from(bell((distance * all) as f32));
             sum[1] += apart;
             if marks[j].round == marks[mark].round {

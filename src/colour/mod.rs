@@ -1,6 +1,7 @@
 //! Colour by the pens that one owns: inks on paper, the separation of a photograph into them, and which pen draws which mark.
 mod appearance;
 mod bands;
+mod choice;
 mod dealing;
 mod eye;
 mod library;
@@ -16,6 +17,7 @@ mod space;
 mod table;
 
 pub use appearance::appearance;
+pub use choice::choose;
 pub use dealing::{Candidate, Dealt, deal};
 pub use library::{KnownPen, known_pen_named, known_pens};
 pub use neugebauer::{Model, yule_nielsen};

@@ -105,7 +105,7 @@ pub enum PensError {
     None,
     /// More pens than overprints can be kept of.
     #[error(
-        "{0} pens are too many; at most {MOST_PENS} are used together: leave some out, or have the best for the picture chosen"
+        "{0} pens are too many; at most {MOST_PENS} are used together: leave some out, or let the best for the picture be chosen"
     )]
     TooMany(usize),
     /// A number that is none, or out of range.

@@ -15,11 +15,11 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 /// Out of gamut, differences in chroma count less and those in hue more, so that colours go towards the grey of their lightness.
-const CHROMA: f32 = 0.8;
-const HUE: f32 = 3.0;
+pub(super) const CHROMA: f32 = 0.8;
+pub(super) const HUE: f32 = 3.0;
 /// Price of full coverage, in halves of squared visible differences: of any ink, and more by the square of the difference in
 /// lightness between ink and colour (dark dots in light tones are seen as grain).
-const INK: f32 = 1.0;
+pub(super) const INK: f32 = 1.0;
 const GRAIN: f32 = 8.0;
 /// For a simplified drawing, the price of using a pen at all, and the coverage at which half of it is paid.
 const SIMPLE: f32 = 30.0;
@@ -59,13 +59,11 @@ pub struct Settings {
     pub black: Black,
     /// 0 to 1: 0 for the nearest colours, 1 for few pens and little ink at some visible difference.
     pub simplify: f32,
-    /// x
-    pub hold: f32,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { overlap: Overlap::round_dots(0.3, 0.15), n: None, ink_limit: 2.4, black: Black::Tones, simplify: 0.0, hold: HOLD }
+        Self { overlap: Overlap::round_dots(0.3, 0.18), n: None, ink_limit: 2.4, black: Black::Tones, simplify: 0.0 }
     }
 }
 
@@ -131,7 +129,7 @@ impl Separator {
         let solver = Solver { model: &model, eye: &inks.eye, most, limit: settings.ink_limit, ridge: RIDGE };
         let simple = SIMPLE * settings.simplify.clamp(0.0, 1.0);
         let rendering = Rendering::new(darkest(&solver), inks.paper);
-        let colours = Colours { solver, rendering, looks: &inks.looks, simple, hold: settings.hold };
+        let colours = Colours { solver, rendering, looks: &inks.looks, simple };
         let table = Table::solved(&colours);
         let white = inks.white;
         let errors = of_nodes(|node, light| [difference(&model, &table.nodes()[node][..pens], white, light)]);
@@ -224,7 +222,7 @@ fn darkest(solver: &Solver<'_>) -> Oklab {
 }
 
 /// The best from several starts: nearly bare paper, each pen alone, and some of all.
-fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages) -> Solution {
+pub(super) fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages) -> Solution {
     let pens = solver.model.pens();
     let start = |alone: usize| -> Coverages {
         std::array::from_fn(|i| match i {
@@ -251,7 +249,6 @@ struct Colours<'a> {
     rendering: Rendering,
     looks: &'a [Oklab],
     simple: f32,
-    hold: f32,
 }
 
 impl Colours<'_> {
@@ -282,7 +279,7 @@ impl Problems for Colours<'_> {
     fn near(&self, light: [f32; 3], suggested: &Coverages) -> Coverages {
         let look = self.rendering.look(light);
         let (aim, prices) = (Aim::new(look, CHROMA, HUE), self.prices(look, suggested));
-        self.solver.solve(Problem { aim: &aim, prices: &prices, start: suggested, hold: self.hold }).coverages
+        self.solver.solve(Problem { aim: &aim, prices: &prices, start: suggested, hold: HOLD }).coverages
     }
 }
 

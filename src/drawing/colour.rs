@@ -86,16 +86,21 @@ pub enum Ink {
     Black,
     /// A colour.
     Colour(Colour),
-    /// A named ink of its own plate, shown on screen in black.
-    Spot(String),
+    /// A named ink of its own plate.
+    Spot {
+        /// As the printer knows it.
+        name: String,
+        /// Its colour at full tint, for screens and proofs.
+        shown: Colour,
+    },
 }
 
 impl Ink {
     /// Its colour on screen.
     pub const fn colour(&self) -> Colour {
         match self {
-            Self::Colour(colour) => *colour,
-            Self::Black | Self::Spot(_) => Colour::BLACK,
+            Self::Colour(colour) | Self::Spot { shown: colour, .. } => *colour,
+            Self::Black => Colour::BLACK,
         }
     }
 }
@@ -105,7 +110,7 @@ impl fmt::Display for Ink {
         match self {
             Self::Black => write!(f, "k"),
             Self::Colour(colour) => write!(f, "{colour}"),
-            Self::Spot(name) => write!(f, "spot:{name}"),
+            Self::Spot { name, .. } => write!(f, "spot:{name}"),
         }
     }
 }
@@ -113,11 +118,12 @@ impl fmt::Display for Ink {
 impl FromStr for Ink {
     type Err = ColourError;
 
+    /// `k`, a CSS colour, or `spot:NAME`, which is shown in black.
     fn from_str(text: &str) -> Result<Self, ColourError> {
         match text.strip_prefix("spot:") {
             // In print files `All` and `None` mean every plate and no plate.
             Some("" | "All" | "None") => Err(ColourError(text.to_owned())),
-            Some(name) => Ok(Self::Spot(name.to_owned())),
+            Some(name) => Ok(Self::Spot { name: name.to_owned(), shown: Colour::BLACK }),
             None if text.eq_ignore_ascii_case("k") => Ok(Self::Black),
             None => text.parse().map(Self::Colour),
         }
@@ -138,7 +144,7 @@ mod tests {
     #[test]
     fn inks_are_read_and_written() {
         assert_eq!("k".parse(), Ok(Ink::Black));
-        assert_eq!("spot:PANTONE 286 C".parse(), Ok(Ink::Spot("PANTONE 286 C".into())));
+        assert_eq!("spot:PANTONE 286 C".parse(), Ok(Ink::Spot { name: "PANTONE 286 C".into(), shown: Colour::BLACK }));
         assert_eq!("navy".parse(), Ok(Ink::Colour(Colour { r: 0, g: 0, b: 128 })));
         assert_eq!("RebeccaPurple".parse(), Ok(Ink::Colour(Colour::REBECCAPURPLE)));
         assert_eq!(("currentColor".parse(), "currentcolor".parse()), (Ok(Colour::BLACK), Ok(Colour::BLACK)));

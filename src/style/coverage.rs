@@ -12,7 +12,7 @@ const FINER: usize = 2;
 const TOLERANCE: f64 = 0.2;
 
 /// The share of each working pixel under the ink of marks.
-pub(super) fn covered<'a>(marks: impl IntoIterator<Item = &'a Mark>, placement: &Placement) -> Raster<f32> {
+pub(crate) fn covered<'a>(marks: impl IntoIterator<Item = &'a Mark>, placement: &Placement) -> Raster<f32> {
     darkened(marks.into_iter().map(|mark| (mark, 1.0)), placement)
 }
 

@@ -27,6 +27,8 @@ mod solids;
 mod tone_error;
 
 pub use cost::Cost;
+#[cfg(feature = "cli")]
+pub(crate) use coverage::covered;
 use drawer::Drawer;
 pub use need::Need;
 pub use observer::{Observer, Picture, Silent};

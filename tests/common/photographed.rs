@@ -38,6 +38,7 @@ impl Chance {
 }
 
 /// Linear light, row by row.
+#[derive(Clone)]
 pub struct Light {
     pub width: usize,
     pub height: usize,
@@ -60,7 +61,7 @@ impl Light {
         }))
     }
 
-    fn blurred(self, sigma: f64) -> Self {
+    pub fn blurred(self, sigma: f64) -> Self {
         let reach = (3.0 * sigma).ceil() as isize;
         let weights: Vec<f32> = (-reach..=reach).map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exp() as f32).collect();
         let sum: f32 = weights.iter().sum();

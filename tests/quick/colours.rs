@@ -169,6 +169,57 @@ fn pens_without_a_slot_take_a_free_one_and_measured_colours_are_shown() {
     assert!(svg.contains("#d93d36") && !svg.contains("#ff0000"), "{:?}", svg.find("fill=\"#").map(|at| &svg[at..at + 15]));
 }
 
+/// Ten pens, of which a forest needs few.
+const BOX: [(&str, &str); 10] = [
+    ("black", "#1c1c1e"),
+    ("grey", "#8a8a8c"),
+    ("yellow", "#f3d83a"),
+    ("orange", "#ee8c36"),
+    ("red", "#d33b33"),
+    ("pink", "#e78ab4"),
+    ("purple", "#6a3f8f"),
+    ("blue", "#2957a8"),
+    ("green", "#3f9b4b"),
+    ("brown", "#8a5a35"),
+];
+
+#[test]
+fn the_pens_that_suit_the_picture_are_chosen_from_a_full_box() {
+    let folder = with_pens(&BOX.map(|(name, colour)| format!("[{name}]\ncolour = \"{colour}\"\n")).concat());
+    let forest = ImageBuffer::from_fn(120, 90, |x, y| match (x / 20 + y / 15) % 6 {
+        0 => Rgb([14_u8, 22, 14]),
+        1 => Rgb([40, 70, 38]),
+        2 => Rgb([70, 140, 70]),
+        3 => Rgb([150, 190, 120]),
+        4 => Rgb([200, 210, 120]),
+        _ => Rgb([250, 250, 245]),
+    });
+    forest.save(folder.path().join("forest.png")).unwrap();
+    let how = ["forest.png", "-o", "forest.svg", "--colours", "pens.toml", "--size", "40x30mm"];
+    let output = draw(folder.path(), &how);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(1) && said.contains("10 pens are too many") && said.contains("--choose 4"), "{said}");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
+    let output =
+        command.current_dir(folder.path()).arg("draw").args(how).args(["--choose", "3", "--sight=none"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("3 of 10 pens chosen: black, green, yellow"), "{said}");
+    let svg = fs::read_to_string(folder.path().join("forest.svg")).unwrap();
+    assert_eq!(svg.matches("mix-blend-mode").count(), 3);
+}
+
+#[test]
+fn a_duotone_has_a_plate_for_each_ink() {
+    let folder = with_pens("[warm]\ncolour = \"#e2583e\"\nink = \"spot:Warm Red\"\n[black]\ncolour = \"#1c1c1e\"\nink = \"k\"\n");
+    flat(folder.path(), [170, 90, 60]);
+    drawn(folder.path(), &["flat.png", "-o", "flat.pdf", "--colours", "pens.toml", "--size", "30x30mm"]);
+    let pdf = fs::read(folder.path().join("flat.pdf")).unwrap();
+    let pdf = String::from_utf8_lossy(&pdf);
+    assert!(pdf.contains("/Separation /Warm#20Red /DeviceRGB") && !pdf.contains("/Multiply /"), "{}", pdf.len());
+    drawn(folder.path(), &["flat.png", "-o", "flat.svg", "--colours", "pens.toml", "--size", "30x30mm"]);
+    assert!(fs::read_to_string(folder.path().join("flat.svg")).unwrap().contains("#e2583e"));
+}
+
 #[test]
 fn pens_that_cannot_serve_are_told() {
     for (text, told) in [

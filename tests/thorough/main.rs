@@ -11,6 +11,8 @@ mod fields;
 mod grbl;
 #[path = "../common/machine_file.rs"]
 mod machine_file;
+#[path = "../common/microscope.rs"]
+mod microscope;
 #[path = "../common/paper_stripes.rs"]
 mod paper_stripes;
 #[path = "../common/photographed.rs"]
@@ -20,6 +22,7 @@ mod rasterised;
 
 mod bounds;
 mod charcoal;
+mod colour_accuracy;
 mod colour_sheet;
 mod command_line;
 mod effects;

@@ -212,7 +212,7 @@ fn the_page_has_its_size_in_millimetres_and_layers_have_their_names() {
     let folder = tempfile::tempdir().unwrap();
     let mut drawing = every_mark();
     drawing.page = Page::new(210.0, 297.0);
-    drawing.layers.push(Layer { ink: Ink::Spot("Blå 7".into()), ..Layer::new("größer", 3) });
+    drawing.layers.push(Layer { ink: Ink::Spot { name: "Blå 7".into(), shown: Colour::BLACK }, ..Layer::new("größer", 3) });
     let pdf = file(&folder, "a.pdf", &pdf_of(&drawing));
     let Some(output) = run("pdfinfo", &["-box", text(&pdf)]) else { return };
     for line in ["MediaBox:            0.00     0.00   595.28   841.89", "TrimBox:             0.00     0.00   595.28   841.89"] {
@@ -229,7 +229,7 @@ fn the_page_has_its_size_in_millimetres_and_layers_have_their_names() {
 fn ink_on_ink_overprints_and_opaque_ink_knocks_out() {
     let folder = tempfile::tempdir().unwrap();
     let mut drawing = every_mark();
-    drawing.layers[0].ink = Ink::Spot("PANTONE 286 C".into());
+    drawing.layers[0].ink = Ink::Spot { name: "PANTONE 286 C".into(), shown: Colour::BLACK };
     drawing.layers.push(Layer {
         mixing: Mixing::Paint,
         ink: Ink::Colour(Colour { r: 200, g: 0, b: 0 }),

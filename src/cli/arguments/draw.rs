@@ -85,13 +85,16 @@ pub(in crate::cli) struct PictureOptions {
     /// Tone that becomes bare paper (0 to 1).
     #[arg(long, value_name = "F", default_value_t = 1.0, value_parser = fraction, allow_negative_numbers = true)]
     pub white: f64,
-    /// Draw in the colours of the photograph with these pens, at most 8: a file as for --pens, which is used for that too, in which
+    /// Draw in the colours of the photograph with these pens, at most 8 or those of --choose: a file as for --pens, which is used for that too, in which
     /// each pen has its colour on the paper. One layer per pen, light ones first; the tone is the photograph's own.
     #[arg(long, value_name = "FILE", conflicts_with = "region")]
     pub colours: Option<String>,
     /// The colour of the paper, any CSS colour.
     #[arg(long, value_name = "COLOUR", default_value = "white")]
     pub paper: Colour,
+    /// With --colours, only the pens of the file that suit the photograph best (1 to 8).
+    #[arg(long, value_name = "N", requires = "colours", value_parser = clap::value_parser!(u8).range(1..=8))]
+    pub choose: Option<u8>,
     /// With --colours, how far to do with few pens where few will do (0 to 1).
     #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = fraction, allow_negative_numbers = true)]
     pub colours_simplify: f64,

@@ -9,13 +9,13 @@ use crate::cli::formats;
 use crate::cli::interruption::interrupt;
 use crate::cli::layer_files::split_by_layer;
 use crate::cli::messages::say;
-use crate::cli::palette::shown_ink;
+use crate::cli::palette::shown_colour;
 use crate::cli::pens::PenSet;
 use crate::cli::progress::Watcher;
 use crate::cli::{job, layout, output, toolpaths};
 use crate::colour::Opacity;
 use crate::colour::sheet::{PenSheet, SheetMark, SheetShape};
-use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use crate::geometry::{BezPath, Point, Rect};
 use crate::plot::{InkModel, Job, Profile, mount};
 use crate::press::PrintJob;
@@ -44,7 +44,7 @@ pub(super) fn run(options: &CalibrateOptions, file: &str) -> Result<(), Failure>
     pens.assign(&mut drawing, profile.as_ref())?;
     for (layer, pen) in drawing.layers.iter_mut().zip(&pen_box.pens) {
         // As the pens are, not as their `colour` says if there is `lab` too.
-        layer.ink = shown_ink(&pen.ink, pen_box.paper);
+        layer.ink = Ink::Colour(shown_colour(&pen.ink, pen_box.paper));
         if profile.is_none() && pen.ink.opacity == Opacity::Opaque {
             layer.mixing = Mixing::Paint;
         }

@@ -1,6 +1,6 @@
 //! Marks as PDF path operators, in millimetres on the grid of 0.001 mm.
 
-use super::ink::Paint;
+use super::ink::{Inks, MULTIPLY, Paint};
 use crate::drawing::{Dot, Drawing, Ends, Layer, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point};
 use crate::write::{decimal, thousandths};
@@ -22,22 +22,43 @@ pub(super) fn layer_name(i: usize) -> String {
     format!("L{i}")
 }
 
-/// The page's content, split between marks into consecutive pieces.
-pub(super) fn pieces(drawing: &Drawing, spots: &[&str], units_per_mm: f64) -> Vec<String> {
-    let mut writer = Writer { pieces: Vec::new(), text: String::new(), pen: Pen::default() };
+/// The resource name of the i-th layer's group of marks.
+pub(super) fn group_name(i: usize) -> String {
+    format!("G{i}")
+}
+
+/// What is drawn.
+pub(super) struct Content {
+    /// The page's content, split between marks into consecutive pieces.
+    pub pieces: Vec<String>,
+    /// The marks of layers that are multiplied with those below, by the layer's number: groups in millimetres, y down.
+    pub groups: Vec<(usize, String)>,
+}
+
+impl Content {
+    pub(super) fn of(drawing: &Drawing, inks: &Inks<'_>, units_per_mm: f64) -> Self {
+        let groups = drawing.layers.iter().enumerate().filter(|(_, layer)| inks.is_multiplied(layer));
+        let groups = groups.map(|(i, layer)| (i, Writer::default().whole(layer, inks))).collect();
+        Self { pieces: pieces(drawing, inks, units_per_mm), groups }
+    }
+}
+
+fn pieces(drawing: &Drawing, inks: &Inks<'_>, units_per_mm: f64) -> Vec<String> {
+    let mut writer = Writer::default();
     // From here on lengths are in millimetres, y down, from the sheet's upper left corner.
     let (page, scale) = (&drawing.page, units_per_mm);
     let _ = writeln!(writer.text, "{scale:.10} 0 0 -{scale:.10} 0 {:.6} cm 1 j", page.height * scale);
     if super::has_paper(drawing) {
         let _ = write!(writer.text, "/OC /{PAPER} BDC\nq ");
-        Paint::Rgb(page.paper).select(&mut writer.text, !spots.is_empty());
+        Paint::covering(page.paper).select(&mut writer.text, inks);
         let _ = writeln!(writer.text, "0 0 {} {} re f Q\nEMC", page.width, page.height);
     }
     for (i, layer) in drawing.layers.iter().enumerate() {
         let _ = writeln!(writer.text, "/OC /{} BDC\nq", layer_name(i));
-        writer.pen = Pen::default();
-        for mark in &layer.marks {
-            writer.mark(mark, layer, spots);
+        if inks.is_multiplied(layer) {
+            let _ = writeln!(writer.text, "/{MULTIPLY} gs /{} Do", group_name(i));
+        } else {
+            writer.layer(layer, inks);
         }
         writer.text.push_str("Q\nEMC\n");
     }
@@ -53,6 +74,7 @@ struct Pen {
     ends: Option<Ends>,
 }
 
+#[derive(Default)]
 struct Writer {
     pieces: Vec<String>,
     text: String,
@@ -60,10 +82,25 @@ struct Writer {
 }
 
 impl Writer {
-    fn mark(&mut self, mark: &Mark, layer: &Layer, spots: &[&str]) {
-        let paint = Paint::of(layer, mark.colour(), spots);
+    /// A layer's marks in one piece.
+    fn whole(mut self, layer: &Layer, inks: &Inks<'_>) -> String {
+        self.text.push_str("1 j\n");
+        self.layer(layer, inks);
+        self.pieces.push(self.text);
+        self.pieces.concat()
+    }
+
+    fn layer(&mut self, layer: &Layer, inks: &Inks<'_>) {
+        self.pen = Pen::default();
+        for mark in &layer.marks {
+            self.mark(mark, layer, inks);
+        }
+    }
+
+    fn mark(&mut self, mark: &Mark, layer: &Layer, inks: &Inks<'_>) {
+        let paint = Paint::of(layer, mark.colour(), inks);
         if self.pen.paint != Some(paint) {
-            paint.select(&mut self.text, !spots.is_empty());
+            paint.select(&mut self.text, inks);
             self.pen.paint = Some(paint);
         }
         match mark {

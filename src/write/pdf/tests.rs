@@ -1,5 +1,5 @@
 use super::*;
-use crate::drawing::{Area, Dot, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Dot, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
 use crate::geometry::{BezPath, Point};
 
 fn written(drawing: &Drawing, seconds: Option<u64>) -> Vec<u8> {
@@ -19,7 +19,7 @@ fn drawing(ink: Ink) -> Drawing {
 }
 
 fn content_of(drawing: &Drawing) -> String {
-    content::pieces(drawing, &spot_names(&drawing.layers), POINTS_PER_MM).concat()
+    Content::of(drawing, &Inks::of(&drawing.layers), POINTS_PER_MM).pieces.concat()
 }
 
 #[test]
@@ -33,13 +33,39 @@ fn the_content_is_short_and_in_black_only() {
 
 #[test]
 fn a_spot_ink_prints_over_unless_its_layer_is_opaque() {
-    let mut spot = drawing(Ink::Spot("PANTONE 286 C".into()));
+    let mut spot = drawing(Ink::Spot { name: "PANTONE 286 C".into(), shown: Colour::BLACK });
     let text = content_of(&spot);
     assert!(text.contains("/O gs /S0 cs 1 scn /S0 CS 1 SCN") && text.contains("/K gs 1 g"), "{text}");
     spot.layers[0].mixing = Mixing::Paint;
     assert!(!content_of(&spot).contains("/O gs"));
     let bytes = String::from_utf8_lossy(&written(&spot, None)).into_owned();
     assert!(bytes.contains("/Separation /PANTONE#20286#20C /DeviceGray"), "{bytes}");
+}
+
+#[test]
+fn a_duotone_has_two_plates_that_overprint_and_a_colour_of_its_own() {
+    let warm = Ink::Spot { name: "Warm Red".into(), shown: Colour { r: 255, g: 51, b: 51 } };
+    let mut duotone = drawing(warm);
+    duotone.layers.extend(drawing(Ink::Black).layers);
+    let text = content_of(&duotone);
+    assert!(text.contains("/O gs /S0 cs 1 scn /S0 CS 1 SCN") && text.contains("/O gs 0 g 0 G"), "{text}");
+    let bytes = String::from_utf8_lossy(&written(&duotone, None)).into_owned();
+    assert!(bytes.contains("/Separation /Warm#20Red /DeviceRGB") && bytes.contains("/C1 [1 0.2 0.2]"), "{bytes}");
+    assert!(!bytes.contains("/Group"));
+}
+
+#[test]
+fn colours_are_multiplied_layer_by_layer() {
+    let colour = |r, g, b| Ink::Colour(Colour { r, g, b });
+    let mut inks = drawing(colour(0, 160, 220));
+    assert!(!String::from_utf8_lossy(&written(&inks, None)).contains("/Group"), "one ink has nothing to mix with");
+    inks.layers.extend(drawing(colour(240, 220, 0)).layers);
+    let text = content_of(&inks);
+    assert!(text.contains("/M gs /G0 Do") && text.contains("/M gs /G1 Do") && !text.contains("rg"), "{text}");
+    let bytes = String::from_utf8_lossy(&written(&inks, None)).into_owned();
+    assert!(bytes.contains("/BM /Multiply") && bytes.matches("/Subtype /Form").count() == 2, "{bytes}");
+    inks.layers[1].mixing = Mixing::Paint;
+    assert!(content_of(&inks).contains("/L1 BDC\nq\n.9412 .8627 0 rg"));
 }
 
 #[test]
