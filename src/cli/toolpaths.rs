@@ -114,6 +114,9 @@ fn preview_name(name: &str, layer: Option<&str>) -> String {
 pub(super) fn write_preview_of(job: &Job<'_>, options: &ToolpathOptions, layer: Option<&str>) -> Result<(), Failure> {
     let Some(name) = &options.preview else { return Ok(()) };
     let name = preview_name(name, layer);
+    if let Some(registration) = options.preview_registration {
+        return output::write(&name, |out| job.write_proof(registration, out));
+    }
     let travel = match options.preview_travel {
         PreviewTravel::Off => ShownTravel::Off,
         PreviewTravel::Faint => ShownTravel::Faint,

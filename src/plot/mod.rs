@@ -19,6 +19,7 @@ mod occlude;
 mod ordering;
 mod preview;
 mod profile;
+mod proof;
 mod report;
 mod seam;
 mod time;

@@ -114,7 +114,7 @@ fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
 }
 
 /// The lines of one pen, at nib width.
-fn ink(pen: &PenPaths, colour: Colour) -> String {
+pub(super) fn ink(pen: &PenPaths, colour: Colour) -> String {
     let told = if colour == pen.colour { String::new() } else { format!("<desc>its own colour is {}</desc>\n", pen.colour) };
     let lines = pen.paths.iter().fold(String::new(), |mut lines, path| {
         let _ = writeln!(lines, "<path d=\"{}\"/>", polyline(&path.points));
@@ -130,11 +130,11 @@ fn mark(p: Point, radius: f64, colour: &str, id: &str) -> String {
     format!("<circle id=\"{id}\" cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\".5\"/>\n")
 }
 
-fn layer(text: &mut String, label: &str, content: &str) {
+pub(super) fn layer(text: &mut String, label: &str, content: &str) {
     let _ = write!(text, "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\">\n{content}</g>\n");
 }
 
-fn rectangle(rect: Rect, style: &str) -> String {
+pub(super) fn rectangle(rect: Rect, style: &str) -> String {
     let [x, y, width, height] = [rect.x0, rect.y0, rect.width(), rect.height()].map(number);
     format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {style}/>\n")
 }
@@ -171,7 +171,7 @@ fn ways(plot: &Plot, home: Point, park: Point) -> String {
     text + &polyline(&[at, park])
 }
 
-fn number(mm: f64) -> String {
+pub(super) fn number(mm: f64) -> String {
     let mut text = String::new();
     decimal(&mut text, thousandths(mm), 3);
     text

@@ -35,6 +35,11 @@ impl Inked {
         Self { width: width as usize, height: height as usize, cover }
     }
 
+    /// What of a pixel is inked, 0 to 1.
+    pub fn cover(&self, x: usize, y: usize) -> f32 {
+        self.cover[y * self.width + x]
+    }
+
     /// Drawn `x`, `y` millimetres off.
     pub fn moved(&self, x: f64, y: f64) -> Self {
         let [dx, dy] = [x, y].map(|mm| (mm * FINE as f64).round() as isize);

@@ -209,6 +209,30 @@ fn the_pens_that_suit_the_picture_are_chosen_from_a_full_box() {
 }
 
 #[test]
+fn the_preview_shows_pens_that_miss_each_other() {
+    let folder = with_pens(CMYK);
+    flat(folder.path(), [170, 120, 90]);
+    let how = [
+        "flat.png",
+        "-o",
+        "flat.gcode",
+        "--colours",
+        "pens.toml",
+        "--size",
+        "20x20mm",
+        "--margin",
+        "2mm",
+        "--profile",
+        "grbl-servo",
+    ];
+    drawn(folder.path(), &[&how[..], &["--preview", "paper.svg", "--preview-registration", "0.3mm"]].concat());
+    let preview = fs::read_to_string(folder.path().join("paper.svg")).unwrap();
+    assert!(preview.matches("mix-blend-mode:multiply").count() > 2 && !preview.contains("travel"));
+    let output = draw(folder.path(), &[&how[..], &["--preview", "paper.svg", "--preview-registration", "5mm"]].concat());
+    assert!(output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("from 0 to 2 mm"));
+}
+
+#[test]
 fn a_duotone_has_a_plate_for_each_ink() {
     let folder = with_pens("[warm]\ncolour = \"#e2583e\"\nink = \"spot:Warm Red\"\n[black]\ncolour = \"#1c1c1e\"\nink = \"k\"\n");
     flat(folder.path(), [170, 90, 60]);

@@ -11,6 +11,7 @@ mod fields;
 mod grbl;
 #[path = "../common/machine_file.rs"]
 mod machine_file;
+#[cfg(feature = "cli")]
 #[path = "../common/microscope.rs"]
 mod microscope;
 #[path = "../common/paper_stripes.rs"]
@@ -35,6 +36,7 @@ mod hedcut;
 mod independent;
 mod inkml;
 mod lowering;
+mod moire;
 mod picture_box;
 mod placing;
 mod planner;

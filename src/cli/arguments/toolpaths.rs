@@ -4,7 +4,8 @@ use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, P
 use super::placing::PlacingOptions;
 use super::reporting::Reporting;
 use super::values::{
-    drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, scale, seconds, tolerance, work,
+    drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, registration, scale, seconds,
+    tolerance, work,
 };
 use clap::Args;
 
@@ -88,6 +89,10 @@ pub(in crate::cli) struct ToolpathOptions {
     /// How the preview shows pen-up travel.
     #[arg(long, value_enum, default_value_t = PreviewTravel::Faint, requires = "preview")]
     pub preview_travel: PreviewTravel,
+    /// Show the preview as ink on paper instead: pens in their own colours, multiplied where they lie on one another, which miss each
+    /// other by this much (0 to 2 mm); 0.3 mm is usual.
+    #[arg(long, value_name = "LENGTH", requires = "preview", conflicts_with = "preview_travel", value_parser = registration, allow_negative_numbers = true)]
+    pub preview_registration: Option<f64>,
 }
 
 #[derive(Args, Clone, Debug)]

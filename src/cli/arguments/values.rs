@@ -71,6 +71,11 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     length_within(text, &TOLERANCES)
 }
 
+/// By how much pens miss each other.
+pub(super) fn registration(text: &str) -> Result<f64, String> {
+    length_within(text, &(0.0..=2.0))
+}
+
 fn length_within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
     let mm = parse_drawn_length(text).map_err(|error| error.to_string())?;
     if range.contains(&mm) { Ok(mm) } else { Err(format!("must be from {} to {} mm", range.start(), range.end())) }
