@@ -47,11 +47,11 @@ painting() {
     convert "$WORK/$name.png" -resize 50% "$WORK/$name.jpg"
 }
 
-# NAME PHOTO OPTIONS...: a drawing in four pens, as inks on paper look from afar.
+# NAME PHOTO PENS OPTIONS...: a drawing in the pens of a file in docs/, as inks on paper look from afar.
 coloured() {
-    name=$1 photo=$2
-    shift 2
-    "$D" draw "$photo" --quiet -o "$WORK/$name.svg" --colours docs/four-pens.toml "$@"
+    name=$1 photo=$2 pens=$3
+    shift 3
+    "$D" draw "$photo" --quiet -o "$WORK/$name.svg" --colours "docs/$pens-pens.toml" "$@"
     rsvg-convert -w 2400 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
     convert "$WORK/$name.png" -colorspace RGB -resize 760x -colorspace sRGB -quality 85 "$OUT/$name.jpg"
 }
@@ -107,10 +107,19 @@ painting glass-astronaut $S/astronaut.jpg --set detail=0.06
 convert "$WORK/glass-astronaut.png" -quality 88 "$OUT/glass-astronaut.jpg"
 ink glass-one-pen $S/astronaut.jpg --style glass --set colors=mono
 
-coloured colour-raccoon $S/raccoon.jpg --size 120x90mm
-coloured colour-raccoon-lines $S/raccoon.jpg --size 120x90mm --style engrave
-coloured colour-astronaut $S/astronaut.jpg --background keep --pitch 0.45mm
-coloured colour-coffee $S/coffee.png --size 120x90mm --style engrave
+coloured colour-raccoon $S/raccoon.jpg four --size 120x90mm
+coloured colour-raccoon-lines $S/raccoon.jpg four --size 120x90mm --style engrave
+coloured colour-astronaut $S/astronaut.jpg four --background keep --pitch 0.45mm
+coloured colour-coffee $S/coffee.png four --size 120x90mm --style engrave
+for pens in three eight; do
+    coloured colour-raccoon-$pens $S/raccoon.jpg $pens --size 120x90mm
+    coloured colour-astronaut-$pens $S/astronaut.jpg $pens --background keep --pitch 0.45mm
+    coloured colour-coffee-$pens $S/coffee.png $pens --size 120x90mm --style engrave
+done
+TONED="--paper #c9b28f"
+coloured colour-raccoon-toned $S/raccoon.jpg toned --size 120x90mm $TONED
+coloured colour-astronaut-toned $S/astronaut.jpg toned --style charcoal $TONED
+coloured colour-coffee-toned $S/coffee.png toned --size 120x90mm --style engrave $TONED
 
 for preset in wsj-column wsj-large book banknote charcoal-loose poster pen-0.1 pen-0.5-one-hour scraperboard; do
     ink preset-$preset $S/grace-hopper.jpg --preset $preset

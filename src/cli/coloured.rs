@@ -16,7 +16,7 @@ use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Point;
 use crate::raster::Raster;
 use crate::source::{MaskRole, Placement, Portrait};
-use crate::style::{Observer, Settings, StyleError};
+use crate::style::{Observer, Picture, Settings, StyleError};
 use rayon::prelude::*;
 
 /// Most of the paper that marks beside one another cover: above it round dots run together.
@@ -24,6 +24,8 @@ const MOST_BESIDE: f32 = 0.75;
 /// Styles whose marks are long lines or smudges, which do not share their place: each pen draws for itself, and its marks cross those
 /// of the others by chance.
 pub(super) const APART: [&str; 2] = [LINES, "charcoal"];
+/// How many pens draw for themselves at the same time: parts of each have to wait for one another. More only take memory.
+pub(super) const AT_ONCE: usize = 2;
 /// The style of parallel lines.
 const LINES: &str = "engrave";
 /// Direction of the first pen's lines in degrees.
@@ -106,11 +108,23 @@ impl Task<'_> {
         observer: &dyn Observer,
     ) -> Result<(), Failure> {
         let line_pen = self.palette.as_ref().map_or(0, Palette::line_pen);
-        for (pen, coverage) in coverages.iter().enumerate() {
-            let settings = self.settings_of_pen(pen, coverages.len(), portrait)?;
+        let manner = &self.manner;
+        let settings: Vec<Settings> =
+            (0..coverages.len()).map(|pen| self.settings_of_pen(pen, coverages.len(), portrait)).collect::<Result<_, _>>()?;
+        let draw = |pen: usize| {
             let mut own = portrait.clone();
-            own.tone = coverage.map(|ink| 1.0 - ink);
-            let drawn = match self.manner.style.draw(&own, &settings, self.manner.seed ^ pen as u64, observer) {
+            own.tone = coverages[pen].map(|ink| 1.0 - ink);
+            let beside = Beside(observer);
+            let observer = if pen == 0 { observer } else { &beside };
+            manner.style.draw(&own, &settings[pen], manner.seed ^ pen as u64, observer)
+        };
+        let mut drawings: Vec<Result<Drawing, StyleError>> = Vec::new();
+        while drawings.len() < coverages.len() {
+            let first = drawings.len();
+            drawings.par_extend((first..coverages.len().min(first + AT_ONCE)).into_par_iter().map(draw));
+        }
+        for (pen, drawn) in drawings.into_iter().enumerate() {
+            let drawn = match drawn {
                 Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,
                 drawn => drawn.map_err(|error| self.undrawn(&error))?,
             };
@@ -166,6 +180,24 @@ impl Task<'_> {
             given.push(("pitch".to_owned(), pitch.to_string()));
         }
         Ok(Settings::resolve(style.name(), style.parameters(), &given)?)
+    }
+}
+
+/// Of a drawing that is made beside another one, whose steps are shown.
+struct Beside<'a>(&'a dyn Observer);
+
+impl Observer for Beside<'_> {
+    fn begin(&self, _: &str) {}
+    fn progress(&self, _: f64) {}
+    fn picture(&self, _: &str, _: &dyn Fn() -> Picture) {}
+    fn warn(&self, message: &str) {
+        self.0.warn(message);
+    }
+    fn want_mask(&self, role: MaskRole, message: &str) {
+        self.0.want_mask(role, message);
+    }
+    fn is_interrupted(&self) -> bool {
+        self.0.is_interrupted()
     }
 }
 

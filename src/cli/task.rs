@@ -1,6 +1,7 @@
 //! Everything that decides a drawing: the photograph, what is known of it, its place on the sheet, the style and its settings.
 
 use super::arguments::{PictureOptions, PlacingOptions};
+use super::coloured::{APART, AT_ONCE};
 use super::crop;
 use super::eyes;
 use super::failure::Failure;
@@ -152,7 +153,8 @@ impl<'a> Task<'a> {
         let masks = known.masks.iter().chain(&known.people).chain(&unused.masks).map(|mask| &*mask.mask);
         let others = masks.chain(known.depth.iter().chain(&unused.depth).map(|depth| &*depth.map));
         let photographs: usize = others.chain([&self.photograph]).map(Photograph::bytes).sum();
-        Cost { bytes: cost.bytes + photographs as f64, ..cost }
+        let at_once = if self.palette.is_some() && APART.contains(&self.manner.style.name()) { AT_ONCE } else { 1 };
+        Cost { bytes: cost.bytes * at_once as f64 + photographs as f64, ..cost }
     }
 
     /// Where the photograph lies on the turned sheet: from its pixels to millimetres.

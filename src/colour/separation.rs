@@ -29,6 +29,8 @@ const ROUNDS: usize = 3;
 /// Weight of squared coverages, and of squared distances from what neighbouring colours use.
 const RIDGE: f32 = 1.0;
 const HOLD: f32 = 20.0;
+/// How much lighter than toned paper, in Oklab, a tone is that a light ink may cover wholly.
+const HEIGHTENED: f32 = 0.05;
 /// A visible difference above which a colour counts as out of gamut.
 const OUTSIDE: f32 = 2.0;
 /// Most pixels at which the error is measured.
@@ -129,7 +131,7 @@ impl Separator {
         let solver = Solver { model: &model, eye: &inks.eye, most, limit: settings.ink_limit, ridge: RIDGE };
         let simple = SIMPLE * settings.simplify.clamp(0.0, 1.0);
         let rendering = Rendering::new(darkest(&solver), inks.paper);
-        let colours = Colours { solver, rendering, looks: &inks.looks, simple };
+        let colours = Colours { solver, rendering, paper: inks.paper, looks: &inks.looks, simple };
         let table = Table::solved(&colours);
         let white = inks.white;
         let errors = of_nodes(|node, light| [difference(&model, &table.nodes()[node][..pens], white, light)]);
@@ -247,11 +249,22 @@ pub(super) fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages)
 struct Colours<'a> {
     solver: Solver<'a>,
     rendering: Rendering,
+    paper: Oklab,
     looks: &'a [Oklab],
     simple: f32,
 }
 
 impl Colours<'_> {
+    /// A white pen heightens: no tone that is darker than toned paper has ink lighter than that, whose dots would glare in the dark.
+    fn solver_for(&self, look: Oklab) -> Solver<'_> {
+        let mut solver = self.solver;
+        let share = ((look[0] - self.paper[0]) / HEIGHTENED).clamp(0.0, 1.0);
+        for (most, _) in solver.most.iter_mut().zip(self.looks).filter(|(_, ink)| ink[0] > self.paper[0]) {
+            *most = most.min(share);
+        }
+        solver
+    }
+
     /// The price of using a pen is a concave function of its coverage; its slope is taken where the coverages are now (reweighting
     /// of Candes, Wakin and Boyd 2008), so that pens in use become cheap and others stay dear.
     fn prices(&self, look: Oklab, now: &Coverages) -> Coverages {
@@ -268,10 +281,10 @@ impl Problems for Colours<'_> {
     fn first(&self, light: [f32; 3]) -> Coverages {
         let look = self.rendering.look(light);
         let aim = Aim::new(look, CHROMA, HUE);
-        let mut found = best_of_starts(&self.solver, &aim, &self.prices(look, &[1.0; MOST_PENS])).coverages;
+        let solver = self.solver_for(look);
+        let mut found = best_of_starts(&solver, &aim, &self.prices(look, &[1.0; MOST_PENS])).coverages;
         for _ in 0..if self.simple > 0.0 { ROUNDS } else { 0 } {
-            found =
-                self.solver.solve(Problem { aim: &aim, prices: &self.prices(look, &found), start: &found, hold: 0.0 }).coverages;
+            found = solver.solve(Problem { aim: &aim, prices: &self.prices(look, &found), start: &found, hold: 0.0 }).coverages;
         }
         found
     }
@@ -279,7 +292,7 @@ impl Problems for Colours<'_> {
     fn near(&self, light: [f32; 3], suggested: &Coverages) -> Coverages {
         let look = self.rendering.look(light);
         let (aim, prices) = (Aim::new(look, CHROMA, HUE), self.prices(look, suggested));
-        self.solver.solve(Problem { aim: &aim, prices: &prices, start: suggested, hold: HOLD }).coverages
+        self.solver_for(look).solve(Problem { aim: &aim, prices: &prices, start: suggested, hold: HOLD }).coverages
     }
 }
 
