@@ -300,3 +300,21 @@ fn difference(model: &Model, coverages: &[f32], white: [f64; 3], light: [f32; 3]
     let seen = Lab::from_xyz(model.xyz(coverages), white);
     Lab::from_rgb(light.map(f64::from)).difference(seen) as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::colour::{ColourPen, Paper};
+    use crate::drawing::Colour;
+
+    #[test]
+    fn white_ink_is_for_what_is_lighter_than_the_paper() {
+        let pen = |name: &str, colour: &str| ColourPen::new(name, 0.3, colour.parse::<Colour>().unwrap());
+        let paper = Paper::new("#c9b28f".parse().unwrap());
+        let set = PenSet::new(vec![pen("black", "#2a2826"), pen("white", "#f7f5ee").opaque()], paper, Vec::new()).unwrap();
+        let separator = Separator::new(&set, &Settings::default()).unwrap();
+        let white_in = |grey: f32| separator.coverages_of([grey; 3])[1];
+        assert!(white_in(0.02) < 1e-3 && white_in(0.2) < 1e-3, "{} {}", white_in(0.02), white_in(0.2));
+        assert!(white_in(0.95) > 0.5, "{}", white_in(0.95));
+    }
+}
