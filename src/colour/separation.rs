@@ -21,6 +21,9 @@ pub(super) const HUE: f32 = 3.0;
 /// lightness between ink and colour (dark dots in light tones are seen as grain).
 pub(super) const INK: f32 = 1.0;
 const GRAIN: f32 = 8.0;
+/// The same for the difference in hue and chroma: pale greys of cyan, magenta and yellow dots are seen as confetti. Tuned on four samples
+/// in four and eight pens: at 0 they are, at 60 skin has black freckles.
+const CONFETTI: f32 = 20.0;
 /// For a simplified drawing, the price of using a pen at all, and the coverage at which half of it is paid.
 const SIMPLE: f32 = 30.0;
 const FEW: f32 = 0.1;
@@ -271,7 +274,8 @@ impl Colours<'_> {
         let mut prices = [0.0; MOST_PENS];
         for ((price, ink), c) in prices.iter_mut().zip(self.looks).zip(now) {
             let contrast = ink[0] - look[0];
-            *price = INK + GRAIN * contrast * contrast + self.simple * FEW / ((c + FEW) * (c + FEW));
+            let [a, b] = [ink[1] - look[1], ink[2] - look[2]];
+            *price = INK + GRAIN * contrast * contrast + CONFETTI * (a * a + b * b) + self.simple * FEW / ((c + FEW) * (c + FEW));
         }
         prices
     }
