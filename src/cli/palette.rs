@@ -42,9 +42,16 @@ impl Palette {
         let paper = Paper::new(options.paper);
         let mut pens: Vec<ColourPen> =
             entries.iter().map(|entry| pen_of(entry, paper).map_err(|why| about(&why))).collect::<Result<_, _>>()?;
+        let black = match options.black_pen {
+            BlackPen::Tones => Black::Tones,
+            BlackPen::Lines => Black::Lines,
+            BlackPen::None => Black::None,
+        };
+        let overlap = if APART.contains(&options.style.as_str()) { Overlap::Random } else { Settings::default().overlap };
+        let settings = Settings { black, overlap, simplify: options.colours_simplify as f32, ..Settings::default() };
         let mut choice = None;
         if let Some(count) = options.choose.map(usize::from).filter(|count| *count < pens.len()) {
-            let chosen = choose(&pens, paper, &Settings::default(), &light()?, count).map_err(|error| about(&error))?;
+            let chosen = choose(&pens, paper, &settings, &light()?, count).map_err(|error| about(&error))?;
             let of = pens.len();
             (entries, pens) =
                 entries.into_iter().zip(pens).enumerate().filter(|(i, _)| chosen.contains(i)).map(|(_, pen)| pen).unzip();
@@ -61,13 +68,6 @@ impl Palette {
         for told in pens.warnings() {
             warning!("{file}: {told}");
         }
-        let black = match options.black_pen {
-            BlackPen::Tones => Black::Tones,
-            BlackPen::Lines => Black::Lines,
-            BlackPen::None => Black::None,
-        };
-        let overlap = if APART.contains(&options.style.as_str()) { Overlap::Random } else { Settings::default().overlap };
-        let settings = Settings { black, overlap, simplify: options.colours_simplify as f32, ..Settings::default() };
         let separator = Separator::new(&pens, &settings).map_err(|error| about(&error))?;
         Ok(Some(Self { pens, numbers, inks, paper: options.paper, separator, choice }))
     }

@@ -5,12 +5,10 @@
 //!   pens: the best one, then whichever helps most, ... ; then exchanges, while one helps
 //! ```
 
-use super::eye::{Aim, Eye, Oklab, look_of_light};
-use super::neugebauer::{Model, yule_nielsen};
-use super::overprints::overprints;
+use super::eye::{Oklab, look_of_light};
 use super::pens::{ColourPen, MOST_PENS, Paper, PenSet, PensError, drawing_order};
-use super::separation::{CHROMA, HUE, INK, Settings, best_of_starts};
-use super::solver::{Coverages, Solver};
+use super::separation::{Colours, Inks, RIDGE, Settings};
+use super::solver::Solver;
 use crate::raster::Raster;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -18,8 +16,6 @@ use std::collections::BTreeMap;
 /// Cells along each channel, equal in the square root of light: 6 leave 60 to 110 colours of a photograph. With 4, skin and lips are
 /// one colour; more than 8 only take time.
 const CELLS: usize = 6;
-/// Weight of the square of coverages, as in the separation.
-const RIDGE: f32 = 1.0;
 /// Rounds of exchanges; the third seldom finds one.
 const MOST_ROUNDS: usize = 4;
 /// An exchange must help by this share, so that nearly equal pens do not alternate.
@@ -130,16 +126,11 @@ impl Choice<'_> {
         let pens: Vec<ColourPen> = set.iter().map(|pen| self.pens[*pen].clone()).collect();
         let order = drawing_order(&pens);
         let set = PenSet::new(order.into_iter().map(|pen| pens[pen].clone()).collect(), self.paper, Vec::new())?;
-        let width = pens.iter().map(|pen| pen.width_mm).sum::<f64>() / pens.len() as f64;
-        let model = Model::new(&set, self.settings.n.unwrap_or_else(|| yule_nielsen(width)), self.settings.overlap);
-        // On toned paper the lightest is the paper or an opaque ink.
-        let eye = Eye::adapted_to(&overprints(&set)[0]);
-        let most: Coverages = std::array::from_fn(|i| f32::from(u8::from(i < pens.len())));
-        let solver = Solver { model: &model, eye: &eye, most, limit: self.settings.ink_limit, ridge: RIDGE };
-        let cost = |colour: &MainColour| {
-            let aim = Aim::new(colour.look, CHROMA, HUE);
-            colour.weight * (2.0 * best_of_starts(&solver, &aim, &[INK; MOST_PENS]).cost).sqrt()
-        };
+        let (model, inks) = (self.settings.model(&set), Inks::new(&set));
+        let most = self.settings.most(&set);
+        let solver = Solver { model: &model, eye: &inks.eye, most, limit: self.settings.ink_limit, ridge: RIDGE };
+        let colours = Colours::new(solver, &inks, self.settings);
+        let cost = |colour: &MainColour| colour.weight * (2.0 * colours.nearest(colour.look).cost).sqrt();
         Ok(self.colours.iter().map(cost).sum())
     }
 }

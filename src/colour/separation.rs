@@ -15,11 +15,11 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 /// Out of gamut, differences in chroma count less and those in hue more, so that colours go towards the grey of their lightness.
-pub(super) const CHROMA: f32 = 0.8;
-pub(super) const HUE: f32 = 3.0;
+const CHROMA: f32 = 0.8;
+const HUE: f32 = 3.0;
 /// Price of full coverage, in halves of squared visible differences: of any ink, and more by the square of the difference in
 /// lightness between ink and colour (dark dots in light tones are seen as grain).
-pub(super) const INK: f32 = 1.0;
+const INK: f32 = 1.0;
 const GRAIN: f32 = 8.0;
 /// The same for the difference in hue and chroma: pale greys of cyan, magenta and yellow dots are seen as confetti. Tuned on four samples
 /// in four and eight pens: at 0 they are, at 60 skin has black freckles.
@@ -30,7 +30,7 @@ const FEW: f32 = 0.1;
 /// Rounds in which prices at the coarsest level follow the coverages.
 const ROUNDS: usize = 3;
 /// Weight of squared coverages, and of squared distances from what neighbouring colours use.
-const RIDGE: f32 = 1.0;
+pub(super) const RIDGE: f32 = 1.0;
 const HOLD: f32 = 20.0;
 /// How much lighter than toned paper, in Oklab, a tone is that a light ink may cover wholly.
 const HEIGHTENED: f32 = 0.05;
@@ -69,6 +69,22 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self { overlap: Overlap::round_dots(0.3, 0.18), n: None, ink_limit: 2.4, black: Black::Tones, simplify: 0.0 }
+    }
+}
+
+impl Settings {
+    pub(super) fn model(&self, set: &PenSet) -> Model {
+        let width = set.pens().iter().map(|pen| pen.width_mm).sum::<f64>() / set.pens().len() as f64;
+        Model::new(set, self.n.unwrap_or_else(|| yule_nielsen(width)), self.overlap)
+    }
+
+    /// Most coverage of each pen.
+    pub(super) fn most(&self, set: &PenSet) -> Coverages {
+        let mut most: Coverages = std::array::from_fn(|i| f32::from(u8::from(i < set.pens().len())));
+        if let (Some(black), Black::Lines | Black::None) = (set.black(), self.black) {
+            most[black] = 0.0;
+        }
+        most
     }
 }
 
@@ -118,23 +134,17 @@ impl Separator {
     /// Solves the table of all colours: 0.3 s for four pens on two processors.
     pub fn new(set: &PenSet, settings: &Settings) -> Result<Self, SeparationError> {
         let pens = set.pens().len();
-        let mut most: Coverages = std::array::from_fn(|i| f32::from(u8::from(i < pens)));
-        if let (Some(black), Black::Lines | Black::None) = (set.black(), settings.black) {
-            most[black] = 0.0;
-        }
+        let most = settings.most(set);
         if most.iter().all(|c| *c == 0.0) {
             return Err(SeparationError::NoPen);
         }
         if !(0.5..=8.0).contains(&settings.ink_limit) {
             return Err(SeparationError::InkLimit(settings.ink_limit));
         }
-        let width = set.pens().iter().map(|pen| pen.width_mm).sum::<f64>() / pens as f64;
-        let model = Model::new(set, settings.n.unwrap_or_else(|| yule_nielsen(width)), settings.overlap);
+        let model = settings.model(set);
         let inks = Inks::new(set);
         let solver = Solver { model: &model, eye: &inks.eye, most, limit: settings.ink_limit, ridge: RIDGE };
-        let simple = SIMPLE * settings.simplify.clamp(0.0, 1.0);
-        let rendering = Rendering::new(darkest(&solver), inks.paper);
-        let colours = Colours { solver, rendering, paper: inks.paper, looks: &inks.looks, simple };
+        let colours = Colours::new(solver, &inks, settings);
         let table = Table::solved(&colours);
         let white = inks.white;
         let errors = of_nodes(|node, light| [difference(&model, &table.nodes()[node][..pens], white, light)]);
@@ -202,15 +212,15 @@ impl Separator {
 }
 
 /// What the eye sees of the paper and of each ink alone.
-struct Inks {
-    eye: Eye,
+pub(super) struct Inks {
+    pub eye: Eye,
     white: [f64; 3],
     paper: Oklab,
     looks: Vec<Oklab>,
 }
 
 impl Inks {
-    fn new(set: &PenSet) -> Self {
+    pub fn new(set: &PenSet) -> Self {
         let colours = overprints(set);
         let alone = (0..set.pens().len()).map(|i| &colours[1 << i]);
         let white = alone.clone().fold(&colours[0], |white, ink| if xyz_of(ink)[1] > xyz_of(white)[1] { ink } else { white });
@@ -227,7 +237,7 @@ fn darkest(solver: &Solver<'_>) -> Oklab {
 }
 
 /// The best from several starts: nearly bare paper, each pen alone, and some of all.
-pub(super) fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages) -> Solution {
+fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages) -> Solution {
     let pens = solver.model.pens();
     let start = |alone: usize| -> Coverages {
         std::array::from_fn(|i| match i {
@@ -249,7 +259,7 @@ pub(super) fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages)
 }
 
 /// The problems of the table.
-struct Colours<'a> {
+pub(super) struct Colours<'a> {
     solver: Solver<'a>,
     rendering: Rendering,
     paper: Oklab,
@@ -257,7 +267,19 @@ struct Colours<'a> {
     simple: f32,
 }
 
-impl Colours<'_> {
+impl<'a> Colours<'a> {
+    pub fn new(solver: Solver<'a>, inks: &'a Inks, settings: &Settings) -> Self {
+        let simple = SIMPLE * settings.simplify.clamp(0.0, 1.0);
+        let rendering = Rendering::new(darkest(&solver), inks.paper);
+        Self { solver, rendering, paper: inks.paper, looks: &inks.looks, simple }
+    }
+
+    /// The coverages nearest to a look.
+    pub fn nearest(&self, look: Oklab) -> Solution {
+        let aim = Aim::new(look, CHROMA, HUE);
+        best_of_starts(&self.solver_for(look), &aim, &self.prices(look, &[1.0; MOST_PENS]))
+    }
+
     /// A white pen heightens: no tone that is darker than toned paper has ink lighter than that, whose dots would glare in the dark.
     fn solver_for(&self, look: Oklab) -> Solver<'_> {
         let mut solver = self.solver;
@@ -286,7 +308,7 @@ impl Problems for Colours<'_> {
         let look = self.rendering.look(light);
         let aim = Aim::new(look, CHROMA, HUE);
         let solver = self.solver_for(look);
-        let mut found = best_of_starts(&solver, &aim, &self.prices(look, &[1.0; MOST_PENS])).coverages;
+        let mut found = self.nearest(look).coverages;
         for _ in 0..if self.simple > 0.0 { ROUNDS } else { 0 } {
             found = solver.solve(Problem { aim: &aim, prices: &self.prices(look, &found), start: &found, hold: 0.0 }).coverages;
         }
