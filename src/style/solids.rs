@@ -48,15 +48,15 @@ impl Solids {
             return Self { outline: BezPath::new() };
         }
         let darks = Darks { portrait, ink, pitch };
-        let mut outline = darks.features();
+        let mut outline = darks.features(EYE_LIFT);
         outline.extend(darks.rims());
         Self { outline }
     }
 
-    /// Without the rims of spectacles.
-    pub(super) fn of_features(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
+    /// The darkest places of features alone: neither rims of spectacles nor irises.
+    pub(super) fn of_darkest(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         let has_faces = !portrait.faces.is_empty();
-        Self { outline: if has_faces { Darks { portrait, ink, pitch }.features() } else { BezPath::new() } }
+        Self { outline: if has_faces { Darks { portrait, ink, pitch }.features(0.0) } else { BezPath::new() } }
     }
 
     /// One area; no mark if there are no shapes.
@@ -105,12 +105,13 @@ impl Darks<'_> {
         })
     }
 
-    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips.
-    fn features(&self) -> BezPath {
+    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips; eyes
+    /// count as darker by `eye_lift`.
+    fn features(&self, eye_lift: f32) -> BezPath {
         let pitch = self.pitch;
         let detail = detail_zone(self.portrait, pitch);
         let eyes = gaussian_blur(&self.filled([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
-        let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + EYE_LIFT * (2.0 * eyes).min(1.0));
+        let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + eye_lift * (2.0 * eyes).min(1.0));
         let dark =
             gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
         self.shapes(&dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2))

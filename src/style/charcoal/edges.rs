@@ -11,6 +11,7 @@ use crate::geometry::{Point, Ring, Vec2, polyline_length, smooth_polyline};
 use crate::raster::{Raster, Thresholds, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
+use crate::style::creases::Creases;
 use crate::style::random::stream;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
@@ -33,7 +34,15 @@ const WANDER: (f64, f64) = (9.0, 0.35);
 impl Drawer<'_> {
     pub(super) fn edges(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
         self.observer.begin("edges");
+        let faces = Creases::of(self.portrait);
+        let least = self.pixels(self.parameters.edge_length);
         let lines = self.edge_lines(regions, features);
+        // A shadow in a face ends as a tone: its outline would be a scar.
+        let lines: Vec<Vec<Point>> = lines
+            .iter()
+            .flat_map(|line| open_pieces(line, |p| faces.are_at(*p)))
+            .filter(|piece| polyline_length(piece) >= least)
+            .collect();
         let touch = Touch {
             width: LINE_WIDTH * self.parameters.stroke_width,
             pressure: LINE_PRESSURE,
@@ -41,19 +50,15 @@ impl Drawer<'_> {
             node: 2.0 * self.parameters.pitch,
         };
         let mut marks = Vec::new();
-        for (i, line) in lines.iter().enumerate() {
-            let mut points = line.points.clone();
-            if line.closed {
-                points.push(points[0]);
-            }
+        for (i, points) in lines.iter().enumerate() {
             let mut random = stream(self.seed, "sketch", i as u64);
             for _ in 0..self.parameters.sketch_passes {
                 let light = Touch { pressure: SKETCH_PRESSURE, ..touch };
-                let segments = self.sketched(&points, &mut random);
+                let segments = self.sketched(points, &mut random);
                 marks.extend(segments.iter().filter_map(|segment| self.stroke(segment, light, |_| 1.0)));
             }
-            let firm = self.firmness(&points, &mut random);
-            marks.extend(self.stroke(&points, touch, |p| firm.get(nearest(&points, p)).copied().unwrap_or(1.0)));
+            let firm = self.firmness(points, &mut random);
+            marks.extend(self.stroke(points, touch, |p| firm.get(nearest(points, p)).copied().unwrap_or(1.0)));
         }
         marks
     }

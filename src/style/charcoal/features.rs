@@ -39,7 +39,8 @@ impl Drawer<'_> {
     pub(super) fn features(&self, regions: &Regions) -> Features {
         self.observer.begin("features");
         let nothing = || regions.face.map(|_| 0.0);
-        let frames = if self.parameters.has_features { &regions.frames[..] } else { &[] };
+        // Where points are known, features stay in the smudge, which is sharp there.
+        let frames = if self.parameters.has_features && self.portrait.faces.is_empty() { &regions.frames[..] } else { &[] };
         let found: Vec<SeenFeatures> = frames.iter().map(|frame| self.features_of(regions, frame)).collect();
         let all =
             |of: &dyn Fn(&SeenFeatures) -> Raster<f32>| found.iter().fold(nothing(), |all, one| all.zip_map(&of(one), f32::max));

@@ -27,7 +27,8 @@ const LOCK: Millimetres = Millimetres(2.5);
 const ANGLES: usize = 36;
 
 impl Drawer<'_> {
-    pub(super) fn hair(&self, hair: &Raster<f32>) -> Vec<Mark> {
+    /// Strokes inside a region, 0 to 1, that make a share of its ink.
+    pub(super) fn hair(&self, hair: &Raster<f32>, share: f32) -> Vec<Mark> {
         self.observer.begin("hair");
         if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
@@ -41,7 +42,7 @@ impl Drawer<'_> {
             turn: self.parameters.hair_turn.0,
             reach: self.pixels(0.9 * self.parameters.pitch),
         };
-        let ink = self.hair_ink(&darkness, hair);
+        let ink = self.hair_ink(&darkness, hair).map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch) as f32);
         let touch = Touch {

@@ -1,9 +1,11 @@
 //! The charcoal portrait (Wong 1999): smudged tone, sketchy contours, flowing hair, features and background shaded by hand.
 //!
 //! ```text
-//!   regions -> hair -> edges -> features -> tone      the order of processing: each region is visited once
-//!   tone, shading, edges, hair, features, background   the order of drawing: one layer each
+//!   regions -> hair -> features -> edges -> shading -> tone   the order of processing: each region is visited once
+//!   tone, shading, edges, hair, features, background          the order of drawing: one layer each
 //! ```
+//!
+//! The sum is the tone: the grain of the smudge adds, place by place, what the strokes leave of the ink that is asked for.
 
 mod cost;
 mod edges;
@@ -19,14 +21,16 @@ mod skin;
 mod strokes;
 mod tone;
 
+use super::coverage::covered;
 use super::drawer::Pitched;
 use super::solids::Solids;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
-use crate::raster::Raster;
+use crate::raster::{Raster, gaussian_blur};
 use crate::source::MaskRole;
 use parameters::CharcoalParameters;
+use tone::Laid;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
 const SHORT_SIDE: f64 = 600.0;
@@ -35,6 +39,8 @@ const MOST_PIXELS: f64 = 2.0 * SHORT_SIDE * SHORT_SIDE;
 /// Maximum working pixels per pitch in small pictures, whose marks show no more, and the short side that they get at least.
 const MOST_PIXELS_PER_PITCH: f64 = 8.0;
 const LEAST_SHORT_SIDE: f64 = 0.5 * SHORT_SIDE;
+/// Share of the hair's ink that its strokes make where grain makes the rest.
+const HAIR_SHARE: f32 = 0.62;
 
 /// The style.
 pub(super) struct Charcoal;
@@ -89,7 +95,7 @@ type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 /// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch.
 pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
     let settings = CARD.settings_at(drawer.parameters.pitch(), &[])?;
-    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair))
+    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair, 1.0))
 }
 
 impl Drawer<'_> {
@@ -100,20 +106,26 @@ impl Drawer<'_> {
         }
         let regions = self.regions();
         self.check()?;
-        let hair = self.hair(&regions.hair);
+        let hair = self.hair(&regions.hair, HAIR_SHARE);
         self.check()?;
         let features = self.features(&regions);
         self.check()?;
         let edges = self.edges(&regions, &features);
         self.check()?;
-        let tone = self.tone(&regions, &features);
+        let wanted = self.wanted(&regions);
+        let shading = self.shading(&regions, &features, &wanted);
         self.check()?;
-        let shading = self.shading(&regions, &features);
+        let behind = self.background_pressure(&regions);
+        let strokes = covered(hair.iter().chain(&shading), &self.portrait.placement);
+        let strokes = gaussian_blur(&strokes, self.pixels(self.parameters.pitch) as f32);
+        let tone =
+            self.tone(&Laid { regions: &regions, features: &features, wanted: &wanted, strokes: &strokes, background: &behind });
+        self.check()?;
         let mut face = self.draw_features(&features);
         if self.parameters.has_features {
-            face.extend(Solids::of_features(self.portrait, &self.darkness(), self.pixels(self.parameters.pitch)).layer().marks);
+            face.extend(Solids::of_darkest(self.portrait, &self.darkness(), self.pixels(self.parameters.pitch)).layer().marks);
         }
-        let background = self.background(&regions);
+        let background = self.background(&regions, &behind);
         let layers = [
             ("tone", tone),
             ("shading", shading),

@@ -23,7 +23,7 @@ parameters! {
         smudge: Millimetres = "smudge": pitches(1.5, 0.0..=100.0),
             "blur of the smudged tone",
             "Wong 3.1.5";
-        brighten: f32 = "brighten": number(0.5, 0.0..=1.0),
+        brighten: f32 = "brighten": number(0.1, 0.0..=1.0),
             "how far the smudged tone is brightened: 0 keeps the photograph's tone, 1 removes 0.3 of ink everywhere and two fifths of the rest",
             "Wong 3.1.5";
         texture_bias: f32 = "texture_bias": number(1.0, 0.0..=20.0),
@@ -66,11 +66,11 @@ parameters! {
             "ink of the hair strokes relative to the photograph's darkness",
             "tone-aware, unlike the thesis";
         has_features: bool = "features": ON,
-            "find and draw the eyebrows, eyes, nose and mouth",
+            "draw pupils, lashes and lips solid in the faces that are known; in others find and shade the eyebrows, eyes, nose and mouth",
             "Wong 5";
         skin: Places = "skin": Kind::Places { most: 5 },
             "places of plain skin from one edge of the face to the other, used to even out its light; by default the median skin of each column",
-            "Wong 5.1, five points", needs [Need::Word("features", &["on"])];
+            "Wong 5.1, five points", needs [Need::Word("features", &["on"]), Need::WithoutFace];
         has_shading: bool = "shading": ON,
             "hand-shade the dark parts of clothing and of everything that is neither face nor hair",
             "";

@@ -300,11 +300,6 @@ impl Regions {
             _ => 4,
         })
     }
-
-    /// Pixels that no other step draws: 1 inside the subject where there is no hair (the image mask's complement).
-    pub(super) fn unmasked(&self) -> Raster<f32> {
-        self.subject.zip_map(&self.hair, |s, hair| s.min(1.0 - hair))
-    }
 }
 
 /// The components with at least `share` of the pixels of the largest.

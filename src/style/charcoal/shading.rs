@@ -1,88 +1,126 @@
-//! Hand shading of features, clothing and background (sections 6.2, 6.3.4 and 6.3.5).
+//! Hand shading of clothing and background (sections 6.2, 6.3.4 and 6.3.5). Where the thesis shades a garment in one tone, or a few found
+//! by scale-space filtering, strokes here are as firm as each place is dark, so that folds, collars and lapels stay.
 
 use super::Drawer;
 use super::features::Features;
 use super::patch::{Patch, Pressing};
 use super::regions::Regions;
+use super::strokes::pressure_for;
 use crate::drawing::Mark;
-use crate::field::histogram_modes;
+use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur, paper_texture};
 
 /// Pressure of the background's strokes, and their width at it as a share of the full width: lighter than anything in the portrait.
 const BACKGROUND_PRESSURE: f64 = 0.3;
 const BACKGROUND_WIDTH: f64 = 0.44;
+/// Distance of the strokes over what their ink asks for: the broad side of the stick makes the rest.
+const APART: f64 = 1.3;
 /// Width of a background stroke as a share of the stick's.
 const BACKGROUND_STROKE: f64 = 0.7;
 /// Pressure of the background far from the subject, as a share of that beside it, and the distance over which it falls, in sheet widths.
 const FAR_PRESSURE: f64 = 0.35;
 const FALL: f64 = 0.22;
-/// Clothing lighter than this tone is left to the smudge.
-const LIGHT_CLOTH: f64 = 0.5;
+/// Shares of the pressure beside black and beside white parts of the subject.
+const AGAINST: [f32; 2] = [0.25, 1.5];
+/// Pressure below which the background stays paper, and the range over which it ends.
+const LEAST_BACKGROUND: f32 = 0.3;
+const SOFT_BACKGROUND: f32 = 0.1;
+/// Sets of strokes in clothing: ink from which they are drawn, distance in pitches, and angle against the shading's direction.
+const CLOTH_HATCHES: [Hatch; 2] =
+    [Hatch { from: 0.3, spacing: 1.5, turned: 0.0 }, Hatch { from: 0.6, spacing: 1.6, turned: 0.22 }];
+/// Share of the ink that each set aims at; with more the cloth is a net, with less it is grain alone.
+const CLOTH_SHARE: f64 = 0.5;
+
+/// One set of strokes in clothing.
+struct Hatch {
+    from: f32,
+    spacing: f64,
+    turned: f64,
+}
 
 impl Drawer<'_> {
-    /// Dark clothing and everything that is neither face nor hair: tones found by scale-space filtering, darker ones shaded over lighter
-    /// ones, each slightly turned.
-    pub(super) fn shading(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
+    /// Clothing and everything that is neither face nor hair, in the tones of its folds: strokes as firm as the cloth is dark, crossed in
+    /// the darks; the grain makes up the rest.
+    pub(super) fn shading(&self, regions: &Regions, features: &Features, wanted: &Raster<f32>) -> Vec<Mark> {
         if !self.parameters.has_shading {
             return Vec::new();
         }
         self.observer.begin("shading");
+        let soft = self.pixels(0.5 * self.parameters.pitch) as f32;
+        let ink = gaussian_blur(wanted, soft);
         let cloth = regions.clothing.zip_map(&features.drawn, |c, drawn| c.min(1.0 - drawn));
-        let tone = gaussian_blur(&self.portrait.tone, self.pixels(self.parameters.pitch) as f32);
-        let levels = dark_levels(&tone, &cloth);
+        let width = self.parameters.stroke_width;
         let mut marks = Vec::new();
-        for (i, (limit, mean)) in levels.iter().enumerate() {
-            let region = tone.zip_map(&cloth, |t, c| if f64::from(t) < *limit { c } else { 0.0 });
-            let darkness = 1.0 - mean;
+        for (i, Hatch { from, spacing, turned }) in CLOTH_HATCHES.into_iter().enumerate() {
+            let spacing = spacing * self.parameters.pitch;
+            let region = ink.zip_map(&cloth, |ink, cloth| if ink > from { cloth } else { 0.0 });
             let patch = Patch {
-                region: gaussian_blur(&region, 1.0),
-                width: self.parameters.stroke_width,
-                spacing: self.parameters.pitch * (1.1 + 2.2 * (1.0 - darkness)),
-                length: 0.55 * self.parameters.arc_length,
-                orientation: self.parameters.arc_orient.0 + 0.35 * i as f64,
-                pressure: 0.25 + 0.6 * darkness,
-                inset: 0.5 * self.parameters.stroke_width,
+                region: gaussian_blur(&region, soft),
+                width,
+                spacing,
+                length: 0.8 * self.parameters.arc_length,
+                orientation: self.parameters.arc_orient.0 + turned,
+                pressure: 1.0,
+                inset: 0.5 * width,
                 pressing: Pressing::Hatching,
             };
-            marks.extend(self.shade_patch(&patch, "shading", i as u64, |_| 1.0));
+            let press = |p: Point| {
+                let asked = f64::from(ink.sample(p.x, p.y) - 0.5 * from) * CLOTH_SHARE;
+                pressure_for(asked * (spacing / width)).clamp(0.0, 1.0)
+            };
+            marks.extend(self.shade_patch(&patch, "shading", i as u64, press));
         }
         marks
     }
 
-    /// Section 6.3.5: firmer where the photograph is darker, with a ragged end before the sheet's border.
-    pub(super) fn background(&self, regions: &Regions) -> Vec<Mark> {
+    /// Pressure of the background's strokes, 0 to 1 and a little above: none on the subject, with a ragged end before the sheet's border.
+    pub(super) fn background_pressure(&self, regions: &Regions) -> Raster<f32> {
         if !self.parameters.has_background || !regions.has_background || self.parameters.background_ink <= 0.0 {
+            return regions.subject.map(|_| 0.0);
+        }
+        self.ragged(&regions.subject).zip_map(&self.nearness(&regions.subject), |inside, near| {
+            inside * near * ((near - LEAST_BACKGROUND) / SOFT_BACKGROUND + 0.5).clamp(0.0, 1.0)
+        })
+    }
+
+    /// Section 6.3.5: firmer beside the light parts of the subject.
+    pub(super) fn background(&self, regions: &Regions, pressure: &Raster<f32>) -> Vec<Mark> {
+        if pressure.pixels().iter().all(|p| *p <= 0.0) {
             return Vec::new();
         }
         self.observer.begin("background");
-        let region = self.ragged(&regions.subject);
+        let outside = regions.subject.map(|subject| 1.0 - subject);
+        let region = pressure.zip_map(&outside, |p, outside| outside * (p / (0.5 * LEAST_BACKGROUND)).min(1.0));
         self.show("background", &region);
         let width = BACKGROUND_STROKE * self.parameters.stroke_width;
         let patch = Patch {
             region,
             width,
             // Spreads a stroke's ink, at the pressure below, over its spacing.
-            spacing: BACKGROUND_WIDTH * width / self.parameters.background_ink,
+            spacing: APART * BACKGROUND_WIDTH * width / self.parameters.background_ink,
             length: self.parameters.arc_length,
             orientation: self.parameters.arc_orient.0,
             pressure: BACKGROUND_PRESSURE,
             inset: 0.5 * width,
             pressing: Pressing::Hatching,
         };
-        let nearness = self.nearness(&regions.subject);
-        self.shade_patch(&patch, "background", 0, |p| f64::from(nearness.sample(p.x, p.y)))
+        self.shade_patch(&patch, "background", 0, |p| f64::from(pressure.sample(p.x, p.y)))
     }
 
-    /// Pressure of the background at a place: sets off the subject and leaves the sheet's border airy.
+    /// Pressure of the background at a place: firm beside light parts of the subject and faint beside dark ones, so that both stand out;
+    /// the sheet's border stays airy.
     fn nearness(&self, subject: &Raster<f32>) -> Raster<f32> {
         let (width, height) = self.size();
         let reach = (FALL * width.min(height) as f64) as f32;
-        let wide = gaussian_blur(subject, reach);
+        let (wide, beside) = (gaussian_blur(subject, reach), gaussian_blur(subject, 0.5 * reach));
+        let dark = gaussian_blur(&self.darkness().zip_map(subject, |ink, subject| ink * subject), 0.5 * reach);
         let cloud = paper_texture(width / 8 + 2, height / 8 + 2, 14.0, self.seed ^ 0xc10d);
         let far = FAR_PRESSURE as f32;
         Raster::from_fn(width, height, |x, y| {
             let near = (far + 2.2 * (1.0 - far) * wide.get(x, y)).min(1.0);
-            near * (0.55 + 0.9 * cloud.sample(x as f64 / 8.0 + 0.5, y as f64 / 8.0 + 0.5))
+            let light = (1.0 - dark.get(x, y) / beside.get(x, y).max(0.02)).clamp(0.0, 1.0);
+            let against = AGAINST[0] + (AGAINST[1] - AGAINST[0]) * light;
+            near * against * (0.55 + 0.9 * cloud.sample(x as f64 / 8.0 + 0.5, y as f64 / 8.0 + 0.5))
         })
     }
 
@@ -98,25 +136,4 @@ impl Drawer<'_> {
             inner.min(1.0 - subject.get(x, y))
         })
     }
-}
-
-/// The dark tones of a region, lightest first: the tone below which each is shaded, and the tone itself.
-fn dark_levels(tone: &Raster<f32>, region: &Raster<f32>) -> Vec<(f64, f64)> {
-    let mut histogram = vec![0_u32; 256];
-    for (t, _) in tone.pixels().iter().zip(region.pixels()).filter(|(_, r)| **r >= 0.5) {
-        histogram[((t * 255.0) as usize).min(255)] += 1;
-    }
-    let total: u32 = histogram.iter().sum();
-    let modes = histogram_modes(&histogram, total / 16);
-    let mut levels: Vec<(f64, f64)> = modes
-        .iter()
-        .enumerate()
-        .map(|(i, mode)| (modes.get(i + 1).map_or(1.0, |next| 0.5 * (mode.at + next.at) / 255.0), mode.at / 255.0))
-        .filter(|(_, mean)| *mean < LIGHT_CLOTH)
-        .collect();
-    for level in &mut levels {
-        level.0 = level.0.min(LIGHT_CLOTH + 0.08);
-    }
-    levels.reverse();
-    levels
 }

@@ -4,10 +4,13 @@ use super::Drawer;
 use super::features::Features;
 use super::regions::Regions;
 use crate::drawing::{Area, Mark};
-use crate::elementary::Elementary as _;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{Curve, grain_areas};
-use crate::geometry::{BezPath, Point, simplify};
-use crate::raster::{Raster, gaussian_blur, paper_texture};
+use crate::geometry::{BezPath, Point, Vec2, simplify};
+use crate::raster::{Raster, gaussian_blur, guided_filter, paper_texture};
+use crate::source::Landmarks;
+use crate::style::solids::detail_zone;
+use kurbo::{Line, ParamCurveNearest};
 use std::f32::consts::PI;
 
 /// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
@@ -22,11 +25,45 @@ const LIFTED: f32 = 0.3;
 const THINNED: f32 = 0.4;
 /// Ink below which paper is left clean, as smudging does; half a grain in a hundred would look like dust.
 const CLEAN: f32 = 0.012;
+/// How much firmer thin dark lines are than their tone: lines of a grain's width, as rims of spectacles, would break up.
+const FIRMER: f32 = 1.0;
+/// Distance from the line between the pupils, in eye distances, within which detail is kept, and at which it no longer is.
+const AROUND_EYES: (f64, f64) = (0.5, 0.75);
+/// Blur of a face's half tones that are rubbed into its lights, in shares of the smudge's; their share; the most ink that counts; and the
+/// difference over which a light ends.
+const STUMP: f64 = 4.0;
+const RUBBED: f32 = 0.6;
+const MOST_RUBBED: f32 = 0.5;
+const SOFT_STUMP: f32 = 0.04;
+/// Size of the grains in a face's features, as a share of the others'.
+const FINE_GRAIN: f32 = 0.6;
+/// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
+const BEHIND: f32 = 1.5;
+const BEHIND_BLUR: f64 = 4.0;
+/// Width of the broad strokes in the background, in pitches.
+const BROAD: f64 = 7.0;
+/// Their least pressure, and by how much more they press at most.
+const BROAD_SPREAD: (f32, f32) = (0.45, 1.1);
+/// Blur in a face's features, as a share of the smudge's; and the square of the step of ink from which a border stays sharp.
+const FINE: f64 = 0.12;
+const SMUDGED_STEP: f64 = 0.09 * 0.09;
+
+/// What the grain is drawn under and beside, on the working grid.
+pub(super) struct Laid<'a> {
+    pub regions: &'a Regions,
+    pub features: &'a Features,
+    /// Ink that is wanted, and ink of the strokes of hair and clothing, blurred over their distances; 0 to 1.
+    pub wanted: &'a Raster<f32>,
+    pub strokes: &'a Raster<f32>,
+    /// Pressure of the background's strokes.
+    pub background: &'a Raster<f32>,
+}
 
 impl Drawer<'_> {
-    pub(super) fn tone(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
+    /// Grain that makes the tone together with what else is drawn.
+    pub(super) fn tone(&self, parts: &Laid<'_>) -> Vec<Mark> {
         self.observer.begin("tone");
-        let smudged = self.smudged(regions, features);
+        let smudged = self.smudged(parts);
         self.show("smudged", &smudged);
         let grain = self.parameters.grain.0;
         let picture = self.portrait.placement.picture;
@@ -34,6 +71,7 @@ impl Drawer<'_> {
         let (width, height) = (count(picture.width()), count(picture.height()));
         let tooth = paper_texture(width, height, PIXELS_A_GRAIN as f32, self.seed ^ 0x7007);
         let clumps = paper_texture(width, height, CLUMP * PIXELS_A_GRAIN as f32, self.seed ^ 0xc1a9);
+        let tooth = self.finer_in_features(tooth);
         let (fx, fy) = (smudged.width() as f64 / width as f64, smudged.height() as f64 / height as f64);
         let wanted = Raster::from_fn(width, height, |x, y| {
             let s = smudged.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy);
@@ -49,16 +87,95 @@ impl Drawer<'_> {
             .collect()
     }
 
-    /// Blurred inside the visible region, brightened, blurred again over its border (section 3.1.5).
-    fn smudged(&self, regions: &Regions, features: &Features) -> Raster<f32> {
-        let visible = regions.unmasked().zip_map(&features.tones.share, |v, theirs| v.min(1.0 - theirs));
-        let blur = self.pixels(self.parameters.smudge) as f32;
-        let ink = self.darkness().zip_map(&visible, |ink, v| ink * v);
-        let (ink, weight) = (gaussian_blur(&ink, blur), gaussian_blur(&visible, blur));
-        let washed =
-            ink.zip_map(&weight, |ink, w| if w > 0.01 { self.washed(ink / w) } else { 0.0 }).zip_map(&visible, |i, v| i * v);
-        // The eyes' whites stay clean.
-        gaussian_blur(&washed, 0.5 * blur).zip_map(&features.tones.share, |ink, theirs| 1.0 - ink * (1.0 - theirs))
+    /// The paper's tooth, finer in the features of known faces: a hand presses smaller grains there.
+    fn finer_in_features(&self, tooth: Raster<f32>) -> Raster<f32> {
+        if self.portrait.faces.is_empty() {
+            return tooth;
+        }
+        let detail = self.sharp_zone();
+        let (width, height) = (tooth.width(), tooth.height());
+        let fine = paper_texture(width, height, FINE_GRAIN * PIXELS_A_GRAIN as f32, self.seed ^ 0xf17e);
+        let (fx, fy) = (detail.width() as f64 / width as f64, detail.height() as f64 / height as f64);
+        Raster::from_fn(width, height, |x, y| {
+            let is_fine = detail.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy) >= 0.5;
+            if is_fine { fine.get(x, y) } else { tooth.get(x, y) }
+        })
+    }
+
+    /// Tone of the grain (section 3.1.5): what strokes leave of the ink that is wanted, and a smudge behind the subject.
+    fn smudged(&self, parts: &Laid<'_>) -> Raster<f32> {
+        let blur =
+            |length: f64, raster: &Raster<f32>| gaussian_blur(raster, (length * self.pixels(self.parameters.smudge)) as f32);
+        let left = parts.wanted.zip_map(parts.strokes, |wanted, laid| ((wanted - laid) / (1.0 - laid).max(0.05)).clamp(0.0, 1.0));
+        // Features that are drawn by strokes have no grain; the eyes' whites stay clean.
+        let left = left.zip_map(&parts.features.tones.share, |ink, theirs| ink * (1.0 - theirs));
+        let smudge = BEHIND * self.parameters.background_ink as f32;
+        let behind = blur(BEHIND_BLUR, parts.background);
+        let behind = behind.zip_map(&parts.regions.subject, |behind, subject| smudge * behind * (1.0 - subject));
+        let behind = behind.zip_map(&self.broad_strokes(), |behind, stroke| behind * stroke);
+        left.zip_map(&parts.regions.subject, |ink, subject| ink * subject).zip_map(&behind, |ink, behind| 1.0 - ink - behind)
+    }
+
+    /// Pressure of the stick's broad side, drawn to and fro in the direction of the shading: 1 in the mean.
+    fn broad_strokes(&self) -> Raster<f32> {
+        let (width, height) = self.size();
+        let (long, across) = (self.pixels(self.parameters.arc_length), self.pixels(BROAD * self.parameters.pitch));
+        let diagonal = (width as f64).hypotenuse(height as f64);
+        let texture =
+            paper_texture((diagonal / long) as usize * 8 + 24, (diagonal / across) as usize * 8 + 24, 8.0, self.seed ^ 0xb40d);
+        let along = unit_at(self.parameters.arc_orient.0);
+        Raster::from_fn(width, height, |x, y| {
+            let p = Vec2::new(x as f64 - 0.5 * width as f64, y as f64 - 0.5 * height as f64);
+            let (u, v) = (p.dot(along) / long, p.cross(along) / across);
+            let (tx, ty) = (0.5 * texture.width() as f64 + 8.0 * u, 0.5 * texture.height() as f64 + 8.0 * v);
+            BROAD_SPREAD.0 + BROAD_SPREAD.1 * texture.sample(tx, ty)
+        })
+    }
+
+    /// Ink that strokes and grain make together: smooth on skin and cloth, sharp at borders, and as it is in the faces' features.
+    pub(super) fn wanted(&self, regions: &Regions) -> Raster<f32> {
+        let ink = self.darkness().map(|ink| self.washed(ink));
+        let blur = self.pixels(self.parameters.smudge);
+        let fine = gaussian_blur(&ink, (FINE * blur) as f32);
+        let guide = self.portrait.tone.map(|tone| [tone; 3]);
+        let smooth = guided_filter(&guide, &ink, (2.0 * blur).round().max(1.0) as usize, SMUDGED_STEP);
+        let sharp = self.sharp_zone();
+        let smudged = Raster::from_fn(ink.width(), ink.height(), |x, y| {
+            let t = sharp.get(x, y);
+            fine.get(x, y) * t + smooth.get(x, y) * (1.0 - t)
+        });
+        let around = gaussian_blur(&smudged, self.pixels(self.parameters.grain) as f32);
+        let firm = smudged.zip_map(&around, |ink, around| (ink + FIRMER * (ink - around)).clamp(0.0, 1.0));
+        let features = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
+        self.stumped(&firm, &regions.face.zip_map(&features, |face, features| face * (1.0 - features)))
+    }
+
+    /// Half tones of a face's skin rubbed into its lights, which end softly.
+    fn stumped(&self, ink: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
+        let reach = self.pixels(STUMP * self.parameters.smudge) as f32;
+        let sum = gaussian_blur(&ink.zip_map(skin, |ink, skin| ink.min(MOST_RUBBED) * skin), reach);
+        let mean = sum.zip_map(&gaussian_blur(skin, reach), |sum, skin| sum / skin.max(1e-3));
+        let rubbed = mean.zip_map(skin, |mean, skin| RUBBED * mean * skin);
+        ink.zip_map(&rubbed, |ink, rubbed| {
+            // A soft maximum, so that no border arises.
+            let over = (rubbed - ink).max(0.0);
+            ink + over * over / (over + SOFT_STUMP)
+        })
+    }
+
+    /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
+    fn sharp_zone(&self) -> Raster<f32> {
+        let detail = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
+        let faces = &self.portrait.faces;
+        Raster::from_fn(detail.width(), detail.height(), |x, y| {
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let near = |face: &Landmarks| {
+                let [right, left] = face.irises.map(|iris| iris.centre);
+                let away = Line::new(right, left).nearest(p, 1e-3).distance_sq.sqrt() / face.eye_distance().max(1.0);
+                ((AROUND_EYES.1 - away) / (AROUND_EYES.1 - AROUND_EYES.0)).clamp(0.0, 1.0)
+            };
+            faces.iter().map(near).fold(f64::from(detail.get(x, y)), f64::max) as f32
+        })
     }
 
     /// Brightened ink of the smudge.
