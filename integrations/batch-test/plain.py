@@ -12,9 +12,8 @@ from pathlib import Path
 
 from make import make
 from outcome import digests
-from processes import MARK, Busy, Family, Watch
+from processes import DRYPOINT, MARK, Busy, Family, Watch
 
-HERE = Path(__file__).resolve().parent
 # A small recipe: about a quarter of a second for each portrait.
 RECIPE = ["--style", "hedcut", "--size", "30x40mm", "--sight", "none"]
 HOSTILE = 20
@@ -22,18 +21,6 @@ HOSTILE = 20
 PORTRAITS = int(os.environ.get("DRYPOINT_PICTURES", "60"))
 # A share of busy processors says something only where the beginning and the end are a small part of the run.
 ENOUGH_TO_MEASURE = 500
-
-
-def find_drypoint() -> str:
-    built = HERE.parent.parent / "target/release/drypoint"
-    command = os.environ.get("DRYPOINT") or shutil.which("drypoint") or str(built)
-    found = shutil.which(command)
-    if not found:
-        sys.exit(f"{command} is not there: build drypoint, or set DRYPOINT to the command")
-    return os.path.abspath(found)
-
-
-DRYPOINT = find_drypoint()
 
 
 @dataclass

@@ -2,7 +2,9 @@
 
 import os
 import random
+import shutil
 import signal
+import sys
 import threading
 import time
 from dataclasses import dataclass, field
@@ -10,6 +12,20 @@ from pathlib import Path
 
 MARK = "DRYPOINT_TEST_RUN"
 TICKS = os.sysconf("SC_CLK_TCK")
+
+
+def find_drypoint() -> str:
+    built = Path(__file__).resolve().parent.parent.parent / "target/release/drypoint"
+    command = os.environ.get("DRYPOINT") or shutil.which("drypoint") or str(built)
+    found = shutil.which(command)
+    if not found:
+        sys.exit(f"{command} is not there: build drypoint, or set DRYPOINT to the command")
+    return os.path.abspath(found)
+
+
+DRYPOINT = find_drypoint()
+# What it may be called in a list of processes: `drypoint batch` starts its children by the name to which links lead.
+NAMES = {"drypoint", Path(DRYPOINT).name, Path(DRYPOINT).resolve().name}
 
 
 @dataclass
@@ -22,12 +38,12 @@ class Process:
 
     @property
     def is_batch(self) -> bool:
-        return Path(self.command[0]).name == "drypoint" and self.command[1:2] == ["batch"]
+        return Path(self.command[0]).name in NAMES and self.command[1:2] == ["batch"]
 
     @property
     def draws(self) -> bool:
         """`drypoint batch` draws each picture in a process of its own."""
-        return Path(self.command[0]).name == "drypoint"
+        return Path(self.command[0]).name in NAMES
 
 
 def read_process(pid: int) -> Process | None:

@@ -151,6 +151,10 @@ fn end() -> ! {
     std::process::exit(i32::from(exit_status()))
 }
 
+/// How names of temporary files begin, and the age up to which they are taken for a living process's.
+const UNFINISHED: &str = ".drypoint-";
+const YOUNG: std::time::Duration = std::time::Duration::from_secs(1);
+
 /// A temporary file beside its target. It is removed on drop or exit unless it has replaced the target.
 pub(super) struct Temporary(Option<NamedTempFile>);
 
@@ -160,13 +164,15 @@ impl Temporary {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut known = known();
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".drypoint-");
+        builder.prefix(UNFINISHED);
         #[cfg(unix)]
         let replaced = replaced.or_else(|| Some(PermissionsExt::from_mode(0o666)));
         if let Some(permissions) = replaced {
             builder.permissions(permissions);
         }
         let file = builder.tempfile_in(folder)?;
+        // Held as long as this process lives, so that what a killed one leaves can be told from it; some file systems have no locks.
+        let _ = file.as_file().try_lock();
         known.push(file.path().to_owned());
         Ok(Self(Some(file)))
     }
@@ -184,6 +190,18 @@ impl Temporary {
         file.persist(target).map_err(|error| error.error)?;
         known.retain(|path| *path != own);
         Ok(())
+    }
+}
+
+/// Removes from a folder the temporary files of processes that were killed. A young one may be about to be locked and stays.
+pub(super) fn remove_unfinished(folder: &Path) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(UNFINISHED)) {
+        let age = entry.metadata().ok().filter(std::fs::Metadata::is_file).and_then(|data| data.modified().ok()?.elapsed().ok());
+        let is_left = || File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok());
+        if age.is_some_and(|age| age >= YOUNG) && is_left() {
+            let _ = std::fs::remove_file(entry.path());
+        }
     }
 }
 

@@ -196,3 +196,39 @@ fn killed_and_run_again_it_makes_the_same() {
         files(&folder.path().join("parts")).into_iter().filter(|(name, _)| !name.starts_with('.')).collect();
     assert_eq!(made, expected);
 }
+
+/// A picture that is too flat for the box comes first; a link to a device without an end follows.
+#[cfg(unix)]
+#[test]
+fn a_picture_of_no_use_stops_no_other_wherever_it_stands() {
+    let folder = with_photographs();
+    let here = folder.path();
+    fs::write(here.join("in/1 flat.png"), png_of_light(300, 1, |_, _| 0.4)).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", here.join("in/2 endless.png")).unwrap();
+    fs::write(here.join("list.tsv"), "in/1 flat.png\nin/2 endless.png\nin/a.png\n").unwrap();
+    let (lines, status, said) = batch(here, &["list.tsv", "-o", "out/{name}.svg", "--jobs=1"]);
+    assert_eq!(status, 3, "{said}");
+    assert_eq!(statuses(&lines).iter().filter(|(_, status)| *status == "done").count(), 1, "{lines:?}");
+    assert_eq!(lines.len(), 3, "{lines:?}");
+    assert!(lines.values().any(|line| line["reason"].as_str().is_some_and(|reason| reason.contains("no ordinary file"))));
+}
+
+/// What a killed process left is swept; what a living one holds stays.
+#[cfg(unix)]
+#[test]
+fn files_of_killed_processes_are_removed() {
+    let folder = with_photographs();
+    let out = folder.path().join("out");
+    fs::create_dir(&out).unwrap();
+    let old = std::time::SystemTime::now() - Duration::from_secs(60);
+    let unfinished = |name: &str| {
+        let file = fs::File::create(out.join(name)).unwrap();
+        file.set_modified(old).unwrap();
+        file
+    };
+    drop(unfinished(".drypoint-left"));
+    let held = unfinished(".drypoint-held");
+    held.lock().unwrap();
+    batch(folder.path(), &["in", "-o", "out/{name}.svg"]);
+    assert!(!out.join(".drypoint-left").exists() && out.join(".drypoint-held").exists());
+}

@@ -27,7 +27,8 @@ class TheCommand(InFolder):
             f'#!/bin/sh\n[ "$1" = draw ] && echo $$ > "{self.folder}/pid"\nexec "{drypoint.command()}" "$@"\n'
         )
         wrapper.chmod(0o755)
-        script = f"import drypoint; drypoint.draw({str(HOPPER)!r}, size=(700, 900), pitch=0.4)"
+        # So large that it takes many seconds, and not so large that it is refused at once.
+        script = f"import drypoint; drypoint.draw({str(HOPPER)!r}, size=(200, 250), pitch=0.4)"
         python = subprocess.Popen(
             [sys.executable, "-c", script],
             env={**os.environ, "DRYPOINT": str(wrapper)},

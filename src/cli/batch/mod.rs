@@ -18,7 +18,7 @@ mod telling;
 use super::arguments::{BatchOptions, Shard};
 use super::claims;
 use super::failure::Failure;
-use super::interruption::is_interrupted;
+use super::interruption::{is_interrupted, remove_unfinished};
 use super::output;
 use child::Children;
 use inputs::{Named, Pictures};
@@ -28,7 +28,7 @@ use record::Record;
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -50,6 +50,8 @@ pub(super) fn run(options: &BatchOptions) -> Result<(), Failure> {
         telling: &telling,
         stops: AtomicBool::new(false),
         refused: Mutex::new(None),
+        held: Mutex::new(None),
+        folders: Mutex::new(HashSet::new()),
     };
     let queue = Mutex::new(Queue { pictures: pictures.into_iter(), shard, outputs: HashSet::new() });
     std::thread::scope(|scope| {
@@ -61,8 +63,15 @@ pub(super) fn run(options: &BatchOptions) -> Result<(), Failure> {
     if is_interrupted() {
         return Err(Failure::Interrupted);
     }
+    work.folders.lock().unwrap_or_else(PoisonError::into_inner).iter().for_each(|folder| remove_unfinished(folder));
     if let Some(failure) = work.refused.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(failure);
+    }
+    if let Some((outcome, reason)) = work.held.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        if telling.nothing_is_told() {
+            return Err(Failure::Usage(reason));
+        }
+        telling.tell(&outcome)?;
     }
     telling.finish()
 }
@@ -115,6 +124,10 @@ struct Work<'a> {
     /// True when the work cannot go on.
     stops: AtomicBool,
     refused: Mutex<Option<Failure>>,
+    /// The first picture for which the command line was wrong, and why, while nothing is drawn: the next ones show whose fault it was.
+    held: Mutex<Option<(Outcome, String)>>,
+    /// The outputs' folders so far.
+    folders: Mutex<HashSet<PathBuf>>,
 }
 
 impl Work<'_> {
@@ -141,21 +154,45 @@ impl Work<'_> {
         match self.drawn(named, &output) {
             Ok(drawn) => Ok(Some(Outcome::done(named, &output, drawn, begun.elapsed()))),
             Err(_) if is_interrupted() || self.stops.load(Ordering::SeqCst) => Ok(None),
-            // What is wrong with the command line is wrong for every picture.
-            Err(Failure::Usage(reason)) if self.telling.nothing_is_drawn() => Err(Failure::Usage(reason)),
+            Err(Failure::Usage(reason)) if self.telling.nothing_is_drawn() => {
+                let outcome = Outcome::failed(named, &output, reason.clone()).after(begun.elapsed());
+                self.usage_failure(outcome, reason)
+            }
             Err(failure) => Ok(Some(Outcome::failed(named, &output, failure.to_string()).after(begun.elapsed()))),
+        }
+    }
+
+    /// What is wrong with the command line is wrong for every picture, and in the same words; what is wrong with a picture is not.
+    fn usage_failure(&self, outcome: Outcome, reason: String) -> Result<Option<Outcome>, Failure> {
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*held {
+            Some((_, first)) if *first == reason => Err(Failure::Usage(reason)),
+            Some(_) => Ok(Some(outcome)),
+            None => {
+                *held = Some((outcome, reason));
+                Ok(None)
+            }
+        }
+    }
+
+    /// Once for each folder: what a killed process left there goes.
+    fn enter(&self, folder: &Path) {
+        let mut folders = self.folders.lock().unwrap_or_else(PoisonError::into_inner);
+        if !folders.contains(folder) {
+            folders.insert(folder.to_owned());
+            remove_unfinished(folder);
         }
     }
 
     fn drawn(&self, named: &Named, output: &str) -> Result<Drawn, Failure> {
         claims::check_not_input(output)?;
+        let folder = Path::new(output).parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        self.enter(folder);
         let key = self.order.key(named)?;
         if let Some(record) = Record::of(output).filter(|record| record.holds(&key, output)) {
             return Ok(Drawn { sha256: record.sha256, bytes: record.bytes, warnings: Vec::new(), is_new: false });
         }
-        if let Some(folder) = Path::new(output).parent() {
-            std::fs::create_dir_all(folder).map_err(Failure::writing(output))?;
-        }
+        std::fs::create_dir_all(folder).map_err(Failure::writing(output))?;
         let warnings = {
             let _held = self.memory.hold(self.order.foretold_bytes(&named.photo), is_interrupted);
             self.children.run(&self.order.words(named, output, self.threads))?
@@ -185,8 +222,11 @@ fn hashed(path: &Path) -> std::io::Result<(String, u64)> {
 /// The same, with a message for a file that a user named.
 fn hashed_input(name: &str) -> Result<(String, u64), Failure> {
     let path = Path::new(name);
-    if path.is_dir() {
-        return Err(Failure::Work(format!("{name} is a folder; give a file")));
+    // Neither a folder, nor a pipe that nobody writes to, nor a device without an end.
+    let kind = std::fs::metadata(path).map(|data| (data.is_dir(), data.is_file()));
+    if let Ok((is_folder, false)) = kind {
+        let what = if is_folder { "is a folder" } else { "is no ordinary file" };
+        return Err(Failure::Work(format!("{name} {what}; give a file")));
     }
     hashed(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => Failure::Work(format!("{name} does not exist; check its name")),

@@ -153,6 +153,12 @@ impl Telling {
         tally.done + tally.skipped == 0
     }
 
+    /// True if no line is written so far.
+    pub(super) fn nothing_is_told(&self) -> bool {
+        let (tally, _) = &*self.told();
+        tally.done + tally.skipped + tally.failed == 0
+    }
+
     /// The summary; a failure if pictures failed.
     pub(super) fn finish(&self) -> Result<(), Failure> {
         self.bar.finish_and_clear();
