@@ -13,6 +13,16 @@ pub fn guided_filter(guide: &Raster<[f32; 3]>, raster: &Raster<f32>, radius: usi
     fitted(guide, raster, radius, eps).zip_map(guide, applied)
 }
 
+/// The guided filter with the raster as its own guide: smooths, but keeps edges of a contrast above the root of `eps`.
+pub fn self_guided(raster: &Raster<f32>, radius: usize, eps: f32) -> Raster<f32> {
+    let mean = |raster: &Raster<f32>| box_blur(&box_blur(raster, radius), (radius / 2).max(1));
+    let means = mean(raster);
+    let spread = mean(&raster.map(|v| v * v)).zip_map(&means, |square, m| (square - m * m).max(0.0));
+    let slope = spread.map(|v| v / (v + eps));
+    let offset = mean(&slope.zip_map(&means, |a, m| m - a * m));
+    mean(&slope).zip_map(raster, |a, v| a * v).zip_map(&offset, |av, b| av + b)
+}
+
 /// A coarse raster, values 0 to 1, enlarged to the grid of a picture of bytes, along the picture's edges. The guided filter's
 /// functions are fitted on `coarse_guide` (the same picture at the coarse raster's size, values 0 to 1) in windows of `radius`
 /// coarse pixels; each fine pixel takes their bilinear interpolation.

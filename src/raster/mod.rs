@@ -42,7 +42,7 @@ pub use flood::{flood_from_border, without_holes};
 #[doc(hidden)]
 pub use gradient::sobel;
 #[doc(hidden)]
-pub use guided::{guided_enlargement, guided_filter};
+pub use guided::{guided_enlargement, guided_filter, self_guided};
 #[doc(hidden)]
 pub use lattice_gaussian::fast_gaussian;
 #[doc(hidden)]

@@ -2,12 +2,13 @@
 
 use super::blurred_within;
 use super::curve::Curve;
+use super::lights::rubbed;
 use super::mixing::mixed;
 use super::openings::opened;
 use super::zones::Zones;
 use crate::elementary::Elementary as _;
 use crate::geometry::Point;
-use crate::raster::{Raster, Remapping, box_blur, fast_gaussian, local_laplacian};
+use crate::raster::{Raster, Remapping, fast_gaussian, local_laplacian, self_guided};
 use crate::source::Landmarks;
 
 /// Lighting: the blur (in widths of the face) that separates light from form, and the share of its difference from the median
@@ -94,6 +95,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone);
+    let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }
 
@@ -188,8 +190,7 @@ fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Ra
 /// Step 9: a face whose lights are small or scattered gets bare paper too. Above the face's bright quarter the curve is
 /// steepened, by the least amount that takes its lights, as seen in print, to paper.
 fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
-    let seen = |tone: &Raster<f32>| fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), (SEEN * zones.width) as f32);
-    let before = seen(tone);
+    let before = seen(zones, tone);
     let [from, lights] = [RAISED_FROM, BELOW_PAPER].map(|hundredths| zones.percentile(&before, hundredths));
     let range = lights - from;
     let in_face = fast_gaussian(&zones.oval.map(f32::from), (FACE_EDGE * zones.width) as f32);
@@ -206,18 +207,13 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
     let (mut low, mut high) = (0.0, MOST_RAISED * range);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        let reaches = zones.percentile(&seen(&raised(middle)), BELOW_PAPER) >= PAPER;
+        let reaches = zones.percentile(&seen(zones, &raised(middle)), BELOW_PAPER) >= PAPER;
         if reaches { high = middle } else { low = middle }
     }
     raised(high)
 }
 
-/// The guided filter with the raster as its own guide: smooths, but keeps edges of a contrast above the root of `eps`.
-fn self_guided(raster: &Raster<f32>, radius: usize, eps: f32) -> Raster<f32> {
-    let mean = |raster: &Raster<f32>| box_blur(&box_blur(raster, radius), (radius / 2).max(1));
-    let means = mean(raster);
-    let spread = mean(&raster.map(|v| v * v)).zip_map(&means, |square, m| (square - m * m).max(0.0));
-    let slope = spread.map(|v| v / (v + eps));
-    let offset = mean(&slope.zip_map(&means, |a, m| m - a * m));
-    mean(&slope).zip_map(raster, |a, v| a * v).zip_map(&offset, |av, b| av + b)
+/// A tone as it is seen at the viewing distance of a print.
+fn seen(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
+    fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), (SEEN * zones.width) as f32)
 }

@@ -8,13 +8,14 @@
 //!   lightness -> light evened over skin -> local contrast -> one rising curve, through the skin's median and its lights,
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
-//!   -> eyes and mouths opened -> large blacks opened -> lights to paper
+//!   -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
 
 mod curve;
 mod face;
+mod lights;
 mod mixing;
 mod openings;
 mod zones;

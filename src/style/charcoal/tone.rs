@@ -7,7 +7,7 @@ use crate::drawing::{Area, Mark};
 use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{Curve, grain_areas};
 use crate::geometry::{BezPath, Point, Vec2, simplify};
-use crate::raster::{Raster, gaussian_blur, guided_filter, paper_texture};
+use crate::raster::{Raster, gaussian_blur, paper_texture, self_guided};
 use crate::source::Landmarks;
 use crate::style::solids::detail_zone;
 use kurbo::{Line, ParamCurveNearest};
@@ -46,7 +46,7 @@ const BROAD: f64 = 7.0;
 const BROAD_SPREAD: (f32, f32) = (0.45, 1.1);
 /// Blur in a face's features, as a share of the smudge's; and the square of the step of ink from which a border stays sharp.
 const FINE: f64 = 0.12;
-const SMUDGED_STEP: f64 = 0.09 * 0.09;
+const SMUDGED_STEP: f32 = 0.09 * 0.09;
 
 /// What the grain is drawn under and beside, on the working grid.
 pub(super) struct Laid<'a> {
@@ -89,16 +89,17 @@ impl Drawer<'_> {
 
     /// The paper's tooth, finer in the features of known faces: a hand presses smaller grains there.
     fn finer_in_features(&self, tooth: Raster<f32>) -> Raster<f32> {
-        if self.portrait.faces.is_empty() {
-            return tooth;
-        }
-        let detail = self.sharp_zone();
+        let zone = self.sharp_zone();
+        let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
         let (width, height) = (tooth.width(), tooth.height());
-        let fine = paper_texture(width, height, FINE_GRAIN * PIXELS_A_GRAIN as f32, self.seed ^ 0xf17e);
-        let (fx, fy) = (detail.width() as f64 / width as f64, detail.height() as f64 / height as f64);
+        let (fx, fy) = (zone.width() as f64 / width as f64, zone.height() as f64 / height as f64);
+        let (left, top) = ((columns.start as f64 / fx) as usize, (rows.start as f64 / fy) as usize);
+        let (wide, high) = ((columns.len() as f64 / fx) as usize + 2, (rows.len() as f64 / fy) as usize + 2);
+        let fine = paper_texture(wide, high, FINE_GRAIN * PIXELS_A_GRAIN as f32, self.seed ^ 0xf17e);
         Raster::from_fn(width, height, |x, y| {
-            let is_fine = detail.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy) >= 0.5;
-            if is_fine { fine.get(x, y) } else { tooth.get(x, y) }
+            let is_in_box = (left..left + wide).contains(&x) && (top..top + high).contains(&y);
+            let is_fine = is_in_box && zone.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy) > 0.5;
+            if is_fine { fine.get(x - left, y - top) } else { tooth.get(x, y) }
         })
     }
 
@@ -137,8 +138,7 @@ impl Drawer<'_> {
         let ink = self.darkness().map(|ink| self.washed(ink));
         let blur = self.pixels(self.parameters.smudge);
         let fine = gaussian_blur(&ink, (FINE * blur) as f32);
-        let guide = self.portrait.tone.map(|tone| [tone; 3]);
-        let smooth = guided_filter(&guide, &ink, (2.0 * blur).round().max(1.0) as usize, SMUDGED_STEP);
+        let smooth = self_guided(&ink, (1.4 * blur).round().max(1.0) as usize, SMUDGED_STEP);
         let sharp = self.sharp_zone();
         let smudged = Raster::from_fn(ink.width(), ink.height(), |x, y| {
             let t = sharp.get(x, y);

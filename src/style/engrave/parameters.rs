@@ -28,7 +28,7 @@ const NOT_STIPPLED: Need = Need::Word("look", &["crosshatch", "engraving", "hatc
 parameters! {
     /// The parameters of an engraving; angles in degrees; lengths in millimetres.
     pub(super) struct EngraveParameters {
-        pitch: Millimetres = "pitch": millimetres(0.6, 0.1..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.45, 0.1..=50.0),
             "distance between neighbouring lines where the depth is flat",
             "Galarza 3.5.1, delta_y";
         look: Look = "look": Kind::Choice(Look::WORDS),
