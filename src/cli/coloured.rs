@@ -143,6 +143,10 @@ impl Task<'_> {
                 given.push((key.to_owned(), value));
             }
         };
+        if pen != self.palette.as_ref().map_or(0, Palette::line_pen) {
+            // One pen's background is enough.
+            set("background", "off".to_owned());
+        }
         if style.name() == LINES {
             set("angle", angle(pen, pens).to_string());
             set("look", "hatch".to_owned());

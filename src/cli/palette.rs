@@ -74,7 +74,7 @@ impl Palette {
 
     /// How much of the paper each pen covers, 0 to 1, on the portrait's grid.
     pub(super) fn separate(&self, portrait: &Portrait) -> Vec<Raster<f32>> {
-        self.separator.separate(&portrait.light).coverages
+        self.separator.separate(&portrait.subject_light()).coverages
     }
 
     /// An empty layer for each pen.

@@ -12,7 +12,7 @@ use super::scribbles::Scribbles;
 use crate::drawing::Page;
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect};
-use crate::raster::Raster;
+use crate::raster::{Raster, gaussian_blur};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -234,11 +234,36 @@ impl Portrait {
         self.on_white(&self.tone).map(|tone| 1.0 - tone)
     }
 
+    /// Linear light of the subject alone: none of its background's colour shows at its border. All of it if nothing is left out.
+    pub fn subject_light(&self) -> Raster<[f32; 3]> {
+        let is_whole = self.subject.pixels().iter().all(|v| *v >= 1.0);
+        if is_whole || self.is_on_white { self.light.clone() } else { without_fringe(&self.light, &self.subject) }
+    }
+
     /// A raster of tone or lightness with white outside the subject. A picture already composited on white by its alpha is not
     /// faded again.
     pub fn on_white(&self, tone: &Raster<f32>) -> Raster<f32> {
         if self.is_on_white { tone.clone() } else { tone.zip_map(&self.subject, |tone, subject| 1.0 - (1.0 - tone) * subject) }
     }
+}
+
+/// Reach of a background's colour across the subject's border and of the colours that replace it there, in pixels.
+const BLEEDS: f32 = 1.5;
+const REPLACED: f32 = 4.0;
+
+/// The light with the subject's border, where the background shows through, in the colours beside it inside the subject.
+fn without_fringe(light: &Raster<[f32; 3]>, subject: &Raster<f32>) -> Raster<[f32; 3]> {
+    let inner = gaussian_blur(subject, BLEEDS).map(|v| ((v - 0.8) / 0.19).clamp(0.0, 1.0));
+    let weight = gaussian_blur(&inner, REPLACED);
+    let inside = |channel: usize| gaussian_blur(&light.zip_map(&inner, |rgb, inner| rgb[channel] * inner), REPLACED);
+    let [red, green, blue] = [0, 1, 2].map(inside);
+    Raster::from_fn(light.width(), light.height(), |x, y| {
+        let (own, w, t) = (light.get(x, y), weight.get(x, y), inner.get(x, y));
+        // Thin strands have no inside.
+        let t = if w < 1e-3 { 1.0 } else { t };
+        let beside = [red.get(x, y), green.get(x, y), blue.get(x, y)].map(|sum| sum / w.max(1e-3));
+        std::array::from_fn(|i| own[i] * t + beside[i] * (1.0 - t))
+    })
 }
 
 /// How much of each pixel of a grid a mask covers, 0 to 1; the mask has the photograph's proportions.
@@ -258,4 +283,21 @@ fn region(mask: &Photograph, crop: Crop, placement: Placement) -> Result<Raster<
         let on_black = (on_white - (1.0 - alpha)).max(0.0);
         lightness(on_black)
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_subject_has_its_own_colour_up_to_its_border() {
+        let (red, blue) = ([0.6, 0.1, 0.1], [0.1, 0.1, 0.8]);
+        let subject = Raster::from_fn(60, 40, |x, _| ((30.0 - x as f32) / 4.0 + 0.5).clamp(0.0, 1.0));
+        let light = subject.map(|share| std::array::from_fn(|i| red[i] * share + blue[i] * (1.0 - share)));
+        let clean = without_fringe(&light, &subject);
+        for x in 0..32 {
+            let [r, _, b] = clean.get(x, 20);
+            assert!((r - 0.6).abs() < 0.02 && (b - 0.1).abs() < 0.02, "{x}: {r} {b}");
+        }
+    }
 }

@@ -220,7 +220,7 @@ fn files_of_killed_processes_are_removed() {
     let folder = with_photographs();
     let out = folder.path().join("out");
     fs::create_dir(&out).unwrap();
-    let old = std::time::SystemTime::now() - Duration::from_secs(60);
+    let old = std::time::SystemTime::now() - Duration::from_mins(1);
     let unfinished = |name: &str| {
         let file = fs::File::create(out.join(name)).unwrap();
         file.set_modified(old).unwrap();
