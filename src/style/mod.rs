@@ -22,6 +22,7 @@ mod parameter;
 mod places;
 mod random;
 mod reversed;
+mod rubbing;
 mod settings;
 mod solids;
 mod tone_error;

@@ -26,6 +26,9 @@ const LONG: f64 = 0.09;
 /// Where frames are looked for: in heights of the face above its chin, between nostrils and brows, and in its widths from the middle.
 const BAND: std::ops::Range<f64> = -0.75..-0.47;
 const BAND_REACH: f64 = 0.75;
+/// The wings of the nose and its tip in the mesh, and how near to them, in widths of the face, nothing is a frame.
+const NOSE_WINGS: [usize; 3] = [129, 358, 1];
+const AT_NOSE: f64 = 0.14;
 
 /// Where details are finer, 0 to 1; `pitch` in working pixels.
 pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
@@ -97,10 +100,17 @@ impl Darks<'_> {
         let brows = gaussian_blur(&brows, (THIN * widest) as f32);
         Raster::from_fn(around.width(), around.height(), |x, y| {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-            let is_in_band = heads.iter().any(|head| {
-                let (u, v) = head.relative(p);
-                BAND.contains(&v) && u.abs() < BAND_REACH
-            });
+            // The folds beside a nose are as thin and dark as frames.
+            let is_at_nose = self
+                .portrait
+                .faces
+                .iter()
+                .any(|face| NOSE_WINGS.iter().any(|wing| face.point(*wing).distance(p) < AT_NOSE * face.width()));
+            let is_in_band = !is_at_nose
+                && heads.iter().any(|head| {
+                    let (u, v) = head.relative(p);
+                    BAND.contains(&v) && u.abs() < BAND_REACH
+                });
             if is_in_band { (near.get(x, y) - around.get(x, y)) * (1.0 - (3.0 * brows.get(x, y)).min(1.0)) } else { 0.0 }
         })
     }

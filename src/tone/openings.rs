@@ -33,12 +33,20 @@ const TEETH: f32 = 0.92;
 /// Teeth are lighter than this share of the skin's median.
 const TEETH_ABOVE: f32 = 0.7;
 
+/// Lips are darker than the skin's median by this, within these limits; the share of their lights that is left above that; and the blur
+/// of their edge in widths of the face.
+const BELOW_SKIN: f32 = 0.06;
+const LIPS: [f32; 2] = [0.55, 0.8];
+const LIPS_LIGHT: f32 = 0.4;
+const LIPS_SOFT: f64 = 0.008;
+
 /// The tone with its eyes and its mouth opened.
 pub(super) fn opened(zones: &Zones, face: &Landmarks, tone: &Raster<f32>) -> Raster<f32> {
     let eyes = [(&outlines::RIGHT_EYE, face.irises[0]), (&outlines::LEFT_EYE, face.irises[1])];
     let skin = zones.median_of(tone);
     let tone = eyes.into_iter().fold(tone.clone(), |tone, (lids, iris)| eye(&tone, &face.line(lids), iris, skin));
-    teeth(zones, &tone, &face.line(&outlines::MOUTH), skin)
+    let tone = teeth(zones, &tone, &face.line(&outlines::MOUTH), skin);
+    lips(zones, face, &tone, skin)
 }
 
 /// How far an opening is open, 0 to 1: by its mean height over its width.
@@ -81,6 +89,16 @@ fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster
     let drawn = tone.zip_map(&mean, |v, mean| mean.min(TEETH) + (1.0 + TEETH_DETAIL) * (v - mean));
     let soft = fast_gaussian(&inside, (0.3 * TEETH_REACH * zones.width) as f32);
     mixed(tone, &drawn, &soft.map(|share| open * share))
+}
+
+/// Lips stay darker than teeth and than lit skin: without an end in the lights a mouth is a slab of white.
+fn lips(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, skin: f32) -> Raster<f32> {
+    let (columns, rows) = (tone.width(), tone.height());
+    let [outer, inner] = [&outlines::LIPS, &outlines::MOUTH].map(|line| polygon(columns, rows, &face.line(line)));
+    let zone = outer.zip_map(&inner, |outer, inner| f32::from(outer) * (1.0 - f32::from(inner)));
+    let most = (skin - BELOW_SKIN).clamp(LIPS[0], LIPS[1]);
+    let held = tone.map(|v| v.min(most + LIPS_LIGHT * (v - most).max(0.0)));
+    mixed(tone, &held, &fast_gaussian(&zone, (LIPS_SOFT * zones.width) as f32))
 }
 
 /// The median of the values in a zone; `None` if the zone is empty.

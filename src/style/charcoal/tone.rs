@@ -9,6 +9,7 @@ use crate::field::{Curve, grain_areas};
 use crate::geometry::{BezPath, Point, Vec2, simplify};
 use crate::raster::{Raster, gaussian_blur, paper_texture, self_guided};
 use crate::source::Landmarks;
+use crate::style::rubbing::rubbed;
 use crate::style::solids::detail_zone;
 use kurbo::{Line, ParamCurveNearest};
 use std::f32::consts::PI;
@@ -29,12 +30,8 @@ const CLEAN: f32 = 0.012;
 const FIRMER: f32 = 1.0;
 /// Distance from the line between the pupils, in eye distances, within which detail is kept, and at which it no longer is.
 const AROUND_EYES: (f64, f64) = (0.5, 0.75);
-/// Blur of a face's half tones that are rubbed into its lights, in shares of the smudge's; their share; the most ink that counts; and the
-/// difference over which a light ends.
+/// Reach over which a face's half tones are rubbed into its lights, in shares of the smudge's blur.
 const STUMP: f64 = 4.0;
-const RUBBED: f32 = 0.6;
-const MOST_RUBBED: f32 = 0.5;
-const SOFT_STUMP: f32 = 0.04;
 /// Size of the grains in a face's features, as a share of the others'.
 const FINE_GRAIN: f32 = 0.6;
 /// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
@@ -147,20 +144,8 @@ impl Drawer<'_> {
         let around = gaussian_blur(&smudged, self.pixels(self.parameters.grain) as f32);
         let firm = smudged.zip_map(&around, |ink, around| (ink + FIRMER * (ink - around)).clamp(0.0, 1.0));
         let features = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
-        self.stumped(&firm, &regions.face.zip_map(&features, |face, features| face * (1.0 - features)))
-    }
-
-    /// Half tones of a face's skin rubbed into its lights, which end softly.
-    fn stumped(&self, ink: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
-        let reach = self.pixels(STUMP * self.parameters.smudge) as f32;
-        let sum = gaussian_blur(&ink.zip_map(skin, |ink, skin| ink.min(MOST_RUBBED) * skin), reach);
-        let mean = sum.zip_map(&gaussian_blur(skin, reach), |sum, skin| sum / skin.max(1e-3));
-        let rubbed = mean.zip_map(skin, |mean, skin| RUBBED * mean * skin);
-        ink.zip_map(&rubbed, |ink, rubbed| {
-            // A soft maximum, so that no border arises.
-            let over = (rubbed - ink).max(0.0);
-            ink + over * over / (over + SOFT_STUMP)
-        })
+        let skin = regions.face.zip_map(&features, |face, features| face * (1.0 - features));
+        rubbed(&firm, &skin, self.pixels(STUMP * self.parameters.smudge) as f32)
     }
 
     /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
