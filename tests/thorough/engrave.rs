@@ -15,7 +15,10 @@ use std::collections::{HashMap, HashSet};
 use std::io::Cursor;
 use std::sync::Mutex;
 
+/// The pitch of all these sheets, coarser than the default, so that a working pixel is a tenth of a millimetre.
 const PITCH: f64 = 0.6;
+/// The style works at six pixels per pitch.
+const PIXEL: f64 = PITCH / 6.0;
 /// Least distance between lines that the default keeps.
 const MIN_GAP: f64 = 0.25 * PITCH;
 const WHOLE: &[(&str, &str)] = &[("look", "hatch"), ("thinnest", "0")];
@@ -31,7 +34,8 @@ struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     fn new(photo: &'a [u8], mm: (f64, f64), set: &[(&str, &str)]) -> Self {
-        let set = set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+        let pitch = [("pitch".to_owned(), PITCH.to_string())];
+        let set = pitch.into_iter().chain(set.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))).collect();
         Self { photo, mm, tone: ToneTarget::Linear, set, masks: Vec::new(), depth: None }
     }
 
@@ -176,7 +180,7 @@ fn lines_show_a_hemisphere_s_form() {
         (1.0 - (r / radius).powi(2)).max(0.0).sqrt()
     };
     portrait.depth = Some(Raster::from_fn(portrait.placement.columns, portrait.placement.rows, |x, y| {
-        nearness(Point::new((x as f64 + 0.5) * 0.1, (y as f64 + 0.5) * 0.1)).max(1e-4) as f32
+        nearness(Point::new((x as f64 + 0.5) * PIXEL, (y as f64 + 0.5) * PIXEL)).max(1e-4) as f32
     }));
     let drawing = sheet.draw(&portrait);
     // Heights of base line k at x as drawn: of the line whose base height minus its displacement there passes nearest.
@@ -407,13 +411,13 @@ fn pixels_to(labels: &Raster<i32>, label: i32, p: Point) -> f64 {
 
 /// The region that a stroke leaves least, and by how many millimetres it leaves it.
 fn region_of(labels: &Raster<i32>, line: &[Point]) -> (i32, f64) {
-    let places: Vec<Point> = line.iter().map(|p| Point::new(p.x * 10.0, p.y * 10.0)).collect();
+    let places: Vec<Point> = line.iter().map(|p| Point::new(p.x / PIXEL, p.y / PIXEL)).collect();
     let label_at = |p: &Point| labels.clamped(p.x.floor() as isize, p.y.floor() as isize);
     let mut crossed: Vec<i32> = places.iter().map(label_at).filter(|label| *label > 0).collect();
     crossed.sort_unstable();
     crossed.dedup();
     let farthest = |label: i32| {
-        places.iter().filter(|p| label_at(p) != label).map(|p| pixels_to(labels, label, *p)).fold(0.0, f64::max) * 0.1
+        places.iter().filter(|p| label_at(p) != label).map(|p| pixels_to(labels, label, *p)).fold(0.0, f64::max) * PIXEL
     };
     crossed.into_iter().map(|label| (label, farthest(label))).min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
 }

@@ -32,11 +32,13 @@ const FIRMER: f32 = 1.0;
 const AROUND_EYES: (f64, f64) = (0.5, 0.75);
 /// Reach over which a face's half tones are rubbed into its lights, in shares of the smudge's blur.
 const STUMP: f64 = 4.0;
-/// Size of the grains in a face's features, as a share of the others'.
+/// Size of the grains in a face, as a share of the others'.
 const FINE_GRAIN: f32 = 0.6;
 /// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
 const BEHIND: f32 = 1.5;
 const BEHIND_BLUR: f64 = 4.0;
+/// Margin of the sheet without the background's smudge, as a share of its short side: scattered grains look like dust.
+const CLEAN_MARGIN: f64 = 0.07;
 /// Width of the broad strokes in the background, in pitches.
 const BROAD: f64 = 7.0;
 /// Their least pressure, and by how much more they press at most.
@@ -68,7 +70,7 @@ impl Drawer<'_> {
         let (width, height) = (count(picture.width()), count(picture.height()));
         let tooth = paper_texture(width, height, PIXELS_A_GRAIN as f32, self.seed ^ 0x7007);
         let clumps = paper_texture(width, height, CLUMP * PIXELS_A_GRAIN as f32, self.seed ^ 0xc1a9);
-        let tooth = self.finer_in_features(tooth);
+        let tooth = self.finer_in_faces(tooth, &parts.regions.face);
         let (fx, fy) = (smudged.width() as f64 / width as f64, smudged.height() as f64 / height as f64);
         let wanted = Raster::from_fn(width, height, |x, y| {
             let s = smudged.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy);
@@ -84,9 +86,9 @@ impl Drawer<'_> {
             .collect()
     }
 
-    /// The paper's tooth, finer in the features of known faces: a hand presses smaller grains there.
-    fn finer_in_features(&self, tooth: Raster<f32>) -> Raster<f32> {
-        let zone = self.sharp_zone();
+    /// The paper's tooth, finer in known faces: a hand presses smaller grains there.
+    fn finer_in_faces(&self, tooth: Raster<f32>, face: &Raster<f32>) -> Raster<f32> {
+        let zone = self.sharp_zone().zip_map(face, f32::max);
         let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
         let (width, height) = (tooth.width(), tooth.height());
         let (fx, fy) = (zone.width() as f64 / width as f64, zone.height() as f64 / height as f64);
@@ -111,6 +113,12 @@ impl Drawer<'_> {
         let behind = blur(BEHIND_BLUR, parts.background);
         let behind = behind.zip_map(&parts.regions.subject, |behind, subject| smudge * behind * (1.0 - subject));
         let behind = behind.zip_map(&self.broad_strokes(), |behind, stroke| behind * stroke);
+        let (width, height) = self.size();
+        let margin = (CLEAN_MARGIN * width.min(height) as f64) as f32;
+        let behind = Raster::from_fn(width, height, |x, y| {
+            let edge = x.min(y).min(width - 1 - x).min(height - 1 - y) as f32;
+            behind.get(x, y) * (edge / margin - 0.5).clamp(0.0, 1.0)
+        });
         left.zip_map(&parts.regions.subject, |ink, subject| ink * subject).zip_map(&behind, |ink, behind| 1.0 - ink - behind)
     }
 

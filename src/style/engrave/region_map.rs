@@ -7,8 +7,8 @@ use crate::raster::Raster;
 use crate::source::Placement;
 
 /// Lines end this far inside the picture: the tolerance of their curves, so that no curve bulges over the rim, is cut there and comes
-/// too close to itself.
-const RIM: f64 = FIT_ROOM;
+/// too close to itself; and two micrometres for the outlines that programs make of strokes.
+const RIM: f64 = FIT_ROOM + 0.002;
 /// Error of distances to curved borders interpolated between pixels, in pixels.
 const BORDER_ERROR: f64 = 0.25;
 
