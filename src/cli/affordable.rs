@@ -2,6 +2,7 @@
 
 use super::arguments::{PictureOptions, PlacingOptions};
 use super::failure::Failure;
+use super::messages::warning_line;
 use super::task::Task;
 use super::toolpaths::duration;
 use crate::drawing::{Drawing, Layer, Mixing, Page};
@@ -12,6 +13,8 @@ use crate::plot::{InkModel, Nibs};
 const MOST_BYTES: f64 = 4e9;
 /// Maximum line in a plot, in millimetres: a week of drawing at 30 mm/s, and 3 GB of points at the finest tolerance.
 const MOST_LINE: f64 = 20e6;
+/// How many times the default pitch is taken without being asked for: beyond it the drawing is another one.
+const MOST_COARSER: f64 = 1.5;
 /// Bisection steps in the search for a pitch or size that fits.
 const HALVINGS: usize = 30;
 
@@ -21,9 +24,23 @@ pub(super) fn task<'a>(
     placing: &PlacingOptions,
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<Task<'a>, Failure> {
-    let task = Task::placed(options, placing, reach)?;
+    let mut task = Task::placed(options, placing, reach)?;
+    coarsen(&mut task);
     check(&task)?;
     Ok(task)
+}
+
+/// On a sheet that is a little too large for the default pitch, takes the pitch that fits.
+fn coarsen(task: &mut Task<'_>) {
+    let cost = task.cost(&task.manner.settings, task.layout.picture);
+    let is_given = task.given().iter().any(|(key, _)| key == "pitch");
+    let Some(usual) = task.manner.settings.pitch().filter(|_| cost.bytes > MOST_BYTES && !is_given) else { return };
+    let Some(pitch) = pitch_that_fits(task).filter(|pitch| *pitch <= MOST_COARSER * usual) else { return };
+    task.set_pitch(pitch);
+    warning_line(&format!(
+        "the pitch is {pitch:.2} mm instead of {usual:.2} mm, which would take {} of memory on this sheet; --pitch sets another",
+        memory(cost.bytes)
+    ));
 }
 
 /// Refuses a drawing that would take too much memory; the message names a pitch and a size that fit.
@@ -32,7 +49,8 @@ fn check(task: &Task<'_>) -> Result<(), Failure> {
     if cost.bytes <= MOST_BYTES {
         return Ok(());
     }
-    let fits: Vec<String> = [pitch_that_fits(task), size_that_fits(task)].into_iter().flatten().collect();
+    let pitch = pitch_that_fits(task).map(|pitch| format!("--pitch {pitch:.2}mm"));
+    let fits: Vec<String> = [pitch, size_that_fits(task)].into_iter().flatten().collect();
     let advice = if fits.is_empty() {
         "the photograph and its masks alone exceed that; scale them down first".to_owned()
     } else {
@@ -78,8 +96,8 @@ pub(super) fn memory(bytes: f64) -> String {
     if bytes >= 9.5e8 { format!("{:.1} GB", bytes / 1e9) } else { format!("{:.0} MB", (bytes / 1e7).ceil() * 10.0) }
 }
 
-/// The smallest larger pitch that fits, in hundredths of a millimetre, as an option.
-fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
+/// The smallest larger pitch that fits, in whole hundredths of a millimetre.
+fn pitch_that_fits(task: &Task<'_>) -> Option<f64> {
     let fits = |pitch: f64| {
         let settings = task.settings_at(pitch);
         settings.is_some_and(|settings| task.cost(&settings, task.layout.picture).bytes <= MOST_BYTES)
@@ -92,7 +110,7 @@ fn pitch_that_fits(task: &Task<'_>) -> Option<String> {
         let middle = (low * high).sqrt();
         (low, high) = if fits(middle) { (low, middle) } else { (middle, high) };
     }
-    Some(format!("--pitch {:.2}mm", (high * 100.0).ceil() / 100.0))
+    Some((high * 100.0).ceil() / 100.0)
 }
 
 /// The largest smaller picture that fits, in whole millimetres, as an option.

@@ -120,6 +120,14 @@ impl<'a> Task<'a> {
         Settings::resolve(self.manner.style.name(), self.manner.style.parameters(), &given).ok()
     }
 
+    /// Takes another pitch, as if it were given.
+    pub(super) fn set_pitch(&mut self, pitch: f64) {
+        if let Some(settings) = self.settings_at(pitch) {
+            self.manner.settings = settings;
+            self.given.push(("pitch".to_owned(), pitch.to_string()));
+        }
+    }
+
     /// The parameters given by the user.
     pub(super) fn given(&self) -> &[(String, String)] {
         &self.given
