@@ -24,8 +24,11 @@ pub(super) fn task<'a>(
     placing: &PlacingOptions,
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<Task<'a>, Failure> {
-    let mut task = Task::placed(options, placing, reach)?;
-    coarsen(&mut task);
+    let mut task = Task::placed(options, placing, &reach)?;
+    // On a machine the layout depends on the pitch; the message then says which one fits.
+    if reach(&task.layout.page).is_none() {
+        coarsen(&mut task);
+    }
     check(&task)?;
     Ok(task)
 }

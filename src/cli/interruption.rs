@@ -153,7 +153,9 @@ fn end() -> ! {
 
 /// How names of temporary files begin, and the age up to which they are taken for a living process's.
 const UNFINISHED: &str = ".drypoint-";
-const YOUNG: std::time::Duration = std::time::Duration::from_secs(1);
+const YOUNG: std::time::Duration = std::time::Duration::from_secs(10);
+/// Letters and digits that end them.
+const ENDING: usize = 6;
 
 /// A temporary file beside its target. It is removed on drop or exit unless it has replaced the target.
 pub(super) struct Temporary(Option<NamedTempFile>);
@@ -196,7 +198,12 @@ impl Temporary {
 /// Removes from a folder the temporary files of processes that were killed. A young one may be about to be locked and stays.
 pub(super) fn remove_unfinished(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(UNFINISHED)) {
+    // A user's own file may begin so too.
+    let is_ours = |name: &str| {
+        let ending = name.strip_prefix(UNFINISHED);
+        ending.is_some_and(|ending| ending.len() == ENDING && ending.bytes().all(|byte| byte.is_ascii_alphanumeric()))
+    };
+    for entry in entries.flatten().filter(|entry| is_ours(&entry.file_name().to_string_lossy())) {
         let age = entry.metadata().ok().filter(std::fs::Metadata::is_file).and_then(|data| data.modified().ok()?.elapsed().ok());
         let is_left = || File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok());
         if age.is_some_and(|age| age >= YOUNG) && is_left() {

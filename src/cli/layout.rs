@@ -160,7 +160,8 @@ impl Sheet {
         let scale = (frame.0 / crop.width).min(frame.1 / crop.height);
         let (width, height) = (crop.width * scale, crop.height * scale);
         if width < LEAST_SIDE || height < LEAST_SIDE {
-            return Err(Failure::Usage(format!(
+            // Work, not usage: another photograph may be fine.
+            return Err(Failure::Work(format!(
                 "the picture would be {width:.2} x {height:.2} mm; use another --crop, or a larger --size"
             )));
         }

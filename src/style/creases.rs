@@ -31,12 +31,12 @@ impl<'a> Creases<'a> {
             let reach = |face: &Landmarks| SPECTACLES * face.eye_distance();
             self.portrait.faces.iter().any(|face| face.irises.iter().any(|iris| iris.centre.distance(p) < reach(face)))
         };
-        share(line, |p| self.are_at(p)) > MOSTLY
+        share(line, |p| self.are_in(p)) > MOSTLY
             && share(line, |p| detail.sample(p.x, p.y) >= 0.5 || is_at_eyes(p)) < MOST_IN_FEATURES
     }
 
-    /// True for a place inside a face, away from its border.
-    pub(super) fn are_at(&self, p: Point) -> bool {
+    /// True for a place where folds may be: inside a face, away from its border.
+    pub(super) fn are_in(&self, p: Point) -> bool {
         self.faces.iter().any(|face| face.contains(p))
     }
 }

@@ -205,11 +205,12 @@ fn a_picture_of_no_use_stops_no_other_wherever_it_stands() {
     let here = folder.path();
     fs::write(here.join("in/1 flat.png"), png_of_light(300, 1, |_, _| 0.4)).unwrap();
     std::os::unix::fs::symlink("/dev/zero", here.join("in/2 endless.png")).unwrap();
-    fs::write(here.join("list.tsv"), "in/1 flat.png\nin/2 endless.png\nin/a.png\n").unwrap();
+    fs::write(here.join("in/3 flat.png"), png_of_light(300, 1, |_, _| 0.5)).unwrap();
+    fs::write(here.join("list.tsv"), "in/1 flat.png\nin/2 endless.png\nin/3 flat.png\nin/a.png\n").unwrap();
     let (lines, status, said) = batch(here, &["list.tsv", "-o", "out/{name}.svg", "--jobs=1"]);
     assert_eq!(status, 3, "{said}");
     assert_eq!(statuses(&lines).iter().filter(|(_, status)| *status == "done").count(), 1, "{lines:?}");
-    assert_eq!(lines.len(), 3, "{lines:?}");
+    assert_eq!(lines.len(), 4, "{lines:?}");
     assert!(lines.values().any(|line| line["reason"].as_str().is_some_and(|reason| reason.contains("no ordinary file"))));
 }
 
@@ -226,9 +227,11 @@ fn files_of_killed_processes_are_removed() {
         file.set_modified(old).unwrap();
         file
     };
-    drop(unfinished(".drypoint-left"));
-    let held = unfinished(".drypoint-held");
+    drop(unfinished(".drypoint-left01"));
+    drop(unfinished(".drypoint-notes.txt"));
+    let held = unfinished(".drypoint-held01");
     held.lock().unwrap();
     batch(folder.path(), &["in", "-o", "out/{name}.svg"]);
-    assert!(!out.join(".drypoint-left").exists() && out.join(".drypoint-held").exists());
+    assert!(!out.join(".drypoint-left01").exists() && out.join(".drypoint-held01").exists());
+    assert!(out.join(".drypoint-notes.txt").exists(), "a user's own file");
 }

@@ -37,11 +37,12 @@ impl Drawer<'_> {
         let faces = Creases::of(self.portrait);
         let least = self.pixels(self.parameters.edge_length);
         let lines = self.edge_lines(regions, features);
-        // A shadow in a face ends as a tone: its outline would be a scar.
+        // A shadow in a face ends as a tone: its outline would be a scar. Lines that the user wants stay, wherever and however short.
+        let is_chosen = self.portrait.masks.contains_key(&MaskRole::Edges);
         let lines: Vec<Vec<Point>> = lines
             .iter()
-            .flat_map(|line| open_pieces(line, |p| faces.are_at(*p)))
-            .filter(|piece| polyline_length(piece) >= least)
+            .flat_map(|line| open_pieces(line, |p| !is_chosen && faces.are_in(*p)))
+            .filter(|piece| is_chosen || polyline_length(piece) >= least)
             .collect();
         let touch = Touch {
             width: LINE_WIDTH * self.parameters.stroke_width,

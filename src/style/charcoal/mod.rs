@@ -1,4 +1,4 @@
-//! The charcoal portrait (Wong 1999): smudged tone, sketchy contours, flowing hair, features and background shaded by hand.
+//! The charcoal portrait (Wong 1999): smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand.
 //!
 //! ```text
 //!   regions -> hair -> features -> edges -> shading -> tone   the order of processing: each region is visited once
@@ -48,7 +48,7 @@ pub(super) struct Charcoal;
 /// What it is.
 const CARD: StyleCard = StyleCard {
     name: "charcoal",
-    summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, features and background shaded by hand",
+    summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand",
     source: "Wong 1999, Artistic Rendering of Portrait Photographs",
     parameters: parameters::PARAMETERS,
     masks: &[

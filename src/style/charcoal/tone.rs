@@ -37,7 +37,8 @@ const FINE_GRAIN: f32 = 0.6;
 /// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
 const BEHIND: f32 = 1.5;
 const BEHIND_BLUR: f64 = 4.0;
-/// Margin of the sheet without the background's smudge, as a share of its short side: scattered grains look like dust.
+/// Margin of the picture in which the background's smudge fades to nothing, as a share of its short side: it is clean for half of this
+/// and full at one and a half. Scattered grains look like dust.
 const CLEAN_MARGIN: f64 = 0.07;
 /// Width of the broad strokes in the background, in pitches.
 const BROAD: f64 = 7.0;
@@ -140,7 +141,8 @@ impl Drawer<'_> {
 
     /// Ink that strokes and grain make together: smooth on skin and cloth, sharp at borders, and as it is in the faces' features.
     pub(super) fn wanted(&self, regions: &Regions) -> Raster<f32> {
-        let ink = self.darkness().map(|ink| self.washed(ink));
+        let gain = self.parameters.hair_ink - 1.0;
+        let ink = self.darkness().zip_map(&regions.hair, |ink, hair| (self.washed(ink) * (1.0 + gain * hair)).clamp(0.0, 1.0));
         let blur = self.pixels(self.parameters.smudge);
         let fine = gaussian_blur(&ink, (FINE * blur) as f32);
         let smooth = self_guided(&ink, (1.4 * blur).round().max(1.0) as usize, SMUDGED_STEP);
