@@ -112,14 +112,21 @@ impl Drawer<'_> {
         self.check()?;
         let edges = self.edges(&regions, &features);
         self.check()?;
-        let wanted = self.wanted(&regions);
+        let sharp = self.sharp_zone();
+        let wanted = self.wanted(&regions, &sharp);
         let shading = self.shading(&regions, &features, &wanted);
         self.check()?;
         let behind = self.background_pressure(&regions);
         let strokes = covered(hair.iter().chain(&shading), &self.portrait.placement);
         let strokes = gaussian_blur(&strokes, self.pixels(self.parameters.pitch) as f32);
-        let tone =
-            self.tone(&Laid { regions: &regions, features: &features, wanted: &wanted, strokes: &strokes, background: &behind });
+        let tone = self.tone(&Laid {
+            regions: &regions,
+            features: &features,
+            wanted: &wanted,
+            strokes: &strokes,
+            sharp: &sharp,
+            background: &behind,
+        });
         self.check()?;
         let mut face = self.draw_features(&features);
         if self.parameters.has_features {

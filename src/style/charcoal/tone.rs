@@ -55,6 +55,8 @@ pub(super) struct Laid<'a> {
     /// Ink that is wanted, and ink of the strokes of hair and clothing, blurred over their distances; 0 to 1.
     pub wanted: &'a Raster<f32>,
     pub strokes: &'a Raster<f32>,
+    /// Where detail is kept.
+    pub sharp: &'a Raster<f32>,
     /// Pressure of the background's strokes.
     pub background: &'a Raster<f32>,
 }
@@ -71,7 +73,7 @@ impl Drawer<'_> {
         let (width, height) = (count(picture.width()), count(picture.height()));
         let tooth = paper_texture(width, height, PIXELS_A_GRAIN as f32, self.seed ^ 0x7007);
         let clumps = paper_texture(width, height, CLUMP * PIXELS_A_GRAIN as f32, self.seed ^ 0xc1a9);
-        let tooth = self.finer_in_faces(tooth, &parts.regions.face);
+        let tooth = self.finer_in_faces(tooth, parts);
         let (fx, fy) = (smudged.width() as f64 / width as f64, smudged.height() as f64 / height as f64);
         let wanted = Raster::from_fn(width, height, |x, y| {
             let s = smudged.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy);
@@ -88,8 +90,8 @@ impl Drawer<'_> {
     }
 
     /// The paper's tooth, finer in known faces: a hand presses smaller grains there.
-    fn finer_in_faces(&self, tooth: Raster<f32>, face: &Raster<f32>) -> Raster<f32> {
-        let zone = self.sharp_zone().zip_map(face, f32::max);
+    fn finer_in_faces(&self, tooth: Raster<f32>, parts: &Laid<'_>) -> Raster<f32> {
+        let zone = parts.sharp.zip_map(&parts.regions.face, f32::max);
         let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
         let (width, height) = (tooth.width(), tooth.height());
         let (fx, fy) = (zone.width() as f64 / width as f64, zone.height() as f64 / height as f64);
@@ -140,13 +142,12 @@ impl Drawer<'_> {
     }
 
     /// Ink that strokes and grain make together: smooth on skin and cloth, sharp at borders, and as it is in the faces' features.
-    pub(super) fn wanted(&self, regions: &Regions) -> Raster<f32> {
+    pub(super) fn wanted(&self, regions: &Regions, sharp: &Raster<f32>) -> Raster<f32> {
         let gain = self.parameters.hair_ink - 1.0;
         let ink = self.darkness().zip_map(&regions.hair, |ink, hair| (self.washed(ink) * (1.0 + gain * hair)).clamp(0.0, 1.0));
         let blur = self.pixels(self.parameters.smudge);
         let fine = gaussian_blur(&ink, (FINE * blur) as f32);
         let smooth = self_guided(&ink, (1.4 * blur).round().max(1.0) as usize, SMUDGED_STEP);
-        let sharp = self.sharp_zone();
         let smudged = Raster::from_fn(ink.width(), ink.height(), |x, y| {
             let t = sharp.get(x, y);
             fine.get(x, y) * t + smooth.get(x, y) * (1.0 - t)
@@ -159,7 +160,7 @@ impl Drawer<'_> {
     }
 
     /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
-    fn sharp_zone(&self) -> Raster<f32> {
+    pub(super) fn sharp_zone(&self) -> Raster<f32> {
         let detail = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
         let faces = &self.portrait.faces;
         Raster::from_fn(detail.width(), detail.height(), |x, y| {
