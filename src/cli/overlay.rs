@@ -3,7 +3,7 @@
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, resample};
 use crate::raster::Raster;
-use crate::source::{Crop, Landmarks, Photograph, SourceError, outlines};
+use crate::source::{Crop, Landmarks, Photograph, SourceError, Spectacles, outlines};
 use image::{Rgb, RgbImage};
 
 /// Maximum longer side of the overlay, in pixels: enough detail for eyes, and small enough for any viewer.
@@ -65,6 +65,9 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Overlaid<'_>, scale: f64) {
             line.extend(line.first().copied());
         }
         draw_line(pixels, &line, scale, colour);
+    }
+    for line in face.landmarks.spectacles.iter().flat_map(Spectacles::lines) {
+        draw_line(pixels, &line, scale, [255, 128, 0]);
     }
     for iris in face.landmarks.irises {
         let round = |i: i32| {

@@ -11,7 +11,7 @@ use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::see::{Face, Sight};
 use crate::source::grey_image;
-use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph};
+use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph, Spectacles};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -98,6 +98,15 @@ struct WrittenSize {
 struct WrittenFace {
     irises: WrittenIrises,
     points: Vec<[f64; 3]>,
+    spectacles: Option<WrittenSpectacles>,
+}
+
+#[derive(Deserialize)]
+struct WrittenSpectacles {
+    rims: [Vec<[f64; 2]>; 2],
+    bridge: Vec<[f64; 2]>,
+    temples: [Vec<[f64; 2]>; 2],
+    width: f64,
 }
 
 #[derive(Deserialize)]
@@ -133,10 +142,29 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
             return Err(Failure::Work(format!("{name}: each face must have {POINTS} points of three numbers")));
         }
         let irises = [iris(&face.irises.right), iris(&face.irises.left)];
-        let landmarks = Landmarks { points: face.points.clone(), irises };
+        let spectacles = face.spectacles.as_ref().map(spectacles);
+        if spectacles.as_ref().is_some_and(|spectacles| !is_sound(spectacles)) {
+            return Err(Failure::Work(format!(
+                "{name}: rims of spectacles must have three points or more, all of them in the picture"
+            )));
+        }
+        let landmarks = Landmarks { points: face.points.clone(), irises, spectacles };
         Ok(landmarks.placed(|p| Point::new(p.x * x, p.y * y), (x * y).sqrt()))
     });
     placed.collect()
+}
+
+fn is_sound(spectacles: &Spectacles) -> bool {
+    let is_near = |v: f64| v.abs() <= 1e6;
+    is_near(spectacles.width)
+        && spectacles.rims.iter().all(|rim| rim.len() > 2)
+        && spectacles.lines().iter().flatten().all(|p| is_near(p.x) && is_near(p.y))
+}
+
+fn spectacles(written: &WrittenSpectacles) -> Spectacles {
+    let line = |line: &Vec<[f64; 2]>| line.iter().map(|[x, y]| Point::new(*x, *y)).collect::<Vec<_>>();
+    let both = |lines: &[Vec<[f64; 2]>; 2]| lines.each_ref().map(line);
+    Spectacles { rims: both(&written.rims), bridge: line(&written.bridge), temples: both(&written.temples), width: written.width }
 }
 
 /// What was found as JSON, in pixels of the photograph after its EXIF rotation.
@@ -157,6 +185,16 @@ pub(super) fn as_json(sight: &Sight, photograph: &Photograph) -> Value {
     })
 }
 
+fn spectacles_json(spectacles: &Spectacles) -> Value {
+    let line = |line: &Vec<Point>| line.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
+    json!({
+        "rims": spectacles.rims.each_ref().map(line),
+        "bridge": line(&spectacles.bridge),
+        "temples": spectacles.temples.each_ref().map(line),
+        "width": spectacles.width,
+    })
+}
+
 fn face_json(face: &Face) -> Value {
     let Rect { x0, y0, .. } = face.bounds;
     let [right, left] =
@@ -165,6 +203,7 @@ fn face_json(face: &Face) -> Value {
         "box": [x0, y0, face.bounds.width(), face.bounds.height()],
         "score": face.score,
         "irises": { "right": right, "left": left },
+        "spectacles": face.landmarks.spectacles.as_ref().map(spectacles_json),
         "points": face.landmarks.points,
     })
 }

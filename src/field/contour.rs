@@ -3,34 +3,56 @@
 use super::curve::Curve;
 use crate::geometry::Point;
 use crate::raster::Raster;
-use std::collections::HashMap;
+use rayon::prelude::*;
 
 /// The lines along which the raster, bilinear between pixel centres, equals `level`; greater values on their left (seen with y up; on
 /// the right with y down). Open lines end at the raster's border.
 pub fn contours(raster: &Raster<f32>, level: f32) -> Vec<Curve> {
-    let mut next: HashMap<EdgeKey, (EdgeKey, Point)> = HashMap::new();
-    let mut starts: Vec<EdgeKey> = Vec::new();
-    for y in 0..raster.height().saturating_sub(1) {
-        for x in 0..raster.width().saturating_sub(1) {
-            for (from, to) in cell_segments(raster, x, y, level) {
-                next.insert(from, (to, crossing(raster, from, level)));
-                starts.push(from);
-            }
-        }
+    let (width, height) = (raster.width(), raster.height());
+    let of_row = |y: usize| (0..width.saturating_sub(1)).flat_map(move |x| cell_segments(raster, x, y, level)).collect();
+    let rows: Vec<Vec<(Side, Side)>> = (0..height.saturating_sub(1)).into_par_iter().with_min_len(16).map(of_row).collect();
+    let mut sides = Sides { width, next: vec![NONE; 2 * width * height], is_entered: vec![false; 2 * width * height] };
+    for (from, to) in rows.iter().flatten() {
+        let (from, to) = (sides.number(*from), sides.number(*to));
+        sides.next[from] = to as u32;
+        sides.is_entered[to] = true;
     }
-    chain(raster, &starts, next, level)
+    chain(raster, &rows, sides, level)
 }
 
 /// A side between two neighbouring pixel centres: the first pixel and whether it runs down (or right).
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-struct EdgeKey {
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Side {
     x: u32,
     y: u32,
     down: bool,
 }
 
+/// The number of no side.
+const NONE: u32 = u32::MAX;
+
+/// The sides of all squares, numbered.
+struct Sides {
+    width: usize,
+    /// For each side the one to which a piece of contour leads from it.
+    next: Vec<u32>,
+    /// Whether a piece leads to the side.
+    is_entered: Vec<bool>,
+}
+
+impl Sides {
+    fn number(&self, side: Side) -> usize {
+        2 * (side.y as usize * self.width + side.x as usize) + usize::from(side.down)
+    }
+
+    fn side(&self, number: usize) -> Side {
+        let pixel = number / 2;
+        Side { x: (pixel % self.width) as u32, y: (pixel / self.width) as u32, down: number % 2 == 1 }
+    }
+}
+
 /// The point where the level is crossed on a side.
-fn crossing(raster: &Raster<f32>, side: EdgeKey, level: f32) -> Point {
+fn crossing(raster: &Raster<f32>, side: Side, level: f32) -> Point {
     let (x, y) = (side.x as usize, side.y as usize);
     let a = raster.get(x, y);
     let b = if side.down { raster.get(x, y + 1) } else { raster.get(x + 1, y) };
@@ -48,16 +70,16 @@ fn crossing(raster: &Raster<f32>, side: EdgeKey, level: f32) -> Point {
 ///   |         |
 ///   3 -bottom- 2
 /// ```
-fn cell_segments(raster: &Raster<f32>, x: usize, y: usize, level: f32) -> impl Iterator<Item = (EdgeKey, EdgeKey)> + use<> {
+fn cell_segments(raster: &Raster<f32>, x: usize, y: usize, level: f32) -> impl Iterator<Item = (Side, Side)> + use<> {
     let corners = [raster.get(x, y), raster.get(x + 1, y), raster.get(x + 1, y + 1), raster.get(x, y + 1)];
     let case = corners.iter().enumerate().fold(0, |case, (i, &v)| case | (usize::from(v > level) << i));
     let (x, y) = (x as u32, y as u32);
-    let top = EdgeKey { x, y, down: false };
-    let bottom = EdgeKey { x, y: y + 1, down: false };
-    let left = EdgeKey { x, y, down: true };
-    let right = EdgeKey { x: x + 1, y, down: true };
+    let top = Side { x, y, down: false };
+    let bottom = Side { x, y: y + 1, down: false };
+    let left = Side { x, y, down: true };
+    let right = Side { x: x + 1, y, down: true };
     let centre_above = corners.iter().sum::<f32>() / 4.0 > level;
-    let pieces: [Option<(EdgeKey, EdgeKey)>; 2] = match case {
+    let pieces: [Option<(Side, Side)>; 2] = match case {
         1 => [Some((left, top)), None],
         2 => [Some((top, right)), None],
         3 => [Some((left, right)), None],
@@ -80,23 +102,24 @@ fn cell_segments(raster: &Raster<f32>, x: usize, y: usize, level: f32) -> impl I
 }
 
 /// Follows the pieces from side to side: first lines that begin at the border, then loops.
-fn chain(raster: &Raster<f32>, starts: &[EdgeKey], mut next: HashMap<EdgeKey, (EdgeKey, Point)>, level: f32) -> Vec<Curve> {
-    let entered: std::collections::HashSet<EdgeKey> = next.values().map(|(to, _)| *to).collect();
+fn chain(raster: &Raster<f32>, rows: &[Vec<(Side, Side)>], mut sides: Sides, level: f32) -> Vec<Curve> {
     let mut curves = Vec::new();
-    let (at_border, inside): (Vec<EdgeKey>, Vec<EdgeKey>) = starts.iter().partition(|side| !entered.contains(side));
+    let (at_border, inside): (Vec<Side>, Vec<Side>) =
+        rows.iter().flatten().map(|(from, _)| *from).partition(|side| !sides.is_entered[sides.number(*side)]);
     for start in at_border.into_iter().chain(inside) {
+        let start = sides.number(start);
         let mut points = Vec::new();
-        let mut side = start;
-        while let Some((to, point)) = next.remove(&side) {
-            points.push(point);
-            side = to;
+        let mut number = start;
+        while sides.next[number] != NONE {
+            points.push(crossing(raster, sides.side(number), level));
+            number = std::mem::replace(&mut sides.next[number], NONE) as usize;
         }
         if points.is_empty() {
             continue;
         }
-        let closed = side == start;
+        let closed = number == start;
         if !closed {
-            points.push(crossing(raster, side, level));
+            points.push(crossing(raster, sides.side(number), level));
         }
         curves.push(Curve { points, closed });
     }

@@ -8,6 +8,7 @@ use super::mesh::mesh;
 use super::networks::{DETECTOR, Engine, IRIS, MESH, Network, PERSON};
 use super::regions::regions;
 use super::sight::{Face, Sight};
+use super::spectacles::spectacles;
 use super::subject::subject;
 use super::turn::Turn;
 use super::view::View;
@@ -136,7 +137,9 @@ fn measured(
             continue;
         }
         let irises = irises(&irises_of, view, &mesh.points)?;
-        faces.push(Face { bounds: found.bounds, score: found.score, landmarks: Landmarks { points: mesh.points, irises } });
+        let spectacles = spectacles(view, &mesh.points, &irises);
+        let landmarks = Landmarks { points: mesh.points, irises, spectacles };
+        faces.push(Face { bounds: found.bounds, score: found.score, landmarks });
     }
     Ok(faces)
 }

@@ -6,7 +6,7 @@
 //! last bits of arithmetic change the result.
 //!
 //! ```text
-//!   photograph --1024 px--> detector --box--> mesh, three times --corners of the eyes--> irises
+//!   photograph --1024 px--> detector --box--> mesh, three times --corners of the eyes--> irises --> spectacles
 //!                   \           \               \--oval, width--v
 //!                    \           \--unsure ones: strangers--v
 //!                     \----> person, three looks --> colours of both sides --> guided filter --> what hangs together with a face
@@ -37,6 +37,8 @@ mod networks;
 #[cfg(feature = "see")]
 mod regions;
 mod sight;
+#[cfg(feature = "see")]
+mod spectacles;
 #[cfg(feature = "see")]
 mod subject;
 #[cfg(feature = "see")]

@@ -172,7 +172,7 @@ mod tests {
         put(152, 0.0, 0.6, -0.3);
         put(234, -0.5, 0.0, 0.0);
         put(454, 0.5, 0.0, 0.0);
-        Landmarks { points, irises: [Iris { centre, radius: 0.04 * width }; 2] }
+        Landmarks { points, irises: [Iris { centre, radius: 0.04 * width }; 2], spectacles: None }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The landmarks of a face, numbered as in the networks' mesh.
 
+use super::Spectacles;
 use crate::geometry::Point;
 
 /// Number of points in the mesh.
@@ -12,6 +13,8 @@ pub struct Landmarks {
     pub points: Vec<[f64; 3]>,
     /// The irises: first the person's right, then the left.
     pub irises: [Iris; 2],
+    /// The spectacles before the eyes, if any were found.
+    pub spectacles: Option<Spectacles>,
 }
 
 /// One iris.
@@ -57,7 +60,8 @@ impl Landmarks {
             [p.x, p.y, z * scale]
         });
         let irises = self.irises.map(|iris| Iris { centre: place(iris.centre), radius: iris.radius * scale });
-        Self { points: points.collect(), irises }
+        let spectacles = self.spectacles.as_ref().map(|spectacles| spectacles.placed(&place, scale));
+        Self { points: points.collect(), irises, spectacles }
     }
 }
 

@@ -18,6 +18,7 @@ mod png;
 mod portrait;
 mod resample;
 mod scribbles;
+mod spectacles;
 
 #[cfg(feature = "cli")]
 pub(crate) use encoded::grey_image;
@@ -42,3 +43,4 @@ pub use placement::{Crop, Placement};
 pub use portrait::mask_on;
 pub use portrait::{Portrait, ToneCurve, ToneTarget};
 pub use scribbles::Scribbles;
+pub use spectacles::Spectacles;

@@ -25,6 +25,7 @@ mod reversed;
 mod rubbing;
 mod settings;
 mod solids;
+mod spectacles;
 mod tone_error;
 
 pub use cost::Cost;

@@ -1,6 +1,7 @@
 //! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
 
 use super::head::Head;
+use super::spectacles;
 use crate::drawing::{Area, Layer, Mark};
 use crate::elementary::Elementary as _;
 use crate::field::contours;
@@ -42,24 +43,27 @@ pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
 pub(super) struct Solids {
     /// On the page; empty without faces.
     pub outline: BezPath,
+    /// Frames of spectacles that were found as lines.
+    pub frames: Vec<Mark>,
 }
 
 impl Solids {
     /// By the ink wanted on the working grid; `pitch` in its pixels.
     pub(super) fn new(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         if portrait.faces.is_empty() {
-            return Self { outline: BezPath::new() };
+            return Self { outline: BezPath::new(), frames: Vec::new() };
         }
         let darks = Darks { portrait, ink, pitch };
         let mut outline = darks.features(EYE_LIFT);
         outline.extend(darks.rims());
-        Self { outline }
+        Self { outline, frames: spectacles::frames(portrait, pitch) }
     }
 
     /// The darkest places of features alone: neither rims of spectacles nor irises.
     pub(super) fn of_darkest(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         let has_faces = !portrait.faces.is_empty();
-        Self { outline: if has_faces { Darks { portrait, ink, pitch }.features(0.0) } else { BezPath::new() } }
+        let outline = if has_faces { Darks { portrait, ink, pitch }.features(0.0) } else { BezPath::new() };
+        Self { outline, frames: spectacles::frames(portrait, pitch) }
     }
 
     /// One area; no mark if there are no shapes.
@@ -68,6 +72,7 @@ impl Solids {
         if !self.outline.is_empty() {
             layer.marks.push(Mark::Area(Area { outline: self.outline, colour: None }));
         }
+        layer.marks.extend(self.frames);
         layer
     }
 }
@@ -92,12 +97,14 @@ impl Darks<'_> {
 
     /// How much darker thin dark lines between brows and cheeks are than what lies around them: frames of spectacles.
     fn thin_darks(&self) -> Raster<f32> {
-        let heads: Vec<Head> = self.portrait.faces.iter().map(Head::new).collect();
-        let widest = heads.iter().map(|head| head.width).fold(1.0, f64::max);
+        let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
         let around = gaussian_blur(self.ink, (THIN * widest) as f32);
         let near = gaussian_blur(self.ink, (0.15 * self.pitch) as f32);
         let brows = self.filled([&outlines::LEFT_BROW, &outlines::RIGHT_BROW]);
         let brows = gaussian_blur(&brows, (THIN * widest) as f32);
+        let frames = spectacles::zone(&self.portrait.faces, around.width(), around.height());
+        // Where the frame was found as lines, other thin darks are crumbs.
+        let unknown: Vec<Head> = self.portrait.faces.iter().filter(|face| face.spectacles.is_none()).map(Head::new).collect();
         Raster::from_fn(around.width(), around.height(), |x, y| {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
             // The folds beside a nose are as thin and dark as frames.
@@ -106,11 +113,11 @@ impl Darks<'_> {
                 .faces
                 .iter()
                 .any(|face| NOSE_WINGS.iter().any(|wing| face.point(*wing).distance(p) < AT_NOSE * face.width()));
-            let is_in_band = !is_at_nose
-                && heads.iter().any(|head| {
-                    let (u, v) = head.relative(p);
-                    BAND.contains(&v) && u.abs() < BAND_REACH
-                });
+            let is_before = |head: &Head| {
+                let (u, v) = head.relative(p);
+                BAND.contains(&v) && u.abs() < BAND_REACH
+            };
+            let is_in_band = !is_at_nose && (frames.get(x, y) == 1 || unknown.iter().any(is_before));
             if is_in_band { (near.get(x, y) - around.get(x, y)) * (1.0 - (3.0 * brows.get(x, y)).min(1.0)) } else { 0.0 }
         })
     }

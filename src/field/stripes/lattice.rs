@@ -23,6 +23,8 @@ pub struct StripeLattice {
     pub wave: Raster<Wave>,
     /// The stripes' phase at each node as a complex number; it grows along the node's wave.
     pub phase: Raster<[f32; 2]>,
+    /// The same in radians, once the phases are final.
+    pub(super) angles: Raster<f64>,
 }
 
 impl StripeLattice {
@@ -47,8 +49,18 @@ impl StripeLattice {
 
     /// The node's phase in radians.
     pub fn angle(&self, i: usize, j: usize) -> f64 {
-        let [re, im] = self.phase.get(i, j);
-        f64::from(im).angle_over(f64::from(re))
+        self.angles.get(i, j)
+    }
+
+    /// The lattice with its phases made final.
+    pub(super) fn settled(self) -> Self {
+        Self { angles: self.phase.map(|[re, im]| f64::from(im).angle_over(f64::from(re))), ..self }
+    }
+
+    /// The stripes midway between these.
+    #[must_use]
+    pub fn between(&self) -> Self {
+        Self { phase: self.phase.map(|[re, im]| [-re, -im]), ..self.clone() }.settled()
     }
 
     /// Actual growth of the phase from one node to its neighbour, seen with the first node's wave: the target gain, and the remainder to

@@ -93,33 +93,70 @@ impl StripeLattice {
 /// A crossing on a side of the lattice: the side's first node, whether it runs down (or right), and the crossing's index on it.
 type Key = (u32, u32, bool, u8);
 
-/// The lines of phase 0, in pixels.
-pub fn stripe_lines(lattice: &StripeLattice) -> Vec<StripeLine> {
-    let mut points: HashMap<Key, Point> = HashMap::new();
-    let mut links: HashMap<Key, [Option<Key>; 2]> = HashMap::new();
-    let mut order: Vec<Key> = Vec::new();
-    for j in 0..lattice.phase.height().saturating_sub(1) {
-        for i in 0..lattice.phase.width().saturating_sub(1) {
-            for (a, b) in cell_links(lattice, i, j, &mut points) {
-                for (from, to) in [(a, b), (b, a)] {
-                    let slots = links.entry(from).or_insert_with(|| {
-                        order.push(from);
-                        [None, None]
-                    });
-                    if slots[0].is_none() {
-                        slots[0] = Some(to);
-                    } else {
-                        slots[1] = Some(to);
-                    }
-                }
+/// The number of no crossing.
+const NONE: u32 = u32::MAX;
+
+/// The crossings found so far, numbered.
+struct Crossings {
+    columns: usize,
+    /// The number of the first crossing on each side, right and down from each node.
+    first: Vec<u32>,
+    /// The numbers of the others, where stripes are closer than nodes.
+    others: HashMap<Key, u32>,
+    points: Vec<Point>,
+    /// The crossings that lines lead to from each.
+    links: Vec<[u32; 2]>,
+    /// Those with links, in the order in which they were linked.
+    linked: Vec<u32>,
+}
+
+impl Crossings {
+    fn new(lattice: &StripeLattice) -> Self {
+        let (columns, rows) = (lattice.phase.width(), lattice.phase.height());
+        let first = vec![NONE; 2 * columns * rows];
+        Self { columns, first, others: HashMap::new(), points: Vec::new(), links: Vec::new(), linked: Vec::new() }
+    }
+
+    /// The crossing's number; a new one lies at `point`.
+    fn number(&mut self, key: Key, point: Point) -> u32 {
+        let (i, j, down, rank) = key;
+        let fresh = self.points.len() as u32;
+        let side = 2 * (j as usize * self.columns + i as usize) + usize::from(down);
+        let slot = if rank == 0 { &mut self.first[side] } else { self.others.entry(key).or_insert(NONE) };
+        if *slot == NONE {
+            *slot = fresh;
+            self.points.push(point);
+            self.links.push([NONE; 2]);
+        }
+        *slot
+    }
+
+    fn link(&mut self, a: u32, b: u32) {
+        for (from, to) in [(a, b), (b, a)] {
+            let slots = &mut self.links[from as usize];
+            if slots[0] == NONE {
+                slots[0] = to;
+                self.linked.push(from);
+            } else {
+                slots[1] = to;
             }
         }
     }
-    chain(&order, &links, &points)
+}
+
+/// The lines of phase 0, in pixels.
+pub fn stripe_lines(lattice: &StripeLattice) -> Vec<StripeLine> {
+    let mut crossings = Crossings::new(lattice);
+    for j in 0..lattice.phase.height().saturating_sub(1) {
+        for i in 0..lattice.phase.width().saturating_sub(1) {
+            link_cell(lattice, i, j, &mut crossings);
+        }
+    }
+    chain(&crossings)
 }
 
 /// The points where the phase passes a whole number of cycles on a side of the cell, with the level as the cell counts it.
-fn crossings(lattice: &StripeLattice, (i, j): (usize, usize), side: usize, from: f64, to: f64) -> Vec<(i64, Key, Point)> {
+fn on_side(lattice: &StripeLattice, (i, j): (usize, usize), side: usize, from: f64, to: f64) -> Vec<(i64, Key, Point)> {
     // Sides are always processed in one direction, so that both cells find the same points.
     let forward = side < 2;
     let (low, high) = if from < to { (from, to) } else { (to, from) };
@@ -145,57 +182,51 @@ fn crossings(lattice: &StripeLattice, (i, j): (usize, usize), side: usize, from:
         .collect()
 }
 
-/// The pieces of line in one cell.
-fn cell_links(lattice: &StripeLattice, i: usize, j: usize, points: &mut HashMap<Key, Point>) -> Vec<(Key, Key)> {
+/// Links the crossings of one cell.
+fn link_cell(lattice: &StripeLattice, i: usize, j: usize, crossings: &mut Crossings) {
     if CORNERS.iter().any(|(di, dj)| !lattice.is_striped(i + di, j + dj)) {
-        return Vec::new();
+        return;
     }
     let cell = CellPhases::new(lattice, i, j);
     let (low, high) = cell.range();
     if (low / TAU).ceil() > (high / TAU).floor() {
-        return Vec::new();
+        return;
     }
-    let mut by_level: Vec<(i64, Key)> = Vec::with_capacity(4);
+    let mut by_level: Vec<(i64, u32)> = Vec::with_capacity(4);
     for side in (0..4).filter(|&side| cell.broken != Some(side)) {
-        for (level, key, point) in crossings(lattice, (i, j), side, cell.corners[side], cell.corners[(side + 1) % 4]) {
-            points.entry(key).or_insert(point);
-            by_level.push((level, key));
+        for (level, key, point) in on_side(lattice, (i, j), side, cell.corners[side], cell.corners[(side + 1) % 4]) {
+            by_level.push((level, crossings.number(key, point)));
         }
     }
     by_level.sort_by_key(|entry| entry.0);
-    let mut links = Vec::new();
     for group in by_level.chunk_by(|a, b| a.0 == b.0) {
         for pair in group.chunks_exact(2) {
-            links.push((pair[0].1, pair[1].1));
+            crossings.link(pair[0].1, pair[1].1);
         }
     }
-    links
 }
 
 /// Follows the links, first from open ends, then around loops.
-fn chain(order: &[Key], links: &HashMap<Key, [Option<Key>; 2]>, points: &HashMap<Key, Point>) -> Vec<StripeLine> {
-    let mut used: std::collections::HashSet<Key> = std::collections::HashSet::new();
+fn chain(crossings: &Crossings) -> Vec<StripeLine> {
+    let Crossings { points, links, linked, .. } = crossings;
+    let mut used = vec![false; points.len()];
     let mut lines = Vec::new();
-    let ends = order.iter().filter(|key| links[*key][1].is_none());
-    for &start in ends.chain(order) {
-        if used.contains(&start) {
+    let ends = linked.iter().filter(|number| links[**number as usize][1] == NONE);
+    for &start in ends.chain(linked) {
+        if used[start as usize] {
             continue;
         }
-        let mut line = vec![points[&start]];
-        used.insert(start);
-        let (mut here, mut before) = (start, None);
+        let mut line = vec![points[start as usize]];
+        used[start as usize] = true;
+        let (mut here, mut before) = (start, NONE);
         let closed = loop {
-            let next = links[&here]
-                .iter()
-                .flatten()
-                .copied()
-                .find(|next| Some(*next) != before && (!used.contains(next) || *next == start));
-            match next {
+            let is_next = |next: u32| next != NONE && next != before && (!used[next as usize] || next == start);
+            match links[here as usize].into_iter().find(|next| is_next(*next)) {
                 Some(next) if next == start => break line.len() > 2,
                 Some(next) => {
-                    line.push(points[&next]);
-                    used.insert(next);
-                    before = Some(here);
+                    line.push(points[next as usize]);
+                    used[next as usize] = true;
+                    before = here;
                     here = next;
                 }
                 None => break false,

@@ -40,7 +40,13 @@ pub fn stripes(
     let (width, height) = (wave.width(), wave.height());
     let nodes = |step: f64| sampled(wave, step, margin, (count(width, step), count(height, step)));
     let finest_waves = sampled(wave, parameters.step, margin, StripeLattice::bare(width, height, parameters.step));
-    let finest = StripeLattice { step: parameters.step, margin, wave: finest_waves, phase: Raster::filled(0, 0, [0.0; 2]) };
+    let finest = StripeLattice {
+        step: parameters.step,
+        margin,
+        wave: finest_waves,
+        phase: Raster::filled(0, 0, [0.0; 2]),
+        angles: Raster::filled(0, 0, 0.0),
+    };
     let mut coarser: Option<StripeLattice> = None;
     for level in (0..parameters.levels.max(1)).rev() {
         let step = parameters.step * f64::from(1_u32 << level);
@@ -53,12 +59,12 @@ pub fn stripes(
             }),
             Some(coarse) => refined(coarse, &finest, &waves, step),
         };
-        let mut lattice = StripeLattice { step, margin, wave: waves, phase };
+        let mut lattice = StripeLattice { step, margin, wave: waves, phase, angles: Raster::filled(0, 0, 0.0) };
         let edges = Edges::new(&lattice, &finest);
         relax(&mut lattice, &edges, parameters, if level == 0 { anchor } else { None });
         coarser = Some(lattice);
     }
-    coarser.expect("there is at least one level")
+    coarser.expect("there is at least one level").settled()
 }
 
 /// The wave at the nodes of a lattice.
@@ -97,8 +103,16 @@ fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64
     (TAU * sum, carried)
 }
 
+/// The same along a way of less than a stripe, by the waves at both its ends.
+fn short_gain(way: Vec2, first: Wave, last: Wave) -> (f64, Vec2) {
+    let (first, last) = (vector(first), vector(last));
+    let carried = if first.dot(last) < 0.0 { -last } else { last };
+    (0.5 * TAU * (first + carried).dot(way), carried)
+}
+
 /// The start of a level: the prediction of the four coarser nodes around each node.
 fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
+    let is_finest = step == fine.step;
     Raster::from_fn(waves.width(), waves.height(), |i, j| {
         if waves.get(i, j) == [0.0; 2] {
             return [1.0, 0.0];
@@ -113,7 +127,9 @@ fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, s
             }
             let weight = (1.0 - (x - cx as f64).abs()) * (1.0 - (y - cy as f64).abs());
             let (cx, cy) = (cx as usize, cy as usize);
-            let (gain, carried) = gain_along(fine, coarse.position(cx, cy), here, coarse.wave.get(cx, cy));
+            let (from, first) = (coarse.position(cx, cy), coarse.wave.get(cx, cy));
+            let (gain, carried) =
+                if is_finest { short_gain(here - from, first, waves.get(i, j)) } else { gain_along(fine, from, here, first) };
             let [re, im] = rotated(coarse.phase.get(cx, cy), gain as f32);
             let turned = carried.dot(vector(waves.get(i, j))) < 0.0;
             sum = [sum[0] + weight as f32 * re, sum[1] + weight as f32 * if turned { -im } else { im }];

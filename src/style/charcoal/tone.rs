@@ -12,6 +12,7 @@ use crate::source::Landmarks;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::detail_zone;
 use kurbo::{Line, ParamCurveNearest};
+use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
@@ -84,7 +85,7 @@ impl Drawer<'_> {
             Point::new(picture.x0 + tx * picture.width(), picture.y0 + ty * picture.height())
         };
         grain_areas(&wanted, &tooth)
-            .iter()
+            .par_iter()
             .filter_map(|outlines| area(outlines, OUTLINE_TOLERANCE * PIXELS_A_GRAIN, place))
             .collect()
     }

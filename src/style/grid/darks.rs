@@ -9,7 +9,7 @@ use super::mixing::Mixing;
 use super::parameters::Overlap;
 use super::structure::StructureGrid;
 use crate::drawing::Mark;
-use crate::field::{Sites, StripeLattice};
+use crate::field::Sites;
 use crate::geometry::{BezPath, Point, polygon_area};
 use crate::raster::{Raster, gaussian_blur};
 use crate::style::reversed::{self, ReversedCell, ReversedCells};
@@ -77,8 +77,7 @@ impl Darks {
 
 /// The middles of the grid's meshes.
 fn meshes(drawer: &Drawer<'_>, grid: &StructureGrid) -> Vec<Point> {
-    let shifted = |family: &StripeLattice| StripeLattice { phase: family.phase.map(|[re, im]| [-re, -im]), ..family.clone() };
-    let [along, across] = [0, 1].map(|family| shifted(&grid.stripes[family]));
+    let [along, across] = [0, 1].map(|family| grid.stripes[family].between());
     drawer.points(&along, &across, &grid.spacing).0
 }
 

@@ -191,12 +191,18 @@ impl Drawer<'_> {
 
 /// Adds the solid shapes of faces, in place of the dots inside them.
 fn set_solids(drawing: &mut Drawing, solids: Solids) {
-    if solids.outline.is_empty() {
+    let solids = solids.layer();
+    if solids.marks.is_empty() {
         return;
     }
-    let inside = Region::new(&solids.outline, SOLID_TOLERANCE);
+    let outlines = solids.marks.iter().filter_map(|mark| match mark {
+        Mark::Area(area) => Some(area.outline.clone()),
+        Mark::Stroke(stroke) => Some(stroke.ink_outline(SOLID_TOLERANCE)),
+        Mark::Dot(_) => None,
+    });
+    let inside: Vec<Region> = outlines.map(|outline| Region::new(&outline, SOLID_TOLERANCE)).collect();
     for layer in &mut drawing.layers {
-        layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.contains(dot.centre)));
+        layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.iter().any(|solid| solid.contains(dot.centre))));
     }
-    drawing.layers.push(solids.layer());
+    drawing.layers.push(solids);
 }

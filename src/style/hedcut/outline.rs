@@ -10,6 +10,7 @@ use crate::field::{CoherentLine, Curve};
 use crate::geometry::{catmull_rom, resample};
 use crate::style::creases::{Creases, share};
 use crate::style::feature_line::feature_stroke;
+use crate::style::spectacles::Frames;
 
 /// Distance of an outline's nodes in pitches: far enough for long smooth arcs, near enough for the corner of an eye.
 const NODE_SPACING: f64 = 1.2;
@@ -21,8 +22,10 @@ const LONGEST_TAPER: f64 = 4.0;
 pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> Layer {
     let least = drawer.pixels(drawer.parameters.outline_length);
     let mut layer = Layer::new("outline", 1);
+    let frames = Frames::of(drawer.portrait);
     let creases = Creases::of(drawer.portrait);
-    let is_outline = |curve: &Curve| curve.length() >= least && !is_hair(curve, parts) && !creases.have(curve);
+    let is_outline =
+        |curve: &Curve| curve.length() >= least && !is_hair(curve, parts) && !creases.have(curve) && !frames.have(curve);
     if !features.drawn.is_empty() {
         let widest = drawer.pixels(drawer.parameters.outline_width);
         let taper = LONGEST_TAPER * drawer.pitch();

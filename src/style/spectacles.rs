@@ -1,0 +1,88 @@
+//! Frames of spectacles as lines: an engraver draws each rim first, in one line.
+
+use super::creases::share;
+use crate::drawing::{Mark, Stroke, Width};
+use crate::field::Curve;
+use crate::geometry::{Ends, Point, Ring, catmull_rom, resample, smooth_polyline};
+use crate::raster::{Raster, dilate};
+use crate::source::{Landmarks, Portrait, Spectacles};
+
+/// Share of the width measured in the photograph, whose blur widens lines, and limits in pitches.
+const SHARPER: f64 = 0.75;
+const WIDTHS: [f64; 2] = [0.4, 1.6];
+/// How much thinner a rim is above, and wider below where it is in shade.
+const SWELL: f64 = 0.25;
+/// Distance of the lines' nodes in pitches; ends of temples taper over so many pitches.
+const NODE: f64 = 1.0;
+const TAPER: f64 = 4.0;
+/// Smoothing of the lines, in widths of the frame: they were found on a grid of pixels.
+const SMOOTH: f64 = 1.0;
+/// Reach of a frame to either side of its lines, in its widths: nearer dark lines are its own, others crumbs of skin.
+const OWN: f64 = 1.2;
+
+/// The frames of all faces' spectacles on the page; `pitch` in working pixels.
+pub(super) fn frames(portrait: &Portrait, pitch: f64) -> Vec<Mark> {
+    portrait.faces.iter().filter_map(|face| face.spectacles.as_ref()).flat_map(|frame| marks(frame, portrait, pitch)).collect()
+}
+
+/// The width that a frame is drawn with, in working pixels.
+fn drawn_width(frame: &Spectacles, pitch: f64) -> f64 {
+    (SHARPER * frame.width).clamp(WIDTHS[0] * pitch, WIDTHS[1] * pitch)
+}
+
+fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
+    let scale = portrait.placement.mm_per_pixel();
+    let width = drawn_width(frame, pitch) * scale;
+    let smooth = |line: &[Point], ring| smooth_polyline(line, ring, SMOOTH * frame.width, NODE * pitch);
+    let on_page = |line: &[Point]| line.iter().map(|p| portrait.placement.to_page(*p)).collect::<Vec<Point>>();
+    let rims = frame.rims.iter().map(|rim| {
+        let nodes = on_page(&smooth(rim, Ring::Closed));
+        let (top, bottom) = nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(t, b), p| (t.min(p.y), b.max(p.y)));
+        let swelling = |p: &Point| 1.0 + SWELL * (2.0 * (p.y - top) / (bottom - top).max(1e-9) - 1.0);
+        let mut widths: Vec<f64> = nodes.iter().map(|p| width * swelling(p)).collect();
+        widths.push(widths[0]);
+        Mark::Stroke(Stroke::new(catmull_rom(&nodes, Ring::Closed), Width::Along(widths)))
+    });
+    let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
+    let open = open.filter(|(line, _)| line.len() > 1).map(|(line, tapers)| {
+        let nodes = on_page(&smooth(line, Ring::Open));
+        let last = (nodes.len() - 1) as f64;
+        let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
+        let widths = (0..nodes.len()).map(|i| width * (0.2 + 0.8 * rest(i))).collect();
+        let mut stroke = Stroke::new(catmull_rom(&nodes, Ring::Open), Width::Along(widths));
+        stroke.ends = Ends::Flat;
+        Mark::Stroke(stroke)
+    });
+    rims.chain(open).collect()
+}
+
+/// Lines that frames take the place of.
+pub(super) struct Frames(Raster<u8>);
+
+impl Frames {
+    /// Of the spectacles in front of a portrait's faces.
+    pub(super) fn of(portrait: &Portrait) -> Self {
+        let lightness = &portrait.lightness;
+        Self(zone(&portrait.faces, lightness.width(), lightness.height()))
+    }
+
+    /// True for a line, in working pixels, that runs along a frame.
+    pub(super) fn have(&self, line: &Curve) -> bool {
+        share(line, |p| self.0.clamped(p.x as isize, p.y as isize) == 1) > 0.5
+    }
+}
+
+/// 1 on the lines of a face's frame and close beside them.
+pub(super) fn zone(faces: &[Landmarks], width: usize, height: usize) -> Raster<u8> {
+    let mut all = Raster::filled(width, height, 0_u8);
+    for frame in faces.iter().filter_map(|face| face.spectacles.as_ref()) {
+        let mut lines = Raster::filled(width, height, 0_u8);
+        for p in frame.lines().iter().flat_map(|line| resample(line, 0.7)) {
+            if p.x >= 0.0 && p.y >= 0.0 && p.x < width as f64 && p.y < height as f64 {
+                lines.set(p.x as usize, p.y as usize, 1);
+            }
+        }
+        all = all.zip_map(&dilate(&lines, (OWN * frame.width).round().max(1.0) as usize), u8::max);
+    }
+    all
+}
