@@ -4,8 +4,7 @@ use super::super::Drawer;
 use super::LEAST_SHARE;
 use crate::elementary::unit_at;
 use crate::geometry::Point;
-use crate::raster::{Raster, filled_polygon, gaussian_blur};
-use crate::source::outlines;
+use crate::raster::{Raster, gaussian_blur};
 use crate::style::rubbing::rubbed;
 
 /// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
@@ -18,8 +17,8 @@ const ALONG_STEPS: i32 = 4;
 const LOCK: f64 = 6.0;
 const LOCK_CONTRAST: f32 = 0.7;
 
-/// Reach of half tones into a face's lights, in pitches.
-const HALF_TONES: f64 = 8.0;
+/// Reach of half tones into a face's lights, in pitches: at their borders, and over foreheads and cheeks.
+const HALF_TONES: [f64; 2] = [8.0, 24.0];
 
 impl Drawer<'_> {
     /// The ink wanted: without grain, and sharper in detail.
@@ -33,16 +32,12 @@ impl Drawer<'_> {
         mixed.zip_map(&self.portrait.subject, |ink, subject| if subject > LEAST_SHARE { ink.clamp(0.0, 1.0) } else { 0.0 })
     }
 
-    /// The ink with half tones in the lights of faces, which lines then reach as dots.
-    pub(super) fn with_half_tones(&self, ink: &Raster<f32>, detail: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
-        let (width, height) = self.size();
-        let faces = self.portrait.faces.iter().fold(Raster::filled(width, height, 0.0_f32), |all, face| {
-            let oval: Vec<[f64; 2]> = face.line(&outlines::OVAL).iter().map(|p| [p.x, p.y]).collect();
-            all.zip_map(&filled_polygon(width, height, &oval), |all, inside| all.max(f32::from(inside)))
-        });
-        let soft = gaussian_blur(&faces, self.pixels(self.parameters.pitch) as f32);
-        let skin = soft.zip_map(detail, |face, detail| face * (1.0 - detail)).zip_map(hair, |face, hair| face * (1.0 - hair));
-        rubbed(ink, &skin, (HALF_TONES * self.pixels(self.parameters.pitch)) as f32)
+    /// The ink with half tones in the lights of skin, which lines then reach as dots.
+    pub(super) fn with_half_tones(&self, ink: &Raster<f32>, detail: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
+        let soft = gaussian_blur(skin, self.pixels(self.parameters.pitch) as f32)
+            .zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
+        let skin = soft.zip_map(detail, |skin, detail| skin * (1.0 - detail));
+        HALF_TONES.iter().fold(ink.clone(), |ink, reach| rubbed(&ink, &skin, (reach * self.pixels(self.parameters.pitch)) as f32))
     }
 
     /// The ink of hair smooth along its locks and with more contrast between them; its mean stays.

@@ -67,7 +67,7 @@ impl Drawer<'_> {
         self.observer.begin("directions");
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
-        let ink = self.with_half_tones(&ink, &detail, &surfaces.hair);
+        let ink = self.with_half_tones(&ink, &detail, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
         let solids = Solids::new(self.portrait, &ink, self.pixels(self.parameters.pitch)).layer();
         self.check()?;
