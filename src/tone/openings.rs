@@ -35,9 +35,9 @@ const TEETH_ABOVE: f32 = 0.7;
 
 /// Lips are darker than the skin's median by this, within these limits; the share of their lights that is left above that; and the blur
 /// of their edge in widths of the face.
-const BELOW_SKIN: f32 = 0.06;
-const LIPS: [f32; 2] = [0.55, 0.8];
-const LIPS_LIGHT: f32 = 0.4;
+const BELOW_SKIN: f32 = 0.12;
+const LIPS: [f32; 2] = [0.5, 0.74];
+const LIPS_LIGHT: f32 = 0.3;
 const LIPS_SOFT: f64 = 0.008;
 
 /// The tone with its eyes and its mouth opened.
