@@ -45,6 +45,8 @@ const IMPOSSIBLE: f32 = -0.2;
 const ROWS_PER_PIXEL: f64 = 2.0;
 const BRIDGE_ROWS: [f64; 2] = [-28.0, 40.0];
 const RIM_BEND: f32 = 0.004;
+/// Price of each step by which a rim is larger or smaller than the other's mirror image: a head turned by 30 degrees has some three.
+const UNLIKE: f32 = 0.002;
 const BRIDGE_BEND: f32 = 0.003;
 const OFF_END: f32 = 0.001;
 /// Least mean contrast of each rim and of the bridge. Of sixteen portraits the five with rims all around have at least 0.058 and 0.050;
@@ -86,6 +88,8 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
 struct Way {
     points: Vec<Point>,
     contrast: f32,
+    /// Of a rim, the step of its size in each direction.
+    steps: Vec<usize>,
 }
 
 impl Way {
@@ -97,7 +101,7 @@ impl Way {
 
 /// The frame in the window; `ears` are the columns where temples end.
 fn frame(light: &Light, ears: [f64; 2]) -> Option<Spectacles> {
-    let [right, left] = [-1.0, 1.0].map(|side| light.rim(side));
+    let [right, left] = light.rims();
     if right.contrast.min(left.contrast) < RIM_GATE {
         return None;
     }
@@ -131,8 +135,22 @@ impl Light {
         BESIDE.iter().map(|away| beside(*away) - here).fold(f32::NEG_INFINITY, f32::max).clamp(COUNTS[0], COUNTS[1])
     }
 
-    /// The darkest closed way around an eye: the one on the left (-1) or on the right (1) in the window.
-    fn rim(&self, side: f64) -> Way {
+    /// The rims on the left and on the right in the window. The fainter one is looked for again near the mirror image of the firmer: a
+    /// brow or a fold may be darker than its own rim.
+    fn rims(&self) -> [Way; 2] {
+        let [left, right] = [-1.0, 1.0].map(|side| self.rim(side, None));
+        if left.contrast > right.contrast {
+            let right = self.rim(1.0, Some(&left.steps));
+            [left, right]
+        } else {
+            let left = self.rim(-1.0, Some(&right.steps));
+            [left, right]
+        }
+    }
+
+    /// The darkest closed way around an eye: the one on the left (-1) or on the right (1) in the window, near the mirror image of
+    /// another one if that is given.
+    fn rim(&self, side: f64, other: Option<&[usize]>) -> Way {
         let iris = MIDDLE + Vec2::new(0.5 * side * APART, 0.0);
         let centre = iris + Vec2::new(side * LENS_AT.x, LENS_AT.y);
         let scale = |step: usize| SCALES[0] + (SCALES[1] - SCALES[0]) * step as f64 / (STEPS - 1) as f64;
@@ -146,16 +164,22 @@ impl Light {
             let p = place(direction, step);
             if is_possible(p) { self.contrast(p, lens_normal(direction)) } else { IMPOSSIBLE }
         });
+        let mirrored = |direction: usize| (DIRECTIONS + DIRECTIONS / 2 - direction) % DIRECTIONS;
+        let unlike =
+            |step: usize, direction: usize| other.map_or(0.0, |other| UNLIKE * other[mirrored(direction)].abs_diff(step) as f32);
         // Once around before and once after, so that both ends meet.
-        let around = Raster::from_fn(STEPS, 3 * DIRECTIONS, |step, row| values.get(step, row % DIRECTIONS));
-        let steps = &best_way(&around, 2, RIM_BEND)[DIRECTIONS..2 * DIRECTIONS];
+        let around = Raster::from_fn(STEPS, 3 * DIRECTIONS, |step, row| {
+            let direction = row % DIRECTIONS;
+            values.get(step, direction) - unlike(step, direction)
+        });
+        let steps = best_way(&around, 2, RIM_BEND)[DIRECTIONS..2 * DIRECTIONS].to_vec();
         let contrast = steps.iter().enumerate().map(|(direction, step)| values.get(*step, direction)).sum::<f32>();
         let smooth = |direction: usize| {
             let around = [DIRECTIONS - 2, DIRECTIONS - 1, 0, 1, 2].map(|by| scale(steps[(direction + by) % DIRECTIONS]));
             around.iter().sum::<f64>() / 5.0
         };
         let points = (0..DIRECTIONS).map(|direction| centre + lens(direction) * smooth(direction)).collect();
-        Way { points, contrast: contrast / DIRECTIONS as f32 }
+        Way { points, contrast: contrast / DIRECTIONS as f32, steps }
     }
 
     /// The darkest way over the nose between the rims' inner ends; none if these meet.
@@ -183,7 +207,7 @@ impl Light {
         let rows = best_way(&priced, 3, BRIDGE_BEND);
         let contrast = rows.iter().enumerate().map(|(column, row)| value(column, *row)).sum::<f32>() / columns as f32;
         let inner = rows.iter().enumerate().map(|(column, row)| place(column, *row));
-        Some(Way { points: std::iter::once(from).chain(inner).chain([to]).collect(), contrast })
+        Some(Way { points: std::iter::once(from).chain(inner).chain([to]).collect(), contrast, steps: Vec::new() })
     }
 
     /// The way from a rim's outer end to the ear, as far as it is dark; empty if it is not.

@@ -1,11 +1,10 @@
 //! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
 
-use super::head::Head;
 use super::spectacles;
 use crate::drawing::{Area, Layer, Mark};
 use crate::elementary::Elementary as _;
 use crate::field::contours;
-use crate::geometry::{BezPath, Point, Rect, Region, Ring, Vec2, catmull_rom, polygon_area, smooth_polyline};
+use crate::geometry::{BezPath, Point, Rect, Region, Ring, catmull_rom, polygon_area, smooth_polyline};
 use crate::raster::{Raster, filled_polygon, gaussian_blur};
 use crate::source::{Landmarks, MaskRole, Portrait, outlines};
 
@@ -24,15 +23,6 @@ const NODE: f64 = 0.35;
 const THIN: f64 = 0.03;
 const THIN_DARK: f32 = 0.16;
 const LONG: f64 = 0.09;
-/// Where frames are looked for: in heights of the face above its chin, between nostrils and brows.
-const BAND: std::ops::Range<f64> = -0.75..-0.47;
-/// How far inside the face's outline a frame that was not found as lines must lie, as a share of its size: the shadow between cheek and
-/// hair is as thin and dark.
-const INNER: f64 = 0.93;
-/// The wings of the nose and its tip in the mesh, and how near to them, in widths of the face, nothing is a frame.
-const NOSE_WINGS: [usize; 3] = [129, 358, 1];
-const AT_NOSE: f64 = 0.14;
-
 /// Where details are finer, 0 to 1; `pitch` in working pixels.
 pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
     portrait.masks.get(&MaskRole::Detail).map_or_else(
@@ -89,19 +79,15 @@ struct Darks<'a> {
 impl Darks<'_> {
     /// The inside of two closed outlines of all faces, 0 or 1.
     fn filled(&self, of: [&[usize]; 2]) -> Raster<f32> {
-        self.inside(self.portrait.faces.iter().flat_map(|face| of.map(|outline| face.line(outline))))
-    }
-
-    /// The inside of closed lines, 0 or 1.
-    fn inside(&self, lines: impl Iterator<Item = Vec<Point>>) -> Raster<f32> {
         let (columns, rows) = (self.ink.width(), self.ink.height());
+        let lines = self.portrait.faces.iter().flat_map(|face| of.map(|outline| face.line(outline)));
         lines.fold(Raster::filled(columns, rows, 0.0_f32), |all, lids| {
             let corners: Vec<[f64; 2]> = lids.iter().map(|p| [p.x, p.y]).collect();
             all.zip_map(&filled_polygon(columns, rows, &corners), |all, inside| all.max(f32::from(inside)))
         })
     }
 
-    /// How much darker thin dark lines between brows and cheeks are than what lies around them: frames of spectacles.
+    /// How much darker the thin dark parts of a frame of spectacles are than what lies around them.
     fn thin_darks(&self) -> Raster<f32> {
         let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
         let around = gaussian_blur(self.ink, (THIN * widest) as f32);
@@ -109,22 +95,12 @@ impl Darks<'_> {
         let brows = self.filled([&outlines::LEFT_BROW, &outlines::RIGHT_BROW]);
         let brows = gaussian_blur(&brows, (THIN * widest) as f32);
         let frames = spectacles::zone(&self.portrait.faces, around.width(), around.height());
-        // Where the frame was found as lines, other thin darks are crumbs.
-        let unknown = || self.portrait.faces.iter().filter(|face| face.spectacles.is_none());
-        let heads: Vec<Head> = unknown().map(Head::new).collect();
-        let inner = self.inside(unknown().map(inner_oval));
         Raster::from_fn(around.width(), around.height(), |x, y| {
-            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-            // The folds beside a nose are as thin and dark as frames.
-            let is_at_nose = self
-                .portrait
-                .faces
-                .iter()
-                .any(|face| NOSE_WINGS.iter().any(|wing| face.point(*wing).distance(p) < AT_NOSE * face.width()));
-            let is_before = |head: &Head| BAND.contains(&head.relative(p).1);
-            let is_unknown = inner.get(x, y) > 0.0 && heads.iter().any(is_before);
-            let is_in_band = !is_at_nose && (frames.get(x, y) == 1 || is_unknown);
-            if is_in_band { (near.get(x, y) - around.get(x, y)) * (1.0 - (3.0 * brows.get(x, y)).min(1.0)) } else { 0.0 }
+            // Elsewhere thin darks are folds, lids, and shadows between cheek and hair: as parts of a frame they are crumbs.
+            if frames.get(x, y) == 0 {
+                return 0.0;
+            }
+            (near.get(x, y) - around.get(x, y)) * (1.0 - (3.0 * brows.get(x, y)).min(1.0))
         })
     }
 
@@ -165,11 +141,4 @@ impl Darks<'_> {
         }
         outline
     }
-}
-
-/// The outline of a face, shrunk.
-fn inner_oval(face: &Landmarks) -> Vec<Point> {
-    let oval = face.line(&outlines::OVAL);
-    let centre = (oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / oval.len() as f64).to_point();
-    oval.iter().map(|p| centre.lerp(*p, INNER)).collect()
 }

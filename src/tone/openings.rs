@@ -26,10 +26,10 @@ const MOST_DARKENED: f32 = 0.16;
 /// A catchlight is lighter than its iris' median by this, and its difference is raised by this factor.
 const CATCHLIGHT: f32 = 0.22;
 const SPARK: f32 = 1.5;
-/// Teeth: the gain of their detail, the blur (in widths of the face) that it is measured from, and the most light of their mean.
-const TEETH_DETAIL: f32 = 1.2;
+/// Teeth: the gain of their detail (with 1.2 the gaps are drips and beads), the blur (in widths of the face) that it is measured from, and the most light of their mean.
+const TEETH_DETAIL: f32 = 0.3;
 const TEETH_REACH: f64 = 0.022;
-const TEETH: f32 = 0.92;
+const TEETH: f32 = 0.9;
 /// Teeth are lighter than this share of the skin's median.
 const TEETH_ABOVE: f32 = 0.7;
 

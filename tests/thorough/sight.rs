@@ -355,3 +355,41 @@ fn the_first_stages_are_what_was_seen() {
     // Without a sight none of it is shown.
     assert_eq!(stages("unseen", &["--sight", "none"])[0], "01-tone.png");
 }
+
+/// Grace Hopper wears spectacles, an astronaut none; they are drawn in one line, and are left out by an edited file.
+#[cfg(feature = "see")]
+#[test]
+fn spectacles_are_found_drawn_and_taken_out_again() {
+    let folder = folder();
+    let found = |sample: &str| -> Value {
+        runs(folder.path(), &["see", &sample_path(sample), "-o", "sight"]);
+        serde_json::from_str(&fs::read_to_string(folder.path().join("sight/sight.json")).unwrap()).unwrap()
+    };
+    assert_eq!(found("astronaut.jpg")["faces"][0]["spectacles"], Value::Null);
+    let mut seen = found("grace-hopper.jpg");
+    let spectacles = &seen["faces"][0]["spectacles"];
+    for (side, iris) in ["right", "left"].into_iter().enumerate() {
+        let centre = |axis: usize| seen["faces"][0]["irises"][iris]["centre"][axis].as_f64().unwrap();
+        let rim: Vec<[f64; 2]> = serde_json::from_value(spectacles["rims"][side].clone()).unwrap();
+        let across = rim.iter().map(|p| p[0]);
+        assert!(
+            across.clone().fold(f64::INFINITY, f64::min) < centre(0) && across.fold(0.0, f64::max) > centre(0),
+            "around {iris}"
+        );
+    }
+    let photo = sample_path("grace-hopper.jpg");
+    for style in ["hedcut", "grid", "engrave", "charcoal"] {
+        let options = ["--sight", "sight", "--style", style];
+        let with = drawn(folder.path(), &photo, &options).0;
+        let mut without = seen.clone();
+        without["faces"][0]["spectacles"] = Value::Null;
+        fs::write(folder.path().join("sight/sight.json"), without.to_string()).unwrap();
+        assert_ne!(marks(&with), marks(&drawn(folder.path(), &photo, &options).0), "{style}");
+        fs::write(folder.path().join("sight/sight.json"), seen.to_string()).unwrap();
+    }
+    seen["faces"][0]["spectacles"]["rims"][0] = serde_json::json!([[1.0, 2.0]]);
+    fs::write(folder.path().join("sight/sight.json"), seen.to_string()).unwrap();
+    let output = run(folder.path(), &["draw", &photo, "-o", "x.svg", "--sight", "sight", "--size", "30x30mm"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("rims of spectacles must have three points or more"));
+}

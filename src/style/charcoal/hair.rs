@@ -3,9 +3,9 @@
 use super::Drawer;
 use super::strokes::Touch;
 use crate::drawing::Mark;
-use crate::elementary::Elementary as _;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
-use crate::geometry::{Millimetres, Ring, smooth_polyline};
+use crate::geometry::{Millimetres, Point, Ring, Vec2, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur, ridges};
 use crate::style::Picture;
 use crate::style::random::stream;
@@ -23,6 +23,9 @@ const LIGHT_HAIR: (f32, f32) = (0.25, 0.45);
 /// Ink of the shaded side of a lock in light hair, and the width of a lock.
 const LOCK_INK: f32 = 0.45;
 const LOCK: Millimetres = Millimetres(2.5);
+/// How far along a lock ink is averaged to either side, as a share of a stroke's length, and by how many steps.
+const ALONG: f64 = 0.45;
+const ALONG_STEPS: u32 = 12;
 /// Angles of the Hough accumulator.
 const ANGLES: usize = 36;
 
@@ -42,7 +45,7 @@ impl Drawer<'_> {
             turn: self.parameters.hair_turn.0,
             reach: self.pixels(0.9 * self.parameters.pitch),
         };
-        let ink = self.hair_ink(&darkness, hair).map(|ink| share * ink);
+        let ink = self.along_locks(&self.hair_ink(&darkness, hair), &darkness, hair, &field).map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch) as f32);
         let touch = Touch {
@@ -98,12 +101,55 @@ impl Drawer<'_> {
         let spread = (dark - light).max(0.08);
         let level = self.parameters.hair_ink * middle;
         let plain = darkness.map(|d| (level * (0.35 + 1.3 * ((d - light) / spread).clamp(0.0, 1.0))).clamp(0.0, 1.2));
-        let is_light = ((LIGHT_HAIR.1 - middle) / (LIGHT_HAIR.1 - LIGHT_HAIR.0)).clamp(0.0, 1.0);
+        let is_light = lightness_of(middle);
         if is_light == 0.0 {
             return plain;
         }
         let locks = self.locks(hair).map(|lock| self.parameters.hair_ink * LOCK_INK * lock);
         plain.zip_map(&locks, |plain, lock| plain.max(is_light * lock))
+    }
+
+    /// The ink of light hair smooth along its locks, so that its few strokes are long: short ones are crumbs.
+    fn along_locks(
+        &self,
+        ink: &Raster<f32>,
+        darkness: &Raster<f32>,
+        hair: &Raster<f32>,
+        field: &OrientationField,
+    ) -> Raster<f32> {
+        let is_light = lightness_of(levels_inside(darkness, hair, [0.03, 0.5, 0.97])[1]);
+        if is_light == 0.0 {
+            return ink.clone();
+        }
+        let step = ALONG * self.pixels(self.parameters.hair_length) / f64::from(ALONG_STEPS);
+        Raster::from_fn(ink.width(), ink.height(), |x, y| {
+            let here = ink.get(x, y);
+            if hair.get(x, y) < 0.5 {
+                return here;
+            }
+            let start = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let mean = [-1.0, 1.0].map(|side| self.mean_along(ink, hair, field, start, side * step)).iter().sum::<f32>() / 2.0;
+            here + is_light * (mean - here)
+        })
+    }
+
+    /// Mean ink from a place along the field, as far as the hair goes.
+    fn mean_along(&self, ink: &Raster<f32>, hair: &Raster<f32>, field: &OrientationField, start: Point, step: f64) -> f32 {
+        let (mut here, mut heading) = (start, Vec2::ZERO);
+        let (mut sum, mut count) = (ink.sample(here.x, here.y), 1.0);
+        for _ in 0..ALONG_STEPS {
+            let Some(angle) = field.angle(here.x, here.y) else { break };
+            let axis = unit_at(angle);
+            let is_back = if heading == Vec2::ZERO { step < 0.0 } else { axis.dot(heading) < 0.0 };
+            heading = if is_back { -axis } else { axis };
+            here += heading * step.abs();
+            if hair.sample(here.x, here.y) < 0.5 {
+                break;
+            }
+            sum += ink.sample(here.x, here.y);
+            count += 1.0;
+        }
+        sum / count
     }
 
     /// The shaded sides of locks, 0 to 1: places darker than the hair around them.
@@ -116,6 +162,11 @@ impl Drawer<'_> {
         let [_, middle, dark] = levels_inside(&shade, hair, [0.03, 0.5, 0.95]);
         shade.map(|shade| ((shade - middle) / (dark - middle).max(0.01)).clamp(0.0, 1.0))
     }
+}
+
+/// How far hair of this median darkness counts as light, 0 to 1.
+fn lightness_of(middle: f32) -> f32 {
+    ((LIGHT_HAIR.1 - middle) / (LIGHT_HAIR.1 - LIGHT_HAIR.0)).clamp(0.0, 1.0)
 }
 
 /// Quantiles of the values inside the hair.

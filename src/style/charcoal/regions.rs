@@ -64,6 +64,14 @@ const LOWEST_FRINGE: f64 = 0.75;
 /// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
 const CLOSED: f64 = 0.3;
 
+impl Regions {
+    /// Bare skin: what is neither hair nor clothing.
+    pub(super) fn skin(&self) -> Raster<f32> {
+        let bare = self.subject.zip_map(&self.hair, |subject, hair| (subject - hair).max(0.0));
+        bare.zip_map(&self.clothing, |bare, cloth| (bare - cloth).max(0.0))
+    }
+}
+
 impl Drawer<'_> {
     pub(super) fn regions(&self) -> Regions {
         self.observer.begin("regions");

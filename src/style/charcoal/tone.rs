@@ -31,9 +31,9 @@ const CLEAN: f32 = 0.012;
 const FIRMER: f32 = 1.0;
 /// Distance from the line between the pupils, in eye distances, within which detail is kept, and at which it no longer is.
 const AROUND_EYES: (f64, f64) = (0.5, 0.75);
-/// Reach over which a face's half tones are rubbed into its lights, in shares of the smudge's blur.
-const STUMP: f64 = 4.0;
-/// Size of the grains in a face, as a share of the others'.
+/// Reaches over which half tones are rubbed into the lights of skin, in shares of the smudge's blur: at their borders, and over foreheads.
+const STUMP: [f64; 2] = [4.0, 12.0];
+/// Size of the grains on skin, as a share of the others'.
 const FINE_GRAIN: f32 = 0.6;
 /// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
 const BEHIND: f32 = 1.5;
@@ -90,9 +90,9 @@ impl Drawer<'_> {
             .collect()
     }
 
-    /// The paper's tooth, finer in known faces: a hand presses smaller grains there.
+    /// The paper's tooth, finer on the skin of people whose faces are known: a hand presses smaller grains there.
     fn finer_in_faces(&self, tooth: Raster<f32>, parts: &Laid<'_>) -> Raster<f32> {
-        let zone = parts.sharp.zip_map(&parts.regions.face, f32::max);
+        let zone = parts.sharp.zip_map(&parts.regions.skin(), f32::max);
         let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
         let (width, height) = (tooth.width(), tooth.height());
         let (fx, fy) = (zone.width() as f64 / width as f64, zone.height() as f64 / height as f64);
@@ -156,8 +156,8 @@ impl Drawer<'_> {
         let around = gaussian_blur(&smudged, self.pixels(self.parameters.grain) as f32);
         let firm = smudged.zip_map(&around, |ink, around| (ink + FIRMER * (ink - around)).clamp(0.0, 1.0));
         let features = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
-        let skin = regions.face.zip_map(&features, |face, features| face * (1.0 - features));
-        rubbed(&firm, &skin, self.pixels(STUMP * self.parameters.smudge) as f32)
+        let skin = regions.skin().zip_map(&features, |skin, features| skin * (1.0 - features));
+        STUMP.iter().fold(firm, |firm, reach| rubbed(&firm, &skin, self.pixels(*reach * self.parameters.smudge) as f32))
     }
 
     /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
