@@ -53,7 +53,7 @@ pub use fewer_nodes::with_fewer_nodes;
 pub use graph::{FitTolerance, Graph, GraphNode};
 #[doc(hidden)]
 pub use hand_shading::HandShading;
-pub use inset::OffsetOutline;
+pub(crate) use inset::OffsetOutline;
 pub use length::{LengthError, parse_length, parse_size};
 #[doc(hidden)]
 pub use length::{parse_drawn_length, parse_drawn_size};

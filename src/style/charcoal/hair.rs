@@ -128,28 +128,9 @@ impl Drawer<'_> {
                 return here;
             }
             let start = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-            let mean = [-1.0, 1.0].map(|side| self.mean_along(ink, hair, field, start, side * step)).iter().sum::<f32>() / 2.0;
+            let mean = [-1.0, 1.0].map(|side| mean_along(ink, hair, field, start, side * step)).iter().sum::<f32>() / 2.0;
             here + is_light * (mean - here)
         })
-    }
-
-    /// Mean ink from a place along the field, as far as the hair goes.
-    fn mean_along(&self, ink: &Raster<f32>, hair: &Raster<f32>, field: &OrientationField, start: Point, step: f64) -> f32 {
-        let (mut here, mut heading) = (start, Vec2::ZERO);
-        let (mut sum, mut count) = (ink.sample(here.x, here.y), 1.0);
-        for _ in 0..ALONG_STEPS {
-            let Some(angle) = field.angle(here.x, here.y) else { break };
-            let axis = unit_at(angle);
-            let is_back = if heading == Vec2::ZERO { step < 0.0 } else { axis.dot(heading) < 0.0 };
-            heading = if is_back { -axis } else { axis };
-            here += heading * step.abs();
-            if hair.sample(here.x, here.y) < 0.5 {
-                break;
-            }
-            sum += ink.sample(here.x, here.y);
-            count += 1.0;
-        }
-        sum / count
     }
 
     /// The shaded sides of locks, 0 to 1: places darker than the hair around them.
@@ -162,6 +143,25 @@ impl Drawer<'_> {
         let [_, middle, dark] = levels_inside(&shade, hair, [0.03, 0.5, 0.95]);
         shade.map(|shade| ((shade - middle) / (dark - middle).max(0.01)).clamp(0.0, 1.0))
     }
+}
+
+/// Mean ink from a place along the field, as far as the hair goes.
+fn mean_along(ink: &Raster<f32>, hair: &Raster<f32>, field: &OrientationField, start: Point, step: f64) -> f32 {
+    let (mut here, mut heading) = (start, Vec2::ZERO);
+    let (mut sum, mut count) = (ink.sample(here.x, here.y), 1.0);
+    for _ in 0..ALONG_STEPS {
+        let Some(angle) = field.angle(here.x, here.y) else { break };
+        let axis = unit_at(angle);
+        let is_back = if heading == Vec2::ZERO { step < 0.0 } else { axis.dot(heading) < 0.0 };
+        heading = if is_back { -axis } else { axis };
+        here += heading * step.abs();
+        if hair.sample(here.x, here.y) < 0.5 {
+            break;
+        }
+        sum += ink.sample(here.x, here.y);
+        count += 1.0;
+    }
+    sum / count
 }
 
 /// How far hair of this median darkness counts as light, 0 to 1.
