@@ -143,9 +143,9 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
         }
         let irises = [iris(&face.irises.right), iris(&face.irises.left)];
         let spectacles = face.spectacles.as_ref().map(spectacles);
-        if spectacles.as_ref().is_some_and(|spectacles| !is_sound(spectacles)) {
+        if spectacles.as_ref().is_some_and(|spectacles| !is_sound(spectacles, width.max(height))) {
             return Err(Failure::Work(format!(
-                "{name}: rims of spectacles must have three points or more, all of them in the picture"
+                "{name}: rims of spectacles must have three points or more, all of them in the picture, and a width above 0"
             )));
         }
         let landmarks = Landmarks { points: face.points.clone(), irises, spectacles };
@@ -154,9 +154,10 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
     placed.collect()
 }
 
-fn is_sound(spectacles: &Spectacles) -> bool {
-    let is_near = |v: f64| v.abs() <= 1e6;
-    is_near(spectacles.width)
+/// `longest` is the photograph's longer side; a rim may reach beyond it.
+fn is_sound(spectacles: &Spectacles, longest: f64) -> bool {
+    let is_near = |v: f64| v.abs() <= 2.0 * longest;
+    (1e-3..=0.1 * longest).contains(&spectacles.width)
         && spectacles.rims.iter().all(|rim| rim.len() > 2)
         && spectacles.lines().iter().flatten().all(|p| is_near(p.x) && is_near(p.y))
 }

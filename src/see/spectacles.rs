@@ -188,25 +188,8 @@ impl Light {
         if to.x <= from.x || columns < 6 {
             return None;
         }
-        let count = ((BRIDGE_ROWS[1] - BRIDGE_ROWS[0]) * ROWS_PER_PIXEL) as usize;
-        let place = |column: usize, row: usize| {
-            Point::new(from.x + column as f64, MIDDLE.y + BRIDGE_ROWS[0] + row as f64 / ROWS_PER_PIXEL)
-        };
-        let value = |column: usize, row: usize| self.contrast(place(column, row), Vec2::new(0.0, 1.0));
-        let priced = Raster::from_fn(count, columns, |row, column| {
-            let off = |end: Point| OFF_END * ROWS_PER_PIXEL as f32 * (place(column, row).y - end.y).abs() as f32;
-            let price = if column == 0 {
-                off(from)
-            } else if column + 1 == columns {
-                off(to)
-            } else {
-                0.0
-            };
-            value(column, row) - price
-        });
-        let rows = best_way(&priced, 3, BRIDGE_BEND);
-        let contrast = rows.iter().enumerate().map(|(column, row)| value(column, *row)).sum::<f32>() / columns as f32;
-        let inner = rows.iter().enumerate().map(|(column, row)| place(column, *row));
+        let (inner, contrasts) = self.level_way(from, 1.0, columns, MIDDLE.y + BRIDGE_ROWS[0], Some(to));
+        let contrast = contrasts.iter().sum::<f32>() / columns as f32;
         Some(Way { points: std::iter::once(from).chain(inner).chain([to]).collect(), contrast, steps: Vec::new() })
     }
 
@@ -217,20 +200,11 @@ impl Light {
         if columns < LEAST_TEMPLE {
             return Vec::new();
         }
-        let count = ((BRIDGE_ROWS[1] - BRIDGE_ROWS[0]) * ROWS_PER_PIXEL) as usize;
-        let place = |column: usize, row: usize| {
-            let y = from.y + 0.5 * (BRIDGE_ROWS[0] - BRIDGE_ROWS[1]) + row as f64 / ROWS_PER_PIXEL;
-            Point::new(from.x + side * column as f64, y)
-        };
-        let value = |column: usize, row: usize| self.contrast(place(column, row), Vec2::new(0.0, 1.0));
-        let priced = Raster::from_fn(count, columns, |row, column| {
-            let off = if column == 0 { OFF_END * ROWS_PER_PIXEL as f32 * (place(0, row).y - from.y).abs() as f32 } else { 0.0 };
-            value(column, row) - off
-        });
-        let rows = best_way(&priced, 3, BRIDGE_BEND);
+        let top = from.y + 0.5 * (BRIDGE_ROWS[0] - BRIDGE_ROWS[1]);
+        let (way, contrasts) = self.level_way(from, side, columns, top, None);
         let (mut sum, mut best, mut length) = (0.0, 0.0, 0);
-        for (column, row) in rows.iter().enumerate() {
-            sum += value(column, *row) - TEMPLE;
+        for (column, contrast) in contrasts.iter().enumerate() {
+            sum += contrast - TEMPLE;
             if sum > best {
                 (best, length) = (sum, column + 1);
             }
@@ -238,7 +212,23 @@ impl Light {
         if length < LEAST_TEMPLE {
             return Vec::new();
         }
-        std::iter::once(from).chain(rows[..length].iter().enumerate().map(|(column, row)| place(column, *row))).collect()
+        std::iter::once(from).chain(way).take(length + 1).collect()
+    }
+
+    /// The darkest way sideways (-1 left, 1 right) over a number of columns, below `top`, from beside a place and to beside an end if one
+    /// is given; and the contrast at each of its points.
+    fn level_way(&self, from: Point, side: f64, columns: usize, top: f64, end: Option<Point>) -> (Vec<Point>, Vec<f32>) {
+        let count = ((BRIDGE_ROWS[1] - BRIDGE_ROWS[0]) * ROWS_PER_PIXEL) as usize;
+        let place = |column: usize, row: usize| Point::new(from.x + side * column as f64, top + row as f64 / ROWS_PER_PIXEL);
+        let value = |column: usize, row: usize| self.contrast(place(column, row), Vec2::new(0.0, 1.0));
+        let priced = Raster::from_fn(count, columns, |row, column| {
+            let beside = if column == 0 { Some(from) } else { end.filter(|_| column + 1 == columns) };
+            let off = beside.map_or(0.0, |end| (place(column, row).y - end.y).abs() as f32);
+            value(column, row) - OFF_END * ROWS_PER_PIXEL as f32 * off
+        });
+        let rows = best_way(&priced, 3, BRIDGE_BEND);
+        let each = || rows.iter().copied().enumerate();
+        (each().map(|(column, row)| place(column, row)).collect(), each().map(|(column, row)| value(column, row)).collect())
     }
 
     /// Widths of a closed dark line at its points: between the places where it is half as dark as in its middle.

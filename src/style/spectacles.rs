@@ -35,13 +35,16 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
     let width = drawn_width(frame, pitch) * scale;
     let smooth = |line: &[Point], ring| smooth_polyline(line, ring, SMOOTH * frame.width, NODE * pitch);
     let on_page = |line: &[Point]| line.iter().map(|p| portrait.placement.to_page(*p)).collect::<Vec<Point>>();
-    let rims = frame.rims.iter().map(|rim| {
+    let rims = frame.rims.iter().filter_map(|rim| {
         let nodes = on_page(&smooth(rim, Ring::Closed));
+        if nodes.len() < 3 {
+            return None;
+        }
         let (top, bottom) = nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(t, b), p| (t.min(p.y), b.max(p.y)));
         let swelling = |p: &Point| 1.0 + SWELL * (2.0 * (p.y - top) / (bottom - top).max(1e-9) - 1.0);
         let mut widths: Vec<f64> = nodes.iter().map(|p| width * swelling(p)).collect();
         widths.push(widths[0]);
-        Mark::Stroke(Stroke::new(catmull_rom(&nodes, Ring::Closed), Width::Along(widths)))
+        Some(Mark::Stroke(Stroke::new(catmull_rom(&nodes, Ring::Closed), Width::Along(widths))))
     });
     let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
     let open = open.filter(|(line, _)| line.len() > 1).map(|(line, tapers)| {
