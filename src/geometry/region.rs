@@ -1,7 +1,9 @@
 //! Clipping by any outline: lines parametrically, which keeps their order and direction; areas by boolean operations.
 
+use super::clip::clip_polygon;
 use super::crossings::{Crossings, crossings};
 use super::polyline::{distance_to_segment, flatten};
+use crate::elementary::Elementary as _;
 use crate::interrupt::Interrupt;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -66,11 +68,14 @@ impl Rows {
 }
 
 impl Region {
-    /// The inside of closed subpaths, with curves flattened to `tolerance`.
+    /// The inside of closed subpaths, with curves flattened to `tolerance`. Points that are no numbers are left out.
     pub fn new(outline: &BezPath, tolerance: f64) -> Self {
         let polygons: Vec<Vec<Point>> =
-            flatten(outline, tolerance).into_iter().map(|(points, _)| points).filter(|p| p.len() > 2).collect();
-        Self::within(polygons, outline.bounding_box())
+            flatten(outline, tolerance).into_iter().map(|(points, _)| finite(&points)).filter(|p| p.len() > 2).collect();
+        match outline.bounding_box() {
+            bounds if bounds.is_finite() => Self::within(polygons, bounds),
+            _ => Self::of_polygons(polygons),
+        }
     }
 
     fn within(polygons: Vec<Vec<Point>>, bounds: Rect) -> Self {
@@ -83,6 +88,18 @@ impl Region {
         let corners = polygons.iter().flatten().map(|p| Rect::from_points(*p, *p));
         let bounds = corners.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
         Self::within(polygons, bounds)
+    }
+
+    /// The part of the region in a window; its sides along the window count as border.
+    pub fn in_window(&self, window: Rect) -> Self {
+        let cut = self.polygons.iter().map(|polygon| clip_polygon(polygon, window)).filter(|polygon| polygon.len() > 2);
+        Self::of_polygons(cut.collect())
+    }
+
+    /// Whether a box lies inside or outside as a whole; none if it may meet the border.
+    pub fn holds_box(&self, shape: Rect) -> Option<bool> {
+        let reach = 0.5 * shape.width().hypotenuse(shape.height());
+        (!self.is_near_border(shape.center(), reach)).then(|| self.contains(shape.center()))
     }
 
     /// The bounding box.
@@ -214,6 +231,11 @@ impl Region {
     }
 }
 
+/// The points of a polygon that are numbers: the area library panics at others.
+fn finite(points: &[Point]) -> Vec<Point> {
+    points.iter().filter(|p| p.is_finite()).copied().collect()
+}
+
 /// The sides of a closed polygon.
 fn edges_of(polygon: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
     (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
@@ -236,7 +258,8 @@ pub fn untangled(outline: &BezPath, winding: Winding, tolerance: f64) -> BezPath
 
 /// [`untangled`] for polygons.
 pub fn untangled_polygons(polygons: &[Vec<Point>], winding: Winding) -> BezPath {
-    let contours: Vec<Vec<[f64; 2]>> = polygons.iter().map(|points| points.iter().map(|p| [p.x, p.y]).collect()).collect();
+    let contours: Vec<Vec<[f64; 2]>> =
+        polygons.iter().map(|points| finite(points).into_iter().map(|p| [p.x, p.y]).collect()).collect();
     let rule = if winding == Winding::EvenOdd { FillRule::EvenOdd } else { FillRule::NonZero };
     let nothing: Vec<Vec<[f64; 2]>> = Vec::new();
     path_of(contours.overlay(&nothing, OverlayRule::Subject, rule))
@@ -286,6 +309,31 @@ mod tests {
         let nested = BezPath::from_svg("M0,0 H10 V10 H0 Z M3,3 H7 V7 H3 Z").unwrap();
         assert!((untangled(&nested, Winding::EvenOdd, 0.01).area().abs() - 84.0).abs() < 1e-6);
         assert!((untangled(&nested, Winding::NonZero, 0.01).area().abs() - 100.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn points_that_are_no_numbers_are_left_out() {
+        let mut outline = BezPath::from_svg("M0,0 H10 V10").unwrap();
+        outline.line_to((f64::NAN, 12.0));
+        outline.line_to((0.0, 10.0));
+        outline.close_path();
+        let square = Region::new(&outline, 0.01);
+        assert!(square.bounds().is_finite() && square.contains(Point::new(5.0, 5.0)));
+        assert!((ring().clip_area(&square).area().abs() - 84.0).abs() < 1e-6);
+        assert!((untangled(&outline, Winding::NonZero, 0.01).area().abs() - 100.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_window_s_part_cuts_what_lies_in_the_window_as_the_whole_does() {
+        let dot = Region::new(&kurbo::Circle::new((3.2, 5.0), 0.8).to_path(1e-3), 1e-3);
+        let window = dot.bounds().inflate(0.1, 0.1);
+        let [whole, part] = [ring(), ring().in_window(window)].map(|region| region.clip_area(&dot).area().abs());
+        assert!((whole - part).abs() < 1e-6 && whole > 0.1, "{whole} {part}");
+        let at = |x: f64, y: f64| Rect::from_center_size((x, y), (1.0, 1.0));
+        assert_eq!(
+            [at(1.5, 5.0), at(5.0, 5.0), at(3.0, 5.0), at(20.0, 5.0)].map(|b| ring().holds_box(b)),
+            [Some(true), Some(false), None, Some(false)]
+        );
     }
 
     #[test]

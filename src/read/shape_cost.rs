@@ -38,6 +38,9 @@ pub(super) fn shape(node: Node<'_, '_>) -> Option<(f64, f64)> {
 /// of 1e30 pixels counts as 40,000 curves here and takes three seconds. Arcs on any real sheet have ten.
 const SHIFTED: f64 = 1e-3;
 
+/// How far from where it should an arc may end, in its radii: the next one begins there.
+const ROUNDING: f64 = 1e-14;
+
 /// Number of curves that a whole ellipse becomes, at the tolerance of 0.1 pixel that usvg gives kurbo.
 pub(super) fn curves(radius: f64) -> f64 {
     match (1.1163 * radius.abs() / 0.1).power(1.0 / 6.0) {
@@ -78,6 +81,7 @@ pub(super) fn segments(data: &str) -> (f64, f64) {
                 let part = if large_arc { 1.0 } else { (chord / (4.0 * rx.abs().min(ry.abs()).max(chord))).min(0.5) };
                 let curves = (curves(radius) * part).max(0.0);
                 segments += 1.0 + curves + SHIFTED * curves * curves;
+                reach += ROUNDING * radius;
                 (x, y)
             }
             svgtypes::PathSegment::LineTo { x, y, .. }
@@ -104,4 +108,18 @@ pub(super) fn segments(data: &str) -> (f64, f64) {
         reach += x.abs() + y.abs();
     }
     (segments, subpaths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_after_a_huge_one_begins_where_rounding_left_it() {
+        let (alone, _) = segments("M0 0A5 5 0 0 1 10 10");
+        let (thin, _) = segments("M0 0A1e-30 5 0 0 1 10 10");
+        let (after, _) = segments("M0 0A1e23 1e23 0 0 1 10 10A1e-30 5 0 0 1 10 10");
+        assert!(alone < 10.0 && thin < 1e7, "{alone} {thin}");
+        assert!(after > 1e9, "{after}");
+    }
 }

@@ -2,8 +2,7 @@
 
 use super::Parts;
 use crate::drawing::{Area, Dot, Drawing, Mark, Stroke, Width};
-use crate::elementary::Elementary as _;
-use crate::geometry::{Point, Region, lengths_along};
+use crate::geometry::{BezPath, Point, Region, lengths_along};
 use kurbo::Shape;
 use rayon::prelude::*;
 
@@ -34,6 +33,11 @@ impl Parts {
 }
 
 fn within(mark: &Mark, region: &Region) -> Vec<Mark> {
+    match region.holds_box(mark.bounding_box()) {
+        Some(true) => return vec![mark.clone()],
+        Some(false) => return Vec::new(),
+        None => {}
+    }
     match mark {
         Mark::Dot(dot) => dot_within(dot, region).map(Mark::Dot).into_iter().collect(),
         Mark::Stroke(stroke) => stroke_within(stroke, region).into_iter().map(Mark::Stroke).collect(),
@@ -42,13 +46,7 @@ fn within(mark: &Mark, region: &Region) -> Vec<Mark> {
 }
 
 fn dot_within(dot: &Dot, region: &Region) -> Option<Dot> {
-    let reach = Mark::Dot(dot.clone()).bounding_box();
-    let reach = (reach.width().hypotenuse(reach.height()) * 0.5).max(dot.radius);
-    if !region.is_near_border(dot.centre, reach) {
-        return region.contains(dot.centre).then(|| dot.clone());
-    }
-    let whole = Region::new(&dot.path(), TOLERANCE);
-    let inside = region.clip_area(&whole);
+    let inside = clipped(&dot.path(), region);
     let share = inside.area().abs() / dot.path().area().abs().max(f64::MIN_POSITIVE);
     if share >= 1.0 - WHOLE {
         return Some(dot.clone());
@@ -63,8 +61,14 @@ fn dot_within(dot: &Dot, region: &Region) -> Option<Dot> {
     })
 }
 
+/// The part of an outline in a region, of which only what is near is looked at.
+fn clipped(outline: &BezPath, region: &Region) -> BezPath {
+    let whole = Region::new(outline, TOLERANCE);
+    region.in_window(whole.bounds().inflate(TOLERANCE, TOLERANCE)).clip_area(&whole)
+}
+
 fn area_within(area: &Area, region: &Region) -> Option<Area> {
-    let outline = region.clip_area(&Region::new(&area.outline, TOLERANCE));
+    let outline = clipped(&area.outline, region);
     (outline.area().abs() > 0.0).then_some(Area { outline, colour: area.colour })
 }
 

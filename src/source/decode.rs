@@ -154,9 +154,16 @@ const fn format_name(format: ImageFormat) -> Option<&'static str> {
     })
 }
 
+/// Longest reason that is told, in characters: a TIFF of thousands of channels has each of them named.
+const LONGEST_REASON: usize = 240;
+
 fn describe(format: &'static str, error: &ImageError) -> SourceError {
     // Keep the message on one line.
-    let reason = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let whole = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let reason = match whole.char_indices().nth(LONGEST_REASON) {
+        Some((end, _)) => format!("{}...", &whole[..end]),
+        None => whole,
+    };
     let is_early_end = matches!(error, ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof)
         || ["unexpected end", "UnexpectedEof", "failed to fill whole buffer", "unexpected EOF"]
             .iter()
