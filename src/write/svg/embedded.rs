@@ -1,9 +1,10 @@
 //! SVG to be placed in a page: no sheet, the box of the ink, one path per layer and colour, black as the text's colour.
 
 use super::names::Names;
-use super::{SvgHead, disc_data, finish, metadata, path_data};
+use super::path_data::{Grid, PathData};
+use super::{SvgHead, finish, metadata};
 use crate::drawing::{Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
-use crate::geometry::{BezPath, Rect, swelling_outline, with_fewer_nodes};
+use crate::geometry::{BezPath, Point, Rect, swelling_outline, with_fewer_nodes};
 use crate::write::number::{decimal, thousandths};
 use kurbo::Shape;
 use rayon::prelude::*;
@@ -76,20 +77,33 @@ fn view_box(ink: Rect) -> String {
 
 /// The path data of marks, all turning in one direction, so that the nonzero rule fills their union.
 fn data(marks: &[Mark]) -> String {
-    let texts: Vec<String> = marks
-        .par_iter()
-        .map(|mark| {
-            let mut text = String::new();
-            match mark {
-                Mark::Dot(Dot { centre, radius, outline: None, .. }) => disc_data(&mut text, *centre, *radius),
-                Mark::Dot(Dot { outline: Some(outline), .. }) => path_data(&mut text, &turned(outline)),
-                Mark::Stroke(stroke) => path_data(&mut text, &turned(&outline_of(stroke))),
-                Mark::Area(area) => path_data(&mut text, &turned(&area.outline)),
-            }
-            text
-        })
-        .collect();
-    texts.concat()
+    let shapes: Vec<Shaped> = marks.par_iter().map(Shaped::of).collect();
+    let mut text = String::new();
+    let mut data = PathData::new(&mut text, Grid::PAGE);
+    for shape in &shapes {
+        match shape {
+            Shaped::Disc(centre, radius) => data.disc(*centre, *radius),
+            Shaped::Outline(outline) => data.outline(outline),
+        }
+    }
+    text
+}
+
+/// A mark as it is filled.
+enum Shaped {
+    Disc(Point, f64),
+    Outline(BezPath),
+}
+
+impl Shaped {
+    fn of(mark: &Mark) -> Self {
+        match mark {
+            Mark::Dot(Dot { centre, radius, outline: None, .. }) => Self::Disc(*centre, *radius),
+            Mark::Dot(Dot { outline: Some(outline), .. }) => Self::Outline(turned(outline)),
+            Mark::Stroke(stroke) => Self::Outline(turned(&outline_of(stroke))),
+            Mark::Area(area) => Self::Outline(turned(&area.outline)),
+        }
+    }
 }
 
 /// The outline of a stroke; of a swelling one with as few curves as print needs, and its ink.
@@ -113,7 +127,6 @@ fn turned(outline: &BezPath) -> BezPath {
 mod tests {
     use super::*;
     use crate::drawing::{Area, Page, Stroke, Width};
-    use crate::geometry::Point;
 
     fn drawing() -> Drawing {
         let mut layer = Layer::new("dots", 1);

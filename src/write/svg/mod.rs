@@ -21,10 +21,10 @@ mod path_data;
 pub use embedded::write_embedded_svg;
 pub(crate) use names::Names;
 pub(crate) use path_data::path_data;
+use path_data::{Grid, PathData};
 
 use super::number::{decimal, thousandths};
 use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Mixing, Page, Stroke, Width};
-use crate::geometry::Point;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::io;
@@ -286,10 +286,11 @@ fn filled(mark: &Mark) -> String {
 /// Writes dots of one colour as the subpaths of one path.
 fn bundle(text: &mut String, dots: &[Mark]) {
     text.push_str("<path d=\"");
+    let mut data = PathData::new(text, Grid::SHEET);
     for mark in dots {
         match mark {
-            Mark::Dot(Dot { centre, radius, outline: None, .. }) => disc_data(text, *centre, *radius),
-            Mark::Dot(Dot { outline: Some(outline), .. }) => path_data(text, outline),
+            Mark::Dot(Dot { centre, radius, outline: None, .. }) => data.disc(*centre, *radius),
+            Mark::Dot(Dot { outline: Some(outline), .. }) => data.outline(outline),
             _ => {}
         }
     }
@@ -300,30 +301,10 @@ fn bundle(text: &mut String, dots: &[Mark]) {
     text.push_str("/>\n");
 }
 
-/// Appends a disc as two half circles.
-fn disc_data(text: &mut String, centre: Point, radius: f64) {
-    let units = |mm: f64| (mm * RADIUS_SCALE).round() as i64;
-    let number = |text: &mut String, value: i64| decimal(text, value, RADIUS_DIGITS);
-    text.push('M');
-    number(text, units(centre.x - radius));
-    text.push(' ');
-    number(text, units(centre.y));
-    for across in [2 * units(radius), -2 * units(radius)] {
-        text.push('a');
-        number(text, units(radius));
-        text.push(' ');
-        number(text, units(radius));
-        text.push_str(" 0 0 0 ");
-        number(text, across);
-        text.push_str(" 0");
-    }
-    text.push('z');
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::BezPath;
+    use crate::geometry::{BezPath, Point};
 
     fn written(drawing: &Drawing) -> String {
         let mut bytes = Vec::new();
@@ -356,10 +337,7 @@ mod tests {
         let dots = [Mark::Dot(Dot::circle(Point::new(3.0, 4.0), 0.5)), Mark::Dot(Dot::circle(Point::new(6.0, 4.0), 0.25))];
         let mut text = String::new();
         bundle(&mut text, &dots);
-        assert_eq!(
-            text,
-            "<path d=\"M2.5 4a.5 .5 0 0 0 1 0a.5 .5 0 0 0 -1 0zM5.75 4a.25 .25 0 0 0 .5 0a.25 .25 0 0 0 -.5 0z\"/>\n"
-        );
+        assert_eq!(text, "<path d=\"M2.5 4a.5.5 0 0 0 1 0 .5.5 0 0 0-1 0zm3.25 0a.25.25 0 0 0 .5 0 .25.25 0 0 0-.5 0z\"/>\n");
         let path = BezPath::from_svg(text.split('"').nth(1).unwrap()).unwrap();
         let area: f64 = dots.iter().map(Mark::area).sum();
         assert!((kurbo::Shape::area(&path).abs() - area).abs() < 1e-3);

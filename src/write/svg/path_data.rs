@@ -1,70 +1,142 @@
-//! Outlines as path data, on the grid of 0.001 mm.
+//! Outlines and discs as path data, in relative coordinates on a grid.
 
 use crate::geometry::{BezPath, Point};
-use crate::write::number::{decimal, thousandths};
+use crate::write::number::decimal;
 use kurbo::PathEl;
 
-/// Path data in relative coordinates on the grid of 0.001 mm.
+/// Digits of the unit in which places are counted, 0.0001 mm.
+const DIGITS: u32 = 4;
+const UNITS_PER_MM: f64 = 10_000.0;
+
+/// The grids of a file, in units of 0.0001 mm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    outlines: i64,
+    radii: i64,
+}
+
+impl Grid {
+    /// Of a sheet that a machine or a press reads: places to 0.001 mm, radii to 0.0001 mm, since 0.001 mm of a small dot's radius is a
+    /// percent of its ink.
+    pub(crate) const SHEET: Self = Self { outlines: 10, radii: 1 };
+    /// Of a picture in a page: places to a pixel of a film at 2540 dpi, radii to a tenth of it.
+    pub(crate) const PAGE: Self = Self { outlines: 100, radii: 10 };
+}
+
+/// Path data of one outline, or of an open line, of a sheet.
 pub(crate) fn path_data(text: &mut String, path: &BezPath) {
-    let mut writer = PathData { text, at: (0, 0), start: (0, 0), last: ' ' };
-    for element in path.elements() {
-        match *element {
-            PathEl::MoveTo(p) => writer.move_to(p),
-            PathEl::LineTo(p) => writer.relative('l', &[p]),
-            PathEl::QuadTo(a, p) => writer.relative('q', &[a, p]),
-            PathEl::CurveTo(a, b, p) => writer.relative('c', &[a, b, p]),
-            PathEl::ClosePath => writer.close(),
-        }
-    }
+    PathData::new(text, Grid::SHEET).outline(path);
 }
 
-struct PathData<'a> {
+/// Writes one path's data: the first move is absolute, everything else is relative to where it is.
+pub(crate) struct PathData<'a> {
     text: &'a mut String,
-    at: (i64, i64),
-    start: (i64, i64),
-    last: char,
+    grid: Grid,
+    at: [i64; 2],
+    start: [i64; 2],
+    /// The command that a number without a letter continues; none before the first.
+    last: Option<char>,
 }
 
-impl PathData<'_> {
-    fn move_to(&mut self, p: Point) {
-        let (x, y) = (thousandths(p.x), thousandths(p.y));
-        self.text.push('M');
-        decimal(self.text, x, 3);
-        self.text.push(' ');
-        decimal(self.text, y, 3);
-        self.at = (x, y);
-        self.start = (x, y);
-        self.last = 'M';
+impl<'a> PathData<'a> {
+    pub(crate) const fn new(text: &'a mut String, grid: Grid) -> Self {
+        Self { text, grid, at: [0, 0], start: [0, 0], last: None }
     }
 
-    /// A command whose points are relative to where the pen is; the letter is left out when it repeats.
-    fn relative(&mut self, command: char, points: &[Point]) {
-        let mut separated = self.last != command;
-        if separated {
-            self.text.push(command);
-            self.last = command;
+    /// Appends an outline or an open line.
+    pub(crate) fn outline(&mut self, path: &BezPath) {
+        for element in path.elements() {
+            match *element {
+                PathEl::MoveTo(p) => self.move_to(p),
+                PathEl::LineTo(p) => self.relative('l', &[p]),
+                PathEl::QuadTo(a, p) => self.relative('q', &[a, p]),
+                PathEl::CurveTo(a, b, p) => self.relative('c', &[a, b, p]),
+                PathEl::ClosePath => self.close(),
+            }
         }
+    }
+
+    /// Appends a disc as two half circles.
+    pub(crate) fn disc(&mut self, centre: Point, radius: f64) {
+        self.move_to(Point::new(centre.x - radius, centre.y));
+        let radius = on_grid(radius, self.grid.radii);
+        let mut is_separated = self.command('a');
+        for across in [2 * radius, -2 * radius] {
+            for value in [radius, radius, 0, 0, 0, across, 0] {
+                self.number(value, is_separated);
+                is_separated = false;
+            }
+        }
+        self.close();
+    }
+
+    fn place(&self, p: Point) -> [i64; 2] {
+        [p.x, p.y].map(|mm| on_grid(mm, self.grid.outlines))
+    }
+
+    fn move_to(&mut self, p: Point) {
+        let to = self.place(p);
+        let [x, y] = match self.last {
+            None => {
+                self.text.push('M');
+                self.last = Some('M');
+                to
+            }
+            Some(_) => {
+                self.text.push('m');
+                // Numbers that follow are a line.
+                self.last = Some('l');
+                [to[0] - self.at[0], to[1] - self.at[1]]
+            }
+        };
+        self.number(x, true);
+        self.number(y, false);
+        (self.at, self.start) = (to, to);
+    }
+
+    /// A command whose points are relative to where the pen is.
+    fn relative(&mut self, command: char, points: &[Point]) {
+        let mut is_separated = self.command(command);
         let mut end = self.at;
         for p in points {
-            end = (thousandths(p.x), thousandths(p.y));
-            for value in [end.0 - self.at.0, end.1 - self.at.1] {
-                // A sign or a second point separates too.
-                let has_point = value.abs() < 1000 && value != 0;
-                if !separated && value >= 0 && !(has_point && ends_in_fraction(self.text)) {
-                    self.text.push(' ');
-                }
-                decimal(self.text, value, 3);
-                separated = false;
+            end = self.place(*p);
+            for value in [end[0] - self.at[0], end[1] - self.at[1]] {
+                self.number(value, is_separated);
+                is_separated = false;
             }
         }
         self.at = end;
     }
 
+    /// A command's letter, left out where it repeats; true if it was written.
+    fn command(&mut self, command: char) -> bool {
+        let is_new = self.last != Some(command);
+        if is_new {
+            self.text.push(command);
+            self.last = Some(command);
+        }
+        is_new
+    }
+
+    /// A number, with a space before it unless a letter, its sign or its decimal point separates it from the one before.
+    fn number(&mut self, value: i64, is_separated: bool) {
+        let has_point = value != 0 && value.abs() < UNITS_PER_MM as i64;
+        if !is_separated && value >= 0 && !(has_point && ends_in_fraction(self.text)) {
+            self.text.push(' ');
+        }
+        decimal(self.text, value, DIGITS);
+    }
+
     fn close(&mut self) {
         self.text.push('z');
         self.at = self.start;
-        self.last = 'z';
+        self.last = Some('z');
     }
+}
+
+/// A length in units of 0.0001 mm, a multiple of `step` of them.
+fn on_grid(mm: f64, step: i64) -> i64 {
+    (mm * UNITS_PER_MM / step as f64).round() as i64 * step
 }
 
 /// True if the last number written has a decimal point.
@@ -75,6 +147,7 @@ fn ends_in_fraction(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kurbo::Shape;
 
     #[test]
     fn numbers_are_separated_only_where_they_must_be() {
@@ -83,5 +156,19 @@ mod tests {
         path_data(&mut text, &path);
         assert_eq!(text, "M1 2c.25.5.5 0 1.75 1.125l0 .875.5.5z");
         assert_eq!(BezPath::from_svg(&text).unwrap().elements().len(), path.elements().len());
+    }
+
+    #[test]
+    fn several_outlines_and_discs_stay_where_they_are() {
+        let mut text = String::new();
+        let mut data = PathData::new(&mut text, Grid::PAGE);
+        data.disc(Point::new(3.0, 4.0), 0.5);
+        data.outline(&BezPath::from_svg("M6,4 L6.5,4.125 L6,5 Z M1,1 L2,1").unwrap());
+        data.outline(&BezPath::from_svg("M2,2 L2.25,3").unwrap());
+        assert_eq!(text, "M2.5 4a.5.5 0 0 0 1 0 .5.5 0 0 0-1 0zm3.5 0 .5.13-.5.87zm-5-3 1 0m0 1 .25 1",);
+        let read = BezPath::from_svg(&text).unwrap();
+        let parts: Vec<BezPath> = read.elements().split(|e| matches!(e, PathEl::MoveTo(_))).map(|_| BezPath::new()).collect();
+        assert_eq!(parts.len(), 5, "four moves");
+        assert!((read.bounding_box().x1 - 6.5).abs() < 1e-9 && (read.bounding_box().y1 - 5.0).abs() < 1e-9);
     }
 }
