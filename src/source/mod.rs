@@ -12,6 +12,7 @@ mod error;
 mod jpeg;
 mod landmarks;
 mod linear;
+mod lit_side;
 mod mask_role;
 mod placement;
 mod png;

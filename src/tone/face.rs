@@ -4,7 +4,7 @@ use super::blurred_within;
 use super::curve::Curve;
 use super::lights::rubbed;
 use super::mixing::mixed;
-use super::openings::opened;
+use super::openings::{dark_of_mouth, opened};
 use super::zones::Zones;
 use crate::elementary::Elementary as _;
 use crate::geometry::Point;
@@ -42,9 +42,9 @@ const DOT: f64 = 0.012;
 /// Clothing's own curve: black cloth is lightened, white cloth stays white.
 const CLOTHING: [[f32; 2]; 6] = [[-0.3, 0.0], [0.0, 0.06], [0.10, 0.17], [0.35, 0.40], [0.70, 0.73], [1.0, 1.0]];
 /// Hair lighter than `LIGHT_HAIR` is compressed, and the contrast of its strands raised.
-const LIGHT_HAIR: f32 = 0.80;
+const LIGHT_HAIR: f32 = 0.76;
 const HELD: f32 = 0.45;
-const STRANDS: f32 = 1.6;
+const STRANDS: f32 = 2.2;
 /// How much the difference of eyes, brows and lips from the surrounding skin is raised.
 const FEATURES: f32 = 0.40;
 /// Large blacks below this tone are lightened; in the face the threshold is higher.
@@ -93,7 +93,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     }
     let tone = raised_features(&zones, &tone, &setting.subject);
     let tone = opened(&zones, face, &tone);
-    let tone = opened_blacks(&zones, &tone, &setting.subject);
+    let tone = opened_blacks(&zones, face, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone);
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
     Some(mixed(setting.lightness, &tone, &setting.subject))
@@ -179,11 +179,12 @@ fn raised_features(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> 
 }
 
 /// Step 8: hair, beards and cloth keep gaps of paper; thin dark lines stay.
-fn opened_blacks(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+fn opened_blacks(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let clamped = tone.map(|v| v.clamp(0.0, 1.0));
     let mean = blurred_within(&clamped, &subject.map(|v| v + 1e-6), (zones.width / 40.0) as f32);
     let in_face = fast_gaussian(&zones.oval.map(f32::from), (0.03 * zones.width) as f32);
     let lift = mean.zip_map(&in_face, |mean, face| (0.45 + 0.2 * face) * (OPENED + OPENED_IN_FACE * face - mean).clamp(0.0, 1.0));
+    let lift = lift.zip_map(&dark_of_mouth(zones, face, tone), |lift, mouth| lift * (1.0 - mouth));
     tone.zip_map(&lift, |tone, lift| tone + lift)
 }
 

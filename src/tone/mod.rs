@@ -8,11 +8,12 @@
 //!   lightness -> light evened over skin -> local contrast -> one rising curve, through the skin's median and its lights,
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
-//!   -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
+//!   -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
 
+mod catchlights;
 mod curve;
 mod face;
 mod lights;
@@ -22,6 +23,7 @@ mod zones;
 
 use crate::raster::{Raster, box_blur, enlarge, fast_gaussian, reduce};
 use crate::source::{MaskRole, Portrait};
+use catchlights::with_catchlights;
 
 /// The masks that are used besides the subject.
 pub const ROLES: &[MaskRole] = &[MaskRole::Hair, MaskRole::Headwear, MaskRole::Clothing];
@@ -74,7 +76,8 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
         })
         .collect();
     let tone = blended(&tones)?.zip_map(&lightness, |tone, lightness| lightness + strength * (tone - lightness));
-    Some(at_full_size(&tone, &lightness, &portrait.lightness, factor))
+    let tone = at_full_size(&tone, &lightness, &portrait.lightness, factor);
+    Some(if strength > 0.0 { with_catchlights(tone, &portrait.lightness, &portrait.faces) } else { tone })
 }
 
 /// The weighted mean of the tones of several faces.

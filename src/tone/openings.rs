@@ -9,7 +9,7 @@ use crate::raster::{Raster, dilate, fast_gaussian};
 use crate::source::{Iris, Landmarks, outlines};
 
 /// Height over width of an opening: below the first it is closed, from the second on it is treated in full.
-const EYE_OPEN: [f64; 2] = [0.12, 0.22];
+pub(super) const EYE_OPEN: [f64; 2] = [0.12, 0.22];
 const MOUTH_OPEN: [f64; 2] = [0.08, 0.16];
 /// The lids' own line, in radii of the iris, is left as it is; so is a ring around the iris.
 const LID: f64 = 0.16;
@@ -35,8 +35,8 @@ const TEETH_ABOVE: f32 = 0.7;
 
 /// Lips are darker than the skin's median by this, within these limits; the share of their lights that is left above that; and the blur
 /// of their edge in widths of the face.
-const BELOW_SKIN: f32 = 0.12;
-const LIPS: [f32; 2] = [0.5, 0.74];
+const BELOW_SKIN: f32 = 0.2;
+const LIPS: [f32; 2] = [0.42, 0.66];
 const LIPS_LIGHT: f32 = 0.3;
 const LIPS_SOFT: f64 = 0.008;
 
@@ -50,7 +50,7 @@ pub(super) fn opened(zones: &Zones, face: &Landmarks, tone: &Raster<f32>) -> Ras
 }
 
 /// How far an opening is open, 0 to 1: by its mean height over its width.
-fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
+pub(super) fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
     let across = outline.iter().flat_map(|p| outline.iter().map(|q| p.distance(*q))).fold(0.0, f64::max);
     let height = polygon_area(outline).abs() / across.max(1e-9);
     ((height / across.max(1e-9) - closed) / (open - closed)).clamp(0.0, 1.0) as f32
@@ -99,6 +99,15 @@ fn lips(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, skin: f32) -> Raste
     let most = (skin - BELOW_SKIN).clamp(LIPS[0], LIPS[1]);
     let held = tone.map(|v| v.min(most + LIPS_LIGHT * (v - most).max(0.0)));
     mixed(tone, &held, &fast_gaussian(&zone, (LIPS_SOFT * zones.width) as f32))
+}
+
+/// Where an open mouth is dark, 0 to 1: it stays black behind the teeth.
+pub(super) fn dark_of_mouth(zones: &Zones, face: &Landmarks, tone: &Raster<f32>) -> Raster<f32> {
+    let line = face.line(&outlines::MOUTH);
+    let open = openness(&line, MOUTH_OPEN);
+    let most = TEETH_ABOVE * zones.median_of(tone);
+    let inside = polygon(tone.width(), tone.height(), &line);
+    inside.zip_map(tone, |inside, v| if inside == 1 && v < most { open } else { 0.0 })
 }
 
 /// The median of the values in a zone; `None` if the zone is empty.
