@@ -10,18 +10,27 @@ const FACE_MIDDLE: f64 = 0.9;
 const MOSTLY: f64 = 0.85;
 const MOST_IN_FEATURES: f64 = 0.2;
 const SPECTACLES: f64 = 0.55;
+/// How far a forehead may go on above the face's outline, in heights of the face; and the distance from hair, in widths of the face, from
+/// which a line there is a fold and not the hairline.
+const FOREHEAD: f64 = 0.45;
+const FROM_HAIR: f64 = 0.07;
 
 /// The faces in which lines may be folds.
 pub(super) struct Creases<'a> {
     portrait: &'a Portrait,
     /// The insides of the faces, without their borders.
     faces: Vec<Region>,
+    foreheads: Vec<Region>,
 }
 
 impl<'a> Creases<'a> {
     /// Of the faces that were found.
     pub(super) fn of(portrait: &'a Portrait) -> Self {
-        Self { portrait, faces: portrait.faces.iter().map(middle_of).collect() }
+        Self {
+            portrait,
+            faces: portrait.faces.iter().map(middle_of).collect(),
+            foreheads: portrait.faces.iter().map(forehead_of).collect(),
+        }
     }
 
     /// True for a line, in working pixels, on bare skin inside a face, away from its features. None without a mask of these.
@@ -35,16 +44,39 @@ impl<'a> Creases<'a> {
             && share(line, |p| detail.sample(p.x, p.y) >= 0.5 || is_at_eyes(p)) < MOST_IN_FEATURES
     }
 
-    /// True for a place where folds may be: inside a face, away from its border.
+    /// True for a place where folds may be: inside a face, away from its border, or on a forehead above it.
     pub(super) fn are_in(&self, p: Point) -> bool {
-        self.faces.iter().any(|face| face.contains(p))
+        self.faces.iter().any(|face| face.contains(p)) || self.are_on_forehead(p)
+    }
+
+    fn are_on_forehead(&self, p: Point) -> bool {
+        let hair = [MaskRole::Hair, MaskRole::Headwear].map(|role| self.portrait.masks.get(&role));
+        let is_hair = |p: Point| hair.iter().flatten().any(|mask| mask.sample(p.x, p.y) > 0.5);
+        if self.portrait.subject.sample(p.x, p.y) < 0.95 {
+            return false;
+        }
+        self.foreheads.iter().zip(&self.portrait.faces).any(|(forehead, face)| {
+            let reach = FROM_HAIR * face.width();
+            let around = [(0.0, 0.0), (reach, 0.0), (-reach, 0.0), (0.0, reach), (0.0, -reach)];
+            forehead.contains(p) && !around.into_iter().any(|off| is_hair(p + off))
+        })
     }
 }
 
 fn middle_of(face: &Landmarks) -> Region {
     let oval = face.line(&outlines::OVAL);
-    let centre = (oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / oval.len() as f64).to_point();
+    let centre = middle(&oval);
     Region::of_polygons(vec![oval.iter().map(|p| centre.lerp(*p, FACE_MIDDLE)).collect()])
+}
+
+/// A face's outline moved up over the forehead.
+fn forehead_of(face: &Landmarks) -> Region {
+    let up = FOREHEAD * (face.point(10) - face.point(152));
+    Region::of_polygons(vec![face.line(&outlines::OVAL).into_iter().map(|p| p + up).collect()])
+}
+
+fn middle(line: &[Point]) -> Point {
+    (line.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / line.len() as f64).to_point()
 }
 
 /// The share of a line's points for which something holds.

@@ -7,8 +7,9 @@ use super::patch::{Patch, Pressing};
 use super::regions::Regions;
 use super::strokes::pressure_for;
 use crate::drawing::Mark;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur, paper_texture};
+use crate::source::Landmarks;
 
 /// Pressure of the background's strokes, and their width at it as a share of the full width: lighter than anything in the portrait.
 const BACKGROUND_PRESSURE: f64 = 0.3;
@@ -17,9 +18,19 @@ const BACKGROUND_WIDTH: f64 = 0.44;
 const APART: f64 = 1.3;
 /// Width of a background stroke as a share of the stick's.
 const BACKGROUND_STROKE: f64 = 0.7;
-/// Pressure of the background far from the subject, as a share of that beside it, and the distance over which it falls, in sheet widths.
-const FAR_PRESSURE: f64 = 0.35;
+/// Distance over which the background falls away from a subject without a face, in sheet widths; and from the middle of a head, in widths
+/// of its face: there it has half of its pressure.
 const FALL: f64 = 0.22;
+const ABOUT_HEAD: f64 = 1.5;
+/// The middle of a head above the middle of its face, in widths of the face.
+const ABOVE_FACE: f64 = 0.25;
+/// By how much it is firmer on the side that the light comes from and fainter on the other, and how far it leans there in widths of the face.
+const TO_LIGHT: f64 = 0.45;
+const LEAN: f64 = 0.25;
+/// Width of the airy rim within the sheet's border, as a share of the sheet's short side.
+const AIRY: f64 = 0.2;
+/// By how much of that it wavers, so that the strokes have no straight border.
+const WAVER: f32 = 0.8;
 /// Shares of the pressure beside black and beside white parts of the subject.
 const AGAINST: [f32; 2] = [0.25, 1.5];
 /// Pressure below which the background stays paper, and the range over which it ends.
@@ -30,6 +41,37 @@ const CLOTH_HATCHES: [Hatch; 2] =
     [Hatch { from: 0.3, spacing: 1.5, turned: 0.0 }, Hatch { from: 0.6, spacing: 1.6, turned: 0.22 }];
 /// Share of the ink that each set aims at; with more the cloth is a net, with less it is grain alone.
 const CLOTH_SHARE: f64 = 0.5;
+
+/// A head before its background.
+struct Head {
+    middle: Point,
+    width: f64,
+    lit_side: f64,
+}
+
+impl Head {
+    fn of(face: &Landmarks, lightness: &Raster<f32>) -> Self {
+        let up = face.point(10) - face.point(152);
+        let up = up / up.hypot().max(1.0);
+        let (width, lit_side) = (face.width(), face.lit_side(lightness));
+        let middle = face.point(10).midpoint(face.point(152)) + ABOVE_FACE * width * up;
+        Self { middle: middle + Vec2::new(LEAN * width * lit_side, 0.0), width, lit_side }
+    }
+
+    /// 1 at the head, half at `ABOUT_HEAD`, nothing far away; more on the lit side.
+    fn nearness(&self, p: Point) -> f64 {
+        let away = (p - self.middle) / (ABOUT_HEAD * self.width);
+        let aside = away.x.clamp(-1.0, 1.0) * self.lit_side;
+        let far = away.hypot2();
+        (1.0 + TO_LIGHT * aside) / (1.0 + far * far)
+    }
+}
+
+/// From 0 at 0 to 1 at 1, without a corner.
+fn smoothstep(t: f32) -> f32 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
 
 /// One set of strokes in clothing.
 struct Hatch {
@@ -107,20 +149,27 @@ impl Drawer<'_> {
         self.shade_patch(&patch, "background", 0, |p| f64::from(pressure.sample(p.x, p.y)))
     }
 
-    /// Pressure of the background at a place: firm beside light parts of the subject and faint beside dark ones, so that both stand out;
-    /// the sheet's border stays airy.
+    /// Pressure of the background at a place: it fades away from the head, or without a face from the subject, and towards the sheet's
+    /// border; firm beside light parts of the subject and faint beside dark ones, so that both stand out.
     fn nearness(&self, subject: &Raster<f32>) -> Raster<f32> {
         let (width, height) = self.size();
-        let reach = (FALL * width.min(height) as f64) as f32;
+        let short = width.min(height) as f64;
+        let reach = (FALL * short) as f32;
         let (wide, beside) = (gaussian_blur(subject, reach), gaussian_blur(subject, 0.5 * reach));
         let dark = gaussian_blur(&self.darkness().zip_map(subject, |ink, subject| ink * subject), 0.5 * reach);
         let cloud = paper_texture(width / 8 + 2, height / 8 + 2, 14.0, self.seed ^ 0xc10d);
-        let far = FAR_PRESSURE as f32;
+        let waver = paper_texture(width / 8 + 2, height / 8 + 2, 9.0, self.seed ^ 0xa1e5);
+        let heads: Vec<Head> = self.portrait.faces.iter().map(|face| Head::of(face, &self.portrait.lightness)).collect();
         Raster::from_fn(width, height, |x, y| {
-            let near = (far + 2.2 * (1.0 - far) * wide.get(x, y)).min(1.0);
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let near = (2.2 * wide.get(x, y)).min(1.0);
+            let about = heads.iter().map(|head| head.nearness(p)).fold(0.0, f64::max) as f32;
+            let about = if heads.is_empty() { near } else { about };
+            let edge = p.x.min(p.y).min(width as f64 - p.x).min(height as f64 - p.y) / short;
+            let airy = smoothstep((edge / AIRY) as f32 - WAVER * waver.sample(x as f64 / 8.0 + 0.5, y as f64 / 8.0 + 0.5));
             let light = (1.0 - dark.get(x, y) / beside.get(x, y).max(0.02)).clamp(0.0, 1.0);
             let against = AGAINST[0] + (AGAINST[1] - AGAINST[0]) * light;
-            near * against * (0.55 + 0.9 * cloud.sample(x as f64 / 8.0 + 0.5, y as f64 / 8.0 + 0.5))
+            about * airy * against * (0.55 + 0.9 * cloud.sample(x as f64 / 8.0 + 0.5, y as f64 / 8.0 + 0.5))
         })
     }
 
