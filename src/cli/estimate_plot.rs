@@ -200,7 +200,7 @@ fn windows(share: f64, small: &[(Rect, f64)], bounds: Rect, joins: bool) -> Wind
         return Windows { cells: CELLS as f64, side: share, margin: 0.0 };
     }
     let mut lengths: Vec<f64> = small.iter().map(|(mark, _)| mark.width().max(mark.height())).collect();
-    lengths.sort_by(f64::total_cmp);
+    lengths.sort_unstable_by(f64::total_cmp);
     let margin = MARGIN * lengths[lengths.len() / 2];
     let side = |cells: f64| share - 2.0 * margin * cells / bounds.width().max(bounds.height());
     let cells = (2..=CELLS).rev().map(|cells| cells as f64).find(|cells| side(*cells) >= LEAST_INSIDE * share).unwrap_or(2.0);

@@ -55,17 +55,24 @@ pub(super) fn open(name: &str) -> Result<Box<dyn Read>, Failure> {
 /// Writes a file through a temporary one beside it; `.svgz` is compressed. `-` is stdout; devices and pipes are written in place.
 pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     let is_compressed = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svgz"));
-    if !is_compressed {
-        return write_plain(name, fill);
-    }
-    write_plain(name, |out| {
+    let mut fill = Some(fill);
+    // Called once; built once for all that is written.
+    let mut fill = |out: &mut dyn Write| fill.take().map_or(Ok(()), |fill| fill(out));
+    if is_compressed { write_compressed(name, &mut fill) } else { write_plain(name, &mut fill) }
+}
+
+fn write_compressed(name: &str, fill: Filling<'_>) -> Result<(), Failure> {
+    write_plain(name, &mut |out| {
         let mut compressed = GzEncoder::new(out, Compression::best());
         fill(&mut compressed)?;
         compressed.finish().map(drop)
     })
 }
 
-fn write_plain(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+/// Writes a file's contents.
+type Filling<'a> = &'a mut dyn FnMut(&mut dyn Write) -> io::Result<()>;
+
+fn write_plain(name: &str, fill: Filling<'_>) -> Result<(), Failure> {
     claims::check_not_input(name)?;
     if name == "-" {
         let mut stdout = io::BufWriter::new(io::stdout().lock());

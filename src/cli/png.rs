@@ -2,12 +2,13 @@
 
 use super::failure::Failure;
 use super::output;
-use image::ImageFormat;
-use std::io::Cursor;
+use image::codecs::png::PngEncoder;
 
 /// Writes a picture as PNG.
 pub(super) fn png(name: &str, picture: &image::DynamicImage) -> Result<(), Failure> {
-    let mut bytes = Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).map_err(|error| Failure::Work(format!("{name}: {error}")))?;
-    output::write(name, |out| out.write_all(bytes.get_ref()))
+    let mut bytes = Vec::new();
+    // Not by the format's name: that would build the encoders of all formats.
+    let encoder = PngEncoder::new(&mut bytes);
+    picture.write_with_encoder(encoder).map_err(|error| Failure::Work(format!("{name}: {error}")))?;
+    output::write(name, |out| out.write_all(&bytes))
 }

@@ -4,9 +4,7 @@ use crate::drawing::{Mark, Painted};
 use crate::geometry::{BezPath, Point, Region};
 use crate::raster::Raster;
 use crate::read::{Imported, SvgError, read_svg};
-use crate::source::{Limits, Photograph, SourceError, sha256};
-use image::{DynamicImage, GrayImage, ImageFormat};
-use std::io::Cursor;
+use crate::source::{Photograph, sha256};
 
 /// The most pixels of a mask's longer side, and of a millimetre of its page: four for each pixel of the photograph.
 const LONGEST: f64 = 4000.0;
@@ -23,31 +21,16 @@ pub(super) fn is_svg(bytes: &[u8]) -> bool {
 }
 
 /// The mask of an SVG's shapes, whatever their colour; white shapes take away from those below them.
-pub(super) fn vector_mask(bytes: &[u8]) -> Result<Photograph, VectorMaskError> {
+pub(super) fn vector_mask(bytes: &[u8]) -> Result<Photograph, SvgError> {
     let imported = read_svg(bytes)?;
     let page = imported.page;
     let pixels_per_mm = (LONGEST / page.width.max(page.height)).min(FINEST);
     let [columns, rows] = [page.width, page.height].map(|side| (side * pixels_per_mm).round().max(1.0) as usize);
     let mask = drawn(&imported, columns, rows, pixels_per_mm);
-    let grey = GrayImage::from_raw(columns as u32, rows as u32, mask.into_vec()).expect("the raster fills its picture");
-    let mut png = Cursor::new(Vec::new());
-    DynamicImage::ImageLuma8(grey)
-        .write_to(&mut png, ImageFormat::Png)
-        .map_err(|error| VectorMaskError::Png(error.to_string()))?;
-    let mut photograph = Photograph::decode(png.get_ref(), Limits::default())?;
+    let mut photograph = Photograph::from_grey(&mask);
+    photograph.info.format = "SVG";
     photograph.info.sha256 = sha256(bytes);
     Ok(photograph)
-}
-
-/// Why an SVG is no mask.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum VectorMaskError {
-    #[error(transparent)]
-    Svg(#[from] SvgError),
-    #[error(transparent)]
-    Mask(#[from] SourceError),
-    #[error("its mask cannot be kept: {0}")]
-    Png(String),
 }
 
 /// 255 inside the shapes, 0 elsewhere, in painting order.

@@ -51,7 +51,7 @@ pub fn holes(points: &[Point], field: Rect, reach: LocalLength<'_>, farthest: f6
         .collect();
     let mut corners = corners.concat();
     // The widest holes first, so that one point fills each.
-    corners.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.x.total_cmp(&b.1.x)).then(a.1.y.total_cmp(&b.1.y)));
+    corners.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.x.total_cmp(&b.1.x)).then(a.1.y.total_cmp(&b.1.y)));
     let candidates: Vec<Point> = corners.into_iter().map(|(_, p)| p).collect();
     apart(points.to_vec(), &candidates, reach).split_off(points.len())
 }

@@ -100,7 +100,8 @@ pub fn glass_ribbons(
             })
         })
         .collect();
-    ribbons.sort_by(|a, b| a.level.total_cmp(&b.level).then(a.height.total_cmp(&b.height)).then(a.maximum.cmp(&b.maximum)));
+    ribbons
+        .sort_unstable_by(|a, b| a.level.total_cmp(&b.level).then(a.height.total_cmp(&b.height)).then(a.maximum.cmp(&b.maximum)));
     ribbons
 }
 

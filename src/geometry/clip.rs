@@ -51,7 +51,7 @@ pub fn clip_polygon(polygon: &[Point], rect: Rect) -> Vec<Point> {
 pub fn clip_disc(centre: Point, radius: f64, rect: Rect) -> BezPath {
     let on_circle = |angle: f64| centre + unit_at(angle) * radius;
     let mut angles = crossings(centre, radius, rect);
-    angles.sort_by(f64::total_cmp);
+    angles.sort_unstable_by(f64::total_cmp);
     angles.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
     let mut path = BezPath::new();
     if angles.len() < 2 {

@@ -165,7 +165,7 @@ impl Region {
         let mut is_open = false;
         for (i, pair) in points.windows(2).enumerate().take_while(|_| !interrupt.is_raised()) {
             let mut cuts = self.cuts(pair[0], pair[1]);
-            cuts.sort_by(f64::total_cmp);
+            cuts.sort_unstable_by(f64::total_cmp);
             for span in cuts.windows(2).filter(|span| span[1] > span[0]) {
                 let at = |t: f64| if t >= 1.0 { pair[1] } else { pair[0].lerp(pair[1], t) };
                 if !is_wanted(at(0.5 * (span[0] + span[1]))) {

@@ -34,7 +34,7 @@ fn counted(points: &[Point], shares: &[f64], interrupt: &Interrupt) -> Vec<bool>
     let mut parts = vec![(all, wanted)];
     while let Some((mut part, wanted)) = parts.pop().filter(|_| !interrupt.is_raised()) {
         if part.len() <= TOGETHER || wanted == 0 || wanted >= part.len() {
-            part.sort_by(|&a, &b| order[a].total_cmp(&order[b]).then(a.cmp(&b)));
+            part.sort_unstable_by(|&a, &b| order[a].total_cmp(&order[b]).then(a.cmp(&b)));
             part.iter().take(wanted).for_each(|&i| stays[i] = true);
             continue;
         }
@@ -53,7 +53,7 @@ fn counted(points: &[Point], shares: &[f64], interrupt: &Interrupt) -> Vec<bool>
 fn half(points: &[Point], part: &mut Vec<usize>) -> Vec<usize> {
     let bounds = part.iter().map(|&i| Rect::from_points(points[i], points[i])).reduce(|a, b| a.union(b)).unwrap_or_default();
     let along = |i: usize| if bounds.width() > bounds.height() { points[i].x } else { points[i].y };
-    part.sort_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
+    part.sort_unstable_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
     part.split_off(part.len() / 2)
 }
 

@@ -8,8 +8,8 @@ use super::placement::Crop;
 use super::resample::resample_by;
 use crate::raster::Raster;
 use fast_image_resize::images::{TypedImage, TypedImageRef};
-use fast_image_resize::pixels::{U8, U8x3};
-use fast_image_resize::{FilterType, PixelTrait, ResizeAlg, ResizeOptions, Resizer};
+use fast_image_resize::pixels::U8x3;
+use fast_image_resize::{FilterType, ResizeAlg, ResizeOptions, Resizer};
 use image::{DynamicImage, GenericImageView, GrayImage, ImageBuffer, Luma, Primitive, RgbImage};
 
 impl Photograph {
@@ -20,11 +20,13 @@ impl Photograph {
         let size = (columns, rows);
         let small = match &self.pixels {
             DynamicImage::ImageLuma8(grey) => {
-                let bytes = resized::<U8>(grey.as_raw(), self.width(), crop, size).map(|p| p.0);
+                // As three equal channels: a second kind of pixel would be a second set of filters to build.
+                let colour: Vec<u8> = grey.as_raw().iter().flat_map(|v| [*v; 3]).collect();
+                let bytes = resized(&colour, self.width(), crop, size).map(|[v, ..]| v);
                 GrayImage::from_raw(columns as u32, rows as u32, bytes.into_vec()).map(DynamicImage::ImageLuma8)
             }
             DynamicImage::ImageRgb8(colour) => {
-                let pixels = resized::<U8x3>(colour.as_raw(), self.width(), crop, size).map(|p| p.0);
+                let pixels = resized(colour.as_raw(), self.width(), crop, size);
                 if !self.lineariser.is_managed() {
                     return Ok(pixels);
                 }
@@ -70,22 +72,17 @@ where
     ImageBuffer::from_fn(grey.width() as u32, grey.height() as u32, |x, y| Luma([grey.get(x as usize, y as usize)]))
 }
 
-/// Resizes a crop of stored bytes, `width` pixels per row; each output pixel is the mean of the input around it.
-fn resized<P: PixelTrait + Default + Copy + Send + Sync>(
-    bytes: &[u8],
-    width: u32,
-    crop: Crop,
-    (columns, rows): (usize, usize),
-) -> Raster<P> {
-    let height = (bytes.len() / (width as usize * size_of::<P>())) as u32;
-    let source = TypedImageRef::<P>::from_buffer(width, height, bytes).expect("the bytes fill the picture");
-    let mut small = TypedImage::<P>::new(columns as u32, rows as u32);
+/// Resizes a crop of stored pixels of three bytes, `width` per row; each output pixel is the mean of the input around it.
+fn resized(bytes: &[u8], width: u32, crop: Crop, (columns, rows): (usize, usize)) -> Raster<[u8; 3]> {
+    let height = (bytes.len() / (3 * width as usize)) as u32;
+    let source = TypedImageRef::<U8x3>::from_buffer(width, height, bytes).expect("the bytes fill the picture");
+    let mut small = TypedImage::<U8x3>::new(columns as u32, rows as u32);
     let options = ResizeOptions::new()
         .resize_alg(ResizeAlg::Convolution(FilterType::Bilinear))
         .crop(crop.x, crop.y, crop.width, crop.height)
         .use_alpha(false);
     Resizer::new().resize_typed(&source, &mut small, &options).expect("the crop lies inside the picture");
-    Raster::from_vec(columns, rows, small.pixels().to_vec())
+    Raster::from_vec(columns, rows, small.pixels().iter().map(|pixel| pixel.0).collect())
 }
 
 #[cfg(test)]

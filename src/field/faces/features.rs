@@ -140,7 +140,7 @@ fn skin_columns(lightness: &Raster<f32>, face: &Raster<f32>, frame: &FaceFrame) 
         .into_iter()
         .filter(|(_, values)| !values.is_empty())
         .map(|(x, mut values)| {
-            values.sort_by(f32::total_cmp);
+            values.sort_unstable_by(f32::total_cmp);
             // Slightly above the median, since features darken their columns.
             (x, values[values.len() * 3 / 5])
         })
@@ -181,7 +181,7 @@ fn windows(frame: &FaceFrame, face: &Raster<f32>) -> Raster<u8> {
 /// The depth below which the target share of the windows lies.
 fn threshold(depth: &Raster<f32>, windows: &Raster<u8>) -> f32 {
     let mut values: Vec<f32> = depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w != 0).map(|(n, _)| *n).collect();
-    values.sort_by(f32::total_cmp);
+    values.sort_unstable_by(f32::total_cmp);
     values.get((DARK_SHARE * values.len() as f64) as usize).copied().unwrap_or(0.0).min(1.0 - LEAST_DEPTH)
 }
 
@@ -228,7 +228,7 @@ fn weights(clusters: &Raster<u32>, count: usize, frame: &FaceFrame, name: u8) ->
 fn darkest_of(depth: &Raster<f32>, windows: &Raster<u8>, name: u8) -> Raster<u8> {
     let mut values: Vec<f32> =
         depth.pixels().iter().zip(windows.pixels()).filter(|(_, w)| **w == name).map(|(n, _)| *n).collect();
-    values.sort_by(f32::total_cmp);
+    values.sort_unstable_by(f32::total_cmp);
     let (Some(&least), middle) = (values.get(values.len() / 7), values.get(values.len() / 2)) else {
         return windows.map(|_| 0);
     };

@@ -167,7 +167,7 @@ impl Likeness<'_> {
             f64::from(self.tone.clamped(p.x as isize, p.y as isize))
         });
         let mut sorted = tones;
-        sorted.sort_by(f64::total_cmp);
+        sorted.sort_unstable_by(f64::total_cmp);
         let median = f64::midpoint(sorted[4], sorted[5]);
         tones.iter().zip(LIGHT).map(|(tone, (_, _, weight))| weight * (tone - median).abs().min(UNEVEN_LIMIT)).sum()
     }

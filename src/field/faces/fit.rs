@@ -66,7 +66,7 @@ fn clusters(first: &FaceFrame, relief: &Raster<f32>, skin: &Raster<f32>, share: 
         u8::from(across.abs() < 1.0 && (-0.65..1.5).contains(&down) && skin.get(x, y) > 0.3)
     });
     let mut values: Vec<f32> = relief.pixels().iter().zip(zone.pixels()).filter(|(_, z)| **z != 0).map(|(r, _)| *r).collect();
-    values.sort_by(f32::total_cmp);
+    values.sort_unstable_by(f32::total_cmp);
     let limit = values.get((share * values.len() as f64) as usize).map_or(0.0, |limit| limit.min(FAINTEST));
     let (labels, count) = components(&zone.zip_map(relief, |zone, relief| u8::from(zone != 0 && relief < limit)));
     gathered(&labels, count, relief, first.eye_distance)

@@ -67,7 +67,7 @@ fn crown_tone(filled: &Raster<f32>, subject: &Raster<f32>, skin: &[f32], frame: 
             }
         }
     }
-    tones.sort_by(f32::total_cmp);
+    tones.sort_unstable_by(f32::total_cmp);
     tones.get(tones.len() / 2).copied().unwrap_or(1.0)
 }
 

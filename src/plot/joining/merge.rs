@@ -115,7 +115,7 @@ fn meeting(paths: &[Toolpath], ends: (usize, usize), tolerance: f64) -> Option<M
 
 /// The partner of each end after joining pairs, the best first.
 fn matched(mut meetings: Vec<Meeting>, ends: usize) -> Vec<Option<usize>> {
-    meetings.sort_by(|a, b| a.turn.total_cmp(&b.turn).then(a.gap.total_cmp(&b.gap)).then(a.ends.cmp(&b.ends)));
+    meetings.sort_unstable_by(|a, b| a.turn.total_cmp(&b.turn).then(a.gap.total_cmp(&b.gap)).then(a.ends.cmp(&b.ends)));
     let mut links = vec![None; ends];
     for Meeting { ends: (a, b), .. } in meetings {
         if links[a].is_none() && links[b].is_none() {

@@ -67,7 +67,7 @@ fn spans(rings: &[Vec<Point>], rows: &[f64]) -> Vec<Vec<[Point; 2]>> {
     }
     let spans = |(crossings, &y): (Vec<f64>, &f64)| {
         let mut crossings = crossings;
-        crossings.sort_by(f64::total_cmp);
+        crossings.sort_unstable_by(f64::total_cmp);
         crossings.chunks_exact(2).map(|pair| [Point::new(pair[0], y), Point::new(pair[1], y)]).collect()
     };
     crossings.into_iter().zip(rows).map(spans).collect()

@@ -59,7 +59,7 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
             profile(plate, u, &lab, &light).map(|spots| hairiness(&spots))
         })
         .collect();
-    evidence.sort_by(f32::total_cmp);
+    evidence.sort_unstable_by(f32::total_cmp);
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
 }
 

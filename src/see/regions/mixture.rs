@@ -108,7 +108,7 @@ fn k_means(samples: &[Feature], count: usize) -> Option<(Vec<Feature>, Vec<usize
     while middles.len() < count {
         let mut order: Vec<(f32, usize)> =
             samples.iter().enumerate().map(|(i, s)| (square(*s, middles[nearest(&middles, *s)]), i)).collect();
-        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         middles.push(samples[order[((samples.len() - 1) as f64 * FAR) as usize].1]);
     }
     let mut own = vec![0; samples.len()];

@@ -150,7 +150,7 @@ fn sound(discs: Vec<Vec<Feature>>) -> Vec<Vec<Feature>> {
     let all: Vec<Look> = discs.iter().filter_map(|disc| looks(disc)).collect();
     let middle = |of: &dyn Fn(&Look) -> f32| {
         let mut values: Vec<f32> = all.iter().map(of).collect();
-        values.sort_by(f32::total_cmp);
+        values.sort_unstable_by(f32::total_cmp);
         values.get(values.len() / 2).copied().unwrap_or(0.0)
     };
     let (light, usual) = (middle(&|look| look.0), [middle(&|look| look.1[0]), middle(&|look| look.1[1])]);

@@ -181,6 +181,6 @@ fn darkest(tone: &Raster<f32>, ovals: &[Option<Raster<f32>>]) -> f32 {
         tone.pixels().iter().zip(inside.pixels()).filter(|(_, inside)| **inside > DRAWN.1).map(|(n, _)| *n).collect()
     };
     let mut tones: Vec<f32> = ovals.iter().flatten().flat_map(of).collect();
-    tones.sort_by(f32::total_cmp);
+    tones.sort_unstable_by(f32::total_cmp);
     tones.get((DARKEST_SHARE * tones.len() as f64) as usize).map_or(DARKEST, |tone| tone.min(DARKEST))
 }

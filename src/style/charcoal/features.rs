@@ -121,6 +121,6 @@ impl Drawer<'_> {
 fn darkest_brow(found: &FacialFeatures) -> f64 {
     let mut tones: Vec<f32> =
         found.normalised.pixels().iter().zip(found.labels.pixels()).filter(|(_, label)| **label != 0).map(|(n, _)| *n).collect();
-    tones.sort_by(f32::total_cmp);
+    tones.sort_unstable_by(f32::total_cmp);
     tones.get(tones.len() / 50).map_or(DARKEST, |tone| f64::from(*tone).min(DARKEST))
 }

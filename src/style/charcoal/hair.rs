@@ -88,7 +88,7 @@ impl Drawer<'_> {
         let contrast = blurred.zip_map(&fine, |a, b| (a - b).abs());
         let mut strengths: Vec<f32> =
             contrast.pixels().iter().zip(region.pixels()).filter(|(_, r)| **r != 0).map(|(c, _)| *c).collect();
-        strengths.sort_by(f32::total_cmp);
+        strengths.sort_unstable_by(f32::total_cmp);
         let at = (LINE_QUANTILE * strengths.len() as f64) as usize;
         // The difference of two Gaussians is about 0.8 sigma^2 times the curvature.
         strengths.get(at).map_or(0.0, |c| c / (0.8 * LINE_BLUR * LINE_BLUR))
@@ -172,6 +172,6 @@ fn lightness_of(middle: f32) -> f32 {
 /// Quantiles of the values inside the hair.
 fn levels_inside(values: &Raster<f32>, hair: &Raster<f32>, shares: [f64; 3]) -> [f32; 3] {
     let mut inside: Vec<f32> = values.pixels().iter().zip(hair.pixels()).filter(|(_, h)| **h >= 0.5).map(|(v, _)| *v).collect();
-    inside.sort_by(f32::total_cmp);
+    inside.sort_unstable_by(f32::total_cmp);
     shares.map(|share| inside[((inside.len() - 1) as f64 * share) as usize])
 }

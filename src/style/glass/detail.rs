@@ -25,7 +25,7 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
     let (width, height) = (ground.subject.width(), ground.subject.height());
     let missing = Raster::from_fn(width, height, |x, y| canvas.colour(x, y, colours).map_or(0.0, |c| distance(c, picture(x, y))));
     let mut seeds: Vec<usize> = (0..missing.len()).filter(|&i| missing.pixels()[i] > least.pixels()[i]).collect();
-    seeds.sort_by(|a, b| missing.pixels()[*b].total_cmp(&missing.pixels()[*a]).then(a.cmp(b)));
+    seeds.sort_unstable_by(|a, b| missing.pixels()[*b].total_cmp(&missing.pixels()[*a]).then(a.cmp(b)));
     let widest = WIDTH * drawer.pixels(drawer.parameters.grain);
     let scale = drawer.portrait.placement.mm_per_pixel();
     let mut done = Raster::filled(width, height, false);

@@ -101,7 +101,7 @@ fn chord(polygon: &[Point], p: Point, direction: Vec2) -> Option<Vec<Point>> {
             Some((q - p).dot(direction))
         })
         .collect();
-    cuts.sort_by(f64::total_cmp);
+    cuts.sort_unstable_by(f64::total_cmp);
     let (first, last) = (*cuts.first()?, *cuts.last()?);
     (last - first > 1e-6).then(|| vec![p + direction * first, p + direction * last])
 }

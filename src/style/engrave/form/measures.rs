@@ -38,7 +38,7 @@ fn measured(family: &Family, directions: &Raster<f32>, face: &Landmarks, pitch: 
             ends += [0, last].iter().filter(|i| is_on_face(line.points[**i])).count();
         }
     }
-    spacing.sort_by(f64::total_cmp);
+    spacing.sort_unstable_by(f64::total_cmp);
     let area = std::f64::consts::PI * (0.45 * width * PITCH / pitch / 10.0).powi(2);
     Measures { off, spacing, ends_per_cm2: ends as f64 / area }
 }
