@@ -145,7 +145,7 @@ impl HoughFilter {
         let mut accumulator = self.empty();
         self.fill(&mut accumulator, lines, 0, y);
         (1..=x).for_each(|x| self.slide(&mut accumulator, lines, x, y));
-        (0..self.normals.len()).flat_map(|angle| self.window_cells(&accumulator, angle, x, y).collect::<Vec<_>>()).collect()
+        (0..self.normals.len()).flat_map(|angle| self.window_cells(&accumulator, angle, x, y).concat()).collect()
     }
 
     fn empty(&self) -> Accumulator {
@@ -167,6 +167,7 @@ impl HoughFilter {
     }
 
     /// Moves from the window around `(x - 1, y)` to that around `(x, y)`.
+    #[inline]
     fn slide(&self, accumulator: &mut Accumulator, lines: &Raster<u8>, x: usize, y: usize) {
         for (row, py) in self.rows(lines, y) {
             let half = self.half_widths[row];
@@ -186,6 +187,7 @@ impl HoughFilter {
     }
 
     /// Adds `change` (1, or -1 wrapped) in the cell of a point at every angle.
+    #[inline]
     fn count(&self, accumulator: &mut Accumulator, x: usize, y: usize, change: u16) {
         let mask = self.ring - 1;
         for (ring, &(cos, sin)) in accumulator.counts.chunks_exact_mut(self.ring).zip(&self.normals) {
@@ -196,11 +198,14 @@ impl HoughFilter {
         accumulator.points = accumulator.points.wrapping_add_signed(i32::from(change.cast_signed()));
     }
 
-    fn window_cells<'a>(&self, accumulator: &'a Accumulator, angle: usize, x: usize, y: usize) -> impl Iterator<Item = u16> + 'a {
+    /// The window's cells at an angle, in two pieces of its ring.
+    #[inline]
+    fn window_cells<'a>(&self, accumulator: &'a Accumulator, angle: usize, x: usize, y: usize) -> [&'a [u16]; 2] {
         let first = self.rho(angle, x as isize, y as isize) - (self.cells / 2) as i32;
         let ring = &accumulator.counts[angle * self.ring..(angle + 1) * self.ring];
         let start = first as usize & (self.ring - 1);
-        ring[start..].iter().chain(&ring[..start]).take(self.cells).copied()
+        let whole = self.cells.min(self.ring - start);
+        [&ring[start..start + whole], &ring[..self.cells - whole]]
     }
 
     /// The doubled-angle vector of the cells that count.
@@ -212,17 +217,26 @@ impl HoughFilter {
             let centre = x as i32 * cos + y as i32 * sin;
             let place = ((centre >> (FRACTION_BITS - 3)) as usize) & (CENTRE_STEPS - 1);
             let expected = &self.expected[place * self.cells..(place + 1) * self.cells];
-            let counts = self.window_cells(accumulator, angle, x, y);
-            for ((rank, count), share) in ranks.iter_mut().zip(counts).zip(expected) {
-                // The cast makes negative values 0: a cell emptier than expected carries no information.
-                *rank = ((f32::from(count) - points * share) * RANKS_A_COUNT) as u8;
-                histogram[usize::from(*rank)] += 1;
+            let mut cell = 0;
+            for piece in self.window_cells(accumulator, angle, x, y) {
+                for count in piece {
+                    // The cast makes negative values 0: a cell emptier than expected carries no information.
+                    let rank = ((f32::from(*count) - points * expected[cell]) * RANKS_A_COUNT) as u8;
+                    ranks[cell] = rank;
+                    histogram[usize::from(rank)] += 1;
+                    cell += 1;
+                }
             }
         }
         let least = least_of_the_top(histogram, (TOP_SHARE * ranks.len() as f64) as u32);
         let mut sum = [0.0_f32; 2];
         for (ranks, doubled) in ranks.chunks_exact(self.cells).zip(&self.doubled) {
-            let strength: u32 = ranks.iter().filter(|rank| **rank >= least).map(|rank| self.weight(*rank)).sum();
+            let mut strength = 0;
+            for rank in ranks {
+                if *rank >= least {
+                    strength += self.weight(*rank);
+                }
+            }
             sum[0] += strength as f32 * doubled[0];
             sum[1] += strength as f32 * doubled[1];
         }

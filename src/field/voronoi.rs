@@ -92,7 +92,11 @@ impl<'a> Sites<'a> {
         let (x0, y0) = self.cell_of(Point::new(centre.x - reach, centre.y - reach));
         let (x1, y1) = self.cell_of(Point::new(centre.x + reach, centre.y + reach));
         for y in y0..=y1 {
-            out.extend(self.row_members(x0, x1, y).iter().filter(|&&i| self.points[i as usize].distance(centre) <= reach));
+            for &i in self.row_members(x0, x1, y) {
+                if self.points[i as usize].distance(centre) <= reach {
+                    out.push(i);
+                }
+            }
         }
     }
 

@@ -88,7 +88,7 @@ impl Lattice {
                 padded[before + width..].fill(row[width - 1]);
                 for (j, node) in nodes.iter_mut().enumerate() {
                     let window = &padded[j * self.step..];
-                    *node = window.iter().zip(&self.gather).map(|(v, weight)| v * weight).sum();
+                    *node = weighted_sum(window, &self.gather);
                 }
                 for (j, blurred) in blurred.iter_mut().enumerate() {
                     let centre = j + radius;
@@ -99,7 +99,7 @@ impl Lattice {
                 }
                 for (x, out) in out.iter_mut().enumerate() {
                     let (node, weights) = (x / self.step, self.spread[x % self.step]);
-                    *out = weights.iter().zip(&blurred[node..]).map(|(weight, v)| weight * v).sum();
+                    *out = weighted_sum(&blurred[node..], &weights);
                 }
             },
         );
@@ -128,6 +128,15 @@ impl Lattice {
             }
         })
     }
+}
+
+#[inline]
+fn weighted_sum(values: &[f32], weights: &[f32]) -> f32 {
+    let mut sum = 0.0;
+    for (value, weight) in values.iter().zip(weights) {
+        sum += value * weight;
+    }
+    sum
 }
 
 /// A raster whose rows are weighted sums of rows; `sum` adds up one row.
