@@ -28,6 +28,13 @@ const SHADOW: f32 = 0.45;
 const DARK_CHEEK: f32 = 35.0;
 /// Texture up to which black is taken for shadow, not hair.
 const SMOOTH: f32 = 14.0;
+/// The same at the ears, whose folds are texture: in one portrait an ear in black shadow has 15 to 17, the hair about it 22.
+const SMOOTH_EAR: f32 = 18.0;
+/// Light shines through an ear: it is redder than this, and its chroma is so much greater than the hair's.
+const RED: f32 = 18.0;
+const MORE_COLOURED: f32 = 18.0;
+/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*.
+const REFLECTION: f32 = 15.0;
 const HAIRS: usize = 4;
 const CLOTHS: usize = 5;
 /// Chroma from which hair can be distinguished from jackets.
@@ -294,9 +301,10 @@ impl<'a> Segmentation<'a> {
     fn is_shadow(&self, i: usize) -> bool {
         let [u, v] = self.plate.at.pixels()[i];
         let side = usize::from(u > self.plate.coordinates(self.plate.point(BETWEEN_EYES))[0]);
-        let is_face = self.with_ears.pixels()[i] && v < 0.97 && u.abs() < 0.35;
+        let is_face = self.with_ears.pixels()[i] && v < 0.97 && u.abs() < 0.44;
         let is_ear = self.with_ears.pixels()[i] && v < 0.72 && v > 0.2;
-        self.shadowed[side] && (is_face || is_ear) && self.plate.features.pixels()[i][3] < SMOOTH
+        let texture = self.plate.features.pixels()[i][3];
+        self.shadowed[side] && (is_face && texture < SMOOTH || is_ear && texture < SMOOTH_EAR)
     }
 
     fn hair_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
@@ -316,6 +324,14 @@ impl<'a> Segmentation<'a> {
         }
         if v < 0.35 && a < 0.36 {
             e -= if is_long { 3.0 } else { 7.0 };
+        }
+        let lightest = self.skin.middle[0].max(hair.middle[0]) + REFLECTION * LIGHTNESS_WEIGHT;
+        if v < 1.08 && self.path.pixels()[i] < 4.0 && f[0] > lightest {
+            e -= 12.0;
+        }
+        let is_glowing = f[1] > RED && f[1].hypotenuse(f[2]) > hair.middle[1].hypotenuse(hair.middle[2]) + MORE_COLOURED;
+        if is_glowing && v < 0.75 && self.with_ears.pixels()[i] {
+            e -= 8.0;
         }
         if v > 1.12 && !self.is_bald && self.path.pixels()[i] > 2.0 {
             e += 3.0;
