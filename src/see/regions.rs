@@ -14,6 +14,7 @@ mod baldness;
 mod facial_hair;
 mod head;
 mod headwear;
+mod lighting;
 mod mixture;
 mod path;
 mod pieces;

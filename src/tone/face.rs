@@ -4,7 +4,7 @@ use super::blurred_within;
 use super::curve::Curve;
 use super::lights::rubbed;
 use super::mixing::mixed;
-use super::openings::{dark_of_mouth, opened};
+use super::openings::{dark_of_mouth, firm_eyes, opened};
 use super::zones::Zones;
 use crate::elementary::Elementary as _;
 use crate::geometry::Point;
@@ -91,7 +91,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     if let Some(hair) = &setting.hair {
         tone = light_hair(&zones, face, &tone, hair, &setting.subject);
     }
-    let tone = raised_features(&zones, &tone, &setting.subject);
+    let tone = raised_features(&zones, face, &tone, &setting.subject);
     let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, face, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone);
@@ -171,11 +171,12 @@ fn above_chin(face: &Landmarks) -> impl Fn(Point) -> f64 + Sync {
 }
 
 /// Step 6: eyes, brows and lips get more contrast against the surrounding skin.
-fn raised_features(zones: &Zones, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+fn raised_features(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
     let weight = zones.skin.zip_map(subject, |skin, subject| (skin + 1e-4) * subject + 1e-6);
     let round = zones.over_skin(tone, &weight, 0.10);
     let raised = tone.zip_map(&round, |tone, round| FEATURES * (tone - round));
-    tone.zip_map(&raised.zip_map(&zones.features, |raised, feature| raised * feature), |tone, more| tone + more)
+    let tone = tone.zip_map(&raised.zip_map(&zones.features, |raised, feature| raised * feature), |tone, more| tone + more);
+    firm_eyes(zones, face, &tone, &round)
 }
 
 /// Step 8: hair, beards and cloth keep gaps of paper; thin dark lines stay.

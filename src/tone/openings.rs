@@ -4,7 +4,7 @@
 use super::blurred_within;
 use super::mixing::mixed;
 use super::zones::{Zones, polygon};
-use crate::geometry::{Point, polygon_area};
+use crate::geometry::{Point, convex_hull, polygon_area};
 use crate::raster::{Raster, dilate, fast_gaussian};
 use crate::source::{Iris, Landmarks, outlines};
 
@@ -26,6 +26,12 @@ const MOST_DARKENED: f32 = 0.16;
 /// A catchlight is lighter than its iris' median by this, and its difference is raised by this factor.
 const CATCHLIGHT: f32 = 0.22;
 const SPARK: f32 = 1.5;
+/// How much darker than the skin around it an iris should be at least; the gain that is used for it at most; the difference below which there
+/// is no eye to be seen; and the blur of the eye's zone with its lids, in widths of the face.
+const EYE_DEPTH: f32 = 0.5;
+const MOST_GAIN: f32 = 2.2;
+const LEAST_DEPTH: f32 = 0.06;
+const WITH_LIDS: f64 = 0.015;
 /// Teeth: the gain of their detail (with 1.2 the gaps are drips and beads), the blur (in widths of the face) that it is measured from, and the most light of their mean.
 const TEETH_DETAIL: f32 = 0.3;
 const TEETH_REACH: f64 = 0.022;
@@ -54,6 +60,24 @@ pub(super) fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
     let across = outline.iter().flat_map(|p| outline.iter().map(|q| p.distance(*q))).fold(0.0, f64::max);
     let height = polygon_area(outline).abs() / across.max(1e-9);
     ((height / across.max(1e-9) - closed) / (open - closed)).clamp(0.0, 1.0) as f32
+}
+
+/// Eyes that differ little from the skin around them, behind lenses or in shade, are raised until their irises do; `round` is the tone of
+/// that skin.
+pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, round: &Raster<f32>) -> Raster<f32> {
+    let eyes = [(&outlines::RIGHT_EYE, face.irises[0]), (&outlines::LEFT_EYE, face.irises[1])];
+    eyes.into_iter().fold(tone.clone(), |tone, (lids, iris)| {
+        let below = round.zip_map(&tone, |round, v| round - v);
+        let disc = Raster::from_fn(tone.width(), tone.height(), |x, y| {
+            f32::from(u8::from(iris.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 0.8 * iris.radius))
+        });
+        let Some(depth) = median(&below, &disc).filter(|depth| *depth > LEAST_DEPTH) else { return tone };
+        let gain = (EYE_DEPTH / depth).clamp(1.0, MOST_GAIN) - 1.0;
+        let hull = polygon(tone.width(), tone.height(), &convex_hull(face.line(lids)));
+        let around = dilate(&hull, (WITH_LIDS * zones.width).round().max(1.0) as usize).map(f32::from);
+        let soft = fast_gaussian(&around, (WITH_LIDS * zones.width) as f32);
+        tone.zip_map(&below.zip_map(&soft, |below, share| gain * share * below), |tone, more| tone - more)
+    })
 }
 
 fn eye(tone: &Raster<f32>, lids: &[Point], iris: Iris, skin: f32) -> Raster<f32> {

@@ -2,6 +2,7 @@
 //! known from the shape of heads.
 
 use super::baldness::is_bald;
+use super::lighting::{Lighting, is_reflection};
 use super::mixture::{Mixture, log_sum};
 use super::path::path_from;
 use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
@@ -18,23 +19,6 @@ pub(super) const CLOTHING: usize = 3;
 
 /// The middle of the forehead's upper border.
 const TOP: usize = 10;
-/// Between the eyes.
-const BETWEEN_EYES: usize = 6;
-/// The cheek on the picture's left and on its right.
-const CHEEKS: [usize; 2] = [50, 280];
-/// A cheek below this fraction of the other's lightness may lie in black shadow.
-const SHADOW: f32 = 0.45;
-/// It does if it is also darker than this L*.
-const DARK_CHEEK: f32 = 35.0;
-/// Texture up to which black is taken for shadow, not hair.
-const SMOOTH: f32 = 14.0;
-/// The same at the ears, whose folds are texture: in one portrait an ear in black shadow has 15 to 17, the hair about it 22.
-const SMOOTH_EAR: f32 = 18.0;
-/// Light shines through an ear: it is redder than this, and its chroma is so much greater than the hair's.
-const RED: f32 = 18.0;
-const MORE_COLOURED: f32 = 18.0;
-/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*.
-const REFLECTION: f32 = 15.0;
 const HAIRS: usize = 4;
 const CLOTHS: usize = 5;
 /// Chroma from which hair can be distinguished from jackets.
@@ -60,10 +44,7 @@ pub(super) struct Segmentation<'a> {
     from_skin: Raster<f32>,
     /// Cost of the colour path from the bare skin of the face.
     path: Raster<f32>,
-    /// Sides of the face in black shadow, where colour is meaningless: the picture's left, then right.
-    shadowed: [bool; 2],
-    /// The face's oval with the ears beside it.
-    with_ears: Raster<bool>,
+    lighting: Lighting,
     hair: Option<Hair>,
     clothing: Option<Mixture>,
 }
@@ -95,13 +76,6 @@ impl Hair {
     fn beside_jaw(&self, u: f32) -> f32 {
         self.beside_jaw[usize::from(u > 0.0)]
     }
-}
-
-/// The sides whose cheek is nearly black compared with the other.
-fn shadowed(plate: &Plate) -> [bool; 2] {
-    let light = CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(0.0, |f| f[0]));
-    let is_black = |own: f32, other: f32| own < SHADOW * other && own < DARK_CHEEK * LIGHTNESS_WEIGHT;
-    [is_black(light[0], light[1]), is_black(light[1], light[0])]
 }
 
 /// True if most of the crown has another colour than skin, however gradual the transition; highlights do not count.
@@ -145,17 +119,8 @@ impl<'a> Segmentation<'a> {
             if is_forehead { d.min(skin.shaded_distance(plate.features.get(x, y))) } else { d }
         });
         let is_bald = is_bald(plate) && !has_another_crown(plate, &skin);
-        let mut parting = Self {
-            plate,
-            skin,
-            is_bald,
-            from_skin,
-            path,
-            shadowed: shadowed(plate),
-            with_ears: dilate(&plate.oval.map(u8::from), (0.2 * plate.face_width) as usize).map(|v| v != 0),
-            hair: None,
-            clothing: None,
-        };
+        let mut parting =
+            Self { plate, skin, is_bald, from_skin, path, lighting: Lighting::of(plate), hair: None, clothing: None };
         parting.hair = parting.hair_learned();
         let worn = plate.samples(&parting.shoulders());
         if let (Some(hair), Some(worn)) = (&mut parting.hair, median(&worn)) {
@@ -252,7 +217,7 @@ impl<'a> Segmentation<'a> {
         let a = u.abs();
         let (far, path) = (self.from_skin.pixels()[i], self.path.pixels()[i]);
         let is_core = self.plate.core.pixels()[i] && v < 0.72;
-        let is_shadow = self.is_shadow(i);
+        let is_shadow = self.lighting.is_shadow(self.plate, i);
         let most = if is_shadow {
             8.0
         } else if is_core {
@@ -297,21 +262,11 @@ impl<'a> Segmentation<'a> {
         e
     }
 
-    /// True if a pixel may be skin in black shadow: in the face or at an ear, on a shadowed side.
-    fn is_shadow(&self, i: usize) -> bool {
-        let [u, v] = self.plate.at.pixels()[i];
-        let side = usize::from(u > self.plate.coordinates(self.plate.point(BETWEEN_EYES))[0]);
-        let is_face = self.with_ears.pixels()[i] && v < 0.97 && u.abs() < 0.44;
-        let is_ear = self.with_ears.pixels()[i] && v < 0.72 && v > 0.2;
-        let texture = self.plate.features.pixels()[i][3];
-        self.shadowed[side] && (is_face && texture < SMOOTH || is_ear && texture < SMOOTH_EAR)
-    }
-
     fn hair_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
         let Some(hair) = &self.hair else { return -60.0 };
         let a = u.abs();
         let mut e = hair.mixture.log_density(f);
-        if (self.plate.core.pixels()[i] && v < 0.75) || self.is_shadow(i) {
+        if (self.plate.core.pixels()[i] && v < 0.75) || self.lighting.is_shadow(self.plate, i) {
             e -= 12.0;
         } else if is_face && v < 0.78 {
             e -= 6.0;
@@ -325,13 +280,10 @@ impl<'a> Segmentation<'a> {
         if v < 0.35 && a < 0.36 {
             e -= if is_long { 3.0 } else { 7.0 };
         }
-        let lightest = self.skin.middle[0].max(hair.middle[0]) + REFLECTION * LIGHTNESS_WEIGHT;
-        if v < 1.08 && self.path.pixels()[i] < 4.0 && f[0] > lightest {
+        let is_lit = self.lighting.is_glowing(v, f, i, hair.middle)
+            || is_reflection(v, f, self.path.pixels()[i], [self.skin.middle, hair.middle]);
+        if is_lit {
             e -= 12.0;
-        }
-        let is_glowing = f[1] > RED && f[1].hypotenuse(f[2]) > hair.middle[1].hypotenuse(hair.middle[2]) + MORE_COLOURED;
-        if is_glowing && v < 0.75 && self.with_ears.pixels()[i] {
-            e -= 8.0;
         }
         if v > 1.12 && !self.is_bald && self.path.pixels()[i] > 2.0 {
             e += 3.0;

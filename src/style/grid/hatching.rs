@@ -12,6 +12,8 @@ use rayon::prelude::*;
 
 /// Distance of a stroke's nodes in pitches: half a cell, so that its width can follow the tone from dot to dot.
 const NODE_SPACING: f64 = 0.5;
+/// Nodes by which a line goes on, thinner and thinner, beyond its ends: one and a half pitches, over which a gap between two lines closes.
+const POINT_NODES: usize = 3;
 /// Width in pitches below which no line is drawn.
 const LEAST_WIDTH: f64 = 0.002;
 /// Width in pitches from which a line's end does not look like a hair.
@@ -36,9 +38,11 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curv
         points.push(points[0]);
     }
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
+    let (nodes, shares) = if line.closed { (nodes.clone(), vec![1.0; nodes.len()]) } else { pointed(&nodes) };
     // Blurred ink extends beyond the subject and would draw a hairline around it.
     let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
-    let widths: Vec<f64> = nodes.iter().map(|p| if is_bare(*p) { 0.0 } else { width(grid, &mixing, *p, ink) }).collect();
+    let wide = |p: Point| if is_bare(p) { 0.0 } else { width(grid, &mixing, p, ink) };
+    let widths: Vec<f64> = nodes.iter().zip(shares).map(|(p, share)| share * wide(*p)).collect();
     let least = LEAST_WIDTH * drawer.pitch();
     let is_whole = line.closed && nodes.len() > 3 && widths.iter().all(|&w| w > least);
     if is_whole {
@@ -57,6 +61,17 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curv
         }
     }
     out
+}
+
+/// An open line carried on beyond its ends, where its neighbours close up, and the share of its width that each node has: a line with
+/// blunt ends leaves white nicks in dark cloth.
+fn pointed(nodes: &[Point]) -> (Vec<Point>, Vec<f64>) {
+    let [first, second, .., before, last] = nodes else { return (nodes.to_vec(), vec![1.0; nodes.len()]) };
+    let on = |i: usize, end: Point, inner: Point| end + (end - inner) * i as f64;
+    let share = |i: usize| 1.0 - i as f64 / (POINT_NODES + 1) as f64;
+    let ahead = (1..=POINT_NODES).rev().map(|i| (on(i, *first, *second), share(i)));
+    let after = (1..=POINT_NODES).map(|i| (on(i, *last, *before), share(i)));
+    ahead.chain(nodes.iter().map(|p| (*p, 1.0))).chain(after).unzip()
 }
 
 /// A run of nodes without ends where the width falls by more than half from one node to the next: such ends stand out like hairs at the

@@ -1,0 +1,90 @@
+//! Skin that light, or its absence, makes unlike skin: a side in black shadow, an ear with light through it, a lamp's reflection.
+
+use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
+use super::skin_model::{BARE_REACH, median};
+use crate::elementary::Elementary as _;
+use crate::raster::{Raster, dilate};
+
+/// Between the eyes.
+const BETWEEN_EYES: usize = 6;
+/// The cheek on the picture's left and on its right.
+const CHEEKS: [usize; 2] = [50, 280];
+/// A cheek below this fraction of the other's lightness may lie in black shadow.
+const SHADOW: f32 = 0.45;
+/// It does if it is also darker than this L*.
+const DARK_CHEEK: f32 = 35.0;
+/// Texture up to which black is taken for shadow, not hair; the same at the ears, whose folds are texture: in one portrait an ear in
+/// black shadow has 15 to 17, the hair about it 22.
+const SMOOTH: f32 = 14.0;
+const SMOOTH_EAR: f32 = 18.0;
+/// Light shines through an ear: it is redder than this, and its chroma is so much greater than the hair's.
+const RED: f32 = 18.0;
+const MORE_COLOURED: f32 = 18.0;
+/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*.
+const REFLECTION: f32 = 15.0;
+/// Cost of the way from the bare skin of the face up to which a reflection lies on the forehead and not on hair.
+const ON_FOREHEAD: f32 = 4.0;
+
+/// How a head is lit.
+pub(super) struct Lighting {
+    /// Sides of the face in black shadow, where colour is meaningless: the picture's left, then right.
+    shadowed: [bool; 2],
+    /// Where the right side begins, in `u`.
+    middle: f32,
+    /// The face's oval with the ears beside it.
+    with_ears: Raster<bool>,
+}
+
+impl Lighting {
+    pub(super) fn of(plate: &Plate) -> Self {
+        let reach = (0.2 * plate.face_width) as usize;
+        Self {
+            shadowed: shadowed(plate),
+            middle: plate.coordinates(plate.point(BETWEEN_EYES))[0],
+            with_ears: dilate(&plate.oval.map(u8::from), reach).map(|v| v != 0),
+        }
+    }
+
+    /// True if a pixel may be skin in black shadow: in the face or at an ear, on a shadowed side.
+    pub(super) fn is_shadow(&self, plate: &Plate, i: usize) -> bool {
+        let [u, v] = plate.at.pixels()[i];
+        let is_face = v < 0.97 && u.abs() < 0.44;
+        let is_ear = v < 0.72 && v > 0.2;
+        let texture = plate.features.pixels()[i][3];
+        let is_smooth = (is_face && texture < SMOOTH) || (is_ear && texture < SMOOTH_EAR);
+        self.shadowed[usize::from(u > self.middle)] && self.with_ears.pixels()[i] && is_smooth
+    }
+
+    /// True for a pixel of an ear that light shines through.
+    pub(super) fn is_glowing(&self, v: f32, f: Feature, i: usize, hair: Feature) -> bool {
+        let chroma = |f: Feature| f[1].hypotenuse(f[2]);
+        v < 0.75 && self.with_ears.pixels()[i] && f[1] > RED && chroma(f) > chroma(hair) + MORE_COLOURED
+    }
+}
+
+/// True for a reflection on a forehead, `path` from the bare skin of the face; `medians` of skin and hair.
+pub(super) fn is_reflection(v: f32, f: Feature, path: f32, medians: [Feature; 2]) -> bool {
+    let lightest = medians[0][0].max(medians[1][0]) + REFLECTION * LIGHTNESS_WEIGHT;
+    v < 1.08 && path < ON_FOREHEAD && f[0] > lightest
+}
+
+/// The sides whose cheek is nearly black compared with the other.
+fn shadowed(plate: &Plate) -> [bool; 2] {
+    let light = CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(0.0, |f| f[0]));
+    let is_black = |own: f32, other: f32| own < SHADOW * other && own < DARK_CHEEK * LIGHTNESS_WEIGHT;
+    [is_black(light[0], light[1]), is_black(light[1], light[0])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_light_far_above_skin_and_hair_is_a_reflection_near_the_face() {
+        let [skin, hair] = [[108.0, 20.0, 26.0, 17.0], [28.0, 2.0, 2.0, 26.0]];
+        let spot = [217.0, 0.0, 3.0, 18.0];
+        assert!(is_reflection(0.95, spot, 2.9, [skin, hair]));
+        assert!(!is_reflection(0.95, spot, 6.5, [skin, hair]), "gloss on hair lies beyond its border");
+        assert!(!is_reflection(0.95, spot, 2.9, [skin, [210.0, 0.0, 10.0, 26.0]]), "white hair is as light");
+    }
+}
