@@ -18,6 +18,7 @@ mod ink;
 mod measures;
 mod runs;
 mod shares;
+mod specks;
 
 use super::Drawer;
 use super::parameters::Look;
@@ -78,6 +79,7 @@ impl Drawer<'_> {
             pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
             self.check()?;
         }
+        specks::without_specks(&mut pieces, self.pixels(self.parameters.pitch));
         self.observer.begin("widths");
         for _ in 0..TONE_ROUNDS {
             self.correct(&mut pieces, &ink);
