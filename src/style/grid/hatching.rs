@@ -1,9 +1,9 @@
 //! Hatching along the grid's lines, with widths that make the tone (Son et al. 2011, section 6.2; errata).
 
-use super::Drawer;
 use super::darks::Darks;
 use super::mixing::Mixing;
 use super::structure::StructureGrid;
+use super::{Drawer, LineEnds};
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::Curve;
 use crate::geometry::{Point, Ring, catmull_rom, resample};
@@ -12,33 +12,41 @@ use rayon::prelude::*;
 
 /// Distance of a stroke's nodes in pitches: half a cell, so that its width can follow the tone from dot to dot.
 const NODE_SPACING: f64 = 0.5;
-/// Nodes by which a line goes on, thinner and thinner, beyond its ends: one and a half pitches, over which a gap between two lines closes.
+/// Nodes over which a line becomes thinner before its ends, and by which it goes on beyond them: one and a half pitches, over which a gap
+/// between two lines closes.
 const POINT_NODES: usize = 3;
 /// Width in pitches below which no line is drawn.
 const LEAST_WIDTH: f64 = 0.002;
 /// Width in pitches from which a line's end does not look like a hair.
 const WHISKER: f64 = 0.25;
 
-pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, ink: &Raster<f32>) -> Layer {
+pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, ink: &Raster<f32>, ends: LineEnds) -> Layer {
     drawer.observer.begin("hatching");
     let mixing = Mixing::new(drawer);
     let mut layer = Layer::new("hatching", 1);
     for family in (0..2).filter(|&family| mixing.hatches(family)) {
-        let strokes: Vec<Vec<Mark>> = grid.lines[family].par_iter().map(|line| strokes(drawer, grid, darks, line, ink)).collect();
+        let strokes: Vec<Vec<Mark>> =
+            grid.lines[family].par_iter().map(|line| strokes(drawer, grid, darks, (line, ends), ink)).collect();
         layer.marks.extend(strokes.into_iter().flatten());
     }
     layer
 }
 
 /// The parts of one grid line where there is ink to draw.
-fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curve, ink: &Raster<f32>) -> Vec<Mark> {
+fn strokes(
+    drawer: &Drawer<'_>,
+    grid: &StructureGrid,
+    darks: &Darks,
+    (line, ends): (&Curve, LineEnds),
+    ink: &Raster<f32>,
+) -> Vec<Mark> {
     let mixing = Mixing::new(drawer);
     let mut points = line.points.clone();
     if line.closed {
         points.push(points[0]);
     }
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
-    let (nodes, shares) = if line.closed { (nodes.clone(), vec![1.0; nodes.len()]) } else { pointed(&nodes) };
+    let (nodes, shares) = if line.closed || ends == LineEnds::Blunt { whole(nodes) } else { pointed(nodes) };
     // Blurred ink extends beyond the subject and would draw a hairline around it.
     let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
     let wide = |p: Point| if is_bare(p) { 0.0 } else { width(grid, &mixing, p, ink) };
@@ -63,15 +71,26 @@ fn strokes(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, line: &Curv
     out
 }
 
+/// A line of its full width from end to end.
+fn whole(nodes: Vec<Point>) -> (Vec<Point>, Vec<f64>) {
+    let shares = vec![1.0; nodes.len()];
+    (nodes, shares)
+}
+
 /// An open line carried on beyond its ends, where its neighbours close up, and the share of its width that each node has: a line with
-/// blunt ends leaves white nicks in dark cloth.
-fn pointed(nodes: &[Point]) -> (Vec<Point>, Vec<f64>) {
-    let [first, second, .., before, last] = nodes else { return (nodes.to_vec(), vec![1.0; nodes.len()]) };
+/// blunt ends leaves white nicks in dark cloth. It loses as much ink before its end as it gains after it.
+fn pointed(nodes: Vec<Point>) -> (Vec<Point>, Vec<f64>) {
+    let count = nodes.len();
+    if count <= 2 * POINT_NODES {
+        return whole(nodes);
+    }
     let on = |i: usize, end: Point, inner: Point| end + (end - inner) * i as f64;
-    let share = |i: usize| 1.0 - i as f64 / (POINT_NODES + 1) as f64;
-    let ahead = (1..=POINT_NODES).rev().map(|i| (on(i, *first, *second), share(i)));
-    let after = (1..=POINT_NODES).map(|i| (on(i, *last, *before), share(i)));
-    ahead.chain(nodes.iter().map(|p| (*p, 1.0))).chain(after).unzip()
+    let ahead = (1..=POINT_NODES).rev().map(|i| on(i, nodes[0], nodes[1]));
+    let after = (1..=POINT_NODES).map(|i| on(i, nodes[count - 1], nodes[count - 2]));
+    let longer: Vec<Point> = ahead.chain(nodes.iter().copied()).chain(after).collect();
+    let from_tip = |i: usize| (i + 1).min(longer.len() - i) as f64;
+    let shares = (0..longer.len()).map(|i| (from_tip(i) / (2 * POINT_NODES + 2) as f64).min(1.0)).collect();
+    (longer, shares)
 }
 
 /// A run of nodes without ends where the width falls by more than half from one node to the next: such ends stand out like hairs at the

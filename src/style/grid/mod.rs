@@ -62,11 +62,20 @@ impl Style for Grid {
     }
 
     fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
-        request.drawer(GridParameters::new(request.settings)).draw()
+        request.drawer(GridParameters::new(request.settings)).draw(LineEnds::Blunt)
     }
 }
 
 type Drawer<'a> = super::Drawer<'a, GridParameters>;
+
+/// The ends of hatching lines where they have ink.
+#[derive(Clone, Copy, PartialEq)]
+enum LineEnds {
+    /// As the line ends. The grid's own: the tone of its fields is exact to 0.015 with them.
+    Blunt,
+    /// Running out beyond the line's end, so that dark cloth has no white nicks.
+    Pointed,
+}
 
 /// Settings with which all ink lies in hatches along the features.
 const HATCHES: &[(&str, &str)] = &[("size_max", "0mm"), ("hatching", "along"), ("lines", "off"), ("reversed_from", "1")];
@@ -74,7 +83,7 @@ const HATCHES: &[(&str, &str)] = &[("size_max", "0mm"), ("hatching", "along"), (
 /// Hatches along the features with the tone's width, for a style of another kind at its pitch.
 pub(super) fn hatches(drawer: &super::Drawer<'_, impl Pitched>) -> Result<Vec<Mark>, StyleError> {
     let settings = CARD.settings_at(drawer.parameters.pitch(), HATCHES)?;
-    match drawer.in_style(GridParameters::new(&settings)).draw() {
+    match drawer.in_style(GridParameters::new(&settings)).draw(LineEnds::Pointed) {
         // Single dots fill holes of the hatching.
         Ok(drawing) => {
             Ok(drawing.layers.into_iter().flat_map(|layer| layer.marks).filter(|m| !matches!(m, Mark::Dot(_))).collect())
@@ -89,7 +98,7 @@ const TONE_BLUR: f32 = 0.3;
 
 impl Drawer<'_> {
     /// The paper's steps in order.
-    fn draw(&self) -> Result<Drawing, StyleError> {
+    fn draw(&self, ends: LineEnds) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
@@ -102,7 +111,7 @@ impl Drawer<'_> {
         self.check()?;
         let cells = cells::cells(self, &grid, &ink, &features);
         let mut layers = match self.parameters.primitive {
-            Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink),
+            Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink, ends),
             Primitive::Tile => vec![tiles::layer(self, &cells)],
             Primitive::TileLines => vec![tiles::line_layer(self, &cells)],
         };
@@ -121,10 +130,10 @@ impl Drawer<'_> {
     }
 
     /// Section 6: lines and dots; reversed areas join the lines, or the dots if there are no lines.
-    fn mixed_layers(&self, grid: &StructureGrid, cells: &[Cell], ink: &Raster<f32>) -> Vec<Layer> {
+    fn mixed_layers(&self, grid: &StructureGrid, cells: &[Cell], ink: &Raster<f32>, ends: LineEnds) -> Vec<Layer> {
         let darks = Darks::new(self, grid, ink);
         let blurred = gaussian_blur(ink, TONE_BLUR * self.pitch() as f32);
-        let mut lines = hatching::layer(self, grid, &darks, &blurred);
+        let mut lines = hatching::layer(self, grid, &darks, &blurred, ends);
         let mut dots = dots::layer(self, grid, cells, &darks, &blurred);
         let first = if lines.marks.is_empty() { &mut dots } else { &mut lines };
         first.marks.extend(darks.areas);
