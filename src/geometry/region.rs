@@ -91,6 +91,7 @@ impl Region {
     }
 
     /// The part of the region in a window; its sides along the window count as border.
+    #[must_use]
     pub fn in_window(&self, window: Rect) -> Self {
         let cut = self.polygons.iter().map(|polygon| clip_polygon(polygon, window)).filter(|polygon| polygon.len() > 2);
         Self::of_polygons(cut.collect())

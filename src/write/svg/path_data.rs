@@ -76,18 +76,15 @@ impl<'a> PathData<'a> {
 
     fn move_to(&mut self, p: Point) {
         let to = self.place(p);
-        let [x, y] = match self.last {
-            None => {
-                self.text.push('M');
-                self.last = Some('M');
-                to
-            }
-            Some(_) => {
-                self.text.push('m');
-                // Numbers that follow are a line.
-                self.last = Some('l');
-                [to[0] - self.at[0], to[1] - self.at[1]]
-            }
+        let [x, y] = if self.last.is_none() {
+            self.text.push('M');
+            self.last = Some('M');
+            to
+        } else {
+            self.text.push('m');
+            // Numbers that follow are a line.
+            self.last = Some('l');
+            [to[0] - self.at[0], to[1] - self.at[1]]
         };
         self.number(x, true);
         self.number(y, false);
