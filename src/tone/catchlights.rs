@@ -22,7 +22,7 @@ pub(super) fn with_catchlights(tone: Raster<f32>, lightness: &Raster<f32>, faces
         let aside = if face.lit_side(lightness) < 0.0 { -ASIDE } else { ASIDE };
         [0, 1].map(|i| (face.irises[i], openness(&face.line(lids[i]), EYE_OPEN), aside))
     });
-    eyes.fold(tone, |tone, (iris, open, aside)| if open > 0.5 && is_black(&tone, iris) { lit(tone, iris, aside) } else { tone })
+    eyes.fold(tone, |tone, (iris, open, aside)| if open >= 1.0 && is_black(&tone, iris) { lit(tone, iris, aside) } else { tone })
 }
 
 /// True for an iris without a light.

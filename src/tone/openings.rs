@@ -76,7 +76,7 @@ pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, rou
         let hull = polygon(tone.width(), tone.height(), &convex_hull(face.line(lids)));
         let around = dilate(&hull, (WITH_LIDS * zones.width).round().max(1.0) as usize).map(f32::from);
         let soft = fast_gaussian(&around, (WITH_LIDS * zones.width) as f32);
-        tone.zip_map(&below.zip_map(&soft, |below, share| gain * share * below), |tone, more| tone - more)
+        tone.zip_map(&below.zip_map(&soft, |below, share| gain * share * below.max(0.0)), |tone, more| tone - more)
     })
 }
 
