@@ -1,9 +1,9 @@
 //! Step 11: a catchlight in irises that are black all over, where the photograph has none: eyes without one are holes.
 
-use super::openings::{EYE_OPEN, openness};
+use super::openings::{EYE_OPEN, eyes, openness};
 use crate::geometry::Point;
 use crate::raster::{Raster, median};
-use crate::source::{Iris, Landmarks, outlines};
+use crate::source::{Iris, Landmarks};
 
 /// An iris is black if the median of its tone is below this, and has no light if less than a share of it is lighter by so much.
 const BLACK: f32 = 0.3;
@@ -17,12 +17,11 @@ const SOFT: f64 = 0.1;
 
 /// The tone with the catchlights that are missing; `lightness` tells the side of the light.
 pub(super) fn with_catchlights(tone: Raster<f32>, lightness: &Raster<f32>, faces: &[Landmarks]) -> Raster<f32> {
-    let lids = [&outlines::RIGHT_EYE, &outlines::LEFT_EYE];
-    let eyes = faces.iter().flat_map(|face| {
+    let all = faces.iter().flat_map(|face| {
         let aside = if face.lit_side(lightness) < 0.0 { -ASIDE } else { ASIDE };
-        [0, 1].map(|i| (face.irises[i], openness(&face.line(lids[i]), EYE_OPEN), aside))
+        eyes(face).map(|(lids, iris)| (iris, openness(&lids, EYE_OPEN), aside))
     });
-    eyes.fold(tone, |tone, (iris, open, aside)| if open >= 1.0 && is_black(&tone, iris) { lit(tone, iris, aside) } else { tone })
+    all.fold(tone, |tone, (iris, open, aside)| if open >= 1.0 && is_black(&tone, iris) { lit(tone, iris, aside) } else { tone })
 }
 
 /// True for an iris without a light.

@@ -48,11 +48,15 @@ const LIPS_SOFT: f64 = 0.008;
 
 /// The tone with its eyes and its mouth opened.
 pub(super) fn opened(zones: &Zones, face: &Landmarks, tone: &Raster<f32>) -> Raster<f32> {
-    let eyes = [(&outlines::RIGHT_EYE, face.irises[0]), (&outlines::LEFT_EYE, face.irises[1])];
     let skin = zones.median_of(tone);
-    let tone = eyes.into_iter().fold(tone.clone(), |tone, (lids, iris)| eye(&tone, &face.line(lids), iris, skin));
+    let tone = eyes(face).into_iter().fold(tone.clone(), |tone, (lids, iris)| eye(&tone, &lids, iris, skin));
     let tone = teeth(zones, &tone, &face.line(&outlines::MOUTH), skin);
     lips(zones, face, &tone, skin)
+}
+
+/// The lids and the iris of the person's right eye, then of the left.
+pub(super) fn eyes(face: &Landmarks) -> [(Vec<Point>, Iris); 2] {
+    [(face.line(&outlines::RIGHT_EYE), face.irises[0]), (face.line(&outlines::LEFT_EYE), face.irises[1])]
 }
 
 /// How far an opening is open, 0 to 1: by its mean height over its width.
@@ -65,15 +69,14 @@ pub(super) fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
 /// Eyes that differ little from the skin around them, behind lenses or in shade, are raised until their irises do; `round` is the tone of
 /// that skin.
 pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, round: &Raster<f32>) -> Raster<f32> {
-    let eyes = [(&outlines::RIGHT_EYE, face.irises[0]), (&outlines::LEFT_EYE, face.irises[1])];
-    eyes.into_iter().fold(tone.clone(), |tone, (lids, iris)| {
+    eyes(face).into_iter().fold(tone.clone(), |tone, (lids, iris)| {
         let below = round.zip_map(&tone, |round, v| round - v);
         let disc = Raster::from_fn(tone.width(), tone.height(), |x, y| {
             f32::from(u8::from(iris.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 0.8 * iris.radius))
         });
         let Some(depth) = median(&below, &disc).filter(|depth| *depth > LEAST_DEPTH) else { return tone };
         let gain = (EYE_DEPTH / depth).clamp(1.0, MOST_GAIN) - 1.0;
-        let hull = polygon(tone.width(), tone.height(), &convex_hull(face.line(lids)));
+        let hull = polygon(tone.width(), tone.height(), &convex_hull(lids));
         let around = dilate(&hull, (WITH_LIDS * zones.width).round().max(1.0) as usize).map(f32::from);
         let soft = fast_gaussian(&around, (WITH_LIDS * zones.width) as f32);
         tone.zip_map(&below.zip_map(&soft, |below, share| gain * share * below.max(0.0)), |tone, more| tone - more)
