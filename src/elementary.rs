@@ -33,54 +33,71 @@ macro_rules! elementary {
     ($number:ty: $sin:ident $cos:ident $tan:ident $asin:ident $acos:ident $atan:ident $tanh:ident $exp:ident $log:ident $log1p:ident
         $log2:ident $log10:ident $cbrt:ident $pow:ident $atan2:ident $sincos:ident) => {
         impl Elementary for $number {
+            #[inline]
             fn sine(self) -> Self {
                 libm::$sin(self)
             }
+            #[inline]
             fn cosine(self) -> Self {
                 libm::$cos(self)
             }
+            #[inline]
             fn tangent(self) -> Self {
                 libm::$tan(self)
             }
+            #[inline]
             fn arc_sine(self) -> Self {
                 libm::$asin(self)
             }
+            #[inline]
             fn arc_cosine(self) -> Self {
                 libm::$acos(self)
             }
+            #[inline]
             fn arc_tangent(self) -> Self {
                 libm::$atan(self)
             }
+            #[inline]
             fn hyperbolic_tangent(self) -> Self {
                 libm::$tanh(self)
             }
+            #[inline]
             fn exponential(self) -> Self {
                 libm::$exp(self)
             }
+            #[inline]
             fn logarithm(self) -> Self {
                 libm::$log(self)
             }
+            #[inline]
             fn logarithm_above_1(self) -> Self {
                 libm::$log1p(self)
             }
+            #[inline]
             fn binary_logarithm(self) -> Self {
                 libm::$log2(self)
             }
+            #[inline]
             fn decimal_logarithm(self) -> Self {
                 libm::$log10(self)
             }
+            #[inline]
             fn cube_root(self) -> Self {
                 libm::$cbrt(self)
             }
+            #[inline]
             fn power(self, exponent: Self) -> Self {
                 libm::$pow(self, exponent)
             }
+            #[inline]
             fn angle_over(self, x: Self) -> Self {
                 libm::$atan2(self, x)
             }
+            #[inline]
             fn hypotenuse(self, other: Self) -> Self {
                 (self * self + other * other).sqrt()
             }
+            #[inline]
             fn sine_and_cosine(self) -> (Self, Self) {
                 libm::$sincos(self)
             }

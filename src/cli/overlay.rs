@@ -38,7 +38,8 @@ pub(super) fn overlay(
             let inside = subject.sample((x as f64 + 0.5) * x_step, (y as f64 + 0.5) * y_step);
             let shows = inside + (1.0 - inside) * SHOWS;
             let colour = pixels.get(x, y);
-            [0, 1, 2].map(|k| (shows * f32::from(colour[k]) + (1.0 - shows) * BACKGROUND[k]).round() as u8)
+            let channel = |k: usize| (shows * f32::from(colour[k]) + (1.0 - shows) * BACKGROUND[k]).round() as u8;
+            [channel(0), channel(1), channel(2)]
         });
     }
     for face in faces {

@@ -190,10 +190,12 @@ impl HoughFilter {
     #[inline]
     fn count(&self, accumulator: &mut Accumulator, x: usize, y: usize, change: u16) {
         let mask = self.ring - 1;
-        for (ring, &(cos, sin)) in accumulator.counts.chunks_exact_mut(self.ring).zip(&self.normals) {
+        let mut ring = 0;
+        for &(cos, sin) in &self.normals {
             let rho = (x as i32 * cos + y as i32 * sin) >> FRACTION_BITS;
-            let cell = &mut ring[rho as usize & mask];
+            let cell = &mut accumulator.counts[ring + (rho as usize & mask)];
             *cell = cell.wrapping_add(change);
+            ring += self.ring;
         }
         accumulator.points = accumulator.points.wrapping_add_signed(i32::from(change.cast_signed()));
     }

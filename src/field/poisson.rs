@@ -120,8 +120,7 @@ impl Level {
     fn restricted(&self) -> Self {
         let (width, height) = (self.z.width().div_ceil(2), self.z.height().div_ceil(2));
         let children = |x: usize, y: usize| {
-            [(0, 0), (1, 0), (0, 1), (1, 1)]
-                .map(|(i, j)| (2 * x + i, 2 * y + j))
+            [(2 * x, 2 * y), (2 * x + 1, 2 * y), (2 * x, 2 * y + 1), (2 * x + 1, 2 * y + 1)]
                 .into_iter()
                 .filter(|(x, y)| *x < self.z.width() && *y < self.z.height())
         };

@@ -41,10 +41,15 @@ pub fn guided_enlargement(
     let rows = neighbours(guide.height(), functions.height());
     Raster::from_fn(guide.width(), guide.height(), |x, y| {
         let ((left, right, tx), (above, below, ty)) = (columns[x], rows[y]);
-        let corners = [(left, above), (right, above), (left, below), (right, below)].map(|(x, y)| functions.get(x, y));
+        let corners =
+            [functions.get(left, above), functions.get(right, above), functions.get(left, below), functions.get(right, below)];
         let weights = [(1.0 - tx) * (1.0 - ty), tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty];
-        let function = [0, 1, 2, 3].map(|k| (0..4).map(|corner| weights[corner] * corners[corner][k]).sum());
-        applied(function, guide.get(x, y).map(|v| f32::from(v) / 255.0))
+        let mut function = [0.0; 4];
+        for (k, sum) in function.iter_mut().enumerate() {
+            (0..4).for_each(|corner| *sum += weights[corner] * corners[corner][k]);
+        }
+        let [r, g, b] = guide.get(x, y);
+        applied(function, [f32::from(r) / 255.0, f32::from(g) / 255.0, f32::from(b) / 255.0])
     })
 }
 

@@ -49,7 +49,7 @@ pub fn local_laplacian(raster: &Raster<f32>, levels: &[Remapping], samples: usiz
                     let smooth = doubled(&coarser, finer.width(), finer.height());
                     let detail = finer.zip_map(&smooth, |v, smooth| v - smooth);
                     let weighed = means[level].zip_map(&detail, |v, detail| (1.0 - (v - mean).abs() / step).max(0.0) * detail);
-                    details[level] = details[level].zip_map(&weighed, |sum, v| sum + v);
+                    details[level].pixels_mut().iter_mut().zip(weighed.pixels()).for_each(|(sum, v)| *sum += v);
                 }
                 finer = coarser;
             }

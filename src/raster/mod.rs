@@ -140,6 +140,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 
     /// A raster whose pixel `(x, y)` is `pixel(x, y)`, made parallel by rows.
+    #[inline]
     pub fn from_fn(width: usize, height: usize, pixel: impl Fn(usize, usize) -> T + Sync) -> Self {
         if width * height == 0 {
             return Self { width, height, data: Vec::new() };
@@ -155,6 +156,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
     }
 
     /// A raster of the same size, pixel by pixel.
+    #[inline]
     pub fn map<U: Copy + Send + Sync>(&self, pixel: impl Fn(T) -> U + Sync) -> Raster<U> {
         let mut data = self.data.first().map_or_else(Vec::new, |&first| vec![pixel(first); self.len()]);
         fill_shares(&mut data, SHARE, &|start, share| {
@@ -167,6 +169,7 @@ impl<T: Copy + Send + Sync> Raster<T> {
     ///
     /// # Panics
     /// If the sizes differ.
+    #[inline]
     pub fn zip_map<U: Copy + Send + Sync, V: Copy + Send + Sync>(
         &self,
         other: &Raster<U>,

@@ -69,7 +69,8 @@ fn blurred(lattice: &[[f32; 2]], axis: usize) -> Vec<[f32; 2]> {
     let value = |i: usize| {
         let before = if along(i) > 0 { lattice[i - step] } else { [0.0; 2] };
         let after = if along(i) + 1 < SIZE[axis] { lattice[i + step] } else { [0.0; 2] };
-        [0, 1].map(|k| 0.25 * (before[k] + after[k]) + 0.5 * lattice[i][k])
+        let smooth = |k: usize| 0.25 * (before[k] + after[k]) + 0.5 * lattice[i][k];
+        [smooth(0), smooth(1)]
     };
     (0..lattice.len()).into_par_iter().map(value).collect()
 }
@@ -86,9 +87,13 @@ fn at(lattice: &[[f32; 2]], place: Place) -> [f32; 2] {
     }
     let mut sum = [0.0; 2];
     for corner in 0..1_usize << 5 {
-        let is_high = |axis: usize| corner >> axis & 1 == 1;
-        let weight: f32 = (0..5).map(|axis| if is_high(axis) { part[axis] } else { 1.0 - part[axis] }).product();
-        let node = lattice[index(std::array::from_fn(|axis| if is_high(axis) { high[axis] } else { low[axis] }))];
+        let (mut weight, mut node) = (1.0_f32, 0);
+        for axis in 0..5 {
+            let (share, nearest) = if corner >> axis & 1 == 1 { (part[axis], high[axis]) } else { (1.0 - part[axis], low[axis]) };
+            weight *= share;
+            node = node * SIZE[axis] + nearest;
+        }
+        let node = lattice[node];
         sum = [sum[0] + weight * node[0], sum[1] + weight * node[1]];
     }
     sum

@@ -109,7 +109,8 @@ fn at_full_size(
             }
             let p = crate::geometry::Point::new(x as f64 + 0.5, y as f64 + 0.5);
             let own = owner(heads, p).and_then(|i| told[i].as_ref());
-            let colour = pixels.get(x, y).map(|v| f32::from(v) / 255.0);
+            let [r, g, b] = pixels.get(x, y);
+            let colour = [f32::from(r) / 255.0, f32::from(g) / 255.0, f32::from(b) / 255.0];
             let shares = own.and_then(|own| shares_at(own, p.x, p.y, colour));
             *out = apportioned(whole, shares.unwrap_or([0.0, 0.0, 0.0, 0.0, 1.0]));
         }
@@ -133,21 +134,27 @@ fn shares_at(told: &HeadRegions, x: f64, y: f64, colour: [f32; 3]) -> Option<[f3
     let (x1, y1) = ((x0 + 1).min(plate.width() - 1), (y0 + 1).min(plate.height() - 1));
     let (tx, ty) = (fx.fract() as f32, fy.fract() as f32);
     let weights = [(1.0 - tx) * (1.0 - ty), tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty];
-    Some([0, 1, 2, 3, 4].map(|k| {
-        let corners = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].map(|(x, y)| told.lines[k].get(x, y));
-        let line = [0, 1, 2, 3].map(|j| (0..4).map(|c| weights[c] * corners[c][j]).sum());
-        value(line, colour)
-    }))
+    let corners = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)];
+    let mut shares = [0.0; KINDS];
+    for (share, lines) in shares.iter_mut().zip(&told.lines) {
+        let mut line = [0.0; 4];
+        for ((x, y), weight) in corners.into_iter().zip(weights) {
+            let corner = lines.get(x, y);
+            (0..4).for_each(|j| line[j] += weight * corner[j]);
+        }
+        *share = value(line, colour);
+    }
+    Some(shares)
 }
 
 /// Divides a whole of at most 255 without remainder.
 fn apportioned(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
     let sum: f32 = shares.iter().sum();
-    let shares = if sum > 0.02 { shares.map(|v| v / sum) } else { [0.0, 0.0, 0.0, 0.0, 1.0] };
+    let (shares, sum) = if sum > 0.02 { (shares, sum) } else { ([0.0, 0.0, 0.0, 0.0, 1.0], 1.0) };
     let (mut given, mut upto) = (0_u8, 0.0_f32);
     let mut out = [0; KINDS];
     for (k, share) in shares.into_iter().enumerate() {
-        upto += share;
+        upto += share / sum;
         let reached = if k == LAST { whole } else { ((upto * f32::from(whole)).round() as u8).clamp(given, whole) };
         out[k] = reached - given;
         given = reached;

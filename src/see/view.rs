@@ -81,7 +81,8 @@ impl View {
                 let colour = sample(pixels, origin + across * u + down * v, outside);
                 sum = [sum[0] + colour[0], sum[1] + colour[1], sum[2] + colour[2]];
             }
-            sum.map(|v| v / (columns * rows) as f32)
+            let count = (columns * rows) as f32;
+            [sum[0] / count, sum[1] / count, sum[2] / count]
         })
     }
 }
@@ -93,7 +94,8 @@ fn halved(pixels: &Raster<[u8; 3]>) -> Raster<[u8; 3]> {
         let (x, y) = (2 * x, 2 * y);
         let (x2, y2) = ((x + 1).min(right), (y + 1).min(bottom));
         let four = [pixels.get(x, y), pixels.get(x2, y), pixels.get(x, y2), pixels.get(x2, y2)];
-        [0, 1, 2].map(|k| ((four.iter().map(|colour| u32::from(colour[k])).sum::<u32>() + 2) / 4) as u8)
+        let mean = |k: usize| ((four.iter().map(|colour| u32::from(colour[k])).sum::<u32>() + 2) / 4) as u8;
+        [mean(0), mean(1), mean(2)]
     })
 }
 
@@ -108,9 +110,11 @@ fn sample(pixels: &Raster<[u8; 3]>, p: Point, outside: Outside) -> [f32; 3] {
     let (x, y) = (p.x - 0.5, p.y - 0.5);
     let (tx, ty) = ((x - x.floor()) as f32, (y - y.floor()) as f32);
     let (x, y) = (x.floor() as isize, y.floor() as isize);
-    let at = |x: isize, y: isize| pixels.clamped(x, y).map(f32::from);
+    let at = |x: isize, y: isize| pixels.clamped(x, y);
     let (a, b, c, d) = (at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
-    [0, 1, 2].map(|k| (a[k] * (1.0 - tx) + b[k] * tx) * (1.0 - ty) + (c[k] * (1.0 - tx) + d[k] * tx) * ty)
+    let between = |a: u8, b: u8| f32::from(a) * (1.0 - tx) + f32::from(b) * tx;
+    let channel = |k: usize| between(a[k], b[k]) * (1.0 - ty) + between(c[k], d[k]) * ty;
+    [channel(0), channel(1), channel(2)]
 }
 
 /// What a window shows outside the picture.

@@ -41,14 +41,20 @@ impl Streamlines {
     #[inline]
     pub(super) fn mean(&self, responses: &Padded<f32>, x: usize, y: usize) -> f32 {
         let here = (y + self.margin()) * responses.stride + x + self.margin();
-        let step = self.steps.data[here].map(i32::from);
-        let mut walkers = [Walker { place: [0, 0], step }, Walker { place: [0, 0], step: step.map(|s| -s) }];
+        let [dx, dy] = self.step(here);
+        let mut walkers = [Walker { place: [0, 0], step: [dx, dy] }, Walker { place: [0, 0], step: [-dx, -dy] }];
         let mut sum = self.weights[0] * responses.data[here];
         for &weight in &self.weights[1..] {
             let [ahead, behind] = &mut walkers;
             sum += weight * (self.advance(ahead, responses, here) + self.advance(behind, responses, here));
         }
         sum
+    }
+
+    #[inline]
+    fn step(&self, pixel: usize) -> [i32; 2] {
+        let [dx, dy] = self.steps.data[pixel];
+        [i32::from(dx), i32::from(dy)]
     }
 
     /// Takes one step and returns the bilinear response there.
@@ -58,7 +64,7 @@ impl Streamlines {
         (*x, *y) = (*x + *dx, *y + *dy);
         let at =
             |x: i32, y: i32| here.wrapping_add_signed((y >> BITS) as isize * responses.stride as isize + (x >> BITS) as isize);
-        let [tx, ty] = self.steps.data[at(*x + PIXEL / 2, *y + PIXEL / 2)].map(i32::from);
+        let [tx, ty] = self.step(at(*x + PIXEL / 2, *y + PIXEL / 2));
         let dot = tx * *dx + ty * *dy;
         if dot != 0 {
             let sign = dot.signum();

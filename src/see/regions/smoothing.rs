@@ -41,7 +41,8 @@ impl<'a> Guide<'a> {
         let with_colour = [0, 1, 2].map(|k| blur(&self.colours.zip_map(plane, |c, v| c[k] * v)));
         let lines = Raster::from_fn(plane.width(), plane.height(), |x, y| {
             let (m, s) = (self.means.get(x, y), self.inverse.get(x, y));
-            let c = [0, 1, 2].map(|k| with_colour[k].get(x, y) - m[k] * mean.get(x, y));
+            let beyond_means = |k: usize| with_colour[k].get(x, y) - m[k] * mean.get(x, y);
+            let c = [beyond_means(0), beyond_means(1), beyond_means(2)];
             let slope = [
                 s[0] * c[0] + s[1] * c[1] + s[2] * c[2],
                 s[1] * c[0] + s[3] * c[1] + s[4] * c[2],
@@ -50,7 +51,10 @@ impl<'a> Guide<'a> {
             [slope[0], slope[1], slope[2], mean.get(x, y) - slope[0] * m[0] - slope[1] * m[1] - slope[2] * m[2]]
         });
         let smooth = [0, 1, 2, 3].map(|k| blur(&lines.map(|line| line[k])));
-        Raster::from_fn(plane.width(), plane.height(), |x, y| [0, 1, 2, 3].map(|k| smooth[k].get(x, y)))
+        Raster::from_fn(plane.width(), plane.height(), |x, y| {
+            let line = |k: usize| smooth[k].get(x, y);
+            [line(0), line(1), line(2), line(3)]
+        })
     }
 
     /// A plane of values 0 to 1, smoothed along the picture's edges.

@@ -71,7 +71,7 @@ impl<'a> PathData<'a> {
     }
 
     fn place(&self, p: Point) -> [i64; 2] {
-        [p.x, p.y].map(|mm| on_grid(mm, self.grid.outlines))
+        [on_grid(p.x, self.grid.outlines), on_grid(p.y, self.grid.outlines)]
     }
 
     fn move_to(&mut self, p: Point) {
