@@ -45,7 +45,9 @@ impl Drawer<'_> {
             turn: self.parameters.hair_turn.0,
             reach: self.pixels(0.9 * self.parameters.pitch),
         };
-        let ink = self.along_locks(&self.hair_ink(&darkness, hair), &darkness, hair, &field).map(|ink| share * ink);
+        let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
+        let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
+        let ink = ink.map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch) as f32);
         let touch = Touch {
@@ -94,10 +96,9 @@ impl Drawer<'_> {
         strengths.get(at).map_or(0.0, |c| c / (0.8 * LINE_BLUR * LINE_BLUR))
     }
 
-    /// Ink of the strokes: the photograph's, with the hair's contrast increased so that strands show; light hair gets few strokes, along
-    /// its shaded locks.
-    fn hair_ink(&self, darkness: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
-        let [light, middle, dark] = levels_inside(darkness, hair, [0.03, 0.5, 0.97]);
+    /// Ink of the strokes: the photograph's, with the hair's contrast increased so that strands show between its lightest, median and
+    /// darkest level; light hair gets few strokes, along its shaded locks.
+    fn hair_ink(&self, darkness: &Raster<f32>, hair: &Raster<f32>, [light, middle, dark]: [f32; 3]) -> Raster<f32> {
         let spread = (dark - light).max(0.08);
         let level = self.parameters.hair_ink * middle;
         let plain = darkness.map(|d| (level * (0.35 + 1.3 * ((d - light) / spread).clamp(0.0, 1.0))).clamp(0.0, 1.2));
@@ -110,14 +111,7 @@ impl Drawer<'_> {
     }
 
     /// The ink of light hair smooth along its locks, so that its few strokes are long: short ones are crumbs.
-    fn along_locks(
-        &self,
-        ink: &Raster<f32>,
-        darkness: &Raster<f32>,
-        hair: &Raster<f32>,
-        field: &OrientationField,
-    ) -> Raster<f32> {
-        let is_light = lightness_of(levels_inside(darkness, hair, [0.03, 0.5, 0.97])[1]);
+    fn along_locks(&self, ink: &Raster<f32>, hair: &Raster<f32>, is_light: f32, field: &OrientationField) -> Raster<f32> {
         if is_light == 0.0 {
             return ink.clone();
         }
