@@ -91,7 +91,8 @@ fn rendered(svg: &str) -> Vec<[f64; 3]> {
     let mut pixmap = resvg::tiny_skia::Pixmap::new(side, side).unwrap();
     pixmap.fill(resvg::tiny_skia::Color::WHITE);
     resvg::render(&tree, resvg::tiny_skia::Transform::from_scale(scale, scale), &mut pixmap.as_mut());
-    pixmap.pixels().iter().map(|p| [p.red(), p.green(), p.blue()].map(|v| linear(f64::from(v) / 255.0))).collect()
+    let light: Vec<f64> = (0..=255).map(|v| linear(f64::from(v) / 255.0)).collect();
+    pixmap.pixels().iter().map(|p| [p.red(), p.green(), p.blue()].map(|v| light[usize::from(v)])).collect()
 }
 
 /// Mean light of a flat colour as its layers print it: each rendered alone, inks multiplied.

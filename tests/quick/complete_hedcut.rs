@@ -9,6 +9,7 @@ use drypoint::drawing::{Drawing, Layer, Mark, Stroke, Width};
 use drypoint::geometry::Point;
 use drypoint::raster::Raster;
 use drypoint::source::{MaskRole, Portrait};
+use std::sync::OnceLock;
 
 const BUSTS: [&str; 3] = ["bust-light.png", "bust-brown.png", "bust-dark.png"];
 const MASKS: [(MaskRole, &str); 5] = [
@@ -25,6 +26,12 @@ const PIXELS_PER_MM: f64 = 20.0;
 struct Bust {
     portrait: Portrait,
     drawing: Drawing,
+}
+
+/// The busts as they are drawn by default, once for all tests.
+fn outlined() -> &'static [Bust] {
+    static DRAWN: OnceLock<Vec<Bust>> = OnceLock::new();
+    DRAWN.get_or_init(|| busts("on").collect())
 }
 
 fn busts(outline: &str) -> impl Iterator<Item = Bust> {
@@ -68,7 +75,7 @@ fn strokes(layer: &Layer) -> impl Iterator<Item = &Stroke> {
 
 #[test]
 fn dots_are_on_skin_strokes_in_hair_and_hatches_on_clothing() {
-    for bust in busts("on") {
+    for bust in outlined() {
         let dots = bust.dots();
         let inside = |role: MaskRole| dots.iter().filter(|p| bust.is_deep(role, **p, 1.0)).count();
         let strays = inside(MaskRole::Hair) + inside(MaskRole::Clothing);
@@ -84,7 +91,7 @@ fn dots_are_on_skin_strokes_in_hair_and_hatches_on_clothing() {
 
 #[test]
 fn hair_strokes_taper() {
-    for bust in busts("on") {
+    for bust in outlined() {
         let is_tapered = |stroke: &&Stroke| {
             let Width::Along(widths) = &stroke.width else { return false };
             let middle = widths[widths.len() / 2];
@@ -98,7 +105,7 @@ fn hair_strokes_taper() {
 
 #[test]
 fn eyes_nose_and_mouth_have_denser_dots() {
-    for bust in busts("on") {
+    for bust in outlined() {
         let density = |role: MaskRole| {
             let region = &bust.portrait.masks[&role];
             let is_skin = |p: Point| role == MaskRole::Detail || bust.at(MaskRole::Detail, p) < 0.1;

@@ -2,20 +2,15 @@
 #![cfg(feature = "see")]
 
 use crate::common;
+use crate::seeing::{seen, seen_sample};
 
 use common::sample;
-use drypoint::interrupt::Interrupt;
 use drypoint::raster::{Raster, gaussian_blur};
-use drypoint::see::{Sight, look};
-use drypoint::source::{Limits, Photograph};
+use drypoint::see::Sight;
 use image::{DynamicImage, ImageFormat, RgbImage};
 use std::io::Cursor;
 
 const PEOPLE: [&str; 5] = ["astronaut.jpg", "grace-hopper.jpg", "bust-light.png", "bust-brown.png", "bust-dark.png"];
-
-fn seen(bytes: &[u8]) -> Sight {
-    look(&Photograph::decode(bytes, Limits::default()).unwrap(), &Interrupt::never()).unwrap()
-}
 
 fn depth_of(sight: &Sight) -> &Raster<u16> {
     sight.depth.as_ref().unwrap()
@@ -75,8 +70,8 @@ fn angles(truth: &Raster<f32>, found: &Raster<f32>, region: &Raster<f32>) -> [f6
 fn the_busts_have_their_own_form() {
     let truth = grey("bust-depth.png");
     for name in ["bust-light.png", "bust-brown.png", "bust-dark.png"] {
-        let sight = seen(&sample(name));
-        let found = depth_of(&sight).map(|v| f32::from(v) / 65535.0);
+        let sight = seen_sample(name);
+        let found = depth_of(sight).map(|v| f32::from(v) / 65535.0);
         for (region, most) in [("bust-mask-face.png", 22.0), ("bust-mask-clothing.png", 19.0)] {
             let [off, plane] = angles(&truth, &found, &grey(region));
             println!("{name}, {region}: normals off by {off:.1} degrees, a plane's by {plane:.1}");
@@ -89,8 +84,8 @@ fn the_busts_have_their_own_form() {
 #[test]
 fn heads_and_bodies_are_ordered() {
     for name in PEOPLE {
-        let sight = seen(&sample(name));
-        let at = |point: usize, down: f64| nearness(&sight, point, 0.0, down);
+        let sight = seen_sample(name);
+        let at = |point: usize, down: f64| nearness(sight, point, 0.0, down);
         let (nose, chin, forehead) = (at(4, 0.0), at(152, 0.0), at(151, 0.0));
         for (cheek, ear) in [(50, 234), (280, 454)] {
             assert!(nose > at(cheek, 0.0) && at(cheek, 0.0) > at(ear, 0.0), "{name}");
@@ -107,8 +102,8 @@ fn heads_and_bodies_are_ordered() {
 #[test]
 fn depth_is_smooth_inside_the_subject_and_nothing_outside() {
     for name in PEOPLE {
-        let sight = seen(&sample(name));
-        let (depth, subject) = (depth_of(&sight), sight.subject.as_ref().unwrap());
+        let sight = seen_sample(name);
+        let (depth, subject) = (depth_of(sight), sight.subject.as_ref().unwrap());
         assert_eq!((depth.width(), depth.height()), (subject.width(), subject.height()), "{name}");
         for (&nearness, &subject) in depth.pixels().iter().zip(subject.pixels()) {
             assert!(if subject == 0 { nearness == 0 } else { subject < 128 || nearness > 0 }, "{name}: {subject} {nearness}");
@@ -174,5 +169,5 @@ fn depth_does_not_depend_on_threads() {
 
 #[test]
 fn without_a_face_there_is_no_depth() {
-    assert_eq!(seen(&sample("coffee.png")).depth, None);
+    assert_eq!(seen_sample("coffee.png").depth, None);
 }

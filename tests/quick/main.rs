@@ -33,5 +33,6 @@ mod paint_order;
 mod pens;
 mod portrait_tone;
 mod regions;
+mod seeing;
 mod source;
 mod styles;

@@ -2,20 +2,20 @@
 #![cfg(feature = "see")]
 
 use crate::common;
+use crate::seeing::seen_sample;
 
 use common::sample;
 use drypoint::drawing::Page;
 use drypoint::geometry::{Point, Rect};
-use drypoint::interrupt::Interrupt;
 use drypoint::raster::{Raster, filled_polygon};
-use drypoint::see::{Sight, look};
+use drypoint::see::Sight;
 use drypoint::source::{Crop, Limits, MaskRole, Photograph, Placement, Portrait, ToneCurve, ToneTarget, outlines};
 use drypoint::tone::portrait_tone;
 
 /// A portrait 400 pixels wide with everything found in it.
-fn portrait(name: &str) -> (Portrait, Sight) {
+fn portrait(name: &'static str) -> (Portrait, &'static Sight) {
     let photograph = Photograph::decode(&sample(name), Limits::default()).unwrap();
-    let sight = look(&photograph, &Interrupt::default()).unwrap();
+    let sight = seen_sample(name);
     let (width, height) = (80.0, 80.0 * f64::from(photograph.height()) / f64::from(photograph.width()));
     let placement = Placement::new(Rect::new(0.0, 0.0, width, height), 5.0);
     let crop = Crop::all(&photograph);
@@ -79,7 +79,7 @@ fn without_strength_and_beyond_the_people_it_is_the_lightness() {
 #[test]
 fn no_face_no_tone_and_the_crop_keeps_only_faces_in_it() {
     let photograph = Photograph::decode(&sample("grace-hopper.jpg"), Limits::default()).unwrap();
-    let sight = look(&photograph, &Interrupt::default()).unwrap();
+    let sight = seen_sample("grace-hopper.jpg");
     let crop = Crop { x: 0.0, y: 400.0, width: 512.0, height: 200.0 };
     let placement = Placement::new(Rect::new(0.0, 0.0, 51.2, 20.0), 5.0);
     let mut below =

@@ -2,21 +2,17 @@
 #![cfg(feature = "see")]
 
 use crate::common;
+use crate::seeing::{seen, seen_sample};
 
 use common::sample;
 use drypoint::geometry::Point;
-use drypoint::interrupt::Interrupt;
 use drypoint::raster::{Raster, filled_polygon};
-use drypoint::see::{Regions, Sight, detail_regions, look};
-use drypoint::source::{Limits, Photograph, outlines};
+use drypoint::see::{Regions, Sight, detail_regions};
+use drypoint::source::outlines;
 use image::{DynamicImage, GrayImage, ImageFormat, Rgb, RgbImage};
 use std::io::Cursor;
 
 const BUSTS: [&str; 3] = ["bust-light.png", "bust-brown.png", "bust-dark.png"];
-
-fn seen(bytes: &[u8]) -> Sight {
-    look(&Photograph::decode(bytes, Limits::default()).unwrap(), &Interrupt::never()).unwrap()
-}
 
 fn mask(name: &str) -> GrayImage {
     image::load_from_memory(&sample(name)).unwrap().to_luma8()
@@ -43,10 +39,10 @@ fn face(sight: &Sight, regions: &Regions) -> Raster<u8> {
 #[test]
 fn hair_face_and_clothing_of_busts_are_where_they_were_painted() {
     for name in BUSTS {
-        let sight = seen(&sample(name));
+        let sight = seen_sample(name);
         let regions = sight.regions.as_ref().unwrap();
         let hair = agreement(&regions.hair, &mask("bust-mask-hair.png"));
-        let face = agreement(&face(&sight, regions), &mask("bust-mask-face.png"));
+        let face = agreement(&face(sight, regions), &mask("bust-mask-face.png"));
         let clothing = agreement(&regions.clothing, &mask("bust-mask-clothing.png"));
         println!("{name}: hair {hair:.3}, face {face:.3}, clothing {clothing:.3}");
         assert!(hair >= 0.9 && face >= 0.85 && clothing >= 0.95, "{name}: {hair} {face} {clothing}");
@@ -57,8 +53,8 @@ fn hair_face_and_clothing_of_busts_are_where_they_were_painted() {
 #[test]
 fn regions_together_are_the_subject() {
     for name in ["astronaut.jpg", "grace-hopper.jpg"] {
-        let sight = seen(&sample(name));
-        let (subject, regions) = (sight.subject.unwrap(), sight.regions.unwrap());
+        let sight = seen_sample(name);
+        let (subject, regions) = (sight.subject.as_ref().unwrap(), sight.regions.as_ref().unwrap());
         let Regions { skin, hair, facial_hair, headwear, clothing, detail } = regions;
         for (i, &whole) in subject.pixels().iter().enumerate() {
             let parts = [&skin, &hair, &facial_hair, &headwear, &clothing].map(|r| u32::from(r.pixels()[i]));
@@ -70,11 +66,11 @@ fn regions_together_are_the_subject() {
 
 #[test]
 fn a_cap_is_headwear_and_hair_is_not() {
-    let hopper = seen(&sample("grace-hopper.jpg")).regions.unwrap();
+    let hopper = seen_sample("grace-hopper.jpg").regions.as_ref().unwrap();
     let (x, y) = (257, 110);
     assert!(hopper.headwear.get(x, y) > 200 && hopper.clothing.get(x, 480) > 200);
     assert!(hopper.skin.get(x, 250) > 200);
-    let astronaut = seen(&sample("astronaut.jpg")).regions.unwrap();
+    let astronaut = seen_sample("astronaut.jpg").regions.as_ref().unwrap();
     assert!(astronaut.hair.get(220, 30) > 200 && astronaut.skin.get(224, 120) > 200 && astronaut.clothing.get(220, 330) > 200);
     assert!(astronaut.headwear.pixels().iter().chain(astronaut.facial_hair.pixels()).all(|v| *v < 128));
 }
@@ -111,8 +107,8 @@ fn a_shaved_head_has_no_hair() {
 
 #[test]
 fn details_lie_on_the_eyes_and_the_mouth() {
-    let sight = seen(&sample("bust-brown.png"));
-    let regions = sight.regions.unwrap();
+    let sight = seen_sample("bust-brown.png");
+    let regions = sight.regions.as_ref().unwrap();
     for name in ["right eye", "left eye", "nose", "mouth"] {
         let all = detail_regions(&sight.faces[0].landmarks);
         let region = all.iter().find(|region| region.name == name).unwrap();
