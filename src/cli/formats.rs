@@ -21,7 +21,10 @@ impl Format {
 
     /// Whether it holds tool paths.
     pub(super) const fn holds_toolpaths(self) -> bool {
-        !matches!(self, Self::Pdf | Self::Inkml)
+        match self {
+            Self::Svg | Self::Hpgl | Self::Gcode | Self::Json => true,
+            Self::Pdf | Self::Inkml => false,
+        }
     }
 
     /// The format of a drawing that is no machine's.
@@ -86,18 +89,24 @@ fn needs_profile() -> Failure {
 
 /// Refuses a format that the profile's machine does not read.
 pub(super) fn check_language(format: Format, profile: Option<&Profile>) -> Result<(), Failure> {
-    let is_svg = format.language() == Some(Language::Svg);
-    match (format.language(), profile) {
-        _ if format == Format::Json => Ok(()),
-        (None, Some(_)) => Err(Failure::Usage(match format {
-            Format::Inkml => "InkML holds a drawing's strokes, not a machine's tool paths; leave out --profile".to_owned(),
-            _ => "PDF is for print, not for a plotter; leave out --profile, or write the plotter's format".to_owned(),
-        })),
-        (Some(_), None) if !is_svg => Err(needs_profile()),
-        (Some(needed), Some(profile)) if !is_svg && profile.language() != needed => {
+    let unfit = |why: &str| Err(Failure::Usage(why.to_owned()));
+    let wanted = match (format, profile.is_some()) {
+        (Format::Svg | Format::Json, _) | (Format::Inkml | Format::Pdf, false) => return Ok(()),
+        (Format::Inkml, true) => {
+            return unfit("InkML holds a drawing's strokes, not a machine's tool paths; leave out --profile");
+        }
+        (Format::Pdf, true) => {
+            return unfit("PDF is for print, not for a plotter; leave out --profile, or write the plotter's format");
+        }
+        (Format::Hpgl, _) => Language::Hpgl,
+        (Format::Gcode, _) => Language::Gcode,
+    };
+    match profile {
+        None => Err(needs_profile()),
+        Some(profile) if profile.language() == wanted => Ok(()),
+        Some(profile) => {
             let right = listed(profile.language().extensions().iter().map(|extension| format!(".{extension}")));
             Err(Failure::Usage(format!("{} reads another language than this file's format; write {right}", profile.name)))
         }
-        _ => Ok(()),
     }
 }

@@ -71,7 +71,7 @@ fn language_of(name: &str, text: &str) -> Option<Language> {
 pub(super) fn usual_profile(language: Language, text: &str) -> Result<Profile, Failure> {
     match language {
         Language::Hpgl => Ok(Profile::built_in("hp7475a")?),
-        _ => gcode_profile(text),
+        Language::Gcode | Language::Svg => gcode_profile(text),
     }
 }
 

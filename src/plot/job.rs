@@ -116,11 +116,13 @@ pub enum JobError {
         /// The profile's name.
         machine: String,
     },
-    /// A layer requests a pause or a delay, which HP-GL does not have.
-    #[error("layer '{layer}' asks for a pause or a delay, and HP-GL has no command for either")]
+    /// A layer requests a pause or a delay, which the machine's language does not have.
+    #[error("layer '{layer}' asks for a pause or a delay, and {language} has no command for either")]
     NoHandling {
         /// The layer's name.
         layer: String,
+        /// The language.
+        language: &'static str,
     },
     /// A layer needs a pen that the machine does not hold.
     #[error("layer '{layer}' needs pen {pen}, but {machine} holds only {holds}")]
@@ -367,7 +369,7 @@ fn check_pens(plot: &Plot, profile: &Profile, options: &JobOptions) -> Result<()
     if !profile.speech().has_layer_handling()
         && let Some(pen) = plot.pens.iter().find(|pen| pen.handling.pauses || pen.handling.delay_seconds > 0.0)
     {
-        return Err(JobError::NoHandling { layer: pen.name.clone() });
+        return Err(JobError::NoHandling { layer: pen.name.clone(), language: profile.language().title() });
     }
     if let Some(pen) = plot.pens.iter().find(|pen| pen.number > profile.pens.count)
         && profile.pens.change == PenChange::Machine

@@ -91,15 +91,16 @@ pub(super) fn run(options: &SendOptions) -> Result<(), Failure> {
         return axidraw::run(name, &bytes, options);
     }
     let (profile, file) = read(options)?;
-    match (profile.as_ref().map(|profile| &profile.dialect), &profile) {
-        (Some(Dialect::Hpgl(_)), _) => return draw_on_plotter(profile, file, options),
-        (Some(Dialect::Gcode(GcodeDialect { protocol: Protocol::Marlin, .. })), _) => {
+    match profile.as_ref().map(|profile| (&profile.dialect, &profile.name)) {
+        Some((Dialect::Hpgl(_), _)) => return draw_on_plotter(profile, file, options),
+        Some((Dialect::Gcode(GcodeDialect { protocol: Protocol::Marlin, .. }), _)) => {
             return draw_on_printer(profile, file, options);
         }
-        (Some(Dialect::Gcode(GcodeDialect { protocol: Protocol::File, .. })), Some(profile)) => {
-            return Err(Failure::Usage(format!("{} reads its file itself; copy it there", profile.name)));
+        Some((Dialect::Gcode(GcodeDialect { protocol: Protocol::File, .. }), name)) => {
+            return Err(Failure::Usage(format!("{name} reads its file itself; copy it there")));
         }
-        _ => {}
+        // The machine of an SVG is driven by its own program; its board is asked as GRBL is, and does not answer.
+        None | Some((Dialect::Gcode(GcodeDialect { protocol: Protocol::Grbl, .. }) | Dialect::Svg(_), _)) => {}
     }
     let settings = LineSettings { baud: baud(options, profile.as_ref(), 115_200), handshake: Handshake::None };
     let (mut grbl, greeting) = Grbl::greet(open_port(&options.port, settings)?)?;

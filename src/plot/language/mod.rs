@@ -129,7 +129,8 @@ pub(crate) trait Speech {
     fn language(&self) -> Language;
     /// Refuses values that the machine cannot use.
     fn check(&self) -> Result<(), Refusal>;
-    /// The nearest speed that can be said, mm/s; `limit` is the machine's greatest drawing speed.
+    /// The nearest speed that can be said, mm/s; `limit` is the machine's greatest drawing speed. A language without a word for speed
+    /// keeps what is wanted.
     fn nearest_speed(&self, wanted: f64, _limit: f64) -> f64 {
         wanted
     }
@@ -155,6 +156,10 @@ pub(crate) trait Speech {
     }
     /// True if the controller cuts arcs into chords, which takes time of its own.
     fn sends_arcs(&self) -> bool {
+        false
+    }
+    /// True if no line of a file waits for the pen: lifting and lowering take the profile's times.
+    fn pen_takes_time(&self) -> bool {
         false
     }
     /// Places per machine unit in the file.

@@ -44,7 +44,7 @@ impl Act {
 /// A line with what it does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed<'a> {
-    /// The line without its end, or the instruction with it; empty if an earlier one says it.
+    /// The line without its end, or the instruction with it; empty if the line before or after says it.
     pub text: Cow<'a, str>,
     /// What it does.
     pub act: Act,

@@ -4,7 +4,7 @@ use super::look_ahead::LookAhead;
 use super::turned;
 use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
-use crate::plot::language::{Act, Language, Replayed};
+use crate::plot::language::{Act, Replayed};
 use crate::plot::profile::{Limits, Profile};
 
 /// Every line of a machine's file with what it does; `None` if the file is a drawing.
@@ -83,8 +83,7 @@ impl FileRun<'_> {
             Some(height) => self.planner.travel(place, height.plunge_speed, slot),
             None => {
                 self.planner.rest();
-                // G-code waits for its pen by lines of their own.
-                if self.profile.language() == Language::Hpgl {
+                if self.profile.speech().pen_takes_time() {
                     let motion = &self.profile.motion;
                     let lasting = if act == Act::Lift { motion.pen_up_seconds } else { motion.pen_down_seconds };
                     self.planner.wait(lasting, slot);

@@ -41,6 +41,10 @@ impl Speech for HpglDialect {
         false
     }
 
+    fn pen_takes_time(&self) -> bool {
+        true
+    }
+
     fn write(&self, orders: &Orders<'_>, out: &mut dyn io::Write) -> io::Result<()> {
         write::write(self, orders, out)
     }
