@@ -3,14 +3,16 @@
 //! Whole commands in their own processes, with their peak memory (from `wait4` through `/usr/bin/time` if available, else
 //! unknown), and ratios within one run, so that a busy machine does not decide.
 
+mod timing;
+
 use drypoint::drawing::{Colour, Handling, Page};
 use drypoint::geometry::Point;
 use drypoint::interrupt::Interrupt;
 use drypoint::plot::{PenPaths, Plot, Profile, Toolpath, clock, mount};
 use image::{ImageFormat, RgbImage};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::Instant;
+use timing::{line, timed};
 
 fn main() {
     let folder = tempfile::tempdir().expect("a folder for the outputs");
@@ -74,23 +76,7 @@ fn best_of(runs: usize, photo: &Path, folder: &Path, extra: &[&str]) -> (f64, Op
 }
 
 fn run(photo: &Path, folder: &Path, extra: &[&str]) -> (f64, Option<f64>) {
-    let timer = Path::new("/usr/bin/time");
-    let mut command = if timer.exists() {
-        let mut command = Command::new(timer);
-        command.args(["-f", "%M", env!("CARGO_BIN_EXE_drypoint")]);
-        command
-    } else {
-        Command::new(env!("CARGO_BIN_EXE_drypoint"))
-    };
-    command.arg("draw").arg(photo).args(["-q", "--threads", "2", "-o"]).arg(folder.join("out.svg")).args(extra);
-    let started = Instant::now();
-    let output = command.output().expect("the command starts");
-    let seconds = started.elapsed().as_secs_f64();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let memory = String::from_utf8_lossy(&output.stderr).trim().parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0);
-    (seconds, memory)
-}
-
-fn line(what: &str, figure: f64, promise: &str, is_kept: bool) {
-    println!("{what:34} {figure:8.2}   {promise}: {}", if is_kept { "kept" } else { "MISSED" });
+    timed(|command| {
+        command.arg("draw").arg(photo).args(["-q", "--threads", "2", "-o"]).arg(folder.join("out.svg")).args(extra);
+    })
 }

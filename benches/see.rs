@@ -3,13 +3,15 @@
 //! The whole command in its own processes, with and without detection, on a photograph of 12 megapixels: wall seconds and peak
 //! memory (through `/usr/bin/time` if available, else unknown). Then detection alone.
 
+mod timing;
+
 use drypoint::interrupt::Interrupt;
 use drypoint::see::look;
 use drypoint::source::{Limits, Photograph};
 use image::{ImageFormat, RgbImage};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::Instant;
+use timing::{line, timed};
 
 fn main() {
     let folder = tempfile::tempdir().expect("a folder for the outputs");
@@ -63,23 +65,8 @@ fn best_of(runs: usize, photo: &Path, folder: &Path, background: &str) -> (f64, 
 
 /// Draws with a given or a detected subject: the marks are few either way, so that the difference is the detection.
 fn run(photo: &Path, folder: &Path, background: &str) -> (f64, Option<f64>) {
-    let timer = Path::new("/usr/bin/time");
-    let mut command = if timer.exists() {
-        let mut command = Command::new(timer);
-        command.args(["-f", "%M", env!("CARGO_BIN_EXE_drypoint")]);
-        command
-    } else {
-        Command::new(env!("CARGO_BIN_EXE_drypoint"))
-    };
-    command.arg("draw").arg(photo).args(["-q", "--threads", "2", "--size", "30x30mm", "--background", background, "-o"]);
-    let started = Instant::now();
-    let output = command.arg(folder.join("out.svg")).output().expect("the command starts");
-    let seconds = started.elapsed().as_secs_f64();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let memory = String::from_utf8_lossy(&output.stderr).trim().parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0);
-    (seconds, memory)
-}
-
-fn line(what: &str, figure: f64, promise: &str, is_kept: bool) {
-    println!("{what:34} {figure:8.2}   {promise}: {}", if is_kept { "kept" } else { "MISSED" });
+    timed(|command| {
+        command.arg("draw").arg(photo).args(["-q", "--threads", "2", "--size", "30x30mm", "--background", background, "-o"]);
+        command.arg(folder.join("out.svg"));
+    })
 }

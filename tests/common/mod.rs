@@ -1,6 +1,8 @@
 //! Helpers shared by the acceptance tests: pictures with known tone, and the ink that a drawing lays down.
 #![allow(dead_code)]
 
+pub mod samples;
+
 use drypoint::drawing::{Drawing, Page};
 use drypoint::geometry::{Point, Rect};
 use drypoint::raster::Raster;

@@ -4,6 +4,7 @@ use crate::common;
 use crate::fields;
 use crate::paper_stripes;
 
+use common::samples::{SAMPLES, SamplePicture};
 use common::{mean_in, png_of_light, rendered, sample, svg_of};
 use drypoint::drawing::{Drawing, Mark, Page};
 use drypoint::field::{Curve, StripeLattice, Wave, nearest_seed, stripe_lines, stripes};
@@ -196,21 +197,6 @@ impl Case<'_> {
         (portrait, drawing, stages.0.into_inner().unwrap())
     }
 }
-
-/// A sample, its size and its subject mask.
-type SamplePicture = (&'static str, (f64, f64), Option<&'static str>);
-
-const SAMPLES: [SamplePicture; 9] = [
-    ("astronaut.jpg", (90.0, 90.0), None),
-    ("astronaut-cutout.png", (90.0, 90.0), None),
-    ("grace-hopper.jpg", (90.0, 105.469), Some("grace-hopper-subject.png")),
-    ("chelsea.png", (90.0, 59.867), None),
-    ("coffee.png", (90.0, 60.0), None),
-    ("raccoon.jpg", (90.0, 67.5), None),
-    ("bust-light.png", (90.0, 120.0), Some("bust-mask-subject.png")),
-    ("bust-brown.png", (90.0, 120.0), Some("bust-mask-subject.png")),
-    ("bust-dark.png", (90.0, 120.0), Some("bust-mask-subject.png")),
-];
 
 /// The curves of a layer in working pixels.
 fn curves(drawing: &Drawing, layer: &str, pixels_per_mm: f64) -> Vec<Curve> {

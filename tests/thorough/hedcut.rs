@@ -3,6 +3,7 @@
 use crate::common;
 use crate::machine_file;
 
+use common::samples::SAMPLES;
 use common::{Sheet, WEDGE_MM, dots, mean_in, png_of_light, rendered, sample, svg_of, wedge, wedge_patches};
 use drypoint::field::{Sites, cell_polygon};
 use drypoint::geometry::{Point, Rect, polygon_area};
@@ -114,17 +115,7 @@ fn dots_follow_rings() {
 
 #[test]
 fn samples_keep_their_tone() {
-    for (name, size, mask) in [
-        ("astronaut.jpg", (90.0, 90.0), None),
-        ("astronaut-cutout.png", (90.0, 90.0), None),
-        ("grace-hopper.jpg", (90.0, 105.469), Some("grace-hopper-subject.png")),
-        ("chelsea.png", (90.0, 59.867), None),
-        ("coffee.png", (90.0, 60.0), None),
-        ("raccoon.jpg", (90.0, 67.5), None),
-        ("bust-light.png", (90.0, 120.0), Some("bust-mask-subject.png")),
-        ("bust-brown.png", (90.0, 120.0), Some("bust-mask-subject.png")),
-        ("bust-dark.png", (90.0, 120.0), Some("bust-mask-subject.png")),
-    ] {
+    for (name, size, mask) in SAMPLES {
         let (photo, mask) = (sample(name), mask.map(sample));
         let masks: Vec<(MaskRole, &[u8])> = mask.iter().map(|bytes| (MaskRole::Subject, bytes.as_slice())).collect();
         let set = [("highlights", "off"), ("outline", "off")];

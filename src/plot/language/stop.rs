@@ -1,5 +1,6 @@
 //! Where a machine stopped, and why the rest of its file cannot be had.
 
+use crate::elementary::Elementary as _;
 use thiserror::Error;
 
 /// Where a machine stopped.
@@ -11,6 +12,18 @@ pub enum StopPlace {
     Byte(usize),
     /// The pen-down path that was not finished, from 1, in file order.
     Path(usize),
+}
+
+/// The vertex of a path that lies at least `again` units before its last one, or the first.
+pub(super) fn back_along(count: usize, at: impl Fn(usize) -> (f64, f64), again: f64) -> usize {
+    let mut length = 0.0;
+    let mut first = count - 1;
+    while first > 0 && length < again {
+        let (a, b) = (at(first - 1), at(first));
+        length += (a.0 - b.0).hypotenuse(a.1 - b.1);
+        first -= 1;
+    }
+    first
 }
 
 /// Why a file cannot be resumed.

@@ -2,7 +2,7 @@
 
 use super::numbers::check_gcode;
 use super::words::word;
-use crate::elementary::Elementary as _;
+use crate::plot::language::stop::back_along;
 use crate::plot::language::{ResumeError, StopPlace};
 use std::fmt::Write as _;
 
@@ -174,14 +174,7 @@ impl State {
 
     /// Goes back at least `again` units along the path and lowers the pen there; returns the line to continue from.
     fn restore_path(&self, rest: &mut String, lines: &[&str], again: f64) -> usize {
-        let mut length = 0.0;
-        let mut first = self.path.len() - 1;
-        while first > 0 && length < again {
-            let (a, b) = (self.path[first - 1].at, self.path[first].at);
-            length += (a.0 - b.0).hypotenuse(a.1 - b.1);
-            first -= 1;
-        }
-        let start = self.path[first];
+        let start = self.path[back_along(self.path.len(), |i| self.path[i].at, again)];
         let travel = self.travel.map_or("G0", |i| lines[i]);
         let word_of_travel = travel.split_whitespace().next().unwrap_or("G0");
         let feed_of_travel = word(travel, 'F').map(|feed| format!(" F{feed}")).unwrap_or_default();

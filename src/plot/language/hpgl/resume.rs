@@ -3,6 +3,7 @@
 use super::read::instructions as instructions_of;
 use crate::elementary::Elementary as _;
 use crate::geometry::parse_finite;
+use crate::plot::language::stop::back_along;
 use crate::plot::language::{ResumeError, StopPlace};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -200,14 +201,7 @@ impl<'a> State<'a> {
 
     /// Goes back at least `again` units along the path and continues from there with the pen down.
     fn restore_path(&self, rest: &mut String, text: &str, again: f64) {
-        let mut length = 0.0;
-        let mut first = self.path.len() - 1;
-        while first > 0 && length < again {
-            let (a, b) = (self.path[first - 1].at, self.path[first].at);
-            length += (a.0 - b.0).hypotenuse(a.1 - b.1);
-            first -= 1;
-        }
-        let start = self.path[first];
+        let start = self.path[back_along(self.path.len(), |i| self.path[i].at, again)];
         let _ = write!(rest, "PU{},{};", start.at.0.round(), start.at.1.round());
         match (start.is_inside, text[start.next..].starts_with("PD")) {
             (true, _) => rest.push_str("PD"),
