@@ -66,6 +66,7 @@ pub mod field;
 pub mod geometry;
 pub mod interrupt;
 pub mod order;
+mod parallel;
 pub mod plot;
 pub mod press;
 pub mod raster;

@@ -14,10 +14,10 @@ use super::task::Task;
 use crate::colour::{Candidate, deal};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Point;
+use crate::parallel::{collected, shares};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Placement, Portrait};
 use crate::style::{Observer, Picture, Settings, StyleError};
-use rayon::prelude::*;
 
 /// Most of the paper that marks beside one another cover: above it round dots run together.
 const MOST_BESIDE: f32 = 0.75;
@@ -91,7 +91,8 @@ impl Task<'_> {
             let way = dealt.at - middle(&mark);
             layers[dealt.pen].marks.push(grown(&mark, dealt.ink_factor, way));
         }
-        layers.par_iter_mut().zip(&coverages).enumerate().for_each(|(pen, (layer, coverage))| {
+        shares(&mut layers, 1, &|pen, layers| {
+            let (layer, coverage) = (&mut layers[0], &coverages[pen]);
             let outlines = if pen == palette.line_pen() { &outlines[..] } else { &[] };
             layer.marks = with_exact_ink(std::mem::take(&mut layer.marks), outlines, coverage, &portrait.placement);
             layer.marks.splice(0..0, outlines.iter().cloned());
@@ -121,7 +122,7 @@ impl Task<'_> {
         let mut drawings: Vec<Result<Drawing, StyleError>> = Vec::new();
         while drawings.len() < coverages.len() {
             let first = drawings.len();
-            drawings.par_extend((first..coverages.len().min(first + AT_ONCE)).into_par_iter().map(draw));
+            drawings.extend(collected(AT_ONCE.min(coverages.len() - first), &|pen| draw(first + pen)));
         }
         for (pen, drawn) in drawings.into_iter().enumerate() {
             let drawn = match drawn {

@@ -13,10 +13,10 @@
 use crate::drawing::{Mark, Stroke, Width};
 use crate::elementary::Elementary as _;
 use crate::geometry::{Affine, Vec2};
+use crate::parallel::mapped;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::Placement;
 use crate::style::covered;
-use rayon::prelude::*;
 
 /// Within how many mean distances of marks ink is counted. Tuned on four samples in four and eight pens: below 1 dots become
 /// uneven, above 3 edges get light and dark rims.
@@ -43,9 +43,9 @@ pub(super) fn with_exact_ink(mut marks: Vec<Mark>, outlines: &[Mark], wanted: &R
             let [wanted, laid] = [wanted, laid].map(|cover| f64::from((1.0 - cover.clamp(NONE, FULL)).logarithm()));
             (wanted / laid).clamp(LEAST, MOST) as f32
         });
-        marks.par_iter_mut().for_each(|mark| {
+        marks = mapped(&marks, &|mark| {
             let p = placement.to_grid(mark.bounding_box().center());
-            *mark = grown(mark, f64::from(factor.sample(p.x, p.y)), Vec2::ZERO);
+            grown(mark, f64::from(factor.sample(p.x, p.y)), Vec2::ZERO)
         });
     }
     marks

@@ -9,8 +9,8 @@ use super::eye::{Oklab, look_of_light};
 use super::pens::{ColourPen, MOST_PENS, Paper, PenSet, PensError, drawing_order};
 use super::separation::{Colours, Inks, RIDGE, Settings};
 use super::solver::Solver;
+use crate::parallel::mapped;
 use crate::raster::Raster;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Cells along each channel, equal in the square root of light: 6 leave 60 to 110 colours of a photograph. With 4, skin and lips are
@@ -107,7 +107,7 @@ struct Choice<'a> {
 impl Choice<'_> {
     /// The set of least cost, the first of equals.
     fn best(&self, sets: Vec<Vec<usize>>) -> Result<(Vec<usize>, f32), PensError> {
-        let costs: Vec<Result<f32, PensError>> = sets.par_iter().map(|set| self.cost(set)).collect();
+        let costs: Vec<Result<f32, PensError>> = mapped(&sets, &|set| self.cost(set));
         let mut best: Option<(usize, f32)> = None;
         let mut failure = PensError::None;
         for (i, cost) in costs.into_iter().enumerate() {

@@ -12,7 +12,7 @@
 
 use super::pens::MOST_PENS;
 use crate::geometry::{Point, Vec2};
-use rayon::prelude::*;
+use crate::parallel::{collected, mapped};
 use std::collections::BTreeMap;
 
 /// How far marks of one pen act on one another, in mean distances of that pen's marks. Tuned on even patches of three and four pens:
@@ -72,7 +72,7 @@ pub fn deal(marks: &[Candidate]) -> Vec<Dealt> {
     let pens: Vec<usize> = search.pen.into_iter().map(Option::unwrap_or_default).collect();
     let places = moved_apart(marks, &shares, &pens, &around);
     let factor = |mark: usize| ink_factor(marks, &pens, &around, mark);
-    (0..marks.len()).into_par_iter().map(|mark| Dealt { pen: pens[mark], at: places[mark], ink_factor: factor(mark) }).collect()
+    collected(marks.len(), &|mark| Dealt { pen: pens[mark], at: places[mark], ink_factor: factor(mark) })
 }
 
 /// The ink that a mark's pen should have around it, divided by what it has.
@@ -110,19 +110,16 @@ impl Neighbours {
         let mut cells: BTreeMap<(i64, i64), Vec<u32>> = BTreeMap::new();
         marks.iter().enumerate().for_each(|(i, mark)| cells.entry(cell(mark.at)).or_default().push(i as u32));
         let reach = (FARTHEST * mean).powi(2);
-        let near: Vec<Vec<(u32, f32)>> = marks
-            .par_iter()
-            .enumerate()
-            .map(|(i, mark)| {
-                let (x, y) = cell(mark.at);
-                let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
-                let all = around.filter_map(|key| cells.get(&key)).flatten();
-                let distances = all.filter(|j| **j != i as u32).map(|j| (*j, (marks[*j as usize].at - mark.at).hypot2()));
-                distances.filter(|(_, d)| *d < reach).map(|(j, d)| (j, d as f32)).collect()
-            })
-            .collect();
+        let near: Vec<Vec<(u32, f32)>> = collected(marks.len(), &|i| {
+            let at = marks[i].at;
+            let (x, y) = cell(at);
+            let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
+            let all = around.filter_map(|key| cells.get(&key)).flatten();
+            let distances = all.filter(|j| **j != i as u32).map(|j| (*j, (marks[*j as usize].at - at).hypot2()));
+            distances.filter(|(_, d)| *d < reach).map(|(j, d)| (j, d as f32)).collect()
+        });
         // Six neighbours of an even pattern lie nearest; their mean distance is that of marks.
-        let spacing = near.par_iter().map(|near| mean_of_nearest(near).unwrap_or(mean)).collect();
+        let spacing = mapped(&near, &|near| mean_of_nearest(near).unwrap_or(mean));
         let mut order: Vec<usize> = (0..marks.len()).collect();
         let row = |i: usize| ((marks[i].at.y / mean) as i64, marks[i].at.x);
         order.sort_by(|a, b| {
@@ -239,18 +236,15 @@ fn moved_apart(marks: &[Candidate], shares: &Shares, pens: &[usize], around: &Ne
         sum
     };
     let first: Vec<Point> = marks.iter().map(|mark| mark.at).collect();
-    let rest: Vec<_> = (0..marks.len()).into_par_iter().map(|mark| force(&first, mark)[2]).collect();
+    let rest: Vec<_> = collected(marks.len(), &|mark| force(&first, mark)[2]);
     let mut places = first.clone();
     for _ in 0..MOVES {
-        places = (0..marks.len())
-            .into_par_iter()
-            .map(|mark| {
-                let [own, all, _] = force(&places, mark);
-                let moved = places[mark] + (own + (all - rest[mark]) * UNION) * STEP - first[mark];
-                let most = FARTHEST_MOVE * around.spacing[mark];
-                first[mark] + if moved.hypot() > most { moved * (most / moved.hypot()) } else { moved }
-            })
-            .collect();
+        places = collected(marks.len(), &|mark| {
+            let [own, all, _] = force(&places, mark);
+            let moved = places[mark] + (own + (all - rest[mark]) * UNION) * STEP - first[mark];
+            let most = FARTHEST_MOVE * around.spacing[mark];
+            first[mark] + if moved.hypot() > most { moved * (most / moved.hypot()) } else { moved }
+        });
     }
     places
 }

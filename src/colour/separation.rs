@@ -10,8 +10,8 @@ use super::rendering::Rendering;
 use super::solver::{Coverages, Problem, Solution, Solver};
 use super::space::Lab;
 use super::table::{Place, Problems, Table, of_nodes};
+use crate::parallel;
 use crate::raster::Raster;
-use rayon::prelude::*;
 use thiserror::Error;
 
 /// Out of gamut, differences in chroma count less and those in hue more, so that colours go towards the grey of their lightness.
@@ -185,8 +185,9 @@ impl Separator {
         for plane in &mut planes {
             shares.iter_mut().zip(plane.chunks_mut(SHARE)).for_each(|(share, part)| share.push(part));
         }
-        shares.par_iter_mut().zip(photograph.pixels().par_chunks(SHARE)).for_each(|(parts, lights)| {
-            for (i, light) in lights.iter().enumerate() {
+        parallel::shares(&mut shares, 1, &|k, share| {
+            let parts = &mut share[0];
+            for (i, light) in photograph.pixels()[k * SHARE..].iter().take(SHARE).enumerate() {
                 let mixed = Place::of(*light).mix(&nodes);
                 parts.iter_mut().zip(mixed).for_each(|(part, c)| part[i] = c);
             }

@@ -2,7 +2,7 @@
 
 use super::pens::MOST_PENS;
 use super::solver::Coverages;
-use rayon::prelude::*;
+use crate::parallel::collected;
 
 /// Nodes along red, green and blue, equally spaced in the square root of light.
 pub(super) const NODES: usize = 33;
@@ -44,14 +44,10 @@ impl Table {
     /// pens wherever they can.
     pub fn solved(problems: &impl Problems) -> Self {
         let mut size = COARSEST;
-        let mut nodes: Vec<Coverages> =
-            (0..size * size * size).into_par_iter().map(|node| problems.first(light_at(node, size))).collect();
+        let mut nodes: Vec<Coverages> = collected(size.pow(3), &|node| problems.first(light_at(node, size)));
         while size < NODES {
             let finer = 2 * size - 1;
-            nodes = (0..finer * finer * finer)
-                .into_par_iter()
-                .map(|node| problems.near(light_at(node, finer), &between(&nodes, size, node, finer)))
-                .collect();
+            nodes = collected(finer.pow(3), &|node| problems.near(light_at(node, finer), &between(&nodes, size, node, finer)));
             size = finer;
         }
         Self { nodes }
@@ -119,7 +115,7 @@ impl Place {
 
 /// A value for each node, from its light.
 pub(super) fn of_nodes<T: Send>(value: impl Fn(usize, [f32; 3]) -> T + Sync) -> Vec<T> {
-    (0..NODES * NODES * NODES).into_par_iter().map(|node| value(node, light_at(node, NODES))).collect()
+    collected(NODES.pow(3), &|node| value(node, light_at(node, NODES)))
 }
 
 const _: () = assert!((NODES - 1).is_multiple_of(COARSEST - 1));

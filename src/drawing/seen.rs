@@ -2,7 +2,7 @@
 
 use super::{Drawing, Layer, Mark, Mixing};
 use crate::geometry::{BezPath, Rect, flatten};
-use rayon::prelude::*;
+use crate::parallel::{mapped, shares};
 
 /// Distance of the scan lines along which paint is measured, in millimetres; along a line the measure is exact. At 0.05 a
 /// painting's ink is off by less than 0.05 %.
@@ -58,9 +58,9 @@ impl Lines {
 
     /// Adds what a layer's marks cover.
     fn add(&self, covered: &mut [Spans], layer: &Layer) {
-        let outlines: Vec<BezPath> = layer.marks.par_iter().map(ink_outline).collect();
-        let edges: Vec<Vec<Edge>> = outlines.par_iter().map(edges).collect();
-        covered.par_chunks_mut(BAND).enumerate().for_each(|(band, rows)| {
+        let outlines: Vec<BezPath> = mapped(&layer.marks, &ink_outline);
+        let edges: Vec<Vec<Edge>> = mapped(&outlines, &edges);
+        shares(covered, BAND, &|band, rows| {
             let (first, end) = (band * BAND, band * BAND + rows.len());
             for mark in &edges {
                 let mut crossings: Vec<Vec<(f64, i32)>> = Vec::new();

@@ -1,7 +1,7 @@
 //! Multi-level B-splines through scattered data (Lee, Wolberg and Shin 1997), for the three components of a tensor at once.
 
 use crate::geometry::Point;
-use rayon::prelude::*;
+use crate::parallel::shares;
 
 /// A measured value of three components at a place, with a weight relative to its neighbours' (above 0).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,9 @@ pub struct BSpline {
     control: Vec<[f32; 3]>,
 }
 
+/// Data whose residuals one thread computes at once.
+const SHARE: usize = 1024;
+
 /// Fits a surface over `width` x `height` pixels: first a lattice of one cell, then lattices with cells half as large on the residuals,
 /// down to cells no smaller than `finest` pixels; finally all are merged into one lattice. Cost is linear in the data for each level.
 pub fn multilevel_b_spline(data: &[Datum], width: f64, height: f64, finest: f64) -> BSpline {
@@ -31,9 +34,11 @@ pub fn multilevel_b_spline(data: &[Datum], width: f64, height: f64, finest: f64)
     let mut cell = width.max(height).max(1.0);
     loop {
         let level = BSpline::fitted(&residual, width, height, cell);
-        residual.par_iter_mut().for_each(|datum| {
-            let fitted = level.at(datum.position);
-            (0..3).for_each(|c| datum.value[c] -= fitted[c]);
+        shares(&mut residual, SHARE, &|_, part| {
+            for datum in part {
+                let fitted = level.at(datum.position);
+                (0..3).for_each(|c| datum.value[c] -= fitted[c]);
+            }
         });
         let sum = match surface {
             None => level,
@@ -126,7 +131,7 @@ impl BSpline {
                 [(clamp(base), 0.5), (clamp(base + 1), 0.5), (0, 0.0)]
             }
         };
-        out.control.par_chunks_mut(finer.columns).enumerate().for_each(|(j, row)| {
+        shares(&mut out.control, finer.columns, &|j, row| {
             for (i, control) in row.iter_mut().enumerate() {
                 for (y, b) in taps(j, self.rows) {
                     for (x, a) in taps(i, self.columns) {

@@ -2,15 +2,15 @@
 
 use super::curve::Curve;
 use crate::geometry::Point;
+use crate::parallel::collected;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// The lines along which the raster, bilinear between pixel centres, equals `level`; greater values on their left (seen with y up; on
 /// the right with y down). Open lines end at the raster's border.
 pub fn contours(raster: &Raster<f32>, level: f32) -> Vec<Curve> {
     let (width, height) = (raster.width(), raster.height());
     let of_row = |y: usize| (0..width.saturating_sub(1)).flat_map(move |x| cell_segments(raster, x, y, level)).collect();
-    let rows: Vec<Vec<(Side, Side)>> = (0..height.saturating_sub(1)).into_par_iter().with_min_len(16).map(of_row).collect();
+    let rows: Vec<Vec<(Side, Side)>> = collected(height.saturating_sub(1), &of_row);
     let mut sides = Sides { width, next: vec![NONE; 2 * width * height], is_entered: vec![false; 2 * width * height] };
     for (from, to) in rows.iter().flatten() {
         let (from, to) = (sides.number(*from), sides.number(*to));

@@ -3,7 +3,7 @@
 use super::stripes::{CellPhases, StripeLattice};
 use super::voronoi::{Sites, cell_polygon};
 use crate::geometry::{Point, Rect};
-use rayon::prelude::*;
+use crate::parallel::collected;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -19,19 +19,16 @@ pub type LocalLength<'a> = &'a (dyn Fn(Point) -> f64 + Sync);
 pub fn crossings(along: &StripeLattice, across: &StripeLattice, least: LocalLength<'_>) -> Vec<Point> {
     assert_eq!(along.phase.width(), across.phase.width(), "both families stand on one lattice");
     let (columns, rows) = (along.phase.width().saturating_sub(1), along.phase.height().saturating_sub(1));
-    let by_row: Vec<Vec<Point>> = (0..rows)
-        .into_par_iter()
-        .map(|j| {
-            let mut found = Vec::new();
-            for i in 0..columns {
-                let origin = along.position(i, j);
-                in_cell(&CellPhases::new(along, i, j), &CellPhases::new(across, i, j), |u, v| {
-                    found.push(Point::new(origin.x + u * along.step, origin.y + v * along.step));
-                });
-            }
-            found
-        })
-        .collect();
+    let by_row: Vec<Vec<Point>> = collected(rows, &|j| {
+        let mut found = Vec::new();
+        for i in 0..columns {
+            let origin = along.position(i, j);
+            in_cell(&CellPhases::new(along, i, j), &CellPhases::new(across, i, j), |u, v| {
+                found.push(Point::new(origin.x + u * along.step, origin.y + v * along.step));
+            });
+        }
+        found
+    });
     apart(Vec::new(), &by_row.concat(), least)
 }
 
@@ -42,13 +39,10 @@ pub fn holes(points: &[Point], field: Rect, reach: LocalLength<'_>, farthest: f6
         return Vec::new();
     }
     let sites = Sites::new(points, field.x1, field.y1, farthest);
-    let corners: Vec<Vec<(f64, Point)>> = (0..points.len())
-        .into_par_iter()
-        .map(|i| {
-            let cell = cell_polygon(&sites, i, field, 2.0 * farthest);
-            cell.into_iter().map(|p| (p.distance(points[i]) / reach(p), p)).filter(|(away, _)| *away > 1.0).collect()
-        })
-        .collect();
+    let corners: Vec<Vec<(f64, Point)>> = collected(points.len(), &|i| {
+        let cell = cell_polygon(&sites, i, field, 2.0 * farthest);
+        cell.into_iter().map(|p| (p.distance(points[i]) / reach(p), p)).filter(|(away, _)| *away > 1.0).collect()
+    });
     let mut corners = corners.concat();
     // The widest holes first, so that one point fills each.
     corners.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.x.total_cmp(&b.1.x)).then(a.1.y.total_cmp(&b.1.y)));

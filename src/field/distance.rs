@@ -2,8 +2,8 @@
 
 use super::curve::Curve;
 use crate::geometry::{Point, resample};
+use crate::parallel::rows_with;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Pieces of a curve searched on either side of the one found: the nearest piece may be two pixels away from it.
 const NEIGHBOURS: usize = 3;
@@ -21,10 +21,7 @@ pub fn nearest_seed(marked: &Raster<u8>) -> Option<Raster<u32>> {
     let rows = nearest_in_column(marked);
     let (width, height) = (marked.width(), marked.height());
     let mut out = Raster::filled(width, height, 0_u32);
-    out.pixels_mut()
-        .par_chunks_mut(width)
-        .enumerate()
-        .for_each_init(|| Envelope::new(width), |envelope, (y, out)| envelope.scan(rows.row(y), y, width, out));
+    rows_with(out.pixels_mut(), width, &|| Envelope::new(width), &|envelope, y, out| envelope.scan(rows.row(y), y, width, out));
     Some(out)
 }
 

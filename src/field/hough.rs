@@ -12,8 +12,8 @@
 
 use super::orientation::OrientationField;
 use crate::elementary::Elementary as _;
+use crate::parallel::rows_with;
 use crate::raster::Raster;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Fractional bits of the fixed-point sines and cosines; positions may then reach 60,000 pixels in either direction.
@@ -121,9 +121,11 @@ impl HoughFilter {
     pub fn orientations(&self, lines: &Raster<u8>, region: &Raster<u8>) -> OrientationField {
         let width = lines.width();
         let mut field = Raster::filled(width, lines.height(), [0.0_f32; 2]);
-        field.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each_init(
-            || (self.empty(), vec![0_u8; self.normals.len() * self.cells], vec![0_u32; RANKS]),
-            |(accumulator, ranks, histogram), (y, row)| {
+        rows_with(
+            field.pixels_mut(),
+            width,
+            &|| (self.empty(), vec![0_u8; self.normals.len() * self.cells], vec![0_u32; RANKS]),
+            &|(accumulator, ranks, histogram), y, row| {
                 let wanted = |x: &usize| region.get(*x, y) != 0;
                 let (Some(first), Some(last)) = ((0..width).find(wanted), (0..width).rfind(wanted)) else { return };
                 self.fill(accumulator, lines, first, y);

@@ -1,7 +1,6 @@
 //! Multigrid solver for Poisson's equation on a raster with some given pixels.
 
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Sweeps before and after the coarser grid.
 const SWEEPS: usize = 2;
@@ -91,19 +90,13 @@ impl Level {
         let width = self.z.width();
         for colour in 0..2 {
             let old = &self.z;
-            let new: Vec<f32> = (0..old.len())
-                .into_par_iter()
-                .with_min_len(8192)
-                .map(|at| {
-                    let (x, y) = (at % width, at / width);
-                    if (x + y) % 2 != colour || self.is_given.get(x, y) != 0 {
-                        return old.get(x, y);
-                    }
-                    let (sum, count) = Self::neighbours(old, x, y);
-                    (sum - self.source.get(x, y)) / (count + self.screening).max(1.0)
-                })
-                .collect();
-            self.z = Raster::from_vec(width, self.z.height(), new);
+            self.z = Raster::from_fn(width, old.height(), |x, y| {
+                if (x + y) % 2 != colour || self.is_given.get(x, y) != 0 {
+                    return old.get(x, y);
+                }
+                let (sum, count) = Self::neighbours(old, x, y);
+                (sum - self.source.get(x, y)) / (count + self.screening).max(1.0)
+            });
         }
     }
 

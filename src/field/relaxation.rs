@@ -2,8 +2,8 @@
 
 use super::{Lanes, Sites};
 use crate::geometry::Point;
+use crate::parallel::collected;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Bands of rows in which centroids are summed; a fixed number, so that sums do not depend on the number of threads.
 const BANDS: usize = 16;
@@ -58,23 +58,20 @@ fn towards_centres(sites: &[Point], weight: &Raster<f32>, constraint: Option<Lan
         }
     };
     let rows = height.div_ceil(BANDS);
-    let sums: Vec<BandSums> = (0..BANDS)
-        .into_par_iter()
-        .map(|band| {
-            let range = (band * rows * width).min(width * height)..((band + 1) * rows * width).min(width * height);
-            let mut sums = BandSums::new(&nearest.pixels()[range.clone()]);
-            for pixel in range {
-                let site = nearest.pixels()[pixel];
-                let base = weight.pixels()[pixel];
-                if site == u32::MAX || base == 0.0 {
-                    continue;
-                }
-                let w = base * constraint.map_or(1.0, |c| c.weight(pixel, lane_of[site as usize]));
-                sums.add(site, w, (pixel % width) as f32 + 0.5, (pixel / width) as f32 + 0.5);
+    let sums: Vec<BandSums> = collected(BANDS, &|band| {
+        let range = (band * rows * width).min(width * height)..((band + 1) * rows * width).min(width * height);
+        let mut sums = BandSums::new(&nearest.pixels()[range.clone()]);
+        for pixel in range {
+            let site = nearest.pixels()[pixel];
+            let base = weight.pixels()[pixel];
+            if site == u32::MAX || base == 0.0 {
+                continue;
             }
-            sums
-        })
-        .collect();
+            let w = base * constraint.map_or(1.0, |c| c.weight(pixel, lane_of[site as usize]));
+            sums.add(site, w, (pixel % width) as f32 + 0.5, (pixel / width) as f32 + 0.5);
+        }
+        sums
+    });
     let mut totals = vec![[0.0_f64; 3]; sites.len()];
     for band in &sums {
         for (total, sum) in totals[band.first..].iter_mut().zip(&band.sums) {

@@ -19,9 +19,9 @@ mod sweep;
 
 use super::Flow;
 use crate::geometry::{Point, Vec2};
+use crate::parallel::collected;
 use crate::raster::Raster;
 use blob::Blob;
-use rayon::prelude::*;
 use sweep::Sweep;
 
 /// One ribbon, in pixels.
@@ -84,22 +84,22 @@ pub fn glass_ribbons(
     levels: impl Fn(f32) -> Vec<f32> + Sync,
 ) -> Vec<Ribbon> {
     let maxima = maxima(noise);
-    let mut ribbons: Vec<Ribbon> = maxima
-        .par_iter()
-        .enumerate()
-        .flat_map_iter(|(i, &(x, y))| {
-            let height = noise.get(x, y);
-            let from = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-            let along = flow.at(from);
-            let levels = if along == Vec2::ZERO { Vec::new() } else { levels(height) };
-            levels.into_iter().filter_map(move |level| {
-                let blob = Blob::new(noise, from, along, level);
-                let sweep = Sweep { pattern, flow, blob: &blob, length, fit, level, height };
-                let (nodes, widths) = sweep.best()?;
-                Some(Ribbon { nodes, widths, level, height, maximum: i as u32 })
-            })
-        })
-        .collect();
+    let of_maximum = |i: usize| {
+        let (x, y) = maxima[i];
+        let height = noise.get(x, y);
+        let from = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+        let along = flow.at(from);
+        let levels = if along == Vec2::ZERO { Vec::new() } else { levels(height) };
+        let ribbon = |level: f32| {
+            let blob = Blob::new(noise, from, along, level);
+            let sweep = Sweep { pattern, flow, blob: &blob, length, fit, level, height };
+            let (nodes, widths) = sweep.best()?;
+            Some(Ribbon { nodes, widths, level, height, maximum: i as u32 })
+        };
+        levels.into_iter().filter_map(ribbon).collect()
+    };
+    let ribbons: Vec<Vec<Ribbon>> = collected(maxima.len(), &of_maximum);
+    let mut ribbons: Vec<Ribbon> = ribbons.into_iter().flatten().collect();
     ribbons
         .sort_unstable_by(|a, b| a.level.total_cmp(&b.level).then(a.height.total_cmp(&b.height)).then(a.maximum.cmp(&b.maximum)));
     ribbons
@@ -118,10 +118,9 @@ fn maxima(noise: &Raster<f32>) -> Vec<(usize, usize)> {
             here > there || (here == there && (dy, dx) > (0, 0))
         })
     };
-    (0..noise.height())
-        .into_par_iter()
-        .flat_map_iter(|y| (0..noise.width()).filter(move |&x| is_maximum(x, y)).map(move |x| (x, y)))
-        .collect()
+    let of_row = |y: usize| (0..noise.width()).filter(|&x| is_maximum(x, y)).map(|x| (x, y)).collect();
+    let rows: Vec<Vec<(usize, usize)>> = collected(noise.height(), &of_row);
+    rows.concat()
 }
 
 #[cfg(test)]

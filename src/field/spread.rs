@@ -4,8 +4,8 @@
 //! coarser one's result.
 
 use super::least_squares::{negative_laplacian, solved};
+use crate::parallel::mapped;
 use crate::raster::{Raster, enlarge_smoothly};
-use rayon::prelude::*;
 
 /// Shorter side of the coarsest level in pixels, and the rounds there and on each finer level.
 const COARSEST: usize = 12;
@@ -16,7 +16,7 @@ const LEAST_WEIGHT: f32 = 1e-6;
 
 /// The smooth values of several planes known at the same places with the same weights, 0 where nothing is known.
 pub(crate) fn spread(known: &[Raster<f32>], weight: &Raster<f32>, bending: f32) -> Vec<Raster<f32>> {
-    known.par_iter().map(|plane| spread_plane(plane, weight, bending)).collect()
+    mapped(known, &|plane| spread_plane(plane, weight, bending))
 }
 
 fn spread_plane(known: &Raster<f32>, weight: &Raster<f32>, bending: f32) -> Raster<f32> {

@@ -1,7 +1,7 @@
 //! SLIC superpixels: connected clusters of similar colour and position (Achanta et al. 2012).
 
+use crate::parallel::{collected, shares};
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Bands in which centres are summed: a fixed number, so that sums do not depend on the number of threads.
 const SUM_BANDS: usize = 8;
@@ -31,7 +31,7 @@ pub fn superpixels(colours: &Raster<[f32; 3]>, size: usize, compactness: f32, ro
         return colours.map(|_| 0);
     }
     let size = size.max(2);
-    let channel = |c: usize| colours.pixels().par_iter().with_min_len(4096).map(|p| p[c]).collect();
+    let channel = |c: usize| colours.pixels().iter().map(|p| p[c]).collect();
     let planes = Planes { width, height, channels: [channel(0), channel(1), channel(2)] };
     let mut centres = first_centres(&planes, size);
     let mut labels = vec![0_i32; width * height];
@@ -59,37 +59,34 @@ fn first_centres(planes: &Planes, size: usize) -> Vec<Centre> {
 fn assign(planes: &Planes, centres: &[Centre], size: usize, weight: f32, labels: &mut [i32]) {
     let width = planes.width;
     let reach = size as f32;
-    labels.par_chunks_mut(width * size).enumerate().for_each_init(
-        || vec![0.0_f32; width * size],
-        |nearest, (band, labels)| {
-            nearest.fill(f32::INFINITY);
-            let top = band * size;
-            let bottom = top + labels.len() / width;
-            for (k, centre) in centres.iter().enumerate() {
-                let first = ((centre.y - reach).ceil().max(0.0) as usize).max(top);
-                let end = ((centre.y + reach) as usize + 1).min(bottom);
-                let left = (centre.x - reach).ceil().max(0.0) as usize;
-                let right = ((centre.x + reach) as usize + 1).min(width);
-                for y in first..end.max(first) {
-                    let row = y * width;
-                    let out = (y - top) * width;
-                    let dy = y as f32 + 0.5 - centre.y;
-                    let span = [
-                        &planes.channels[0][row + left..row + right],
-                        &planes.channels[1][row + left..row + right],
-                        &planes.channels[2][row + left..row + right],
-                    ];
-                    nearer(
-                        span,
-                        centre,
-                        (left as f32 + 0.5 - centre.x, dy * dy, weight),
-                        &mut nearest[out + left..out + right],
-                        (&mut labels[out + left..out + right], k as i32),
-                    );
-                }
+    shares(labels, width * size, &|band, labels| {
+        let mut nearest = vec![f32::INFINITY; labels.len()];
+        let top = band * size;
+        let bottom = top + labels.len() / width;
+        for (k, centre) in centres.iter().enumerate() {
+            let first = ((centre.y - reach).ceil().max(0.0) as usize).max(top);
+            let end = ((centre.y + reach) as usize + 1).min(bottom);
+            let left = (centre.x - reach).ceil().max(0.0) as usize;
+            let right = ((centre.x + reach) as usize + 1).min(width);
+            for y in first..end.max(first) {
+                let row = y * width;
+                let out = (y - top) * width;
+                let dy = y as f32 + 0.5 - centre.y;
+                let span = [
+                    &planes.channels[0][row + left..row + right],
+                    &planes.channels[1][row + left..row + right],
+                    &planes.channels[2][row + left..row + right],
+                ];
+                nearer(
+                    span,
+                    centre,
+                    (left as f32 + 0.5 - centre.x, dy * dy, weight),
+                    &mut nearest[out + left..out + right],
+                    (&mut labels[out + left..out + right], k as i32),
+                );
             }
-        },
-    );
+        }
+    });
 }
 
 /// Marks the pixels of a row that are nearer to this centre than to any before.
@@ -114,24 +111,21 @@ fn nearer(
 
 fn move_centres(planes: &Planes, labels: &[i32], centres: &mut [Centre]) {
     let rows = planes.height.div_ceil(SUM_BANDS).max(1);
-    let sums: Vec<Vec<[f64; 6]>> = labels
-        .par_chunks(rows * planes.width)
-        .enumerate()
-        .map(|(band, labels)| {
-            let mut sums = vec![[0.0_f64; 6]; centres.len()];
-            for (i, &label) in labels.iter().enumerate() {
-                let at = band * rows * planes.width + i;
-                let sum = &mut sums[label as usize];
-                sum[0] += f64::from(planes.channels[0][at]);
-                sum[1] += f64::from(planes.channels[1][at]);
-                sum[2] += f64::from(planes.channels[2][at]);
-                sum[3] += (at % planes.width) as f64 + 0.5;
-                sum[4] += (at / planes.width) as f64 + 0.5;
-                sum[5] += 1.0;
-            }
-            sums
-        })
-        .collect();
+    let sums: Vec<Vec<[f64; 6]>> = collected(planes.height.div_ceil(rows), &|band| {
+        let labels = &labels[band * rows * planes.width..((band + 1) * rows * planes.width).min(labels.len())];
+        let mut sums = vec![[0.0_f64; 6]; centres.len()];
+        for (i, &label) in labels.iter().enumerate() {
+            let at = band * rows * planes.width + i;
+            let sum = &mut sums[label as usize];
+            sum[0] += f64::from(planes.channels[0][at]);
+            sum[1] += f64::from(planes.channels[1][at]);
+            sum[2] += f64::from(planes.channels[2][at]);
+            sum[3] += (at % planes.width) as f64 + 0.5;
+            sum[4] += (at / planes.width) as f64 + 0.5;
+            sum[5] += 1.0;
+        }
+        sums
+    });
     for (k, centre) in centres.iter_mut().enumerate() {
         let sum = sums.iter().fold([0.0_f64; 6], |all, band| std::array::from_fn(|i| all[i] + band[k][i]));
         if sum[5] > 0.0 {

@@ -5,8 +5,8 @@
 
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2, half_plane};
+use crate::parallel::shares;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Sites in a uniform grid of about one site per cell.
 pub struct Sites<'a> {
@@ -110,30 +110,28 @@ impl<'a> Sites<'a> {
         let (width, height) = (wanted.width(), wanted.height());
         let tile = (self.cell.round() as usize).clamp(2, 64);
         let mut out = Raster::filled(width, height, u32::MAX);
-        out.pixels_mut().par_chunks_mut(width * tile).enumerate().for_each_init(
-            || (Vec::new(), Vec::new()),
-            |(candidates, positions), (band, out)| {
-                let y0 = band * tile;
-                let rows = out.len() / width;
-                for x0 in (0..width).step_by(tile) {
-                    let x1 = (x0 + tile).min(width);
-                    if (y0..y0 + rows).all(|y| wanted.row(y)[x0..x1].iter().all(|&v| v == 0.0)) {
-                        continue;
-                    }
-                    let centre = Point::new(0.5 * (x0 + x1) as f64, y0 as f64 + 0.5 * rows as f64);
-                    let radius = 0.5 * ((x1 - x0) as f64).hypotenuse(rows as f64);
-                    candidates.clear();
-                    self.candidates(centre, radius, candidates);
-                    candidates.sort_unstable();
-                    positions.clear();
-                    positions.extend(candidates.iter().map(|&i| {
-                        let offset = self.points[i as usize] - Point::new(x0 as f64 + 0.5, y0 as f64 + 0.5);
-                        (offset.x as f32, offset.y as f32)
-                    }));
-                    label_tile(out, width, x0..x1, candidates, positions);
+        shares(out.pixels_mut(), width * tile, &|band, out| {
+            let (mut candidates, mut positions) = (Vec::new(), Vec::new());
+            let y0 = band * tile;
+            let rows = out.len() / width;
+            for x0 in (0..width).step_by(tile) {
+                let x1 = (x0 + tile).min(width);
+                if (y0..y0 + rows).all(|y| wanted.row(y)[x0..x1].iter().all(|&v| v == 0.0)) {
+                    continue;
                 }
-            },
-        );
+                let centre = Point::new(0.5 * (x0 + x1) as f64, y0 as f64 + 0.5 * rows as f64);
+                let radius = 0.5 * ((x1 - x0) as f64).hypotenuse(rows as f64);
+                candidates.clear();
+                self.candidates(centre, radius, &mut candidates);
+                candidates.sort_unstable();
+                positions.clear();
+                positions.extend(candidates.iter().map(|&i| {
+                    let offset = self.points[i as usize] - Point::new(x0 as f64 + 0.5, y0 as f64 + 0.5);
+                    (offset.x as f32, offset.y as f32)
+                }));
+                label_tile(out, width, x0..x1, &candidates, &positions);
+            }
+        });
         out
     }
 }

@@ -3,8 +3,8 @@
 
 use crate::elementary::Elementary as _;
 use crate::interrupt::Interrupt;
+use crate::parallel::collected;
 use kurbo::{Point, Rect};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Standard deviations of the two Gaussian blurs that model the eye, in mean dot spacings. The inner one keeps neighbours apart,
@@ -128,7 +128,7 @@ impl<'a> Search<'a> {
                 .map(|j| error(j) * eye.at(here.distance_squared(places[j])))
                 .sum()
         };
-        let surplus = (0..places.len()).into_par_iter().map(at).collect();
+        let surplus = collected(places.len(), &at);
         let near = Buckets::new(places, NEAR * spacing);
         Self { places, shares, chosen, surplus, blur_cells, near, spacing, eye, interrupt }
     }

@@ -2,8 +2,8 @@
 //! does not depend on how tangled they are.
 
 use super::polyline::distance_to_segment;
+use crate::parallel::collected;
 use kurbo::Point;
-use rayon::prelude::*;
 
 /// Maximum number of lines for which every pair is tested: half a million pairs.
 const FEW: usize = 1000;
@@ -39,7 +39,8 @@ pub fn estimated_crossings_among(threads: &[WideSegment], counts: impl Fn(usize,
         return (0..count).map(behind).sum::<usize>() as f64;
     }
     let at = |k: usize, step: f64| (((k as f64 * step).fract() * count as f64) as usize).min(count - 1);
-    let found = (1..=SAMPLES).into_par_iter().filter(|&k| meets(at(k, STEPS[0]), at(k, STEPS[1]))).count();
+    let found =
+        collected(SAMPLES, &|k| meets(at(k + 1, STEPS[0]), at(k + 1, STEPS[1]))).into_iter().filter(|is_met| *is_met).count();
     found as f64 * (0.5 * count as f64 * count as f64) / SAMPLES as f64
 }
 

@@ -7,10 +7,10 @@
 //!                    \____/           in the tour if it lies nearer to another link.
 //! ```
 
+use crate::parallel::collected;
 use std::collections::VecDeque;
 
 use kurbo::Point;
-use rayon::prelude::*;
 
 use super::ends::End;
 use super::sites::Sites;
@@ -100,8 +100,8 @@ impl<'a> Seating<'a> {
         let ends = 0..sites.end_count() as End;
         let at: Vec<Point> = ends.clone().map(|end| sites.place(end)).collect();
         let tree = KdTree::new(ends.clone().filter(|&end| end != sites.free_end()).map(|end| (sites.place(end), end)).collect());
-        let rings = numbering.par_iter().enumerate();
-        let rings = rings.map(|(path, &stop)| stops[stop].ring.map(|points| Ring::new(points, path as End, &tree))).collect();
+        let ring = |path: usize| stops[numbering[path]].ring.map(|points| Ring::new(points, path as End, &tree));
+        let rings = collected(numbering.len(), &ring);
         let edge = numbering.iter().map(|&stop| stops[stop].edge).collect();
         let link = ends.map(|end| tour.link(end)).collect();
         Self { free: sites.free_end(), tolerance: sites.tolerance(), interrupt: sites.interrupt().clone(), rings, at, edge, link }

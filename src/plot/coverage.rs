@@ -11,7 +11,7 @@ use super::{PenPaths, Plot};
 use crate::drawing::{Drawing, Ends, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, flatten};
 use crate::interrupt::{Interrupt, Interrupted};
-use rayon::prelude::*;
+use crate::parallel::collected;
 
 /// Scan lines per nib.
 const LINES_A_NIB: f64 = 16.0;
@@ -77,18 +77,15 @@ fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths, 
     let bands = ((bottom - top) / (step * BAND as f64)) as usize + 1;
     let band_of = |y: f64| (((y - top) / (step * BAND as f64)).max(0.0) as usize).min(bands - 1);
     let (asked, laid) = (by_band(&asked, bands, band_of, interrupt), by_band(&laid, bands, band_of, interrupt));
-    let sums: Vec<[f64; 3]> = (0..bands)
-        .into_par_iter()
-        .map(|band| {
-            let (mut cuts, mut total) = (Cuts::default(), [0.0; 3]);
-            for line in (0..BAND).take_while(|_| goes_on()) {
-                let y = top + ((band * BAND + line) as f64 + 0.5) * step;
-                let sums = cuts.across(y, &asked[band], &laid[band]);
-                (0..3).for_each(|i| total[i] += sums[i] * step);
-            }
-            total
-        })
-        .collect();
+    let sums: Vec<[f64; 3]> = collected(bands, &|band| {
+        let (mut cuts, mut total) = (Cuts::default(), [0.0; 3]);
+        for line in (0..BAND).take_while(|_| goes_on()) {
+            let y = top + ((band * BAND + line) as f64 + 0.5) * step;
+            let sums = cuts.across(y, &asked[band], &laid[band]);
+            (0..3).for_each(|i| total[i] += sums[i] * step);
+        }
+        total
+    });
     let sum = |i: usize| sums.iter().map(|sums| sums[i]).sum::<f64>();
     Coverage { asked: sum(0), covered: sum(1), spilt: sum(2) }
 }

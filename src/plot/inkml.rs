@@ -16,9 +16,9 @@ use super::{InkModel, Nibs, lower};
 use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, flatten};
 use crate::interrupt::Interrupt;
+use crate::parallel::collected;
 use crate::write::thousandths;
 use kurbo::Shape;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io;
@@ -157,8 +157,9 @@ enum Way<'a> {
 
 fn drawn(layer: &Layer) -> Vec<Drawn<'_>> {
     let own = Brush::of(layer);
-    let of_mark = |mark| {
-        let colour = Mark::colour(mark).unwrap_or(layer.ink.colour());
+    let of_mark = |mark: usize| {
+        let mark = &layer.marks[mark];
+        let colour = mark.colour().unwrap_or(layer.ink.colour());
         match mark {
             Mark::Stroke(stroke) => Drawn { brush: Brush::new(colour, own.width()), way: Way::Stroke(stroke) },
             Mark::Dot(Dot { centre, radius, outline: None, .. }) => touch(*centre, *radius, colour),
@@ -166,7 +167,7 @@ fn drawn(layer: &Layer) -> Vec<Drawn<'_>> {
             Mark::Area(Area { outline, .. }) => filled(outline, colour),
         }
     };
-    layer.marks.par_iter().map(of_mark).collect()
+    collected(layer.marks.len(), &of_mark)
 }
 
 fn touch(centre: Point, radius: f64, colour: Colour) -> Drawn<'static> {

@@ -3,8 +3,8 @@
 use crate::drawing::{Area, Colour, Dot, Drawing, Mark, Mixing, Painted, Stroke, Width};
 use crate::geometry::{BezPath, Rect, Region};
 use crate::interrupt::{Interrupt, Interrupted};
+use crate::parallel::mapped;
 use kurbo::Shape;
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Flattening tolerance of outlines that are cut, in millimetres.
@@ -73,7 +73,7 @@ pub fn occluded_where(
         }
         Ok((wanted.place, visible))
     };
-    let cut: Vec<((usize, usize), Vec<Mark>)> = wanted.par_iter().map(cut).collect::<Result<_, Interrupted>>()?;
+    let cut: Vec<((usize, usize), Vec<Mark>)> = mapped(&wanted, &cut).into_iter().collect::<Result<_, Interrupted>>()?;
     let mut left: Vec<Vec<(usize, Vec<Mark>)>> = drawing.layers.iter().map(|_| Vec::new()).collect();
     cut.into_iter().for_each(|((layer, mark), visible)| left[layer].push((mark, visible)));
     let mut result = drawing.clone();

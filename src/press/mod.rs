@@ -22,9 +22,9 @@ pub use job::{PrintFormat, PrintJob};
 use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::Affine;
 use crate::interrupt::{Interrupt, Interrupted};
+use crate::parallel::mapped;
 use kurbo::Shape;
 use plan::{Plan, Speck};
-use rayon::prelude::*;
 
 /// The effect of a press on marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,9 +75,9 @@ impl Press {
     }
 
     fn layer(&self, layer: &Layer, drawing: &Drawing, interrupt: &Interrupt) -> Layer {
-        let marks = layer.marks.par_iter().filter(|_| !interrupt.is_raised());
-        let plans: Vec<Plan> = marks.map(|mark| self.plan(mark, drawing)).collect();
-        Layer { marks: thin::settled(plans, self, interrupt), ..layer.clone() }
+        let plan = |mark: &Mark| (!interrupt.is_raised()).then(|| self.plan(mark, drawing));
+        let plans = mapped(&layer.marks, &plan);
+        Layer { marks: thin::settled(plans.into_iter().flatten().collect(), self, interrupt), ..layer.clone() }
     }
 
     fn plan(&self, mark: &Mark, drawing: &Drawing) -> Plan {

@@ -3,7 +3,7 @@
 
 use super::Raster;
 use crate::elementary::Elementary as _;
-use rayon::prelude::*;
+use crate::parallel::rows_with;
 
 /// Smooths within regions and keeps their edges.
 ///
@@ -21,26 +21,24 @@ fn filter_rows(raster: &Raster<f32>, sigma_space: f32, sigma_value: f32) -> Rast
     let radius = (2.0 * sigma_space).ceil() as usize;
     let near: Vec<f32> = (0..=radius).map(|i| (-0.5 * (i as f32 / sigma_space).powi(2)).exponential()).collect();
     let mut out = Raster::filled(width, raster.height(), 0.0_f32);
-    out.pixels_mut().par_chunks_mut(width.max(1)).zip(raster.pixels().par_chunks(width.max(1))).for_each_init(
-        || (vec![0.0_f32; width], vec![0.0_f32; width]),
-        |(sum, weights), (out, row)| {
-            sum.copy_from_slice(row);
-            weights.fill(1.0);
-            for (i, &near) in near.iter().enumerate().skip(1).take_while(|(i, _)| *i < width) {
-                // Each pair of pixels i apart weighs the same both ways.
-                for x in i..width {
-                    let weight = near * value_weight((row[x] - row[x - i]) / sigma_value);
-                    sum[x] += weight * row[x - i];
-                    weights[x] += weight;
-                    sum[x - i] += weight * row[x];
-                    weights[x - i] += weight;
-                }
+    rows_with(out.pixels_mut(), width, &|| (vec![0.0_f32; width], vec![0.0_f32; width]), &|(sum, weights), y, out| {
+        let row = raster.row(y);
+        sum.copy_from_slice(row);
+        weights.fill(1.0);
+        for (i, &near) in near.iter().enumerate().skip(1).take_while(|(i, _)| *i < width) {
+            // Each pair of pixels i apart weighs the same both ways.
+            for x in i..width {
+                let weight = near * value_weight((row[x] - row[x - i]) / sigma_value);
+                sum[x] += weight * row[x - i];
+                weights[x] += weight;
+                sum[x - i] += weight * row[x];
+                weights[x - i] += weight;
             }
-            for ((out, sum), weight) in out.iter_mut().zip(sum).zip(weights) {
-                *out = *sum / *weight;
-            }
-        },
-    );
+        }
+        for ((out, sum), weight) in out.iter_mut().zip(sum).zip(weights) {
+            *out = *sum / *weight;
+        }
+    });
     out
 }
 

@@ -1,6 +1,7 @@
 //! Binary rasters (0 or 1): dilation, majority, connected components.
 
 use super::Raster;
+use crate::parallel::shares;
 
 /// Grows the marked region by `radius` pixels (a square, by chessboard distance).
 pub fn dilate(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
@@ -21,10 +22,10 @@ fn window_count(mask: &Raster<u8>, radius: usize) -> Raster<u32> {
 }
 
 fn running_count(raster: &Raster<u32>, radius: usize) -> Raster<u32> {
-    use rayon::prelude::*;
     let width = raster.width();
     let mut out = Raster::filled(width, raster.height(), 0_u32);
-    out.pixels_mut().par_chunks_mut(width.max(1)).zip(raster.pixels().par_chunks(width.max(1))).for_each(|(out, row)| {
+    shares(out.pixels_mut(), width, &|y, out| {
+        let row = raster.row(y);
         let mut sum: u32 = row.iter().take(radius).sum();
         for x in 0..width {
             sum += row.get(x + radius).copied().unwrap_or(0);

@@ -2,7 +2,7 @@
 
 use super::Raster;
 use crate::elementary::Elementary as _;
-use rayon::prelude::*;
+use crate::parallel::{rows_with, shares};
 
 /// Mean over a `(2r+1) x (2r+1)` window, borders clamped; time does not depend on `radius`.
 pub fn box_blur(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
@@ -18,7 +18,8 @@ fn box_blur_rows(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
     let mut out = Raster::filled(width, raster.height(), 0.0_f32);
     let last = width - 1;
     let scale = 1.0 / (2 * radius + 1) as f64;
-    out.pixels_mut().par_chunks_mut(width).zip(raster.pixels().par_chunks(width)).for_each(|(out, row)| {
+    shares(out.pixels_mut(), width, &|y, out| {
+        let row = raster.row(y);
         let at = |x: isize| f64::from(row[x.clamp(0, last as isize) as usize]);
         let mut sum: f64 = (-(radius as isize)..=radius as isize).map(at).sum();
         for x in 0..width as isize {
@@ -53,23 +54,21 @@ fn convolve_rows(raster: &Raster<f32>, half: &[f32]) -> Raster<f32> {
     let width = raster.width();
     let radius = half.len() - 1;
     let mut out = Raster::filled(width, raster.height(), 0.0_f32);
-    out.pixels_mut().par_chunks_mut(width).zip(raster.pixels().par_chunks(width)).for_each_init(
-        || vec![0.0_f32; width + 2 * radius],
-        |padded, (out, row)| {
-            padded[..radius].fill(row[0]);
-            padded[radius..radius + width].copy_from_slice(row);
-            padded[radius + width..].fill(row[width - 1]);
-            for (o, &v) in out.iter_mut().zip(row) {
-                *o = v * half[0];
+    rows_with(out.pixels_mut(), width, &|| vec![0.0_f32; width + 2 * radius], &|padded, y, out| {
+        let row = raster.row(y);
+        padded[..radius].fill(row[0]);
+        padded[radius..radius + width].copy_from_slice(row);
+        padded[radius + width..].fill(row[width - 1]);
+        for (o, &v) in out.iter_mut().zip(row) {
+            *o = v * half[0];
+        }
+        for (i, &weight) in half.iter().enumerate().skip(1) {
+            let (left, right) = (&padded[radius - i..], &padded[radius + i..]);
+            for ((o, a), b) in out.iter_mut().zip(left).zip(right) {
+                *o += weight * (a + b);
             }
-            for (i, &weight) in half.iter().enumerate().skip(1) {
-                let (left, right) = (&padded[radius - i..], &padded[radius + i..]);
-                for ((o, a), b) in out.iter_mut().zip(left).zip(right) {
-                    *o += weight * (a + b);
-                }
-            }
-        },
-    );
+        }
+    });
     out
 }
 
@@ -78,7 +77,7 @@ fn convolve_columns(raster: &Raster<f32>, half: &[f32]) -> Raster<f32> {
     let last = raster.height() as isize - 1;
     let row = |y: isize| raster.row(y.clamp(0, last) as usize);
     let mut out = Raster::filled(width, raster.height(), 0.0_f32);
-    out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+    shares(out.pixels_mut(), width, &|y, out| {
         let y = y as isize;
         for (o, &v) in out.iter_mut().zip(row(y)) {
             *o = v * half[0];

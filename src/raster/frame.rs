@@ -3,7 +3,7 @@
 use super::Raster;
 use std::ops::Range;
 
-impl<T: Copy + Send + Sync> Raster<T> {
+impl<T: Copy + Default + Send + Sync> Raster<T> {
     /// The raster with `margin` more pixels on each side, which repeat the nearest border pixel.
     #[must_use]
     pub fn framed(&self, margin: usize) -> Self {

@@ -10,7 +10,7 @@
 //! filters ring there.
 
 use super::{Raster, gaussian_blur, gaussian_kernel};
-use rayon::prelude::*;
+use crate::parallel::{rows_with, shares};
 
 /// Least sigma in lattice steps. At 1.5 the blur is within 0.2 % of the Gaussian's peak, at 1 within 1.2 %; 2 needs twice the
 /// nodes without visible gain.
@@ -80,9 +80,12 @@ impl Lattice {
         let count = self.count(width);
         let radius = self.kernel.len() - 1;
         let mut out = Raster::filled(width, raster.height(), 0.0_f32);
-        out.pixels_mut().par_chunks_mut(width).zip(raster.pixels().par_chunks(width)).for_each_init(
-            || (vec![0.0_f32; before + (count + 4) * self.step], vec![0.0_f32; count], vec![0.0_f32; count - 2 * radius]),
-            |(padded, nodes, blurred), (out, row)| {
+        rows_with(
+            out.pixels_mut(),
+            width,
+            &|| (vec![0.0_f32; before + (count + 4) * self.step], vec![0.0_f32; count], vec![0.0_f32; count - 2 * radius]),
+            &|(padded, nodes, blurred), y, out| {
+                let row = raster.row(y);
                 padded[..before].fill(row[0]);
                 padded[before..before + width].copy_from_slice(row);
                 padded[before + width..].fill(row[width - 1]);
@@ -142,7 +145,7 @@ fn weighted_sum(values: &[f32], weights: &[f32]) -> f32 {
 /// A raster whose rows are weighted sums of rows; `sum` adds up one row.
 fn weighted_rows(width: usize, height: usize, sum: impl Fn(usize, &mut dyn FnMut(&[f32], f32)) + Sync) -> Raster<f32> {
     let mut out = Raster::filled(width, height, 0.0_f32);
-    out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+    shares(out.pixels_mut(), width, &|y, out| {
         sum(y, &mut |row, weight| {
             for (o, v) in out.iter_mut().zip(row) {
                 *o += weight * v;

@@ -65,9 +65,8 @@ pub use structure_tensor::{gaussian_gradient, gradient, structure_tensor};
 #[doc(hidden)]
 pub use thin::thin;
 
+use crate::parallel::shares;
 use blur::gaussian_kernel;
-
-use rayon::prelude::*;
 
 /// A rectangle of pixels in row order; pixel `(x, y)` has its centre at `(x + 0.5, y + 0.5)`.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,15 +140,15 @@ impl<T: Copy + Send + Sync> Raster<T> {
 
     /// A raster whose pixel `(x, y)` is `pixel(x, y)`, made parallel by rows.
     #[inline]
-    pub fn from_fn(width: usize, height: usize, pixel: impl Fn(usize, usize) -> T + Sync) -> Self {
-        if width * height == 0 {
-            return Self { width, height, data: Vec::new() };
-        }
-        let mut data = vec![pixel(0, 0); width * height];
-        let rows = SHARE.div_ceil(width);
-        fill_shares(&mut data, rows * width, &|start, share| {
+    pub fn from_fn(width: usize, height: usize, pixel: impl Fn(usize, usize) -> T + Sync) -> Self
+    where
+        T: Default,
+    {
+        let mut data = vec![T::default(); width * height];
+        let rows = SHARE.div_ceil(width.max(1));
+        shares(&mut data, rows * width, &|i, share| {
             for (j, row) in share.chunks_mut(width).enumerate() {
-                row.iter_mut().enumerate().for_each(|(x, out)| *out = pixel(x, start / width + j));
+                row.iter_mut().enumerate().for_each(|(x, out)| *out = pixel(x, i * rows + j));
             }
         });
         Self { width, height, data }
@@ -157,10 +156,10 @@ impl<T: Copy + Send + Sync> Raster<T> {
 
     /// A raster of the same size, pixel by pixel.
     #[inline]
-    pub fn map<U: Copy + Send + Sync>(&self, pixel: impl Fn(T) -> U + Sync) -> Raster<U> {
-        let mut data = self.data.first().map_or_else(Vec::new, |&first| vec![pixel(first); self.len()]);
-        fill_shares(&mut data, SHARE, &|start, share| {
-            share.iter_mut().zip(&self.data[start..]).for_each(|(out, &v)| *out = pixel(v));
+    pub fn map<U: Copy + Default + Send + Sync>(&self, pixel: impl Fn(T) -> U + Sync) -> Raster<U> {
+        let mut data = vec![U::default(); self.len()];
+        shares(&mut data, SHARE, &|i, share| {
+            share.iter_mut().zip(&self.data[i * SHARE..]).for_each(|(out, &v)| *out = pixel(v));
         });
         Raster { width: self.width, height: self.height, data }
     }
@@ -170,15 +169,15 @@ impl<T: Copy + Send + Sync> Raster<T> {
     /// # Panics
     /// If the sizes differ.
     #[inline]
-    pub fn zip_map<U: Copy + Send + Sync, V: Copy + Send + Sync>(
+    pub fn zip_map<U: Copy + Send + Sync, V: Copy + Default + Send + Sync>(
         &self,
         other: &Raster<U>,
         pixel: impl Fn(T, U) -> V + Sync,
     ) -> Raster<V> {
         assert_eq!((self.width, self.height), (other.width, other.height), "rasters must have one size");
-        let first = self.data.first().zip(other.data.first());
-        let mut data = first.map_or_else(Vec::new, |(&a, &b)| vec![pixel(a, b); self.len()]);
-        fill_shares(&mut data, SHARE, &|start, share| {
+        let mut data = vec![V::default(); self.len()];
+        shares(&mut data, SHARE, &|i, share| {
+            let start = i * SHARE;
             let both = self.data[start..].iter().zip(&other.data[start..]);
             share.iter_mut().zip(both).for_each(|(out, (&a, &b))| *out = pixel(a, b));
         });
@@ -206,19 +205,16 @@ impl<T: Copy + Send + Sync> Raster<T> {
 
     /// Rows and columns exchanged.
     #[must_use]
-    pub fn transposed(&self) -> Self {
+    pub fn transposed(&self) -> Self
+    where
+        T: Default,
+    {
         Self::from_fn(self.height, self.width, |x, y| self.get(y, x))
     }
 }
 
 /// Pixels per parallel task: enough to outweigh the call, few enough to divide a small raster among threads.
 const SHARE: usize = 4096;
-
-/// Fills each share of `data` by `fill(start of the share, share)`, in parallel. The parallel part is compiled once per pixel
-/// type, not once per call: otherwise three functions made half of the crate's machine code.
-fn fill_shares<T: Send>(data: &mut [T], share: usize, fill: &(dyn Fn(usize, &mut [T]) + Sync)) {
-    data.par_chunks_mut(share).enumerate().for_each(|(i, out)| fill(i * share, out));
-}
 
 impl Raster<f32> {
     /// The value at a point in pixel units (`0.5, 0.5` is the centre of the first pixel), bilinear between centres.

@@ -1,7 +1,7 @@
 //! Paper: seeded irregular textures for charcoal and pastel.
 
 use super::{Raster, gaussian_blur};
-use rayon::prelude::*;
+use crate::parallel::collected;
 
 /// Bins of the histogram that equalises the texture; one bin is less than a mark's edge can show.
 const LEVELS: usize = 8192;
@@ -28,27 +28,32 @@ fn hash(seed: u64, x: u64, y: u64) -> f32 {
     (z >> 40) as f32 / 8_388_608.0 - 1.0
 }
 
+/// Bands of rows that are counted in parallel; each has a table of all levels.
+const BANDS: usize = 16;
+
 /// Each value replaced by its rank, 0 to 1, among the values of the bilinear surface between pixel centres, on which outlines are
 /// drawn. The pixels alone have a wider range.
 fn equalised(raster: &Raster<f32>) -> Raster<f32> {
     let bounds = |a: (f32, f32), b: (f32, f32)| (a.0.min(b.0), a.1.max(b.1));
-    let (low, high) = raster.pixels().par_iter().map(|&v| (v, v)).reduce(|| (f32::INFINITY, f32::NEG_INFINITY), bounds);
+    let (low, high) = raster.pixels().iter().map(|&v| (v, v)).fold((f32::INFINITY, f32::NEG_INFINITY), bounds);
     let scale = if high > low { (LEVELS - 1) as f32 / (high - low) } else { 0.0 };
-    let counted = |mut below: Vec<u32>, y: usize| {
-        for x in 0..raster.width() {
-            for (dx, dy) in [(0.75, 0.75), (1.25, 0.75), (0.75, 1.25), (1.25, 1.25)] {
-                let value = raster.sample(x as f64 + dx, y as f64 + dy);
-                below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
+    let rows = raster.height().div_ceil(BANDS);
+    let counted = |band: usize| {
+        let mut below = vec![0_u32; LEVELS + 1];
+        for y in band * rows..((band + 1) * rows).min(raster.height()) {
+            for x in 0..raster.width() {
+                for (dx, dy) in [(0.75, 0.75), (1.25, 0.75), (0.75, 1.25), (1.25, 1.25)] {
+                    let value = raster.sample(x as f64 + dx, y as f64 + dy);
+                    below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
+                }
             }
         }
         below
     };
-    let none = || vec![0_u32; LEVELS + 1];
-    let both = |mut a: Vec<u32>, b: Vec<u32>| {
-        a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
-        a
-    };
-    let mut below = (0..raster.height()).into_par_iter().with_min_len(64).fold(none, counted).reduce(none, both);
+    let mut below = vec![0_u32; LEVELS + 1];
+    for band in collected(BANDS, &counted) {
+        below.iter_mut().zip(band).for_each(|(all, part)| *all += part);
+    }
     let total: u32 = 4 * raster.len() as u32;
     for level in 0..LEVELS {
         below[level + 1] += below[level];

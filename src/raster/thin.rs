@@ -1,7 +1,7 @@
 //! Thinning to one-pixel lines (Zhang and Suen 1984).
 
 use super::Raster;
-use rayon::prelude::*;
+use crate::parallel::mapped;
 
 /// Reduces a binary raster to lines one pixel wide that keep its connections, ends and holes.
 ///
@@ -12,8 +12,7 @@ pub fn thin(mask: &Raster<u8>) -> Raster<u8> {
     loop {
         let before = candidates.len();
         for pass in [Pass::SouthEast, Pass::NorthWest] {
-            let removed: Vec<bool> =
-                candidates.par_iter().with_min_len(1024).map(|&i| is_removable(&lines, i as usize, pass)).collect();
+            let removed: Vec<bool> = mapped(&candidates, &|&i| is_removable(&lines, i as usize, pass));
             for (&i, _) in candidates.iter().zip(&removed).filter(|(_, r)| **r) {
                 lines.pixels_mut()[i as usize] = 0;
             }

@@ -3,8 +3,8 @@
 use super::Parts;
 use crate::drawing::{Area, Dot, Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, Region, lengths_along};
+use crate::parallel::mapped;
 use kurbo::Shape;
-use rayon::prelude::*;
 
 /// Share of a dot's area outside the part up to which it stays whole, and the share inside up to which it is dropped: a crumb is
 /// no dot.
@@ -25,7 +25,7 @@ impl Parts {
     pub fn confined(&self, part: usize, drawing: &Drawing) -> Drawing {
         let region = self.outline(part);
         let layers = drawing.layers.iter().map(|layer| {
-            let marks: Vec<Vec<Mark>> = layer.marks.par_iter().map(|mark| within(mark, region)).collect();
+            let marks: Vec<Vec<Mark>> = mapped(&layer.marks, &|mark| within(mark, region));
             crate::drawing::Layer { marks: marks.into_iter().flatten().collect(), ..layer.clone() }
         });
         Drawing { page: drawing.page, layers: layers.filter(|layer| !layer.marks.is_empty()).collect() }

@@ -5,9 +5,9 @@
 //! flag nearby and no red on the person nearby; the same red in a jacket is not.
 
 use crate::elementary::Elementary as _;
+use crate::parallel::collected;
 use crate::raster::Raster;
 use crate::source::{lab, srgb_to_linear};
-use rayon::prelude::*;
 
 /// Nodes along the longer side of the picture, along L*, and along a* and b*; and the step of the last three in units of Lab.
 const PLACES: usize = 5;
@@ -72,7 +72,7 @@ fn blurred(lattice: &[[f32; 2]], axis: usize) -> Vec<[f32; 2]> {
         let smooth = |k: usize| 0.25 * (before[k] + after[k]) + 0.5 * lattice[i][k];
         [smooth(0), smooth(1)]
     };
-    (0..lattice.len()).into_par_iter().map(value).collect()
+    collected(lattice.len(), &value)
 }
 
 /// Linear interpolation along each axis between the nodes around a position; node centres are at halves.

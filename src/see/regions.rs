@@ -25,13 +25,13 @@ mod smoothing;
 
 use super::detail::detail;
 use super::sight::Regions;
+use crate::parallel::shares;
 use crate::raster::Raster;
 use crate::source::Landmarks;
 use facial_hair::Beard;
 use head::Head;
 use headwear::headwear;
 use plate::{Plate, owner};
-use rayon::prelude::*;
 use segmentation::{CLOTHING, HAIR, SKIN, Segmentation, Shares};
 use smoothing::{Guide, Lines, value};
 
@@ -101,7 +101,7 @@ fn at_full_size(
 ) -> Raster<[u8; KINDS]> {
     let width = pixels.width();
     let mut out = Raster::filled(width, pixels.height(), [0_u8; KINDS]);
-    out.pixels_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+    shares(out.pixels_mut(), width, &|y, row| {
         for (x, out) in row.iter_mut().enumerate() {
             let whole = subject.get(x, y);
             if whole == 0 {

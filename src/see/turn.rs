@@ -44,7 +44,7 @@ impl Turn {
     }
 
     /// Rotates a raster over the photograph, or over a part of it, upright.
-    pub(super) fn raster<T: Copy + Send + Sync>(self, raster: &Raster<T>) -> Raster<T> {
+    pub(super) fn raster<T: Copy + Default + Send + Sync>(self, raster: &Raster<T>) -> Raster<T> {
         let (w, h) = (raster.width(), raster.height());
         match self.quarters {
             0 => raster.clone(),
@@ -55,7 +55,7 @@ impl Turn {
     }
 
     /// Rotates a raster over the upright picture back to the photograph.
-    pub(super) fn raster_back<T: Copy + Send + Sync>(self, raster: &Raster<T>) -> Raster<T> {
+    pub(super) fn raster_back<T: Copy + Default + Send + Sync>(self, raster: &Raster<T>) -> Raster<T> {
         Self::new(4 - self.quarters, self.size).raster(raster)
     }
 }

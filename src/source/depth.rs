@@ -2,8 +2,8 @@
 
 use super::decode::Photograph;
 use super::placement::{Crop, Placement};
+use crate::parallel::shares;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Which end of a depth map is near.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,10 +30,10 @@ pub(super) fn read_depth(depth: &Photograph, sense: DepthSense, crop: Crop, plac
     let columns = tents(crop.x, crop.width, placement.columns, width);
     let rows = tents(crop.y, crop.height, placement.rows, height);
     let mut out = Raster::filled(placement.columns, placement.rows, 0.0_f32);
-    out.pixels_mut().par_chunks_mut(placement.columns).zip(&rows).for_each(|(out, row)| {
+    shares(out.pixels_mut(), placement.columns, &|y, out| {
         for (out, column) in out.iter_mut().zip(&columns) {
             let (mut sum, mut known, mut all) = (0.0, 0.0, 0.0);
-            for &(y, wy) in row {
+            for &(y, wy) in &rows[y] {
                 let line = &grey.as_raw()[y * width..(y + 1) * width];
                 for &(x, wx) in column {
                     let weight = wx * wy;

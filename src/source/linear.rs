@@ -3,9 +3,9 @@
 
 use super::colour::srgb_to_linear;
 use super::error::SourceError;
+use crate::parallel::{collected, rows_with};
 use image::{DynamicImage, Luma, LumaA, Pixel, Primitive, Rgb, Rgba};
 use moxcms::{ColorProfile, DataColorSpace, Layout, TransformExecutor, TransformOptions};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Converts one picture's samples to light.
@@ -24,7 +24,7 @@ impl std::fmt::Debug for Lineariser {
 
 impl Lineariser {
     pub(super) fn srgb() -> Self {
-        let table = (0..=u16::MAX).into_par_iter().map(|v| srgb_to_linear(f32::from(v) / 65535.0)).collect();
+        let table = collected(1 << 16, &|v| srgb_to_linear(v as f32 / 65535.0));
         Self { transform: None, table }
     }
 
@@ -108,9 +108,12 @@ impl Lineariser {
         let row = width as usize * channels;
         let band = &samples[first as usize * row..(first + count) as usize * row];
         let mut out = vec![[0.0; 4]; width as usize * count as usize];
-        out.par_chunks_mut(width as usize).zip(band.par_chunks(row)).for_each_init(
-            || (vec![0_u16; 4 * width as usize], vec![0_u16; 3 * width as usize], vec![0_u16; 3 * width as usize]),
-            |(wide, encoded, managed), (out, row)| {
+        rows_with(
+            &mut out,
+            width as usize,
+            &|| (vec![0_u16; 4 * width as usize], vec![0_u16; 3 * width as usize], vec![0_u16; 3 * width as usize]),
+            &|(wide, encoded, managed), y, out| {
+                let row = &band[y * row..(y + 1) * row];
                 for (wide, pixel) in wide.chunks_exact_mut(4).zip(row.chunks_exact(channels)) {
                     wide.copy_from_slice(&widen(P::from_slice(pixel)));
                 }

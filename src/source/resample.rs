@@ -4,11 +4,11 @@ use super::decode::Photograph;
 use super::error::SourceError;
 use super::placement::{Crop, Placement, inside};
 use crate::geometry::Rect;
+use crate::parallel::collected;
 use crate::raster::Raster;
 use fast_image_resize::images::{TypedImage, TypedImageRef};
 use fast_image_resize::pixels::{F32, F32x4, InnerPixel};
 use fast_image_resize::{FilterType, PixelTrait, ResizeAlg, ResizeOptions, Resizer};
-use rayon::prelude::*;
 
 /// Rows of the working raster resampled at once.
 const BAND: usize = 64;
@@ -59,17 +59,14 @@ fn in_bands<T: Copy + Send>(
     let scale = crop.height / rows as f64;
     // Lanczos 3 reaches three working pixels, and at least three of the photograph's.
     let reach = (3.0 * scale.max(1.0)).ceil() + 1.0;
-    let bands: Vec<Vec<T>> = (0..rows.div_ceil(BAND))
-        .into_par_iter()
-        .map(|band| {
-            let (first, last) = (band * BAND, ((band + 1) * BAND).min(rows));
-            let (top, bottom) = (crop.y + first as f64 * scale, crop.y + last as f64 * scale);
-            let first_source = (top - reach).floor().max(0.0) as u32;
-            let end_source = ((bottom + reach).ceil() as u32).min(photograph.height());
-            let window = Rect::new(crop.x, top - f64::from(first_source), crop.x + crop.width, bottom - f64::from(first_source));
-            resized(first_source, end_source - first_source, window, (columns, last - first))
-        })
-        .collect();
+    let bands: Vec<Vec<T>> = collected(rows.div_ceil(BAND), &|band| {
+        let (first, last) = (band * BAND, ((band + 1) * BAND).min(rows));
+        let (top, bottom) = (crop.y + first as f64 * scale, crop.y + last as f64 * scale);
+        let first_source = (top - reach).floor().max(0.0) as u32;
+        let end_source = ((bottom + reach).ceil() as u32).min(photograph.height());
+        let window = Rect::new(crop.x, top - f64::from(first_source), crop.x + crop.width, bottom - f64::from(first_source));
+        resized(first_source, end_source - first_source, window, (columns, last - first))
+    });
     Ok(Raster::from_vec(columns, rows, bands.concat()))
 }
 

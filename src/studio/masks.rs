@@ -100,7 +100,8 @@ impl Studio {
             let (used, first) = (fs::read(sight.join(&name)).ok(), fs::read(found.join(&name)).ok());
             json!({ "role": role, "is_there": used.is_some(), "is_painted": sight != found && used != first })
         });
-        let size = ROLES.iter().find_map(|role| image::image_dimensions(sight.join(format!("{role}.png"))).ok());
+        let size = ROLES.iter().find_map(|role| imagesize::size(sight.join(format!("{role}.png"))).ok());
+        let size = size.map(|size| [size.width, size.height]);
         let lines = LINES.map(|role| {
             let is_named = document.mask(role).is_some();
             json!({ "role": role, "is_there": is_named, "is_painted": is_named })

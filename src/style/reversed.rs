@@ -10,10 +10,10 @@
 use crate::drawing::{Area, Mark};
 use crate::field::contours;
 use crate::geometry::{Affine, BezPath, Point, Region, Vec2, Winding, distance_to_segment, half_plane, polygon_area, untangled};
+use crate::parallel::mapped;
 use crate::raster::{Raster, dilate};
 use crate::source::{Placement, Portrait};
 use kurbo::Shape;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Half the width of the narrowest region that is reversed, in pitches. At 1, specks appear in eyes and eyebrows; at 2.5, strands of
@@ -85,14 +85,9 @@ pub(super) fn areas(cells: &[ReversedCell], mask: &Raster<u8>, portrait: &Portra
     let subject = cells.iter().any(|cell| cell.is_open).then(|| subject_region(&portrait.subject));
     let to_page = to_page(&portrait.placement);
     let tiles: Vec<Vec<&ReversedCell>> = tiles.into_values().collect();
-    tiles
-        .par_iter()
-        .map(|tile| {
-            let outline = to_page * tile_outline(tile, mask, subject.as_ref(), OVERLAP * pitch);
-            Mark::Area(Area { outline, colour: None })
-        })
-        .filter(|mark| matches!(mark, Mark::Area(area) if !area.outline.elements().is_empty()))
-        .collect()
+    let outlines = mapped(&tiles, &|tile| to_page * tile_outline(tile, mask, subject.as_ref(), OVERLAP * pitch));
+    let drawn = outlines.into_iter().filter(|outline| !outline.elements().is_empty());
+    drawn.map(|outline| Mark::Area(Area { outline, colour: None })).collect()
 }
 
 fn to_page(placement: &Placement) -> Affine {

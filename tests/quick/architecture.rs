@@ -56,8 +56,8 @@ fn modules_use_only_what_they_may() {
     for (module, allowed) in MAY_USE {
         for file in rust_files(&source.join(module)) {
             for used in used_modules(&fs::read_to_string(&file).unwrap()) {
-                // The interrupt and the elementary functions may be used everywhere.
-                let is_common = ["interrupt", "elementary"].contains(&used.as_str());
+                // The interrupt, the threads and the elementary functions may be used everywhere.
+                let is_common = ["interrupt", "parallel", "elementary"].contains(&used.as_str());
                 assert!(is_common || used == *module || allowed.contains(&used.as_str()), "{} uses {used}", file.display());
             }
         }

@@ -56,11 +56,10 @@ impl Drop for Held<'_> {
 
 /// Memory of a photograph in bytes, from the size in its head.
 pub(super) fn photograph_bytes(path: &Path) -> f64 {
-    let reader = image::ImageReader::open(path).and_then(image::ImageReader::with_guessed_format).ok();
-    let size = reader.and_then(|reader| reader.into_dimensions().ok());
+    let size = imagesize::size(path).ok();
     // What drypoint refuses takes no memory.
     let most = crate::source::Limits::default().pixels as f64;
-    PER_PIXEL * size.map_or(UNKNOWN, |(width, height)| (f64::from(width) * f64::from(height)).min(most))
+    PER_PIXEL * size.map_or(UNKNOWN, |size| (size.width as f64 * size.height as f64).min(most))
 }
 
 /// What a batch may use of the memory that is free now.

@@ -13,8 +13,8 @@ use super::fit::fitted;
 use super::frame::{FaceFrame, FeatureWindow};
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
+use crate::parallel::mapped;
 use crate::raster::{Raster, gaussian_blur};
-use rayon::prelude::*;
 
 /// Default windows of a face: brows, eyes, nose, mouth.
 pub const USUAL_WINDOWS: [FeatureWindow; 6] = [
@@ -81,7 +81,7 @@ pub struct FaceExpectation {
 /// The face in `lightness` (0 to 1) on `skin` (0 to 1) that best matches the template and the expectation; none if nothing matches.
 pub fn find_face(lightness: &Raster<f32>, skin: &Raster<f32>, expected: &FaceExpectation) -> Option<FaceFrame> {
     let sizes: Vec<f64> = SIZES.map(|i| expected.eye_distance * 1.08_f64.powi(i)).filter(|size| *size >= 4.0).collect();
-    let best: Vec<Option<FaceFrame>> = sizes.par_iter().map(|size| best_of_size(lightness, skin, expected, *size)).collect();
+    let best: Vec<Option<FaceFrame>> = mapped(&sizes, &|size| best_of_size(lightness, skin, expected, *size));
     let best = best.into_iter().flatten().fold(None, |best: Option<FaceFrame>, next| match best {
         Some(best) if best.score >= next.score => Some(best),
         _ => Some(next),

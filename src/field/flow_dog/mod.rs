@@ -12,9 +12,9 @@ mod streamline;
 
 use super::tangent_flow::EdgeTangentFlow;
 use crate::elementary::Elementary as _;
+use crate::parallel::shares;
 use crate::raster::{Raster, dilate};
 use padded::Padded;
-use rayon::prelude::*;
 use stencil::Stencils;
 use streamline::Streamlines;
 
@@ -109,7 +109,7 @@ fn across_flow(grey: &Raster<f32>, flow: &EdgeTangentFlow, stencils: &Stencils, 
 /// Recomputes the pixels that are `stale`.
 fn recompute_stale(out: &mut Raster<f32>, stale: &Raster<u8>, value: impl Fn(usize, usize) -> f32 + Sync) {
     let width = out.width();
-    out.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+    shares(out.pixels_mut(), width, &|y, row| {
         for (x, (out, stale)) in row.iter_mut().zip(stale.row(y)).enumerate() {
             if *stale != 0 {
                 *out = value(x, y);
@@ -137,7 +137,7 @@ fn along_flow(differences: &Raster<f32>, along: &Streamlines, least: f32, stale:
 fn lowest_by_tile(raster: &Raster<f32>, reach: usize) -> Vec<f32> {
     let (columns, rows) = (raster.width().div_ceil(TILE), raster.height().div_ceil(TILE));
     let mut own = vec![f32::INFINITY; columns * rows];
-    own.par_chunks_mut(columns).enumerate().for_each(|(j, own)| {
+    shares(&mut own, columns, &|j, own| {
         for y in j * TILE..((j + 1) * TILE).min(raster.height()) {
             for (tile, chunk) in own.iter_mut().zip(raster.row(y).chunks(TILE)) {
                 *tile = chunk.iter().copied().fold(*tile, f32::min);

@@ -1,7 +1,7 @@
 //! A raster with a margin.
 
+use crate::parallel::shares;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// A raster with its border repeated outwards, so that reads near the border need no bounds check.
 pub(super) struct Padded<T> {
@@ -14,7 +14,7 @@ impl<T: Copy + Default + Send + Sync> Padded<T> {
     pub(super) fn new(raster: &Raster<T>, margin: usize) -> Self {
         let stride = raster.width() + 2 * margin;
         let mut data = vec![T::default(); stride * (raster.height() + 2 * margin)];
-        data.par_chunks_mut(stride.max(1)).enumerate().for_each(|(y, row)| {
+        shares(&mut data, stride, &|y, row| {
             let source = raster.row(y.saturating_sub(margin).min(raster.height() - 1));
             row[..margin].fill(source[0]);
             row[margin..margin + source.len()].copy_from_slice(source);

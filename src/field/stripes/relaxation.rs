@@ -3,8 +3,8 @@
 use super::lattice::{MARGIN, StripeLattice, Wave, vector};
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
+use crate::parallel::shares;
 use crate::raster::Raster;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Parameters of stripes.
@@ -226,7 +226,7 @@ fn small_step(
     anchor: Option<&Raster<[f32; 2]>>,
 ) {
     let (width, height) = (phase.width(), phase.height());
-    next.pixels_mut().par_chunks_mut(width).with_min_len(16).enumerate().for_each(|(j, out)| {
+    shares(next.pixels_mut(), width, &|j, out| {
         let (row, right, down) = (phase.row(j), edges.right.row(j), edges.down.row(j));
         let above = (j > 0).then(|| (phase.row(j - 1), edges.down.row(j - 1)));
         let below = (j + 1 < height).then(|| phase.row(j + 1));

@@ -23,9 +23,9 @@ use super::{PenPaths, Plot, Toolpath};
 use crate::drawing::{Area, Drawing, Layer, Mark, Stroke};
 use crate::geometry::{BezPath, OffsetOutline, flatten, simplify_until};
 use crate::interrupt::{Interrupt, Interrupted};
+use crate::parallel::{collected, mapped};
 use area::fill;
 use dot::fill_dot;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use stroke::lower_stroke;
 pub(super) use stroke::turns_sharply;
@@ -120,8 +120,8 @@ impl Lowering<'_> {
         };
         let stays = |i: usize| kept[i] && !united.is_part[i];
         let chosen: Vec<(usize, &Mark)> = layer.marks.iter().enumerate().filter(|(i, _)| stays(*i)).collect();
-        let shapes = united.shapes.par_iter().enumerate().map(|(i, shape)| self.shape(shape, phase(i)));
-        let lowered: Vec<Vec<Toolpath>> = shapes.chain(chosen.into_par_iter().map(|(i, mark)| self.mark(i, mark))).collect();
+        let mut lowered = collected(united.shapes.len(), &|i| self.shape(&united.shapes[i], phase(i)));
+        lowered.append(&mut mapped(&chosen, &|(i, mark)| self.mark(*i, mark)));
         lowered.concat()
     }
 

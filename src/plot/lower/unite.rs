@@ -4,8 +4,8 @@
 use crate::drawing::{Area, Mark};
 use crate::geometry::{OffsetOutline, Rect, WideSegment, estimated_crossings};
 use crate::interrupt::Interrupt;
+use crate::parallel::mapped;
 use kurbo::Shape;
-use rayon::prelude::*;
 
 /// Maximum cells per side of the grid in which neighbours are searched.
 const CELLS: usize = 512;
@@ -33,8 +33,8 @@ pub(super) fn united(marks: &[Mark], tolerance: f64, interrupt: &Interrupt) -> U
     if meeting.len() < 2 {
         return united;
     }
-    let goes_on = meeting.par_iter().filter(|_| !interrupt.is_raised());
-    let outlines: Vec<OffsetOutline> = goes_on.map(|(_, area)| OffsetOutline::new(&area.outline, tolerance)).collect();
+    let outline = |area: &Area| (!interrupt.is_raised()).then(|| OffsetOutline::new(&area.outline, tolerance));
+    let outlines: Vec<OffsetOutline> = mapped(&meeting, &|(_, area)| outline(area)).into_iter().flatten().collect();
     if interrupt.is_raised() || outlines.iter().map(OffsetOutline::len).sum::<usize>() > MOST_VERTICES || is_tangled(&outlines) {
         return united;
     }

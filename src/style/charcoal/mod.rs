@@ -28,7 +28,7 @@ use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::MaskRole;
+use crate::source::MaskRole::{self, Clothing, Detail, Edges, Face, FacialHair, Hair, Headwear, Subject};
 use parameters::CharcoalParameters;
 use tone::Laid;
 
@@ -51,16 +51,7 @@ const CARD: StyleCard = StyleCard {
     summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand",
     source: "Wong 1999, Artistic Rendering of Portrait Photographs",
     parameters: parameters::PARAMETERS,
-    masks: &[
-        MaskRole::Subject,
-        MaskRole::Hair,
-        MaskRole::Face,
-        MaskRole::Clothing,
-        MaskRole::FacialHair,
-        MaskRole::Headwear,
-        MaskRole::Detail,
-        MaskRole::Edges,
-    ],
+    masks: &[Subject, Hair, Face, Clothing, FacialHair, Headwear, Detail, Edges],
     uses_depth: false,
     leaves_out_background: true,
 };

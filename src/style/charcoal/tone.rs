@@ -7,12 +7,12 @@ use crate::drawing::{Area, Mark};
 use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{Curve, grain_areas};
 use crate::geometry::{BezPath, Point, Vec2, simplify};
+use crate::parallel::mapped;
 use crate::raster::{Raster, gaussian_blur, paper_texture, self_guided};
 use crate::source::Landmarks;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::detail_zone;
 use kurbo::{Line, ParamCurveNearest};
-use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
@@ -84,10 +84,9 @@ impl Drawer<'_> {
             let (tx, ty) = (p.x / width as f64, p.y / height as f64);
             Point::new(picture.x0 + tx * picture.width(), picture.y0 + ty * picture.height())
         };
-        grain_areas(&wanted, &tooth)
-            .par_iter()
-            .filter_map(|outlines| area(outlines, OUTLINE_TOLERANCE * PIXELS_A_GRAIN, place))
-            .collect()
+        let grains = grain_areas(&wanted, &tooth);
+        let marks = mapped(&grains, &|outlines| area(outlines, OUTLINE_TOLERANCE * PIXELS_A_GRAIN, place));
+        marks.into_iter().flatten().collect()
     }
 
     /// The paper's tooth, finer on the skin of people whose faces are known: a hand presses smaller grains there.

@@ -2,7 +2,7 @@
 
 use crate::elementary::Elementary as _;
 use crate::geometry::{Gap, Point, Rect, Vec2};
-use rayon::prelude::*;
+use crate::parallel::collected;
 
 /// Axes along and across the lines of one direction, in page millimetres; across points to the left of along on the page.
 #[derive(Clone, Copy, Debug)]
@@ -88,13 +88,10 @@ impl Family {
         // Starts so far outside that displacement leaves no margin empty.
         let first_base = ((bounds.y0 - laying.displaced.1) / laying.pitch).floor() as i64 - 1;
         let last_base = ((bounds.y1 - laying.displaced.0) / laying.pitch).ceil() as i64 + 1;
-        let wanted: Vec<Vec<f64>> = (first_base..=last_base)
-            .into_par_iter()
-            .map(|k| {
-                let v = k as f64 * laying.pitch;
-                displaced(first, gap.step, columns, laying.sampling, |u| v + displacement(frame.to_page(u, v)))
-            })
-            .collect();
+        let wanted: Vec<Vec<f64>> = collected((last_base + 1 - first_base).max(0) as usize, &|k| {
+            let v = (first_base + k as i64) as f64 * laying.pitch;
+            displaced(first, gap.step, columns, laying.sampling, |u| v + displacement(frame.to_page(u, v)))
+        });
         let lines: Vec<Line> =
             gap.keep(&wanted).into_iter().map(|heights| Line { first: 0, presence: vec![1.0; heights.len()], heights }).collect();
         let bases = (0..lines.len()).collect();

@@ -24,12 +24,12 @@ mod widths;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Colour, Drawing, Layer, Mark};
 use crate::geometry::{Point, Rect};
+use crate::parallel::{collected, mapped};
 use crate::raster::Raster;
-use crate::source::MaskRole;
+use crate::source::MaskRole::{self, Clothing, Detail, FacialHair, Hair, Headwear, Scribbles, Subject};
 use breaks::LineBreaks;
 use lines::{Family, FamilyLayout, Frame};
 use parameters::{EngraveParameters, GroundColour, Look, ToneFrom};
-use rayon::prelude::*;
 use region_map::{Region, RegionMap};
 use relief::Relief;
 use tones::Layers;
@@ -48,15 +48,7 @@ const CARD: StyleCard = StyleCard {
     summary: "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes",
     source: "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects",
     parameters: parameters::PARAMETERS,
-    masks: &[
-        MaskRole::Subject,
-        MaskRole::Detail,
-        MaskRole::Hair,
-        MaskRole::FacialHair,
-        MaskRole::Clothing,
-        MaskRole::Headwear,
-        MaskRole::Scribbles,
-    ],
+    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Scribbles],
     uses_depth: true,
     leaves_out_background: true,
 };
@@ -132,7 +124,7 @@ impl Drawer<'_> {
 
     /// Every region's marks, in the order of the regions.
     fn all_regions(&self, ground: &RegionMap, relief: &Relief, layers: &Layers) -> Marks {
-        let regions: Vec<Marks> = ground.regions.par_iter().map(|region| self.region(*region, ground, relief, layers)).collect();
+        let regions: Vec<Marks> = mapped(&ground.regions, &|region| self.region(*region, ground, relief, layers));
         let mut all: Marks = [Vec::new(), Vec::new()];
         for marks in regions {
             for (all, marks) in all.iter_mut().zip(marks) {
@@ -221,7 +213,7 @@ fn marks(courses: &LineReadings<'_>, breaking: &LineBreaks<'_>) -> Vec<Mark> {
         let line = &courses.family.lines[k];
         breaking.pieces(courses, k).iter().filter_map(|piece| strokes::mark(courses.family, line, piece)).collect()
     };
-    let lines: Vec<Vec<Mark>> = (0..courses.lines.len()).into_par_iter().map(of_line).collect();
+    let lines: Vec<Vec<Mark>> = collected(courses.lines.len(), &of_line);
     lines.into_iter().flatten().collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::lines::{Family, Line};
 use crate::elementary::Elementary as _;
-use rayon::prelude::*;
+use crate::parallel::collected;
 
 /// Spacing above which a line is inserted between two, in pitches.
 const OPEN: f64 = 1.5;
@@ -25,16 +25,17 @@ impl Family {
         for level in 1..=LEVELS {
             let apart = 1_i64 << (level - 1);
             let reach = apart as usize;
-            let pressed: Vec<(usize, Vec<f32>)> = (reach..self.lines.len().saturating_sub(reach))
-                .into_par_iter()
-                .filter(|&k| (self.first_base + k as i64).rem_euclid(2 * apart) == apart)
-                .filter_map(|k| self.ends_between(k, reach).map(|presence| (k, presence)))
-                .collect();
-            if pressed.is_empty() {
+            let ends = |i: usize| {
+                let k = reach + i;
+                let is_every_second = (self.first_base + k as i64).rem_euclid(2 * apart) == apart;
+                is_every_second.then(|| self.ends_between(k, reach)).flatten()
+            };
+            let pressed = collected(self.lines.len().saturating_sub(2 * reach), &ends);
+            if pressed.iter().all(Option::is_none) {
                 return;
             }
-            for (k, presence) in pressed {
-                self.lines[k].presence = presence;
+            for (line, presence) in self.lines[reach..].iter_mut().zip(pressed) {
+                line.presence = presence.unwrap_or_else(|| std::mem::take(&mut line.presence));
             }
         }
     }
@@ -65,7 +66,7 @@ impl Family {
     pub(super) fn fill_in(&mut self) {
         let bases = std::mem::take(&mut self.lines);
         let between: Vec<Vec<Line>> =
-            bases.par_windows(2).map(|pair| self.between(0, &pair[0].heights, &pair[1].heights, LEVELS)).collect();
+            collected(bases.len().saturating_sub(1), &|k| self.between(0, &bases[k].heights, &bases[k + 1].heights, LEVELS));
         self.bases.clear();
         let mut between = between.into_iter();
         for line in bases {

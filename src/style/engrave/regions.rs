@@ -9,8 +9,8 @@ use super::relief::Relief;
 use crate::elementary::Elementary as _;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
 use crate::geometry::{Rect, Vec2};
+use crate::parallel::collected;
 use crate::raster::{Raster, gaussian_blur, sobel};
-use rayon::prelude::*;
 
 /// Distance used if there is no border, in millimetres.
 const NO_BORDER: f32 = 1e6;
@@ -113,15 +113,12 @@ fn drawn_label(label: i32, cover: f32) -> i32 {
 fn smooth_borders(labels: &Raster<i32>, sigma: f32) -> (Raster<i32>, Vec<Curve>) {
     let count = labels.pixels().iter().copied().max().unwrap_or(0);
     let pad = (3.5 * sigma).ceil() + 1.0;
-    let blurred: Vec<Option<Patch>> = bounds_of(labels, count)
-        .into_par_iter()
-        .enumerate()
-        .map(|(i, bounds)| {
-            let page = Rect::new(0.0, 0.0, labels.width() as f64, labels.height() as f64);
-            let patch = Patch::of(labels, i as i32 + 1, bounds?.inflate(f64::from(pad), f64::from(pad)).intersect(page));
-            Some(Patch { area: gaussian_blur(&patch.area, sigma), ..patch })
-        })
-        .collect();
+    let bounds = bounds_of(labels, count);
+    let blurred: Vec<Option<Patch>> = collected(bounds.len(), &|i| {
+        let page = Rect::new(0.0, 0.0, labels.width() as f64, labels.height() as f64);
+        let patch = Patch::of(labels, i as i32 + 1, bounds[i]?.inflate(f64::from(pad), f64::from(pad)).intersect(page));
+        Some(Patch { area: gaussian_blur(&patch.area, sigma), ..patch })
+    });
     // The largest and second largest area at each pixel, and the label of the largest.
     let mut best = labels.map(|_| (0.0_f32, 0.0_f32, 0_i32));
     for (i, patch) in blurred.iter().enumerate() {
@@ -131,11 +128,9 @@ fn smooth_borders(labels: &Raster<i32>, sigma: f32) -> (Raster<i32>, Vec<Curve>)
             best.set(x, y, if area > first { (area, first, i as i32 + 1) } else { (first, second.max(area), label) });
         });
     }
-    let curves = blurred
-        .par_iter()
-        .enumerate()
-        .flat_map_iter(|(i, patch)| patch.iter().flat_map(|patch| patch.borders(&best, i as i32 + 1)).collect::<Vec<_>>());
-    (best.map(|(_, _, label)| label), curves.collect())
+    let borders = |i: usize| blurred[i].iter().flat_map(|patch| patch.borders(&best, i as i32 + 1)).collect();
+    let curves: Vec<Vec<_>> = collected(blurred.len(), &borders);
+    (best.map(|(_, _, label)| label), curves.into_iter().flatten().collect())
 }
 
 /// The part of the raster around a region.

@@ -5,8 +5,8 @@ use super::region_map::{Region, RegionMap};
 use super::span::Span;
 use crate::elementary::Elementary as _;
 use crate::geometry::Point;
+use crate::parallel::{collected, mapped};
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Readings per pitch along a line.
 pub(super) const READINGS: f64 = 8.0;
@@ -79,7 +79,7 @@ impl<'a> LineReadings<'a> {
     pub(super) fn new(family: &'a Family, wanted: Wanted<'a>) -> Self {
         let stride = (family.pitch / READINGS / family.step).round().max(1.0) as usize;
         let mut courses = Self { family, wanted, stride, lines: Vec::new() };
-        courses.lines = family.lines.par_iter().map(|line| courses.find(line)).collect();
+        courses.lines = mapped(&family.lines, &|line| courses.find(line));
         courses.set_widths();
         courses.limit();
         courses
@@ -108,34 +108,29 @@ impl<'a> LineReadings<'a> {
         let sides = self.sides();
         let step = self.step();
         let courses = std::mem::take(&mut self.lines);
-        self.lines = courses
-            .into_par_iter()
-            .zip(&self.family.lines)
-            .zip(sides)
-            .map(|((mut course, line), sides)| {
-                let count = course.weight.len();
-                course.ink = vec![0.0; count];
-                course.width = vec![0.0; count];
-                course.stretch = vec![1.0; count];
-                course.strip = vec![0.0; count];
-                for i in (0..count).filter(|&i| course.weight[i] > 0.0) {
-                    let r = course.first + i;
-                    let (a, b) = (i.saturating_sub(1), (i + 1).min(count - 1));
-                    let slope =
-                        (self.height(line, course.first + b) - self.height(line, course.first + a)) / ((b - a) as f64 * step);
-                    let stretch = slope.hypotenuse(1.0);
-                    let (area, within) = self.strip(self.place(r), self.height(line, r), sides[i], f64::from(course.inside[i]));
-                    course.ink[i] = (area / within.max(1e-9)) as f32;
-                    course.stretch[i] = stretch as f32;
-                    course.width[i] = (area / stretch) as f32;
-                    course.strip[i] = (sides[i].border[0] + sides[i].border[1]) / stretch as f32;
-                }
-                for _ in 0..SMOOTHING_ROUNDS {
-                    smooth(&mut course.width, &course.weight);
-                }
-                course
-            })
-            .collect();
+        self.lines = collected(courses.len(), &|k| {
+            let (mut course, line, sides) = (courses[k].clone(), &self.family.lines[k], &sides[k]);
+            let count = course.weight.len();
+            course.ink = vec![0.0; count];
+            course.width = vec![0.0; count];
+            course.stretch = vec![1.0; count];
+            course.strip = vec![0.0; count];
+            for i in (0..count).filter(|&i| course.weight[i] > 0.0) {
+                let r = course.first + i;
+                let (a, b) = (i.saturating_sub(1), (i + 1).min(count - 1));
+                let slope = (self.height(line, course.first + b) - self.height(line, course.first + a)) / ((b - a) as f64 * step);
+                let stretch = slope.hypotenuse(1.0);
+                let (area, within) = self.strip(self.place(r), self.height(line, r), sides[i], f64::from(course.inside[i]));
+                course.ink[i] = (area / within.max(1e-9)) as f32;
+                course.stretch[i] = stretch as f32;
+                course.width[i] = (area / stretch) as f32;
+                course.strip[i] = (sides[i].border[0] + sides[i].border[1]) / stretch as f32;
+            }
+            for _ in 0..SMOOTHING_ROUNDS {
+                smooth(&mut course.width, &course.weight);
+            }
+            course
+        });
     }
 
     /// Ink of a line's strip at one place and how much of it lies inside the region, in millimetres across.
@@ -212,15 +207,11 @@ impl<'a> LineReadings<'a> {
     /// Limits widths so that neighbours at most touch.
     fn limit(&mut self) {
         let sides = self.sides();
-        let borders: Vec<Vec<f32>> = self
-            .lines
-            .par_iter()
-            .zip(&self.family.lines)
-            .map(|(course, line)| {
-                let is_there = |i: usize| course.weight[i] > 0.0;
-                (0..course.width.len()).map(|i| if is_there(i) { self.border_room(line, course, i) } else { 0.0 }).collect()
-            })
-            .collect();
+        let borders: Vec<Vec<f32>> = collected(self.lines.len(), &|k| {
+            let (course, line) = (&self.lines[k], &self.family.lines[k]);
+            let is_there = |i: usize| course.weight[i] > 0.0;
+            (0..course.width.len()).map(|i| if is_there(i) { self.border_room(line, course, i) } else { 0.0 }).collect()
+        });
         for ((course, sides), borders) in self.lines.iter_mut().zip(sides).zip(borders) {
             course.room = (0..course.width.len())
                 .map(|i| {

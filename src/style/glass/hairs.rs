@@ -4,10 +4,10 @@ use super::{Drawer, Ground, colour, noise};
 use crate::drawing::{Layer, Mark, Mixing, Stroke, Width};
 use crate::field::line_integral_convolution;
 use crate::geometry::{Point, Ring, catmull_rom, resample};
+use crate::parallel::collected;
 use crate::raster::{Raster, equalised};
 use crate::style::random;
 use rand::RngExt;
-use rayon::prelude::*;
 
 /// A hair's width in grains (figure 7.15: `sigma_z` falls from 3 to 0.6).
 const WIDTH: f64 = 0.3;
@@ -34,15 +34,13 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground, pattern: &Raster<f32>)
     let side = (across * length).sqrt();
     let columns = ((width as f64 - 2.0 * margin) / side).ceil() as usize;
     let rows = ((height as f64 - 2.0 * margin) / side).ceil() as usize;
-    layer.marks = (0..columns * rows)
-        .into_par_iter()
-        .filter_map(|cell| {
-            let mut random = random::stream(drawer.seed, "hair seeds", cell as u64);
-            let (dx, dy): (f64, f64) = (random.random(), random.random());
-            let (column, row) = ((cell % columns) as f64, (cell / columns) as f64);
-            hairs.hair(Point::new(margin + (column + dx) * side, margin + (row + dy) * side))
-        })
-        .collect();
+    let of_cell = |cell: usize| {
+        let mut random = random::stream(drawer.seed, "hair seeds", cell as u64);
+        let (dx, dy): (f64, f64) = (random.random(), random.random());
+        let (column, row) = ((cell % columns) as f64, (cell / columns) as f64);
+        hairs.hair(Point::new(margin + (column + dx) * side, margin + (row + dy) * side))
+    };
+    layer.marks = collected(columns * rows, &of_cell).into_iter().flatten().collect();
     layer
 }
 

@@ -1,15 +1,15 @@
 //! The noise that strokes grow from (Papari 2009, equation 7.8).
 
+use crate::parallel::shares;
 use crate::raster::{Raster, fast_gaussian};
 use crate::style::random;
 use rand::RngExt;
-use rayon::prelude::*;
 
 /// Noise blurred by `sigma` pixels, with one random stream per row. Before the blur each value is a sum of four uniform numbers; summed
 /// over the blur's dozen neighbours it is Gaussian.
 pub(super) fn noise(width: usize, height: usize, sigma: f32, seed: u64, stage: &str) -> Raster<f32> {
     let mut white = Raster::filled(width, height, 0.0_f32);
-    white.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+    shares(white.pixels_mut(), width, &|y, row| {
         let mut random = random::stream(seed, stage, y as u64);
         for value in row {
             let bits: u64 = random.random();

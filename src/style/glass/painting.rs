@@ -7,9 +7,9 @@ use super::{Drawer, Ground, colour, detail, hairs, noise, underpainting};
 use crate::drawing::{Layer, Mark, Mixing};
 use crate::field::{Flow, GlassLevels, Ribbon, RibbonFit, glass_pattern, glass_ribbons};
 use crate::geometry::{Point, Vec2};
+use crate::parallel::mapped;
 use crate::raster::Raster;
 use crate::style::StyleError;
-use rayon::prelude::*;
 
 /// Minimum visible area of a stroke, in working pixels: smaller flecks cannot be seen and make up half of the strokes.
 const LEAST_SHOWN: f64 = 1.0;
@@ -74,7 +74,7 @@ impl Painter<'_> {
     /// Works from the top down, so that hidden strokes are never kept; then puts the marks in painting order, with the fine strokes on
     /// top.
     fn paint(&self, ribbons: &[Ribbon]) -> Vec<Mark> {
-        let bodies: Vec<Body> = ribbons.par_iter().map(|ribbon| Body::of_ribbon(ribbon, self.drawer.parameters.taper)).collect();
+        let bodies: Vec<Body> = mapped(ribbons, &|ribbon| Body::of_ribbon(ribbon, self.drawer.parameters.taper));
         let mut canvas = Canvas::new(&pictured(self.ground), self.ground.margin);
         let mut colours = Vec::new();
         let mut kept: Vec<(usize, Part)> = Vec::new();
@@ -85,10 +85,11 @@ impl Painter<'_> {
         }
         let mut marks = underpainting::marks(self.drawer, self.ground);
         marks.extend(self.filling(&mut canvas, &mut colours));
-        marks.par_extend(kept.par_iter().rev().map(|(i, part)| {
+        let strokes = mapped(&kept, &|(i, part)| {
             let shift = self.drawer.parameters.contrast * self.levels.value(&ribbons[*i]);
             self.mark(&bodies[*i], part, shift)
-        }));
+        });
+        marks.extend(strokes.into_iter().rev());
         marks.extend(detail::marks(self.drawer, self.ground, &canvas, &colours));
         marks
     }

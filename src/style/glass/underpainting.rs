@@ -3,7 +3,7 @@
 use super::{Drawer, Ground, colour};
 use crate::drawing::{Mark, Stroke, Width};
 use crate::geometry::{Ends, Point, Ring, catmull_rom};
-use rayon::prelude::*;
+use crate::parallel::mapped;
 
 /// Width of a stroke in grains.
 const WIDTH: f64 = 4.0;
@@ -17,13 +17,12 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground) -> Vec<Mark> {
     let rows = (WIDTH * drawer.pixels(drawer.parameters.grain)).round().max(2.0) as usize;
     let last = ground.subject.height() - ground.margin;
     let tops: Vec<usize> = (ground.margin..last).step_by(rows).collect();
-    tops.par_iter()
-        .flat_map_iter(|&top| {
-            let bottom = (top + rows).min(last);
-            let mark = move |run: Run| mark(drawer, ground, &run, top, bottom);
-            runs(ground, top, bottom).into_iter().map(mark)
-        })
-        .collect()
+    let of_rows = |top: &usize| {
+        let bottom = (*top + rows).min(last);
+        runs(ground, *top, bottom).iter().map(|run| mark(drawer, ground, run, *top, bottom)).collect()
+    };
+    let marks: Vec<Vec<Mark>> = mapped(&tops, &of_rows);
+    marks.into_iter().flatten().collect()
 }
 
 /// Columns of one row with similar colour.

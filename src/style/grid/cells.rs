@@ -5,8 +5,8 @@ use super::features::Features;
 use super::structure::StructureGrid;
 use crate::field::{CoherentLine, Sites, cell_polygon};
 use crate::geometry::{Point, Rect, Vec2, polygon_area};
+use crate::parallel::collected;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Maximum reach of a cell from its crossing, in pitches; cells are open at singular points and beyond the subject's border.
 const CELL_REACH: f64 = 1.5;
@@ -62,13 +62,10 @@ pub(super) fn cells_of(
     let field = Rect::new(0.0, 0.0, width as f64, height as f64);
     let sites = Sites::new(points, field.x1, field.y1, drawer.pitch());
     let wanted = sums(drawer, &sites, points.len(), ink, covered);
-    (0..points.len())
-        .into_par_iter()
-        .map(|i| {
-            let polygon = cell_polygon(&sites, i, field, CELL_REACH * drawer.pitch());
-            wanted[i].cell(points[i], grid.tangent(points[i]), polygon, i >= true_points)
-        })
-        .collect()
+    collected(points.len(), &|i| {
+        let polygon = cell_polygon(&sites, i, field, CELL_REACH * drawer.pitch());
+        wanted[i].cell(points[i], grid.tangent(points[i]), polygon, i >= true_points)
+    })
 }
 
 /// Sums over the pixels of one cell.

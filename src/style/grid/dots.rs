@@ -9,9 +9,9 @@ use super::shape::grid_shape;
 use super::structure::StructureGrid;
 use crate::drawing::{Dot, Layer, Mark};
 use crate::geometry::{Point, Vec2, blob, disc_area_in, half_plane, polygon_area, radius_for_area};
+use crate::parallel::collected;
 use crate::raster::Raster;
 use crate::style::random;
-use rayon::prelude::*;
 
 /// Radius in pitches below which a dot is left out: 0.001 % ink.
 const LEAST_RADIUS: f64 = 0.002;
@@ -23,16 +23,13 @@ pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, cells: &[Cell], d
     drawer.observer.begin("dots");
     let mixing = Mixing::new(drawer);
     let mut layer = Layer::new("dots", 1);
-    layer.marks = cells
-        .par_iter()
-        .enumerate()
-        .filter(|(_, cell)| !darks.cover(cell.centre))
-        .filter_map(|(i, cell)| {
-            let radius = radius(drawer, grid, &mixing, cell, ink);
-            let least = if cell.is_cut { LEAST_CUT_RADIUS } else { LEAST_RADIUS };
-            (radius > least * grid.spacing.at(cell.centre)).then(|| Mark::Dot(mark(drawer, grid, cell, radius, i)))
-        })
-        .collect();
+    let dot = |i: usize| {
+        let cell = cells.get(i).filter(|cell| !darks.cover(cell.centre))?;
+        let radius = radius(drawer, grid, &mixing, cell, ink);
+        let least = if cell.is_cut { LEAST_CUT_RADIUS } else { LEAST_RADIUS };
+        (radius > least * grid.spacing.at(cell.centre)).then(|| Mark::Dot(mark(drawer, grid, cell, radius, i)))
+    };
+    layer.marks = collected(cells.len(), &dot).into_iter().flatten().collect();
     layer
 }
 

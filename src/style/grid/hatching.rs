@@ -7,8 +7,8 @@ use super::{Drawer, LineEnds};
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::Curve;
 use crate::geometry::{Point, Ring, catmull_rom, resample};
+use crate::parallel::mapped;
 use crate::raster::Raster;
-use rayon::prelude::*;
 
 /// Distance of a stroke's nodes in pitches: half a cell, so that its width can follow the tone from dot to dot.
 const NODE_SPACING: f64 = 0.5;
@@ -25,8 +25,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, grid: &StructureGrid, darks: &Darks, in
     let mixing = Mixing::new(drawer);
     let mut layer = Layer::new("hatching", 1);
     for family in (0..2).filter(|&family| mixing.hatches(family)) {
-        let strokes: Vec<Vec<Mark>> =
-            grid.lines[family].par_iter().map(|line| strokes(drawer, grid, darks, (line, ends), ink)).collect();
+        let strokes: Vec<Vec<Mark>> = mapped(&grid.lines[family], &|line| strokes(drawer, grid, darks, (line, ends), ink));
         layer.marks.extend(strokes.into_iter().flatten());
     }
     layer

@@ -15,7 +15,7 @@ use crate::drawing::{Dot, Drawing, Layer, Mark};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
 use crate::geometry::{Point, Rect, Region, blob};
 use crate::raster::Raster;
-use crate::source::MaskRole;
+use crate::source::MaskRole::{self, Clothing, Detail, Edges, FacialHair, Hair, Headwear, Isophotes, Subject};
 use crate::style::solids::Solids;
 use features::Features;
 use parameters::HedcutParameters;
@@ -33,16 +33,7 @@ const CARD: StyleCard = StyleCard {
     summary: "dots in rows along the features, as in the portraits of the Wall Street Journal",
     source: "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010",
     parameters: parameters::PARAMETERS,
-    masks: &[
-        MaskRole::Subject,
-        MaskRole::Detail,
-        MaskRole::Hair,
-        MaskRole::FacialHair,
-        MaskRole::Clothing,
-        MaskRole::Headwear,
-        MaskRole::Edges,
-        MaskRole::Isophotes,
-    ],
+    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Edges, Isophotes],
     uses_depth: false,
     leaves_out_background: true,
 };

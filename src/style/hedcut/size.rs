@@ -5,11 +5,11 @@ use crate::drawing::Mark;
 use crate::elementary::Elementary as _;
 use crate::field::{Sites, cell_polygon};
 use crate::geometry::{BezPath, Point, Rect, Vec2, blob, polygon_area, radius_for_area};
+use crate::parallel::collected;
 use crate::raster::{Raster, gaussian_blur};
 use crate::style::random;
 use crate::style::reversed::{self, ReversedCell, ReversedCells};
 use kurbo::Shape;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Maximum reach of a dot's cell from its site, in pitches; cells are open beyond the subject's border.
@@ -38,21 +38,18 @@ pub(super) fn exact(drawer: &Drawer<'_>, sites: &[Point], ink: &Raster<f32>) -> 
     let wanted = cell_ink(drawer, &nearest, sites.len(), ink);
     let polygon = |i: usize| cell_polygon(&grid, i, field, CELL_REACH * drawer.pitch());
     let chosen = ReversedCells::new(&nearest, &dark(drawer, sites, &wanted, ink), drawer.pitch());
-    let sized: Vec<Result<SizedDot, ReversedCell>> = (0..sites.len())
-        .into_par_iter()
-        .map(|i| {
-            let (cell, wanted) = (polygon(i), wanted[i]);
-            if chosen.is_reversed[i] {
-                return Err(reversed_cell(drawer, i, sites[i], cell, wanted));
-            }
-            let area = wanted.area(polygon_area(&cell).abs());
-            match wanted.middle().filter(|_| !wanted.is_open) {
-                Some(middle) => reversed::edge_cell(&cell, middle, area, &chosen.mask, drawer.pitch()),
-                None => None,
-            }
-            .map_or_else(|| Ok(SizedDot { centre: sites[i], radius: radius_for_area(&cell, sites[i], area) }), Err)
-        })
-        .collect();
+    let sized: Vec<Result<SizedDot, ReversedCell>> = collected(sites.len(), &|i| {
+        let (cell, wanted) = (polygon(i), wanted[i]);
+        if chosen.is_reversed[i] {
+            return Err(reversed_cell(drawer, i, sites[i], cell, wanted));
+        }
+        let area = wanted.area(polygon_area(&cell).abs());
+        match wanted.middle().filter(|_| !wanted.is_open) {
+            Some(middle) => reversed::edge_cell(&cell, middle, area, &chosen.mask, drawer.pitch()),
+            None => None,
+        }
+        .map_or_else(|| Ok(SizedDot { centre: sites[i], radius: radius_for_area(&cell, sites[i], area) }), Err)
+    });
     let cells: Vec<ReversedCell> = sized.iter().filter_map(|sized| sized.as_ref().err().cloned()).collect();
     let dots = sized.into_iter().flatten().filter(|dot| dot.radius > 0.0).collect();
     Sized { dots, reversed: reversed::areas(&cells, &chosen.mask, drawer.portrait, drawer.pitch()) }

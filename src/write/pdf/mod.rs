@@ -15,6 +15,7 @@ mod ink;
 mod metadata;
 
 use crate::drawing::{Colour, Drawing};
+use crate::parallel::mapped;
 use crate::write::SvgHead;
 use content::Content;
 use flate2::Compression;
@@ -22,7 +23,6 @@ use flate2::write::ZlibEncoder;
 use ink::Inks;
 use pdf_writer::types::{BlendMode, OverprintMode};
 use pdf_writer::{Chunk, Dict, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
-use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
@@ -52,7 +52,7 @@ pub fn write_pdf(drawing: &Drawing, head: &SvgHead, seconds: Option<u64>, out: &
     let inks = Inks::of(&drawing.layers);
     let content = Content::of(drawing, &inks, scale.units_per_mm);
     let texts: Vec<&String> = content.pieces.iter().chain(content.groups.iter().map(|(_, text)| text)).collect();
-    let streams: Vec<Vec<u8>> = texts.par_iter().map(|text| compressed(text.as_bytes())).collect::<io::Result<_>>()?;
+    let streams: Vec<Vec<u8>> = mapped(&texts, &|text| compressed(text.as_bytes())).into_iter().collect::<io::Result<_>>()?;
     let layers: Vec<Ref> = (0..drawing.layers.len()).map(|i| Ref::new(FIRST_LAYER + i as i32)).collect();
     let written: Vec<Ref> = (0..streams.len()).map(|i| Ref::new(FIRST_LAYER + (layers.len() + i) as i32)).collect();
     let (contents, grouped) = written.split_at(content.pieces.len());

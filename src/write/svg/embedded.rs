@@ -5,9 +5,9 @@ use super::path_data::{Grid, PathData};
 use super::{SvgHead, finish, metadata};
 use crate::drawing::{Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, Rect, swelling_outline, with_fewer_nodes};
+use crate::parallel::mapped;
 use crate::write::number::{decimal, thousandths};
 use kurbo::Shape;
-use rayon::prelude::*;
 use std::io;
 use svg::Node;
 use svg::node::element::{Path, SVG, Title};
@@ -77,7 +77,7 @@ fn view_box(ink: Rect) -> String {
 
 /// The path data of marks, all turning in one direction, so that the nonzero rule fills their union.
 fn data(marks: &[Mark]) -> String {
-    let shapes: Vec<Shaped> = marks.par_iter().map(Shaped::of).collect();
+    let shapes: Vec<Shaped> = mapped(marks, &Shaped::of);
     let mut text = String::new();
     let mut data = PathData::new(&mut text, Grid::PAGE);
     for shape in &shapes {

@@ -18,6 +18,7 @@ mod embedded;
 mod names;
 mod path_data;
 
+use crate::parallel::mapped;
 pub use embedded::write_embedded_svg;
 pub(crate) use names::Names;
 pub(crate) use path_data::path_data;
@@ -25,7 +26,6 @@ use path_data::{Grid, PathData};
 
 use super::number::{decimal, thousandths};
 use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Mixing, Page, Stroke, Width};
-use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::io;
 use svg::Node;
@@ -214,7 +214,7 @@ fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
                     .for_each(|dots| bundle(&mut text, dots));
                 Group::new().set("id", id).add(Blob::new(text))
             } else {
-                let marks: Vec<String> = run.par_iter().map(filled).collect();
+                let marks: Vec<String> = mapped(run, &filled);
                 Group::new().set("id", id).add(Blob::new(marks.concat()))
             }
         })

@@ -1,8 +1,8 @@
 //! Dark blobs of a picture, by moments.
 
 use crate::geometry::Point;
+use crate::parallel::collected;
 use crate::raster::{Raster, box_blur, reduce};
-use rayon::prelude::*;
 
 /// Smallest blob in pixels.
 const LEAST_PIXELS: f64 = 9.0;
@@ -53,8 +53,7 @@ pub(super) fn local_mean(grey: &Raster<f32>, radius: usize) -> Raster<f32> {
 
 /// The connected regions (four neighbours) darker than `share` of the local mean.
 pub(super) fn dark_blobs(grey: &Raster<f32>, mean: &Raster<f32>, share: f32) -> Vec<Blob> {
-    let rows: Vec<Vec<[u32; 2]>> =
-        (0..grey.height()).into_par_iter().map(|y| runs(grey.row(y), mean.row(y / BLOCK), share)).collect();
+    let rows: Vec<Vec<[u32; 2]>> = collected(grey.height(), &|y| runs(grey.row(y), mean.row(y / BLOCK), share));
     let mut joined: Vec<u32> = Vec::new();
     let mut sums: Vec<[f64; 6]> = Vec::new();
     let mut above: &[[u32; 2]] = &[];

@@ -33,6 +33,7 @@ pub use reading::{Measured, PairReading, PenReading, Quality, RampStep, ReadWarn
 use super::grid::{self, Cell, PATCH, Patch};
 use super::lab::linear_to_srgb;
 use crate::geometry::Point;
+use crate::parallel::mapped;
 use crate::raster::Raster;
 use card::card;
 use curve::Curve;
@@ -41,7 +42,6 @@ use gathering::Gathered;
 use light::{Light, Spot, spots};
 use measuring::{Kind, Sampled, sampled};
 use picture::Probe;
-use rayon::prelude::*;
 use sharpness::blur;
 use view::View;
 
@@ -169,15 +169,15 @@ impl<'a> Sight<'a> {
     /// All patches but paper, as read, sorted so that copies stand together.
     fn patches(&self, cells: &[Cell]) -> Vec<(Patch, Sampled)> {
         let read = |cell: &Cell, kind| (cell.patch, sampled(&self.view, &self.probe, &self.light, cell.window(), kind));
-        let films = cells.par_iter().filter(|cell| !matches!(cell.patch, Patch::Paper | Patch::Ramp(..)));
-        let mut patches: Vec<(Patch, Sampled)> = films.map(|cell| read(cell, Kind::Film)).collect();
+        let films =
+            mapped(cells, &|cell| (!matches!(cell.patch, Patch::Paper | Patch::Ramp(..))).then(|| read(cell, Kind::Film)));
+        let mut patches: Vec<(Patch, Sampled)> = films.into_iter().flatten().collect();
         let ink = |pen: usize| patches.iter().find(|(patch, _)| *patch == Patch::Solid(pen)).map(|(_, read)| read.colour);
-        let ramps = cells.par_iter().filter_map(|cell| match cell.patch {
+        let ramps = mapped(cells, &|cell| match cell.patch {
             Patch::Ramp(pen, _) => Some(read(cell, Kind::Lines(ink(pen)?))),
             _ => None,
         });
-        let ramps: Vec<(Patch, Sampled)> = ramps.collect();
-        patches.extend(ramps);
+        patches.extend(ramps.into_iter().flatten());
         patches.sort_by_key(|(patch, _)| *patch);
         patches
     }

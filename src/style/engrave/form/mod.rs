@@ -24,6 +24,7 @@ use super::Drawer;
 use super::parameters::Look;
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
+use crate::parallel::collected;
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
 use crate::style::form::{Directions, Surface, Surfaces};
@@ -31,7 +32,6 @@ use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
 use families::{Closeness, Extent, FINE, Family};
-use rayon::prelude::*;
 use runs::{Course, Piece};
 
 /// The turns of the second and the third family in degrees. At -60 the third makes honeycombs with the second.
@@ -146,7 +146,7 @@ impl Drawer<'_> {
             Extent::of(share, LEAST_SHARE, room),
             Extent::of(&third.zip_map(share, f32::min), 0.0, room),
         ];
-        (0..3).into_par_iter().map(|family| extents[family].as_ref().map(|extent| lay(family, extent, &closeness))).collect()
+        collected(3, &|family| extents[family].as_ref().map(|extent| lay(family, extent, &closeness)))
     }
 
     fn form_drawing(&self, pieces: &Pieces, solids: Layer, ink: &Raster<f32>) -> Drawing {

@@ -5,9 +5,9 @@ use crate::drawing::{Dot, Mark, Stroke, Width};
 use crate::elementary::unit_at;
 use crate::field::{Curve, pieces_inside};
 use crate::geometry::{Ends, Point, Rect, Ring, catmull_rom, lengths_along, resample};
+use crate::parallel::mapped;
 use crate::raster::Raster;
 use crate::source::Placement;
-use rayon::prelude::*;
 
 /// Distance of readings along a line in pitches: the smallest dash between two of them is lost.
 const READING: f64 = 0.1;
@@ -72,8 +72,7 @@ struct Reading {
 impl Course<'_> {
     /// All pieces, line by line.
     pub(super) fn pieces(&self) -> Vec<Piece> {
-        let lines: Vec<Vec<Piece>> = self.family.lines.par_iter().map(|line| self.of_line(line)).collect();
-        lines.into_iter().flatten().collect()
+        mapped(&self.family.lines, &|line| self.of_line(line)).into_iter().flatten().collect()
     }
 
     fn of_line(&self, line: &Curve) -> Vec<Piece> {

@@ -3,7 +3,7 @@
 use super::runs::Piece;
 use crate::geometry::Point;
 use crate::geometry::kd_tree::KdTree;
-use rayon::prelude::*;
+use crate::parallel::collected;
 
 /// A dot stays if so many nodes of other pieces lie within a reach, in pitches: inside a field of dots there are 25 and more, at its border
 /// half of them.
@@ -23,8 +23,7 @@ pub(super) fn without_specks(pieces: &mut [Vec<Piece>], pitch: f64) {
     };
     let mut first = 0;
     for family in pieces {
-        let stays: Vec<bool> =
-            family.par_iter().enumerate().map_init(Vec::new, |near, (i, piece)| has_company(piece, first + i, near)).collect();
+        let stays: Vec<bool> = collected(family.len(), &|i| has_company(&family[i], first + i, &mut Vec::new()));
         first += family.len();
         let mut stays = stays.into_iter();
         family.retain(|_| stays.next().unwrap_or(true));
