@@ -20,6 +20,26 @@ pub struct CoherentLine {
     pub contrast: f64,
 }
 
+impl CoherentLine {
+    /// The runs of its points that are kept, with their widths; itself if all are.
+    pub fn runs(&self, is_kept: &[bool]) -> Vec<Self> {
+        if is_kept.iter().all(|&keep| keep) {
+            return vec![self.clone()];
+        }
+        let mut out = Vec::new();
+        let mut start = 0;
+        for run in is_kept.chunk_by(|a, b| a == b) {
+            let range = start..start + run.len();
+            start += run.len();
+            if run[0] && run.len() > 2 {
+                let curve = Curve { points: self.curve.points[range.clone()].to_vec(), closed: false };
+                out.push(Self { curve, widths: self.widths[range].to_vec(), contrast: self.contrast });
+            }
+        }
+        out
+    }
+}
+
 /// Every step from pixels to curves, for `stages`.
 #[derive(Clone, Debug)]
 pub struct CoherentLines {

@@ -118,7 +118,10 @@ impl Drawer<'_> {
         let Some(border) = crate::field::distance_to_curves(&silhouette, width, height) else { return lines };
         let reach = (0.9 * self.pitch()) as f32;
         let is_apart = |p: &Point| border.distance.sample(p.x, p.y) >= reach;
-        let apart = lines.into_iter().flat_map(|line| runs(&line, is_apart)).filter(|line| line.curve.length() >= 0.5 * least);
+        let apart = lines
+            .into_iter()
+            .flat_map(|line| line.runs(&line.curve.points.iter().map(is_apart).collect::<Vec<_>>()))
+            .filter(|line| line.curve.length() >= 0.5 * least);
         self.plain(silhouette).into_iter().chain(apart).collect()
     }
 
@@ -201,23 +204,4 @@ impl Drawer<'_> {
             .collect();
         layer
     }
-}
-
-/// The runs of a line's points that satisfy a condition, with their widths.
-fn runs(line: &CoherentLine, keeps: impl Fn(&Point) -> bool) -> Vec<CoherentLine> {
-    let kept: Vec<bool> = line.curve.points.iter().map(keeps).collect();
-    if kept.iter().all(|&keep| keep) {
-        return vec![line.clone()];
-    }
-    let mut out = Vec::new();
-    let mut start = 0;
-    for run in kept.chunk_by(|a, b| a == b) {
-        let range = start..start + run.len();
-        start += run.len();
-        if run[0] && run.len() > 2 {
-            let curve = Curve { points: line.curve.points[range.clone()].to_vec(), closed: false };
-            out.push(CoherentLine { curve, widths: line.widths[range].to_vec(), contrast: line.contrast });
-        }
-    }
-    out
 }

@@ -17,7 +17,8 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
     let frames = Frames::of(drawer.portrait);
     let creases = Creases::of(drawer.portrait);
     let drawn = features.lines.iter().filter(|line| !creases.have(&line.curve) && !frames.have(&line.curve));
-    layer.marks = drawn.filter_map(|line| feature_stroke(line, placement, taper)).collect();
+    let drawn = drawn.flat_map(|line| creases.cut_from(line));
+    layer.marks = drawn.filter_map(|line| feature_stroke(&line, placement, taper)).collect();
     layer.marks.extend(spectacles::frames(drawer.portrait, drawer.pitch()));
     layer
 }

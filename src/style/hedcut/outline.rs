@@ -31,8 +31,8 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
         let taper = LONGEST_TAPER * drawer.pitch();
         let capped =
             |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
-        let longest = features.drawn.iter().filter(|line| is_outline(&line.curve));
-        let strokes = longest.filter_map(|line| feature_stroke(&capped(line), &drawer.portrait.placement, taper));
+        let longest = features.drawn.iter().filter(|line| is_outline(&line.curve)).flat_map(|line| creases.cut_from(line));
+        let strokes = longest.filter_map(|line| feature_stroke(&capped(&line), &drawer.portrait.placement, taper));
         layer.marks = strokes.collect();
         return layer;
     }
