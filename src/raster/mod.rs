@@ -4,6 +4,7 @@
 //! Every filter clamps at the border (the edge pixel is repeated), runs parallel by rows, and gives the same bits
 //! on any number of threads.
 
+mod best_way;
 mod bilateral;
 mod binary;
 mod blur;
@@ -25,6 +26,7 @@ mod scale;
 mod structure_tensor;
 mod thin;
 
+pub(crate) use best_way::best_way;
 #[doc(hidden)]
 pub use bilateral::bilateral;
 #[doc(hidden)]

@@ -11,9 +11,9 @@
 use super::networks::sixteenths;
 use super::view::{Outside, View, Window};
 use crate::elementary::{Elementary as _, unit_at};
-use crate::geometry::{Point, Vec2};
-use crate::raster::{Raster, median};
-use crate::source::{Iris, Spectacles, lightness, luminance, srgb_to_linear};
+use crate::geometry::{Point, Rect, Vec2};
+use crate::raster::{Raster, best_way, median};
+use crate::source::{Iris, Spectacles, lightness, luminance, outlines, srgb_to_linear};
 use std::f64::consts::TAU;
 
 /// Distance of the eyes in the window, its size, and the place midway between the eyes.
@@ -28,15 +28,19 @@ const LENS_AT: Vec2 = Vec2::new(4.0, 7.0);
 const LENS: Vec2 = Vec2::new(44.0, 29.0);
 const SQUARE: f64 = 2.6;
 /// Sizes of a lens that are tried, as factors of the mean, their number, and the number of directions around the eye.
-const SCALES: [f64; 2] = [0.5, 1.4];
-const STEPS: usize = 60;
+const SCALES: [f64; 2] = [0.3, 1.4];
+const STEPS: usize = 74;
 const DIRECTIONS: usize = 96;
-/// Half the size of the eye with its lids, above and below the iris: lashes are no rims. And the least distance from the nose's middle.
-const LIDS: [Vec2; 2] = [Vec2::new(30.0, 16.0), Vec2::new(30.0, 15.0)];
+/// Margins beside, above and below the opening between the lids, where lashes, folds and bags are no rims: with 6 above the upper rims of
+/// small spectacles are lost, with 16 below bags are the lower rims of those that have none there. And the least distance from the
+/// nose's middle.
+const LIDS: [f64; 3] = [5.5, 2.5, 22.0];
 const OFF_NOSE: f64 = 4.0;
-/// Distances at which a line is compared with its sides, and the limits of what one place counts: black rims on pale skin differ by ten
+/// Distances at which a line is compared with its sides; those of a thick line, and the lightness below which it may be thick; and the limits of what one place counts: black rims on pale skin differ by ten
 /// times as much as wire ones.
 const BESIDE: [f64; 2] = [2.5, 5.0];
+const BESIDE_THICK: [f64; 2] = [6.0, 8.0];
+const BLACK: f32 = 0.2;
 const COUNTS: [f32; 2] = [-0.012, 0.093];
 /// Value of a place where no rim can be.
 const IMPOSSIBLE: f32 = -0.2;
@@ -45,14 +49,21 @@ const IMPOSSIBLE: f32 = -0.2;
 const ROWS_PER_PIXEL: f64 = 2.0;
 const BRIDGE_ROWS: [f64; 2] = [-28.0, 40.0];
 const RIM_BEND: f32 = 0.004;
-/// Price of each step by which a rim is larger or smaller than the other's mirror image: a head turned by 30 degrees has some three.
-const UNLIKE: f32 = 0.002;
+/// What a place counts at most in the search, where black brows would outweigh wire; and by how much more it counts on a larger rim, which is
+/// longer, per size of the mean lens above this one.
+const MOST_COUNTED: f32 = 0.07;
+const LONGER: f32 = 0.25;
+const MEAN_SCALE: f32 = 0.85;
+/// What a dark place above a brow's lower line counts, as a share: rims may cross brows, but a brow is no rim. And these lines, from left to
+/// right in the window.
+const IN_BROW: f32 = 0.4;
+const BROWS: [[usize; 5]; 2] = [[46, 53, 52, 65, 55], [285, 295, 282, 283, 276]];
 const BRIDGE_BEND: f32 = 0.003;
 const OFF_END: f32 = 0.001;
-/// Least mean contrast of each rim and of the bridge. Of sixteen portraits the five with rims all around have at least 0.058 and 0.050;
-/// so has Grace Hopper (0.078, 0.074), on whom this was not tuned. The nine without spectacles have at most 0.050 with 0.030 there (old
-/// lids), or 0.046 with 0.045 (the shadow of a strong nose). Two with lenses that have no rims below fail at 0.040 and 0.027.
-const RIM_GATE: f32 = 0.053;
+/// Least mean contrast of each rim and of the bridge. Of sixteen portraits the five with rims have at least 0.062 and 0.061, Grace Hopper, on
+/// whom this was not tuned, 0.067 and 0.072; the nine without spectacles have at most 0.030 in their fainter rim. Two with lenses that
+/// have no rims fail at 0.028 and 0.027.
+const RIM_GATE: f32 = 0.046;
 const BRIDGE_GATE: f32 = 0.047;
 /// Contrast that each pixel of a temple must have on average.
 const TEMPLE: f32 = 0.025;
@@ -76,7 +87,14 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
     let seen = view.resampled_to(&window, SIZE, Outside::Repeated);
     let light = Light(seen.map(|rgb| lightness(luminance(rgb.map(|v| srgb_to_linear(v / 255.0))))));
     let ears = EARS.map(|ear| (Point::new(points[ear][0], points[ear][1]) - origin).dot(across) / across.hypot2());
-    let found = frame(&light, ears)?;
+    let in_window = |point: &usize| {
+        let away = Point::new(points[*point][0], points[*point][1]) - origin;
+        Point::new(away.dot(across) / across.hypot2(), away.dot(down) / down.hypot2())
+    };
+    let line = |of: &[usize]| of.iter().map(in_window).collect::<Vec<Point>>();
+    let eyes = [(&outlines::RIGHT_EYE, &BROWS[0]), (&outlines::LEFT_EYE, &BROWS[1])]
+        .map(|(lids, brow)| Eye { lids: bounds(&line(lids)), brow: line(brow) });
+    let found = frame(&light, ears, &eyes)?;
     let place = |p: Point| {
         let p = origin + across * p.x + down * p.y;
         Point::new(sixteenths(p.x), sixteenths(p.y))
@@ -84,12 +102,32 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
     Some(found.placed(place, across.hypot()))
 }
 
+/// What is around an eye in the window that is no spectacles.
+struct Eye {
+    /// Around the opening between the lids.
+    lids: Rect,
+    /// The lower line of the brow, from left to right.
+    brow: Vec<Point>,
+}
+
+impl Eye {
+    /// True between the lids and so near them that dark places are lashes, folds and bags.
+    fn holds(&self, p: Point) -> bool {
+        let away = p - self.lids.center();
+        let half = self.lids.size() / 2.0;
+        let down = half.height + if away.y > 0.0 { LIDS[2] } else { LIDS[1] };
+        (away.x / (half.width + LIDS[0])).powi(2) + (away.y / down).powi(2) < 1.0
+    }
+}
+
+fn bounds(points: &[Point]) -> Rect {
+    points.iter().fold(Rect::from_points(points[0], points[0]), |bounds, p| bounds.union_pt(*p))
+}
+
 /// A line in the window, and its mean contrast to both its sides.
 struct Way {
     points: Vec<Point>,
     contrast: f32,
-    /// Of a rim, the step of its size in each direction.
-    steps: Vec<usize>,
 }
 
 impl Way {
@@ -100,8 +138,8 @@ impl Way {
 }
 
 /// The frame in the window; `ears` are the columns where temples end.
-fn frame(light: &Light, ears: [f64; 2]) -> Option<Spectacles> {
-    let [right, left] = light.rims();
+fn frame(light: &Light, ears: [f64; 2], eyes: &[Eye; 2]) -> Option<Spectacles> {
+    let [right, left] = [(-1.0, &eyes[0]), (1.0, &eyes[1])].map(|(side, eye)| light.rim(side, eye));
     if right.contrast.min(left.contrast) < RIM_GATE {
         return None;
     }
@@ -128,50 +166,46 @@ impl Light {
         self.0.sample(p.x, p.y)
     }
 
-    /// How much darker a place is than both its sides.
+    /// How much darker a place is than both its sides at some distance.
+    fn below(&self, p: Point, across: Vec2) -> f32 {
+        self.at(p + across).min(self.at(p - across)) - self.at(p)
+    }
+
+    /// How much darker a place is than both its sides at the distance where it differs most.
     fn contrast(&self, p: Point, across: Vec2) -> f32 {
-        let here = self.at(p);
-        let beside = |away: f64| self.at(p + across * away).min(self.at(p - across * away));
-        BESIDE.iter().map(|away| beside(*away) - here).fold(f32::NEG_INFINITY, f32::max).clamp(COUNTS[0], COUNTS[1])
+        let [near, far] = BESIDE.map(|away| self.below(p, across * away));
+        near.max(far).clamp(COUNTS[0], COUNTS[1])
     }
 
-    /// The rims on the left and on the right in the window. The fainter one is looked for again near the mirror image of the firmer: a
-    /// brow or a fold may be darker than its own rim.
-    fn rims(&self) -> [Way; 2] {
-        let [left, right] = [-1.0, 1.0].map(|side| self.rim(side, None));
-        if left.contrast > right.contrast {
-            let right = self.rim(1.0, Some(&left.steps));
-            [left, right]
-        } else {
-            let left = self.rim(-1.0, Some(&right.steps));
-            [left, right]
-        }
-    }
-
-    /// The darkest closed way around an eye: the one on the left (-1) or on the right (1) in the window, near the mirror image of
-    /// another one if that is given.
-    fn rim(&self, side: f64, other: Option<&[usize]>) -> Way {
-        let iris = MIDDLE + Vec2::new(0.5 * side * APART, 0.0);
-        let centre = iris + Vec2::new(side * LENS_AT.x, LENS_AT.y);
-        let scale = |step: usize| SCALES[0] + (SCALES[1] - SCALES[0]) * step as f64 / (STEPS - 1) as f64;
-        let place = |direction: usize, step: usize| centre + lens(direction) * scale(step);
-        let is_possible = |p: Point| {
-            let away = p - iris;
-            let lids = if away.y > 0.0 { LIDS[1] } else { LIDS[0] };
-            (away.x / lids.x).powi(2) + (away.y / lids.y).powi(2) >= 1.0 && side * (p.x - MIDDLE.x) >= OFF_NOSE
+    /// The same as the mean of two distances: rims are sharp, folds are darkest far from their sides. A black line may be thick.
+    fn sharp_contrast(&self, p: Point, across: Vec2) -> f32 {
+        let mean = |beside: [f64; 2]| {
+            let [near, far] = beside.map(|away| self.below(p, across * away));
+            f32::midpoint(near, far)
         };
+        let thin = mean(BESIDE);
+        let contrast = if self.at(p) < BLACK { thin.max(mean(BESIDE_THICK)) } else { thin };
+        contrast.clamp(COUNTS[0], COUNTS[1])
+    }
+
+    /// The darkest closed way around the eye on the left (-1) or on the right (1) in the window.
+    fn rim(&self, side: f64, eye: &Eye) -> Way {
+        let centre = MIDDLE + Vec2::new(side * (0.5 * APART + LENS_AT.x), LENS_AT.y);
+        let place = |step: usize, direction: usize| centre + lens(direction) * scale(step);
         let values = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
-            let p = place(direction, step);
-            if is_possible(p) { self.contrast(p, lens_normal(direction)) } else { IMPOSSIBLE }
+            let p = place(step, direction);
+            if side * (p.x - MIDDLE.x) < OFF_NOSE || eye.holds(p) {
+                return IMPOSSIBLE;
+            }
+            self.sharp_contrast(p, lens_normal(direction))
         });
-        let mirrored = |direction: usize| (DIRECTIONS + DIRECTIONS / 2 - direction) % DIRECTIONS;
-        let unlike =
-            |step: usize, direction: usize| other.map_or(0.0, |other| UNLIKE * other[mirrored(direction)].abs_diff(step) as f32);
+        let counted = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
+            let value = values.get(step, direction).min(MOST_COUNTED);
+            let share = if is_above(&eye.brow, place(step, direction)) { IN_BROW } else { 1.0 };
+            if value > 0.0 { value * share * (1.0 + LONGER * (scale(step) as f32 - MEAN_SCALE)) } else { value }
+        });
         // Once around before and once after, so that both ends meet.
-        let around = Raster::from_fn(STEPS, 3 * DIRECTIONS, |step, row| {
-            let direction = row % DIRECTIONS;
-            values.get(step, direction) - unlike(step, direction)
-        });
+        let around = Raster::from_fn(STEPS, 3 * DIRECTIONS, |step, row| counted.get(step, row % DIRECTIONS));
         let steps = best_way(&around, 2, RIM_BEND)[DIRECTIONS..2 * DIRECTIONS].to_vec();
         let contrast = steps.iter().enumerate().map(|(direction, step)| values.get(*step, direction)).sum::<f32>();
         let smooth = |direction: usize| {
@@ -179,7 +213,7 @@ impl Light {
             around.iter().sum::<f64>() / 5.0
         };
         let points = (0..DIRECTIONS).map(|direction| centre + lens(direction) * smooth(direction)).collect();
-        Way { points, contrast: contrast / DIRECTIONS as f32, steps }
+        Way { points, contrast: contrast / DIRECTIONS as f32 }
     }
 
     /// The darkest way over the nose between the rims' inner ends; none if these meet.
@@ -190,7 +224,7 @@ impl Light {
         }
         let (inner, contrasts) = self.level_way(from, 1.0, columns, MIDDLE.y + BRIDGE_ROWS[0], Some(to));
         let contrast = contrasts.iter().sum::<f32>() / columns as f32;
-        Some(Way { points: std::iter::once(from).chain(inner).chain([to]).collect(), contrast, steps: Vec::new() })
+        Some(Way { points: std::iter::once(from).chain(inner).chain([to]).collect(), contrast })
     }
 
     /// The way from a rim's outer end to the ear, as far as it is dark; empty if it is not.
@@ -248,6 +282,19 @@ impl Light {
     }
 }
 
+/// True above a line that runs from left to right, within its columns.
+fn is_above(line: &[Point], p: Point) -> bool {
+    line.windows(2).any(|w| {
+        let share = (p.x - w[0].x) / (w[1].x - w[0].x).max(1e-9);
+        (0.0..1.0).contains(&share) && p.y < w[0].lerp(w[1], share).y
+    })
+}
+
+/// The size of a lens in the search, as a factor of the mean.
+fn scale(step: usize) -> f64 {
+    SCALES[0] + (SCALES[1] - SCALES[0]) * step as f64 / (STEPS - 1) as f64
+}
+
 /// The border of the mean lens in a direction around its middle.
 fn lens(direction: usize) -> Vec2 {
     let along = unit_at(TAU * direction as f64 / DIRECTIONS as f64);
@@ -259,31 +306,6 @@ fn lens(direction: usize) -> Vec2 {
 fn lens_normal(direction: usize) -> Vec2 {
     let along = lens((direction + 1) % DIRECTIONS) - lens((direction + DIRECTIONS - 1) % DIRECTIONS);
     Vec2::new(along.y, -along.x) / along.hypot()
-}
-
-/// The column of each row on the way of the highest sum from the first row to the last. From row to row it moves by at most `most`
-/// columns, and a move costs `price` times its square.
-fn best_way(values: &Raster<f32>, most: usize, price: f32) -> Vec<usize> {
-    let (columns, rows) = (values.width(), values.height());
-    let mut sums: Vec<f32> = values.row(0).to_vec();
-    let mut from: Vec<Vec<usize>> = vec![(0..columns).collect()];
-    for row in 1..rows {
-        let before = |column: usize| {
-            let near = column.saturating_sub(most)..(column + most + 1).min(columns);
-            let sum = |b: usize| sums[b] - price * (b.abs_diff(column) as f32).powi(2);
-            near.map(|b| (b, sum(b))).fold((column, f32::NEG_INFINITY), |best, b| if b.1 > best.1 { b } else { best })
-        };
-        let best: Vec<(usize, f32)> = (0..columns).map(before).collect();
-        sums = best.iter().zip(values.row(row)).map(|((_, sum), value)| sum + value).collect();
-        from.push(best.into_iter().map(|(b, _)| b).collect());
-    }
-    let last = (0..columns).fold(0, |best, c| if sums[c] > sums[best] { c } else { best });
-    let mut way = vec![last];
-    for row in (1..rows).rev() {
-        way.push(from[row][way[way.len() - 1]]);
-    }
-    way.reverse();
-    way
 }
 
 #[cfg(test)]
@@ -305,6 +327,11 @@ mod tests {
         }))
     }
 
+    /// Eyes of the size drawn by `face`.
+    fn eyes() -> [Eye; 2] {
+        [-50.0, 50.0].map(|x| Eye { lids: Rect::from_center_size(MIDDLE + Vec2::new(x, 0.0), (48.0, 18.0)), brow: Vec::new() })
+    }
+
     /// Oval rims, a bridge, and one temple.
     fn drawn() -> Vec<Vec<Point>> {
         let oval = |side: f64| {
@@ -318,9 +345,9 @@ mod tests {
 
     #[test]
     fn rims_bridge_and_temple_are_found_where_they_are_and_no_spectacles_on_a_bare_face() {
-        assert!(frame(&face(&[], 0.0), [20.0, 300.0]).is_none(), "brows and eyes are no spectacles");
+        assert!(frame(&face(&[], 0.0), [20.0, 300.0], &eyes()).is_none(), "brows and eyes are no spectacles");
         let lines = drawn();
-        let found = frame(&face(&lines, 3.0), [20.0, 300.0]).expect("spectacles");
+        let found = frame(&face(&lines, 3.0), [20.0, 300.0], &eyes()).expect("spectacles");
         for (rim, drawn) in found.rims.iter().zip(&lines) {
             let worst =
                 rim.iter().map(|p| drawn.iter().map(|q| p.distance(*q)).fold(f64::INFINITY, f64::min)).fold(0.0, f64::max);
@@ -333,14 +360,6 @@ mod tests {
 
     #[test]
     fn rims_without_a_bridge_are_none() {
-        assert!(frame(&face(&drawn()[..2], 3.0), [20.0, 300.0]).is_none());
-    }
-
-    #[test]
-    fn the_best_way_bends_where_it_pays() {
-        let values = Raster::from_fn(5, 4, |x, y| f32::from(u8::from(x == if y < 2 { 1 } else { 3 })));
-        assert_eq!(best_way(&values, 2, 0.1), [1, 1, 3, 3]);
-        assert_eq!(best_way(&values, 1, 0.1), [1, 1, 2, 3]);
-        assert_eq!(best_way(&values, 2, 9.0), [1, 1, 1, 1]);
+        assert!(frame(&face(&drawn()[..2], 3.0), [20.0, 300.0], &eyes()).is_none());
     }
 }

@@ -16,6 +16,7 @@ mod glass;
 mod grid;
 mod head;
 mod hedcut;
+mod mouth;
 mod need;
 mod observer;
 mod parameter;

@@ -10,7 +10,7 @@ use crate::source::{Iris, Landmarks, outlines};
 
 /// Height over width of an opening: below the first it is closed, from the second on it is treated in full.
 pub(super) const EYE_OPEN: [f64; 2] = [0.12, 0.22];
-const MOUTH_OPEN: [f64; 2] = [0.08, 0.16];
+const MOUTH_OPEN: [f64; 2] = [0.04, 0.12];
 /// The lids' own line, in radii of the iris, is left as it is; so is a ring around the iris.
 const LID: f64 = 0.16;
 const LIMBUS: f64 = 1.08;

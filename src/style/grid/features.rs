@@ -11,6 +11,7 @@ use crate::geometry::{BezPath, Point, Vec2, smooth_polyline};
 use crate::raster::{Raster, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
+use crate::style::mouth::Mouths;
 
 /// The lines that steer the grid and their direction field, in working pixels.
 pub(super) struct Features {
@@ -91,7 +92,8 @@ impl Drawer<'_> {
         self.observer.picture("lines-skeleton", &|| Picture::Mask(steps.skeleton.clone()));
         let widest = self.pixels(parameters.line_widest);
         let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
-        steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect()
+        let lines = steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect();
+        Mouths::of(self.portrait, self.pitch()).redrawn(lines, self.pixels(parameters.line_least))
     }
 
     fn line_parameters(&self) -> LineParameters {

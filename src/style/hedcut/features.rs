@@ -10,6 +10,7 @@ use crate::geometry::smooth_polyline;
 use crate::raster::{Raster, Thresholds, bilateral, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
+use crate::style::mouth::Mouths;
 
 /// The lines that steer the dots, in working pixels.
 pub(super) struct Features {
@@ -85,6 +86,7 @@ impl Drawer<'_> {
         let least = LEAST_LINE * self.pitch();
         let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing), least).lines;
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
+        let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let steering = self.pixels(self.parameters.edge_length);
         let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
         let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| {

@@ -1,0 +1,185 @@
+//! Mouths as a draughtsman sets them: one line where the lips meet, or one along each lip of an open mouth and thin ones between teeth.
+//!
+//! ```text
+//!   columns   from corner to corner, across both lips
+//!   lines     the darkest way through the columns: one where the mouth is closed, else one along each lip
+//!   teeth     columns between these that are darker than both their neighbours
+//!   found     lines that were found inside the lips go: creases of the lips, lights on teeth
+//! ```
+
+use crate::field::{CoherentLine, Curve};
+use crate::geometry::{Point, Region, Vec2, lengths_along, resample, smooth_polyline};
+use crate::raster::{Raster, best_way, gaussian_blur};
+use crate::source::{Landmarks, MaskRole, Portrait, outlines};
+
+/// Columns across a mouth, and rows across a lip.
+const COLUMNS: usize = 96;
+const ROWS: usize = 41;
+/// Mean gap between the lips, in widths of the mouth, from which each lip has a line of its own.
+const OPEN: f64 = 0.045;
+/// A mouth of fewer pitches is left as it was found.
+const LEAST_WIDTH: f64 = 8.0;
+/// How far a line may lie from the border between the lips as the landmarks have it, as a share of the lip on its side and, in an open mouth,
+/// of the gap.
+const IN_LIP: f64 = 0.6;
+const IN_GAP: f64 = 0.4;
+/// Distance of the sides that a line is compared with, the blur before that, in widths of the mouth; and the price of a bend by one row.
+const BESIDE: f64 = 0.035;
+const BLUR: f64 = 0.006;
+const BEND: f32 = 0.004;
+/// The width of a line, in widths of the mouth, at the contrast from which it is full; its least share of that; and its smoothing, in columns.
+const WIDEST: f64 = 0.024;
+const FULL: f64 = 0.16;
+const LEAST: f64 = 0.35;
+const SMOOTH: usize = 4;
+/// Where found lines give way: so much of the way from the middle between the lips to their outer border.
+const INSIDE: f64 = 0.88;
+/// Hair over the mouth from which nothing is drawn.
+const HAIR: f32 = 0.5;
+
+/// The mouths of a portrait.
+pub(super) struct Mouths {
+    inside: Vec<Region>,
+    lines: Vec<CoherentLine>,
+}
+
+impl Mouths {
+    /// Of the faces that were found, in working pixels; `pitch` in these.
+    pub(super) fn of(portrait: &Portrait, pitch: f64) -> Self {
+        let mut mouths = Self { inside: Vec::new(), lines: Vec::new() };
+        for face in &portrait.faces {
+            let Some(mouth) = Mouth::of(face).filter(|mouth| mouth.width >= LEAST_WIDTH * pitch) else { continue };
+            mouths.inside.push(mouth.inside());
+            mouths.lines.extend(mouth.lines(portrait));
+        }
+        mouths
+    }
+
+    /// Lines that were found, with the mouths' own in place of those inside the lips; what is left of one is at least `least` long.
+    pub(super) fn redrawn(&self, found: Vec<CoherentLine>, least: f64) -> Vec<CoherentLine> {
+        if self.inside.is_empty() {
+            return found;
+        }
+        let is_outside = |p: &Point| !self.inside.iter().any(|mouth| mouth.contains(*p));
+        let kept = found.into_iter().flat_map(|line| {
+            let whole = line.curve.points.len();
+            let mut rest = line.runs(&line.curve.points.iter().map(is_outside).collect::<Vec<_>>());
+            rest.retain(|part| part.curve.points.len() == whole || part.curve.length() >= least);
+            rest
+        });
+        kept.chain(self.lines.iter().cloned()).collect()
+    }
+}
+
+/// One mouth: lines from the right corner to the left, each of `COLUMNS` points.
+struct Mouth {
+    width: f64,
+    upper: [Vec<Point>; 2],
+    lower: [Vec<Point>; 2],
+}
+
+impl Mouth {
+    /// The inner and the outer border of both lips; none if it has no width.
+    fn of(face: &Landmarks) -> Option<Self> {
+        let halves = |closed: &[usize; 20]| {
+            let lower = face.line(&closed[..=10]);
+            let upper: Vec<Point> = face.line(&closed[10..]).into_iter().chain([face.point(closed[0])]).rev().collect();
+            Some([even(&upper)?, even(&lower)?])
+        };
+        let [inner_upper, inner_lower] = halves(&outlines::MOUTH)?;
+        let [outer_upper, outer_lower] = halves(&outlines::LIPS)?;
+        let width = outer_upper[0].distance(outer_upper[COLUMNS - 1]);
+        (width > 0.0).then_some(Self { width, upper: [inner_upper, outer_upper], lower: [inner_lower, outer_lower] })
+    }
+
+    /// Where the lips and what lies between them have no lines but their own.
+    fn inside(&self) -> Region {
+        let middle = |i: usize| self.upper[0][i].midpoint(self.lower[0][i]);
+        let towards = |lip: &[Vec<Point>; 2], i: usize| middle(i).lerp(lip[1][i], INSIDE);
+        let upper = (0..COLUMNS).map(|i| towards(&self.upper, i));
+        let lower = (0..COLUMNS).rev().map(|i| towards(&self.lower, i));
+        Region::of_polygons(vec![upper.chain(lower).collect()])
+    }
+
+    fn gap(&self) -> f64 {
+        let gaps = self.upper[0].iter().zip(&self.lower[0]).map(|(upper, lower)| upper.distance(*lower));
+        gaps.sum::<f64>() / COLUMNS as f64 / self.width
+    }
+
+    fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
+        let seen = Seen { light: &gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32), mouth: self };
+        let into = |lip: &[Vec<Point>; 2]| between(&lip[0], &lip[1], IN_LIP);
+        let found = if self.gap() < OPEN {
+            vec![seen.darkest(&into(&self.upper), &into(&self.lower))]
+        } else {
+            let [below, above] =
+                [(&self.upper, &self.lower), (&self.lower, &self.upper)].map(|(a, b)| between(&a[0], &b[0], IN_GAP));
+            vec![seen.darkest(&into(&self.upper), &below), seen.darkest(&above, &into(&self.lower))]
+        };
+        let hair = [MaskRole::FacialHair, MaskRole::Hair].map(|role| portrait.masks.get(&role));
+        let is_bare = |p: &Point| !hair.iter().flatten().any(|mask| mask.sample(p.x, p.y) > HAIR);
+        found.iter().flat_map(|line| line.runs(&line.curve.points.iter().map(is_bare).collect::<Vec<_>>())).collect()
+    }
+}
+
+/// A mouth in the photograph.
+struct Seen<'a> {
+    light: &'a Raster<f32>,
+    mouth: &'a Mouth,
+}
+
+impl Seen<'_> {
+    /// The darkest line from corner to corner between two others.
+    fn darkest(&self, from: &[Point], to: &[Point]) -> CoherentLine {
+        let place = |column: usize, row: usize| from[column].lerp(to[column], row as f64 / (ROWS - 1) as f64);
+        let values =
+            Raster::from_fn(ROWS, COLUMNS, |row, column| self.contrast(place(column, row), self.across(from, to, column)));
+        let rows = best_way(&values, 2, BEND);
+        let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
+        let contrasts: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(values.get(*row, column))).collect();
+        let widths: Vec<f64> =
+            averaged(&contrasts).iter().map(|contrast| WIDEST * self.mouth.width * (contrast / FULL).clamp(LEAST, 1.0)).collect();
+        smoothed(&points, &widths)
+    }
+
+    fn across(&self, from: &[Point], to: &[Point], column: usize) -> Vec2 {
+        let middle = |i: usize| from[i].midpoint(to[i]);
+        let along = middle((column + 1).min(COLUMNS - 1)) - middle(column.saturating_sub(1));
+        along.turn_90() * (BESIDE * self.mouth.width / along.hypot().max(1e-9))
+    }
+
+    /// How much lighter both sides are than a place, in the mean.
+    fn contrast(&self, p: Point, across: Vec2) -> f32 {
+        let at = |p: Point| self.light.sample(p.x, p.y);
+        f32::midpoint(at(p + across), at(p - across)) - at(p)
+    }
+}
+
+/// `COLUMNS` points at even distances along a line; none if it has no length.
+fn even(line: &[Point]) -> Option<Vec<Point>> {
+    let length = lengths_along(line).last().copied().filter(|length| *length > 0.0)?;
+    let points = resample(line, length / (COLUMNS - 1) as f64);
+    (points.len() == COLUMNS).then_some(points)
+}
+
+fn between(a: &[Point], b: &[Point], share: f64) -> Vec<Point> {
+    a.iter().zip(b).map(|(a, b)| a.lerp(*b, share)).collect()
+}
+
+fn averaged(values: &[f64]) -> Vec<f64> {
+    let mean = |i: usize| {
+        let near = &values[i.saturating_sub(SMOOTH)..(i + SMOOTH + 1).min(values.len())];
+        near.iter().sum::<f64>() / near.len() as f64
+    };
+    (0..values.len()).map(mean).collect()
+}
+
+/// A line of even points some pixels apart, with the widths there.
+fn smoothed(points: &[Point], widths: &[f64]) -> CoherentLine {
+    let spacing = (lengths_along(points)[points.len() - 1] / points.len() as f64).max(1.0);
+    let smooth = smooth_polyline(points, crate::geometry::Ring::Open, 2.0 * spacing, spacing);
+    let last = smooth.len().max(2) - 1;
+    let width = |i: usize| widths[(i * (widths.len() - 1) + last / 2) / last];
+    let widths = (0..smooth.len()).map(width).collect();
+    CoherentLine { curve: Curve { points: smooth, closed: false }, widths, contrast: 1.0 }
+}
