@@ -49,7 +49,7 @@ fn clock_seconds(count: usize) -> f64 {
         colour: Colour::BLACK,
         nib: 0.3,
         handling: Handling::default(),
-        paths: (0..count).map(wave).collect(),
+        paths: (0..count).filter_map(wave).collect(),
     };
     let plot = Plot { page: Page::new(250.0, 250.0), pens: vec![pen] };
     let mounting = mount(&servo, &plot.page).expect("the page fits");

@@ -1,7 +1,7 @@
 //! A style of one's own: weighted Voronoi dots joined by the shortest tour, one line without a lift.
 //! `cargo run --release --example custom_style -- PHOTO OUT.svg`
 
-use drypoint::drawing::{Drawing, Layer, Mark, Stroke, Width};
+use drypoint::drawing::{Drawing, Layer, Mark, Stroke};
 use drypoint::field::relaxed;
 use drypoint::geometry::{BezPath, Point, Rect};
 use drypoint::interrupt::Interrupt;
@@ -89,7 +89,7 @@ impl Style for OneLine {
             line.line_to(portrait.placement.to_page(dots[0]));
         }
         let mut layer = Layer::new("line", 1);
-        layer.marks.push(Mark::Stroke(Stroke::new(line, Width::Constant(settings.number("line")))));
+        layer.marks.push(Mark::Stroke(Stroke::even(line, settings.number("line"))));
         Ok(Drawing { page: portrait.page, layers: vec![layer] })
     }
 }

@@ -1,6 +1,6 @@
 //! A request to stop takes effect within a second, whatever the work.
 
-use drypoint::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use drypoint::drawing::{Area, Colour, Dot, Drawing, Handling, Ink, Layer, Mark, Mixing, Page, Stroke};
 use drypoint::geometry::{BezPath, Point};
 use drypoint::interrupt::{Interrupt, Interrupted};
 use drypoint::order::Effort;
@@ -49,7 +49,7 @@ fn page_of(marks: Vec<Mark>) -> Drawing {
 }
 
 fn touches(count: usize) -> Plot {
-    plot_of((0..count).map(|i| Toolpath::new(vec![place(i)])).collect())
+    plot_of((0..count).map(|i| Toolpath::touch(place(i))).collect())
 }
 
 fn plot_of(paths: Vec<Toolpath>) -> Plot {
@@ -101,10 +101,7 @@ fn occlusion_of_many_marks_stops() {
         let mut curve = BezPath::new();
         curve.move_to(place(i));
         curve.line_to(place(7 * i + 3));
-        Mark::Stroke(Stroke {
-            colour: Some(Colour { r: (i % 251) as u8, g: 0, b: 0 }),
-            ..Stroke::new(curve, Width::Constant(0.3))
-        })
+        Mark::Stroke(Stroke::even(curve, 0.3).with_colour(Some(Colour { r: (i % 251) as u8, g: 0, b: 0 })))
     };
     let mut drawing = page_of((0..40_000).map(line).collect());
     drawing.layers[0].mixing = Mixing::Paint;
@@ -123,7 +120,7 @@ fn measuring_a_million_dots_stops() {
 
 #[test]
 fn the_clock_of_a_long_file_and_the_wait_for_ink_stop() {
-    let lines = (0..400_000).map(|i| Toolpath::new(vec![place(i), place(i + 1), place(2 * i)])).collect();
+    let lines = (0..400_000).map(|i| Toolpath::through(place(i), [place(i + 1), place(2 * i)])).collect();
     let plot = plot_of(lines);
     let profile = Profile::built_in("grbl-servo").unwrap();
     let mounting = mount(&profile, &Page::new(200.0, 200.0)).unwrap();

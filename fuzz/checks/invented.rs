@@ -41,7 +41,7 @@ fn mark(u: &mut Unstructured<'_>, page: Page) -> Result<Mark> {
     Ok(match u.int_in_range(0..=3)? {
         0 => Mark::Dot(Dot { colour: own, ..dot(u, page)? }),
         1 => Mark::Area(Area { outline: outline(u, page)?, colour: own }),
-        _ => Mark::Stroke(Stroke { colour: own, ..stroke(u, page)? }),
+        _ => Mark::Stroke(stroke(u, page)?.with_colour(own)),
     })
 }
 
@@ -65,11 +65,12 @@ fn stroke(u: &mut Unstructured<'_>, page: Page) -> Result<Stroke> {
     } else {
         Width::Along((0..nodes).map(|_| length(u, 0.0, 3.0)).collect::<Result<_>>()?)
     };
-    let mut stroke = Stroke::new(curve, width);
+    let mut stroke = Stroke::even(curve, 0.0).with_width(width).expect("a width for each node");
     stroke.ends = if u.arbitrary()? { Ends::Round } else { Ends::Flat };
     if u.ratio(1, 8)? {
-        stroke.pressure = Some((0..nodes).map(|_| length(u, 0.0, 1.0)).collect::<Result<_>>()?);
-        stroke.times = Some((0..nodes).map(|i| i as f64 * 0.1).collect());
+        let pressure = (0..nodes).map(|_| length(u, 0.0, 1.0)).collect::<Result<_>>()?;
+        let times = (0..nodes).map(|i| i as f64 * 0.1).collect();
+        stroke = stroke.with_pressure(pressure).and_then(|stroke| stroke.with_times(times)).expect("one for each node");
     }
     stroke.group = if u.ratio(1, 8)? { Some(u.int_in_range(0..=2)?) } else { None };
     Ok(stroke)

@@ -13,10 +13,10 @@ use drypoint::write::SvgHead;
 /// An arc, a touch, a closed path and a swelling one; the second pen of the same number waits first.
 pub(crate) fn small_plot(page: Page) -> Plot {
     let at = |x: f64, y: f64| Point::new(x * page.width, y * page.height);
-    let arc = (0..=12).map(|i| f64::from(i) * 0.25).map(|a| at(0.5 + 0.2 * a.cos(), 0.5 + 0.2 * a.sin())).collect();
-    let square = [(0.3, 0.3), (0.6, 0.3), (0.6, 0.6), (0.3, 0.6), (0.3, 0.3)].map(|(x, y)| at(x, y)).to_vec();
-    let mut swelling = Toolpath::new(vec![at(0.2, 0.8), at(0.5, 0.7), at(0.8, 0.8)]);
-    swelling.heights = Some(vec![0.0, -0.5, 0.1]);
+    let arc = (1..=12).map(|i| f64::from(i) * 0.25).map(|a| at(0.5 + 0.2 * a.cos(), 0.5 + 0.2 * a.sin()));
+    let square = [(0.6, 0.3), (0.6, 0.6), (0.3, 0.6), (0.3, 0.3)].map(|(x, y)| at(x, y));
+    let swelling = Toolpath::through(at(0.2, 0.8), [at(0.5, 0.7), at(0.8, 0.8)]);
+    let swelling = swelling.with_heights(vec![0.0, -0.5, 0.1]).expect("three points");
     let pen = |name: &str, handling: Handling, paths: Vec<Toolpath>| PenPaths {
         number: 1,
         name: name.to_owned(),
@@ -25,7 +25,8 @@ pub(crate) fn small_plot(page: Page) -> Plot {
         handling,
         paths,
     };
-    let level = vec![Toolpath::new(arc), Toolpath::new(vec![at(0.1, 0.1)]), Toolpath::new(square)];
+    let arc = Toolpath::through(at(0.5 + 0.2, 0.5), arc);
+    let level = vec![arc, Toolpath::touch(at(0.1, 0.1)), Toolpath::through(at(0.3, 0.3), square)];
     let second = Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
     Plot { page, pens: vec![pen("lines", Handling::default(), level), pen("swell", second, vec![swelling])] }
 }

@@ -213,14 +213,13 @@ impl DrawingEstimate {
         let nib = teller.pens.nibs().usual;
         let whole =
             Rect::from_points(place(drawn.origin()), place(Point::new(drawn.x1, drawn.y1))).intersect(picture).inset(-0.5 * nib);
-        let corners = vec![whole.origin(), Point::new(whole.x1, whole.y1)];
         let pen = PenPaths {
             number: 1,
             name: String::new(),
             colour: crate::drawing::Colour::BLACK,
             nib,
             handling: crate::drawing::Handling::default(),
-            paths: vec![Toolpath::new(corners)],
+            paths: vec![Toolpath::through(whole.origin(), [Point::new(whole.x1, whole.y1)])],
         };
         Ok(mount(profile, &page)?.check(profile, &Plot { page, pens: vec![pen] })?)
     }

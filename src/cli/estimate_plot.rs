@@ -244,7 +244,7 @@ impl Stratum {
     fn keep_inside(&self, plot: &mut Plot, placing: Affine) {
         let Kind::Windows(windows) = self.kind else { return };
         let back = placing.inverse();
-        let is_inside = |path: &Toolpath| windows.hold(back * path.points[path.points.len() / 2], self.bounds, 0.0);
+        let is_inside = |path: &Toolpath| windows.hold(back * path.points()[path.points().len() / 2], self.bounds, 0.0);
         plot.pens.iter_mut().for_each(|pen| pen.paths.retain(is_inside));
     }
 

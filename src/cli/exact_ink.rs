@@ -10,7 +10,7 @@
 //!
 //! which is right in one step for marks that lie at random (Poisson); those that lie apart take a few.
 
-use crate::drawing::{Mark, Stroke, Width};
+use crate::drawing::Mark;
 use crate::elementary::Elementary as _;
 use crate::geometry::{Affine, Vec2};
 use crate::parallel::mapped;
@@ -58,13 +58,7 @@ pub(super) fn grown(mark: &Mark, area_factor: f64, way: Vec2) -> Mark {
             let centre = mark.bounding_box().center().to_vec2();
             mark.transformed(Affine::translate(centre + way) * Affine::scale(area_factor.sqrt()) * Affine::translate(-centre))
         }
-        Mark::Stroke(stroke) => {
-            let width = match &stroke.width {
-                Width::Constant(width) => Width::Constant(width * area_factor),
-                Width::Along(widths) => Width::Along(widths.iter().map(|width| width * area_factor).collect()),
-            };
-            Mark::Stroke(Stroke { width, ..stroke.clone() })
-        }
+        Mark::Stroke(stroke) => Mark::Stroke(stroke.clone().map_widths(|width| width * area_factor)),
         Mark::Area(_) => mark.clone(),
     }
 }

@@ -141,7 +141,7 @@ fn inspect_motion(format: &str, motion: &Strokes, profile: &Profile) -> Result<V
             colour: Colour::BLACK,
             nib: 0.0,
             handling: Handling::default(),
-            paths: run.iter().map(|(_, path)| Toolpath::new(path.iter().map(|p| mm(*p)).collect())).collect(),
+            paths: run.iter().filter_map(|(_, path)| Toolpath::new(path.iter().map(|p| mm(*p)).collect())).collect(),
         });
     }
     // The file has machine coordinates, and an HP-GL file ends at the far corner of the reach.

@@ -1,18 +1,19 @@
 //! Pieces of strokes, with the widths, pressures and times that they had there.
 
+use super::Stroke;
 use super::mark::contains;
-use super::{Stroke, Width};
+use super::stroke::interpolate;
 use crate::geometry::{BezPath, Point, Rect, Region, clip_polyline, lengths_along, segment_length};
 use kurbo::Shape;
 
 impl Stroke {
     /// The pieces whose centre line is inside, with their original widths.
     pub(super) fn clipped(&self, rect: Rect) -> Vec<Self> {
-        if contains(rect, self.curve.bounding_box()) {
+        if contains(rect, self.curve().bounding_box()) {
             return vec![self.clone()];
         }
         let (points, position) = self.flattened();
-        clip_polyline(&points, rect).into_iter().map(|piece| self.piece(&piece, &position)).collect()
+        clip_polyline(&points, rect).into_iter().filter_map(|piece| self.piece(&piece, &position)).collect()
     }
 
     /// The pieces whose centre line is inside a region, with their original widths, and for both ends whether they were cut.
@@ -21,10 +22,10 @@ impl Stroke {
         let last = points.len().saturating_sub(1) as f64;
         let pieces = region.inside_of_line(&points).into_iter().filter(|piece| piece.len() > 1 || points.len() == 1);
         pieces
-            .map(|piece| {
+            .filter_map(|piece| {
                 let is_whole = [piece[0].1 <= 0.0, piece[piece.len() - 1].1 >= last];
-                let stroke = if is_whole == [true; 2] { self.clone() } else { self.piece(&piece, &position) };
-                (stroke, is_whole.map(|is_whole| !is_whole))
+                let stroke = if is_whole == [true; 2] { self.clone() } else { self.piece(&piece, &position)? };
+                Some((stroke, is_whole.map(|is_whole| !is_whole)))
             })
             .collect()
     }
@@ -47,36 +48,23 @@ impl Stroke {
         };
         let inner = (0..points.len()).filter(|i| along[*i] > from && along[*i] < to).map(|i| (points[i], i as f64));
         let piece: Vec<(Point, f64)> = std::iter::once(at(from)).chain(inner).chain(std::iter::once(at(to))).collect();
-        Some(self.piece(&piece, &position))
+        self.piece(&piece, &position)
     }
 
     /// A piece of the flattened centre line: its points with their indices plus fractions.
-    fn piece(&self, piece: &[(Point, f64)], position: &[f64]) -> Self {
+    fn piece(&self, piece: &[(Point, f64)], position: &[f64]) -> Option<Self> {
         let mut curve = BezPath::new();
-        curve.move_to(piece[0].0);
+        curve.move_to(piece.first()?.0);
         piece[1..].iter().for_each(|(p, _)| curve.line_to(*p));
-        let there = |values: &Vec<f64>| -> Vec<f64> {
-            piece.iter().map(|&(_, at)| interpolate(values, interpolate(position, at))).collect()
-        };
-        Self {
-            curve,
-            width: match &self.width {
-                Width::Constant(width) => Width::Constant(*width),
-                Width::Along(widths) => Width::Along(there(widths)),
-            },
-            pressure: self.pressure.as_ref().map(there),
-            times: self.times.as_ref().map(there),
-            ends: self.ends,
-            colour: self.colour,
-            group: self.group,
-        }
+        let places: Vec<f64> = piece.iter().map(|&(_, at)| interpolate(position, at)).collect();
+        self.along(curve, &places)
     }
 
     /// The centre line as points, and for each its position along the curve's nodes (segment index plus fraction).
     fn flattened(&self) -> (Vec<Point>, Vec<f64>) {
         use kurbo::ParamCurve;
         let (mut points, mut position) = (Vec::new(), Vec::new());
-        for (i, segment) in self.curve.segments().enumerate() {
+        for (i, segment) in self.curve().segments().enumerate() {
             let steps = if matches!(segment, kurbo::PathSeg::Line(_)) {
                 1
             } else {
@@ -94,12 +82,4 @@ impl Stroke {
         }
         (points, position)
     }
-}
-
-/// The interpolated value at `at`, a node's index plus the fraction of the way to the next.
-pub(super) fn interpolate(values: &[f64], at: f64) -> f64 {
-    let last = values.len() - 1;
-    let i = (at.floor().max(0.0) as usize).min(last);
-    let t = at - i as f64;
-    values[i] * (1.0 - t) + values[(i + 1).min(last)] * t
 }

@@ -12,7 +12,6 @@
 //! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are engraving
 //! lines, are cut by their centre lines only: their style ends and narrows them before the border.
 
-use super::cut::interpolate;
 use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
 use kurbo::Shape;
@@ -63,7 +62,7 @@ impl Mark {
 /// True for an engraving line. Its centre line is fitted with few nodes to keep a minimum distance from its neighbours', so it is
 /// neither moved nor cut into pieces; its style has left room for its width.
 fn is_engraved(stroke: &Stroke) -> bool {
-    stroke.ends == Ends::Flat && matches!(stroke.width, Width::Along(_))
+    stroke.ends == Ends::Flat && matches!(stroke.width(), Width::Along(_))
 }
 
 /// One point of a stroke kept inside the box; there is none if the cross-section lies outside.
@@ -77,17 +76,14 @@ struct Held {
 }
 
 fn held_stroke(stroke: Stroke, rect: Rect) -> Vec<Mark> {
-    let widths = match &stroke.width {
-        Width::Constant(width) => vec![*width; stroke.curve.segments().count() + 1],
-        Width::Along(widths) => widths.clone(),
-    };
+    let widths = stroke.widths().into_owned();
     let is_clear = |ink: Rect| rect.union(ink) == rect;
     let hold = |(station, stretch): &(Station, Stretch)| held(station, *stretch, stroke.ends, rect);
-    let coarse = stations(&stroke.curve, &widths, SPACING, is_clear);
+    let coarse = stations(stroke.curve(), &widths, SPACING, is_clear);
     if coarse.iter().all(|station| hold(station).is_some_and(|held| !held.is_moved)) {
         return vec![Mark::Stroke(stroke)];
     }
-    let fine = stations(&stroke.curve, &widths, FINEST, is_clear);
+    let fine = stations(stroke.curve(), &widths, FINEST, is_clear);
     let places = thinned(&fine.iter().map(hold).collect::<Vec<_>>());
     let mut runs: Vec<Vec<Held>> =
         places.split(Option::is_none).filter(|run| run.len() > 1).map(|run| run.iter().copied().flatten().collect()).collect();
@@ -185,15 +181,13 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
     if is_ring {
         curve.close_path();
     }
-    let there = |values: &Vec<f64>| run.iter().map(|held| interpolate(values, held.node)).collect();
-    let (pressure, times) = (stroke.pressure.as_ref().map(there), stroke.times.as_ref().map(there));
-    let mut piece = Stroke { curve, pressure, times, ..stroke.clone() };
+    let mut piece = stroke.along(curve, &run.iter().map(|held| held.node).collect::<Vec<_>>())?;
     let mut widths = fitted(&run, rect);
     for _ in 0..ROUNDS {
-        piece.width = match stroke.width {
-            Width::Constant(width) if widths.iter().all(|w| (w - width).abs() < 1e-9) => Width::Constant(width),
+        piece = piece.with_width(match stroke.width() {
+            Width::Constant(width) if widths.iter().all(|w| (w - width).abs() < 1e-9) => Width::Constant(*width),
             _ => Width::Along(widths.clone()),
-        };
+        })?;
         let excess = beyond(piece.ink_outline(RIM).bounding_box(), rect.inflate(RIM, RIM));
         if excess <= 0.0 {
             break;
@@ -245,7 +239,7 @@ mod tests {
     const BOX: Rect = Rect::new(0.0, 0.0, 20.0, 20.0);
 
     fn stroke(path: &str, width: f64, ends: Ends) -> Mark {
-        Mark::Stroke(Stroke { ends, ..Stroke::new(BezPath::from_svg(path).unwrap(), Width::Constant(width)) })
+        Mark::Stroke(Stroke::even(BezPath::from_svg(path).unwrap(), width).with_ends(ends))
     }
 
     fn outline(mark: &Mark) -> BezPath {
@@ -292,19 +286,19 @@ mod tests {
             }
         }
         let ring = kurbo::Circle::new((10.0, 10.0), 9.9).to_path(1e-3);
-        let mark = Mark::Stroke(Stroke::new(ring, Width::Constant(0.6)));
+        let mark = Mark::Stroke(Stroke::even(ring, 0.6));
         let held = mark.confined_to(BOX);
         assert!(matches!(&held[..], [Mark::Stroke(ring)] if ring.is_closed()), "it stays a ring");
     }
 
     #[test]
     fn pressure_and_times_go_with_their_places() {
-        let mut stroke = Stroke::new(BezPath::from_svg("M10,10 L10,-10").unwrap(), Width::Constant(0.5));
-        (stroke.pressure, stroke.times) = (Some(vec![0.0, 1.0]), Some(vec![4.0, 6.0]));
-        let held = Mark::Stroke(stroke).confined_to(BOX);
+        let stroke = Stroke::even(BezPath::from_svg("M10,10 L10,-10").unwrap(), 0.5);
+        let stroke = stroke.with_pressure(vec![0.0, 1.0]).and_then(|stroke| stroke.with_times(vec![4.0, 6.0]));
+        let held = Mark::Stroke(stroke.unwrap()).confined_to(BOX);
         let [Mark::Stroke(held)] = &held[..] else { panic!("one stroke") };
-        let (pressure, times) = (held.pressure.as_ref().unwrap(), held.times.as_ref().unwrap());
-        assert_eq!(pressure.len(), held.curve.segments().count() + 1);
+        let (pressure, times) = (held.pressure().unwrap(), held.times().unwrap());
+        assert_eq!(pressure.len(), held.nodes().count());
         assert!((pressure[pressure.len() - 1] - 0.4875).abs() < 0.005 && (times[times.len() - 1] - 4.975).abs() < 0.01);
     }
 

@@ -1,18 +1,12 @@
-//! Dots, strokes and areas.
+//! Marks of ink: dots, areas, and any mark.
 
-use super::Colour;
-use crate::geometry::{
-    Affine, BezPath, Ends, Point, Rect, clip_disc, clip_polygon, curve_length, flatten, polygon_area, sample_swelling,
-    swelling_outline,
-};
-use kurbo::{PathEl, Shape};
+use super::{Colour, Stroke};
+use crate::geometry::{Affine, BezPath, Point, Rect, clip_disc, clip_polygon, flatten, polygon_area};
+use kurbo::Shape;
 
 /// Flattening tolerance for curves that become polygons to be cut, in millimetres: a few of the smallest written steps, so that a
 /// cut blob stays a short path.
 const CUT_TOLERANCE: f64 = 0.004;
-/// Tolerance of a swelling stroke's outline, in millimetres. Half the written step (0.001 mm) would not be visible; this is a
-/// hundredth of a hair.
-pub(super) const OUTLINE_TOLERANCE: f64 = 0.002;
 
 /// One mark of ink.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,34 +30,6 @@ pub struct Dot {
     pub outline: Option<Box<BezPath>>,
     /// Its own colour, instead of the layer's.
     pub colour: Option<Colour>,
-}
-
-/// A line with a width, along one open or closed curve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stroke {
-    /// One subpath of lines and cubics; closed if it ends with a close.
-    pub curve: BezPath,
-    /// Full width.
-    pub width: Width,
-    /// The shape of its two ends.
-    pub ends: Ends,
-    /// Pen pressure at the curve's nodes, 0 to 1, if the style gives it.
-    pub pressure: Option<Vec<f64>>,
-    /// Times at the curve's nodes, in seconds from the drawing's beginning, if the style gives them.
-    pub times: Option<Vec<f64>>,
-    /// Its own colour, instead of the layer's.
-    pub colour: Option<Colour>,
-    /// The group. Its strokes are drawn consecutively, in their given order and direction.
-    pub group: Option<u32>,
-}
-
-/// The full width of a stroke in millimetres.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Width {
-    /// The same everywhere.
-    Constant(f64),
-    /// One width per node of the curve (its start, then the end of each segment), changing smoothly between them.
-    Along(Vec<f64>),
 }
 
 /// A filled outline, by the nonzero rule.
@@ -123,83 +89,6 @@ impl Dot {
     }
 }
 
-impl Stroke {
-    /// A stroke in the layer's ink with round ends.
-    pub const fn new(curve: BezPath, width: Width) -> Self {
-        Self { curve, width, ends: Ends::Round, pressure: None, times: None, colour: None, group: None }
-    }
-
-    /// True if the curve is closed.
-    pub fn is_closed(&self) -> bool {
-        matches!(self.curve.elements().last(), Some(PathEl::ClosePath))
-    }
-
-    /// Length of the centre line in millimetres.
-    pub fn length(&self) -> f64 {
-        curve_length(&self.curve)
-    }
-
-    /// The outline of a stroke with varying width; none for a constant width, which the renderer strokes itself.
-    pub fn outline(&self) -> Option<BezPath> {
-        match &self.width {
-            Width::Constant(_) => None,
-            Width::Along(widths) => Some(swelling_outline(&self.curve, widths, self.ends, OUTLINE_TOLERANCE)),
-        }
-    }
-
-    /// The outline of its ink for any width, accurate to `tolerance` millimetres.
-    pub fn ink_outline(&self, tolerance: f64) -> BezPath {
-        match &self.width {
-            Width::Along(widths) => swelling_outline(&self.curve, widths, self.ends, tolerance),
-            Width::Constant(width) => {
-                let cap = if self.ends == Ends::Flat { kurbo::Cap::Butt } else { kurbo::Cap::Round };
-                let style = kurbo::Stroke::new(*width).with_caps(cap).with_join(kurbo::Join::Round);
-                kurbo::stroke(self.curve.iter(), &style, &kurbo::StrokeOpts::default(), tolerance)
-            }
-        }
-    }
-
-    /// Length times width plus the half discs of round ends; for a swelling stroke, the area of its outline.
-    fn area(&self) -> f64 {
-        match &self.width {
-            Width::Constant(width) => {
-                let ends =
-                    if self.is_closed() || self.ends == Ends::Flat { 0.0 } else { std::f64::consts::FRAC_PI_4 * width * width };
-                self.length() * width + ends
-            }
-            Width::Along(_) => self.outline().map_or(0.0, |outline| outline.area().abs()),
-        }
-    }
-
-    /// The greatest width.
-    pub fn widest(&self) -> f64 {
-        match &self.width {
-            Width::Constant(width) => *width,
-            Width::Along(widths) => widths.iter().copied().fold(0.0, f64::max),
-        }
-    }
-
-    /// Points along the centre line at most `spacing` apart, with the full width at each.
-    pub fn sampled(&self, spacing: f64) -> (Vec<Point>, Vec<f64>) {
-        let nodes = self.curve.segments().count() + 1;
-        let samples = match &self.width {
-            Width::Constant(width) => sample_swelling(&self.curve, &vec![*width; nodes], spacing),
-            Width::Along(widths) => sample_swelling(&self.curve, widths, spacing),
-        };
-        samples.into_iter().unzip()
-    }
-
-    fn bounding_box(&self) -> Rect {
-        let half = 0.5 * self.widest();
-        let places = match (self.curve.segments().next(), self.curve.elements().first().and_then(PathEl::end_point)) {
-            // A bare point, which has no segment.
-            (None, Some(p)) => Rect::from_points(p, p),
-            _ => self.curve.bounding_box(),
-        };
-        places.inflate(half, half)
-    }
-}
-
 impl Area {
     fn clipped(&self, rect: Rect) -> Option<Self> {
         if contains(rect, self.outline.bounding_box()) {
@@ -249,14 +138,7 @@ impl Mark {
                 outline: dot.outline.as_ref().map(|outline| Box::new(transform * (**outline).clone())),
                 colour: dot.colour,
             }),
-            Self::Stroke(stroke) => Self::Stroke(Stroke {
-                curve: transform * stroke.curve.clone(),
-                width: match &stroke.width {
-                    Width::Constant(width) => Width::Constant(width * scale),
-                    Width::Along(widths) => Width::Along(widths.iter().map(|w| w * scale).collect()),
-                },
-                ..stroke.clone()
-            }),
+            Self::Stroke(stroke) => Self::Stroke(stroke.transformed(transform)),
             Self::Area(area) => Self::Area(Area { outline: transform * area.outline.clone(), colour: area.colour }),
         }
     }
@@ -293,22 +175,6 @@ fn clip_outline(outline: &BezPath, rect: Rect, tolerance: f64) -> BezPath {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_constant_stroke_s_area_counts_its_round_ends() {
-        let stroke = Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L10,0").unwrap(), Width::Constant(1.0)));
-        assert!((stroke.area() - (10.0 + std::f64::consts::FRAC_PI_4)).abs() < 1e-9);
-        assert_eq!(stroke.bounding_box(), Rect::new(-0.5, -0.5, 10.5, 0.5));
-    }
-
-    #[test]
-    fn clipping_a_stroke_keeps_its_width_there() {
-        let stroke = Stroke::new(BezPath::from_svg("M0,0 L10,0").unwrap(), Width::Along(vec![0.0, 1.0]));
-        let pieces = stroke.clipped(Rect::new(5.0, -1.0, 20.0, 1.0));
-        assert_eq!(pieces.len(), 1);
-        let Width::Along(widths) = &pieces[0].width else { panic!("it swells") };
-        assert!((widths[0] - 0.5).abs() < 1e-9 && (widths[1] - 1.0).abs() < 1e-9);
-    }
 
     #[test]
     fn a_clipped_blob_s_middle_lies_in_what_is_left_of_it() {

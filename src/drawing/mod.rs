@@ -8,10 +8,12 @@ mod cut;
 mod held;
 mod mark;
 mod seen;
+mod stroke;
 
 pub use crate::geometry::Ends;
 pub use colour::{Colour, ColourError, Ink};
-pub use mark::{Area, Dot, Mark, Stroke, Width};
+pub use mark::{Area, Dot, Mark};
+pub use stroke::{Stroke, Width};
 
 use crate::geometry::{Affine, BezPath, Rect};
 

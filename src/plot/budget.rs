@@ -157,7 +157,7 @@ fn threads(mark: &Mark, nib: f64) -> Vec<WideSegment> {
     let (curve, half_width) = match mark {
         Mark::Dot(_) => return Vec::new(),
         Mark::Area(area) => (&area.outline, 0.5 * nib),
-        Mark::Stroke(stroke) => (&stroke.curve, 0.5 * stroke.widest()),
+        Mark::Stroke(stroke) => (stroke.curve(), 0.5 * stroke.widest()),
     };
     let coarse = |line: Vec<Point>| simplify(&line, OFF * 2.0 * half_width);
     lines(curve).into_iter().map(coarse).flat_map(|line| threads_along(&line, half_width)).collect()
@@ -179,7 +179,7 @@ fn threads_along(line: &[Point], half_width: f64) -> Vec<WideSegment> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Area, Layer, Page, Stroke, Width};
+    use crate::drawing::{Area, Layer, Page, Stroke};
     use crate::elementary::Elementary as _;
 
     fn check(marks: Vec<Mark>, hides: Option<Hides>) -> Result<(), TooMuch> {
@@ -205,14 +205,14 @@ mod tests {
         }));
         assert_eq!(check(vec![Mark::Area(Area { outline: fine.clone(), colour: None })], None), Ok(()));
         // A wide line of short legs follows itself, but does not cover itself.
-        let wide = Stroke::new(fine, Width::Constant(5.0));
+        let wide = Stroke::even(fine, 5.0);
         assert_eq!(check(vec![Mark::Stroke(wide)], Some(Hides::OtherColours)), Ok(()));
     }
 
     #[test]
     fn a_hundred_kilometres_are_refused() {
         let zigzag = path((0..500_000).map(|i| Point::new(0.0004 * f64::from(i), f64::from(i % 2) * 180.0)));
-        let refused = check(vec![Mark::Stroke(Stroke::new(zigzag, Width::Constant(0.3)))], None).unwrap_err();
+        let refused = check(vec![Mark::Stroke(Stroke::even(zigzag, 0.3))], None).unwrap_err();
         assert!(matches!(refused, TooMuch::Length { metres, most } if metres > 80_000.0 && most < 7000.0), "{refused}");
     }
 }

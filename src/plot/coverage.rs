@@ -237,10 +237,10 @@ fn shapes_of_mark(mark: &Mark) -> Vec<Shape> {
 }
 
 fn shapes_of_stroke(stroke: &Stroke) -> Vec<Shape> {
-    match (&stroke.width, stroke.ends) {
+    match (stroke.width(), stroke.ends) {
         (Width::Along(_), _) => stroke.outline().iter().map(polygons).collect(),
         (Width::Constant(_), Ends::Flat) if !stroke.is_closed() => vec![polygons(&stroke.ink_outline(TOLERANCE))],
-        (Width::Constant(width), _) => flatten(&stroke.curve, TOLERANCE)
+        (Width::Constant(width), _) => flatten(stroke.curve(), TOLERANCE)
             .into_iter()
             .flat_map(|(mut points, closed)| {
                 points.extend(closed.then(|| points[0]));
@@ -251,9 +251,9 @@ fn shapes_of_stroke(stroke: &Stroke) -> Vec<Shape> {
 }
 
 fn shapes_of_pen(pen: &PenPaths, nibs: &Nibs) -> Vec<Shape> {
-    let shapes = pen.paths.iter().flat_map(|path| match (&path.heights, &nibs.swell) {
-        (Some(heights), Some(swell)) => capsules(&path.points, |i| 0.5 * swell.width(heights[i])),
-        _ => capsules(&path.points, |_| 0.5 * pen.nib),
+    let shapes = pen.paths.iter().flat_map(|path| match (path.heights(), &nibs.swell) {
+        (Some(heights), Some(swell)) => capsules(path.points(), |i| 0.5 * swell.width(heights[i])),
+        _ => capsules(path.points(), |_| 0.5 * pen.nib),
     });
     shapes.collect()
 }

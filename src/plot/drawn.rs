@@ -1,7 +1,7 @@
 //! Tool paths as the marks that they leave on the paper.
 
 use super::{Job, PenPaths, Plot, Toolpath};
-use crate::drawing::{Dot, Drawing, Ink, Layer, Mark, Stroke, Width};
+use crate::drawing::{Dot, Drawing, Ink, Layer, Mark, Stroke};
 use crate::geometry::BezPath;
 use crate::write::write_marks;
 use std::io;
@@ -26,11 +26,11 @@ fn layer(pen: &PenPaths) -> Layer {
 }
 
 fn mark(path: &Toolpath, nib: f64) -> Mark {
-    if let [touch] = path.points[..] {
-        return Mark::Dot(Dot::circle(touch, 0.5 * nib));
+    if path.is_touch() {
+        return Mark::Dot(Dot::circle(path.first(), 0.5 * nib));
     }
     let mut curve = BezPath::new();
-    curve.move_to(path.points[0]);
-    path.points[1..].iter().for_each(|p| curve.line_to(*p));
-    Mark::Stroke(Stroke { group: path.group, ..Stroke::new(curve, Width::Constant(nib)) })
+    curve.move_to(path.first());
+    path.points()[1..].iter().for_each(|p| curve.line_to(*p));
+    Mark::Stroke(Stroke::even(curve, nib).in_group(path.group))
 }

@@ -49,7 +49,7 @@ impl Paper {
     fn draw(&mut self, pen: &PenPaths, motion: &Motion, interrupt: &Interrupt) -> Result<Vec<PenPaths>, Interrupted> {
         let cell = pen.nib.max(0.05) / CELLS_A_NIB;
         let speed = pen.handling.speed(motion.draw_speed);
-        let with_cells = |path: &Toolpath| interrupt.check().map(|()| (path.clone(), cells(&path.points, cell)));
+        let with_cells = |path: &Toolpath| interrupt.check().map(|()| (path.clone(), cells(path.points(), cell)));
         let mut left: VecDeque<(Toolpath, Vec<Cell>)> = pen.paths.iter().map(with_cells).collect::<Result<_, _>>()?;
         let empty = |delay_seconds: f64| {
             let handling = crate::drawing::Handling { delay_seconds, ..pen.handling };
@@ -119,7 +119,7 @@ mod tests {
     use crate::plot::Profile;
 
     fn plot(lines: &[[f64; 4]]) -> Plot {
-        let path = |&[x0, y0, x1, y1]: &[f64; 4]| Toolpath::new(vec![Point::new(x0, y0), Point::new(x1, y1)]);
+        let path = |&[x0, y0, x1, y1]: &[f64; 4]| Toolpath::through(Point::new(x0, y0), [Point::new(x1, y1)]);
         let paths = lines.iter().map(path).collect();
         let pen =
             PenPaths { number: 1, name: "x".to_owned(), colour: Colour::BLACK, nib: 0.5, handling: Handling::default(), paths };
@@ -134,7 +134,7 @@ mod tests {
     fn a_crossing_line_waits_its_turn() {
         let mut crossing = plot(&[[0.0, 5.0, 50.0, 5.0], [25.0, 0.0, 25.0, 50.0], [0.0, 90.0, 90.0, 90.0]]);
         let waited = delay_for_drying(&mut crossing, 2.0, Point::ORIGIN, &motion(), &Interrupt::never()).unwrap();
-        let first: Vec<f64> = crossing.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points[0].y).collect();
+        let first: Vec<f64> = crossing.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.first().y).collect();
         assert_eq!((first, waited, crossing.pens.len()), (vec![5.0, 90.0, 0.0], 0.0, 1));
     }
 
@@ -166,11 +166,11 @@ mod tests {
         for pen in &drawn.pens {
             paper.now += pen.handling.delay_seconds;
             for path in &pen.paths {
-                let cells = cells(&path.points, 0.25);
+                let cells = cells(path.points(), 0.25);
                 assert!(paper.dry_at(&cells) <= paper.now, "{path:?}");
-                paper.now += paper.at.distance(path.points[0]) / motion.travel_speed + motion.pen_down_seconds;
+                paper.now += paper.at.distance(path.first()) / motion.travel_speed + motion.pen_down_seconds;
                 paper.now += path.length() / motion.draw_speed + motion.pen_up_seconds;
-                paper.at = path.points[1];
+                paper.at = path.last();
                 let now = paper.now;
                 paper.wet.extend(cells.into_iter().map(|cell| (cell, now)));
             }

@@ -21,7 +21,7 @@ pub fn add_registration(plot: &mut Plot, drawable: Rect) {
         }
         seen.push(pen.number);
         let places = [(corners.x0, corners.y0), (corners.x1, corners.y0), (corners.x1, corners.y1), (corners.x0, corners.y1)];
-        let line = |x0: f64, y0: f64, x1: f64, y1: f64| Toolpath::new(vec![Point::new(x0, y0), Point::new(x1, y1)]);
+        let line = |x0: f64, y0: f64, x1: f64, y1: f64| Toolpath::through(Point::new(x0, y0), [Point::new(x1, y1)]);
         let crosses = places.into_iter().flat_map(|(x, y)| [line(x - CROSS, y, x + CROSS, y), line(x, y - CROSS, x, y + CROSS)]);
         pen.paths = crosses.chain(std::mem::take(&mut pen.paths)).collect();
     }
@@ -31,7 +31,7 @@ pub fn add_registration(plot: &mut Plot, drawable: Rect) {
 pub fn add_touch_rests(plot: &mut Plot, seconds: impl Fn(u32) -> f64) {
     for pen in &mut plot.pens {
         let more = seconds(pen.number);
-        pen.paths.iter_mut().filter(|path| path.points.len() == 1).for_each(|touch| touch.dwell_seconds += more);
+        pen.paths.iter_mut().filter(|path| path.is_touch()).for_each(|touch| touch.dwell_seconds += more);
     }
 }
 
@@ -60,8 +60,8 @@ mod tests {
     use crate::drawing::{Colour, Page};
 
     fn plot() -> Plot {
-        let path = |y: f64| Toolpath::new(vec![Point::new(20.0, y), Point::new(30.0, y)]);
-        let paths = (0..6).map(|i| path(20.0 + f64::from(i))).chain([Toolpath::new(vec![Point::new(5.0, 5.0)])]).collect();
+        let path = |y: f64| Toolpath::through(Point::new(20.0, y), [Point::new(30.0, y)]);
+        let paths = (0..6).map(|i| path(20.0 + f64::from(i))).chain([Toolpath::touch(Point::new(5.0, 5.0))]).collect();
         let handling = Handling::default();
         let pen = PenPaths { number: 2, name: "x".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };
         Plot { page: Page::new(60.0, 60.0), pens: vec![pen] }
@@ -81,7 +81,7 @@ mod tests {
         add_registration(&mut crossed, Rect::new(1.0, 2.0, 50.0, 60.0));
         assert_eq!(crossed.pens[0].paths.len(), 7 + 8);
         let inside = |p: &Point| (1.0..=50.0).contains(&p.x) && (2.0..=60.0).contains(&p.y);
-        assert!(crossed.pens[0].paths.iter().flat_map(|path| &path.points).all(inside));
+        assert!(crossed.pens[0].paths.iter().flat_map(Toolpath::points).all(inside));
         add_touch_rests(&mut crossed, |pen| 0.1 * f64::from(pen));
         assert_eq!(crossed.pens[0].paths.iter().filter(|path| path.dwell_seconds > 0.0).count(), 1);
     }

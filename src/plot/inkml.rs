@@ -12,7 +12,7 @@
 //!
 //! Digital ink has lines only, so filled areas become hatch lines.
 
-use super::{InkModel, Nibs, lower};
+use super::{InkModel, Nibs, Toolpath, lower};
 use crate::drawing::{Area, Colour, Dot, Drawing, Layer, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Point, flatten};
 use crate::interrupt::Interrupt;
@@ -151,8 +151,8 @@ struct Drawn<'a> {
 enum Way<'a> {
     /// Along a stroke, with its width as force.
     Stroke(&'a Stroke),
-    /// Along lines at full force; a line of one point is a touch.
-    Lines(Vec<Vec<Point>>),
+    /// Along lines and touches at full force.
+    Lines(Vec<Toolpath>),
 }
 
 fn drawn(layer: &Layer) -> Vec<Drawn<'_>> {
@@ -171,7 +171,7 @@ fn drawn(layer: &Layer) -> Vec<Drawn<'_>> {
 }
 
 fn touch(centre: Point, radius: f64, colour: Colour) -> Drawn<'static> {
-    Drawn { brush: Brush::new(colour, 2.0 * radius), way: Way::Lines(vec![vec![centre]]) }
+    Drawn { brush: Brush::new(colour, 2.0 * radius), way: Way::Lines(vec![Toolpath::touch(centre)]) }
 }
 
 /// The lines that fill an outline with a fine pen, or a touch if it is too small for lines.
@@ -188,7 +188,7 @@ fn filled(outline: &BezPath, colour: Colour) -> Drawn<'static> {
     let drawing = Drawing { page, layers: vec![layer] };
     let plot = lower(&drawing, InkModel::Ink, &Nibs::all(brush.width()), TOLERANCE, &Interrupt::never());
     let pens = plot.map(|plot| plot.pens).unwrap_or_default();
-    let lines: Vec<Vec<Point>> = pens.into_iter().flat_map(|pen| pen.paths).map(|path| path.points).collect();
+    let lines: Vec<Toolpath> = pens.into_iter().flat_map(|pen| pen.paths).collect();
     if lines.is_empty() { one_touch() } else { Drawn { brush, way: Way::Lines(lines) } }
 }
 
@@ -199,8 +199,8 @@ impl Drawn<'_> {
             Way::Stroke(stroke) => vec![stroke_trace(stroke, widest, now)],
             Way::Lines(lines) => {
                 let mut now = now;
-                let timed = |points: &Vec<Point>| {
-                    let trace = timed(points, now);
+                let timed = |line: &Toolpath| {
+                    let trace = timed(line, now);
                     now = trace.last().map_or(now, |vertex| vertex.time) + USUAL_PAUSE;
                     trace
                 };
@@ -219,33 +219,32 @@ struct Vertex {
 }
 
 /// Vertices at full force and the default speed.
-fn timed(points: &[Point], now: f64) -> Vec<Vertex> {
-    let mut time = now;
-    let mut before = points.first().copied();
+fn timed(line: &Toolpath, now: f64) -> Vec<Vertex> {
+    let (mut time, mut before) = (now, line.first());
     let vertex = |&at: &Point| {
-        time += before.map_or(0.0, |b| b.distance(at)) / USUAL_SPEED;
-        before = Some(at);
+        time += before.distance(at) / USUAL_SPEED;
+        before = at;
         Vertex { at, force: 1.0, time }
     };
-    points.iter().map(vertex).collect()
+    line.points().iter().map(vertex).collect()
 }
 
 /// A stroke's nodes with their force and time, and the points between them that flatten its curves.
 fn stroke_trace(stroke: &Stroke, widest: f64, now: f64) -> Vec<Vertex> {
-    let force = |node: usize| match (&stroke.pressure, &stroke.width) {
+    let force = |node: usize| match (stroke.pressure(), stroke.width()) {
         (Some(pressure), _) => pressure[node],
         (None, Width::Along(widths)) => widths[node] / widest,
         (None, Width::Constant(width)) => width / widest,
     };
     let mut trace: Vec<Vertex> = Vec::new();
-    for (i, segment) in stroke.curve.segments().enumerate() {
+    for (i, segment) in stroke.curve().segments().enumerate() {
         let mut path = kurbo::BezPath::new();
         path.move_to(kurbo::ParamCurve::start(&segment));
         path.push(segment.as_path_el());
         let points = flatten(&path, TOLERANCE).swap_remove(0).0;
         let length: f64 = crate::geometry::polyline_length(&points);
         let from = trace.last().map_or(now, |v| v.time);
-        let (from, to) = match &stroke.times {
+        let (from, to) = match stroke.times() {
             Some(times) => (times[i], times[i + 1]),
             None => (from, from + length / USUAL_SPEED),
         };

@@ -352,7 +352,7 @@ fn rest_and_dry(
 }
 
 fn bounds_of(plot: &Plot) -> Option<Rect> {
-    let points = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
+    let points = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(super::Toolpath::points);
     points.map(|p| Rect::from_points(*p, *p)).reduce(|a, b| a.union(b))
 }
 

@@ -23,6 +23,7 @@ mod proof;
 mod report;
 mod seam;
 mod time;
+mod toolpath;
 
 #[doc(hidden)]
 pub use budget::{TooMuch, check_work};
@@ -65,10 +66,9 @@ pub use report::{PenReport, PlotReport};
 pub use seam::Seam;
 #[doc(hidden)]
 pub use time::{PenTime, clock, line_times, replayed};
+pub use toolpath::Toolpath;
 
 use crate::drawing::{Colour, Handling, Page};
-use crate::geometry::{Point, polyline_length};
-use crate::order::PathEnds;
 
 /// Tool paths in drawing order.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,52 +94,4 @@ pub struct PenPaths {
     pub handling: Handling,
     /// Paths in drawing order.
     pub paths: Vec<Toolpath>,
-}
-
-/// One pen-down path: at least one point; a single one is a touch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Toolpath {
-    /// Vertices in millimetres on the page; a closed path repeats its first.
-    pub points: Vec<Point>,
-    /// The pen's height at each vertex in millimetres, if the line's width follows from the height.
-    pub heights: Option<Vec<f64>>,
-    /// How long a touch rests on the paper after the pen has come down, in seconds.
-    pub dwell_seconds: f64,
-    /// The group. Its paths are drawn consecutively, in their given order and direction.
-    pub group: Option<u32>,
-}
-
-impl Toolpath {
-    /// A line of constant height, or a touch, without a group.
-    pub const fn new(points: Vec<Point>) -> Self {
-        Self { points, heights: None, dwell_seconds: 0.0, group: None }
-    }
-
-    /// The path in the opposite direction.
-    #[must_use]
-    pub fn reversed(mut self) -> Self {
-        self.points.reverse();
-        if let Some(heights) = &mut self.heights {
-            heights.reverse();
-        }
-        self
-    }
-
-    /// True if the path is a loop: more than two points, the last equal to the first.
-    pub fn is_closed(&self) -> bool {
-        self.points.len() > 2 && self.points[0] == self.points[self.points.len() - 1]
-    }
-
-    /// Its two ends.
-    ///
-    /// # Panics
-    /// If the path has no points. No function here makes such a path.
-    pub fn ends(&self) -> PathEnds {
-        PathEnds { start: self.points[0], end: self.points[self.points.len() - 1] }
-    }
-
-    /// Length of the line in millimetres.
-    pub fn length(&self) -> f64 {
-        polyline_length(&self.points)
-    }
 }

@@ -240,7 +240,7 @@ impl Mounting {
         let (mut worst, mut worst_off) = ((0.0, ""), (0.0, ""));
         let mut whole: Option<Rect> = None;
         for pen in &plot.pens {
-            let points = || pen.paths.iter().flat_map(|path| &path.points);
+            let points = || pen.paths.iter().flat_map(Toolpath::points);
             let Some(drawn) = bounds(points().copied()) else { continue };
             let Some(sent) = bounds(points().map(|p| self.place(pen.number, *p))) else { continue };
             let reached = excesses(sent, self.limits, profile.units_per_mm, ["lower x", "upper x", "lower y", "upper y"]);
@@ -295,7 +295,7 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
     for pen in &mut plot.pens {
         let mut kept = Vec::with_capacity(pen.paths.len());
         for path in std::mem::take(&mut pen.paths) {
-            if let [touch] = path.points[..] {
+            if let [touch] = path.points()[..] {
                 if rect.inflate(1e-9, 1e-9).contains(touch) {
                     kept.push(path);
                 } else {
@@ -303,14 +303,8 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
                 }
                 continue;
             }
-            let pieces = clip_polyline(&path.points, rect);
             lost_length += path.length();
-            for piece in pieces {
-                let piece = Toolpath {
-                    heights: path.heights.as_ref().map(|heights| piece.iter().map(|&(_, at)| between(heights, at)).collect()),
-                    points: piece.into_iter().map(|(p, _)| p).collect(),
-                    ..path
-                };
+            for piece in clip_polyline(path.points(), rect).iter().filter_map(|points| piece(&path, points)) {
                 lost_length -= piece.length();
                 kept.push(piece);
             }
@@ -318,6 +312,16 @@ pub fn clip_to(plot: &mut Plot, rect: Rect) -> (f64, usize) {
         pen.paths = kept;
     }
     (lost_length.max(0.0), lost_touches)
+}
+
+/// A piece of a path: its points with their positions along the path (vertex index plus fraction).
+fn piece(path: &Toolpath, points: &[(Point, f64)]) -> Option<Toolpath> {
+    let mut piece = Toolpath::new(points.iter().map(|(p, _)| *p).collect())?;
+    if let Some(heights) = path.heights() {
+        piece = piece.with_heights(points.iter().map(|&(_, at)| between(heights, at)).collect())?;
+    }
+    (piece.dwell_seconds, piece.group) = (path.dwell_seconds, path.group);
+    Some(piece)
 }
 
 /// The interpolated value at `at`, a vertex index plus a fraction.
@@ -345,7 +349,7 @@ mod tests {
             colour: crate::drawing::Colour::BLACK,
             nib: 0.3,
             handling: crate::drawing::Handling::default(),
-            paths: vec![Toolpath::new(points)],
+            paths: Toolpath::new(points).into_iter().collect(),
         };
         Plot { page, pens: vec![pen] }
     }

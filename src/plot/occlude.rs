@@ -203,15 +203,14 @@ fn uncovered_stroke(stroke: &Stroke, cover: &Region, interrupt: &Interrupt) -> V
     }
     pieces
         .into_iter()
-        .map(|piece| {
+        .filter_map(|piece| {
             let mut curve = BezPath::new();
             piece.iter().enumerate().for_each(|(i, (p, _))| if i == 0 { curve.move_to(*p) } else { curve.line_to(*p) });
-            let width = match &stroke.width {
-                Width::Constant(width) => Width::Constant(*width),
-                Width::Along(_) => Width::Along(piece.iter().map(|&(_, at)| between(&widths, at)).collect()),
+            let visible = match stroke.width() {
+                Width::Constant(width) => Stroke::even(curve, *width),
+                Width::Along(_) => Stroke::swelling(curve, piece.iter().map(|&(_, at)| between(&widths, at)).collect())?,
             };
-            let (colour, group, ends) = (stroke.colour, stroke.group, stroke.ends);
-            Mark::Stroke(Stroke { ends, colour, group, ..Stroke::new(curve, width) })
+            Some(Mark::Stroke(visible.like(stroke)))
         })
         .collect()
 }
@@ -257,7 +256,7 @@ mod tests {
     const RED: Colour = Colour { r: 255, g: 0, b: 0 };
 
     fn line(text: &str) -> Mark {
-        Mark::Stroke(Stroke::new(BezPath::from_svg(text).unwrap(), Width::Constant(0.2)))
+        Mark::Stroke(Stroke::even(BezPath::from_svg(text).unwrap(), 0.2))
     }
 
     fn disc(radius: f64) -> Mark {

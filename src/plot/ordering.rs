@@ -1,6 +1,6 @@
 //! Orders a plot: drops repeated paths, joins paths that meet, and minimizes the pen-up travel between the rest.
 
-use super::joining::{is_free, join_to_loops, rotated};
+use super::joining::join_to_loops;
 use super::{Plot, Seam, Toolpath, chain, drop_duplicates};
 use crate::geometry::Point;
 use crate::interrupt::{Interrupt, Interrupted};
@@ -67,7 +67,7 @@ pub enum DrawingCorner {
 impl DrawingCorner {
     /// The corner of these paths' bounding box.
     fn of(self, paths: &[Toolpath]) -> Option<Point> {
-        let all = || paths.iter().flat_map(|path| &path.points);
+        let all = || paths.iter().flat_map(Toolpath::points);
         let low = all().copied().reduce(|p, q| Point::new(p.x.min(q.x), p.y.min(q.y)))?;
         let high = all().copied().reduce(|p, q| Point::new(p.x.max(q.x), p.y.max(q.y)))?;
         Some(match self {
@@ -104,7 +104,7 @@ impl Plot {
             at = sequence.start.and_then(|corner| corner.of(&paths)).unwrap_or(at);
             pen.paths = in_order(paths, at, sequence, interrupt);
             interrupt.check()?;
-            at = pen.paths.last().map_or(at, |last| last.ends().end);
+            at = pen.paths.last().map_or(at, Toolpath::last);
         }
         Ok(dropped)
     }
@@ -168,25 +168,24 @@ fn is_single(item: &[Toolpath]) -> bool {
 /// The order with the least travel; loops are rotated to where they are entered.
 fn found(items: &mut [Vec<Toolpath>], from: Point, sequence: &Sequence, interrupt: &Interrupt) -> Vec<Visit> {
     let stop = |item: &Vec<Toolpath>| {
-        let ends = PathEnds { start: item[0].ends().start, end: item[item.len() - 1].ends().end };
+        let ends = PathEnds { start: item[0].first(), end: item[item.len() - 1].last() };
         (ends, if is_single(item) { sequence.direction } else { Direction::AsDrawn })
     };
-    let ring = |item: &Vec<Toolpath>| sequence.seam == Seam::Nearest && is_single(item) && is_free(&item[0]);
+    let ring = |item: &Vec<Toolpath>| sequence.seam == Seam::Nearest && is_single(item) && item[0].is_free();
     let is_ring: Vec<bool> = items.iter().map(ring).collect();
     let mut stops: Vec<Stop> = items
         .iter()
         .zip(&is_ring)
         .map(|(item, is_ring)| {
             let (ends, direction) = stop(item);
-            Stop { ring: is_ring.then(|| &item[0].points[..]), ..Stop::new(ends, direction) }
+            Stop { ring: is_ring.then(|| item[0].points()), ..Stop::new(ends, direction) }
         })
         .collect();
     let visits = order_until(&mut stops, from, sequence.effort, interrupt);
     let seats: Vec<(usize, Point)> = stops.iter().map(|stop| (stop.edge, stop.ends.start)).collect();
     for ((item, is_ring), (edge, at)) in items.iter_mut().zip(is_ring).zip(seats) {
-        if is_ring && at != item[0].points[0] {
-            let loop_path = std::mem::replace(&mut item[0], Toolpath::new(Vec::new()));
-            item[0] = rotated(loop_path, edge, at);
+        if is_ring && at != item[0].first() {
+            item[0] = item[0].rotated(edge, at);
         }
     }
     visits

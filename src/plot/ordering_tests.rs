@@ -3,7 +3,7 @@ use crate::drawing::{Colour, Handling, Page};
 use crate::plot::PenPaths;
 
 fn line(points: &[(f64, f64)]) -> Toolpath {
-    Toolpath::new(points.iter().map(|&p| p.into()).collect())
+    Toolpath::new(points.iter().map(|&p| p.into()).collect()).unwrap()
 }
 
 fn square(x: f64, y: f64) -> Toolpath {
@@ -66,10 +66,10 @@ fn repeated_paths_go_and_neighbours_stay() {
 #[test]
 fn heights_go_with_their_vertices() {
     let mut swelling = square(2.0, 2.0);
-    swelling.heights = Some(vec![0.0, 1.0, 2.0, 1.0, 0.0]);
+    swelling = swelling.with_heights(vec![0.0, 1.0, 2.0, 1.0, 0.0]).unwrap();
     let drawn = in_order(vec![swelling], Point::new(9.0, 9.0), &PLAIN, &Interrupt::never());
-    assert_eq!(drawn[0].points[0], Point::new(3.0, 3.0));
-    assert_eq!(drawn[0].heights, Some(vec![2.0, 1.0, 0.0, 1.0, 2.0]));
+    assert_eq!(drawn[0].first(), Point::new(3.0, 3.0));
+    assert_eq!(drawn[0].heights().unwrap(), [2.0, 1.0, 0.0, 1.0, 2.0]);
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn a_stem_on_a_loop_is_drawn_with_it() {
 
 #[test]
 fn seams_lie_where_they_are_asked_for() {
-    let seam = |seam: Seam| seam.place(line(&[(1.0, 1.0), (5.0, 0.0), (6.0, 3.0), (0.0, 2.9), (1.0, 1.0)])).points[0];
+    let seam = |seam: Seam| seam.place(line(&[(1.0, 1.0), (5.0, 0.0), (6.0, 3.0), (0.0, 2.9), (1.0, 1.0)])).first();
     assert_eq!(seam(Seam::Top), Point::new(5.0, 0.0));
     assert_eq!(seam(Seam::Bottom), Point::new(6.0, 3.0));
     assert_eq!(seam(Seam::Left), Point::new(0.0, 2.9));

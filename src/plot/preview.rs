@@ -117,7 +117,7 @@ fn shown_colours(plot: &Plot) -> BTreeMap<u32, Colour> {
 pub(super) fn ink(pen: &PenPaths, colour: Colour) -> String {
     let told = if colour == pen.colour { String::new() } else { format!("<desc>its own colour is {}</desc>\n", pen.colour) };
     let lines = pen.paths.iter().fold(String::new(), |mut lines, path| {
-        let _ = writeln!(lines, "<path d=\"{}\"/>", polyline(&path.points));
+        let _ = writeln!(lines, "<path d=\"{}\"/>", polyline(path.points()));
         lines
     });
     let style = format!("stroke=\"{colour}\" stroke-width=\"{}\"", number(pen.nib));
@@ -197,7 +197,7 @@ mod tests {
             colour,
             nib: 0.3,
             handling: Handling::default(),
-            paths: vec![Toolpath::new(vec![Point::new(10.0, 10.0), Point::new(20.0, f64::from(number))])],
+            paths: vec![Toolpath::through(Point::new(10.0, 10.0), [Point::new(20.0, f64::from(number))])],
         };
         Plot { page: Page::new(100.0, 100.0), pens: colours.iter().map(pen).collect() }
     }

@@ -65,7 +65,7 @@ mod tests {
             colour: colour.parse().unwrap(),
             nib: 0.3,
             handling: Handling::default(),
-            paths: vec![Toolpath::new(vec![Point::new(10.0, 10.0), Point::new(20.0, 10.0)])],
+            paths: vec![Toolpath::through(Point::new(10.0, 10.0), [Point::new(20.0, 10.0)])],
         };
         let pens = vec![pen(1, "#f4dc2c"), pen(2, "#1b9fd0"), pen(3, "#bf3a8f"), pen(4, "white")];
         let page = Page { paper: "#c9b28f".parse().unwrap(), ..Page::new(100.0, 50.0) };

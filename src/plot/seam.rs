@@ -1,7 +1,6 @@
 //! Where a loop begins and ends, if not where the pen reaches it soonest.
 
 use super::Toolpath;
-use super::joining::{is_free, rotated};
 use crate::geometry::Point;
 
 /// The position of a loop's seam.
@@ -27,10 +26,10 @@ pub enum Seam {
 impl Seam {
     /// Rotates a loop so that its seam lies here. Other paths are returned unchanged.
     pub(super) fn place(self, path: Toolpath) -> Toolpath {
-        if !is_free(&path) {
+        if !path.is_free() {
             return path;
         }
-        let around = &path.points[..path.points.len() - 1];
+        let around = &path.points()[..path.points().len() - 1];
         let least = |key: &dyn Fn(usize) -> f64| (0..around.len()).min_by(|&a, &b| key(a).total_cmp(&key(b))).unwrap_or(0);
         let vertex = match self {
             Self::Nearest | Self::Drawn => return path,
@@ -40,8 +39,7 @@ impl Seam {
             Self::Right => least(&|i| -around[i].x),
             Self::Corner => least(&|i| straightness(around, i)),
         };
-        let at = path.points[vertex];
-        rotated(path, vertex, at)
+        path.rotated(vertex, around[vertex])
     }
 }
 

@@ -19,11 +19,11 @@ const DASH_TOLERANCE: f64 = 0.003;
 /// Plans a stroke: whole if it is wide enough everywhere, else broken.
 pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {
     let least = 2.0 * press.least_printed_radius();
-    let thinnest = match &stroke.width {
+    let thinnest = match stroke.width() {
         Width::Constant(width) => *width,
         Width::Along(widths) => widths.iter().copied().fold(f64::INFINITY, f64::min),
     };
-    if thinnest >= least - 1e-6 || stroke.curve.elements().is_empty() {
+    if thinnest >= least - 1e-6 || stroke.curve().elements().is_empty() {
         return Plan::Whole(Mark::Stroke(widened(stroke, -2.0 * press.spread)));
     }
     let step = (least * DASH_WIDTHS / SAMPLES_A_DASH).min(LONGEST_STEP);
@@ -34,13 +34,13 @@ pub(super) fn plan(stroke: &Stroke, press: &Press) -> Plan {
     }
     let mut pieces = pieces(&points, &widths, least);
     add_caps(&mut pieces, stroke, least);
-    Plan::Broken(Broken { stroke: Stroke { pressure: None, times: None, ..stroke.clone() }, pieces })
+    Plan::Broken(Broken { stroke: stroke.clone(), pieces })
 }
 
 /// A thin stroke shorter than the least printable width.
 fn speck(stroke: &Stroke, points: &[Point], widths: &[f64], press: &Press) -> Plan {
     // A touch has no length and so no samples.
-    let touch = match stroke.curve.elements().first() {
+    let touch = match stroke.curve().elements().first() {
         Some(kurbo::PathEl::MoveTo(at)) => Some(*at),
         _ => None,
     };
@@ -146,8 +146,7 @@ impl Broken {
                 widths.reverse();
             }
         }
-        let (curve, width) = curve(&points, widths);
-        Some(Stroke { curve, width, ..self.stroke.clone() })
+        Some(line(&points, widths)?.like(&self.stroke))
     }
 }
 
@@ -176,13 +175,13 @@ fn trim(points: &mut Vec<Point>, widths: &mut Vec<f64>, mut length: f64) {
 }
 
 /// A dash of constant width as a polyline, a swelling stroke as a spline.
-fn curve(points: &[Point], widths: Vec<f64>) -> (BezPath, Width) {
+fn line(points: &[Point], widths: Vec<f64>) -> Option<Stroke> {
     if widths.iter().all(|width| *width == widths[0]) {
         let mut curve = BezPath::new();
         let points = simplify(points, DASH_TOLERANCE);
         curve.move_to(points[0]);
         points[1..].iter().for_each(|p| curve.line_to(*p));
-        return (curve, Width::Constant(widths[0]));
+        return Some(Stroke::even(curve, widths[0]));
     }
-    (catmull_rom(points, Ring::Open), Width::Along(widths))
+    Stroke::swelling(catmull_rom(points, Ring::Open), widths)
 }

@@ -19,7 +19,7 @@ mod thin;
 
 pub use job::{PrintFormat, PrintJob};
 
-use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke, Width};
+use crate::drawing::{Area, Dot, Drawing, Layer, Mark, Stroke};
 use crate::geometry::Affine;
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::parallel::mapped;
@@ -142,11 +142,7 @@ fn scaled_dot(dot: &Dot, scale: f64) -> Dot {
 
 /// A stroke wider by `more` millimetres everywhere.
 fn widened(stroke: &Stroke, more: f64) -> Stroke {
-    let width = match &stroke.width {
-        Width::Constant(width) => Width::Constant(width + more),
-        Width::Along(widths) => Width::Along(widths.iter().map(|width| width + more).collect()),
-    };
-    Stroke { width, ..stroke.clone() }
+    stroke.clone().map_widths(|width| width + more)
 }
 
 #[cfg(test)]

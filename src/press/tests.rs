@@ -1,5 +1,5 @@
 use super::*;
-use crate::drawing::{Colour, Ends, Page};
+use crate::drawing::{Colour, Ends, Page, Width};
 use crate::geometry::{BezPath, Point, blob};
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
@@ -31,7 +31,7 @@ fn hatch(ends: Ends, width: impl Fn(f64) -> Width) -> Drawing {
         curve.move_to((5.0, y));
         curve.line_to((25.0, y));
         curve.line_to((45.0, y));
-        Mark::Stroke(Stroke { ends, ..Stroke::new(curve, width(y)) })
+        Mark::Stroke(Stroke::even(curve, 0.0).with_width(width(y)).unwrap().with_ends(ends))
     });
     drawing(lines.collect())
 }
@@ -48,7 +48,7 @@ fn wide_lines_become_thinner_and_print_as_wide() {
     let lines = hatch(Ends::Round, |_| Width::Along(vec![0.1, 0.3, 0.2]));
     let plate = press.compensated(&lines);
     let Mark::Stroke(stroke) = &plate.layers[0].marks[0] else { panic!("a stroke") };
-    let Width::Along(widths) = &stroke.width else { panic!("it swells") };
+    let Width::Along(widths) = stroke.width() else { panic!("it swells") };
     assert!((widths[1] - (0.3 - 2.0 * press.spread())).abs() < 1e-12);
     let (asked, printed) = (lines.layers[0].ink_mm2(), printed_ink(&plate, press.spread()));
     assert!((printed / asked - 1.0).abs() < 1e-3, "{printed} of {asked}");
@@ -64,7 +64,7 @@ fn thin_lines_become_dashes_with_the_same_ink() {
             assert!(plate.layers[0].marks.len() > 100, "broken");
             for mark in plate.marks() {
                 let Mark::Stroke(stroke) = mark else { panic!("a stroke") };
-                let thinnest = match &stroke.width {
+                let thinnest = match stroke.width() {
                     Width::Constant(width) => *width,
                     Width::Along(widths) => widths.iter().copied().fold(1.0, f64::min),
                 };
@@ -123,11 +123,11 @@ fn touches_and_empty_strokes_are_dots_and_nothing() {
         let mut curve = BezPath::new();
         curve.move_to((f64::from(i % 20), f64::from(i / 20)));
         curve.line_to((f64::from(i % 20), f64::from(i / 20)));
-        Mark::Stroke(Stroke::new(curve, Width::Constant(0.05)))
+        Mark::Stroke(Stroke::even(curve, 0.05))
     };
     let mut marks: Vec<Mark> = (0..400).map(touch).collect();
-    marks.push(Mark::Stroke(Stroke::new(BezPath::new(), Width::Constant(0.05))));
-    marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M1,1").unwrap(), Width::Along(vec![0.3]))));
+    marks.push(Mark::Stroke(Stroke::even(BezPath::new(), 0.05)));
+    marks.push(Mark::Stroke(Stroke::swelling(BezPath::from_svg("M1,1").unwrap(), vec![0.3]).unwrap()));
     let plate = Press::new(0.0, 60.0, 0.1).compensated(&drawing(marks));
     let [dots, strokes, _] = plate.layers[0].counts();
     assert!((98..=102).contains(&dots) && strokes <= 2, "a quarter of the touches: {dots}, {strokes}");

@@ -7,7 +7,7 @@ use super::curves::{MM_PER_PX, bez_path, dot, has_crossings, is_flat, subpaths, 
 use super::imported::ImportedLayer;
 use super::layers::{Label, Outline};
 use super::paint::{Paint, Source};
-use crate::drawing::{Area, Colour, Ends, Handling, Ink, Layer, Mark, Mixing, Painted, Stroke, Width};
+use crate::drawing::{Area, Colour, Ends, Handling, Ink, Layer, Mark, Mixing, Painted, Stroke};
 use crate::geometry::{BezPath, flattened_points};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -222,14 +222,14 @@ impl<'a> Importer<'a> {
         for clip in clips {
             curve = clip_curve(&curve, clip, self.budget)?;
         }
-        let strokes = subpaths(&curve).into_iter().map(|curve| Stroke { ends, ..Stroke::new(curve, Width::Constant(width)) });
+        let strokes = subpaths(&curve).into_iter().map(|curve| Stroke::even(curve, width).with_ends(ends));
         let Some(colour) = colour else {
             self.painting.extend(strokes.map(|stroke| Painted::White(stroke.ink_outline(CLIP_TOLERANCE))));
             return Ok(());
         };
         let index = self.layer_for(place, colour);
         let own_colour = (self.layers[index].layer.ink.colour() != colour).then_some(colour);
-        self.paint(index, strokes.map(|stroke| Mark::Stroke(Stroke { colour: own_colour, ..stroke })));
+        self.paint(index, strokes.map(|stroke| Mark::Stroke(stroke.with_colour(own_colour))));
         Ok(())
     }
 

@@ -74,7 +74,7 @@ fn area_within(area: &Area, region: &Region) -> Option<Area> {
 
 fn stroke_within(stroke: &Stroke, region: &Region) -> Vec<Stroke> {
     let half = 0.5 * stroke.widest();
-    let tapers = match &stroke.width {
+    let tapers = match stroke.width() {
         Width::Constant(_) => false,
         Width::Along(widths) => [widths.first(), widths.last()].into_iter().flatten().any(|w| *w <= TAPERED * 2.0 * half),
     };
@@ -93,21 +93,13 @@ fn stroke_within(stroke: &Stroke, region: &Region) -> Vec<Stroke> {
 }
 
 /// A cut piece whose cut ends taper like the stroke's own.
-fn tapered(mut piece: Stroke, is_cut: [bool; 2], half: f64) -> Stroke {
-    let nodes: Vec<Point> = piece.curve.elements().iter().filter_map(kurbo::PathEl::end_point).collect();
-    let along: Vec<f64> = lengths_along(&nodes);
+fn tapered(piece: Stroke, is_cut: [bool; 2], half: f64) -> Stroke {
+    let along: Vec<f64> = lengths_along(&piece.nodes().collect::<Vec<Point>>());
     let total = along.last().copied().unwrap_or(0.0);
-    if let Width::Along(widths) = &mut piece.width {
-        let reach = TAPER * 2.0 * half;
-        for (width, at) in widths.iter_mut().zip(&along) {
-            for (cut, distance) in is_cut.into_iter().zip([*at, total - at]) {
-                if cut {
-                    *width *= TIP + (1.0 - TIP) * (distance / reach).min(1.0);
-                }
-            }
-        }
-    }
-    piece
+    let reach = TAPER * 2.0 * half;
+    let share = |cut: bool, distance: f64| if cut { TIP + (1.0 - TIP) * (distance / reach).min(1.0) } else { 1.0 };
+    let mut shares = along.iter().map(|at| [share(is_cut[0], *at), share(is_cut[1], total - at)]);
+    piece.map_widths(|width| shares.next().map_or(width, |[start, end]| width * start * end))
 }
 
 #[cfg(test)]
@@ -139,7 +131,7 @@ mod tests {
         let dot = one(Mark::Dot(Dot::circle(Point::new(10.1, 5.0), 1.0)));
         let areas: Vec<f64> = (0..2).map(|i| parts.confined(i, &dot).marks().map(Mark::area).sum()).collect();
         assert!((areas[0] + areas[1] - std::f64::consts::PI).abs() < 0.02 && areas[1] > areas[0], "{areas:?}");
-        let line = Stroke::new(kurbo::BezPath::from_svg("M2,5 L18,5").unwrap(), Width::Constant(0.4));
+        let line = Stroke::even(kurbo::BezPath::from_svg("M2,5 L18,5").unwrap(), 0.4);
         let cut: Vec<Drawing> = (0..2).map(|i| parts.confined(i, &one(Mark::Stroke(line.clone())))).collect();
         let ends: Vec<f64> = cut.iter().map(|d| d.bounding_box().unwrap().x1).collect();
         assert!((ends[0] - 10.0).abs() < 0.05 && ends[1] > 18.0, "{ends:?}");
@@ -166,9 +158,10 @@ mod tests {
     fn a_tapering_stroke_tapers_where_it_is_cut() {
         let parts = halves(Border::Butt);
         let curve = kurbo::BezPath::from_svg("M2,5 L6,5 L10,5 L14,5 L18,5").unwrap();
-        let hair = Stroke::new(curve, Width::Along(vec![0.05, 0.4, 0.4, 0.4, 0.05]));
+        let hair = Stroke::swelling(curve, vec![0.05, 0.4, 0.4, 0.4, 0.05]).unwrap();
         let cut = parts.confined(0, &one(Mark::Stroke(hair)));
-        let Some(Mark::Stroke(Stroke { width: Width::Along(widths), .. })) = cut.marks().next() else { panic!("a stroke") };
+        let Some(Mark::Stroke(stroke)) = cut.marks().next() else { panic!("a stroke") };
+        let Width::Along(widths) = stroke.width() else { panic!("it swells") };
         assert!(widths[widths.len() - 1] < 0.15, "{widths:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! Several drawings on one sheet, with the same pens' layers merged.
 
-use crate::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
+use crate::drawing::{Drawing, Layer, Mark, Page, Stroke};
 use crate::geometry::{Affine, BezPath, Point, Rect};
 use thiserror::Error;
 
@@ -164,7 +164,7 @@ fn crop_marks(picture: Rect) -> Vec<Mark> {
         let mut curve = BezPath::new();
         curve.move_to(from);
         curve.line_to(to);
-        Mark::Stroke(Stroke::new(curve, Width::Constant(CROP_WIDTH)))
+        Mark::Stroke(Stroke::even(curve, CROP_WIDTH))
     };
     let (near, far) = (CROP_DISTANCE, CROP_DISTANCE + CROP_LENGTH);
     corners

@@ -1,6 +1,6 @@
 //! A feature line as a stroke of its detected width, tapering at both ends.
 
-use crate::drawing::{Mark, Stroke, Width};
+use crate::drawing::{Mark, Stroke};
 use crate::field::CoherentLine;
 use crate::geometry::catmull_rom;
 use crate::source::Placement;
@@ -36,5 +36,5 @@ pub(super) fn feature_stroke(line: &CoherentLine, placement: &Placement, longest
     if line.curve.closed {
         widths.push(widths[0]);
     }
-    Some(Mark::Stroke(Stroke::new(catmull_rom(&page, line.curve.closed.into()), Width::Along(widths))))
+    Stroke::swelling(catmull_rom(&page, line.curve.closed.into()), widths).map(Mark::Stroke)
 }

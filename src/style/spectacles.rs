@@ -1,7 +1,7 @@
 //! Frames of spectacles as lines: an engraver draws each rim first, in one line.
 
 use super::creases::share;
-use crate::drawing::{Mark, Stroke, Width};
+use crate::drawing::{Mark, Stroke};
 use crate::field::Curve;
 use crate::geometry::{Ends, Point, Ring, catmull_rom, resample, smooth_polyline};
 use crate::raster::{Raster, dilate};
@@ -44,17 +44,16 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
         let swelling = |p: &Point| 1.0 + SWELL * (2.0 * (p.y - top) / (bottom - top).max(1e-9) - 1.0);
         let mut widths: Vec<f64> = nodes.iter().map(|p| width * swelling(p)).collect();
         widths.push(widths[0]);
-        Some(Mark::Stroke(Stroke::new(catmull_rom(&nodes, Ring::Closed), Width::Along(widths))))
+        Stroke::swelling(catmull_rom(&nodes, Ring::Closed), widths).map(Mark::Stroke)
     });
     let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
-    let open = open.filter(|(line, _)| line.len() > 1).map(|(line, tapers)| {
+    let open = open.filter(|(line, _)| line.len() > 1).filter_map(|(line, tapers)| {
         let nodes = on_page(&smooth(line, Ring::Open));
         let last = (nodes.len() - 1) as f64;
         let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
         let widths = (0..nodes.len()).map(|i| width * (0.2 + 0.8 * rest(i))).collect();
-        let mut stroke = Stroke::new(catmull_rom(&nodes, Ring::Open), Width::Along(widths));
-        stroke.ends = Ends::Flat;
-        Mark::Stroke(stroke)
+        let stroke = Stroke::swelling(catmull_rom(&nodes, Ring::Open), widths)?;
+        Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
     });
     rims.chain(open).collect()
 }

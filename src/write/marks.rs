@@ -149,10 +149,10 @@ impl<'a> LayerData<'a> {
 
 impl StrokeData {
     fn of(stroke: &Stroke) -> Self {
-        let (points, widths) = match stroke.width {
+        let (points, widths) = match *stroke.width() {
             Width::Constant(width) => {
                 // A stroke is one subpath.
-                let points = flatten(&stroke.curve, TOLERANCE).into_iter().next().map(|(points, _)| points).unwrap_or_default();
+                let points = flatten(stroke.curve(), TOLERANCE).into_iter().next().map(|(points, _)| points).unwrap_or_default();
                 let widths = vec![width; points.len()];
                 (points, widths)
             }
@@ -179,11 +179,8 @@ mod tests {
         let blob = Dot { outline: Some(Box::new(curve("M0,0 L1,0 L0,1 Z"))), ..Dot::circle(Point::new(0.3, 0.3), 0.4) };
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.0, 2.0), 0.25)));
         layer.marks.push(Mark::Dot(blob));
-        layer.marks.push(Mark::Stroke(Stroke::new(curve("M0,0 L0.1,0"), Width::Along(vec![0.1, 0.2]))));
-        layer.marks.push(Mark::Stroke(Stroke {
-            colour: Some(Colour::WHITE),
-            ..Stroke::new(curve("M0,0 L3,0 L3,3 Z"), Width::Constant(0.3))
-        }));
+        layer.marks.push(Mark::Stroke(Stroke::swelling(curve("M0,0 L0.1,0"), vec![0.1, 0.2]).unwrap()));
+        layer.marks.push(Mark::Stroke(Stroke::even(curve("M0,0 L3,0 L3,3 Z"), 0.3).with_colour(Some(Colour::WHITE))));
         layer.marks.push(Mark::Area(Area { outline: curve("M0,0 L4,0 L4,4 Z M1,1 L2,1 L2,2 Z"), colour: None }));
         let drawing = Drawing { page: Page::new(10.0, 20.0), layers: vec![layer] };
         let mut bytes = Vec::new();
@@ -206,7 +203,7 @@ mod tests {
     #[test]
     fn marks_that_are_mixed_keep_their_order() {
         let dot = || Mark::Dot(Dot::circle(Point::ZERO, 0.2));
-        let stroke = || Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L1,0").unwrap(), Width::Constant(0.3)));
+        let stroke = || Mark::Stroke(Stroke::even(BezPath::from_svg("M0,0 L1,0").unwrap(), 0.3));
         let layer = Layer { marks: vec![stroke(), dot(), stroke(), dot()], ..Layer::new("mixed", 1) };
         assert_eq!(order(&layer), [2, 0, 3, 1]);
         assert!(order(&Layer { marks: vec![dot(), dot(), stroke()], ..Layer::new("sorted", 1) }).is_empty());

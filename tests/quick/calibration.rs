@@ -8,7 +8,9 @@ use crate::machine_file;
 use assert_cmd::Command;
 use common::png_of_light;
 use drypoint::geometry::Point;
-use drypoint::plot::{Calibration, Language, Mounting, Profile, built_in_names, calibration_page, calibration_sheet, mount};
+use drypoint::plot::{
+    Calibration, Language, Mounting, Profile, Toolpath, built_in_names, calibration_page, calibration_sheet, mount,
+};
 use drypoint::read::read_svg;
 use machine_file::{read_back as motion, written};
 use std::fs;
@@ -36,13 +38,13 @@ fn every_machine_s_sheet_lies_inside_and_its_square_is_exact() {
         let (mounting, sheet) = sheet_of(&profile, NIB, profile.pens.count);
         mounting.check(&profile, &sheet.plot).unwrap();
         let drawable = mounting.drawable(&sheet.plot.page);
-        let points = || sheet.plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points);
+        let points = || sheet.plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(Toolpath::points);
         let (reach, square) = (drawable.inset(-0.5 * NIB), sheet.square.inflate(1e-9, 1e-9));
         assert!(points().all(|p| reach.contains(*p) && square.contains(*p)), "{}", profile.name);
         let has_room = drawable.width().min(drawable.height()) >= 103.0;
         println!("{}: {:?}, square {:.0} mm", profile.name, sheet.plot.page, sheet.square.width());
         assert!(!has_room || (sheet.square.width() - 100.0).abs() < 1e-9, "{}", profile.name);
-        let frame = &sheet.plot.pens[0].paths[0].points;
+        let frame = sheet.plot.pens[0].paths[0].points();
         for leg in frame.windows(2) {
             assert!((leg[0].distance(leg[1]) - sheet.square.width()).abs() < 1e-9, "{}", profile.name);
         }
@@ -56,8 +58,8 @@ fn rungs_of_the_ladder_have_the_spacings_that_their_labels_say() {
         let profile = Profile::built_in("grbl-servo").unwrap();
         let (_, sheet) = sheet_of(&profile, nib, 1);
         // Six parallel lines of 5 mm per rung; no other horizontal two-point line on the sheet is 5 mm long.
-        let is_rung = |p: &&Vec<Point>| p.len() == 2 && p[0].y == p[1].y && ((p[1].x - p[0].x) - 5.0).abs() < 1e-9;
-        let lines: Vec<&Vec<Point>> = sheet.plot.pens[0].paths.iter().map(|path| &path.points).filter(is_rung).collect();
+        let is_rung = |p: &&[Point]| p.len() == 2 && p[0].y == p[1].y && ((p[1].x - p[0].x) - 5.0).abs() < 1e-9;
+        let lines: Vec<&[Point]> = sheet.plot.pens[0].paths.iter().map(Toolpath::points).filter(is_rung).collect();
         assert_eq!(lines.len(), 12 * 6, "{nib}");
         for (rung, tenths) in lines.chunks(6).zip(5..) {
             for pair in rung.windows(2) {
@@ -73,8 +75,8 @@ fn every_machine_s_file_reads_back_as_it_was_asked() {
         let (mounting, sheet) = sheet_of(&profile, NIB, profile.pens.count);
         let text = written(&sheet.plot, &profile).unwrap();
         assert_eq!(text, written(&sheet_of(&profile, NIB, profile.pens.count).1.plot, &profile).unwrap(), "not the same bytes");
-        let asked: Vec<(u32, &Vec<Point>)> =
-            sheet.plot.pens.iter().flat_map(|pen| pen.paths.iter().map(|path| (pen.number, &path.points))).collect();
+        let asked: Vec<(u32, &[Point])> =
+            sheet.plot.pens.iter().flat_map(|pen| pen.paths.iter().map(|path| (pen.number, path.points()))).collect();
         if profile.language() == Language::Svg {
             let read = read_svg(text.as_bytes()).unwrap();
             let marks: usize = read.layers.iter().map(|layer| layer.layer.marks.len()).sum();
@@ -100,14 +102,15 @@ fn every_machine_s_file_reads_back_as_it_was_asked() {
 #[test]
 fn machines_get_the_trials_that_they_can_make() {
     let of = |name: &str| sheet_of(&Profile::built_in(name).unwrap(), NIB, 2).1;
-    let heights = |sheet: &Calibration| sheet.plot.pens.iter().flat_map(|pen| &pen.paths).filter(|p| p.heights.is_some()).count();
-    let touches = |sheet: &Calibration| sheet.plot.pens.iter().flat_map(|pen| &pen.paths).filter(|p| p.points.len() == 1).count();
+    let heights =
+        |sheet: &Calibration| sheet.plot.pens.iter().flat_map(|pen| &pen.paths).filter(|p| p.heights().is_some()).count();
+    let touches = |sheet: &Calibration| sheet.plot.pens.iter().flat_map(|pen| &pen.paths).filter(|p| p.is_touch()).count();
     assert!(heights(&of("marlin-z")) >= 4 && heights(&of("grbl-servo")) == 0 && heights(&of("hp7475a")) == 0);
     assert_eq!((touches(&of("grbl-servo")), touches(&of("hp7475a")), touches(&of("axidraw-v3"))), (28, 0, 0));
     let profile = Profile::built_in("marlin-z").unwrap();
     let height = profile.height().unwrap();
     // Never lower than the profile lets the pen down, which could bend it.
-    for z in of("marlin-z").plot.pens.iter().flat_map(|pen| &pen.paths).filter_map(|path| path.heights.as_ref()).flatten() {
+    for z in of("marlin-z").plot.pens.iter().flat_map(|pen| &pen.paths).filter_map(Toolpath::heights).flatten() {
         assert!(*z >= height.down - 1e-9 && *z < height.up, "{z}");
     }
     let six = sheet_of(&Profile::built_in("hp7475a").unwrap(), NIB, 6).1;

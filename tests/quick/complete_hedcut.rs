@@ -93,7 +93,7 @@ fn dots_are_on_skin_strokes_in_hair_and_hatches_on_clothing() {
 fn hair_strokes_taper() {
     for bust in outlined() {
         let is_tapered = |stroke: &&Stroke| {
-            let Width::Along(widths) = &stroke.width else { return false };
+            let Width::Along(widths) = stroke.width() else { return false };
             let middle = widths[widths.len() / 2];
             widths[0] < middle && widths[widths.len() - 1] < middle
         };

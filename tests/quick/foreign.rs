@@ -9,7 +9,7 @@ use common::rendered;
 use drypoint::drawing::Drawing;
 use drypoint::field::nearest_seed;
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{Hides, InkModel, Nibs, Plot, lower, occluded};
+use drypoint::plot::{Hides, InkModel, Nibs, Plot, Toolpath, lower, occluded};
 use drypoint::raster::Raster;
 use drypoint::read::{Imported, read_svg};
 use machine_file::picture;
@@ -102,7 +102,7 @@ fn plot(drawing: &Drawing, model: InkModel) -> Plot {
 }
 
 fn drawn(plot: &Plot) -> f64 {
-    plot.pens.iter().flat_map(|pen| &pen.paths).map(drypoint::plot::Toolpath::length).sum()
+    plot.pens.iter().flat_map(|pen| &pen.paths).map(Toolpath::length).sum()
 }
 
 fn layers(imported: &Imported) -> String {
@@ -211,7 +211,7 @@ fn even_odd_fills_keep_their_holes() {
     // Ink of the first file's frame: its hole stays white.
     let ink = plot(&imported.drawing(), InkModel::Ink);
     let in_hole =
-        ink.pens[0].paths.iter().flat_map(|path| &path.points).filter(|p| p.x > 20.5 && p.x < 39.5 && p.y > 20.5 && p.y < 39.5);
+        ink.pens[0].paths.iter().flat_map(Toolpath::points).filter(|p| p.x > 20.5 && p.x < 39.5 && p.y > 20.5 && p.y < 39.5);
     assert_eq!(in_hole.count(), 0);
 }
 

@@ -36,7 +36,8 @@ fn any_stroke() -> impl Strategy<Value = Mark> {
             widths[count - 1] = widths[0];
         }
         let width = if kind == 0 { Width::Constant(widths[0].min(3.0)) } else { Width::Along(widths) };
-        Mark::Stroke(Stroke { ends: if is_flat { Ends::Flat } else { Ends::Round }, ..Stroke::new(curve, width) })
+        let stroke = Stroke::even(curve, 0.0).with_width(width).unwrap();
+        Mark::Stroke(stroke.with_ends(if is_flat { Ends::Flat } else { Ends::Round }))
     })
 }
 
@@ -60,7 +61,7 @@ fn polyline(places: &[Point], is_closed: bool) -> BezPath {
 
 fn box_of(mark: &Mark) -> Rect {
     match mark {
-        Mark::Stroke(stroke) => stroke.curve.bounding_box().inflate(0.5 * stroke.widest(), 0.5 * stroke.widest()),
+        Mark::Stroke(stroke) => stroke.curve().bounding_box().inflate(0.5 * stroke.widest(), 0.5 * stroke.widest()),
         Mark::Dot(dot) => dot.path().bounding_box(),
         Mark::Area(area) => area.outline.bounding_box(),
     }
@@ -197,7 +198,7 @@ fn toolpath_boxes(drawing: &Drawing) -> Vec<Rect> {
     if plot.pens.iter().all(|pen| pen.paths.is_empty()) {
         return Vec::new();
     }
-    let own = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| path.points.iter().copied());
+    let own = plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| path.points().iter().copied());
     let mut boxes: Vec<Rect> = path_box(own).into_iter().collect();
     for machine in ["grbl-servo", "hp7475a"] {
         let profile = Profile::built_in(machine).unwrap();
@@ -252,7 +253,7 @@ fn a_whirl_s_stroke_throws_no_spike() {
         })
         .collect();
     let widths = (0..14).map(|i| 3.0 - 0.1 * f64::from(i)).collect();
-    check(&Mark::Stroke(Stroke::new(catmull_rom(&places, Ring::Open), Width::Along(widths))));
+    check(&Mark::Stroke(Stroke::swelling(catmull_rom(&places, Ring::Open), widths).unwrap()));
 }
 
 /// Paintings of whole photographs, in which spikes were found.
@@ -272,9 +273,9 @@ fn no_stroke_of_a_painting_leaves_its_box() {
         let drawing = style.draw(&portrait, &settings, 0, &Silent).unwrap();
         for mark in drawing.marks() {
             let Mark::Stroke(stroke) = mark else { continue };
-            assert_handles(&stroke.curve);
+            assert_handles(stroke.curve());
             let outline = stroke.ink_outline(0.002);
-            if matches!(stroke.width, Width::Along(_)) {
+            if matches!(stroke.width(), Width::Along(_)) {
                 assert_handles(&outline);
             }
             assert_within("painting", outline.bounding_box(), box_of(mark));

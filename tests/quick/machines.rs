@@ -47,10 +47,10 @@ fn plotted(drawing: &Drawing) -> Plot {
 fn three_layers() -> Plot {
     let square = [(5.0, 5.0), (55.0, 5.0), (55.0, 35.0), (5.0, 35.0), (5.0, 5.0)].map(|(x, y)| Point::new(x, y)).to_vec();
     let circle = (0..=90).map(|i| Point::new(30.0, 20.0) + Vec2::from_angle(f64::from(i) * std::f64::consts::PI / 45.0) * 12.0);
-    let touches = (0..5).map(|i| Toolpath::new(vec![Point::new(10.0 + 8.0 * f64::from(i), 30.0)])).collect();
+    let touches = (0..5).map(|i| Toolpath::touch(Point::new(10.0 + 8.0 * f64::from(i), 30.0))).collect();
     let pens = vec![
-        pen(1, "black", vec![Toolpath::new(square)]),
-        pen(2, "r\u{e9}d?! ~(M5) %", vec![Toolpath::new(circle.collect())]),
+        pen(1, "black", vec![Toolpath::new(square).unwrap()]),
+        pen(2, "r\u{e9}d?! ~(M5) %", vec![Toolpath::new(circle.collect()).unwrap()]),
         pen(3, "touches; G28", touches),
     ];
     Plot { page: Page::new(60.0, 40.0), pens }
@@ -67,7 +67,7 @@ fn assert_same_motion(name: &str, plot: &Plot, motion: &Strokes, profile: &Profi
     assert_eq!(asked.len(), motion.paths.len(), "{name}");
     for ((number, path), (pen, drawn)) in asked.into_iter().zip(&motion.paths) {
         assert_eq!(number, *pen, "{name}");
-        let sent: Vec<Point> = path.points.iter().map(|p| mounting.place(number, *p)).collect();
+        let sent: Vec<Point> = path.points().iter().map(|p| mounting.place(number, *p)).collect();
         let near = NEAR * profile.units_per_mm;
         assert!(sent.iter().all(|p| distance(*p, drawn) <= near), "{name}: {sent:?} is not {drawn:?}");
         assert!(drawn.iter().all(|p| distance(*p, &sent) <= near), "{name}: {drawn:?} was not {sent:?}");
@@ -133,11 +133,11 @@ fn assert_same_strokes(text: &str, plot: &Plot, profile: &Profile, mounting: &Mo
     let (sheet, limits) = (plot.page.rect().inflate(NEAR, NEAR), mounting.limits.inflate(NEAR, NEAR));
     for (path, mark) in asked.into_iter().zip(drawn) {
         let points = match mark {
-            Mark::Stroke(stroke) => flattened(&stroke.curve),
+            Mark::Stroke(stroke) => flattened(stroke.curve()),
             Mark::Dot(dot) => vec![dot.centre],
             Mark::Area(_) => panic!("{name}: an area"),
         };
-        let sent = &path.points;
+        let sent = path.points();
         assert!(sent.iter().all(|p| distance(*p, &points) <= NEAR), "{name}: {sent:?} is not {points:?}");
         assert!(points.iter().all(|p| distance(*p, sent) <= NEAR), "{name}: {points:?} was not {sent:?}");
         assert!(sent[0].distance(points[0]) <= NEAR, "{name}");
@@ -182,7 +182,8 @@ fn a_hedcut_and_three_layers_come_back_from_every_machine() {
         let mut layers = three_layers();
         if profile.name == "toy" {
             // Its second pen is offset by half a millimetre, and its brush swells.
-            layers.pens[0].paths[0].heights = Some(vec![-0.1, -1.1, -0.5, -0.3, -0.1]);
+            let square = &mut layers.pens[0].paths[0];
+            *square = square.clone().with_heights(vec![-0.1, -1.1, -0.5, -0.3, -0.1]).unwrap();
         }
         assert_holds(&layers, &profile);
     }
@@ -211,7 +212,7 @@ impl Chance {
     /// A touch, a zigzag, or part of a spiral, inside a rectangle.
     fn path(&mut self, within: Rect) -> Toolpath {
         let start = self.point(within);
-        let points = match self.below(4) {
+        let mut points = match self.below(4) {
             0 => vec![start],
             1 => (0..2 + self.below(5)).map(|_| self.point(within)).collect(),
             _ => {
@@ -222,8 +223,8 @@ impl Chance {
                 (0..3 + self.below(20)).map(|i| kept(at(i))).collect()
             }
         };
-        let mut path = Toolpath::new(points);
-        path.points.dedup();
+        points.dedup();
+        let mut path = Toolpath::new(points).unwrap();
         path.dwell_seconds = if self.below(8) == 0 { self.next() } else { 0.0 };
         path
     }
@@ -249,7 +250,7 @@ fn what_lies_off_the_sheet_is_refused_though_the_machine_reaches_it() {
     let text = drypoint::plot::built_in("grbl-servo").unwrap();
     let large = Profile::parse_with("grbl-servo", text, &set).unwrap();
     let page = Page::new(210.0, 297.0);
-    let path = Toolpath::new(vec![Point::new(20.0, 20.0), Point::new(260.0, 150.0)]);
+    let path = Toolpath::through(Point::new(20.0, 20.0), [Point::new(260.0, 150.0)]);
     let mut plot = Plot { page, pens: vec![pen(1, "a", vec![path])] };
     let mounting = mount(&large, &page).unwrap();
     let error = mounting.check(&large, &plot).unwrap_err();

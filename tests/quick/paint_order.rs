@@ -1,6 +1,6 @@
 //! Opaque paint on a plotter: hidden parts are not drawn, and the rest is drawn along the shortest way.
 
-use drypoint::drawing::{Colour, Drawing, Ink, Layer, Mark, Mixing, Page, Painted, Stroke, Width};
+use drypoint::drawing::{Colour, Drawing, Ink, Layer, Mark, Mixing, Page, Painted, Stroke};
 use drypoint::geometry::{BezPath, Point};
 use drypoint::interrupt::Interrupt;
 use drypoint::order::Effort;
@@ -27,7 +27,7 @@ fn painting(count: usize, width: f64) -> (Drawing, Vec<Painted>) {
         curve.move_to(at);
         curve.line_to(at + (4.0 * spread(i, 0.618), 4.0 * spread(i, 0.414)));
         order.push(Painted::Mark { layer, mark: layers[layer].marks.len() });
-        let stroke = Stroke { group: Some(0), ..Stroke::new(curve, Width::Constant(width)) };
+        let stroke = Stroke::even(curve, width).in_group(Some(0));
         layers[layer].marks.push(Mark::Stroke(stroke));
     }
     (Drawing { page: Page::new(PAPER, PAPER), layers }, order)

@@ -267,7 +267,7 @@ impl Device for Board {
 }
 
 fn pen(number: u32, paths: Vec<Vec<Point>>) -> PenPaths {
-    let paths = paths.into_iter().map(Toolpath::new).collect();
+    let paths = paths.into_iter().filter_map(Toolpath::new).collect();
     PenPaths { number, name: "lines".into(), colour: Colour::BLACK, nib: 0.3, handling: Handling::default(), paths }
 }
 

@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{mean_in, png_of_light, rendered, sample, svg_of, wedge, wedge_patches};
-use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
+use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke};
 use drypoint::field::{FacialFeature, HoughFilter, HoughForm, histogram_modes};
 use drypoint::geometry::{BezPath, Point, Rect};
 use drypoint::plot::write_inkml;
@@ -502,7 +502,7 @@ fn nothing_is_drawn_twice() {
     assert!(in_hair < 0.01 * all);
     let mut curves: Vec<String> = drawing
         .marks()
-        .filter_map(|mark| if let Mark::Stroke(stroke) = mark { Some(stroke.curve.to_svg()) } else { None })
+        .filter_map(|mark| if let Mark::Stroke(stroke) = mark { Some(stroke.curve().to_svg()) } else { None })
         .collect();
     let count = curves.len();
     curves.sort_unstable();
@@ -540,10 +540,8 @@ const INKML: &str = "http://www.w3.org/2003/InkML";
 fn two_layers() -> Drawing {
     let stroke = |path: &str, pressure: Vec<f64>, times: Vec<f64>| {
         let widths = pressure.iter().map(|p| 0.5 * p).collect();
-        let mut stroke = Stroke::new(BezPath::from_svg(path).unwrap(), Width::Along(widths));
-        stroke.pressure = Some(pressure);
-        stroke.times = Some(times);
-        Mark::Stroke(stroke)
+        let stroke = Stroke::swelling(BezPath::from_svg(path).unwrap(), widths).unwrap();
+        Mark::Stroke(stroke.with_pressure(pressure).and_then(|stroke| stroke.with_times(times)).unwrap())
     };
     let mut layers = vec![Layer::new("hair & beard", 1), Layer::new("edges", 2)];
     layers[0].marks.push(stroke("M1,2 L10.125,2.5 L12,7", vec![0.25, 1.0, 0.5], vec![0.5, 0.75, 1.0]));

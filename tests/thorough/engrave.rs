@@ -117,7 +117,7 @@ fn least_distance(lines: &[Vec<Point>], cell: f64) -> (f64, Point) {
 
 fn assert_apart(drawing: &Drawing, what: &str) {
     for layer in &drawing.layers {
-        let lines: Vec<Vec<Point>> = strokes(layer).iter().map(|s| points(&s.curve)).collect();
+        let lines: Vec<Vec<Point>> = strokes(layer).iter().map(|s| points(s.curve())).collect();
         let (least, place) = least_distance(&lines, 1.2 * MIN_GAP);
         assert!(least >= MIN_GAP - 0.001, "{what}, {}: two lines are {least:.4} mm apart at {place:?}", layer.name);
     }
@@ -188,7 +188,7 @@ fn lines_show_a_hemisphere_s_form() {
     let (mut worst, mut count) = (0.0_f64, 0);
     let is_fair = |p: Point| p.distance(Point::new(0.5 * size, 0.5 * size)) < 0.8 * radius;
     for stroke in strokes(&drawing.layers[0]) {
-        let line = points(&stroke.curve);
+        let line = points(stroke.curve());
         for i in 0..480 {
             let x = 0.1 * f64::from(i);
             let Some(y) = height_at(&line, x) else { continue };
@@ -341,7 +341,7 @@ fn strokes_keep_to_their_region() {
         let (drawing, side) = two_regions([[0, 255, 255], [255, 0, 0]], &[("look", "hatch"), ("overlap", overlap)]);
         let mut over = [f64::NEG_INFINITY; 2];
         for stroke in strokes(&drawing.layers[0]) {
-            let line = points(&stroke.curve);
+            let line = points(stroke.curve());
             let along = line[line.len() - 1] - line[0];
             let is_left = along.y.abs() > along.x.abs();
             let farthest = line.iter().map(|p| if is_left { side(*p) } else { -side(*p) }).fold(f64::NEG_INFINITY, f64::max);
@@ -473,7 +473,7 @@ fn assert_clean_edges(overlap: &str, most: f64) {
     });
     for (name, drawing, labels) in drawings {
         for layer in &drawing.layers {
-            let lines: Vec<Vec<Point>> = strokes(layer).iter().map(|s| points(&s.curve)).collect();
+            let lines: Vec<Vec<Point>> = strokes(layer).iter().map(|s| points(s.curve())).collect();
             let lines: Vec<(i32, Vec<Point>, f64)> = lines
                 .into_iter()
                 .map(|line| {
@@ -508,7 +508,7 @@ fn there_are_no_stubs() {
     let drawing = sheet.draw(&sheet.portrait());
     assert_apart(&drawing, "superpixels");
     for layer in &drawing.layers {
-        let shortest = strokes(layer).iter().map(|s| polyline_length(&points(&s.curve))).fold(f64::INFINITY, f64::min);
+        let shortest = strokes(layer).iter().map(|s| polyline_length(&points(s.curve()))).fold(f64::INFINITY, f64::min);
         println!("{}: shortest stroke {shortest:.3} mm", layer.name);
         assert!(shortest >= 0.5 * PITCH - 1e-3, "{shortest}");
     }
@@ -518,7 +518,7 @@ fn there_are_no_stubs() {
 fn regions_lines_do_not_run_side_by_side() {
     // Cyan and a slightly bluer cyan: 90 and 94 degrees, along the border.
     let (drawing, side) = two_regions([[0, 255, 255], [0, 221, 255]], &[("look", "hatch"), ("thinnest", "0")]);
-    let lines: Vec<Vec<Point>> = strokes(&drawing.layers[0]).iter().map(|s| points(&s.curve)).collect();
+    let lines: Vec<Vec<Point>> = strokes(&drawing.layers[0]).iter().map(|s| points(s.curve())).collect();
     let (left, right): (Vec<_>, Vec<_>) = lines.into_iter().partition(|line| side(line[line.len() / 2].midpoint(line[0])) < 0.0);
     assert!(left.len() > 10 && right.len() > 10, "{} and {}", left.len(), right.len());
     let mut longest = 0.0_f64;

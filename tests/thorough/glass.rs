@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{WEDGE_MM, mean_in, rendered, sample, svg_of, wedge, wedge_patches};
-use drypoint::drawing::{Colour, Drawing, Layer, Mark, Page, Stroke, Width};
+use drypoint::drawing::{Colour, Drawing, Layer, Mark, Page, Stroke};
 use drypoint::field::{Flow, GlassLevels, RibbonFit, glass_pattern, glass_ribbons, line_integral_convolution};
 use drypoint::geometry::{Point, Rect, Ring, Vec2, catmull_rom};
 use drypoint::raster::{Raster, edge_preserving, equalised, fast_gaussian, gaussian_gradient, gradient, structure_tensor};
@@ -74,7 +74,7 @@ fn painted(noise: &Raster<f32>, flow: &Flow, length: f64, pattern: &Raster<f32>,
     let mut layer = Layer::new("strokes", 1);
     for ribbon in glass_ribbons(noise, pattern, flow, length, RibbonFit::Faithful, |height| levels.of(height)) {
         let grey = ((levels.value(&ribbon) + 0.5) * 235.0 + 15.0).round() as u8;
-        let mut stroke = Stroke::new(catmull_rom(&ribbon.nodes, Ring::Open), Width::Along(ribbon.widths.clone()));
+        let mut stroke = Stroke::swelling(catmull_rom(&ribbon.nodes, Ring::Open), ribbon.widths.clone()).unwrap();
         stroke.colour = Some(Colour { r: grey, g: grey, b: grey });
         layer.marks.push(Mark::Stroke(stroke));
     }

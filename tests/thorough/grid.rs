@@ -204,7 +204,7 @@ fn curves(drawing: &Drawing, layer: &str, pixels_per_mm: f64) -> Vec<Curve> {
     let strokes = layer.marks.iter().filter_map(|mark| if let Mark::Stroke(stroke) = mark { Some(stroke) } else { None });
     let scaled = |points: Vec<Point>| points.into_iter().map(|p| (p.to_vec2() * pixels_per_mm).to_point()).collect();
     strokes
-        .flat_map(|stroke| flatten(&stroke.curve, 0.01))
+        .flat_map(|stroke| flatten(stroke.curve(), 0.01))
         .map(|(points, closed)| Curve { points: scaled(points), closed })
         .collect()
 }

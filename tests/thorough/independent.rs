@@ -39,7 +39,7 @@ fn plotted() -> Plot {
 fn asked(plot: &Plot, profile: &Profile) -> Vec<Vec<Point>> {
     let mounting = mount(profile, &plot.page).unwrap();
     let mm = |p: &Point| (mounting.place(1, *p).to_vec2() / profile.units_per_mm).to_point();
-    plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points.iter().map(mm).collect()).collect()
+    plot.pens.iter().flat_map(|pen| &pen.paths).map(|path| path.points().iter().map(mm).collect()).collect()
 }
 
 /// Points of ink along paths.

@@ -6,7 +6,7 @@ use crate::rasterised;
 
 use any_style::Order;
 use common::sample;
-use drypoint::drawing::{Area, Colour, Dot, Drawing, Ink, Layer, Mark, Page, Stroke, Width};
+use drypoint::drawing::{Area, Colour, Dot, Drawing, Ink, Layer, Mark, Page, Stroke};
 use drypoint::geometry::{BezPath, Point};
 use drypoint::plot::write_inkml;
 use rasterised::{Pixels, rasterised};
@@ -71,8 +71,8 @@ fn drawn(traces: &[Trace], page: Page) -> Drawing {
             curve.move_to(trace.vertices[0].0);
             trace.vertices[1..].iter().for_each(|(p, _)| curve.line_to(*p));
             let is_even = widths.iter().all(|w| (w - widths[0]).abs() < 1e-9);
-            let width = if is_even { Width::Constant(widths[0]) } else { Width::Along(widths) };
-            Mark::Stroke(Stroke { colour: Some(trace.colour), ..Stroke::new(curve, width) })
+            let stroke = if is_even { Stroke::even(curve, widths[0]) } else { Stroke::swelling(curve, widths).unwrap() };
+            Mark::Stroke(stroke.with_colour(Some(trace.colour)))
         })
         .collect();
     Drawing { page, layers: vec![layer] }
@@ -87,8 +87,8 @@ fn differs(a: &Pixels, b: &Pixels) -> f64 {
 fn colours_widths_and_fills_are_read_back() {
     let mut layer = Layer { ink: Ink::Colour(BLUE), ..Layer::new("marks", 1) };
     let line = BezPath::from_svg("M2,2 L18,2").unwrap();
-    layer.marks.push(Mark::Stroke(Stroke::new(line.clone(), Width::Constant(0.5))));
-    layer.marks.push(Mark::Stroke(Stroke { colour: Some(RED), ..Stroke::new(line, Width::Constant(0.25)) }));
+    layer.marks.push(Mark::Stroke(Stroke::even(line.clone(), 0.5)));
+    layer.marks.push(Mark::Stroke(Stroke::even(line, 0.25).with_colour(Some(RED))));
     layer.marks.push(Mark::Dot(Dot::circle(Point::new(5.0, 8.0), 0.7)));
     layer.marks.push(Mark::Dot(Dot { colour: Some(RED), ..Dot::circle(Point::new(9.0, 8.0), 0.15) }));
     let outline = BezPath::from_svg("M12,6 h5 v5 h-5 Z M14,8 v1 h1 v-1 Z").unwrap();

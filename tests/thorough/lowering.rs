@@ -8,7 +8,7 @@ use drypoint::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Page, Str
 use drypoint::field::nearest_seed;
 use drypoint::geometry::{BezPath, Point, Rect};
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{InkModel, Nibs, coverage, lower};
+use drypoint::plot::{InkModel, Nibs, Toolpath, coverage, lower};
 use drypoint::raster::Raster;
 use drypoint::source::{MaskRole, ToneTarget};
 use machine_file::picture as plot_svg;
@@ -213,7 +213,7 @@ fn mark() -> impl Strategy<Value = Mark> {
     let stroke = (prop::collection::vec(point(), 1..6), length(), any::<bool>(), any::<bool>()).prop_map(
         |(points, width, flat, closed)| {
             let ends = if flat { Ends::Flat } else { Ends::Round };
-            Mark::Stroke(Stroke { ends, ..Stroke::new(path(&points, closed), Width::Constant(width)) })
+            Mark::Stroke(Stroke::even(path(&points, closed), width).with_ends(ends))
         },
     );
     let swell = (point(), point(), point(), [0.0..1.0, 0.0..1.0, 0.0..1.0_f64]).prop_map(|(a, b, c, widths)| {
@@ -221,7 +221,7 @@ fn mark() -> impl Strategy<Value = Mark> {
         curve.move_to(a);
         curve.quad_to(b, c);
         curve.line_to(b);
-        Mark::Stroke(Stroke::new(curve, Width::Along(widths.to_vec())))
+        Mark::Stroke(Stroke::swelling(curve, widths.to_vec()).unwrap())
     });
     let area = prop::collection::vec(point(), 1..8)
         .prop_map(|points| Mark::Area(Area { outline: path(&points, true), colour: Some(Colour::BLACK) }));
@@ -241,15 +241,14 @@ proptest! {
             let nibs = Nibs::all(nib);
             let plot = lower(&drawing, InkModel::Ink, &nibs, 0.02, &Interrupt::never()).unwrap();
             let bounds = mark.bounding_box().inflate(0.05, 0.05);
-            for point in plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points) {
+            for point in plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(Toolpath::points) {
                 prop_assert!(point.is_finite());
                 prop_assert!(bounds.contains(*point), "{point:?} outside {bounds:?} of {mark:?}");
             }
-            prop_assert!(plot.pens.iter().flat_map(|pen| &pen.paths).all(|path| !path.points.is_empty()));
             let fat = match &mark {
                 Mark::Dot(dot) => dot.radius >= 0.5 * nib,
-                Mark::Stroke(Stroke { width: Width::Constant(width), .. }) => *width >= nib,
-                _ => false,
+                Mark::Stroke(stroke) => matches!(stroke.width(), Width::Constant(width) if *width >= nib),
+                Mark::Area(_) => false,
             };
             if fat {
                 let measured = coverage(&drawing, &plot, &nibs, &Interrupt::never()).unwrap()[0];
@@ -265,6 +264,6 @@ proptest! {
         let drawing = Drawing { page: Page::new(60.0, 60.0), layers: vec![layer] };
         let drawing = drawing.transformed(drypoint::geometry::Affine::scale(scale));
         let plot = lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.02 * scale.max(1.0), &Interrupt::never()).unwrap();
-        prop_assert!(plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points).all(|p| p.is_finite()));
+        prop_assert!(plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(Toolpath::points).all(|p| p.is_finite()));
     }
 }

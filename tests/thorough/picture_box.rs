@@ -9,7 +9,7 @@ use common::{mean_in, png_of_light, rendered, sample, svg_of};
 use drypoint::drawing::Page;
 use drypoint::geometry::Rect;
 use drypoint::interrupt::Interrupt;
-use drypoint::plot::{InkModel, Nibs, lower};
+use drypoint::plot::{InkModel, Nibs, Toolpath, lower};
 use drypoint::style::{Request, Silent, find};
 use kurbo::Shape;
 
@@ -51,7 +51,7 @@ fn ink_stays_in_the_picture_in_every_style_at_every_pitch() {
             // The nib's middle stays inside too, except for a spiral's rounding, so that no machine whose reach is the box
             // refuses it.
             let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
-            for p in plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(|path| &path.points) {
+            for p in plot.pens.iter().flat_map(|pen| &pen.paths).flat_map(Toolpath::points) {
                 assert!(PICTURE.inflate(0.1, 0.1).contains(*p), "{style} {set:?}: {p:?}");
             }
         }

@@ -56,8 +56,10 @@ fn heading() {
 }
 
 fn one_pen(paths: Vec<Vec<[f64; 2]>>) -> Plot {
-    let paths =
-        paths.into_iter().map(|points| Toolpath::new(points.into_iter().map(|[x, y]| Point::new(x, y)).collect())).collect();
+    let paths = paths
+        .into_iter()
+        .filter_map(|points| Toolpath::new(points.into_iter().map(|[x, y]| Point::new(x, y)).collect()))
+        .collect();
     let pen =
         PenPaths { number: 1, name: "lines".to_owned(), colour: Colour::BLACK, nib: 0.3, handling: Handling::default(), paths };
     Plot { page: Page::new(200.0, 200.0), pens: vec![pen] }
@@ -330,7 +332,7 @@ fn pens_are_changed_and_layers_wait_as_told() {
         plot.pens.push(PenPaths {
             number,
             handling,
-            paths: vec![Toolpath::new(vec![Point::new(5.0, 7.0), Point::new(60.0, 99.0)])],
+            paths: vec![Toolpath::through(Point::new(5.0, 7.0), [Point::new(60.0, 99.0)])],
             ..plot.pens[0].clone()
         });
     }

@@ -69,12 +69,12 @@ fn every_mark() -> Drawing {
         layer.marks.push(Mark::Dot(Dot { outline: Some(outline), ..Dot::circle(centre, 1.2) }));
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(x, 9.0), 0.08 * f64::from(i + 1))));
         let swell = curve(&format!("M{x},12 C{},15 {},18 {x},22", x + 3.0, x - 3.0));
-        layer.marks.push(Mark::Stroke(Stroke::new(swell, Width::Along(vec![0.1 * f64::from(i % 5), 1.0]))));
+        layer.marks.push(Mark::Stroke(Stroke::swelling(swell, vec![0.1 * f64::from(i % 5), 1.0]).unwrap()));
         let line = curve(&format!("M{x},25 L{},29 L{x},33", x + 2.0));
         let ends = if i % 2 == 0 { Ends::Round } else { Ends::Flat };
-        layer.marks.push(Mark::Stroke(Stroke { ends, ..Stroke::new(line, Width::Constant(0.05 * f64::from(i + 1))) }));
+        layer.marks.push(Mark::Stroke(Stroke::even(line, 0.05 * f64::from(i + 1)).with_ends(ends)));
     }
-    layer.marks.push(Mark::Stroke(Stroke::new(curve("M5,38 L15,38 L10,45 Z"), Width::Constant(0.7))));
+    layer.marks.push(Mark::Stroke(Stroke::even(curve("M5,38 L15,38 L10,45 Z"), 0.7)));
     layer.marks.push(Mark::Area(Area { outline: curve("M20,36 H40 V46 H20 Z M25,38 V44 H35 V38 Z"), colour: None }));
     let white = Some(Colour::WHITE);
     layer.marks.push(Mark::Dot(Dot { colour: white, ..Dot::circle(Point::new(22.0, 41.0), 1.5) }));
@@ -276,15 +276,10 @@ fn pressed(drawing: &Drawing, spread: f64) -> Drawing {
     for mark in printed.layers.iter_mut().flat_map(|layer| &mut layer.marks) {
         match mark {
             Mark::Dot(dot) => dot.radius += spread,
-            Mark::Stroke(Stroke { width: Width::Constant(width), ends, curve, .. }) => {
-                *width += 2.0 * spread;
-                if *ends == Ends::Flat {
-                    *curve = longer(curve, spread);
-                }
-            }
-            Mark::Stroke(Stroke { width: Width::Along(widths), .. }) => {
-                for width in widths {
-                    *width += 2.0 * spread;
+            Mark::Stroke(stroke) => {
+                *stroke = stroke.clone().map_widths(|width| width + 2.0 * spread);
+                if let (Width::Constant(width), Ends::Flat) = (stroke.width(), stroke.ends) {
+                    *stroke = Stroke::even(longer(stroke.curve(), spread), *width).like(stroke);
                 }
             }
             Mark::Area(_) => panic!("no areas here"),
@@ -338,8 +333,7 @@ fn hatched_wedge() -> Drawing {
             let mut curve = BezPath::new();
             curve.move_to((20.0 * column as f64, y));
             curve.line_to((20.0 * (column + 1) as f64, y));
-            let width = Width::Constant(pitch * (1.0 - tone));
-            layer.marks.push(Mark::Stroke(Stroke { ends: Ends::Flat, ..Stroke::new(curve, width) }));
+            layer.marks.push(Mark::Stroke(Stroke::even(curve, pitch * (1.0 - tone)).with_ends(Ends::Flat)));
         }
     }
     Drawing { page: Page::new(WEDGE_MM, WEDGE_MM), layers: vec![layer] }

@@ -184,9 +184,9 @@ fn three_layers(profile: &Profile) -> Plot {
         let (y, turn) = (8.0 * f64::from(number), 0.2 * f64::from(number));
         let arc = (0..30).map(|i| Point::new(40.0, y) + Vec2::from_angle(turn + 0.1 * f64::from(i)) * 5.0).collect();
         let line = [(5.0, y), (15.0, y + 1.0), (25.0, y), (28.0, y + 3.0)].map(|(x, y)| Point::new(x, y)).to_vec();
-        let mut paths: Vec<Toolpath> = [line, vec![Point::new(32.0, y)], arc].into_iter().map(Toolpath::new).collect();
+        let mut paths: Vec<Toolpath> = [line, vec![Point::new(32.0, y)], arc].into_iter().filter_map(Toolpath::new).collect();
         if profile.swell.is_some() {
-            paths[0].heights = Some(vec![-0.1, -1.1, -0.5, -0.3]);
+            paths[0] = paths[0].clone().with_heights(vec![-0.1, -1.1, -0.5, -0.3]).unwrap();
         }
         let handling = Handling { delay_seconds: if number == 3 { 0.4 } else { 0.0 }, ..Handling::default() };
         let handling = if profile.language() == Language::Gcode { handling } else { Handling::default() };

@@ -7,7 +7,7 @@ use crate::rasterised;
 
 use any_style::Order;
 use common::{Sheet, sample, svg_of};
-use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke, Width};
+use drypoint::drawing::{Drawing, Layer, Mark, Page, Stroke};
 use drypoint::geometry::{BezPath, Point, Rect, distance_to_segment};
 use drypoint::interrupt::Interrupt;
 use drypoint::order::{Direction, Effort};
@@ -164,10 +164,10 @@ fn assert_drawn(name: &str, plot: &Plot, motion: &Strokes, to_page: impl Fn(Poin
     for (path, (_, drawn)) in asked.iter().zip(&motion.paths) {
         let drawn: Vec<Point> = drawn.iter().map(|p| to_page(*p)).collect();
         for p in &drawn {
-            let near = distance(*p, &path.points);
+            let near = distance(*p, path.points());
             assert!(near <= tolerance, "{name}: {p:?} was not asked for ({near} mm)");
         }
-        for p in &path.points {
+        for p in path.points() {
             let near = distance(*p, &drawn);
             assert!(near <= tolerance, "{name}: {p:?} is missing ({near} mm)");
         }
@@ -201,7 +201,7 @@ fn gcode_and_hpgl_draw_what_was_asked_inside_the_machine() {
 fn what_does_not_fit_is_refused_with_its_distance() {
     let page = Page::new(310.0, 100.0);
     let mut layer = Layer::new("line", 1);
-    layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M5,5 L307.25,50").unwrap(), Width::Constant(0.3))));
+    layer.marks.push(Mark::Stroke(Stroke::even(BezPath::from_svg("M5,5 L307.25,50").unwrap(), 0.3)));
     let plot = lower(&Drawing { page, layers: vec![layer] }, InkModel::Ink, &Nibs::all(0.3), 0.02, &Interrupt::never()).unwrap();
     let grbl = profile("grbl-servo");
     let error = mount(&grbl, &page).unwrap().check(&grbl, &plot).unwrap_err();

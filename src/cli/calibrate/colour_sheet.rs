@@ -15,7 +15,7 @@ use crate::cli::progress::Watcher;
 use crate::cli::{job, layout, output, toolpaths};
 use crate::colour::Opacity;
 use crate::colour::sheet::{PenSheet, SheetMark, SheetShape};
-use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ink, Layer, Mark, Mixing, Page, Stroke};
 use crate::geometry::{BezPath, Point, Rect};
 use crate::plot::{InkModel, Job, Profile, mount};
 use crate::press::PrintJob;
@@ -133,8 +133,7 @@ fn inked(shape: &SheetShape, nib: f64) -> Mark {
             let mut curve = BezPath::new();
             curve.move_to(points[0]);
             points[1..].iter().for_each(|point| curve.line_to(*point));
-            let width = Width::Constant(nib);
-            Mark::Stroke(Stroke { curve, width, ends: Ends::Round, pressure: None, times: None, colour: None, group: None })
+            Mark::Stroke(Stroke::even(curve, nib))
         }
     }
 }

@@ -66,7 +66,7 @@ impl Program {
                 if !is_wanted(number) {
                     continue;
                 }
-                let points: Vec<Point> = path.points.iter().map(|p| mounting.place(pen.number, *p)).collect();
+                let points: Vec<Point> = path.points().iter().map(|p| mounting.place(pen.number, *p)).collect();
                 let along = if std::mem::take(&mut is_first) { rest.along } else { 0.0 };
                 writer.path(number, &points, along, pen.handling.speed(profile.motion.draw_speed));
             }

@@ -45,22 +45,33 @@ impl Cell {
 
     /// Adds a line of the first pen.
     pub(super) fn add(&mut self, points: Vec<Point>) {
-        self.add_path(Toolpath::new(points));
+        Toolpath::new(points).into_iter().for_each(|path| self.add_path(path));
     }
 
     /// Adds a path of the first pen.
     pub(super) fn add_path(&mut self, path: Toolpath) {
-        self.drawn.push(Drawn { pen: 1, speed_percent: None, path });
+        self.drawn.push(Drawn::by_first_pen(path));
     }
 
     /// The cell's paths with its corner at a place on the sheet.
-    pub(super) fn placed(mut self, at: Vec2) -> Vec<Drawn> {
-        self.drawn.iter_mut().flat_map(|drawn| &mut drawn.path.points).for_each(|p| *p += at);
-        self.drawn
+    pub(super) fn placed(self, at: Vec2) -> Vec<Drawn> {
+        self.drawn.into_iter().map(|drawn| drawn.moved(at)).collect()
+    }
+}
+
+impl Drawn {
+    /// A path of the first pen at its own speed.
+    pub(super) const fn by_first_pen(path: Toolpath) -> Self {
+        Self { pen: 1, speed_percent: None, path }
+    }
+
+    pub(super) fn moved(self, by: Vec2) -> Self {
+        Self { path: self.path.moved(by), ..self }
     }
 }
 
 /// The outline of a square, closed.
-pub(super) fn square(corner: Point, side: f64) -> Vec<Point> {
-    [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side), (0.0, 0.0)].map(|(x, y)| corner + Vec2::new(x, y)).to_vec()
+pub(super) fn square(corner: Point, side: f64) -> Toolpath {
+    let corners = [(side, 0.0), (side, side), (0.0, side), (0.0, 0.0)];
+    Toolpath::through(corner, corners.map(|(x, y)| corner + Vec2::new(x, y)))
 }

@@ -105,16 +105,12 @@ pub fn calibration_sheet(
     }
     let corner = drawable.center() - Vec2::new(0.5 * side, 0.5 * side);
     let bench = Bench { profile, nib, text: LEAST_TEXT.max(3.5 * nib), pens };
-    let mut drawn = vec![frame(side)];
+    let mut drawn = vec![Drawn::by_first_pen(square(Point::ORIGIN, side))];
     drawn.extend(side_labels(&bench, &page, side));
     drawn.extend(trials_within(&bench, side)?);
-    drawn.iter_mut().flat_map(|drawn| &mut drawn.path.points).for_each(|p| *p += corner.to_vec2());
+    let drawn = drawn.into_iter().map(|drawn| drawn.moved(corner.to_vec2())).collect();
     let plot = Plot { page, pens: by_pen(drawn, nib) };
     Ok(Calibration { plot, square: Rect::from_origin_size(corner, (side, side)), left_out: left_out(&bench) })
-}
-
-fn frame(side: f64) -> Drawn {
-    Drawn { pen: 1, speed_percent: None, path: super::Toolpath::new(square(Point::ORIGIN, side)) }
 }
 
 /// Labels for the side's length and for the machine's axes along the upper and left sides.
@@ -141,14 +137,10 @@ fn trials_within(bench: &Bench<'_>, side: f64) -> Result<Vec<Drawn>, Calibration
     let mut y = 0.0;
     for (title, cells) in titles.into_iter().zip(rows).filter(|(_, cells)| !cells.is_empty()) {
         let (row, height) = laid_out(Cell::text(title, bench.text), cells, inner, indent, GAP);
-        let moved = row.into_iter().map(|mut one| {
-            one.path.points.iter_mut().for_each(|p| *p += Vec2::new(BORDER, BORDER + y));
-            one
-        });
-        drawn.extend(moved);
+        drawn.extend(row.into_iter().map(|one| one.moved(Vec2::new(BORDER, BORDER + y))));
         y += height + GAP;
     }
-    let right = drawn.iter().flat_map(|one| &one.path.points).fold(0.0, |most: f64, p| most.max(p.x)) - BORDER;
+    let right = drawn.iter().flat_map(|one| one.path.points()).fold(0.0, |most: f64, p| most.max(p.x)) - BORDER;
     let needed = (y - GAP).max(right);
     if needed > inner + 1e-9 {
         return Err(CalibrationError::TooMuch { nib: bench.nib, needed, side: inner });

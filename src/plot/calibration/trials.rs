@@ -45,7 +45,7 @@ impl Bench<'_> {
             let (mut cell, below) = Cell::labelled(&short(spacing, 3), self.text, PATCH, tallest);
             for i in 0..LADDER_LINES {
                 let y = i as f64 * spacing;
-                cell.add(vec![Point::new(0.0, y) + below, Point::new(PATCH, y) + below]);
+                cell.add_path(Toolpath::through(Point::new(0.0, y) + below, [Point::new(PATCH, y) + below]));
             }
             cell
         };
@@ -59,12 +59,12 @@ impl Bench<'_> {
         let line = |tenths: u32| {
             let above = f64::from(tenths) / 10.0;
             let (mut cell, below) = Cell::labelled(&short(above, 1), self.text, PATCH, 1.0);
-            let points = vec![Point::new(0.0, 0.5) + below, Point::new(PATCH, 0.5) + below];
+            let line = Toolpath::through(Point::new(0.0, 0.5) + below, [Point::new(PATCH, 0.5) + below]);
             let z = height.down + above.copysign(height.up - height.down);
-            cell.add_path(Toolpath { heights: Some(vec![z; 2]), ..Toolpath::new(points) });
-            cell
+            cell.add_path(line.with_heights(vec![z; 2])?);
+            Some(cell)
         };
-        HEIGHTS_TENTHS.into_iter().filter(|tenths| f64::from(*tenths) / 10.0 <= most).map(line).collect()
+        HEIGHTS_TENTHS.into_iter().filter(|tenths| f64::from(*tenths) / 10.0 <= most).filter_map(line).collect()
     }
 
     /// The pen's heights, if a z axis lifts it.
@@ -80,8 +80,9 @@ impl Bench<'_> {
         let row = |seconds: f64| {
             let (mut cell, below) = Cell::labelled(&short(seconds, 2), self.text, PATCH, 1.0);
             for i in 0..4 {
-                let touch = Toolpath::new(vec![Point::new(0.5 + f64::from(i) * (PATCH - 1.0) / 3.0, 0.5) + below]);
-                cell.add_path(Toolpath { dwell_seconds: seconds, ..touch });
+                let mut touch = Toolpath::touch(Point::new(0.5 + f64::from(i) * (PATCH - 1.0) / 3.0, 0.5) + below);
+                touch.dwell_seconds = seconds;
+                cell.add_path(touch);
             }
             cell
         };
@@ -113,7 +114,7 @@ impl Bench<'_> {
             let (mut cell, below) = Cell::labelled(&pen.to_string(), self.text, side + 2.0, side + 2.0);
             let at = |x: f64, y: f64| Point::new(x + 1.0, y + 1.0) + below;
             let half = 0.5 * side;
-            cell.add(square(at(0.0, 0.0), side));
+            cell.add_path(square(at(0.0, 0.0), side));
             for [x0, y0, x1, y1] in
                 [[half, -1.0, half, 0.0], [side, half, side + 1.0, half], [half, side, half, side + 1.0], [-1.0, half, 0.0, half]]
             {
@@ -136,7 +137,7 @@ impl Bench<'_> {
             let (mut cell, below) = Cell::labelled(&format!("{percent}%"), self.text, 10.0, 10.0);
             let first = cell.drawn.len();
             for inset in [0.0, 1.5, 3.0, 4.0] {
-                cell.add(square(Point::new(inset, inset) + below, 10.0 - 2.0 * inset));
+                cell.add_path(square(Point::new(inset, inset) + below, 10.0 - 2.0 * inset));
             }
             cell.drawn[first..].iter_mut().for_each(|drawn| drawn.speed_percent = Some(percent));
             cell

@@ -26,13 +26,13 @@ pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64, interrupt: &Interru
         }
         // The centre of the bounds is the same in both directions and moves no farther than the vertices: two equal paths lie in
         // the same cell or in adjacent ones.
-        let (x, y) = cell(bounds(&path.points).center(), tolerance);
+        let (x, y) = cell(bounds(path.points()).center(), tolerance);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))));
-        let mut candidates = around.filter_map(|(x, y)| by_middle.get(&(path.points.len(), x, y))).flatten();
+        let mut candidates = around.filter_map(|(x, y)| by_middle.get(&(path.points().len(), x, y))).flatten();
         if let Some(&earlier) = candidates.find(|&&other| interrupt.is_raised() || is_same(&path, &kept[other], tolerance)) {
             kept[earlier].dwell_seconds = kept[earlier].dwell_seconds.max(path.dwell_seconds);
         } else {
-            by_middle.entry((path.points.len(), x, y)).or_default().push(kept.len());
+            by_middle.entry((path.points().len(), x, y)).or_default().push(kept.len());
             kept.push(path);
         }
     }
@@ -40,11 +40,11 @@ pub fn drop_duplicates(paths: Vec<Toolpath>, tolerance: f64, interrupt: &Interru
 }
 
 fn is_same(a: &Toolpath, b: &Toolpath, tolerance: f64) -> bool {
-    let count = a.points.len();
-    if count != b.points.len() || a.heights.is_some() != b.heights.is_some() {
+    let count = a.points().len();
+    if count != b.points().len() || a.heights().is_some() != b.heights().is_some() {
         return false;
     }
-    let close = |i: usize, j: usize| a.points[i].distance(b.points[j]) <= tolerance && is_level(a, b, i, j, tolerance);
+    let close = |i: usize, j: usize| a.points()[i].distance(b.points()[j]) <= tolerance && is_level(a, b, i, j, tolerance);
     if (0..count).all(|i| close(i, i)) || (0..count).all(|i| close(i, count - 1 - i)) {
         return true;
     }
@@ -60,7 +60,7 @@ fn is_same(a: &Toolpath, b: &Toolpath, tolerance: f64) -> bool {
 }
 
 fn is_level(a: &Toolpath, b: &Toolpath, i: usize, j: usize, tolerance: f64) -> bool {
-    match (&a.heights, &b.heights) {
+    match (a.heights(), b.heights()) {
         (Some(a), Some(b)) => (a[i] - b[j]).abs() <= tolerance,
         _ => true,
     }

@@ -11,7 +11,6 @@ use std::collections::HashMap;
 
 use kurbo::{Point, Vec2};
 
-use super::ring::{is_free, rotated};
 use crate::interrupt::Interrupt;
 use crate::order::Direction;
 use crate::plot::Toolpath;
@@ -42,12 +41,12 @@ pub(in crate::plot) fn join_to_loops(
     direction: Direction,
     interrupt: &Interrupt,
 ) -> Vec<Toolpath> {
-    let rings: Vec<usize> = (0..paths.len()).filter(|&path| is_free(&paths[path]) && paths[path].heights.is_none()).collect();
+    let rings: Vec<usize> = (0..paths.len()).filter(|&path| paths[path].is_free() && paths[path].heights().is_none()).collect();
     if rings.is_empty() {
         return paths;
     }
     let edges = Edges::new(&paths, &rings, tolerance, interrupt);
-    let is_line = |path: &Toolpath| !path.is_closed() && path.heights.is_none() && path.length() > tolerance;
+    let is_line = |path: &Toolpath| !path.is_closed() && path.heights().is_none() && path.length() > tolerance;
     let lines = (0..paths.len()).take_while(|_| !interrupt.is_raised()).filter(|&path| is_line(&paths[path]));
     let mut touches: Vec<Touch> = lines
         .flat_map(|path| [(path, false), (path, true)])
@@ -60,18 +59,10 @@ pub(in crate::plot) fn join_to_loops(
     let mut is_gone = vec![false; paths.len()];
     for touch in touches {
         if !std::mem::replace(&mut is_gone[touch.ring], true) {
-            let mut ring = rotated(std::mem::replace(&mut paths[touch.ring], Toolpath::new(Vec::new())), touch.edge, touch.place);
-            if touch.reversed {
-                ring = ring.reversed();
-            }
-            let line = &mut paths[touch.path].points;
-            if touch.at_end {
-                line.extend(ring.points.iter().skip(usize::from(line.last() == ring.points.first())));
-            } else {
-                let skip = usize::from(line.first() == ring.points.last());
-                ring.points.extend(line.iter().skip(skip));
-                *line = ring.points;
-            }
+            let ring = paths[touch.ring].rotated(touch.edge, touch.place);
+            let ring = if touch.reversed { ring.reversed() } else { ring };
+            let line = &mut paths[touch.path];
+            if touch.at_end { line.append(ring) } else { line.prepend(ring) }
         }
     }
     let mut is_gone = is_gone.into_iter();
@@ -90,10 +81,10 @@ impl Edges {
     fn new(paths: &[Toolpath], rings: &[usize], tolerance: f64, interrupt: &Interrupt) -> Self {
         let (length, count) = rings
             .iter()
-            .fold((0.0, 0), |(length, count), &ring| (length + paths[ring].length(), count + paths[ring].points.len()));
+            .fold((0.0, 0), |(length, count), &ring| (length + paths[ring].length(), count + paths[ring].points().len()));
         let mut edges = Self { size: (2.0 * tolerance).max(length / count as f64).max(1e-9), cells: HashMap::new() };
         for &ring in rings.iter().take_while(|_| !interrupt.is_raised()) {
-            for (edge, side) in paths[ring].points.windows(2).enumerate() {
+            for (edge, side) in paths[ring].points().windows(2).enumerate() {
                 let steps = (2.0 * side[0].distance(side[1]) / edges.size).ceil().clamp(1.0, 1e6);
                 for step in 0..=steps as usize {
                     let cell = edges.cell(side[0].lerp(side[1], step as f64 / steps));
@@ -113,8 +104,8 @@ impl Edges {
 
     /// The loop that this end of a path meets with the least turn, if any.
     fn touch(&self, paths: &[Toolpath], path: usize, at_end: bool, tolerance: f64, direction: Direction) -> Option<Touch> {
-        let points = &paths[path].points;
-        let at = if at_end { points[points.len() - 1] } else { points[0] };
+        let points = paths[path].points();
+        let at = if at_end { paths[path].last() } else { paths[path].first() };
         let far = |p: &&Point| p.distance(at) > tolerance;
         let from = if at_end { points.iter().rev().find(far) } else { points.iter().find(far) }?;
         let arriving = (at - *from) / at.distance(*from);
@@ -122,7 +113,7 @@ impl Edges {
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))));
         let edges = around.filter_map(|cell| self.cells.get(&cell)).flatten();
         let touches = edges.filter_map(|&(ring, edge)| {
-            let (from, to) = (paths[ring].points[edge], paths[ring].points[edge + 1]);
+            let (from, to) = (paths[ring].points()[edge], paths[ring].points()[edge + 1]);
             let along = to - from;
             let t = ((at - from).dot(along) / along.hypot2()).clamp(0.0, 1.0);
             let place = from + along * t;

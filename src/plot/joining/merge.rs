@@ -33,42 +33,32 @@ const STEP: f64 = 0.01;
 /// dot and is left alone. A path with heights is joined only to others with heights, where these match. Chains are ordered by
 /// their first path, which keeps its direction; with [`Direction::AsDrawn`], the end of one path is joined only to the start of
 /// the next. O(n log n). Once the interrupt is raised, some chains are missing.
-#[expect(clippy::needless_pass_by_value, reason = "the paths are replaced by their chains")]
 pub fn chain(paths: Vec<Toolpath>, tolerance: f64, direction: Direction, interrupt: &Interrupt) -> Vec<Toolpath> {
     let links = matched(meetings(&paths, tolerance, direction, interrupt), 2 * paths.len());
-    let mut used = vec![false; paths.len()];
+    let mut left: Vec<Option<Toolpath>> = paths.into_iter().map(Some).collect();
     let mut chains = Vec::new();
-    for path in (0..paths.len()).take_while(|_| !interrupt.is_raised()) {
-        if used[path] {
-            continue;
-        }
+    for path in (0..left.len()).take_while(|_| !interrupt.is_raised()) {
+        let Some((dwell_seconds, group)) = left[path].as_ref().map(|path| (path.dwell_seconds, path.group)) else { continue };
         let first = first_entry(&links, 2 * path);
-        let mut chain = Toolpath { points: Vec::new(), heights: paths[path].heights.as_ref().map(|_| Vec::new()), ..paths[path] };
-        let mut entry = Some(first);
-        while let Some(end) = entry.filter(|end| !used[end / 2]) {
-            used[end / 2] = true;
-            append(&mut chain, &paths[end / 2], end % 2 == 1);
+        let Some(mut chain) = entered(&mut left, first) else { continue };
+        (chain.dwell_seconds, chain.group) = (dwell_seconds, group);
+        let mut entry = links[first ^ 1];
+        while let Some((end, next)) = entry.and_then(|end| Some((end, entered(&mut left, end)?))) {
+            chain.append(next);
             entry = links[end ^ 1];
         }
-        if entry.is_some() && chain.points.first() != chain.points.last() {
-            chain.points.push(chain.points[0]);
-            if let Some(heights) = &mut chain.heights {
-                heights.push(heights[0]);
-            }
+        if entry.is_some() {
+            chain.close();
         }
         chains.push(chain);
     }
     chains
 }
 
-/// Appends a path to a chain, which continues at the same point or after a gap.
-fn append(chain: &mut Toolpath, path: &Toolpath, reversed: bool) {
-    let at = |i: usize| if reversed { path.points.len() - 1 - i } else { i };
-    let skip = usize::from(chain.points.last().is_some_and(|last| *last == path.points[at(0)]));
-    chain.points.extend((skip..path.points.len()).map(|i| path.points[at(i)]));
-    if let (Some(all), Some(heights)) = (&mut chain.heights, &path.heights) {
-        all.extend((skip..heights.len()).map(|i| heights[at(i)]));
-    }
+/// Takes the path of an end, drawn from that end; none if it is taken already.
+fn entered(left: &mut [Option<Toolpath>], end: usize) -> Option<Toolpath> {
+    let path = left[end / 2].take()?;
+    Some(if end.is_multiple_of(2) { path } else { path.reversed() })
 }
 
 /// Two ends that could be joined, ordered by turn, gap, ends; the least is best. End `2 p` is the first point of path `p`, `2 p +
@@ -81,7 +71,7 @@ struct Meeting {
 
 /// All pairs of ends that may be joined.
 fn meetings(paths: &[Toolpath], tolerance: f64, direction: Direction, interrupt: &Interrupt) -> Vec<Meeting> {
-    let is_line: Vec<bool> = paths.iter().map(|path| is_longer_than(&path.points, tolerance)).collect();
+    let is_line: Vec<bool> = paths.iter().map(|path| is_longer_than(path, tolerance)).collect();
     let ends: Vec<(Point, u32)> =
         (0..2 * paths.len()).filter(|end| is_line[end / 2]).map(|end| (place(paths, end), end as u32)).collect();
     let tree = KdTree::new(ends.clone());
@@ -139,12 +129,12 @@ fn first_entry(links: &[Option<usize>], end: usize) -> usize {
 }
 
 fn place(paths: &[Toolpath], end: usize) -> Point {
-    let ends = paths[end / 2].ends();
-    if end.is_multiple_of(2) { ends.start } else { ends.end }
+    let path = &paths[end / 2];
+    if end.is_multiple_of(2) { path.first() } else { path.last() }
 }
 
 fn height(paths: &[Toolpath], end: usize) -> Option<f64> {
-    let heights = paths[end / 2].heights.as_ref()?;
+    let heights = paths[end / 2].heights()?;
     if end.is_multiple_of(2) { heights.first().copied() } else { heights.last().copied() }
 }
 
@@ -152,13 +142,13 @@ fn height(paths: &[Toolpath], end: usize) -> Option<f64> {
 /// shorter pieces have no reliable direction.
 fn outwards(paths: &[Toolpath], end: usize, tolerance: f64) -> Vec2 {
     let at = place(paths, end);
-    let path = &paths[end / 2].points;
+    let path = paths[end / 2].points();
     let far = |p: &&Point| p.distance(at) > tolerance;
     let from = if end.is_multiple_of(2) { path.iter().find(far) } else { path.iter().rev().find(far) };
     from.map_or(Vec2::ZERO, |&from| (at - from) / at.distance(from))
 }
 
 /// True if some vertex is farther than `tolerance` from the first.
-fn is_longer_than(path: &[Point], tolerance: f64) -> bool {
-    path.iter().any(|p| p.distance(path[0]) > tolerance)
+fn is_longer_than(path: &Toolpath, tolerance: f64) -> bool {
+    path.points().iter().any(|p| p.distance(path.first()) > tolerance)
 }

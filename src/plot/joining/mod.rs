@@ -3,11 +3,9 @@
 mod duplicates;
 mod loop_joins;
 mod merge;
-mod ring;
 #[cfg(test)]
 mod tests;
 
 pub use duplicates::drop_duplicates;
 pub(super) use loop_joins::join_to_loops;
 pub use merge::chain;
-pub(super) use ring::{is_free, rotated};

@@ -8,15 +8,21 @@ use crate::order::Direction;
 use crate::plot::Toolpath;
 
 fn toolpaths(lines: Vec<Vec<Point>>) -> Vec<Toolpath> {
-    lines.into_iter().map(Toolpath::new).collect()
+    lines.into_iter().filter_map(Toolpath::new).collect()
 }
 
 fn chain(lines: Vec<Vec<Point>>, tolerance: f64, direction: Direction) -> Vec<Vec<Point>> {
-    super::chain(toolpaths(lines), tolerance, direction, &Interrupt::never()).into_iter().map(|path| path.points).collect()
+    super::chain(toolpaths(lines), tolerance, direction, &Interrupt::never())
+        .into_iter()
+        .map(|path| path.points().to_vec())
+        .collect()
 }
 
 fn drop_duplicates(lines: Vec<Vec<Point>>, tolerance: f64) -> Vec<Vec<Point>> {
-    super::drop_duplicates(toolpaths(lines), tolerance, &Interrupt::never()).into_iter().map(|path| path.points).collect()
+    super::drop_duplicates(toolpaths(lines), tolerance, &Interrupt::never())
+        .into_iter()
+        .map(|path| path.points().to_vec())
+        .collect()
 }
 
 fn point() -> impl Strategy<Value = Point> {

@@ -56,11 +56,11 @@ fn narrow_parts(insets: &OffsetOutline, outermost: &OffsetOutline, nib: f64, pha
         insets.narrow_parts(outermost, 0.5 * nib, interrupt).into_iter().partition(|part| part.len() > 1);
     let strips = strips.into_iter().filter(|strip| ink_of(strip) >= least).take_while(|_| !interrupt.is_raised());
     let drawn = strips.enumerate().flat_map(|(i, strip)| dashes(&needle(&strip, nib), nib, phase + 0.618 * i as f64));
-    let mut paths: Vec<Toolpath> = drawn.filter(|path| !interrupt.is_raised() && ground().may_draw(&path.points, nib)).collect();
+    let mut paths: Vec<Toolpath> = drawn.filter(|path| !interrupt.is_raised() && ground().may_draw(path.points(), nib)).collect();
     if !nets.is_empty() {
         let mut net = Net::new(ground(), nib, interrupt);
         let pieces = nets.into_iter().flat_map(|part| pieces(part, nib)).take_while(|_| !interrupt.is_raised());
-        paths.extend(pieces.flat_map(|piece| net.lines(&piece)).map(Toolpath::new));
+        paths.extend(pieces.flat_map(|piece| net.lines(&piece)).filter_map(Toolpath::new));
     }
     paths
 }
@@ -174,33 +174,31 @@ fn joined(levels: &[Vec<Vec<Point>>], room: &Room, reach: f64, interrupt: &Inter
     for line in levels.iter().flatten().take_while(|_| !interrupt.is_raised()) {
         let is_ring = line.len() > 2 && line[0] == line[line.len() - 1];
         let starts = if is_ring { 0..line.len() - 1 } else { 0..1 };
-        let end_of = |path: usize| paths[path].points[paths[path].points.len() - 1];
         let known = &ends;
         let near = |start: usize| around(cell(line[start], reach)).filter_map(|cell| known.get(&cell)).flatten();
         let pairs = starts.flat_map(|start| near(start).map(move |path| (*path, start)));
-        let pairs = pairs.map(|(path, start)| (path, line[start].distance(end_of(path)), start));
+        let pairs = pairs.map(|(path, start)| (path, line[start].distance(paths[path].last()), start));
         let mut best: Option<(usize, f64, usize)> = None;
         for next in pairs.filter(|(_, distance, _)| *distance <= reach) {
             let is_better = best.is_none_or(|best| next.0 > best.0 || (next.0 == best.0 && next.1 < best.1));
-            if is_better && room.allows_step(end_of(next.0), line[next.2]) {
+            if is_better && room.allows_step(paths[next.0].last(), line[next.2]) {
                 best = Some(next);
             }
         }
         let from = |start: usize| {
             let turned = line[start..].iter().chain(if is_ring { &line[1..=start] } else { &[] });
-            turned.copied().collect::<Vec<Point>>()
+            turned.copied()
         };
         let path = if let Some((path, _, start)) = best {
-            let end = end_of(path);
-            ends.entry(cell(end, reach)).or_default().retain(|other| *other != path);
-            paths[path].points.extend(from(start));
+            ends.entry(cell(paths[path].last(), reach)).or_default().retain(|other| *other != path);
+            paths[path].extend(from(start));
             path
         } else {
-            paths.push(Toolpath::new(from(0)));
+            let Some(begun) = Toolpath::new(line.clone()) else { continue };
+            paths.push(begun);
             paths.len() - 1
         };
-        let end = paths[path].points[paths[path].points.len() - 1];
-        ends.entry(cell(end, reach)).or_default().push(path);
+        ends.entry(cell(paths[path].last(), reach)).or_default().push(path);
     }
     paths
 }
@@ -220,7 +218,7 @@ mod tests {
         assert_eq!(paths.len(), 1);
         let expected = 100.0 / (0.5 * (1.0 - OVERLAP));
         assert!((paths[0].length() / expected - 1.0).abs() < 0.06, "{} for {expected}", paths[0].length());
-        assert!(paths[0].points.iter().all(|p| p.x > 0.24 && p.x < 9.76 && p.y > 0.24 && p.y < 9.76));
+        assert!(paths[0].points().iter().all(|p| p.x > 0.24 && p.x < 9.76 && p.y > 0.24 && p.y < 9.76));
     }
 
     #[test]
@@ -228,7 +226,7 @@ mod tests {
         let ink = |paths: &[Toolpath]| -> f64 { paths.iter().map(|path| 0.3 * path.length() + 0.0707).sum() };
         let line = filled("M0,0 H40 V0.1 H0 Z", 0.3);
         assert!((ink(&line) / 4.0 - 1.0).abs() < 0.06, "{}", ink(&line));
-        assert!(line.iter().flat_map(|path| &path.points).all(|p| (p.y - 0.05).abs() < 0.02));
+        assert!(line.iter().flat_map(Toolpath::points).all(|p| (p.y - 0.05).abs() < 0.02));
         assert!(filled("M0,0 H0.05 V0.05 H0 Z", 0.3).is_empty());
     }
 
@@ -239,7 +237,7 @@ mod tests {
         let paths = filled(&format!("M12,1 V0 H0 V1 {} Z", teeth.join(" ")), 0.3);
         for i in 0..10 {
             let is_on = |p: &Point| p.y > 1.5 && (p.x - f64::from(i) - 1.1).abs() < 0.05;
-            assert!(paths.iter().any(|path| path.points.iter().all(is_on)), "tooth {i}");
+            assert!(paths.iter().any(|path| path.points().iter().all(is_on)), "tooth {i}");
         }
     }
 
@@ -247,7 +245,7 @@ mod tests {
     fn the_middle_of_a_frame_is_filled_although_its_corners_are_wider() {
         let paths = filled("M5,5 H15 V15 H5 Z M8,8 V12 H12 V8 Z", 0.5);
         for p in [Point::new(6.5, 10.0), Point::new(10.0, 13.5), Point::new(6.45, 8.0)] {
-            let near = |path: &Toolpath| path.points.windows(2).any(|w| distance_to_segment(p, w[0], w[1]) < 0.25);
+            let near = |path: &Toolpath| path.points().windows(2).any(|w| distance_to_segment(p, w[0], w[1]) < 0.25);
             assert!(paths.iter().any(near), "{p:?}");
         }
     }

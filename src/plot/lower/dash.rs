@@ -27,11 +27,7 @@ pub(super) fn dashes(samples: &[Sample], nib: f64, phase: f64) -> Vec<Toolpath> 
     let mut paths: Vec<Toolpath> = Vec::new();
     let mut phase = phase.rem_euclid(1.0);
     let mut dash: Vec<Point> = Vec::new();
-    let mut finish = |dash: &mut Vec<Point>| {
-        if !dash.is_empty() {
-            paths.push(Toolpath::new(std::mem::take(dash)));
-        }
-    };
+    let mut finish = |dash: &mut Vec<Point>| paths.extend(Toolpath::new(std::mem::take(dash)));
     for pair in samples.windows(2) {
         let length = pair[0].at.distance(pair[1].at);
         let (period, down) = rhythm(0.5 * (pair[0].width + pair[1].width), nib);
@@ -105,7 +101,7 @@ mod tests {
         let paths = dashes(&line(|_| 0.27), 0.3, 0.0);
         assert!(paths.len() > 10);
         for pair in paths.windows(2) {
-            let gap = pair[1].points[0].x - pair[0].points[pair[0].points.len() - 1].x;
+            let gap = pair[1].first().x - pair[0].last().x;
             assert!((gap - 0.45).abs() < 1e-6, "{gap}");
         }
     }

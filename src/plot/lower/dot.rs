@@ -25,15 +25,17 @@ pub(super) fn fill_dot(dot: &Dot, nib: f64, tolerance: f64, interrupt: &Interrup
     let inside = dot.radius - 0.5 * nib;
     // A ring smaller than this is lost in the nib's own roundness.
     if inside <= 0.02 * nib {
-        return Toolpath::new(vec![dot.centre]);
+        return Toolpath::touch(dot.centre);
     }
     let rim = Rim::of(dot, nib);
-    let mut points = Vec::new();
+    let ring = ring(&rim, tolerance);
     if dot.radius > nib {
-        spiral(&rim, nib * (1.0 - OVERLAP), tolerance, interrupt, &mut points);
+        let mut path = spiral(&rim, nib * (1.0 - OVERLAP), tolerance, interrupt);
+        path.extend(ring.points().iter().copied());
+        path
+    } else {
+        ring
     }
-    ring(&rim, tolerance, &mut points);
-    Toolpath::new(points)
 }
 
 /// The ring that the nib's centre follows, as distances from the dot's centre by angle.
@@ -97,28 +99,28 @@ fn distances(outline: &BezPath, centre: Point) -> Vec<f64> {
 }
 
 /// Turns from the centre outwards, ending on the rim at angle 0.
-fn spiral(rim: &Rim, pitch: f64, tolerance: f64, interrupt: &Interrupt, points: &mut Vec<Point>) {
+fn spiral(rim: &Rim, pitch: f64, tolerance: f64, interrupt: &Interrupt) -> Toolpath {
     let turns = (rim.largest() / pitch).ceil().max(1.0);
-    points.push(rim.centre);
+    let mut points = Vec::new();
     let mut turned = 0.0;
     loop {
         // A chord of a circle of radius r strays from it by r (1 - cos(step / 2)).
         let radius = rim.largest() * turned / turns;
         turned += step(radius.max(0.25 * pitch), tolerance) / TAU;
         if turned >= turns || interrupt.is_raised() {
-            return;
+            return Toolpath::through(rim.centre, points);
         }
         points.push(rim.at(TAU * turned, turned / turns));
     }
 }
 
-/// Once round, back to angle 0.
-fn ring(rim: &Rim, tolerance: f64, points: &mut Vec<Point>) {
+/// Once round from angle 0 back to it.
+fn ring(rim: &Rim, tolerance: f64) -> Toolpath {
     let count = (TAU / step(rim.largest(), tolerance)).ceil();
     // Vertices lie slightly outside, so that the chords' mean distance is the rim's.
     let share = 1.0 / (1.0 - 2.0 / 3.0 * (1.0 - (0.5 * TAU / count).cosine()));
-    points.extend((0..count as usize).map(|i| rim.at(TAU * i as f64 / count, share)));
-    points.push(rim.at(0.0, share));
+    let start = rim.at(0.0, share);
+    Toolpath::through(start, (1..count as usize).map(|i| rim.at(TAU * i as f64 / count, share)).chain([start]))
 }
 
 /// The angle whose chord stays within the tolerance; at most a twelfth of a turn, so that small rings stay round.
@@ -129,13 +131,14 @@ fn step(radius: f64, tolerance: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{blob, polyline_length};
+    use crate::geometry::blob;
     use rand::SeedableRng;
     use rand::rngs::ChaCha8Rng;
 
     /// The shares of the dot's grid points that are covered, and of ink outside.
     fn check(dot: &Dot, nib: f64, inside: impl Fn(Point) -> bool) -> (f64, f64) {
-        let path = fill_dot(dot, nib, 0.01, &Interrupt::never()).points;
+        let path = fill_dot(dot, nib, 0.01, &Interrupt::never());
+        let path = path.points();
         let steps = 160;
         let reach = 1.6 * dot.radius;
         let (mut asked, mut covered, mut spilt) = (0.0, 0.0, 0.0);
@@ -184,8 +187,8 @@ mod tests {
     fn a_ten_millimetre_disc_is_one_path_and_hardly_longer_than_it_must_be() {
         let path = fill_dot(&Dot::circle(Point::ORIGIN, 5.0), 0.3, 0.02, &Interrupt::never());
         let least = std::f64::consts::PI * 25.0 / (0.3 * (1.0 - OVERLAP));
-        let length = polyline_length(&path.points);
+        let length = path.length();
         assert!(length <= 1.06 * least, "{length} for {least}");
-        assert_eq!(fill_dot(&Dot::circle(Point::ORIGIN, 0.15), 0.3, 0.02, &Interrupt::never()).points, [Point::ORIGIN]);
+        assert_eq!(fill_dot(&Dot::circle(Point::ORIGIN, 0.15), 0.3, 0.02, &Interrupt::never()).points(), [Point::ORIGIN]);
     }
 }

@@ -37,14 +37,12 @@ pub(super) fn hatching(
     let step = (high - low) / count;
     let heights: Vec<f64> = (0..count as usize).map(|k| low + (k as f64 + 0.5) * step).collect();
     let rows = spans(&rings, &heights).into_iter().take_while(|_| !interrupt.is_raised());
-    let mut paths: Vec<Toolpath> = border.iter().map(|ring| Toolpath::new(ring.clone())).collect();
-    paths.extend(back_and_forth(rows, 2.5 * pitch, |a, b| room.allows_step(turned(a), turned(b))).into_iter().map(|line| {
-        let points = line.into_iter().map(turned).collect();
-        Toolpath::new(points)
-    }));
+    let mut paths: Vec<Toolpath> = border.iter().filter_map(|ring| Toolpath::new(ring.clone())).collect();
+    let lines = back_and_forth(rows, 2.5 * pitch, |a, b| room.allows_step(turned(a), turned(b)));
+    paths.extend(lines.into_iter().filter_map(|line| Toolpath::new(line.into_iter().map(turned).collect())));
     // Islands between two rows, as in the meshes of a net.
     let islands = inside.iter().zip(&rings).filter(|(_, ring)| lies_between(ring, &heights));
-    paths.extend(islands.map(|(ring, _)| Toolpath::new([&ring[..], &ring[..1]].concat())));
+    paths.extend(islands.filter_map(|(ring, _)| Toolpath::new([&ring[..], &ring[..1]].concat())));
     Some(paths)
 }
 
@@ -136,7 +134,7 @@ mod tests {
         let border: Vec<Vec<Point>> = insets.rings(0.25).iter().map(|ring| [&ring[..], &ring[..1]].concat()).collect();
         let room = Room::new(&insets.grown(-0.25), 0.5);
         let paths = hatching(&insets, &border, &room, 0.5, 0.9, &Interrupt::never()).unwrap();
-        let inside = |path: &&Toolpath| path.points.iter().all(|p| p.x > 50.5);
+        let inside = |path: &&Toolpath| path.points().iter().all(|p| p.x > 50.5);
         assert_eq!(paths.iter().filter(inside).count(), 1);
     }
 }

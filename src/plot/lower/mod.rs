@@ -131,7 +131,7 @@ impl Lowering<'_> {
         }
         let phase = phase(index);
         match (mark, self.model) {
-            (Mark::Stroke(stroke), InkModel::Lines) => grouped(polylines(&stroke.curve, self.tolerance), stroke),
+            (Mark::Stroke(stroke), InkModel::Lines) => grouped(polylines(stroke.curve(), self.tolerance), stroke),
             (_, InkModel::Lines) => Vec::new(),
             (Mark::Dot(dot), InkModel::Ink) => vec![fill_dot(dot, self.nib, self.tolerance, self.interrupt)],
             (Mark::Stroke(stroke), InkModel::Ink) => grouped(self.stroke(stroke, phase), stroke),
@@ -147,7 +147,7 @@ impl Lowering<'_> {
             let area = Area { outline: stroke.ink_outline(0.5 * self.tolerance), colour: None };
             return self.area(&area, phase);
         }
-        self.simplified(lower_stroke(stroke, self.nib, phase, self.interrupt))
+        self.simplified(&lower_stroke(stroke, self.nib, phase, self.interrupt))
     }
 
     fn area(&self, area: &Area, phase: f64) -> Vec<Toolpath> {
@@ -158,14 +158,13 @@ impl Lowering<'_> {
         if self.interrupt.is_raised() {
             return Vec::new();
         }
-        self.simplified(fill(shape, self.nib, phase, self.interrupt))
+        self.simplified(&fill(shape, self.nib, phase, self.interrupt))
     }
 
-    /// Removes vertices that straight stretches do not need.
-    fn simplified(&self, paths: Vec<Toolpath>) -> Vec<Toolpath> {
-        let points = |path: &Toolpath| simplify_until(&path.points, 0.5 * self.tolerance, self.interrupt);
-        let thinned = |path: Toolpath| Toolpath { points: points(&path), ..path };
-        paths.into_iter().map(thinned).collect()
+    /// Level paths without the vertices that straight stretches do not need.
+    fn simplified(&self, paths: &[Toolpath]) -> Vec<Toolpath> {
+        let points = |path: &Toolpath| simplify_until(path.points(), 0.5 * self.tolerance, self.interrupt);
+        paths.iter().filter_map(|path| Toolpath::new(points(path))).collect()
     }
 }
 
@@ -184,25 +183,24 @@ fn polylines(curve: &BezPath, tolerance: f64) -> Vec<Toolpath> {
     flatten(curve, tolerance)
         .into_iter()
         .filter(|(points, _)| points.iter().all(|p| p.is_finite()))
-        .map(|(mut points, closed)| {
+        .filter_map(|(mut points, closed)| {
             if closed && points.len() > 1 {
                 points.push(points[0]);
             }
             points.dedup();
             Toolpath::new(points)
         })
-        .filter(|path| !path.points.is_empty())
         .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Dot, Page, Width};
+    use crate::drawing::{Dot, Page};
     use crate::geometry::Point;
 
     fn touch(x: f64, y: f64) -> Toolpath {
-        Toolpath::new(vec![Point::new(x, y)])
+        Toolpath::touch(Point::new(x, y))
     }
 
     #[test]
@@ -213,7 +211,7 @@ mod tests {
         let drawing = Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] };
         let plot = lower(&drawing, InkModel::Ink, &Nibs::all(0.3), 0.01, &Interrupt::never()).unwrap();
         assert_eq!(plot.pens[0].paths[0], touch(5.0, 5.0));
-        let spiral = &plot.pens[0].paths[1].points;
+        let spiral = plot.pens[0].paths[1].points();
         assert_eq!(spiral[0], Point::new(8.0, 5.0));
         assert!(spiral.iter().all(|p| p.distance(Point::new(8.0, 5.0)) < 0.86));
         assert!(lower(&drawing, InkModel::Lines, &Nibs::all(0.3), 0.01, &Interrupt::never()).unwrap().pens[0].paths.is_empty());
@@ -221,7 +219,7 @@ mod tests {
 
     #[test]
     fn layers_of_one_pen_are_drawn_together() {
-        let stroke = Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L1,1").unwrap(), Width::Constant(0.3)));
+        let stroke = Mark::Stroke(Stroke::even(BezPath::from_svg("M0,0 L1,1").unwrap(), 0.3));
         let layers = [("a", 2), ("b", 1), ("c", 2)]
             .into_iter()
             .map(|(name, pen)| Layer { marks: vec![stroke.clone()], ..Layer::new(name, pen) })

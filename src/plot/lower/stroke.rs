@@ -81,7 +81,7 @@ pub(in crate::plot) fn turns_sharply(stroke: &Stroke, nib: f64) -> bool {
 
 /// Draws a stroke without length as a dot of the stroke's width.
 fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64, interrupt: &Interrupt) -> Vec<Toolpath> {
-    let at = sample.map(|sample| sample.at).or_else(|| stroke.curve.elements().first().and_then(PathEl::end_point));
+    let at = sample.map(|sample| sample.at).or_else(|| stroke.curve().elements().first().and_then(PathEl::end_point));
     let Some(at) = at.filter(|at| at.is_finite()) else { return Vec::new() };
     let width = sample.map_or(stroke.widest(), |sample| sample.width);
     // Dots are thinned out together. A single one is drawn if at least half a touch is wanted.
@@ -93,7 +93,7 @@ fn point(stroke: &Stroke, sample: Option<Sample>, nib: f64, interrupt: &Interrup
 /// The centre line with its widths, at steps of at most a quarter of a nib. Straight lines of one width that a pass or dashes
 /// draw are sampled only at their vertices.
 fn samples(stroke: &Stroke, nib: f64) -> Vec<Sample> {
-    if let (Width::Constant(width), Some(points)) = (&stroke.width, corners(&stroke.curve))
+    if let (Width::Constant(width), Some(points)) = (stroke.width(), corners(stroke.curve()))
         && *width <= ONE_PASS * nib
     {
         return points.into_iter().filter(|p| p.is_finite()).map(|at| Sample { at, width: *width }).collect();
@@ -230,19 +230,14 @@ fn arc(centre: Point, from: Point, to: Point, forward: Vec2) -> Vec<Point> {
 
 /// Appends pieces of line, joined to the last path if the step between them is short and so lies within the stroke's ink.
 fn append(paths: &mut Vec<Toolpath>, pieces: Vec<Vec<Point>>, reach: f64) {
-    for mut piece in pieces.into_iter().filter(|piece| !piece.is_empty()) {
-        let end = paths.last().and_then(|path| path.points.last().copied());
-        let ends = (piece[0], piece[piece.len() - 1]);
-        match end {
-            Some(end) if end.distance(ends.0).min(end.distance(ends.1)) <= reach => {
-                if end.distance(ends.1) < end.distance(ends.0) {
-                    piece.reverse();
-                }
-                if let Some(path) = paths.last_mut() {
-                    path.points.append(&mut piece);
-                }
+    for piece in pieces.into_iter().filter_map(Toolpath::new) {
+        let distances = |path: &Toolpath| (path.last().distance(piece.first()), path.last().distance(piece.last()));
+        match paths.last_mut().map(|path| (distances(path), path)) {
+            Some(((to_first, to_last), path)) if to_first.min(to_last) <= reach => {
+                let piece = if to_last < to_first { piece.reversed() } else { piece };
+                path.extend(piece.points().iter().copied());
             }
-            _ => paths.push(Toolpath::new(piece)),
+            _ => paths.push(piece),
         }
     }
 }
@@ -272,32 +267,32 @@ mod tests {
         let mut line = BezPath::new();
         line.move_to((0.0, 0.0));
         line.line_to((1.6, 0.0));
-        let stroke = Stroke { ends: Ends::Flat, ..Stroke::new(line, Width::Constant(2.3)) };
+        let stroke = Stroke::even(line, 2.3).with_ends(Ends::Flat);
         let paths = lower_stroke(&stroke, 0.92, 0.0, &Interrupt::never());
-        let xs = || paths.iter().flat_map(|path| &path.points).map(|p| p.x);
+        let xs = || paths.iter().flat_map(Toolpath::points).map(|p| p.x);
         assert!((xs().fold(f64::INFINITY, f64::min) - 0.46).abs() < 1e-6 && (xs().fold(0.0, f64::max) - 1.14).abs() < 1e-6);
     }
 
     #[test]
     fn a_wide_line_is_one_path_inside_its_ink() {
         for (width, rows) in [(0.5, 2.0), (1.0, 4.0), (2.0, 8.0)] {
-            let stroke = Stroke::new(BezPath::from_svg("M0,0 L20,0").unwrap(), Width::Constant(width));
+            let stroke = Stroke::even(BezPath::from_svg("M0,0 L20,0").unwrap(), width);
             let paths = lower_stroke(&stroke, 0.3, 0.0, &Interrupt::never());
             assert_eq!(paths.len(), 1, "width {width}");
             let reach = 0.5 * width - 0.15 + 1e-9;
-            assert!(paths[0].points.iter().all(|p| p.y.abs() <= reach && p.x >= -reach && p.x <= 20.0 + reach));
+            assert!(paths[0].points().iter().all(|p| p.y.abs() <= reach && p.x >= -reach && p.x <= 20.0 + reach));
             assert!(paths[0].length() < 20.0 * (rows + 1.0) + 10.0, "width {width}: {}", paths[0].length());
         }
     }
 
     #[test]
     fn a_spindle_s_tips_are_dashes_with_its_own_ink() {
-        let stroke = Stroke::new(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), Width::Along(vec![0.0, 0.6, 0.0]));
+        let stroke = Stroke::swelling(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), vec![0.0, 0.6, 0.0]).unwrap();
         let paths = lower_stroke(&stroke, 0.3, 0.0, &Interrupt::never());
-        let thin: Vec<&Toolpath> = paths.iter().filter(|path| path.points.iter().all(|p| p.x < 4.8)).collect();
+        let thin: Vec<&Toolpath> = paths.iter().filter(|path| path.points().iter().all(|p| p.x < 4.8)).collect();
         assert!(thin.len() > 3, "{}", thin.len());
         let ink: f64 = thin.iter().map(|path| path.length() * 0.3 + 0.0707).sum();
-        let end = thin.iter().flat_map(|path| &path.points).map(|p| p.x).fold(0.0, f64::max) + 0.3;
+        let end = thin.iter().flat_map(|path| path.points()).map(|p| p.x).fold(0.0, f64::max) + 0.3;
         let (points, widths) = stroke.sampled(0.01);
         let asked: f64 =
             (1..points.len()).filter(|&i| points[i].x < end).map(|i| widths[i] * points[i].distance(points[i - 1])).sum();
@@ -311,9 +306,9 @@ mod tests {
     fn square_ends_are_kept() {
         let line = BezPath::from_svg("M0,0 L10,0").unwrap();
         for width in [0.3, 0.9] {
-            let stroke = Stroke { ends: Ends::Flat, ..Stroke::new(line.clone(), Width::Constant(width)) };
+            let stroke = Stroke::even(line.clone(), width).with_ends(Ends::Flat);
             let paths = lower_stroke(&stroke, 0.3, 0.0, &Interrupt::never());
-            assert!(paths.iter().flat_map(|path| &path.points).all(|p| p.x > 0.149 && p.x < 9.851), "{width}: {paths:?}");
+            assert!(paths.iter().flat_map(Toolpath::points).all(|p| p.x > 0.149 && p.x < 9.851), "{width}: {paths:?}");
         }
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn swelling_pass(stroke: &Stroke, swell: &Swell, tolerance: f64) -> O
     let kept = kept(&samples, tolerance);
     let points: Vec<Point> = kept.iter().map(|&i| samples[i].0).collect();
     let heights = kept.iter().map(|&i| samples[i].1).collect();
-    (!points.is_empty()).then(|| vec![Toolpath { heights: Some(heights), ..Toolpath::new(points) }])
+    Some(vec![Toolpath::new(points)?.with_heights(heights)?])
 }
 
 /// Indices of the samples to keep: those that a straight line in position and height does not reproduce within the tolerance
@@ -54,18 +54,16 @@ fn kept(samples: &[(Point, f64)], tolerance: f64) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Width;
     use crate::geometry::BezPath;
 
     #[test]
     fn a_spindle_is_one_pass_that_sinks_and_rises() {
         let swell = Swell { table: vec![[0.1, 0.0], [1.1, -2.0]] };
-        let spindle = |most: f64| Stroke::new(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), Width::Along(vec![0.1, most, 0.1]));
+        let spindle = |most: f64| Stroke::swelling(BezPath::from_svg("M0,0 L10,0 L20,0").unwrap(), vec![0.1, most, 0.1]).unwrap();
         let paths = swelling_pass(&spindle(1.1), &swell, 0.02).unwrap();
         assert_eq!(paths.len(), 1);
-        let heights = paths[0].heights.as_ref().unwrap();
-        assert_eq!(heights.len(), paths[0].points.len());
-        let at = |x: f64| heights[paths[0].points.iter().position(|p| (p.x - x).abs() < 0.3).unwrap()];
+        let heights = paths[0].heights().unwrap();
+        let at = |x: f64| heights[paths[0].points().iter().position(|p| (p.x - x).abs() < 0.3).unwrap()];
         assert!(at(0.0).abs() < 0.05 && (at(10.0) + 2.0).abs() < 0.05 && at(20.0).abs() < 0.05);
         assert!(swelling_pass(&spindle(1.2), &swell, 0.02).is_none());
     }

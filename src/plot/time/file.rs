@@ -119,9 +119,10 @@ mod tests {
 
     /// Lines, an arc, dots and a second pen.
     fn plot() -> Plot {
-        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
+        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect()).unwrap();
         let round = (0..=60).map(|i| 0.05 * f64::from(i)).map(|t| Point::new(60.0 + 9.0 * t.cosine(), 20.0 + 9.0 * t.sine()));
-        let paths = vec![path(&[(1.0, 2.0), (30.0, 2.0), (30.0, 31.0)]), Toolpath::new(round.collect()), path(&[(80.0, 8.0)])];
+        let paths =
+            vec![path(&[(1.0, 2.0), (30.0, 2.0), (30.0, 31.0)]), Toolpath::new(round.collect()).unwrap(), path(&[(80.0, 8.0)])];
         let handling = Handling::default();
         let pen = PenPaths { number: 1, name: "lines".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };
         let other = PenPaths { number: 2, name: "more".into(), ..pen.clone() };

@@ -153,12 +153,12 @@ impl<'a> Run<'a> {
     }
 
     fn path(&mut self, pen: u32, path: &Toolpath, rate: f64) {
-        let mut places: Vec<[f64; 2]> = path.points.iter().map(|p| self.on_machine(pen, *p)).collect();
+        let mut places: Vec<[f64; 2]> = path.points().iter().map(|p| self.on_machine(pen, *p)).collect();
         self.travel(places[0]);
-        self.lower(path.heights.as_ref().map(|heights| heights[0]));
+        self.lower(path.heights().map(|heights| heights[0]));
         self.wait(self.profile.motion.pen_down_seconds * f64::from(u8::from(self.waits_for_pen())) + path.dwell_seconds);
         let slot = self.slot(Share::Drawing);
-        match &path.heights {
+        match path.heights() {
             Some(heights) if self.lifts_by_height() => {
                 for (place, z) in places.iter().zip(heights).skip(1) {
                     self.at = [place[0], place[1], self.height(*z)];

@@ -1,7 +1,7 @@
 //! A stroke of the stick: path, pressure and time.
 
 use super::Drawer;
-use crate::drawing::{Drawing, Mark, Stroke, Width};
+use crate::drawing::{Drawing, Mark, Stroke};
 use crate::geometry::{Millimetres, Point, Ring, catmull_rom, polyline_length, resample};
 
 /// Width at zero pressure as a share of that at full pressure: a stick never draws a hairline.
@@ -40,9 +40,7 @@ impl Drawer<'_> {
             .collect();
         let page: Vec<Point> = nodes.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
         let widths = pressure.iter().map(|p| touch.width.0 * (LIGHTEST + (1.0 - LIGHTEST) * p)).collect();
-        let mut stroke = Stroke::new(catmull_rom(&page, Ring::Open), Width::Along(widths));
-        stroke.pressure = Some(pressure);
-        Some(Mark::Stroke(stroke))
+        Stroke::swelling(catmull_rom(&page, Ring::Open), widths)?.with_pressure(pressure).map(Mark::Stroke)
     }
 }
 
@@ -62,23 +60,32 @@ fn swell(along: f64, taper: f64) -> f64 {
 
 /// Sets the times at the nodes of every stroke, in drawing order.
 pub(super) fn time(drawing: &mut Drawing) {
-    let (mut now, mut at) = (0.0, Point::ORIGIN);
-    for stroke in drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks) {
-        let Mark::Stroke(stroke) = stroke else { continue };
-        let nodes = nodes(stroke);
-        let Some(&first) = nodes.first() else { continue };
-        now += at.distance(first) / MOVING_SPEED + LIFT;
-        at = first;
-        let times = nodes.iter().map(|node| {
-            now += at.distance(*node) / DRAWING_SPEED;
-            at = *node;
-            now
-        });
-        stroke.times = Some(times.collect());
+    let mut hand = Hand { now: 0.0, at: Point::ORIGIN };
+    for layer in &mut drawing.layers {
+        let marks = std::mem::take(&mut layer.marks).into_iter();
+        layer.marks =
+            marks.filter_map(|mark| if let Mark::Stroke(stroke) = mark { hand.draw(stroke) } else { Some(mark) }).collect();
     }
 }
 
-/// The start and the end of each segment.
-fn nodes(stroke: &Stroke) -> Vec<Point> {
-    stroke.curve.elements().iter().filter_map(kurbo::PathEl::end_point).collect()
+/// The hand that draws: the time, and where it is.
+struct Hand {
+    now: f64,
+    at: Point,
+}
+
+impl Hand {
+    /// The stroke with its times.
+    fn draw(&mut self, stroke: Stroke) -> Option<Mark> {
+        let first = stroke.nodes().next()?;
+        self.now += self.at.distance(first) / MOVING_SPEED + LIFT;
+        self.at = first;
+        let times = stroke.nodes().map(|node| {
+            self.now += self.at.distance(node) / DRAWING_SPEED;
+            self.at = node;
+            self.now
+        });
+        let times = times.collect();
+        stroke.with_times(times).map(Mark::Stroke)
+    }
 }

@@ -1,7 +1,7 @@
 //! Coherent lines on top of the engraving (Galarza 2017, section 5.2; Kang, Lee and Chui 2007).
 
 use super::Drawer;
-use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::drawing::{Layer, Mark, Stroke};
 use crate::elementary::Elementary as _;
 use crate::field::{Curve, LineParameters, edge_tangent_flow, flow_lines, lines_of};
 use crate::geometry::{Ring, catmull_rom, resample};
@@ -39,6 +39,6 @@ impl Drawer<'_> {
         let page: Vec<_> = nodes.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
         let swell = |i: usize| (std::f64::consts::PI * i as f64 / (page.len() - 1) as f64).sine().max(0.0).sqrt();
         let widths = (0..page.len()).map(|i| self.parameters.outline_width.0 * swell(i)).collect();
-        Some(Mark::Stroke(Stroke::new(catmull_rom(&page, Ring::Open), Width::Along(widths))))
+        Stroke::swelling(catmull_rom(&page, Ring::Open), widths).map(Mark::Stroke)
     }
 }

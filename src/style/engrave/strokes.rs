@@ -2,7 +2,7 @@
 
 use super::breaks::{Piece, taper_at};
 use super::lines::{FIT_ROOM, Family, Line};
-use crate::drawing::{Dot, Mark, Stroke, Width};
+use crate::drawing::{Dot, Mark, Stroke};
 use crate::geometry::{BezPath, Ends, FitTolerance, Graph, GraphNode};
 
 /// Maximum length of a piece of a stroke's curve, in millimetres: longer ones are halved on nearly any form.
@@ -40,9 +40,8 @@ fn stroke(family: &Family, graph: Graph<'_>, places: &[(f64, f64)], tapers: [f64
     through.dedup_by(|b, a| *b <= *a + 1e-6);
     let tolerance = FitTolerance { height: 0.75 * FIT_ROOM, width: WIDTH_TOLERANCE * family.pitch, piece: LONGEST_PIECE };
     let nodes = graph.fit(&through, width, tolerance);
-    let mut mark = Stroke::new(curve(family, &nodes), Width::Along(nodes.iter().map(|n| n.width).collect()));
-    mark.ends = Ends::Flat;
-    Some(Mark::Stroke(mark))
+    let stroke = Stroke::swelling(curve(family, &nodes), nodes.iter().map(|n| n.width).collect())?;
+    Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
 }
 
 fn curve(family: &Family, nodes: &[GraphNode]) -> BezPath {

@@ -1,6 +1,6 @@
 //! A stroke's centre line and width in working pixels.
 
-use crate::drawing::{Stroke, Width};
+use crate::drawing::Stroke;
 use crate::elementary::Elementary as _;
 use crate::field::Ribbon;
 use crate::geometry::{Point, Ring, catmull_rom};
@@ -65,9 +65,9 @@ impl Body {
     }
 
     /// The part from one node to another as a stroke on the page, of `scale` millimetres per pixel.
-    pub(super) fn stroke(&self, first: usize, last: usize, scale: f64, to_page: impl Fn(Point) -> Point) -> Stroke {
+    pub(super) fn stroke(&self, first: usize, last: usize, scale: f64, to_page: impl Fn(Point) -> Point) -> Option<Stroke> {
         let nodes: Vec<Point> = self.nodes[first..=last].iter().map(|p| to_page(*p)).collect();
         let widths = self.widths[first..=last].iter().map(|w| w * scale).collect();
-        Stroke::new(catmull_rom(&nodes, Ring::Open), Width::Along(widths))
+        Stroke::swelling(catmull_rom(&nodes, Ring::Open), widths)
     }
 }

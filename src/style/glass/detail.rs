@@ -50,10 +50,9 @@ pub(super) fn marks(drawer: &Drawer<'_>, ground: &Ground, canvas: &Canvas, colou
         let mut widths = vec![touch; nodes.len()];
         widths[0] *= 0.6;
         let body = Body::new(nodes, widths);
-        let mut stroke = body.stroke(0, body.stretches(), scale, |p| drawer.to_page(ground, p));
-        stroke.colour = Some(colour::shifted(sum, 0.0));
-        stroke.group = Some(0);
-        marks.push(Mark::Stroke(stroke));
+        let stroke = body.stroke(0, body.stretches(), scale, |p| drawer.to_page(ground, p));
+        let colour = Some(colour::shifted(sum, 0.0));
+        marks.extend(stroke.map(|stroke| Mark::Stroke(stroke.with_colour(colour).in_group(Some(0)))));
     }
     marks.reverse();
     marks

@@ -1,7 +1,7 @@
 //! Bristle marks: fine lines on top of the strokes, along the same flow (Papari 2009, figures 7.15 and 7.16).
 
 use super::{Drawer, Ground, colour, noise};
-use crate::drawing::{Layer, Mark, Mixing, Stroke, Width};
+use crate::drawing::{Layer, Mark, Mixing, Stroke};
 use crate::field::line_integral_convolution;
 use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::parallel::collected;
@@ -71,9 +71,7 @@ impl Hairs<'_> {
         let shift =
             self.drawer.parameters.contrast * (self.below.sample(middle.x, middle.y) + self.drawer.parameters.hairs * value);
         let width = self.width * self.drawer.portrait.placement.mm_per_pixel();
-        let mut stroke = Stroke::new(catmull_rom(&page, Ring::Open), Width::Constant(width));
-        stroke.colour = Some(colour::shifted([rgb[0], rgb[1], rgb[2]], shift));
-        stroke.group = Some(1);
-        Some(Mark::Stroke(stroke))
+        let colour = colour::shifted([rgb[0], rgb[1], rgb[2]], shift);
+        Some(Mark::Stroke(Stroke::even(catmull_rom(&page, Ring::Open), width).with_colour(Some(colour)).in_group(Some(1))))
     }
 }

@@ -5,7 +5,7 @@ mod arcs;
 mod coverage;
 
 use super::{Drawer, Ground};
-use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::drawing::{Layer, Mark, Stroke};
 use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::style::{Picture, StyleError};
 use arcs::{Arcs, Wanted};
@@ -37,17 +37,16 @@ pub(super) fn layer(drawer: &Drawer<'_>, ground: &Ground) -> Result<Layer, Style
         }
         drawer.observer.progress((round + 1) as f64 / ROUNDS as f64);
     }
-    layer.marks = lines.iter().map(|line| mark(drawer, line)).collect();
+    layer.marks = lines.iter().filter_map(|line| mark(drawer, line)).collect();
     Ok(layer)
 }
 
 /// An arc as a line of constant width; pressure fades at its ends, for machines with pressure.
-fn mark(drawer: &Drawer<'_>, line: &[Point]) -> Mark {
+fn mark(drawer: &Drawer<'_>, line: &[Point]) -> Option<Mark> {
     let nodes: Vec<Point> = resample(line, NODE_SPACING).into_iter().map(|p| drawer.portrait.placement.to_page(p)).collect();
-    let mut stroke = Stroke::new(catmull_rom(&nodes, Ring::Open), Width::Constant(drawer.parameters.line.0));
+    let stroke = Stroke::even(catmull_rom(&nodes, Ring::Open), drawer.parameters.line.0);
     let last = (nodes.len() - 1) as f64;
     let taper = (0.5 * drawer.parameters.taper).max(1e-6);
     let pressure = |i: usize| (0.25 + 0.75 * (i as f64).min(last - i as f64) / last / taper).min(1.0);
-    stroke.pressure = Some((0..nodes.len()).map(pressure).collect());
-    Mark::Stroke(stroke)
+    stroke.with_pressure((0..nodes.len()).map(pressure).collect()).map(Mark::Stroke)
 }

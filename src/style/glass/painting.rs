@@ -89,7 +89,7 @@ impl Painter<'_> {
             let shift = self.drawer.parameters.contrast * self.levels.value(&ribbons[*i]);
             self.mark(&bodies[*i], part, shift)
         });
-        marks.extend(strokes.into_iter().rev());
+        marks.extend(strokes.into_iter().rev().flatten());
         marks.extend(detail::marks(self.drawer, self.ground, &canvas, &colours));
         marks
     }
@@ -118,22 +118,21 @@ impl Painter<'_> {
                 }
                 colours.push(shown.colour());
                 let part = Part { first: 0, last: body.stretches(), shown };
-                marks.push(self.mark(&body, &part, FILLING_VALUE * self.drawer.parameters.contrast));
+                marks.extend(self.mark(&body, &part, FILLING_VALUE * self.drawer.parameters.contrast));
             }
         }
         marks.reverse();
         marks
     }
 
-    fn mark(&self, body: &Body, part: &Part, shift: f32) -> Mark {
+    fn mark(&self, body: &Body, part: &Part, shift: f32) -> Option<Mark> {
         let scale = self.drawer.portrait.placement.mm_per_pixel();
-        let mut stroke = body.stroke(part.first, part.last, scale, |p| self.drawer.to_page(self.ground, p));
+        let stroke = body.stroke(part.first, part.last, scale, |p| self.drawer.to_page(self.ground, p))?;
         let margin = self.ground.margin as f64;
         let contrast = |people: &People| people.contrast(body.nodes[part.first] - Vec2::new(margin, margin));
         let shift = shift * self.ground.people.as_ref().map_or(1.0, contrast);
-        stroke.colour = Some(colour::shifted(part.shown.colour(), shift));
-        stroke.group = Some(0);
-        Mark::Stroke(stroke)
+        let colour = Some(colour::shifted(part.shown.colour(), shift));
+        Some(Mark::Stroke(stroke.with_colour(colour).in_group(Some(0))))
     }
 }
 

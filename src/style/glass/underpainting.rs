@@ -1,7 +1,7 @@
 //! Flat strokes under all others, so that no paper shows through the slivers between them.
 
 use super::{Drawer, Ground, colour};
-use crate::drawing::{Mark, Stroke, Width};
+use crate::drawing::{Mark, Stroke};
 use crate::geometry::{Ends, Point, Ring, catmull_rom};
 use crate::parallel::mapped;
 
@@ -65,9 +65,6 @@ fn mark(drawer: &Drawer<'_>, ground: &Ground, run: &Run, top: usize, bottom: usi
     let middle = 0.5 * (top + bottom) as f64;
     let ends = [run.first as f64 - OVERLAP, run.last as f64 + OVERLAP].map(|x| drawer.to_page(ground, Point::new(x, middle)));
     let width = ((bottom - top) as f64 + 2.0 * OVERLAP) * drawer.portrait.placement.mm_per_pixel();
-    let mut stroke = Stroke::new(catmull_rom(&ends, Ring::Open), Width::Constant(width));
-    stroke.ends = Ends::Flat;
-    stroke.colour = Some(colour::shifted(run.colour(), 0.0));
-    stroke.group = Some(0);
-    Mark::Stroke(stroke)
+    let stroke = Stroke::even(catmull_rom(&ends, Ring::Open), width).with_ends(Ends::Flat);
+    Mark::Stroke(stroke.with_colour(Some(colour::shifted(run.colour(), 0.0))).in_group(Some(0)))
 }

@@ -1,7 +1,7 @@
 //! Feature lines, isophotes and the field between them (Son et al. 2011, section 4).
 
 use super::Drawer;
-use crate::drawing::{Colour, Ink, Layer, Mark, Stroke, Width};
+use crate::drawing::{Colour, Ink, Layer, Mark, Stroke};
 use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{
     CoherentLine, Curve, DirectionField, FieldParameters, Guides, LineParameters, coherent_lines, contours, detect_isophotes,
@@ -201,7 +201,7 @@ impl Drawer<'_> {
                 if curve.closed {
                     path.close_path();
                 }
-                Mark::Stroke(Stroke::new(path, Width::Constant(0.15 * self.parameters.pitch.0)))
+                Mark::Stroke(Stroke::even(path, 0.15 * self.parameters.pitch.0))
             })
             .collect();
         layer

@@ -4,7 +4,7 @@ use super::darks::Darks;
 use super::mixing::Mixing;
 use super::structure::StructureGrid;
 use super::{Drawer, LineEnds};
-use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::drawing::{Layer, Mark, Stroke};
 use crate::field::Curve;
 use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::parallel::mapped;
@@ -53,7 +53,7 @@ fn strokes(
     let least = LEAST_WIDTH * drawer.pitch();
     let is_whole = line.closed && nodes.len() > 3 && widths.iter().all(|&w| w > least);
     if is_whole {
-        return vec![stroke(drawer, &nodes[..nodes.len() - 1], widths, Ring::Closed)];
+        return stroke(drawer, &nodes[..nodes.len() - 1], widths, Ring::Closed).into_iter().collect();
     }
     let mut out = Vec::new();
     let mut start = 0;
@@ -63,7 +63,7 @@ fn strokes(
         if run[0] > least {
             let kept = without_whiskers(&widths, range, WHISKER * drawer.pitch());
             if kept.len() > 1 {
-                out.push(stroke(drawer, &nodes[kept.clone()], widths[kept].to_vec(), Ring::Open));
+                out.extend(stroke(drawer, &nodes[kept.clone()], widths[kept].to_vec(), Ring::Open));
             }
         }
     }
@@ -114,10 +114,10 @@ fn width(grid: &StructureGrid, mixing: &Mixing, p: Point, ink: &Raster<f32>) -> 
     share * mixing.full_width(tone, [0, 1].map(|family| grid.density_at(family, p)))
 }
 
-fn stroke(drawer: &Drawer<'_>, nodes: &[Point], widths: Vec<f64>, ring: Ring) -> Mark {
+fn stroke(drawer: &Drawer<'_>, nodes: &[Point], widths: Vec<f64>, ring: Ring) -> Option<Mark> {
     let placement = &drawer.portrait.placement;
     let page: Vec<Point> = nodes.iter().map(|p| placement.to_page(*p)).collect();
     let scale = placement.mm_per_pixel();
     let widths = widths.into_iter().map(|w| w * scale).collect();
-    Mark::Stroke(Stroke::new(catmull_rom(&page, ring), Width::Along(widths)))
+    Stroke::swelling(catmull_rom(&page, ring), widths).map(Mark::Stroke)
 }

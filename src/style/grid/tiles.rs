@@ -2,7 +2,7 @@
 
 use super::Drawer;
 use super::cells::Cell;
-use crate::drawing::{Area, Colour, Layer, Mark, Stroke, Width};
+use crate::drawing::{Area, Colour, Layer, Mark, Stroke};
 use crate::elementary::Elementary as _;
 use crate::geometry::{BezPath, Point, Vec2, half_plane, polygon_area};
 
@@ -29,9 +29,9 @@ pub(super) fn line_layer(drawer: &Drawer<'_>, cells: &[Cell]) -> Layer {
     let mut layer = Layer::new("tiles", 1);
     for cell in inked(cells) {
         let Some(tile) = tile(drawer, cell) else { continue };
-        layer.marks.push(Mark::Stroke(Stroke::new(on_page(drawer, &tile, Closing::Closed), Width::Constant(width))));
+        layer.marks.push(Mark::Stroke(Stroke::even(on_page(drawer, &tile, Closing::Closed), width)));
         for line in hatched(&tile, cell, PEN * drawer.pitch()) {
-            layer.marks.push(Mark::Stroke(Stroke::new(on_page(drawer, &line, Closing::Open), Width::Constant(width))));
+            layer.marks.push(Mark::Stroke(Stroke::even(on_page(drawer, &line, Closing::Open), width)));
         }
     }
     layer

@@ -153,7 +153,7 @@ impl Drawer<'_> {
     }
 
     fn thin_line(&self, curve: &Curve) -> crate::drawing::Mark {
-        use crate::drawing::{Mark, Stroke, Width};
+        use crate::drawing::{Mark, Stroke};
         let mut path = crate::geometry::BezPath::new();
         for (i, p) in curve.points.iter().enumerate() {
             let p = self.portrait.placement.to_page(*p);
@@ -162,6 +162,6 @@ impl Drawer<'_> {
         if curve.closed {
             path.close_path();
         }
-        Mark::Stroke(Stroke::new(path, Width::Constant(0.2 * self.parameters.pitch.0)))
+        Mark::Stroke(Stroke::even(path, 0.2 * self.parameters.pitch.0))
     }
 }

@@ -4,7 +4,7 @@
 use super::Drawer;
 use super::features::Features;
 use super::parts::Parts;
-use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::drawing::{Layer, Mark, Stroke};
 use crate::elementary::Elementary as _;
 use crate::field::{CoherentLine, Curve};
 use crate::geometry::{catmull_rom, resample};
@@ -63,7 +63,7 @@ fn stroke(drawer: &Drawer<'_>, edge: &Curve) -> Option<Mark> {
     let widest = drawer.parameters.outline_width.0;
     let count = nodes.len() + usize::from(edge.closed);
     let widths = (0..count).map(|i| widest * if edge.closed { 1.0 } else { swell(i as f64 / (count - 1) as f64) }).collect();
-    Some(Mark::Stroke(Stroke::new(curve, Width::Along(widths))))
+    Stroke::swelling(curve, widths).map(Mark::Stroke)
 }
 
 /// Width along the stroke, 0 at both ends and 1 in the middle; fuller than a half sine, as a pen's.

@@ -100,7 +100,7 @@ impl Drawer<'_> {
         let mut marks = charcoal::hair_strokes(&drawer, &hair)?;
         for _ in 0..TONE_ROUNDS {
             self.check()?;
-            drawer.set_tone(&mut marks, &hair);
+            marks = drawer.with_tone(marks, &hair);
         }
         Ok(layer("hair", marks))
     }
@@ -114,25 +114,28 @@ impl Drawer<'_> {
         Some((part.part(&columns, &rows), self.portrait.part(&columns, &rows)))
     }
 
-    /// Makes strokes of hair wider or thinner by the ratio of the ink asked for around each node to the ink drawn there.
-    fn set_tone(&self, marks: &mut [Mark], hair: &Raster<f32>) {
+    /// Strokes of hair, wider or thinner by the ratio of the ink asked for around each node to the ink drawn there.
+    fn with_tone(&self, marks: Vec<Mark>, hair: &Raster<f32>) -> Vec<Mark> {
         let placement = &self.portrait.placement;
         let around =
             |ink: &Raster<f32>| gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), (TONE_REACH * self.pitch()) as f32);
-        let drawn = around(&covered(&*marks, placement));
+        let drawn = around(&covered(&marks, placement));
         let asked = around(&self.portrait.ink());
         let ratio = asked.zip_map(&drawn, |asked, drawn| {
             let most = 1.0 + (TONE_STEP[1] - 1.0) * ((asked - LIGHT_HAIR[0]) / (LIGHT_HAIR[1] - LIGHT_HAIR[0])).clamp(0.0, 1.0);
             ((asked + LEAST_INK) / (drawn + LEAST_INK)).clamp(TONE_STEP[0], most)
         });
-        for mark in marks {
-            let Mark::Stroke(Stroke { curve, width: Width::Along(widths), .. }) = mark else { continue };
-            let nodes = curve.elements().iter().filter_map(kurbo::PathEl::end_point);
-            for (width, node) in widths.iter_mut().zip(nodes) {
-                let p = placement.to_grid(node);
-                *width *= f64::from(ratio.sample(p.x, p.y));
-            }
-        }
+        let toned = |stroke: Stroke| {
+            let places: Vec<Point> = stroke.nodes().map(|node| placement.to_grid(node)).collect();
+            let mut ratios = places.iter().map(|p| f64::from(ratio.sample(p.x, p.y)));
+            stroke.map_widths(|width| ratios.next().map_or(width, |ratio| width * ratio))
+        };
+        let is_swelling = |stroke: &Stroke| matches!(stroke.width(), Width::Along(_));
+        let of_mark = |mark| match mark {
+            Mark::Stroke(stroke) if is_swelling(&stroke) => Mark::Stroke(toned(stroke)),
+            other => other,
+        };
+        marks.into_iter().map(of_mark).collect()
     }
 
     /// Clothing in hatches.

@@ -106,7 +106,7 @@ impl Writer {
         match mark {
             Mark::Dot(Dot { outline: Some(outline), .. }) => self.filled(outline),
             Mark::Dot(Dot { centre, radius, .. }) => self.disc(*centre, *radius),
-            Mark::Stroke(stroke) => match stroke.width {
+            Mark::Stroke(stroke) => match *stroke.width() {
                 Width::Constant(width) => self.line(stroke, thousandths(width)),
                 Width::Along(_) => self.filled(&stroke.outline().unwrap_or_default()),
             },
@@ -132,7 +132,7 @@ impl Writer {
 
     fn line(&mut self, stroke: &Stroke, width: i64) {
         // In PDF, a width of 0 is the device's thinnest line, not an invisible one.
-        if width == 0 || stroke.curve.elements().is_empty() {
+        if width == 0 || stroke.curve().elements().is_empty() {
             return;
         }
         if self.pen.width != Some(width) {
@@ -144,7 +144,7 @@ impl Writer {
             self.text.push_str(if stroke.ends == Ends::Round { "1 J " } else { "0 J " });
             self.pen.ends = Some(stroke.ends);
         }
-        path(&mut self.text, &stroke.curve);
+        path(&mut self.text, stroke.curve());
         self.text.push_str("S\n");
     }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::drawing::{Area, Dot, Ink, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Dot, Ink, Layer, Mark, Mixing, Page, Stroke};
 use crate::geometry::{BezPath, Point};
 
 fn written(drawing: &Drawing, seconds: Option<u64>) -> Vec<u8> {
@@ -13,7 +13,7 @@ fn drawing(ink: Ink) -> Drawing {
     let mut layer = Layer::new("dots", 1);
     layer.ink = ink;
     layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.5, 2.25), 0.123_45)));
-    layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), Width::Constant(0.3))));
+    layer.marks.push(Mark::Stroke(Stroke::even(BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), 0.3)));
     layer.marks.push(Mark::Area(Area { outline: BezPath::from_svg("M0,0 Q3,0 3,3 Z").unwrap(), colour: Some(Colour::WHITE) }));
     Drawing { page: Page::new(90.0, 120.0), layers: vec![layer] }
 }

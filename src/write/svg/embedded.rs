@@ -108,10 +108,10 @@ impl Shaped {
 
 /// The outline of a stroke; of a swelling one with as few curves as print needs, and its ink.
 fn outline_of(stroke: &Stroke) -> BezPath {
-    let Width::Along(exact) = &stroke.width else { return stroke.ink_outline(ACCURACY) };
-    let (curve, mut widths) = with_fewer_nodes(&stroke.curve, exact, ACCURACY);
+    let Width::Along(exact) = stroke.width() else { return stroke.ink_outline(ACCURACY) };
+    let (curve, mut widths) = with_fewer_nodes(stroke.curve(), exact, ACCURACY);
     let area = |curve: &BezPath, widths: &[f64]| swelling_outline(curve, widths, stroke.ends, ACCURACY).area().abs();
-    let correction = area(&stroke.curve, exact) / area(&curve, &widths).max(f64::MIN_POSITIVE);
+    let correction = area(stroke.curve(), exact) / area(&curve, &widths).max(f64::MIN_POSITIVE);
     if (correction - 1.0).abs() <= MOST_CORRECTION {
         widths.iter_mut().for_each(|width| *width *= correction);
     }
@@ -126,12 +126,12 @@ fn turned(outline: &BezPath) -> BezPath {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Area, Page, Stroke, Width};
+    use crate::drawing::{Area, Page, Stroke};
 
     fn drawing() -> Drawing {
         let mut layer = Layer::new("dots", 1);
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(5.0, 5.0), 1.0)));
-        layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M2,5 L8,5").unwrap(), Width::Constant(0.5))));
+        layer.marks.push(Mark::Stroke(Stroke::even(BezPath::from_svg("M2,5 L8,5").unwrap(), 0.5)));
         layer.marks.push(Mark::Area(Area { outline: BezPath::from_svg("M4,4 V6 H6 V4 Z").unwrap(), colour: None }));
         Drawing { page: Page::new(10.0, 10.0), layers: vec![layer] }
     }

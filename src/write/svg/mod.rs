@@ -25,7 +25,7 @@ pub(crate) use path_data::path_data;
 use path_data::{Grid, PathData};
 
 use super::number::{decimal, thousandths};
-use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Mixing, Page, Stroke, Width};
+use crate::drawing::{Area, Colour, Dot, Drawing, Ends, Layer, Mark, Mixing, Page, Width};
 use std::fmt::Write as _;
 use std::io;
 use svg::Node;
@@ -172,8 +172,10 @@ impl Kind {
     fn of(mark: &Mark) -> Self {
         match mark {
             Mark::Dot(_) => Self::Dots,
-            Mark::Stroke(Stroke { width: Width::Constant(_), .. }) => Self::Lines,
-            Mark::Stroke(_) => Self::Swells,
+            Mark::Stroke(stroke) => match stroke.width() {
+                Width::Constant(_) => Self::Lines,
+                Width::Along(_) => Self::Swells,
+            },
             Mark::Area(_) => Self::Areas,
         }
     }
@@ -223,7 +225,7 @@ fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
 
 fn constant_width(mark: &Mark) -> f64 {
     match mark {
-        Mark::Stroke(Stroke { width: Width::Constant(width), .. }) => *width,
+        Mark::Stroke(stroke) => stroke.widest(),
         _ => 0.0,
     }
 }
@@ -231,7 +233,7 @@ fn constant_width(mark: &Mark) -> f64 {
 fn line(text: &mut String, mark: &Mark, usual_width: f64) {
     let Mark::Stroke(stroke) = mark else { return };
     text.push_str("<path d=\"");
-    path_data(text, &stroke.curve);
+    path_data(text, stroke.curve());
     text.push('"');
     if thousandths(constant_width(mark)) != thousandths(usual_width) {
         text.push_str(" stroke-width=\"");
@@ -304,6 +306,7 @@ fn bundle(text: &mut String, dots: &[Mark]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Stroke;
     use crate::geometry::{BezPath, Point};
 
     fn written(drawing: &Drawing) -> String {
@@ -316,7 +319,7 @@ mod tests {
     fn drawing() -> Drawing {
         let mut layer = Layer::new("dots", 1);
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(1.5, 2.25), 0.123_45)));
-        layer.marks.push(Mark::Stroke(Stroke::new(BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), Width::Constant(0.3))));
+        layer.marks.push(Mark::Stroke(Stroke::even(BezPath::from_svg("M0,0 L10,0 C10,1 9,2 8,2").unwrap(), 0.3)));
         layer.marks.push(Mark::Dot(Dot::circle(Point::new(4.0, 4.0), 1.0)));
         Drawing { page: Page::new(90.0, 120.0), layers: vec![layer] }
     }

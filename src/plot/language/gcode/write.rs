@@ -139,7 +139,7 @@ impl Gcode<'_> {
     fn pen_down(&mut self, path: &Toolpath) -> io::Result<()> {
         match (self.dialect.lift, self.dialect.height, &self.dialect.pen_down) {
             (Lift::Height, Some(height), _) => {
-                let z = path.heights.as_ref().and_then(|heights| heights.first().copied()).unwrap_or(height.down);
+                let z = path.heights().and_then(|heights| heights.first().copied()).unwrap_or(height.down);
                 self.line.clear();
                 self.line.push_str("G1 Z");
                 decimal(&mut self.line, thousandths(z), 3);
@@ -156,11 +156,11 @@ impl Gcode<'_> {
     }
 
     fn path(&mut self, pen: &PenPaths, path: &Toolpath) -> io::Result<()> {
-        let places: Vec<Grid> = path.points.iter().map(|p| self.snap(self.mounting.place(pen.number, *p))).collect();
+        let places: Vec<Grid> = path.points().iter().map(|p| self.snap(self.mounting.place(pen.number, *p))).collect();
         self.travel(places[0])?;
         self.pen_down(path)?;
         let mut feed = Some(feed(pen.handling.speed(self.profile.motion.draw_speed)));
-        match &path.heights {
+        match path.heights() {
             Some(heights) if self.dialect.lift == Lift::Height => self.swelling(&places, heights, &mut feed)?,
             _ => self.level(places, &mut feed)?,
         }
@@ -281,7 +281,7 @@ mod tests {
         let profile = Profile::built_in("grbl-servo").unwrap();
         let page = Page::new(100.0, 50.0);
         let handling = crate::drawing::Handling { pauses: true, speed_percent: Some(50.0), delay_seconds: 0.5 };
-        let paths = vec![Toolpath::new(vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)])];
+        let paths = vec![Toolpath::through(Point::new(0.0, 0.0), [Point::new(10.0, 0.0)])];
         let pen = PenPaths { number: 1, name: "slow".into(), colour: Colour::BLACK, nib: 0.3, handling, paths };
         let text = written(&Plot { page, pens: vec![pen] }, &profile);
         assert!(text.contains("(pen 1: slow 0.3)\nM0\nG4 P.5\n") && text.contains("F1500"), "{text}");
@@ -291,7 +291,7 @@ mod tests {
     fn two_pens_pause_between_them_and_nothing_lets_the_servo_fall() {
         let profile = Profile::built_in("grbl-servo").unwrap();
         let page = Page::new(100.0, 50.0);
-        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
+        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect()).unwrap();
         let pen = |number, name: &str, paths| PenPaths {
             number,
             name: name.into(),

@@ -40,7 +40,7 @@ pub(super) fn write(dialect: &HpglDialect, orders: &Orders<'_>, out: &mut dyn io
             let _ = write!(text, "AS{g};");
         }
         for path in &pen.paths {
-            let units: Vec<Unit> = path.points.iter().map(|p| snap(mounting.place(pen.number, *p), mounting)).collect();
+            let units: Vec<Unit> = path.points().iter().map(|p| snap(mounting.place(pen.number, *p), mounting)).collect();
             let tolerance = mounting.tolerance * profile.units_per_mm;
             let room = mounting.limits.inset(-1.5 * tolerance.max(2.0));
             path_instructions(&mut text, &units, dialect, room, tolerance);
@@ -242,7 +242,7 @@ mod tests {
     fn a_file_raises_the_pen_first_and_puts_it_away_last() {
         let profile = Profile::built_in("hp7475a").unwrap();
         let page = Page::new(100.0, 100.0);
-        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect());
+        let path = |points: &[(f64, f64)]| Toolpath::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect()).unwrap();
         let pen = |number, paths| PenPaths {
             number,
             name: String::new(),

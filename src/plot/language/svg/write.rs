@@ -2,7 +2,7 @@
 
 use super::{Orders, SvgDialect};
 use crate::geometry::BezPath;
-use crate::plot::{PenPaths, Plot};
+use crate::plot::{PenPaths, Plot, Toolpath};
 use crate::write::{Names, SvgHead, decimal, document, finish, layer_group, lines_group, path_data, thousandths};
 use std::fmt::Write as _;
 use std::io;
@@ -42,7 +42,7 @@ fn write_toolpaths(
     out: &mut dyn io::Write,
     label: impl Fn(usize, &PenPaths) -> String,
 ) -> io::Result<()> {
-    let places = plot.pens.iter().filter_map(|pen| pen.paths.first().map(|path| path.points[0]));
+    let places = plot.pens.iter().filter_map(|pen| pen.paths.first().map(Toolpath::first));
     let names = Names::new(head, places.flat_map(|p| [p.x, p.y]));
     let mut document = document(&plot.page, head, machine, &names);
     for (i, pen) in plot.pens.iter().enumerate() {
@@ -51,11 +51,11 @@ fn write_toolpaths(
         let mut lines = String::new();
         for path in &pen.paths {
             let mut curve = BezPath::new();
-            curve.move_to(path.points[0]);
+            curve.move_to(path.first());
             // A touch is a line of no length: with round ends it shows as the nib's dot.
-            path.points[1..].iter().for_each(|p| curve.line_to(*p));
-            if path.points.len() == 1 {
-                curve.line_to(path.points[0]);
+            path.points()[1..].iter().for_each(|p| curve.line_to(*p));
+            if path.is_touch() {
+                curve.line_to(path.first());
             }
             lines.push_str("<path d=\"");
             path_data(&mut lines, &curve);

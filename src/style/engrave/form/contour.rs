@@ -1,7 +1,7 @@
 //! The silhouette in a thin line.
 
 use super::super::Drawer;
-use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::drawing::{Layer, Mark, Stroke};
 use crate::field::contours;
 use crate::geometry::{Point, Ring, catmull_rom, resample};
 use crate::raster::{Raster, gaussian_blur};
@@ -43,7 +43,7 @@ impl Drawer<'_> {
             for run in nodes.chunk_by(|a, b| is_drawn(a) == is_drawn(b)).filter(|run| is_drawn(&run[0]) && run.len() > 2) {
                 let places: Vec<Point> = run.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
                 let widths = run.iter().map(|p| self.parameters.pitch.0 * width(p)).collect();
-                layer.marks.push(Mark::Stroke(Stroke::new(catmull_rom(&places, Ring::Open), Width::Along(widths))));
+                layer.marks.extend(Stroke::swelling(catmull_rom(&places, Ring::Open), widths).map(Mark::Stroke));
             }
         }
         layer

@@ -1,7 +1,7 @@
 //! From lines to the pieces that are drawn: widths by ink, dots and dashes in the lights, tapered ends.
 
 use super::families::Family;
-use crate::drawing::{Dot, Mark, Stroke, Width};
+use crate::drawing::{Dot, Mark, Stroke};
 use crate::elementary::unit_at;
 use crate::field::{Curve, pieces_inside};
 use crate::geometry::{Ends, Point, Rect, Ring, catmull_rom, lengths_along, resample};
@@ -195,8 +195,7 @@ impl Piece {
             return (self.widths[0] > 0.0).then(|| Mark::Dot(Dot::circle(*place, 0.5 * self.widths[0] * scale)));
         }
         let widths: Vec<f64> = self.widths.iter().map(|w| w * scale).collect();
-        let mut stroke = Stroke::new(catmull_rom(&places, Ring::Open), Width::Along(widths));
-        stroke.ends = Ends::Flat;
-        Some(Mark::Stroke(stroke))
+        let stroke = Stroke::swelling(catmull_rom(&places, Ring::Open), widths)?;
+        Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
     }
 }
