@@ -1,6 +1,6 @@
 // Writes built/: what the binary embeds. The same source and lock file give the same bytes, so that the gate can compare them.
 import { build } from "esbuild";
-import { copyFile, mkdir, rm } from "node:fs/promises";
+import { mkdir, readFile, rm, writeFile } from "node:fs/promises";
 
 await rm("built", { recursive: true, force: true });
 await mkdir("built");
@@ -20,4 +20,6 @@ const common = {
 await build({ ...common, entryPoints: ["source/main.tsx"], outfile: "built/studio.js" });
 await build({ ...common, entryPoints: ["source/worker.ts"], outfile: "built/worker.js" });
 await build({ ...common, entryPoints: ["source/studio.css"], outfile: "built/studio.css" });
-await copyFile("source/index.html", "built/index.html");
+// Line breaks between tags show nothing: the page puts all that is shown into one element.
+const page = await readFile("source/index.html", "utf8");
+await writeFile("built/index.html", page.replace(/>\s*\n\s*</g, "><"));

@@ -1,21 +1,15 @@
 // One place for what the page knows. Parts of the page subscribe to what they show.
 
 import { useEffect, useReducer, useRef } from "preact/hooks";
-import type { Exported, PenUse, Photograph, Placement, Quality, Scene, Start, Value } from "../server/shapes.ts";
+import type { Drawing, Exported, PenUse, Photograph, Quality, Scene, Start, Value } from "../server/shapes.ts";
 
 export type ViewMode = "drawing" | "divider" | "side" | "photograph";
 export type Tool = "line" | "hand" | "part" | "place" | "brush" | "eraser" | "lasso" | "fill";
 export type Panel = "masks" | "regions" | "sheet" | "scene";
 
 /** What is on the sheet now, without its marks: the worker has those. */
-export interface Shown {
+export interface Shown extends Omit<Drawing, "id" | "marks"> {
   id: string;
-  quality: Quality;
-  revision: number;
-  seconds: number;
-  summary: string;
-  warnings: string[];
-  placement: Placement | null;
   page: [number, number];
   paper: string;
   count: number;
