@@ -2,23 +2,9 @@
 # Builds the package, installs it in an empty Debian, draws a portrait there, and removes it again. Must run as root, for chroot.
 # shellcheck disable=SC2317  # check calls the steps by name.
 set -euo pipefail
-folder=$(cd "$(dirname "$0")" && pwd)
-repository=$(cd "$folder/../.." && pwd)
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
 # shellcheck source=../checks.sh
-source "$folder/../checks.sh"
+source "$(dirname "$0")/../checks.sh"
 root=$scratch/root
-
-finish() {
-    echo "$passed passed, $failed failed"
-    exit $((failed > 0))
-}
-
-find_drypoint() {
-    local named=${DRYPOINT:-$(command -v drypoint || echo "$repository/target/release/drypoint")}
-    drypoint=$(realpath -e "$named")
-}
 
 install_tools() {
     local packages=() pair
@@ -40,7 +26,7 @@ install_cargo_deb() {
 }
 
 build() {
-    MAINTAINER="Test <test@drypoint.invalid>" "$folder/build.sh" "$drypoint" "$scratch/$1"
+    MAINTAINER="Test <test@drypoint.invalid>" "$folder/build.sh" "$DRYPOINT" "$scratch/$1"
 }
 
 same_bytes_twice() {
@@ -85,7 +71,7 @@ install_and_draw() {
 
 the_portrait_is_whole() {
     # The same bytes as outside, and what a portrait needs: a face that was found, dots and hair.
-    "$drypoint" draw "$repository/samples/grace-hopper.jpg" -o "$scratch/portrait.svg" --quiet
+    "$DRYPOINT" draw "$repository/samples/grace-hopper.jpg" -o "$scratch/portrait.svg" --quiet
     cmp "$scratch/portrait.svg" "$root/tmp/portrait.svg"
     python3 - "$scratch/report.json" <<'PYTHON'
 import json, sys
@@ -166,11 +152,7 @@ removed_without_leftovers() {
 }
 
 check "the tools are there" install_tools
-if ! find_drypoint; then
-    echo "drypoint was not found; set DRYPOINT or run cargo build --release" >&2
-    failed=$((failed + 1))
-    finish
-fi
+find_drypoint
 check "cargo-deb is there" install_cargo_deb
 PATH=$PATH:$scratch/cargo/bin
 check "the package is built" build package

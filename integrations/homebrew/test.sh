@@ -2,12 +2,8 @@
 # Fills the formula and runs its install and test steps with a drypoint that is built already.
 # shellcheck disable=SC2317  # check calls the steps by name.
 set -euo pipefail
-folder=$(cd "$(dirname "$0")" && pwd)
-repository=$(cd "$folder/../.." && pwd)
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
 # shellcheck source=../checks.sh
-source "$folder/../checks.sh"
+source "$(dirname "$0")/../checks.sh"
 sum=$(printf '0123456789abcdef%.0s' 1 2 3 4)
 
 install_ruby() {
@@ -46,22 +42,17 @@ refuse_what_is_wrong() {
 
 run_formula() {
     cd "$repository"
-    ruby "$folder/formula_test.rb" "$scratch/drypoint.rb" "$drypoint" "$scratch/prefix"
+    ruby "$folder/formula_test.rb" "$scratch/drypoint.rb" "$DRYPOINT" "$scratch/prefix"
 }
 
 version() {
-    "$drypoint" --version | cut -d ' ' -f 2
+    "$DRYPOINT" --version | cut -d ' ' -f 2
 }
 
-if ! drypoint=$(realpath -e "${DRYPOINT:-$(command -v drypoint || echo "$repository/target/release/drypoint")}"); then
-    echo "drypoint was not found; set DRYPOINT or run cargo build --release" >&2
-    echo "0 passed, 1 failed"
-    exit 1
-fi
+find_drypoint
 check "ruby is there" install_ruby
 check "the formula is filled and parses" fill
 check "a version that is not in the address is written" fill_with_a_version
 check "wrong values are refused" refuse_what_is_wrong
 check "install and test run" run_formula
-echo "$passed passed, $failed failed"
-exit $((failed > 0))
+finish

@@ -1,17 +1,8 @@
 #!/usr/bin/env bash
 # Draws pages in headless Inkscape and compares them with drypoint's own files. Installs Inkscape on Debian if it is missing.
 set -euo pipefail
-folder=$(cd "$(dirname "$0")" && pwd)
-
-# Sets DRYPOINT to the command's full path.
-find_drypoint() {
-    local named=${DRYPOINT:-$(command -v drypoint || echo "$folder/../../target/release/drypoint")}
-    if ! DRYPOINT=$(realpath -e "$named"); then
-        echo "drypoint was not found; set DRYPOINT or run cargo build --release" >&2
-        return 1
-    fi
-    export DRYPOINT
-}
+# shellcheck source=../checks.sh
+source "$(dirname "$0")/../checks.sh"
 
 install_missing() {
     local packages=() pair
@@ -27,8 +18,6 @@ install_missing() {
     fi
 }
 
-if ! find_drypoint || ! install_missing; then
-    echo "0 passed, 1 failed"
-    exit 1
-fi
-PYTHONDONTWRITEBYTECODE=1 exec /usr/bin/python3 "$folder/tests/run.py"
+find_drypoint
+install_missing || refuse "Inkscape and what its test needs cannot be installed"
+PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$folder/tests/run.py"

@@ -12,8 +12,6 @@ from collections.abc import Sequence
 
 import click
 
-_PATIENCE_SECONDS = 3.0
-
 
 def command() -> str:
     """The path of the command: `$DRYPOINT`, else that of the Python package drypoint, else the one on `PATH`."""
@@ -35,12 +33,13 @@ def run(words: Sequence[str], stdin: bytes | None = None, has_own_stdin: bool = 
     It reads the bytes given, or this program's own stdin, or nothing.
     """
     source = subprocess.PIPE if stdin is not None else None if has_own_stdin else subprocess.DEVNULL
-    process = subprocess.Popen([command(), *words], stdin=source, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    try:
-        data, said = process.communicate(stdin)
-    except BaseException:
-        _stop(process)
-        raise
+    with subprocess.Popen([command(), *words], stdin=source, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        try:
+            data, said = process.communicate(stdin)
+        except BaseException:
+            # Asked to end, it leaves no unfinished file.
+            process.terminate()
+            raise
     lines = said.decode("utf-8", "replace").splitlines()
     if process.returncode != 0:
         raise click.ClickException(_reason(process.returncode, lines))
@@ -62,15 +61,6 @@ def _of_package() -> str | None:
     except (AttributeError, RuntimeError):
         # Another package of this name, or one whose command is gone.
         return None
-
-
-def _stop(process: subprocess.Popen[bytes]) -> None:
-    process.terminate()
-    try:
-        process.communicate(timeout=_PATIENCE_SECONDS)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
 
 
 def _reason(status: int, lines: list[str]) -> str:
