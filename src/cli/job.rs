@@ -1,6 +1,6 @@
 //! Makes the library's plotting job from command-line options, and turns its errors into messages about options.
 
-use super::arguments::{DuplicatesOption, Order, SeamOption, StartCorner, ToolpathOptions};
+use super::arguments::{Order, ToolpathOptions};
 use super::failure::Failure;
 use super::interruption::interrupt;
 use super::pens::PenSet;
@@ -8,8 +8,7 @@ use super::toolpaths::duration;
 use crate::drawing::Drawing;
 use crate::order::{Direction, Effort};
 use crate::plot::{
-    Course, DrawingCorner, Duplicates, InkModel, Job, JobError, JobOptions, MachineFeature, PlacingMarks, Plot, Profile,
-    ReachPolicy, Seam, Sequence,
+    Course, InkModel, Job, JobError, JobOptions, MachineFeature, PlacingMarks, Plot, Profile, ReachPolicy, Sequence,
 };
 use crate::style::Observer;
 
@@ -51,12 +50,6 @@ fn asked(options: &ToolpathOptions, pens: &PenSet) -> JobOptions {
 
 /// The sequence options given by the user.
 fn sequence(options: &ToolpathOptions) -> Sequence {
-    let corner = |corner: StartCorner| match corner {
-        StartCorner::TopLeft => DrawingCorner::TopLeft,
-        StartCorner::TopRight => DrawingCorner::TopRight,
-        StartCorner::BottomLeft => DrawingCorner::BottomLeft,
-        StartCorner::BottomRight => DrawingCorner::BottomRight,
-    };
     Sequence {
         effort: match options.order {
             Order::Full => Effort::Full,
@@ -65,25 +58,14 @@ fn sequence(options: &ToolpathOptions) -> Sequence {
         },
         direction: if options.keep_direction { Direction::AsDrawn } else { Direction::Either },
         merge: options.merge,
-        duplicates: match options.duplicates {
-            DuplicatesOption::Drop => Duplicates::Drop,
-            DuplicatesOption::Keep => Duplicates::Keep,
-        },
-        seam: match options.seam {
-            SeamOption::Nearest => Seam::Nearest,
-            SeamOption::Drawn => Seam::Drawn,
-            SeamOption::Top => Seam::Top,
-            SeamOption::Bottom => Seam::Bottom,
-            SeamOption::Left => Seam::Left,
-            SeamOption::Right => Seam::Right,
-            SeamOption::Corner => Seam::Corner,
-        },
+        duplicates: options.duplicates,
+        seam: options.seam,
         course: match options.order {
             Order::Random => Course::Shuffled(options.order_seed),
             _ if options.reverse => Course::Backwards,
             _ => Course::Forwards,
         },
-        start: options.start_corner.map(corner),
+        start: options.start_corner,
     }
 }
 

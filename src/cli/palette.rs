@@ -1,14 +1,14 @@
 //! `--colours`: the pens in whose colours a photograph is drawn.
 
-use super::arguments::{BlackPen, ListOptions, PictureOptions};
+use super::arguments::{ListOptions, PictureOptions};
 use super::coloured::APART;
 use super::failure::Failure;
 use super::messages::warning;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
 use crate::colour::{
-    Black, ColourPen, KnownPen, Lab, Opacity, Overlap, Paper, PenSet, PensError, Separator, Settings, choose, drawing_order,
-    known_pens, on_screen,
+    ColourPen, KnownPen, Lab, Opacity, Overlap, Paper, PenSet, PensError, Separator, Settings, choose, drawing_order, known_pens,
+    on_screen,
 };
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mixing, Page};
 use crate::plot::Nibs;
@@ -42,13 +42,9 @@ impl Palette {
         let paper = Paper::new(options.paper);
         let mut pens: Vec<ColourPen> =
             entries.iter().map(|entry| pen_of(entry, paper).map_err(|why| about(&why))).collect::<Result<_, _>>()?;
-        let black = match options.black_pen {
-            BlackPen::Tones => Black::Tones,
-            BlackPen::Lines => Black::Lines,
-            BlackPen::None => Black::None,
-        };
         let overlap = if APART.contains(&options.style.as_str()) { Overlap::Random } else { Settings::default().overlap };
-        let settings = Settings { black, overlap, simplify: options.colours_simplify as f32, ..Settings::default() };
+        let settings =
+            Settings { black: options.black_pen, overlap, simplify: options.colours_simplify as f32, ..Settings::default() };
         let mut choice = None;
         if let Some(count) = options.choose.map(usize::from).filter(|count| *count < pens.len()) {
             let chosen = choose(&pens, paper, &settings, &light()?, count).map_err(|error| about(&error))?;

@@ -1,6 +1,6 @@
 //! `drypoint plot`: turns any SVG into ordered tool paths.
 
-use super::arguments::{Format, InkModelOption, PlotOptions};
+use super::arguments::{Format, PlotOptions};
 use super::draw_report::seconds_of_steps;
 use super::failure::Failure;
 use super::formats;
@@ -173,9 +173,9 @@ fn is_blank(drawing: &Drawing, model: InkModel) -> bool {
 fn ink_model(options: &PlotOptions, imported: &Imported) -> InkModel {
     match options.ink_model {
         _ if imported.is_toolpaths => InkModel::Lines,
-        Some(InkModelOption::Ink) => InkModel::Ink,
+        Some(asked) => asked,
         None if imported.recipe.is_some() => InkModel::Ink,
-        Some(InkModelOption::Lines) | None => InkModel::Lines,
+        None => InkModel::Lines,
     }
 }
 

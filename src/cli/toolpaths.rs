@@ -1,13 +1,13 @@
 //! Profile, format, preview, warnings and summary of a machine's file.
 
-use super::arguments::{Format, PreviewTravel, ToolpathOptions};
+use super::arguments::{Format, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;
 use super::layer_files::LayerFile;
 use super::messages::{say, warning};
 use super::output;
 use super::words::counted;
-use crate::plot::{Cut, Job, Language, PenChange, PenReport, PlotReport, Profile, ShownTravel, built_in};
+use crate::plot::{Cut, Job, Language, PenChange, PenReport, PlotReport, Profile, built_in};
 use crate::write::SvgHead;
 use std::collections::BTreeSet;
 
@@ -117,12 +117,7 @@ pub(super) fn write_preview_of(job: &Job<'_>, options: &ToolpathOptions, layer: 
     if let Some(registration) = options.preview_registration {
         return output::write(&name, |out| job.write_proof(registration, out));
     }
-    let travel = match options.preview_travel {
-        PreviewTravel::Off => ShownTravel::Off,
-        PreviewTravel::Faint => ShownTravel::Faint,
-        PreviewTravel::Full => ShownTravel::Full,
-    };
-    output::write(&name, |out| job.write_preview(travel, out))
+    output::write(&name, |out| job.write_preview(options.preview_travel, out))
 }
 
 /// Prints warnings about the plot, even with `--quiet`. `shorter` is the advice for a long plot; `None` if it was already given.

@@ -1,6 +1,74 @@
-//! Options with a fixed set of values.
+//! Options with a fixed set of values: the library's own choices, and those that only the command line has.
 
+use crate::colour::Black;
+#[cfg(feature = "drive")]
+use crate::drive::Handshake;
+use crate::plot::{DrawingCorner, Duplicates, InkModel, Seam, ShownTravel};
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
+
+/// Makes a choice of the library one of the command line: the word for each value, in the order of the help, and what the help says.
+macro_rules! words {
+    ($choice:ty { $($value:ident: $word:literal, $help:literal;)+ }) => {
+        impl ValueEnum for $choice {
+            fn value_variants<'a>() -> &'a [Self] {
+                &[$(Self::$value),+]
+            }
+
+            fn to_possible_value(&self) -> Option<PossibleValue> {
+                Some(match self {
+                    $(Self::$value => PossibleValue::new($word).help($help),)+
+                })
+            }
+        }
+    };
+}
+
+words! { Black {
+    Tones: "tones", "Drawn wherever it serves";
+    Lines: "lines", "Kept for outlines and features; tones are mixed from the other pens";
+    None: "none", "Not used";
+} }
+
+words! { Seam {
+    Nearest: "nearest", "Wherever the travel is shortest";
+    Drawn: "drawn", "Where the loops begin in the drawing";
+    Top: "top", "At the highest vertex on the page";
+    Bottom: "bottom", "At the lowest vertex";
+    Left: "left", "At the leftmost vertex";
+    Right: "right", "At the rightmost vertex";
+    Corner: "corner", "At the sharpest vertex";
+} }
+
+words! { Duplicates {
+    Drop: "drop", "Drawn once; the number left out is reported";
+    Keep: "keep", "Drawn every time";
+} }
+
+words! { DrawingCorner {
+    TopLeft: "top-left", "Upper left";
+    TopRight: "top-right", "Upper right";
+    BottomLeft: "bottom-left", "Lower left";
+    BottomRight: "bottom-right", "Lower right";
+} }
+
+words! { InkModel {
+    Lines: "lines", "Centre lines of strokes only";
+    Ink: "ink", "Widths and fills too";
+} }
+
+words! { ShownTravel {
+    Off: "off", "Not shown";
+    Faint: "faint", "Pale lines under the ink";
+    Full: "full", "Clear lines under the ink";
+} }
+
+#[cfg(feature = "drive")]
+words! { Handshake {
+    None: "query", "The plotter is asked for free space (`ESC.B`); any cable will do";
+    Software: "xon", "XON and XOFF";
+    Hardware: "rts", "RTS and CTS; the plotter's DTR must be connected to CTS";
+} }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Fit {
@@ -39,16 +107,6 @@ pub(in crate::cli) enum Tone {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum BlackPen {
-    /// Drawn wherever it serves.
-    Tones,
-    /// Kept for outlines and features; tones are mixed from the other pens.
-    Lines,
-    /// Not used.
-    None,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Format {
     /// Scalable vector graphics.
     Svg,
@@ -74,62 +132,6 @@ pub(in crate::cli) enum Order {
     None,
     /// At random, so that ink dries before the pen comes back.
     Random,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum SeamOption {
-    /// Wherever the travel is shortest.
-    Nearest,
-    /// Where the loops begin in the drawing.
-    Drawn,
-    /// At the highest vertex on the page.
-    Top,
-    /// At the lowest vertex.
-    Bottom,
-    /// At the leftmost vertex.
-    Left,
-    /// At the rightmost vertex.
-    Right,
-    /// At the sharpest vertex.
-    Corner,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum DuplicatesOption {
-    /// Drawn once; the number left out is reported.
-    Drop,
-    /// Drawn every time.
-    Keep,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum StartCorner {
-    /// Upper left.
-    TopLeft,
-    /// Upper right.
-    TopRight,
-    /// Lower left.
-    BottomLeft,
-    /// Lower right.
-    BottomRight,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum InkModelOption {
-    /// Centre lines of strokes only.
-    Lines,
-    /// Widths and fills too.
-    Ink,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum PreviewTravel {
-    /// Not shown.
-    Off,
-    /// Pale lines under the ink.
-    Faint,
-    /// Clear lines under the ink.
-    Full,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! Options of `draw` and `stages`: the photograph, its sheet and its style.
 
-use super::choices::{Background, BlackPen, Fit, Format, Tone};
+use super::choices::{Background, Fit, Format, Tone};
 use super::placing::PlacingOptions;
 use super::reporting::Reporting;
 use super::toolpaths::ToolpathOptions;
@@ -11,6 +11,7 @@ use super::values::{
 use crate::cli::lists::mask_roles;
 use crate::cli::region::{RegionOption, region};
 use crate::cli::scene::Spelled;
+use crate::colour::Black;
 use crate::drawing::{Colour, Ink};
 use clap::Args;
 use std::path::PathBuf;
@@ -99,8 +100,8 @@ pub(in crate::cli) struct PictureOptions {
     #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = fraction, allow_negative_numbers = true)]
     pub colours_simplify: f64,
     /// With --colours, what the black pen draws.
-    #[arg(long, value_enum, default_value_t = BlackPen::Tones)]
-    pub black_pen: BlackPen,
+    #[arg(long, value_enum, default_value_t = Black::Tones)]
+    pub black_pen: Black,
     /// Seed of all random choices.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,

@@ -2,7 +2,7 @@
 
 use super::values::{dip, key_value, length_from_zero, pen_heights, percent, place, region, seconds};
 use crate::cli::failure::Failure;
-use crate::drive::Dip;
+use crate::drive::{Dip, Handshake};
 use clap::{Args, Command, FromArgMatches, ValueEnum};
 
 // Switches of a command line are booleans.
@@ -25,8 +25,8 @@ pub(in crate::cli) struct SendOptions {
     #[arg(long, value_name = "N")]
     pub baud: Option<u32>,
     /// What keeps an HP-GL plotter's buffer from running over.
-    #[arg(long, value_enum, default_value_t = HandshakeOption::Query)]
-    pub handshake: HandshakeOption,
+    #[arg(long, value_enum, default_value_t = Handshake::None)]
+    pub handshake: Handshake,
     /// Do not ask before the machine moves.
     #[arg(long, short)]
     pub yes: bool,
@@ -97,17 +97,6 @@ pub(in crate::cli) struct SendOptions {
     /// No progress and no summary; warnings, questions and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-/// What keeps an HP-GL plotter's buffer from running over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum HandshakeOption {
-    /// The plotter is asked for free space (`ESC.B`); any cable will do.
-    Query,
-    /// XON and XOFF.
-    Xon,
-    /// RTS and CTS; the plotter's DTR must be connected to CTS.
-    Rts,
 }
 
 /// Where the pen goes.

@@ -1,12 +1,13 @@
 //! Options of `plot`, and of tool paths in all commands.
 
-use super::choices::{DuplicatesOption, Format, InkModelOption, Order, PlotFit, PreviewTravel, SeamOption, StartCorner};
+use super::choices::{Format, Order, PlotFit};
 use super::placing::PlacingOptions;
 use super::reporting::Reporting;
 use super::values::{
     drawn_length_from_zero, dry_time, duration, key_value, metres, nib, number_above_zero, registration, scale, seconds,
     tolerance, work,
 };
+use crate::plot::{DrawingCorner, Duplicates, InkModel, Seam, ShownTravel};
 use clap::Args;
 
 /// Options of tool paths.
@@ -24,17 +25,17 @@ pub(in crate::cli) struct ToolpathOptions {
     #[arg(long)]
     pub keep_direction: bool,
     /// Where loops begin and end.
-    #[arg(long, value_enum, default_value_t = SeamOption::Nearest)]
-    pub seam: SeamOption,
+    #[arg(long, value_enum, default_value_t = Seam::Nearest)]
+    pub seam: Seam,
     /// What happens to paths that repeat an earlier path of the same pen within 0.005 mm, in either direction.
-    #[arg(long, value_enum, default_value_t = DuplicatesOption::Drop)]
-    pub duplicates: DuplicatesOption,
+    #[arg(long, value_enum, default_value_t = Duplicates::Drop)]
+    pub duplicates: Duplicates,
     /// Draw the whole order backwards, from the last path to the first.
     #[arg(long)]
     pub reverse: bool,
     /// The corner of the drawing where the order of each pen starts [default: the machine's home].
     #[arg(long, value_enum)]
-    pub start_corner: Option<StartCorner>,
+    pub start_corner: Option<DrawingCorner>,
     /// Seed of --order random (a whole number from 0).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub order_seed: u64,
@@ -87,8 +88,8 @@ pub(in crate::cli) struct ToolpathOptions {
     #[arg(long, value_name = "FILE.svg")]
     pub preview: Option<String>,
     /// How the preview shows pen-up travel.
-    #[arg(long, value_enum, default_value_t = PreviewTravel::Faint, requires = "preview")]
-    pub preview_travel: PreviewTravel,
+    #[arg(long, value_enum, default_value_t = ShownTravel::Faint, requires = "preview")]
+    pub preview_travel: ShownTravel,
     /// Show the preview as ink on paper instead: pens in their own colours, multiplied where they lie on one another, which miss each
     /// other by this much (0 to 2 mm); 0.3 mm is usual.
     #[arg(long, value_name = "LENGTH", requires = "preview", conflicts_with = "preview_travel", value_parser = registration, allow_negative_numbers = true)]
@@ -123,7 +124,7 @@ pub(in crate::cli) struct PlotOptions {
     /// lines: only the centre lines of strokes; fills are skipped and counted. ink: widths and fills are filled with the nib. White is
     /// never ink [default: ink for files written by drypoint, else lines].
     #[arg(long, value_enum)]
-    pub ink_model: Option<InkModelOption>,
+    pub ink_model: Option<InkModel>,
     /// Leave out what is hidden under opaque ink of another colour or under white; with lines, what is hidden under any fill.
     #[arg(long)]
     pub occlude: bool,

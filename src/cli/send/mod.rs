@@ -14,7 +14,7 @@ mod part;
 
 pub(super) use keys::restore_terminal;
 
-use super::arguments::{HandshakeOption, PortsOptions, SendOptions, ToolpathOptions};
+use super::arguments::{PortsOptions, SendOptions, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;
 use super::inspect::usual_profile;
@@ -128,11 +128,7 @@ fn draw_on_plotter(profile: Option<Profile>, file: Option<File>, options: &SendO
     }
     let (Some(profile), Some(file)) = (profile, file) else { return Ok(()) };
     meeting::check_reach(None, &file.program, &profile)?;
-    let handshake = match options.handshake {
-        HandshakeOption::Query => Handshake::None,
-        HandshakeOption::Xon => Handshake::Software,
-        HandshakeOption::Rts => Handshake::Hardware,
-    };
+    let handshake = options.handshake;
     let port = open_port(&options.port, LineSettings { baud: baud(options, Some(&profile), 9600), handshake })?;
     let mut plotter = Hpgl::greet(port, handshake)?;
     wait_for_machine();
