@@ -21,6 +21,11 @@ pub struct CoherentLine {
 }
 
 impl CoherentLine {
+    /// A line of one width that was not found but given: its contrast is full.
+    pub fn plain(curve: Curve, width: f64) -> Self {
+        Self { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }
+    }
+
     /// The runs of its points that are kept, with their widths; itself if all are.
     pub fn runs(&self, is_kept: &[bool]) -> Vec<Self> {
         if is_kept.iter().all(|&keep| keep) {

@@ -43,14 +43,25 @@ pub fn guided_enlargement(
         let ((left, right, tx), (above, below, ty)) = (columns[x], rows[y]);
         let corners =
             [functions.get(left, above), functions.get(right, above), functions.get(left, below), functions.get(right, below)];
-        let weights = [(1.0 - tx) * (1.0 - ty), tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty];
-        let mut function = [0.0; 4];
-        for (k, sum) in function.iter_mut().enumerate() {
-            (0..4).for_each(|corner| *sum += weights[corner] * corners[corner][k]);
-        }
-        let [r, g, b] = guide.get(x, y);
-        applied(function, [f32::from(r) / 255.0, f32::from(g) / 255.0, f32::from(b) / 255.0])
+        applied(mean_of_corners(corners, tx, ty), shares_of_bytes(guide.get(x, y)))
     })
+}
+
+/// The mean of four functions by a place between their pixels, 0 to 1 across and down; left and right above, left and right below.
+#[inline]
+pub(crate) fn mean_of_corners(corners: [[f32; 4]; 4], across: f32, down: f32) -> [f32; 4] {
+    let weights = [(1.0 - across) * (1.0 - down), across * (1.0 - down), (1.0 - across) * down, across * down];
+    let mut mean = [0.0; 4];
+    for (k, sum) in mean.iter_mut().enumerate() {
+        (0..4).for_each(|corner| *sum += weights[corner] * corners[corner][k]);
+    }
+    mean
+}
+
+/// Bytes as shares of the largest, 0 to 1.
+#[inline]
+pub(crate) fn shares_of_bytes(bytes: [u8; 3]) -> [f32; 3] {
+    bytes.map(|v| f32::from(v) / 255.0)
 }
 
 /// For each of `fine` pixels in a row: the two of `coarse` between whose centres it lies, and its position between them, 0 to 1.

@@ -23,6 +23,7 @@ mod pyramid;
 mod rank;
 mod ridges;
 mod scale;
+mod soft_maximum;
 mod structure_tensor;
 mod thin;
 
@@ -43,6 +44,9 @@ pub use edge_preserving::edge_preserving;
 pub use flood::{flood_from_border, without_holes};
 #[doc(hidden)]
 pub use gradient::sobel;
+#[cfg(feature = "see")]
+pub(crate) use guided::mean_of_corners;
+pub(crate) use guided::shares_of_bytes;
 #[doc(hidden)]
 pub use guided::{guided_enlargement, guided_filter, self_guided};
 #[doc(hidden)]
@@ -62,6 +66,7 @@ pub use rank::{equalised, sorted};
 pub use ridges::ridges;
 #[doc(hidden)]
 pub use scale::{enlarge, enlarge_smoothly, reduce};
+pub(crate) use soft_maximum::soft_rise;
 #[doc(hidden)]
 pub use structure_tensor::{gaussian_gradient, gradient, structure_tensor};
 #[doc(hidden)]

@@ -26,7 +26,7 @@ mod smoothing;
 use super::detail::detail;
 use super::sight::Regions;
 use crate::parallel::shares;
-use crate::raster::Raster;
+use crate::raster::{Raster, mean_of_corners, shares_of_bytes};
 use crate::source::Landmarks;
 use facial_hair::Beard;
 use head::Head;
@@ -109,8 +109,7 @@ fn at_full_size(
             }
             let p = crate::geometry::Point::new(x as f64 + 0.5, y as f64 + 0.5);
             let own = owner(heads, p).and_then(|i| told[i].as_ref());
-            let [r, g, b] = pixels.get(x, y);
-            let colour = [f32::from(r) / 255.0, f32::from(g) / 255.0, f32::from(b) / 255.0];
+            let colour = shares_of_bytes(pixels.get(x, y));
             let shares = own.and_then(|own| shares_at(own, p.x, p.y, colour));
             *out = apportioned(whole, shares.unwrap_or([0.0, 0.0, 0.0, 0.0, 1.0]));
         }
@@ -133,16 +132,10 @@ fn shares_at(told: &HeadRegions, x: f64, y: f64, colour: [f32; 3]) -> Option<[f3
     let (x0, y0) = (fx as usize, fy as usize);
     let (x1, y1) = ((x0 + 1).min(plate.width() - 1), (y0 + 1).min(plate.height() - 1));
     let (tx, ty) = (fx.fract() as f32, fy.fract() as f32);
-    let weights = [(1.0 - tx) * (1.0 - ty), tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty];
-    let corners = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)];
     let mut shares = [0.0; KINDS];
     for (share, lines) in shares.iter_mut().zip(&told.lines) {
-        let mut line = [0.0; 4];
-        for ((x, y), weight) in corners.into_iter().zip(weights) {
-            let corner = lines.get(x, y);
-            (0..4).for_each(|j| line[j] += weight * corner[j]);
-        }
-        *share = value(line, colour);
+        let corners = [lines.get(x0, y0), lines.get(x1, y0), lines.get(x0, y1), lines.get(x1, y1)];
+        *share = value(mean_of_corners(corners, tx, ty), colour);
     }
     Some(shares)
 }

@@ -92,8 +92,8 @@ pub(super) const fn count(default: u32, range: RangeInclusive<u32>) -> Kind {
     Kind::Count { default, least: *range.start(), most: *range.end() }
 }
 
-/// Declares a style's parameters: the constant `PARAMETERS` and a struct of their values with `new(&Settings)`, which a
-/// method of the style may adjust.
+/// Declares a style's parameters, one of them its pitch: the constant `PARAMETERS` and a struct of their values with
+/// `new(&Settings)`, which a method of the style may adjust.
 macro_rules! parameters {
     (
         $(#[$attribute:meta])*
@@ -124,16 +124,22 @@ macro_rules! parameters {
                 Self { $($field: $crate::style::declaration::Setting::of(settings, $key),)* }$(.$adjust())?
             }
         }
+
+        impl $crate::style::drawer::Pitched for $name {
+            fn pitch(&self) -> $crate::geometry::Millimetres {
+                self.pitch
+            }
+        }
     };
 }
 
-/// Declares a choice: an enum and its words, the default first.
-macro_rules! choice {
-    ($(#[$attribute:meta])* $visibility:vis enum $name:ident { $($(#[$note:meta])* $variant:ident = $word:literal,)* }) => {
+/// Declares choices: each an enum and its words, the default first.
+macro_rules! choices {
+    ($($(#[$attribute:meta])* $visibility:vis enum $name:ident { $($variant:ident = $word:literal),* $(,)? })*) => {$(
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         $visibility enum $name {
-            $($(#[$note])* $variant,)*
+            $($variant,)*
         }
 
         impl $name {
@@ -149,7 +155,7 @@ macro_rules! choice {
                 }
             }
         }
-    };
+    )*};
 }
 
-pub(super) use {choice, parameters};
+pub(super) use {choices, parameters};

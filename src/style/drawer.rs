@@ -13,7 +13,7 @@ pub(super) struct Drawer<'a, P> {
     pub observer: &'a dyn Observer,
 }
 
-/// Parameters of a style that has a pitch.
+/// Parameters of a style, which has a pitch.
 pub(super) trait Pitched {
     /// Distance between neighbouring marks.
     fn pitch(&self) -> Millimetres;
@@ -50,6 +50,13 @@ impl<P> Drawer<'_, P> {
     /// Ends the drawing when the user wants it to stop.
     pub(super) fn check(&self) -> Result<(), StyleError> {
         if self.observer.is_interrupted() { Err(StyleError::Interrupted) } else { Ok(()) }
+    }
+}
+
+impl<P: Pitched> Drawer<'_, P> {
+    /// The pitch in working pixels.
+    pub(super) fn pitch(&self) -> f64 {
+        self.pixels(self.parameters.pitch())
     }
 }
 

@@ -14,6 +14,7 @@ mod feature_line;
 mod form;
 mod glass;
 mod grid;
+mod guide_lines;
 mod head;
 mod hedcut;
 mod mouth;

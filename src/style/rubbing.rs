@@ -1,12 +1,12 @@
 //! Half tones of a face's skin rubbed into its lights, as a stump does on charcoal and as an engraver's dots do: lights end softly.
 
-use crate::raster::{Raster, gaussian_blur};
+use crate::raster::{Raster, gaussian_blur, soft_rise};
 
 /// The share of the half tones that reaches a light, and the most ink that counts as one. With more, faces are veiled; with less,
 /// foreheads and noses are holes with hard edges (sixteen portraits in charcoal).
 const RUBBED: f32 = 0.6;
 const MOST_INK: f32 = 0.5;
-/// The difference of ink over which a light ends.
+/// The difference of ink over which a light ends, so that it has no border.
 const SOFT: f32 = 0.04;
 
 /// Ink with the mean of `skin` (0 to 1), blurred by `reach` pixels, in its lights.
@@ -14,11 +14,7 @@ pub(super) fn rubbed(ink: &Raster<f32>, skin: &Raster<f32>, reach: f32) -> Raste
     let sum = gaussian_blur(&ink.zip_map(skin, |ink, skin| ink.min(MOST_INK) * skin), reach);
     let mean = sum.zip_map(&gaussian_blur(skin, reach), |sum, skin| sum / skin.max(1e-3));
     let rubbed = mean.zip_map(skin, |mean, skin| RUBBED * mean * skin);
-    ink.zip_map(&rubbed, |ink, rubbed| {
-        // A soft maximum, so that no border arises.
-        let over = (rubbed - ink).max(0.0);
-        ink + over * over / (over + SOFT)
-    })
+    ink.zip_map(&rubbed, |ink, rubbed| ink + soft_rise(rubbed - ink, SOFT))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Step 10: a face whose lights are large keeps only their middles as paper; its half tones run into the rest.
 
 use super::zones::Zones;
-use crate::raster::{Raster, fast_gaussian};
+use crate::raster::{Raster, fast_gaussian, soft_rise};
 
 /// Most of the counted skin, in hundredths, that may be paper as seen in print. With 25 foreheads and noses are holes with hard edges;
 /// with 8 lit faces look veiled (sixteen portraits).
@@ -27,10 +27,7 @@ pub(super) fn rubbed(zones: &Zones, tone: &Raster<f32>, seen: impl Fn(&Raster<f3
     let soft = fast_gaussian(&skin, (0.3 * REACH * zones.width) as f32);
     let with = |share: f32| {
         let rub = mean.zip_map(&soft, |mean, skin| share * mean * skin);
-        tone.zip_map(&rub, |tone, rub| {
-            let over = (rub - (1.0 - tone).max(0.0)).max(0.0);
-            tone.min(1.0) - over * over / (over + SOFT)
-        })
+        tone.zip_map(&rub, |tone, rub| tone.min(1.0) - soft_rise(rub - (1.0 - tone).max(0.0), SOFT))
     };
     let (mut low, mut high) = (0.0, MOST);
     for _ in 0..HALVINGS {

@@ -8,7 +8,7 @@ use crate::drawing::Mark;
 use crate::elementary::Elementary as _;
 use crate::field::{Curve, EdgeParameters, contours, detect_edges, distance_to_curves, lines_of};
 use crate::geometry::{Point, Ring, Vec2, polyline_length, smooth_polyline};
-use crate::raster::{Raster, Thresholds, dilate, thin};
+use crate::raster::{Raster, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::creases::Creases;
@@ -81,14 +81,14 @@ impl Drawer<'_> {
         let kept = kept.zip_map(&near, |edge, keep| edge & keep).zip_map(&drawn, |edge, drawn| edge | drawn);
         self.observer.picture("edges-kept", &|| Picture::Mask(kept.clone()));
         // Lines kept by the user are not specks, however short.
-        let found = lines_of(&kept, parameters.smoothing, self.pixels(self.parameters.pitch) as f32);
+        let found = lines_of(&kept, parameters.smoothing, self.pitch() as f32);
         let hidden = hidden.zip_map(&near, |hidden, near| hidden | (1 - near));
         self.with_silhouette(found, regions, &hidden)
     }
 
     /// Thinned lines of a keep mask that follow no detected edge; broad strokes of the mask only select edges.
     fn drawn_by_hand(&self, wanted: &Raster<u8>, found: &Raster<u8>) -> Raster<u8> {
-        let pitch = self.pixels(self.parameters.pitch).round().max(1.0) as usize;
+        let pitch = self.pitch().round().max(1.0) as usize;
         let outside = dilate(&wanted.map(|v| 1 - v), pitch);
         let broad = dilate(&outside.map(|v| 1 - v), 2 * pitch);
         let followed = dilate(found, pitch);
@@ -96,22 +96,18 @@ impl Drawer<'_> {
     }
 
     fn edge_parameters(&self) -> EdgeParameters {
-        let per_pixel = 1.0 / self.pixels(self.parameters.pitch);
         EdgeParameters {
             blur: self.pixels(self.parameters.edge_blur) as f32,
-            thresholds: Thresholds {
-                low: (self.parameters.edge_low.min(self.parameters.edge_high) * per_pixel) as f32,
-                high: (self.parameters.edge_high * per_pixel) as f32,
-            },
+            thresholds: self.thresholds(self.parameters.edge_low, self.parameters.edge_high),
             least_length: self.pixels(self.parameters.edge_length) as f32,
-            smoothing: self.pixels(self.parameters.pitch) as f32,
+            smoothing: self.pitch() as f32,
         }
     }
 
     /// The image mask: regions that other steps draw. The background is inset by a few pixels, since the subject's border is an edge;
     /// hair includes its border, which needs no line.
     fn hidden(&self, regions: &Regions, features: &Features) -> Raster<u8> {
-        let margin = self.pixels(self.parameters.pitch).round().max(1.0) as usize;
+        let margin = self.pitch().round().max(1.0) as usize;
         let near_subject = dilate(&regions.subject.map(|v| u8::from(v >= 0.5)), margin);
         let hair = dilate(&regions.hair.map(|v| u8::from(v >= 0.5)), margin);
         let drawn = dilate(&features.drawn.map(|v| u8::from(v > 0.0)), margin);
@@ -148,7 +144,7 @@ impl Drawer<'_> {
         let reach = self.pixels(1.5 * self.parameters.pitch);
         let lightness = &self.portrait.lightness;
         let phase = random.random_range(0.0..TAU);
-        let wave = TAU / (WANDER.0 * self.pixels(self.parameters.pitch) * random.random_range(0.7..1.4));
+        let wave = TAU / (WANDER.0 * self.pitch() * random.random_range(0.7..1.4));
         let mut travelled = 0.0;
         let steps = points.windows(2).map(|pair| {
             let along = pair[1] - pair[0];
@@ -160,14 +156,14 @@ impl Drawer<'_> {
             ((0.1 + 2.1 * step) * wander).clamp(0.08, 1.0)
         });
         let firm: Vec<f64> = steps.collect();
-        running_mean(&firm, (4.0 * self.pixels(self.parameters.pitch)) as usize)
+        running_mean(&firm, (4.0 * self.pitch()) as usize)
     }
 
     /// Overlapping pieces of a line, each with randomly displaced ends.
     fn sketched(&self, points: &[Point], random: &mut impl Rng) -> Vec<Vec<Point>> {
         let length = polyline_length(points);
         let offset = self.pixels(self.parameters.sketch_offset);
-        let least = 8.0 * self.pixels(self.parameters.pitch);
+        let least = 8.0 * self.pitch();
         let mut pieces = Vec::new();
         let mut from = 0.0;
         while from < length {

@@ -59,7 +59,7 @@ impl Drawer<'_> {
         cover(&field, hair, &ink, covering, &mut stream(self.seed, "hair", 0))
             .iter()
             .filter_map(|line| {
-                let line = smooth_polyline(line, Ring::Open, self.pixels(self.parameters.pitch), 1.5);
+                let line = smooth_polyline(line, Ring::Open, self.pitch(), 1.5);
                 self.stroke(&line, touch, |p| 0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0))
             })
             .collect()

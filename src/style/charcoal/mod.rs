@@ -109,7 +109,7 @@ impl Drawer<'_> {
         self.check()?;
         let behind = self.background_pressure(&regions);
         let strokes = covered(hair.iter().chain(&shading), &self.portrait.placement);
-        let strokes = gaussian_blur(&strokes, self.pixels(self.parameters.pitch) as f32);
+        let strokes = gaussian_blur(&strokes, self.pitch() as f32);
         let tone = self.tone(&Laid {
             regions: &regions,
             features: &features,
@@ -121,7 +121,7 @@ impl Drawer<'_> {
         self.check()?;
         let mut face = self.draw_features(&features);
         if self.parameters.has_features {
-            face.extend(Solids::of_darkest(self.portrait, &self.darkness(), self.pixels(self.parameters.pitch)).layer().marks);
+            face.extend(Solids::of_darkest(self.portrait, &self.darkness(), self.pitch()).layer().marks);
         }
         let background = self.background(&regions, &behind);
         let layers = [

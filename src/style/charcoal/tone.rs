@@ -154,14 +154,14 @@ impl Drawer<'_> {
         });
         let around = gaussian_blur(&smudged, self.pixels(self.parameters.grain) as f32);
         let firm = smudged.zip_map(&around, |ink, around| (ink + FIRMER * (ink - around)).clamp(0.0, 1.0));
-        let features = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
+        let features = detail_zone(self.portrait, self.pitch());
         let skin = regions.skin().zip_map(&features, |skin, features| skin * (1.0 - features));
         STUMP.iter().fold(firm, |firm, reach| rubbed(&firm, &skin, self.pixels(*reach * self.parameters.smudge) as f32))
     }
 
     /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
     pub(super) fn sharp_zone(&self) -> Raster<f32> {
-        let detail = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
+        let detail = detail_zone(self.portrait, self.pitch());
         let faces = &self.portrait.faces;
         Raster::from_fn(detail.width(), detail.height(), |x, y| {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);

@@ -24,7 +24,7 @@ impl Drawer<'_> {
     /// Nearness, 0 to 1.
     pub(super) fn guessed_depth(&self) -> Raster<f32> {
         let lightness = self.portrait.on_white(&self.portrait.lightness);
-        let sigma = (PHOTO_SMOOTHING * self.pixels(self.parameters.pitch)) as f32;
+        let sigma = (PHOTO_SMOOTHING * self.pitch()) as f32;
         let smoothed = gaussian_blur(&bilateral(&lightness, sigma, PHOTO_EDGE), 0.5 * sigma);
         match self.parameters.depth_from {
             DepthFrom::Luminance => smoothed.map(|v| v.max(1e-4)),

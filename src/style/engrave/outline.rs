@@ -17,7 +17,7 @@ const NODE_SPACING: f64 = 1.5;
 impl Drawer<'_> {
     pub(super) fn outlines(&self) -> Layer {
         self.observer.begin("outlines");
-        let pitch = self.pixels(self.parameters.pitch);
+        let pitch = self.pitch();
         let grey = gaussian_blur(&self.portrait.on_white(&self.portrait.lightness), (0.2 * pitch) as f32);
         let flow = edge_tangent_flow(&grey, FLOW_RADIUS, FLOW_ROUNDS);
         let parameters = LineParameters { width: 1.0, length: 3.0, contrast: 0.99, threshold: 0.5, rounds: 2 };
@@ -32,7 +32,7 @@ impl Drawer<'_> {
     fn outline(&self, line: &Curve) -> Option<Mark> {
         let mut nodes = line.points.clone();
         nodes.extend(line.points.first().filter(|_| line.closed).copied());
-        let nodes = resample(&nodes, NODE_SPACING * self.pixels(self.parameters.pitch));
+        let nodes = resample(&nodes, NODE_SPACING * self.pitch());
         if nodes.len() < 3 {
             return None;
         }

@@ -2,8 +2,7 @@
 
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
-use crate::style::declaration::{OFF, choice, millimetres, number, parameters, pitches};
-use crate::style::drawer::Pitched;
+use crate::style::declaration::{OFF, choices, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
 
 /// Working pixels per pitch.
@@ -113,75 +112,24 @@ parameters! {
     adjusted by in_proportion
 }
 
-choice! {
+choices! {
     /// What is engraved.
     pub(super) enum Look {
-        Crosshatch = "crosshatch",
-        Engraving = "engraving",
-        Hatch = "hatch",
-        Net = "net",
-        Stipple = "stipple",
-        Contour = "contour",
+        Crosshatch = "crosshatch", Engraving = "engraving", Hatch = "hatch",
+        Net = "net", Stipple = "stipple", Contour = "contour",
     }
-}
-
-choice! {
     /// Where lines run.
-    pub(super) enum Way {
-        Form = "form",
-        Straight = "straight",
-    }
-}
-
-choice! {
+    pub(super) enum Way { Form = "form", Straight = "straight" }
     /// How the picture is divided into regions with a direction each.
-    pub(super) enum Division {
-        Auto = "auto",
-        One = "one",
-        Superpixels = "superpixels",
-    }
-}
-
-choice! {
+    pub(super) enum Division { Auto = "auto", One = "one", Superpixels = "superpixels" }
     /// Where the regions' directions come from.
-    pub(super) enum AnglesFrom {
-        Auto = "auto",
-        Given = "given",
-        Flow = "flow",
-        Random = "random",
-        Hue = "hue",
-    }
-}
-
-choice! {
+    pub(super) enum AnglesFrom { Auto = "auto", Given = "given", Flow = "flow", Random = "random", Hue = "hue" }
     /// Where depth comes from when no map is given.
-    pub(super) enum DepthFrom {
-        Shape = "shape",
-        Inflate = "inflate",
-        Luminance = "luminance",
-    }
-}
-
-choice! {
+    pub(super) enum DepthFrom { Shape = "shape", Inflate = "inflate", Luminance = "luminance" }
     /// Where tone comes from.
-    pub(super) enum ToneFrom {
-        Photo = "photo",
-        Depth = "depth",
-    }
-}
-
-choice! {
+    pub(super) enum ToneFrom { Photo = "photo", Depth = "depth" }
     /// The paper's colour.
-    pub(super) enum GroundColour {
-        White = "white",
-        Black = "black",
-    }
-}
-
-impl Pitched for EngraveParameters {
-    fn pitch(&self) -> Millimetres {
-        self.pitch
-    }
+    pub(super) enum GroundColour { White = "white", Black = "black" }
 }
 
 impl EngraveParameters {

@@ -28,7 +28,7 @@ impl Drawer<'_> {
         let silhouette = contours(&relief.cover, 0.5);
         let (parts, angles) = self.directed_parts(&relief.cover);
         let (labels, mut curves) = match &parts {
-            Some(parts) => smooth_borders(parts, (BORDER_SMOOTHING * self.pixels(self.parameters.pitch)) as f32),
+            Some(parts) => smooth_borders(parts, (BORDER_SMOOTHING * self.pitch()) as f32),
             None => (relief.cover.map(|_| 1), Vec::new()),
         };
         let labels = labels.zip_map(&relief.cover, drawn_label);

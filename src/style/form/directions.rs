@@ -176,7 +176,7 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     }
 
     fn hair_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
-        let unit = self.pixels(self.parameters.pitch()) / 4.5;
+        let unit = self.pitch() / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 1.4 * unit, 5.0 * unit);
         let clear = texture.clear(&reduce(&surfaces.hair, HALF)).map(|clear| 0.25 * clear);
         let (half, hair) = (cells.on_half(), cells.mean(&surfaces.hair));
@@ -203,7 +203,7 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     }
 
     fn cloth_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
-        let unit = self.pixels(self.parameters.pitch()) / 4.5;
+        let unit = self.pitch() / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 3.0 * unit, 10.0 * unit);
         let slope = |p: Point| {
             let head = nearest(p);

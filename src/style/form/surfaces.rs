@@ -44,7 +44,7 @@ impl<P: Pitched> Drawer<'_, P> {
     /// The surfaces by their masks; all is skin without them. `cover` is the drawn part, 0 to 1.
     pub(in crate::style) fn surfaces(&self, cover: &Raster<f32>) -> Surfaces {
         let masks = &self.portrait.masks;
-        let sigma = (SMOOTH * self.pixels(self.parameters.pitch())) as f32;
+        let sigma = (SMOOTH * self.pitch()) as f32;
         let union = |roles: [MaskRole; 2]| {
             let nothing = cover.map(|_| 0.0);
             let all = roles.iter().filter_map(|role| masks.get(role)).fold(nothing, |all, mask| all.zip_map(mask, f32::max));

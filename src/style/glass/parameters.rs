@@ -1,8 +1,7 @@
 //! The painting's parameters and their values.
 
 use crate::geometry::Millimetres;
-use crate::style::declaration::{Radians, choice, count, millimetres, number, parameters, pitches};
-use crate::style::drawer::Pitched;
+use crate::style::declaration::{Radians, choices, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
 
 /// Working resolution in millimetres per pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
@@ -86,57 +85,22 @@ parameters! {
     }
 }
 
-choice! {
+choices! {
     /// Whose colours the strokes have.
-    pub(super) enum Colours {
-        Photo = "photo",
-        Mono = "mono",
-    }
-}
-
-choice! {
+    pub(super) enum Colours { Photo = "photo", Mono = "mono" }
     /// Strokes or points.
-    pub(super) enum Pattern {
-        Continuous = "continuous",
-        Discrete = "discrete",
-    }
-}
-
-choice! {
+    pub(super) enum Pattern { Continuous = "continuous", Discrete = "discrete" }
     /// Whether strokes look at what they paint.
-    pub(super) enum Strokes {
-        Fitted = "fitted",
-        Even = "even",
-    }
-}
-
-choice! {
+    pub(super) enum Strokes { Fitted = "fitted", Even = "even" }
     /// How the photograph is smoothed before its gradient is taken.
-    pub(super) enum Gradient {
-        Gaussian = "gaussian",
-        Diffusion = "diffusion",
-    }
-}
-
-choice! {
+    pub(super) enum Gradient { Gaussian = "gaussian", Diffusion = "diffusion" }
     /// The transform that the pattern is made of.
     pub(super) enum Transform {
-        Photograph = "photo",
-        Rotation = "rotation",
-        Scaling = "scaling",
-        Hyperbolic = "hyperbolic",
-        Spiral = "spiral",
-        Translation = "translation",
-        Nonlinear = "nonlinear",
+        Photograph = "photo", Rotation = "rotation", Scaling = "scaling", Hyperbolic = "hyperbolic",
+        Spiral = "spiral", Translation = "translation", Nonlinear = "nonlinear",
     }
-}
-
-choice! {
     /// How points are scattered.
-    pub(super) enum Points {
-        Blue = "blue",
-        Poisson = "poisson",
-    }
+    pub(super) enum Points { Blue = "blue", Poisson = "poisson" }
 }
 
 /// What is drawn.
@@ -145,12 +109,6 @@ pub(super) enum Manner {
     Painting,
     OnePen,
     Discrete,
-}
-
-impl Pitched for GlassParameters {
-    fn pitch(&self) -> Millimetres {
-        self.pitch
-    }
 }
 
 impl GlassParameters {

@@ -4,11 +4,11 @@ use super::Drawer;
 use crate::drawing::{Colour, Ink, Layer, Mark, Stroke};
 use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{
-    CoherentLine, Curve, DirectionField, FieldParameters, Guides, LineParameters, coherent_lines, contours, detect_isophotes,
-    direction_field, edge_tangent_flow, flow_lines, lines_of,
+    CoherentLine, Curve, DirectionField, FieldParameters, Guides, LineParameters, coherent_lines, detect_isophotes,
+    direction_field, edge_tangent_flow, flow_lines,
 };
-use crate::geometry::{BezPath, Point, Vec2, smooth_polyline};
-use crate::raster::{Raster, thin};
+use crate::geometry::{BezPath, Point, Vec2};
+use crate::raster::Raster;
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::mouth::Mouths;
@@ -22,8 +22,6 @@ pub(super) struct Features {
     pub field: DirectionField,
 }
 
-/// Minimum brightness of a hand-made line; low, since thin lines grow faint when the mask is scaled down.
-const LINE_BRIGHTNESS: f32 = 0.25;
 /// Width of hand-drawn lines and of the subject's border, in pitches.
 const PLAIN_WIDTH: f64 = 0.25;
 
@@ -32,12 +30,12 @@ impl Drawer<'_> {
         self.observer.begin("lines");
         let lightness = self.portrait.on_white(&self.portrait.lightness);
         let lines = match self.portrait.masks.get(&MaskRole::Edges) {
-            Some(mask) => self.plain(self.hand_made(mask)),
+            Some(mask) => self.plain(self.hand_made(mask, self.parameters.smoothing)),
             None => self.with_silhouette(self.found_lines(&lightness)),
         };
         self.observer.begin("isophotes");
         let isophotes = match self.portrait.masks.get(&MaskRole::Isophotes) {
-            Some(mask) => self.hand_made(mask),
+            Some(mask) => self.hand_made(mask, self.parameters.smoothing),
             None => self.found_isophotes(&lightness),
         };
         let guides = self.steering(&lines);
@@ -108,14 +106,9 @@ impl Drawer<'_> {
 
     /// Adds the subject's exact border as a line and removes detected lines beside it, which would double it.
     fn with_silhouette(&self, lines: Vec<CoherentLine>) -> Vec<CoherentLine> {
-        let smoothing = self.pixels(self.parameters.smoothing).max(1.0);
         let least = self.pixels(self.parameters.line_least);
-        let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
-            .into_iter()
-            .filter(|line| line.length() >= least)
-            .map(|line| Curve { points: smooth_polyline(&line.points, line.closed.into(), smoothing, 1.5), closed: line.closed })
-            .filter(|line| line.points.len() > 2)
-            .collect();
+        let mut silhouette = self.silhouette(self.parameters.smoothing, self.parameters.line_least);
+        silhouette.retain(|line| line.points.len() > 2);
         let (width, height) = self.size();
         let Some(border) = crate::field::distance_to_curves(&silhouette, width, height) else { return lines };
         let reach = (0.9 * self.pitch()) as f32;
@@ -130,7 +123,7 @@ impl Drawer<'_> {
     /// Curves as lines of constant width.
     fn plain(&self, curves: Vec<Curve>) -> Vec<CoherentLine> {
         let width = PLAIN_WIDTH * self.pitch();
-        curves.into_iter().map(|curve| CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }).collect()
+        curves.into_iter().map(|curve| CoherentLine::plain(curve, width)).collect()
     }
 
     /// Section 4.1: borders between levels of lightness.
@@ -145,13 +138,6 @@ impl Drawer<'_> {
         self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
         self.observer.picture("posterised", &|| Picture::Grey(steps.posterised.clone()));
         steps.lines
-    }
-
-    /// Centre lines of white lines on black.
-    fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
-        let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
-        self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
-        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing).min(3.0) as f32, 0.5 * self.pitch() as f32)
     }
 
     /// The field as short strokes two pitches apart, and its singular points as rings, one layer per sign.

@@ -146,11 +146,6 @@ impl Drawer<'_> {
         Picture::Drawing(Box::new(Drawing { page, layers }))
     }
 
-    /// The pitch in working pixels.
-    fn pitch(&self) -> f64 {
-        self.pixels(self.parameters.pitch)
-    }
-
     /// Where dots and lines stand closer.
     fn detail(&self) -> Option<&Raster<f32>> {
         self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail == Detail::Auto)

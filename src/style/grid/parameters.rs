@@ -2,7 +2,7 @@
 
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
-use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
+use crate::style::declaration::{ON, choices, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
 
 /// Working pixels per pitch, as in the paper (`d = 6`).
@@ -128,47 +128,17 @@ parameters! {
     adjusted by with_bounded_window
 }
 
-choice! {
+choices! {
     /// Which hatching is drawn.
-    pub(super) enum Hatching {
-        Both = "both",
-        Along = "along",
-        Across = "across",
-    }
-}
-
-choice! {
+    pub(super) enum Hatching { Both = "both", Along = "along", Across = "across" }
     /// How dots get their size.
-    pub(super) enum Overlap {
-        Exact = "exact",
-        Paper = "paper",
-    }
-}
-
-choice! {
+    pub(super) enum Overlap { Exact = "exact", Paper = "paper" }
     /// What is drawn.
-    pub(super) enum Primitive {
-        Mixed = "mixed",
-        Tile = "tile",
-        TileLines = "tile-lines",
-    }
-}
-
-choice! {
+    pub(super) enum Primitive { Mixed = "mixed", Tile = "tile", TileLines = "tile-lines" }
     /// Whether rows stand closer in detail regions.
-    pub(super) enum Detail {
-        Auto = "auto",
-        Off = "off",
-    }
-}
-
-choice! {
+    pub(super) enum Detail { Auto = "auto", Off = "off" }
     /// Where the rows nearest to a feature line run.
-    pub(super) enum FeatureRows {
-        Beside = "beside",
-        On = "on",
-        Free = "free",
-    }
+    pub(super) enum FeatureRows { Beside = "beside", On = "on", Free = "free" }
 }
 
 impl GridParameters {

@@ -3,11 +3,10 @@
 use super::Drawer;
 use super::parameters::Lines;
 use crate::field::{
-    CoherentLine, Curve, EdgeParameters, LineParameters, coherent_lines, contours, detect_edges, detect_isophotes,
-    distance_to_curves, edge_tangent_flow, flow_lines, lines_of,
+    CoherentLine, Curve, EdgeParameters, LineParameters, coherent_lines, detect_edges, detect_isophotes, distance_to_curves,
+    edge_tangent_flow, flow_lines, lines_of,
 };
-use crate::geometry::smooth_polyline;
-use crate::raster::{Raster, Thresholds, bilateral, thin};
+use crate::raster::{Raster, bilateral};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::mouth::Mouths;
@@ -21,9 +20,6 @@ pub(super) struct Features {
     /// Lightness of the subject on white, smoothed within regions.
     pub smoothed: Raster<f32>,
 }
-
-/// Minimum brightness of a hand-made line; low, since thin lines grow faint when the mask is scaled down.
-const LINE_BRIGHTNESS: f32 = 0.25;
 
 /// Kang's values for the edge tangent flow: window radius in pixels, and rounds.
 const FLOW_RADIUS: usize = 5;
@@ -39,13 +35,13 @@ impl Drawer<'_> {
         // The background is removed first, so that the silhouette is an edge and nothing beyond it is.
         let lightness = self.portrait.on_white(&self.portrait.lightness);
         let (edges, drawn) = match self.portrait.masks.get(&MaskRole::Edges) {
-            Some(mask) => (self.hand_made(mask), Vec::new()),
+            Some(mask) => (self.hand_made(mask, self.parameters.smoothing), Vec::new()),
             None if self.parameters.lines == Lines::Coherent => self.coherent_edges(&lightness),
             None => (self.with_silhouette(self.found_edges(&lightness)), Vec::new()),
         };
         self.observer.begin("isophotes");
         let (isophotes, smoothed) = match self.portrait.masks.get(&MaskRole::Isophotes) {
-            Some(mask) => (self.hand_made(mask), bilateral(&lightness, 2.0, 0.08)),
+            Some(mask) => (self.hand_made(mask, self.parameters.smoothing), bilateral(&lightness, 2.0, 0.08)),
             None if self.portrait.masks.contains_key(&MaskRole::Edges) && self.parameters.isophotes == 0 => {
                 (Vec::new(), bilateral(&lightness, 2.0, 0.08))
             }
@@ -56,13 +52,9 @@ impl Drawer<'_> {
     }
 
     fn found_edges(&self, lightness: &Raster<f32>) -> Vec<Curve> {
-        let per_pixel = 1.0 / self.pitch();
         let parameters = EdgeParameters {
             blur: self.pixels(self.parameters.edge_blur) as f32,
-            thresholds: Thresholds {
-                low: (self.parameters.edge_low.min(self.parameters.edge_high) * per_pixel) as f32,
-                high: (self.parameters.edge_high * per_pixel) as f32,
-            },
+            thresholds: self.thresholds(self.parameters.edge_low, self.parameters.edge_high),
             least_length: self.pixels(self.parameters.edge_length) as f32,
             smoothing: self.pixels(self.parameters.smoothing) as f32,
         };
@@ -89,10 +81,8 @@ impl Drawer<'_> {
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let steering = self.pixels(self.parameters.edge_length);
         let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
-        let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| {
-            let width = self.pixels(self.parameters.outline_width);
-            CoherentLine { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }
-        });
+        let width = self.pixels(self.parameters.outline_width);
+        let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| CoherentLine::plain(curve, width));
         let drawn = outline.chain(lines).collect();
         (self.with_silhouette(long), drawn)
     }
@@ -100,15 +90,9 @@ impl Drawer<'_> {
     /// Adds the subject's exact border as an edge. Detected edges beside it (a pixel or two off) would leave a strip too narrow for a
     /// row of dots, so those parts are removed.
     fn with_silhouette(&self, edges: Vec<Curve>) -> Vec<Curve> {
-        let smoothing = self.pixels(self.parameters.smoothing).max(1.0);
         let least = self.pixels(self.parameters.edge_length);
         let (width, height) = self.size();
-        let silhouette: Vec<Curve> = contours(&self.portrait.subject, 0.5)
-            .into_iter()
-            .filter(|line| line.length() >= least)
-            .map(|line| Curve { points: smooth_polyline(&line.points, line.closed.into(), smoothing, 1.5), closed: line.closed })
-            .filter(|line| line.points.len() > 1)
-            .collect();
+        let silhouette = self.silhouette(self.parameters.smoothing, self.parameters.edge_length);
         let Some(field) = distance_to_curves(&silhouette, width, height) else { return edges };
         let reach = (0.9 * self.pitch()) as f32;
         let apart = edges.iter().flat_map(|edge| {
@@ -128,13 +112,6 @@ impl Drawer<'_> {
         self.observer.picture("smoothed", &|| Picture::Grey(steps.smoothed.clone()));
         self.observer.picture("posterised", &|| Picture::Grey(steps.posterised.clone()));
         (steps.lines, steps.smoothed)
-    }
-
-    /// Centre lines of white lines on black.
-    fn hand_made(&self, mask: &Raster<f32>) -> Vec<Curve> {
-        let marked = mask.map(|v| u8::from(v >= LINE_BRIGHTNESS));
-        self.observer.picture("hand-made", &|| Picture::Mask(marked.clone()));
-        lines_of(&thin(&marked), self.pixels(self.parameters.smoothing).min(3.0) as f32, 0.5 * self.pitch() as f32)
     }
 
     /// Edges and isophotes as a drawing, for `stages`.

@@ -170,11 +170,6 @@ impl Drawer<'_> {
         layer
     }
 
-    /// The pitch in working pixels.
-    fn pitch(&self) -> f64 {
-        self.pixels(self.parameters.pitch)
-    }
-
     fn detail(&self) -> Option<&Raster<f32>> {
         self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail_lanes().is_some())
     }

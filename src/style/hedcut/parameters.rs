@@ -2,8 +2,7 @@
 
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
-use crate::style::declaration::{ON, choice, count, millimetres, number, parameters, pitches};
-use crate::style::drawer::Pitched;
+use crate::style::declaration::{ON, choices, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need};
 
 /// Working pixels per pitch, as in the papers (`l = 6`).
@@ -116,44 +115,15 @@ parameters! {
     }
 }
 
-choice! {
+choices! {
     /// How dots get their size.
-    pub(super) enum SizeRule {
-        Exact = "exact",
-        Paper = "paper",
-    }
-}
-
-choice! {
+    pub(super) enum SizeRule { Exact = "exact", Paper = "paper" }
     /// What detects edges.
-    pub(super) enum Lines {
-        Coherent = "coherent",
-        Canny = "canny",
-    }
-}
-
-choice! {
+    pub(super) enum Lines { Coherent = "coherent", Canny = "canny" }
     /// How dense lanes are in detail regions.
-    pub(super) enum Detail {
-        Auto = "auto",
-        Even = "even",
-        Thesis = "thesis",
-        Off = "off",
-    }
-}
-
-choice! {
+    pub(super) enum Detail { Auto = "auto", Even = "even", Thesis = "thesis", Off = "off" }
     /// Which parts are drawn in marks of their own.
-    pub(super) enum PartsRule {
-        Auto = "auto",
-        Dots = "dots",
-    }
-}
-
-impl Pitched for HedcutParameters {
-    fn pitch(&self) -> Millimetres {
-        self.pitch
-    }
+    pub(super) enum PartsRule { Auto = "auto", Dots = "dots" }
 }
 
 impl HedcutParameters {

@@ -3,7 +3,7 @@
 use super::chroma::Chroma;
 use super::curve::Curve;
 use crate::geometry::Point;
-use crate::raster::Raster;
+use crate::raster::{Raster, shares_of_bytes};
 
 /// A photograph or scan of the sheet, in any orientation.
 #[derive(Clone, Copy, Debug)]
@@ -106,7 +106,7 @@ impl<'a> Probe<'a> {
     #[inline]
     pub(super) fn restored_at(&self, p: Point, chroma: &Chroma) -> [f32; 3] {
         bilinear(p, |x, y| match self.picture {
-            Picture::Encoded(raster) => chroma.restored(scaled(raster.clamped(x, y))).map(|v| self.light(v)),
+            Picture::Encoded(raster) => chroma.restored(shares_of_bytes(raster.clamped(x, y))).map(|v| self.light(v)),
             Picture::Linear(_) => self.pixel(x, y),
         })
     }
@@ -114,7 +114,7 @@ impl<'a> Probe<'a> {
     /// The value of a file at a point, 0 to 1; `None` for linear light.
     pub(super) fn encoded_at(&self, p: Point) -> Option<[f32; 3]> {
         match self.picture {
-            Picture::Encoded(raster) => Some(bilinear(p, |x, y| scaled(raster.clamped(x, y)))),
+            Picture::Encoded(raster) => Some(bilinear(p, |x, y| shares_of_bytes(raster.clamped(x, y)))),
             Picture::Linear(_) => None,
         }
     }
@@ -141,10 +141,6 @@ impl<'a> Probe<'a> {
             Picture::Linear(raster) => tame(raster.clamped(x, y)).into_iter().any(|v| v >= CLIPPED[1]),
         }
     }
-}
-
-fn scaled(v: [u8; 3]) -> [f32; 3] {
-    v.map(|v| f32::from(v) / 255.0)
 }
 
 /// Values of the four pixels around a point, by its distances from their centres.

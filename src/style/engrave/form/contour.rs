@@ -19,7 +19,7 @@ const SMOOTH: f64 = 0.5;
 impl Drawer<'_> {
     /// The silhouette where lines alone do not show it.
     pub(super) fn contour(&self, ink: &Raster<f32>) -> Layer {
-        let pitch = self.pixels(self.parameters.pitch);
+        let pitch = self.pitch();
         // The ink of the subject alone.
         let blur = |raster: &Raster<f32>, pitches: f64| gaussian_blur(raster, (pitches * pitch) as f32);
         let dark = blur(ink, 1.0).zip_map(&blur(&self.portrait.subject, 1.0), |ink, subject| ink / subject.max(0.05));

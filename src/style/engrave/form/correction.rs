@@ -16,7 +16,7 @@ impl Drawer<'_> {
     /// Makes lines wider or thinner by the ratio of the ink wanted around each node to the ink drawn there.
     pub(super) fn correct(&self, pieces: &mut Pieces, ink: &Raster<f32>) {
         let placement = &self.portrait.placement;
-        let reach = (TONE_REACH * self.pixels(self.parameters.pitch)) as f32;
+        let reach = (TONE_REACH * self.pitch()) as f32;
         let drawn = gaussian_blur(&covered(&marks(pieces.iter().flatten(), placement), placement), reach);
         let wanted = gaussian_blur(ink, reach);
         let ratio = wanted

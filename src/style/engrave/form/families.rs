@@ -83,7 +83,7 @@ impl Drawer<'_> {
         closeness: &Closeness<'_>,
         name: &str,
     ) -> Family {
-        let pitch = self.pixels(self.parameters.pitch);
+        let pitch = self.pitch();
         let (left, top) = (extent.columns.start, extent.rows.start);
         let (columns, rows) = (extent.columns.len(), extent.rows.len());
         let cell = (CELL * pitch).max(1.0);

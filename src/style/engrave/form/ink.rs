@@ -23,7 +23,7 @@ const HALF_TONES: [f64; 2] = [8.0, 24.0];
 impl Drawer<'_> {
     /// The ink wanted: without grain, and sharper in detail.
     pub(super) fn form_ink(&self, detail: &Raster<f32>) -> Raster<f32> {
-        let sigma = (TONE_BLUR * self.pixels(self.parameters.pitch)) as f32;
+        let sigma = (TONE_BLUR * self.pitch()) as f32;
         let ink = self.portrait.ink();
         let (smooth, wide) = (gaussian_blur(&ink, sigma), gaussian_blur(&ink, 2.0 * sigma));
         let sharp = ink.zip_map(&wide, |ink, wide| ink + SHARPEN * (ink - wide));
@@ -34,15 +34,14 @@ impl Drawer<'_> {
 
     /// The ink with half tones in the lights of skin, which lines then reach as dots.
     pub(super) fn with_half_tones(&self, ink: &Raster<f32>, detail: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
-        let soft = gaussian_blur(skin, self.pixels(self.parameters.pitch) as f32)
-            .zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
+        let soft = gaussian_blur(skin, self.pitch() as f32).zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
         let skin = soft.zip_map(detail, |skin, detail| skin * (1.0 - detail));
-        HALF_TONES.iter().fold(ink.clone(), |ink, reach| rubbed(&ink, &skin, (reach * self.pixels(self.parameters.pitch)) as f32))
+        HALF_TONES.iter().fold(ink.clone(), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
     }
 
     /// The ink of hair smooth along its locks and with more contrast between them; its mean stays.
     pub(super) fn with_locks(&self, ink: &Raster<f32>, hair: &Raster<f32>, directions: &Raster<f32>) -> Raster<f32> {
-        let step = ALONG * self.pixels(self.parameters.pitch) / f64::from(ALONG_STEPS);
+        let step = ALONG * self.pitch() / f64::from(ALONG_STEPS);
         let along = Raster::from_fn(ink.width(), ink.height(), |x, y| {
             if hair.get(x, y) <= 0.0 {
                 return ink.get(x, y);
@@ -53,7 +52,7 @@ impl Drawer<'_> {
             sum / (2 * ALONG_STEPS + 1) as f32
         });
         let ink = &ink.zip_map(&along, |ink, along| (ink, along)).zip_map(hair, |(ink, along), hair| ink + (along - ink) * hair);
-        let reach = (LOCK * self.pixels(self.parameters.pitch)) as f32;
+        let reach = (LOCK * self.pitch()) as f32;
         let around = gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), reach);
         let mean = around.zip_map(&gaussian_blur(hair, reach), |ink, hair| ink / hair.max(1e-3));
         let apart = ink.zip_map(&mean, |ink, mean| LOCK_CONTRAST * (ink - mean) * (4.0 * mean * (1.0 - mean)).max(0.0));

@@ -58,7 +58,7 @@ impl Drawer<'_> {
     }
 
     pub(super) fn draw_form(&self) -> Result<Drawing, StyleError> {
-        let detail = detail_zone(self.portrait, self.pixels(self.parameters.pitch));
+        let detail = detail_zone(self.portrait, self.pitch());
         let ink = self.form_ink(&detail);
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
@@ -70,7 +70,7 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &detail, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
-        let solids = Solids::new(self.portrait, &ink, self.pixels(self.parameters.pitch)).layer();
+        let solids = Solids::new(self.portrait, &ink, self.pitch()).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
@@ -79,7 +79,7 @@ impl Drawer<'_> {
             pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
             self.check()?;
         }
-        specks::without_specks(&mut pieces, self.pixels(self.parameters.pitch));
+        specks::without_specks(&mut pieces, self.pitch());
         self.observer.begin("widths");
         for _ in 0..TONE_ROUNDS {
             self.correct(&mut pieces, &ink);
@@ -119,7 +119,7 @@ impl Drawer<'_> {
                 breaks: if family == 0 { families[1].as_ref() } else { None },
                 thinnest: self.parameters.thinnest / self.parameters.pitch,
                 dot_min: self.pixels(self.parameters.dot_min),
-                pitch: self.pixels(self.parameters.pitch),
+                pitch: self.pitch(),
                 picture: Rect::new(0.0, 0.0, ink.width() as f64, ink.height() as f64),
             };
             course.pieces()
@@ -136,7 +136,7 @@ impl Drawer<'_> {
         detail: &Raster<f32>,
         lay: &(dyn Fn(usize, &Extent, &Closeness<'_>) -> Family + Sync),
     ) -> Vec<Option<Family>> {
-        let room = (ROOM * self.pixels(self.parameters.pitch)) as usize;
+        let room = (ROOM * self.pitch()) as usize;
         // Lines run on a little beyond the surface's border, where they are cut.
         let near = dilate(&share.map(|share| u8::from(share > LEAST_SHARE)), room);
         let closer = if surface == Surface::Hair { HAIR_CLOSENESS } else { 1.0 };
