@@ -7,10 +7,12 @@
 //!   found     lines that were found inside the lips go: creases of the lips, lights on teeth
 //! ```
 
+use super::feature_line::feature_stroke;
+use crate::drawing::Mark;
 use crate::field::{CoherentLine, Curve};
-use crate::geometry::{Point, Region, Vec2, lengths_along, resample, smooth_polyline};
+use crate::geometry::{Point, Region, Ring, Vec2, lengths_along, resample, smooth_polyline};
 use crate::raster::{Raster, best_way, gaussian_blur};
-use crate::source::{Landmarks, MaskRole, Portrait, outlines};
+use crate::source::{Landmarks, MaskRole, Placement, Portrait, outlines};
 
 /// Columns across a mouth, and rows across a lip.
 const COLUMNS: usize = 96;
@@ -26,12 +28,17 @@ const IN_GAP: f64 = 0.4;
 /// Distance of the sides that a line is compared with, the blur before that, in widths of the mouth; and the price of a bend by one row.
 const BESIDE: f64 = 0.035;
 const BLUR: f64 = 0.006;
-const BEND: f32 = 0.004;
-/// The width of a line, in widths of the mouth, at the contrast from which it is full; its least share of that; and its smoothing, in columns.
-const WIDEST: f64 = 0.024;
+const BEND: f32 = 0.006;
+/// The width of a line, in widths of the mouth, at the contrast from which it is full; its least share of that; and the smoothing of widths and line, in columns.
+const WIDEST: f64 = 0.022;
 const FULL: f64 = 0.16;
 const LEAST: f64 = 0.35;
+/// Width of the line along the lower lip of an open mouth, as a share: in full it is a ring around the teeth.
+const LOWER: f64 = 0.6;
 const SMOOTH: usize = 4;
+const SMOOTH_LINE: f64 = 3.5;
+/// Share of a line at each end over which it tapers.
+const TAPER: f64 = 0.15;
 /// Where found lines give way: so much of the way from the middle between the lips to their outer border.
 const INSIDE: f64 = 0.88;
 /// Hair over the mouth from which nothing is drawn.
@@ -53,6 +60,12 @@ impl Mouths {
             mouths.lines.extend(mouth.lines(portrait));
         }
         mouths
+    }
+
+    /// The mouths' own lines on the page.
+    pub(super) fn strokes(&self, placement: &Placement) -> Vec<Mark> {
+        let taper = |line: &CoherentLine| TAPER * line.curve.length();
+        self.lines.iter().filter_map(|line| feature_stroke(line, placement, taper(line))).collect()
     }
 
     /// Lines that were found, with the mouths' own in place of those inside the lips; what is left of one is at least `least` long.
@@ -110,11 +123,11 @@ impl Mouth {
         let seen = Seen { light: &gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32), mouth: self };
         let into = |lip: &[Vec<Point>; 2]| between(&lip[0], &lip[1], IN_LIP);
         let found = if self.gap() < OPEN {
-            vec![seen.darkest(&into(&self.upper), &into(&self.lower))]
+            vec![seen.darkest(&into(&self.upper), &into(&self.lower), WIDEST)]
         } else {
             let [below, above] =
                 [(&self.upper, &self.lower), (&self.lower, &self.upper)].map(|(a, b)| between(&a[0], &b[0], IN_GAP));
-            vec![seen.darkest(&into(&self.upper), &below), seen.darkest(&above, &into(&self.lower))]
+            vec![seen.darkest(&into(&self.upper), &below, WIDEST), seen.darkest(&above, &into(&self.lower), LOWER * WIDEST)]
         };
         let hair = [MaskRole::FacialHair, MaskRole::Hair].map(|role| portrait.masks.get(&role));
         let is_bare = |p: &Point| !hair.iter().flatten().any(|mask| mask.sample(p.x, p.y) > HAIR);
@@ -129,8 +142,8 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// The darkest line from corner to corner between two others.
-    fn darkest(&self, from: &[Point], to: &[Point]) -> CoherentLine {
+    /// The darkest line from corner to corner between two others; `widest` in widths of the mouth.
+    fn darkest(&self, from: &[Point], to: &[Point], widest: f64) -> CoherentLine {
         let place = |column: usize, row: usize| from[column].lerp(to[column], row as f64 / (ROWS - 1) as f64);
         let values =
             Raster::from_fn(ROWS, COLUMNS, |row, column| self.contrast(place(column, row), self.across(from, to, column)));
@@ -138,7 +151,7 @@ impl Seen<'_> {
         let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
         let contrasts: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(values.get(*row, column))).collect();
         let widths: Vec<f64> =
-            averaged(&contrasts).iter().map(|contrast| WIDEST * self.mouth.width * (contrast / FULL).clamp(LEAST, 1.0)).collect();
+            averaged(&contrasts).iter().map(|contrast| widest * self.mouth.width * (contrast / FULL).clamp(LEAST, 1.0)).collect();
         smoothed(&points, &widths)
     }
 
@@ -177,7 +190,7 @@ fn averaged(values: &[f64]) -> Vec<f64> {
 /// A line of even points some pixels apart, with the widths there.
 fn smoothed(points: &[Point], widths: &[f64]) -> CoherentLine {
     let spacing = (lengths_along(points)[points.len() - 1] / points.len() as f64).max(1.0);
-    let smooth = smooth_polyline(points, crate::geometry::Ring::Open, 2.0 * spacing, spacing);
+    let smooth = smooth_polyline(points, Ring::Open, SMOOTH_LINE * spacing, spacing);
     let last = smooth.len().max(2) - 1;
     let width = |i: usize| widths[(i * (widths.len() - 1) + last / 2) / last];
     let widths = (0..smooth.len()).map(width).collect();

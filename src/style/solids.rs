@@ -1,5 +1,6 @@
 //! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
 
+use super::mouth::Mouths;
 use super::spectacles;
 use crate::drawing::{Area, Layer, Mark};
 use crate::elementary::Elementary as _;
@@ -35,27 +36,33 @@ pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
 pub(super) struct Solids {
     /// On the page; empty without faces.
     pub outline: BezPath,
-    /// Frames of spectacles that were found as lines.
-    pub frames: Vec<Mark>,
+    /// Frames of spectacles that were found as lines, and lines of mouths.
+    pub lines: Vec<Mark>,
 }
 
 impl Solids {
     /// By the ink wanted on the working grid; `pitch` in its pixels.
     pub(super) fn new(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         if portrait.faces.is_empty() {
-            return Self { outline: BezPath::new(), frames: Vec::new() };
+            return Self { outline: BezPath::new(), lines: Vec::new() };
         }
         let darks = Darks { portrait, ink, pitch };
         let mut outline = darks.features(EYE_LIFT);
         outline.extend(darks.rims());
-        Self { outline, frames: spectacles::frames(portrait, pitch) }
+        Self { outline, lines: spectacles::frames(portrait, pitch) }
     }
 
     /// The darkest places of features alone: neither rims of spectacles nor irises.
     pub(super) fn of_darkest(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         let has_faces = !portrait.faces.is_empty();
         let outline = if has_faces { Darks { portrait, ink, pitch }.features(0.0) } else { BezPath::new() };
-        Self { outline, frames: spectacles::frames(portrait, pitch) }
+        Self { outline, lines: spectacles::frames(portrait, pitch) }
+    }
+
+    /// The solids with the lines of the mouths.
+    pub(super) fn with_mouths(mut self, portrait: &Portrait, pitch: f64) -> Self {
+        self.lines.extend(Mouths::of(portrait, pitch).strokes(&portrait.placement));
+        self
     }
 
     /// One area; no mark if there are no shapes.
@@ -64,7 +71,7 @@ impl Solids {
         if !self.outline.is_empty() {
             layer.marks.push(Mark::Area(Area { outline: self.outline, colour: None }));
         }
-        layer.marks.extend(self.frames);
+        layer.marks.extend(self.lines);
         layer
     }
 }

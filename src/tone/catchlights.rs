@@ -1,39 +1,84 @@
-//! Step 11: a catchlight in irises that are black all over, where the photograph has none: eyes without one are holes.
+//! Step 11: a catchlight in irises that are black all over: eyes without one are holes.
 
 use super::openings::{EYE_OPEN, eyes, openness};
-use crate::geometry::Point;
+use super::zones::polygon;
+use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, median};
 use crate::source::{Iris, Landmarks};
 
-/// An iris is black if the median of its tone is below this, and has no light if less than a share of it is lighter by so much.
-const BLACK: f32 = 0.3;
-const LIGHTER: f32 = 0.25;
-const LEAST_SHARE: f64 = 0.012;
-/// Place of the catchlight in radii of the iris: aside to where the light comes from, and up; its radius; and that of its soft edge.
+/// The part of an iris, in radii, that is surely iris: it is black if the median of its tone is below this, and has no light to be seen if less
+/// than a share of it is lighter by so much.
+const WITHIN: f64 = 0.7;
+const BLACK: f32 = 0.45;
+const LIGHTER: f32 = 0.35;
+const LEAST_SHARE: f64 = 0.035;
+/// Openness from which an eye gets a light.
+const LEAST_OPEN: f32 = 0.5;
+/// The photograph's own light lies within this many radii of the iris, and not farther down, where the mean of a place as large as the catchlight is lighter than
+/// the iris by so much.
+const OWN_WITHIN: f64 = 0.45;
+const OWN_DOWN: f64 = 0.1;
+const OWN_LIGHTER: f32 = 0.06;
+/// Place of the catchlight in radii of the iris where there is none: aside to where the light comes from, and up; its radius; that of its soft
+/// edge; and its distance from the lids.
 const ASIDE: f64 = 0.36;
 const UP: f64 = 0.34;
 const RADIUS: f64 = 0.24;
 const SOFT: f64 = 0.1;
+const FROM_LIDS: f64 = 0.15;
 
-/// The tone with the catchlights that are missing; `lightness` tells the side of the light.
+/// The tone with the catchlights that are missing; `lightness` tells their places, or the side of the light.
 pub(super) fn with_catchlights(tone: Raster<f32>, lightness: &Raster<f32>, faces: &[Landmarks]) -> Raster<f32> {
     let all = faces.iter().flat_map(|face| {
         let aside = if face.lit_side(lightness) < 0.0 { -ASIDE } else { ASIDE };
-        eyes(face).map(|(lids, iris)| (iris, openness(&lids, EYE_OPEN), aside))
+        eyes(face).map(|(lids, iris)| (iris, lids, aside))
     });
-    all.fold(tone, |tone, (iris, open, aside)| if open >= 1.0 && is_black(&tone, iris) { lit(tone, iris, aside) } else { tone })
+    all.fold(tone, |tone, (iris, lids, aside)| {
+        if openness(&lids, EYE_OPEN) < LEAST_OPEN || !is_black(&tone, &polygon(tone.width(), tone.height(), &lids), iris) {
+            return tone;
+        }
+        let usual = iris.centre + Point::new(aside, -UP).to_vec2() * iris.radius;
+        lit(tone, iris, between(&lids, iris, own_light(lightness, iris).unwrap_or(usual)))
+    })
 }
 
-/// True for an iris without a light.
-fn is_black(tone: &Raster<f32>, iris: Iris) -> bool {
-    let inside: Vec<f32> = pixels_about(tone, iris.centre, 0.9 * iris.radius).map(|(x, y, _)| tone.get(x, y)).collect();
+/// True for an iris without a light in the opening between its lids.
+fn is_black(tone: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> bool {
+    let inside: Vec<f32> = pixels_about(tone, iris.centre, WITHIN * iris.radius)
+        .filter(|(x, y, _)| opening.get(*x, *y) == 1)
+        .map(|(x, y, _)| tone.get(x, y))
+        .collect();
     let Some(middle) = median(inside.clone()) else { return false };
     let lights = inside.iter().filter(|v| **v > middle + LIGHTER).count() as f64;
     middle < BLACK && lights < LEAST_SHARE * inside.len() as f64
 }
 
-fn lit(mut tone: Raster<f32>, iris: Iris, aside: f64) -> Raster<f32> {
-    let centre = iris.centre + Point::new(aside, -UP).to_vec2() * iris.radius;
+/// The lightest place in the iris, if it is a light.
+fn own_light(lightness: &Raster<f32>, iris: Iris) -> Option<Point> {
+    let mean = |p: Point| {
+        let (sum, count) = pixels_about(lightness, p, 0.7 * RADIUS * iris.radius)
+            .fold((0.0, 0.0), |(sum, count), (x, y, _)| (sum + lightness.get(x, y), count + 1.0));
+        sum / f32::max(count, 1.0)
+    };
+    let places = pixels_about(lightness, iris.centre, OWN_WITHIN * iris.radius)
+        .filter(|(_, y, _)| *y as f64 + 0.5 < iris.centre.y + OWN_DOWN * iris.radius);
+    let means: Vec<(Point, f32)> =
+        places.map(|(x, y, _)| Point::new(x as f64 + 0.5, y as f64 + 0.5)).map(|p| (p, mean(p))).collect();
+    let middle = median(means.iter().map(|(_, mean)| *mean).collect())?;
+    let lightest = means.into_iter().reduce(|best, each| if each.1 > best.1 { each } else { best })?;
+    (lightest.1 > middle + OWN_LIGHTER).then_some(lightest.0)
+}
+
+/// The place moved down or up until a catchlight there lies between the lids.
+fn between(lids: &[Point], iris: Iris, p: Point) -> Point {
+    let near = lids.iter().filter(|lid| (lid.x - iris.centre.x).abs() <= iris.radius);
+    let Some(bounds) = near.map(|lid| Rect::from_points(*lid, *lid)).reduce(|all, lid| all.union(lid)) else { return p };
+    let (top, bottom) = (bounds.y0 + (RADIUS + FROM_LIDS) * iris.radius, bounds.y1 - (RADIUS + FROM_LIDS) * iris.radius);
+    Point::new(p.x, if top < bottom { p.y.clamp(top, bottom) } else { f64::midpoint(top, bottom) })
+}
+
+/// The tone with a light at a place.
+fn lit(mut tone: Raster<f32>, iris: Iris, centre: Point) -> Raster<f32> {
     let (radius, soft) = (RADIUS * iris.radius, SOFT * iris.radius);
     let spot: Vec<(usize, usize, f64)> = pixels_about(&tone, centre, radius + soft).collect();
     for (x, y, distance) in spot {
@@ -64,10 +109,30 @@ mod tests {
     fn a_black_iris_gets_one_light_and_one_with_a_light_is_left() {
         let iris = Iris { centre: Point::new(20.0, 20.0), radius: 10.0 };
         let black = Raster::from_fn(40, 40, |_, _| 0.05_f32);
-        assert!(is_black(&black, iris));
-        let with = lit(black, iris, -ASIDE);
-        assert!(!is_black(&with, iris));
+        let opening = Raster::filled(40, 40, 1_u8);
+        assert!(is_black(&black, &opening, iris));
+        let with = lit(black, iris, Point::new(16.4, 16.6));
+        assert!(!is_black(&with, &opening, iris));
         assert!(with.get(16, 16) > 0.95 && with.get(24, 16) < 0.06 && with.get(20, 24) < 0.06);
-        assert!(!is_black(&Raster::from_fn(40, 40, |_, _| 0.5_f32), iris), "a light iris needs none");
+        assert!(!is_black(&Raster::from_fn(40, 40, |_, _| 0.5_f32), &opening, iris), "a light iris needs none");
+    }
+
+    #[test]
+    fn a_light_lies_where_the_photograph_has_it_between_the_lids() {
+        let iris = Iris { centre: Point::new(20.0, 20.0), radius: 10.0 };
+        let spot = Point::new(23.0, 15.0);
+        let seen =
+            Raster::from_fn(
+                40,
+                40,
+                |x, y| {
+                    if spot.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 1.6 { 0.9 } else { 0.1_f32 }
+                },
+            );
+        let own = own_light(&seen, iris).expect("a light");
+        assert!(own.distance(spot) < 1.6, "{own:?}");
+        assert!(own_light(&Raster::filled(40, 40, 0.1), iris).is_none());
+        let lids = [(5.0, 20.0), (20.0, 14.0), (35.0, 20.0), (20.0, 27.0)].map(Point::from);
+        assert_eq!(between(&lids, iris, own), Point::new(own.x, 17.9));
     }
 }

@@ -121,7 +121,8 @@ impl Drawer<'_> {
         self.check()?;
         let mut face = self.draw_features(&features);
         if self.parameters.has_features {
-            face.extend(Solids::of_darkest(self.portrait, &self.darkness(), self.pitch()).layer().marks);
+            let solids = Solids::of_darkest(self.portrait, &self.darkness(), self.pitch());
+            face.extend(solids.with_mouths(self.portrait, self.pitch()).layer().marks);
         }
         let background = self.background(&regions, &behind);
         let layers = [

@@ -23,6 +23,8 @@ use parts::Parts;
 
 /// Tolerance of solid shapes in millimetres.
 const SOLID_TOLERANCE: f64 = 0.01;
+/// Ink below which a place in a feature is a light.
+const LIGHT: f32 = 0.06;
 
 /// The style.
 pub(super) struct Hedcut;
@@ -73,7 +75,8 @@ impl Drawer<'_> {
             return self.dots(&parts);
         }
         let rest = self.without(&parts);
-        let solids = Solids::new(self.portrait, &self.portrait.ink(), self.pitch());
+        let ink = self.portrait.ink();
+        let solids = Solids::new(self.portrait, &ink, self.pitch());
         let mut drawing = match self.on(&rest).dots(&parts) {
             // All of it lies in the other parts.
             Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => {
@@ -82,6 +85,7 @@ impl Drawer<'_> {
             dots => dots?,
         };
         set_solids(&mut drawing, solids);
+        self.clear_lights(&mut drawing, &ink);
         drawing.layers.extend(self.hair_layer(&parts)?);
         drawing.layers.extend(self.clothing_layer(&parts)?);
         if drawing.layers.is_empty() {
@@ -123,6 +127,18 @@ impl Drawer<'_> {
             drawing.layers.push(outline::layer(self, &features, parts));
         }
         Ok(drawing)
+    }
+
+    /// Takes out dots that lie in the lights of features, which are smaller than a dot's cell: a catchlight is clean.
+    fn clear_lights(&self, drawing: &mut Drawing, ink: &Raster<f32>) {
+        let Some(detail) = self.portrait.masks.get(&Detail) else { return };
+        let is_light = |dot: &Dot| {
+            let p = self.portrait.placement.to_grid(dot.centre);
+            detail.sample(p.x, p.y) > 0.5 && ink.sample(p.x, p.y) < LIGHT
+        };
+        for layer in &mut drawing.layers {
+            layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if is_light(dot)));
+        }
     }
 
     /// Steps 3 and 4: distance maps and offset lanes.

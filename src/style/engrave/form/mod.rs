@@ -70,7 +70,7 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &detail, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
-        let solids = Solids::new(self.portrait, &ink, self.pitch()).layer();
+        let solids = Solids::new(self.portrait, &ink, self.pitch()).with_mouths(self.portrait, self.pitch()).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
