@@ -32,10 +32,11 @@ const MEDIAN: [f32; 2] = [0.32, 0.61];
 /// Black, and the end of the curve's toe.
 const BLACK: f32 = 0.06;
 const TOE: [f32; 2] = [0.10, 0.19];
-/// The lights: the percentiles of the skin that get `LIGHT_TONE` and white, and the range of the curve's slope up to the first.
-const LIGHTS: f64 = 84.0;
+/// The lights: the percentiles of the skin that get `LIGHT_TONE` and white, of light skin and of dark; and the range of the curve's slope up to
+/// the first. With those of light skin, brown foreheads are white (01, 04, 11).
+const LIGHTS: [f64; 2] = [84.0, 93.0];
 const LIGHT_TONE: f32 = 0.955;
-const WHITES: f64 = 96.0;
+const WHITES: [f64; 2] = [96.0, 98.5];
 const SLOPES: [f32; 2] = [0.8, 3.1];
 /// Lights are measured at the size of a dot, in widths of the face.
 const DOT: f64 = 0.012;
@@ -131,10 +132,11 @@ fn curve_of(zones: &Zones, contrasted: &Raster<f32>, base: &Raster<f32>) -> Curv
     let median = zones.median_of(contrasted);
     let paper = MEDIAN[0] + MEDIAN[1] * zones.median;
     let dots = fast_gaussian(base, (DOT * zones.width) as f32);
-    let lights = zones.percentile(&dots, LIGHTS).max(median + 0.03);
+    let at = |percentiles: [f64; 2]| zones.percentile(&dots, zones.by_skin(percentiles));
+    let lights = at(LIGHTS).max(median + 0.03);
     let slope = ((LIGHT_TONE - paper) / (lights - median)).clamp(SLOPES[0], SLOPES[1]);
     let lights = median + (LIGHT_TONE - paper) / slope;
-    let white = if lights < 0.94 { zones.percentile(&dots, WHITES).min(lights + 0.06).max(lights + 0.02) } else { lights + 0.05 };
+    let white = if lights < 0.94 { at(WHITES).min(lights + 0.06).max(lights + 0.02) } else { lights + 0.05 };
     let toe = TOE[0].min(0.4 * median);
     Curve::through(&[
         [-0.3, BLACK - 0.15],

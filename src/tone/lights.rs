@@ -4,8 +4,8 @@ use super::zones::Zones;
 use crate::raster::{Raster, fast_gaussian, soft_rise};
 
 /// Most of the counted skin, in hundredths, that may be paper as seen in print. With 25 foreheads and noses are holes with hard edges;
-/// with 8 lit faces look veiled (sixteen portraits).
-const MOST_BARE: f64 = 14.0;
+/// with 8 light faces look veiled (sixteen portraits). For light skin and for dark.
+const MOST_BARE: [f64; 2] = [14.0, 8.0];
 /// Reach of the half tones in widths of the face, their share at most, and the ink above which places are features and do not count.
 const REACH: f64 = 0.09;
 const MOST: f32 = 0.9;
@@ -17,7 +17,7 @@ const HALVINGS: usize = 5;
 /// Rubs the half tones of the skin into its lights, by the least amount that leaves few enough of them; `seen` blurs a tone as a print is
 /// seen, `paper` is the tone from which that is bare.
 pub(super) fn rubbed(zones: &Zones, tone: &Raster<f32>, seen: impl Fn(&Raster<f32>) -> Raster<f32>, paper: f32) -> Raster<f32> {
-    let is_bare = |tone: &Raster<f32>| zones.percentile(&seen(tone), 100.0 - MOST_BARE) >= paper;
+    let is_bare = |tone: &Raster<f32>| zones.percentile(&seen(tone), 100.0 - zones.by_skin(MOST_BARE)) >= paper;
     if !is_bare(tone) {
         return tone.clone();
     }

@@ -15,6 +15,9 @@ const SOFT: f64 = 0.018;
 /// Skin's tones lie within this number of deviations of its median, but at least within this difference of L*/100.
 const DEVIATIONS: f32 = 2.2;
 const LEAST_SPREAD: f32 = 0.06;
+/// Median lightness of skin that is treated as light and as dark.
+const LIGHT_SKIN: f32 = 0.66;
+const DARK_SKIN: f32 = 0.42;
 /// Ratio of a normal distribution's standard deviation to its median absolute deviation.
 const MEDIAN_DEVIATION: f32 = 1.4826;
 /// Number of rounds in which outliers are removed.
@@ -65,6 +68,12 @@ impl Zones {
     pub(super) fn median_of(&self, values: &Raster<f32>) -> f32 {
         let sorted = sorted_where(values, &self.skin.map(|v| u8::from(v > 0.0)));
         sorted.get(sorted.len() / 2).copied().unwrap_or(self.median)
+    }
+
+    /// A value between that for light skin and that for dark.
+    pub(super) fn by_skin(&self, [light, dark]: [f64; 2]) -> f64 {
+        let share = f64::from((LIGHT_SKIN - self.median) / (LIGHT_SKIN - DARK_SKIN)).clamp(0.0, 1.0);
+        light + share * (dark - light)
     }
 
     /// Values blurred over the weighted area only; `share` is sigma in widths of the face.
