@@ -32,6 +32,15 @@ pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
     )
 }
 
+/// The inside of two closed outlines of all faces, 0 or 1.
+pub(super) fn inside_outlines(faces: &[Landmarks], of: [&[usize]; 2], (columns, rows): (usize, usize)) -> Raster<f32> {
+    let lines = faces.iter().flat_map(|face| of.map(|outline| face.line(outline)));
+    lines.fold(Raster::filled(columns, rows, 0.0_f32), |all, outline| {
+        let corners: Vec<[f64; 2]> = outline.iter().map(|p| [p.x, p.y]).collect();
+        all.zip_map(&filled_polygon(columns, rows, &corners), |all, inside| all.max(f32::from(inside)))
+    })
+}
+
 /// The solid shapes of a portrait's faces.
 pub(super) struct Solids {
     /// On the page; empty without faces.
@@ -84,14 +93,8 @@ struct Darks<'a> {
 }
 
 impl Darks<'_> {
-    /// The inside of two closed outlines of all faces, 0 or 1.
-    fn filled(&self, of: [&[usize]; 2]) -> Raster<f32> {
-        let (columns, rows) = (self.ink.width(), self.ink.height());
-        let lines = self.portrait.faces.iter().flat_map(|face| of.map(|outline| face.line(outline)));
-        lines.fold(Raster::filled(columns, rows, 0.0_f32), |all, lids| {
-            let corners: Vec<[f64; 2]> = lids.iter().map(|p| [p.x, p.y]).collect();
-            all.zip_map(&filled_polygon(columns, rows, &corners), |all, inside| all.max(f32::from(inside)))
-        })
+    fn inside(&self, of: [&[usize]; 2]) -> Raster<f32> {
+        inside_outlines(&self.portrait.faces, of, (self.ink.width(), self.ink.height()))
     }
 
     /// How much darker the thin dark parts of a frame of spectacles are than what lies around them.
@@ -99,7 +102,7 @@ impl Darks<'_> {
         let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
         let around = gaussian_blur(self.ink, (THIN * widest) as f32);
         let near = gaussian_blur(self.ink, (0.15 * self.pitch) as f32);
-        let brows = self.filled([&outlines::LEFT_BROW, &outlines::RIGHT_BROW]);
+        let brows = self.inside([&outlines::LEFT_BROW, &outlines::RIGHT_BROW]);
         let brows = gaussian_blur(&brows, (THIN * widest) as f32);
         let frames = spectacles::zone(&self.portrait.faces, around.width(), around.height());
         Raster::from_fn(around.width(), around.height(), |x, y| {
@@ -116,7 +119,7 @@ impl Darks<'_> {
     fn features(&self, eye_lift: f32) -> BezPath {
         let pitch = self.pitch;
         let detail = detail_zone(self.portrait, pitch);
-        let eyes = gaussian_blur(&self.filled([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
+        let eyes = gaussian_blur(&self.inside([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
         let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + eye_lift * (2.0 * eyes).min(1.0));
         let dark =
             gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);

@@ -5,7 +5,9 @@ use super::LEAST_SHARE;
 use crate::elementary::unit_at;
 use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
+use crate::source::outlines;
 use crate::style::rubbing::rubbed;
+use crate::style::solids::inside_outlines;
 
 /// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
 const TONE_BLUR: f64 = 0.22;
@@ -20,7 +22,18 @@ const LOCK_CONTRAST: f32 = 0.7;
 /// Reach of half tones into a face's lights, in pitches: at their borders, and over foreheads and cheeks.
 const HALF_TONES: [f64; 2] = [8.0, 24.0];
 
+/// Blur of the brows' border, in pitches.
+const BROWS: f64 = 1.0;
+
 impl Drawer<'_> {
+    /// The detail without the brows: their hairs are finer than the lines, and sharpened they tear them.
+    pub(super) fn without_brows(&self, detail: &Raster<f32>) -> Raster<f32> {
+        let brows = [&outlines::LEFT_BROW[..], &outlines::RIGHT_BROW];
+        let brows = inside_outlines(&self.portrait.faces, brows, (detail.width(), detail.height()));
+        let soft = gaussian_blur(&brows, (BROWS * self.pitch()) as f32);
+        detail.zip_map(&soft, |detail, brow| detail * (1.0 - (2.0 * brow).min(1.0)))
+    }
+
     /// The ink wanted: without grain, and sharper in detail.
     pub(super) fn form_ink(&self, detail: &Raster<f32>) -> Raster<f32> {
         let sigma = (TONE_BLUR * self.pitch()) as f32;

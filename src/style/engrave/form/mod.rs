@@ -59,7 +59,8 @@ impl Drawer<'_> {
 
     pub(super) fn draw_form(&self) -> Result<Drawing, StyleError> {
         let detail = detail_zone(self.portrait, self.pitch());
-        let ink = self.form_ink(&detail);
+        let firm = self.without_brows(&detail);
+        let ink = self.form_ink(&firm);
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
             let why = "the picture, or the part inside the subject mask, needs no ink anywhere";
@@ -68,7 +69,7 @@ impl Drawer<'_> {
         self.observer.begin("directions");
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
-        let ink = self.with_half_tones(&ink, &detail, &surfaces.skin);
+        let ink = self.with_half_tones(&ink, &firm, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
         let solids = Solids::new(self.portrait, &ink, self.pitch()).with_mouths(self.portrait, self.pitch()).layer();
         self.check()?;
