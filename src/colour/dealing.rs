@@ -18,17 +18,8 @@ use std::collections::BTreeMap;
 /// How far marks of one pen act on one another, in mean distances of that pen's marks. Tuned on even patches of three and four pens:
 /// at 1.4 rare pens clump, at 2.8 common ones line up in streaks.
 const REACH: f64 = 1.8;
-/// Where a pen has a smaller share of the ink it gets no mark.
-const LEAST_SHARE: f32 = 0.01;
 /// Neighbours are looked for within so many mean distances of marks; those of rarer pens would take too long.
 const FARTHEST: f64 = 5.5;
-/// Marks change pens at most so often; after 8 rounds fewer than one in a thousand does.
-const ROUNDS: usize = 10;
-/// The weight of keeping a pen's share of all ink within `FARTHEST`.
-const KEEPING: f32 = 0.8;
-
-/// Most that a mark's ink grows or shrinks.
-const MOST_CHANGE: f64 = 1.5;
 
 /// A mark that may go to any pen.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +45,9 @@ pub struct Dealt {
     pub ink_factor: f64,
 }
 
+/// Marks change pens at most so often; after 8 rounds fewer than one in a thousand does.
+const ROUNDS: usize = 10;
+
 /// Deals the marks out, and moves them a little apart. The same on any number of threads.
 pub fn deal(marks: &[Candidate]) -> Vec<Dealt> {
     let Some(pens) = marks.first().map(|mark| mark.shares.len()) else { return Vec::new() };
@@ -74,6 +68,9 @@ pub fn deal(marks: &[Candidate]) -> Vec<Dealt> {
     let factor = |mark: usize| ink_factor(marks, &pens, &around, mark);
     collected(marks.len(), &|mark| Dealt { pen: pens[mark], at: places[mark], ink_factor: factor(mark) })
 }
+
+/// Most that a mark's ink grows or shrinks.
+const MOST_CHANGE: f64 = 1.5;
 
 /// The ink that a mark's pen should have around it, divided by what it has.
 fn ink_factor(marks: &[Candidate], pens: &[usize], around: &Neighbours, mark: usize) -> f64 {
@@ -167,6 +164,8 @@ struct Search<'a> {
 impl Search<'_> {
     /// Gives a mark to the pen that is missed most around it; true if it changed.
     fn improve(&mut self, mark: usize) -> bool {
+        /// Where a pen has a smaller share of the ink it gets no mark.
+        const LEAST_SHARE: f32 = 0.01;
         let shares = self.shares.of(mark);
         let excess = self.excess(mark);
         let wanted = (0..shares.len()).filter(|pen| shares[*pen] >= LEAST_SHARE);
@@ -179,6 +178,8 @@ impl Search<'_> {
 
     /// How much more of each pen's ink lies around a mark than should, relative to what the mark itself would add.
     fn excess(&self, mark: usize) -> [f64; MOST_PENS] {
+        /// The weight of keeping a pen's share of all ink within `FARTHEST`.
+        const KEEPING: f32 = 0.8;
         let shares = self.shares.of(mark);
         let spacing = self.around.spacing[mark];
         let mut own = [0.0_f32; MOST_PENS];

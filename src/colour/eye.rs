@@ -9,15 +9,6 @@ use crate::elementary::Elementary as _;
 /// A colour in Oklab: lightness 0 to 1, a, b.
 pub(super) type Oklab = [f32; 3];
 
-/// Visible differences per unit of Oklab's lightness, and of its other two at neutral colours; these fall with chroma, along it
-/// faster than across. So weighted, distances are about those of CIEDE2000.
-const LIGHTNESS: f32 = 110.0;
-const COLOUR: f32 = 350.0;
-const ALONG: f32 = 16.0;
-const ACROSS: f32 = 5.0;
-/// Chroma from which a hue is fully seen.
-const HAS_HUE: f32 = 0.08;
-
 /// An eye adapted to a white.
 #[derive(Clone, Debug)]
 pub(super) struct Eye {
@@ -72,6 +63,14 @@ pub(super) struct Aim {
 impl Aim {
     /// `hue` multiplies the weight of differences in hue, `chroma` that of chroma.
     pub fn new(look: Oklab, chroma: f32, hue: f32) -> Self {
+        /// Visible differences per unit of Oklab's lightness, and of its other two at neutral colours; these fall with chroma,
+        /// along it faster than across. So weighted, distances are about those of CIEDE2000.
+        const LIGHTNESS: f32 = 110.0;
+        const COLOUR: f32 = 350.0;
+        const ALONG: f32 = 16.0;
+        const ACROSS: f32 = 5.0;
+        /// Chroma from which a hue is fully seen.
+        const HAS_HUE: f32 = 0.08;
         let c = look[1].hypotenuse(look[2]);
         let (x, y) = if c > 1e-6 { (look[1] / c, look[2] / c) } else { (1.0, 0.0) };
         // Neutral colours have no hue: both weights are those of colour.

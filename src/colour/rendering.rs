@@ -3,13 +3,6 @@
 use super::eye::{Oklab, look_of_light};
 use crate::elementary::Elementary as _;
 
-/// Lightness (L\*) up to this multiple of the darkest is lifted; lighter tones stay as they are.
-const KNEE: f32 = 2.5;
-/// Slope of the lifted tones at black.
-const TOE: f32 = 0.2;
-/// A paper lighter than this is taken for white.
-const WHITE: f32 = 0.999;
-
 /// From the photograph's light to a look on paper.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rendering {
@@ -30,6 +23,8 @@ impl Rendering {
     /// On toned paper, where a white ink is the lightest, greys lead from black over the paper's own colour to white, so that a grey
     /// as light as the paper is bare paper.
     pub fn look(&self, rgb: [f32; 3]) -> Oklab {
+        /// A paper lighter than this is taken for white.
+        const WHITE: f32 = 0.999;
         let [l, a, b] = look_of_light(rgb);
         let l = root(self.lifted(lightness(l)));
         if self.paper[0] > WHITE {
@@ -43,6 +38,10 @@ impl Rendering {
     /// Black becomes the darkest; up to the knee tones follow a parabola that ends in slope 1. If the knee would lie above white,
     /// all tones are compressed.
     fn lifted(&self, l: f32) -> f32 {
+        /// Lightness (L\*) up to this multiple of the darkest is lifted; lighter tones stay as they are.
+        const KNEE: f32 = 2.5;
+        /// Slope of the lifted tones at black.
+        const TOE: f32 = 0.2;
         let d = self.darkest;
         let knee = KNEE * d;
         if l >= knee || l >= 1.0 {

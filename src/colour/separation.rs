@@ -17,27 +17,9 @@ use thiserror::Error;
 /// Out of gamut, differences in chroma count less and those in hue more, so that colours go towards the grey of their lightness.
 const CHROMA: f32 = 0.8;
 const HUE: f32 = 3.0;
-/// Price of full coverage, in halves of squared visible differences: of any ink, and more by the square of the difference in
-/// lightness between ink and colour (dark dots in light tones are seen as grain).
-const INK: f32 = 1.0;
-const GRAIN: f32 = 8.0;
-/// The same for the difference in hue and chroma: pale greys of cyan, magenta and yellow dots are seen as confetti. Tuned on four samples
-/// in four and eight pens: at 0 they are, at 60 skin has black freckles.
-const CONFETTI: f32 = 20.0;
-/// For a simplified drawing, the price of using a pen at all, and the coverage at which half of it is paid.
-const SIMPLE: f32 = 30.0;
-const FEW: f32 = 0.1;
-/// Rounds in which prices at the coarsest level follow the coverages.
-const ROUNDS: usize = 3;
 /// Weight of squared coverages, and of squared distances from what neighbouring colours use.
 pub(super) const RIDGE: f32 = 1.0;
 const HOLD: f32 = 20.0;
-/// How much lighter than toned paper, in Oklab, a tone is that a light ink may cover wholly.
-const HEIGHTENED: f32 = 0.05;
-/// A visible difference above which a colour counts as out of gamut.
-const OUTSIDE: f32 = 2.0;
-/// Most pixels at which the error is measured.
-const SAMPLES: usize = 100_000;
 
 /// What the black pen does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -196,6 +178,10 @@ impl Separator {
     }
 
     fn error(&self, photograph: &Raster<[f32; 3]>) -> GamutError {
+        /// A visible difference above which a colour counts as out of gamut.
+        const OUTSIDE: f32 = 2.0;
+        /// Most pixels at which the error is measured.
+        const SAMPLES: usize = 100_000;
         let step = photograph.len().div_ceil(SAMPLES).max(1);
         let mut errors: Vec<f32> = photograph.pixels().iter().step_by(step).map(|light| self.error_of(*light)).collect();
         if errors.is_empty() {
@@ -259,6 +245,10 @@ fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages) -> Solutio
     best
 }
 
+/// For a simplified drawing, the price of using a pen at all, and the coverage at which half of it is paid.
+const SIMPLE: f32 = 30.0;
+const FEW: f32 = 0.1;
+
 /// The problems of the table.
 pub(super) struct Colours<'a> {
     solver: Solver<'a>,
@@ -283,6 +273,8 @@ impl<'a> Colours<'a> {
 
     /// A white pen heightens: no tone that is darker than toned paper has ink lighter than that, whose dots would glare in the dark.
     fn solver_for(&self, look: Oklab) -> Solver<'_> {
+        /// How much lighter than toned paper, in Oklab, a tone is that a light ink may cover wholly.
+        const HEIGHTENED: f32 = 0.05;
         let mut solver = self.solver;
         let share = ((look[0] - self.paper[0]) / HEIGHTENED).clamp(0.0, 1.0);
         for (most, _) in solver.most.iter_mut().zip(self.looks).filter(|(_, ink)| ink[0] > self.paper[0]) {
@@ -294,6 +286,13 @@ impl<'a> Colours<'a> {
     /// The price of using a pen is a concave function of its coverage; its slope is taken where the coverages are now (reweighting
     /// of Candes, Wakin and Boyd 2008), so that pens in use become cheap and others stay dear.
     fn prices(&self, look: Oklab, now: &Coverages) -> Coverages {
+        /// Price of full coverage, in halves of squared visible differences: of any ink, and more by the square of the difference
+        /// in lightness between ink and colour (dark dots in light tones are seen as grain).
+        const INK: f32 = 1.0;
+        const GRAIN: f32 = 8.0;
+        /// The same for the difference in hue and chroma: pale greys of cyan, magenta and yellow dots are seen as confetti. Tuned
+        /// on four samples in four and eight pens: at 0 they are, at 60 skin has black freckles.
+        const CONFETTI: f32 = 20.0;
         let mut prices = [0.0; MOST_PENS];
         for ((price, ink), c) in prices.iter_mut().zip(self.looks).zip(now) {
             let contrast = ink[0] - look[0];
@@ -306,6 +305,8 @@ impl<'a> Colours<'a> {
 
 impl Problems for Colours<'_> {
     fn first(&self, light: [f32; 3]) -> Coverages {
+        /// Rounds in which prices at the coarsest level follow the coverages.
+        const ROUNDS: usize = 3;
         let look = self.rendering.look(light);
         let aim = Aim::new(look, CHROMA, HUE);
         let solver = self.solver_for(look);

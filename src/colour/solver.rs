@@ -7,18 +7,6 @@ use super::pens::MOST_PENS;
 /// Coverages of all pens; those of missing pens are 0.
 pub(super) type Coverages = [f32; MOST_PENS];
 
-/// Most Newton steps, most sweeps over one step's quadratic problem, and the change below which coverages stand.
-const MOST_STEPS: usize = 24;
-const MOST_SWEEPS: usize = 40;
-const STANDS: f32 = 3e-4;
-/// Weight of the square of ink above the limit.
-const EXCESS: f32 = 4000.0;
-/// Levenberg's damping at the start; a step that helps lowers it, one that does not raises it, up to a bound.
-const DAMPING: f32 = 0.5;
-const LOWERED: f32 = 0.2;
-const RAISED: f32 = 10.0;
-const MOST_DAMPING: f32 = 1e6;
-
 /// Finds coverages within their bounds. Minimised are half the square of the visible difference, ink at its price, and a little of
 /// the coverages' squares, which makes the best coverages a continuous function of the look.
 #[derive(Clone, Copy, Debug)]
@@ -58,9 +46,19 @@ struct State {
     curvature: [Coverages; MOST_PENS],
 }
 
+/// Most Newton steps, most sweeps over one step's quadratic problem, and the change below which coverages stand.
+const MOST_STEPS: usize = 24;
+const MOST_SWEEPS: usize = 40;
+const STANDS: f32 = 3e-4;
+
 impl Solver<'_> {
     /// Downhill from the start, by Gauss-Newton steps within the bounds.
     pub fn solve(&self, problem: Problem<'_>) -> Solution {
+        /// Levenberg's damping at the start; a step that helps lowers it, one that does not raises it, up to a bound.
+        const DAMPING: f32 = 0.5;
+        const LOWERED: f32 = 0.2;
+        const RAISED: f32 = 10.0;
+        const MOST_DAMPING: f32 = 1e6;
         let pens = self.model.pens();
         let mut at: Coverages = std::array::from_fn(|i| problem.start[i].clamp(0.0, self.most[i]));
         let mut state = self.state(problem, &at);
@@ -90,6 +88,8 @@ impl Solver<'_> {
     }
 
     fn state(&self, problem: Problem<'_>, at: &Coverages) -> State {
+        /// Weight of the square of ink above the limit.
+        const EXCESS: f32 = 4000.0;
         let pens = self.model.pens();
         let tint = self.model.tint(&at[..pens]);
         let (look, slopes) = self.eye.look_and_slopes(&tint, pens);

@@ -18,20 +18,12 @@ use kurbo::Shape;
 
 /// Distance that strokes keep from the box's border, in millimetres: the smallest written step.
 const RIM: f64 = 0.001;
-/// Rounding tolerance in millimetres by which a mark may exceed the box and stay whole.
-const SLACK: f64 = 5e-7;
 /// Maximum length of a stroke's pieces beside the border, in millimetres, coarse (`SPACING`) and fine (`FINEST`), and the number
 /// of fine pieces (`NEAR`) around the point where its width begins to shrink. Between two points widths change smoothly, not
 /// linearly, by less than [`RIM`] over the shorter ones.
 const SPACING: f64 = 0.05;
 const FINEST: f64 = 0.005;
 const NEAR: usize = 4;
-/// Steepest slope of the half width along a stroke that ends at the border: anything steeper lies within the round end before it.
-const STEEPEST: f64 = 0.7;
-/// Rounds of thinning a piece whose outline still exceeds the box between its points, as where two borders alternate.
-const ROUNDS: usize = 4;
-/// Widths below this, in millimetres, are not ink.
-const NO_INK: f64 = 1e-4;
 
 impl Drawing {
     /// The drawing without the ink outside `rect`. Dots and areas are cut; strokes are narrowed.
@@ -48,6 +40,8 @@ impl Mark {
     /// The part of its ink inside a rectangle.
     #[must_use]
     pub fn confined_to(self, rect: Rect) -> Vec<Self> {
+        /// Rounding tolerance in millimetres by which a mark may exceed the box and stay whole.
+        const SLACK: f64 = 5e-7;
         let wide = rect.inflate(SLACK, SLACK);
         if wide.union(self.bounding_box()) == wide {
             return vec![self];
@@ -97,6 +91,9 @@ fn held_stroke(stroke: Stroke, rect: Rect) -> Vec<Mark> {
     }
     runs.into_iter().filter_map(|run| piece(&stroke, run, is_ring, rect)).collect()
 }
+
+/// Widths below this, in millimetres, are not ink.
+const NO_INK: f64 = 1e-4;
 
 /// The centre and width of the part of a cross-section inside the box. Round ends and corners need that room on all sides.
 fn held(station: &Station, stretch: Stretch, ends: Ends, rect: Rect) -> Option<Held> {
@@ -154,6 +151,9 @@ fn thinned(places: &[Option<Held>]) -> Vec<Option<Held>> {
     kept
 }
 
+/// Rounds of thinning a piece whose outline still exceeds the box between its points, as where two borders alternate.
+const ROUNDS: usize = 4;
+
 /// One run of points as a mark.
 fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Option<Mark> {
     if !is_ring && stroke.ends == Ends::Round {
@@ -202,6 +202,9 @@ fn piece(stroke: &Stroke, mut run: Vec<Held>, is_ring: bool, rect: Rect) -> Opti
 fn beyond(inner: Rect, outer: Rect) -> f64 {
     (outer.x0 - inner.x0).max(inner.x1 - outer.x1).max(outer.y0 - inner.y0).max(inner.y1 - outer.y1)
 }
+
+/// Steepest slope of the half width along a stroke that ends at the border: anything steeper lies within the round end before it.
+const STEEPEST: f64 = 0.7;
 
 /// Removes points at the end that lie within the round end before them.
 fn trim(run: &mut Vec<Held>) {

@@ -26,11 +26,10 @@ pub struct Covering {
 
 /// Length of a step along the field in pixels.
 const STEP: f64 = 1.5;
+
 /// Missing ink that a stroke's start requires, in passes of a stroke. A stroke continues while half a pass is missing, so that its ink
 /// is as often too much as too little; starting at half a pass, too, made everything a quarter too dark.
 const START: f32 = 0.7;
-/// Share of half its length that a stroke may continue over places that already have their ink; a hand does not stop at each crossing.
-const OVERDRAWN: f64 = 0.15;
 /// Strokes shorter than this many widths are specks and are left out.
 const LEAST_WIDTHS: f64 = 4.0;
 
@@ -148,6 +147,9 @@ impl Run<'_> {
     /// Points from a start (not included) in one direction until the length is used up, the region ends, the field ends or turns back,
     /// or no ink is missing.
     fn follow(&self, bed: &MissingInk, start: Point, sign: f64) -> Vec<Point> {
+        /// Share of half its length that a stroke may continue over places that already have their ink; a hand does not stop at
+        /// each crossing.
+        const OVERDRAWN: f64 = 0.15;
         let mut points = Vec::new();
         let Some(first) = self.direction(start) else { return points };
         let (mut here, mut heading) = (start, first * sign);

@@ -16,14 +16,6 @@ use crate::parallel::rows_with;
 use crate::raster::Raster;
 use std::f64::consts::PI;
 
-/// Fractional bits of the fixed-point sines and cosines; positions may then reach 60,000 pixels in either direction.
-const FRACTION_BITS: u32 = 14;
-/// Number of positions of a window's centre within a cell in the table of expected counts.
-const CENTRE_STEPS: usize = 8;
-/// The share of the highest cells that counts (Wong 1999, section 4.3).
-const TOP_SHARE: f64 = 0.05;
-/// Ranks per count of excess over the expected count.
-const RANKS_A_COUNT: f32 = 4.0;
 /// Maximum rank; larger excesses tie with it.
 const RANKS: usize = 256;
 
@@ -61,6 +53,11 @@ struct Accumulator {
     counts: Vec<u16>,
     points: u32,
 }
+
+/// Fractional bits of the fixed-point sines and cosines; positions may then reach 60,000 pixels in either direction.
+const FRACTION_BITS: u32 = 14;
+/// Number of positions of a window's centre within a cell in the table of expected counts.
+const CENTRE_STEPS: usize = 8;
 
 impl HoughFilter {
     /// A window of `2 radius + 1` pixels and `angles` steps of 180 degrees; cells are one pixel wide in `rho`. The thesis makes the
@@ -214,6 +211,10 @@ impl HoughFilter {
 
     /// The doubled-angle vector of the cells that count.
     fn response(&self, accumulator: &Accumulator, x: usize, y: usize, ranks: &mut [u8], histogram: &mut [u32]) -> [f32; 2] {
+        /// The share of the highest cells that counts (Wong 1999, section 4.3).
+        const TOP_SHARE: f64 = 0.05;
+        /// Ranks per count of excess over the expected count.
+        const RANKS_A_COUNT: f32 = 4.0;
         let points = accumulator.points as f32;
         histogram.fill(0);
         for (angle, ranks) in ranks.chunks_exact_mut(self.cells).enumerate() {

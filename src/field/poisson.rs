@@ -2,13 +2,6 @@
 
 use crate::raster::Raster;
 
-/// Sweeps before and after the coarser grid.
-const SWEEPS: usize = 2;
-/// Sweeps on the coarsest grid.
-const COARSEST_SWEEPS: usize = 60;
-/// Coarsest side in pixels.
-const COARSEST: usize = 6;
-
 /// One grid: unknown heights, the right-hand side times the grid's squared pixel, and a mask of the given pixels.
 struct Level {
     z: Raster<f32>,
@@ -51,6 +44,12 @@ impl Level {
     }
 
     fn cycle(&mut self) {
+        /// Sweeps before and after the coarser grid.
+        const SWEEPS: usize = 2;
+        /// Sweeps on the coarsest grid.
+        const COARSEST_SWEEPS: usize = 60;
+        /// Coarsest side in pixels.
+        const COARSEST: usize = 6;
         let (width, height) = (self.z.width(), self.z.height());
         if width.min(height) <= COARSEST {
             (0..COARSEST_SWEEPS).for_each(|_| self.sweep());

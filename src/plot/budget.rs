@@ -7,21 +7,6 @@ use crate::geometry::{BezPath, Point, WideSegment, estimated_crossings, estimate
 use crate::interrupt::{Interrupt, Interrupted};
 use thiserror::Error;
 
-/// Maximum crossings of one mark's borders that are filled: two million take about a gigabyte and some seconds.
-const MOST_IN_A_MARK: f64 = 2e6;
-/// Maximum pairs of a mark's borders closer than the nib's width, or than a wide line's: each pair gives about six crossings of
-/// the nib's paths along them, at their rounded corners.
-const MOST_NEAR_IN_A_MARK: f64 = 4e5;
-/// Maximum crossings of all marks together, where they cut one another.
-const MOST_IN_ALL: f64 = 1e7;
-/// Maximum length of all lines, in nib widths: 6 km with a nib of 0.3 mm, two days of plotting and a gigabyte.
-const MOST_NIBS: f64 = 2e7;
-/// Flattening tolerance in millimetres: crossings are only counted, not located.
-const FLATTENING_TOLERANCE: f64 = 0.05;
-/// Tolerance of a wide line's centre line, as a share of its width, when its overlaps with itself are counted. Without it,
-/// consecutive segments within the line's width would count as overlaps.
-const OFF: f64 = 0.1;
-
 /// Why a drawing is too much work to plot.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum TooMuch {
@@ -51,6 +36,14 @@ impl From<Interrupted> for TooMuch {
         Self::Interrupted
     }
 }
+
+/// Maximum crossings of one mark's borders that are filled: two million take about a gigabyte and some seconds.
+const MOST_IN_A_MARK: f64 = 2e6;
+/// Maximum pairs of a mark's borders closer than the nib's width, or than a wide line's: each pair gives about six crossings of
+/// the nib's paths along them, at their rounded corners.
+const MOST_NEAR_IN_A_MARK: f64 = 4e5;
+/// Maximum crossings of all marks together, where they cut one another.
+const MOST_IN_ALL: f64 = 1e7;
 
 /// Checks that a drawing can be occluded and lowered within two gigabytes and about twenty seconds.
 pub fn check_work(
@@ -128,6 +121,9 @@ fn refuse_above(most: f64, crossings: f64) -> Result<(), TooMuch> {
     if crossings > most { Err(TooMuch::Crossings { crossings, most }) } else { Ok(()) }
 }
 
+/// Maximum length of all lines, in nib widths: 6 km with a nib of 0.3 mm, two days of plotting and a gigabyte.
+const MOST_NIBS: f64 = 2e7;
+
 fn check_length(drawing: &Drawing, model: InkModel, nibs: &Nibs) -> Result<(), TooMuch> {
     let (mut metres, mut in_nibs) = (0.0, 0.0);
     for layer in &drawing.layers {
@@ -152,6 +148,10 @@ fn length_of(mark: &Mark, model: InkModel, nib: f64) -> f64 {
     }
 }
 
+/// Tolerance of a wide line's centre line, as a share of its width, when its overlaps with itself are counted. Without it,
+/// consecutive segments within the line's width would count as overlaps.
+const OFF: f64 = 0.1;
+
 /// A mark's borders with the nib's width, or its wide line.
 fn threads(mark: &Mark, nib: f64) -> Vec<WideSegment> {
     let (curve, half_width) = match mark {
@@ -162,6 +162,9 @@ fn threads(mark: &Mark, nib: f64) -> Vec<WideSegment> {
     let coarse = |line: Vec<Point>| simplify(&line, OFF * 2.0 * half_width);
     lines(curve).into_iter().map(coarse).flat_map(|line| threads_along(&line, half_width)).collect()
 }
+
+/// Flattening tolerance in millimetres: crossings are only counted, not located.
+const FLATTENING_TOLERANCE: f64 = 0.05;
 
 fn lines(curve: &BezPath) -> Vec<Vec<Point>> {
     let closed = |(mut points, is_closed): (Vec<Point>, bool)| {

@@ -13,12 +13,6 @@ use crate::geometry::{BezPath, Point, flatten};
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::parallel::collected;
 
-/// Scan lines per nib.
-const LINES_A_NIB: f64 = 16.0;
-/// Scan lines processed together.
-const BAND: usize = 32;
-/// Maximum scan lines per page: a page of many metres is cut more coarsely.
-const MOST_LINES: f64 = 40_000.0;
 /// Flattening tolerance of outlines, in millimetres.
 const TOLERANCE: f64 = 0.004;
 
@@ -59,6 +53,13 @@ pub fn coverage(drawing: &Drawing, plot: &Plot, nibs: &Nibs, interrupt: &Interru
     };
     plot.pens.iter().map(measured).collect()
 }
+
+/// Scan lines per nib.
+const LINES_A_NIB: f64 = 16.0;
+/// Scan lines processed together.
+const BAND: usize = 32;
+/// Maximum scan lines per page: a page of many metres is cut more coarsely.
+const MOST_LINES: f64 = 40_000.0;
 
 /// The coverage of one pen. Meaningless if the interrupt was raised meanwhile.
 fn coverage_of_pen(drawing: &Drawing, plot: &Plot, nibs: &Nibs, pen: &PenPaths, interrupt: &Interrupt) -> Coverage {

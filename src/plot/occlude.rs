@@ -9,10 +9,6 @@ use std::sync::OnceLock;
 
 /// Flattening tolerance of outlines that are cut, in millimetres.
 const TOLERANCE: f64 = 0.005;
-/// Strokes wider than this are cut as areas, narrower ones along their centre lines, in millimetres: a pen's width.
-const WIDE: f64 = 0.8;
-/// Cells per side of the grid in which covers are looked up.
-const CELLS: usize = 96;
 
 /// Which marks hide what lies below them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +128,9 @@ fn ungroup(mark: &mut Mark) {
     }
 }
 
+/// Cells per side of the grid in which covers are looked up.
+const CELLS: usize = 96;
+
 impl<'a> Covers<'a> {
     fn new(drawing: &Drawing) -> Self {
         let bounds = drawing.bounding_box().unwrap_or(drawing.page.rect());
@@ -172,6 +171,8 @@ impl<'a> Covers<'a> {
 
     /// The visible parts of a mark.
     fn visible(&self, wanted: &Wanted<'_>, hides: Hides, interrupt: &Interrupt) -> Vec<Mark> {
+        /// Strokes wider than this are cut as areas, narrower ones along their centre lines, in millimetres: a pen's width.
+        const WIDE: f64 = 0.8;
         let mark = wanted.mark;
         let bounds = mark.bounding_box();
         if !bounds.is_finite() {

@@ -6,20 +6,6 @@ use crate::geometry::{BezPath, Point, Region, lengths_along};
 use crate::parallel::mapped;
 use kurbo::Shape;
 
-/// Share of a dot's area outside the part up to which it stays whole, and the share inside up to which it is dropped: a crumb is
-/// no dot.
-const WHOLE: f64 = 0.04;
-const CRUMB: f64 = 0.12;
-/// Tolerance of cut outlines in millimetres.
-const TOLERANCE: f64 = 0.004;
-/// A stroke whose ends are at most this share of its greatest width tapers.
-const TAPERED: f64 = 0.5;
-/// A cut end of such a stroke tapers over this many of its widths, to this share.
-const TAPER: f64 = 3.0;
-const TIP: f64 = 0.25;
-/// Pieces of strokes shorter than this share of their width are dropped.
-const SPECK: f64 = 0.8;
-
 impl Parts {
     /// A part's drawing without what lies outside of the part. Dots and areas are cut along its border, strokes end there.
     pub fn confined(&self, part: usize, drawing: &Drawing) -> Drawing {
@@ -45,6 +31,11 @@ fn within(mark: &Mark, region: &Region) -> Vec<Mark> {
     }
 }
 
+/// Share of a dot's area outside the part up to which it stays whole, and the share inside up to which it is dropped: a crumb is
+/// no dot.
+const WHOLE: f64 = 0.04;
+const CRUMB: f64 = 0.12;
+
 fn dot_within(dot: &Dot, region: &Region) -> Option<Dot> {
     let inside = clipped(&dot.path(), region);
     let share = inside.area().abs() / dot.path().area().abs().max(f64::MIN_POSITIVE);
@@ -61,6 +52,9 @@ fn dot_within(dot: &Dot, region: &Region) -> Option<Dot> {
     })
 }
 
+/// Tolerance of cut outlines in millimetres.
+const TOLERANCE: f64 = 0.004;
+
 /// The part of an outline in a region, of which only what is near is looked at.
 fn clipped(outline: &BezPath, region: &Region) -> BezPath {
     let whole = Region::new(outline, TOLERANCE);
@@ -71,6 +65,11 @@ fn area_within(area: &Area, region: &Region) -> Option<Area> {
     let outline = clipped(&area.outline, region);
     (outline.area().abs() > 0.0).then_some(Area { outline, colour: area.colour })
 }
+
+/// A stroke whose ends are at most this share of its greatest width tapers.
+const TAPERED: f64 = 0.5;
+/// Pieces of strokes shorter than this share of their width are dropped.
+const SPECK: f64 = 0.8;
 
 fn stroke_within(stroke: &Stroke, region: &Region) -> Vec<Stroke> {
     let half = 0.5 * stroke.widest();
@@ -91,6 +90,10 @@ fn stroke_within(stroke: &Stroke, region: &Region) -> Vec<Stroke> {
         })
         .collect()
 }
+
+/// A cut end of a stroke that tapers does so over this many of its widths, to this share.
+const TAPER: f64 = 3.0;
+const TIP: f64 = 0.25;
 
 /// A cut piece whose cut ends taper like the stroke's own.
 fn tapered(piece: Stroke, is_cut: [bool; 2], half: f64) -> Stroke {

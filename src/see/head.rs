@@ -10,32 +10,10 @@ use crate::source::outlines::OVAL;
 /// forehead, is outside it.
 const CLOSE_UP: f64 = 0.5;
 const TOP: f64 = 0.3;
-/// Extent of the surroundings of the head, in widths of the face: to either side, and above the forehead.
-const NEAR_SIDE: f64 = 1.7;
-const NEAR_TOP: f64 = 1.0;
-/// Scale of the oval, about its middle, that is certainly person: the oval of a turned face extends beyond its far cheek, by up
-/// to a twelfth of the face; at 1 a strip of background stays there, at 0.7 highlights on a forehead are lost.
-const SURE: f64 = 0.85;
-/// Hair and ears beside the oval, in widths of the face; the rest of it at the far side of a face turned so far that the nose is
-/// `TURNED` widths from the middle; and the widths that the back of the head adds on the near side per width of the nose's
-/// offset.
-const BESIDE: f64 = 0.22;
-const FAR: f64 = 0.03;
-const TURNED: f64 = 0.3;
-const BACK: f64 = 0.8;
 /// Extent of the expected head above and below its middle, and height of its middle above the face's, in widths of the face: hats
 /// and high hair are common above, and flags and lamps are rare there.
 const HEIGHTS: [f64; 2] = [1.35, 1.0];
 const RAISED: f64 = 0.12;
-/// The expected head narrows by this fraction from eyes to chin: hair that ends at the ears leaves shadows on walls beside the
-/// jaw.
-const JAW: f64 = 0.35;
-/// Short hair and ears beside the oval, in widths of the face, and how much a head with short hair narrows to the chin.
-const SHORT: f64 = 0.1;
-const SHORT_JAW: f64 = 0.35;
-const SHORT_HEIGHT: f64 = 1.15;
-/// Height of the shoulders below the face's middle, in widths of the face.
-const SHOULDERS: f64 = 0.55;
 
 /// A piecewise linear function given by its corners; constant beyond the first and last.
 fn through_corners<const N: usize>(corners: [(f64, f64); N], x: f64) -> f64 {
@@ -65,6 +43,13 @@ pub(super) struct Head {
 impl Head {
     /// From a face's 468 landmarks.
     pub(super) fn new(points: &[[f64; 3]]) -> Self {
+        /// Hair and ears beside the oval, in widths of the face; the rest of it at the far side of a face turned so far that the
+        /// nose is `TURNED` widths from the middle; and the widths that the back of the head adds on the near side per width of
+        /// the nose's offset.
+        const BESIDE: f64 = 0.22;
+        const FAR: f64 = 0.03;
+        const TURNED: f64 = 0.3;
+        const BACK: f64 = 0.8;
         let at = |i: usize| Point::new(points[i][0], points[i][1]);
         let (nose, forehead, chin, right, left) = (at(1), at(10), at(152), at(234), at(454));
         let up = forehead - chin;
@@ -90,6 +75,9 @@ impl Head {
 
     /// The part of the picture around this head, down to the lower border.
     pub(super) fn surroundings(&self, picture: Rect) -> Rect {
+        /// Extent of the surroundings of the head, in widths of the face: to either side, and above the forehead.
+        const NEAR_SIDE: f64 = 1.7;
+        const NEAR_TOP: f64 = 1.0;
         let reach = NEAR_SIDE * self.width;
         let top = self.forehead.y - NEAR_TOP * self.width;
         Rect::new(self.centre.x - reach, top, self.centre.x + reach, picture.y1).intersect(picture)
@@ -97,6 +85,9 @@ impl Head {
 
     /// The face without its rim, on a grid of `columns` by `rows` over a picture.
     pub(super) fn sure(&self, picture: Rect, columns: usize, rows: usize) -> Raster<u8> {
+        /// Scale of the oval, about its middle, that is certainly person: the oval of a turned face extends beyond its far cheek,
+        /// by up to a twelfth of the face; at 1 a strip of background stays there, at 0.7 highlights on a forehead are lost.
+        const SURE: f64 = 0.85;
         let middle = self.oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / self.oval.len() as f64;
         let outline: Vec<[f64; 2]> = self
             .oval
@@ -115,6 +106,12 @@ impl Head {
 
     /// True above the shoulders and beyond a head with short hair.
     pub(super) fn is_beside(&self, place: Point) -> bool {
+        /// Short hair and ears beside the oval, in widths of the face, and how much a head with short hair narrows to the chin.
+        const SHORT: f64 = 0.1;
+        const SHORT_JAW: f64 = 0.35;
+        const SHORT_HEIGHT: f64 = 1.15;
+        /// Height of the shoulders below the face's middle, in widths of the face.
+        const SHOULDERS: f64 = 0.55;
         let (across, down) = self.relative(place);
         let side = self.sides[usize::from(across >= 0.0)] + SHORT;
         let reach = side * through_corners([(-0.2, 1.0), (0.6, 1.0 - SHORT_JAW)], down);
@@ -125,6 +122,9 @@ impl Head {
 
     /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.
     pub(super) fn expectation_at(&self, place: Point) -> f64 {
+        /// The expected head narrows by this fraction from eyes to chin: hair that ends at the ears leaves shadows on walls
+        /// beside the jaw.
+        const JAW: f64 = 0.35;
         let (across, down) = self.relative(place);
         let reach = self.reach[usize::from(across >= 0.0)] * through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down);
         let down_from_middle = down + RAISED;

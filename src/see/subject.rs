@@ -12,6 +12,12 @@ use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, components, dilate, guided_enlargement};
 
+/// Thresholds on the network's probability: background up to the first, person from the second, smooth between. From 0.5 to 1 a
+/// dark jacket on a dark ground is lost (intersection over union on the astronaut: 0.972 with 0.4 and 0.9, 0.969 with 0.5 and 1).
+const DOUBT: [f32; 2] = [0.4, 0.9];
+/// Pixels around a piece that are kept for the soft edge.
+const SOFT: usize = 3;
+
 /// Longer side in pixels of the decision grid, the same as the network's.
 const GRID: usize = 256;
 /// Radius of the guided filter's windows in pixels of that grid: hair's edges come out clean at 1 % of the longer side; at 3 %
@@ -19,44 +25,6 @@ const GRID: usize = 256;
 const REACH: usize = 2;
 /// The guided filter's `eps`, for values 0 to 1: edges of a hundredth count.
 const EPS: f64 = 1e-4;
-/// Thresholds on the network's probability: background up to the first, person from the second, smooth between. From 0.5 to 1 a
-/// dark jacket on a dark ground is lost (intersection over union on the astronaut: 0.972 with 0.4 and 0.9, 0.969 with 0.5 and 1).
-const DOUBT: [f32; 2] = [0.4, 0.9];
-/// The network's probabilities are kept at least this far from 0 and 1.
-const CERTAIN: f32 = 0.01;
-/// Weight of the colours' log ratio relative to the network's log odds, and the most that colours can lower a pixel's log odds;
-/// the network at its most certain gives 4.6. With a weight of 1 red flag stays beside hair, at 1.6 white collars on white walls
-/// are lost.
-const WEIGHT: f32 = 1.25;
-const MOST_AGAINST: f32 = 4.5;
-/// Log ratio by which colours must favour a pixel where nobody is expected. On sixteen portraits and six samples: at 0 the lights
-/// beside a face and the shadow of a head stay, at 3 the corners of hats are lost.
-const DEMANDED: f32 = 2.0;
-/// From the first log ratio of colours on, the network's minimum gives way to its median, fully at the second; beyond that the
-/// colours raise the odds by the factor `FOR` per unit, for at most `MOST_FOR` units. Without this, curls at necks are lost where
-/// nobody is expected.
-const SUPPORT: [f32; 2] = [1.0, 2.0];
-const FOR: f32 = 1.5;
-const MOST_FOR: f32 = 2.0;
-/// Below this probability by the network colours cannot raise the odds.
-const NOBODY: f32 = 0.05;
-/// Colours are sampled this far, in pixels of the grid, inside the first decision's subject and background: wisps of hair with a
-/// flag between them belong to neither.
-const INSIDE: [usize; 2] = [2, 1];
-/// From this share of person on a pixel cannot be a hole.
-const WHOLE: f32 = 0.9;
-/// Number of rounds of sampling colours and deciding again.
-const ROUNDS: usize = 2;
-/// From this mask value on pixels are connected into pieces.
-const SOLID: u8 = 89;
-/// Pixels around a piece that are kept for the soft edge.
-const SOFT: usize = 3;
-/// An island smaller than this share of the largest piece, at half a mask's value, is a crumb: outlined it would be a blot beside the
-/// head, as portrait 10's of 1/25000. Larger shares were not tried: hands and tips of hats that stand apart must stay.
-const CRUMB: f64 = 1.0 / 1500.0;
-/// Half width and half height of a stranger's head in sides of the detector's box, and its height above the box's middle.
-const STRANGER: [f64; 2] = [0.62, 0.8];
-const STRANGER_RAISED: f64 = 0.12;
 
 /// Share of each pixel of the view that belongs to a person whose face was found, 0 to 255. `strangers` are the detector's boxes
 /// of people behind, who are background.
@@ -114,6 +82,11 @@ impl Decision {
 
     /// The decision, 0 to 1, by the network and by colours sampled where it is clear.
     fn made(&self, colours: &Colours) -> Raster<f32> {
+        /// Colours are sampled this far, in pixels of the grid, inside the first decision's subject and background: wisps of hair
+        /// with a flag between them belong to neither.
+        const INSIDE: [usize; 2] = [2, 1];
+        /// Number of rounds of sampling colours and deciding again.
+        const ROUNDS: usize = 2;
         let mut decided = self.said.map(sharpened_probability);
         let mut certain = self.least.map(|v| u8::from(v > 0.97));
         for _ in 0..ROUNDS {
@@ -127,6 +100,16 @@ impl Decision {
 
     /// The network's probabilities, raised or lowered by colours.
     fn weighed(&self, colours: &Raster<f32>) -> Raster<f32> {
+        /// The network's probabilities are kept at least this far from 0 and 1.
+        const CERTAIN: f32 = 0.01;
+        /// From the first log ratio of colours on, the network's minimum gives way to its median, fully at the second; beyond
+        /// that the colours raise the odds by the factor `FOR` per unit, for at most `MOST_FOR` units. Without this, curls at
+        /// necks are lost where nobody is expected.
+        const SUPPORT: [f32; 2] = [1.0, 2.0];
+        const FOR: f32 = 1.5;
+        const MOST_FOR: f32 = 2.0;
+        /// Below this probability by the network colours cannot raise the odds.
+        const NOBODY: f32 = 0.05;
         Raster::from_fn(self.said.width(), self.said.height(), |x, y| {
             if self.sure.get(x, y) != 0 {
                 return 1.0;
@@ -135,9 +118,8 @@ impl Decision {
             let support = ((colour - SUPPORT[0]) / (SUPPORT[1] - SUPPORT[0])).clamp(0.0, 1.0);
             let said = between(self.least.get(x, y), self.middle.get(x, y), expected.max(support));
             let is_for = if said > NOBODY { FOR * (colour - SUPPORT[1]).clamp(0.0, MOST_FOR) } else { 0.0 };
-            let against = (WEIGHT * (colour - DEMANDED * (1.0 - expected))).clamp(-MOST_AGAINST, 0.0);
             let said = said.clamp(CERTAIN, 1.0 - CERTAIN);
-            let odds = said / (1.0 - said) * (is_for + against).exponential();
+            let odds = said / (1.0 - said) * (is_for + against(colour, expected)).exponential();
             sharpened_probability(odds / (1.0 + odds))
         })
     }
@@ -145,6 +127,8 @@ impl Decision {
     /// Fills holes where the network sees a person: an area of the background's colour that does not touch the background is a
     /// collar, a patch or a lens.
     fn filled(&self, decided: &Raster<f32>) -> Raster<f32> {
+        /// From this share of person on a pixel cannot be a hole.
+        const WHOLE: f32 = 0.9;
         let (labels, count) = components(&decided.map(|v| u8::from(v < WHOLE)));
         let mut is_open = vec![false; count + 1];
         for (&label, &said) in labels.pixels().iter().zip(self.said.pixels()) {
@@ -156,10 +140,28 @@ impl Decision {
     }
 }
 
+/// Weight of the colours' log ratio relative to the network's log odds, and the most that colours can lower a pixel's log odds;
+/// the network at its most certain gives 4.6. With a weight of 1 red flag stays beside hair, at 1.6 white collars on white walls
+/// are lost.
+const WEIGHT: f32 = 1.25;
+const MOST_AGAINST: f32 = 4.5;
+/// Log ratio by which colours must favour a pixel where nobody is expected. On sixteen portraits and six samples: at 0 the lights
+/// beside a face and the shadow of a head stay, at 3 the corners of hats are lost.
+const DEMANDED: f32 = 2.0;
+
+/// What colours add to a pixel's log odds where they speak against it, 0 or less.
+fn against(colour: f32, expected: f32) -> f32 {
+    (WEIGHT * (colour - DEMANDED * (1.0 - expected))).clamp(-MOST_AGAINST, 0.0)
+}
+
 /// Linear interpolation from `a` at 0 to `b` at 1.
 fn between(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
+
+/// Half width and half height of a stranger's head in sides of the detector's box, and its height above the box's middle.
+const STRANGER: [f64; 2] = [0.62, 0.8];
+const STRANGER_RAISED: f64 = 0.12;
 
 /// True if a point is in the head of a stranger.
 fn is_in_head(bounds: Rect, place: Point) -> bool {
@@ -179,6 +181,9 @@ fn eroded(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     dilate(&mask.map(|v| 1 - v), radius).map(|v| 1 - v)
 }
 
+/// From this mask value on pixels are connected into pieces.
+const SOLID: u8 = 89;
+
 /// Only the pieces that contain a face: what the network took for a person elsewhere is dropped.
 fn pieces_with_a_face(person: &Raster<u8>, view: &View, heads: &[Head]) -> Raster<u8> {
     let (labels, _) = components(&person.map(|v| u8::from(v > SOLID)));
@@ -194,6 +199,10 @@ fn pieces_with_a_face(person: &Raster<u8>, view: &View, heads: &[Head]) -> Raste
     let kept = dilate(&labels.map(|label| u8::from(held.contains(&label))), SOFT);
     person.zip_map(&kept, |v, kept| v * kept)
 }
+
+/// An island smaller than this share of the largest piece, at half a mask's value, is a crumb: outlined it would be a blot beside the
+/// head, as portrait 10's of 1/25000. Larger shares were not tried: hands and tips of hats that stand apart must stay.
+const CRUMB: f64 = 1.0 / 1500.0;
 
 /// The mask without islands that would be drawn as blots, and without the faint pixels around them. Those at the edge of a larger piece
 /// are wisps of its hair and stay.

@@ -11,16 +11,6 @@ const FACE_MIDDLE: f64 = 0.9;
 const MOSTLY: f64 = 0.85;
 const MOST_IN_FEATURES: f64 = 0.2;
 const SPECTACLES: f64 = 0.55;
-/// How far a forehead may go on above the face's outline, in heights of the face; and the distance from hair, in widths of the face, from
-/// which a line there is a fold and not the hairline.
-const FOREHEAD: f64 = 0.45;
-const FROM_HAIR: f64 = 0.07;
-
-/// A fold that a line runs along is cut out of it from this length on, in distances of the eyes: what is shorter would leave gaps. And the
-/// length from which what is left is drawn: shorter ends would stand alone on the skin. Looked at on sixteen portraits: without the cut, lines
-/// that run from a brow up a forehead or from a mouth along a cheek (13, 16) are drawn as scars.
-const FOLD: f64 = 0.2;
-const REST: f64 = 0.35;
 
 /// The faces in which lines may be folds.
 pub(super) struct Creases<'a> {
@@ -48,6 +38,12 @@ impl<'a> Creases<'a> {
 
     /// What is left of a line, in working pixels, without the folds that it runs along.
     pub(super) fn cut_from(&self, line: &CoherentLine) -> Vec<CoherentLine> {
+        /// A fold that a line runs along is cut out of it from this length on, in distances of the eyes: what is shorter would
+        /// leave gaps. And the length from which what is left is drawn: shorter ends would stand alone on the skin. Looked at on
+        /// sixteen portraits: without the cut, lines that run from a brow up a forehead or from a mouth along a cheek (13, 16)
+        /// are drawn as scars.
+        const FOLD: f64 = 0.2;
+        const REST: f64 = 0.35;
         let Some(detail) = self.portrait.masks.get(&MaskRole::Detail).filter(|_| !line.curve.closed) else {
             return vec![line.clone()];
         };
@@ -84,6 +80,8 @@ impl<'a> Creases<'a> {
     }
 
     fn are_on_forehead(&self, p: Point) -> bool {
+        /// Distance from hair, in widths of the face, from which a line on a forehead is a fold and not the hairline.
+        const FROM_HAIR: f64 = 0.07;
         let hair = [MaskRole::Hair, MaskRole::Headwear].map(|role| self.portrait.masks.get(&role));
         let is_hair = |p: Point| hair.iter().flatten().any(|mask| mask.sample(p.x, p.y) > 0.5);
         if self.portrait.subject.sample(p.x, p.y) < 0.95 {
@@ -102,6 +100,9 @@ fn middle_of(face: &Landmarks) -> Region {
     let centre = middle(&oval);
     Region::of_polygons(vec![oval.iter().map(|p| centre.lerp(*p, FACE_MIDDLE)).collect()])
 }
+
+/// How far a forehead may go on above the face's outline, in heights of the face.
+const FOREHEAD: f64 = 0.45;
 
 /// A face's outline moved up over the forehead.
 fn forehead_of(face: &Landmarks) -> Region {

@@ -7,9 +7,20 @@ use crate::geometry::{Ends, Point, Ring, catmull_rom, resample, smooth_polyline}
 use crate::raster::{Raster, dilate};
 use crate::source::{Landmarks, Portrait, Spectacles};
 
+/// The frames of all faces' spectacles on the page; `pitch` in working pixels.
+pub(super) fn frames(portrait: &Portrait, pitch: f64) -> Vec<Mark> {
+    portrait.faces.iter().filter_map(|face| face.spectacles.as_ref()).flat_map(|frame| marks(frame, portrait, pitch)).collect()
+}
+
 /// Share of the width measured in the photograph, whose blur widens lines, and limits in pitches.
 const SHARPER: f64 = 0.75;
 const WIDTHS: [f64; 2] = [0.4, 1.6];
+
+/// The width that a frame is drawn with, in working pixels.
+fn drawn_width(frame: &Spectacles, pitch: f64) -> f64 {
+    (SHARPER * frame.width).clamp(WIDTHS[0] * pitch, WIDTHS[1] * pitch)
+}
+
 /// How much thinner a rim is above, and wider below where it is in shade.
 const SWELL: f64 = 0.25;
 /// Distance of the lines' nodes in pitches; ends of temples taper over so many pitches.
@@ -17,18 +28,6 @@ const NODE: f64 = 1.0;
 const TAPER: f64 = 4.0;
 /// Smoothing of the lines, in widths of the frame: they were found on a grid of pixels.
 const SMOOTH: f64 = 1.0;
-/// Reach of a frame to either side of its lines, in its widths: nearer dark lines are its own, others crumbs of skin.
-const OWN: f64 = 1.2;
-
-/// The frames of all faces' spectacles on the page; `pitch` in working pixels.
-pub(super) fn frames(portrait: &Portrait, pitch: f64) -> Vec<Mark> {
-    portrait.faces.iter().filter_map(|face| face.spectacles.as_ref()).flat_map(|frame| marks(frame, portrait, pitch)).collect()
-}
-
-/// The width that a frame is drawn with, in working pixels.
-fn drawn_width(frame: &Spectacles, pitch: f64) -> f64 {
-    (SHARPER * frame.width).clamp(WIDTHS[0] * pitch, WIDTHS[1] * pitch)
-}
 
 fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
     let scale = portrait.placement.mm_per_pixel();
@@ -73,6 +72,9 @@ impl Frames {
         share(line, |p| self.0.clamped(p.x as isize, p.y as isize) == 1) > 0.5
     }
 }
+
+/// Reach of a frame to either side of its lines, in its widths: nearer dark lines are its own, others crumbs of skin.
+const OWN: f64 = 1.2;
 
 /// 1 on the lines of a face's frame and close beside them.
 pub(super) fn zone(faces: &[Landmarks], width: usize, height: usize) -> Raster<u8> {

@@ -11,40 +11,8 @@ use crate::source::{Iris, Landmarks, outlines};
 /// Height over width of an opening: below the first it is closed, from the second on it is treated in full.
 pub(super) const EYE_OPEN: [f64; 2] = [0.12, 0.22];
 const MOUTH_OPEN: [f64; 2] = [0.04, 0.12];
-/// The lids' own line, in radii of the iris, is left as it is; so is a ring around the iris.
-const LID: f64 = 0.16;
-const LIMBUS: f64 = 1.08;
-/// Blur of the zones' edges in radii of the iris.
-const SOFT: f64 = 0.14;
-/// The whites' median is raised to this, at most by this much and at most so far above the skin around. Whites of paper stare.
-const WHITE: f32 = 0.93;
-const MOST_RAISED: f32 = 0.28;
-const ABOVE_SKIN: f32 = 0.22;
-/// An iris is at least this much darker than its white; it is darkened at most by so much.
-const IRIS_BELOW: f32 = 0.50;
-const MOST_DARKENED: f32 = 0.16;
-/// A catchlight is lighter than its iris' median by this, and its difference is raised by this factor.
-const CATCHLIGHT: f32 = 0.22;
-const SPARK: f32 = 1.5;
-/// How much darker than the skin around it an iris should be at least; the gain that is used for it at most; the difference below which there
-/// is no eye to be seen; and the blur of the eye's zone with its lids, in widths of the face.
-const EYE_DEPTH: f32 = 0.5;
-const MOST_GAIN: f32 = 2.2;
-const LEAST_DEPTH: f32 = 0.06;
-const WITH_LIDS: f64 = 0.015;
-/// Teeth: the gain of their detail (with 1.2 the gaps are drips and beads), the blur (in widths of the face) that it is measured from, and the most light of their mean.
-const TEETH_DETAIL: f32 = 0.3;
-const TEETH_REACH: f64 = 0.022;
-const TEETH: f32 = 0.9;
 /// Teeth are lighter than this share of the skin's median.
 const TEETH_ABOVE: f32 = 0.7;
-
-/// Lips are darker than the skin's median by this, within these limits; the share of their lights that is left above that; and the blur
-/// of their edge in widths of the face.
-const BELOW_SKIN: f32 = 0.2;
-const LIPS: [f32; 2] = [0.42, 0.66];
-const LIPS_LIGHT: f32 = 0.3;
-const LIPS_SOFT: f64 = 0.008;
 
 /// The tone with its eyes and its mouth opened.
 pub(super) fn opened(zones: &Zones, face: &Landmarks, tone: &Raster<f32>) -> Raster<f32> {
@@ -66,6 +34,13 @@ pub(super) fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
     ((height / across.max(1e-9) - closed) / (open - closed)).clamp(0.0, 1.0) as f32
 }
 
+/// How much darker than the skin around it an iris should be at least; the gain that is used for it at most; the difference below which there
+/// is no eye to be seen; and the blur of the eye's zone with its lids, in widths of the face.
+const EYE_DEPTH: f32 = 0.5;
+const MOST_GAIN: f32 = 2.2;
+const LEAST_DEPTH: f32 = 0.06;
+const WITH_LIDS: f64 = 0.015;
+
 /// Eyes that differ little from the skin around them, behind lenses or in shade, are raised until their irises do; `round` is the tone of
 /// that skin.
 pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, round: &Raster<f32>) -> Raster<f32> {
@@ -82,6 +57,22 @@ pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, rou
         tone.zip_map(&below.zip_map(&soft, |below, share| gain * share * below.max(0.0)), |tone, more| tone - more)
     })
 }
+
+/// The lids' own line, in radii of the iris, is left as it is; so is a ring around the iris.
+const LID: f64 = 0.16;
+const LIMBUS: f64 = 1.08;
+/// Blur of the zones' edges in radii of the iris.
+const SOFT: f64 = 0.14;
+/// The whites' median is raised to this, at most by this much and at most so far above the skin around. Whites of paper stare.
+const WHITE: f32 = 0.93;
+const MOST_RAISED: f32 = 0.28;
+const ABOVE_SKIN: f32 = 0.22;
+/// An iris is at least this much darker than its white; it is darkened at most by so much.
+const IRIS_BELOW: f32 = 0.50;
+const MOST_DARKENED: f32 = 0.16;
+/// A catchlight is lighter than its iris' median by this, and its difference is raised by this factor.
+const CATCHLIGHT: f32 = 0.22;
+const SPARK: f32 = 1.5;
 
 fn eye(tone: &Raster<f32>, lids: &[Point], iris: Iris, skin: f32) -> Raster<f32> {
     let open = openness(lids, EYE_OPEN);
@@ -105,6 +96,11 @@ fn eye(tone: &Raster<f32>, lids: &[Point], iris: Iris, skin: f32) -> Raster<f32>
     whiter.zip_map(&soft(&coloured), |v, iris| v + open * iris * (spark(v) - if spark(v) > 0.0 { 0.0 } else { darkened }))
 }
 
+/// Teeth: the gain of their detail (with 1.2 the gaps are drips and beads), the blur (in widths of the face) that it is measured from, and the most light of their mean.
+const TEETH_DETAIL: f32 = 0.3;
+const TEETH_REACH: f64 = 0.022;
+const TEETH: f32 = 0.9;
+
 fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster<f32> {
     let open = openness(lips, MOUTH_OPEN);
     let inside =
@@ -117,6 +113,13 @@ fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster
     let soft = fast_gaussian(&inside, (0.3 * TEETH_REACH * zones.width) as f32);
     mixed(tone, &drawn, &soft.map(|share| open * share))
 }
+
+/// Lips are darker than the skin's median by this, within these limits; the share of their lights that is left above that; and the blur
+/// of their edge in widths of the face.
+const BELOW_SKIN: f32 = 0.2;
+const LIPS: [f32; 2] = [0.42, 0.66];
+const LIPS_LIGHT: f32 = 0.3;
+const LIPS_SOFT: f64 = 0.008;
 
 /// Lips stay darker than teeth and than lit skin: without an end in the lights a mouth is a slab of white.
 fn lips(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, skin: f32) -> Raster<f32> {

@@ -21,29 +21,12 @@ use std::time::{Duration, Instant};
 
 /// Bytes that may be on their way or in the machine's line buffer of 128: one place of the ring stays free.
 const MOST_OUTSTANDING: usize = 127;
-/// Blocks of the planner where the machine does not tell their number: some builds of `grblHAL` and `FluidNC` have so many.
-const MOST_BLOCKS: usize = 128;
 /// Moves of which only segments are left, and that the planner has forgotten (`SEGMENT_BUFFER_SIZE`).
 const SEGMENTED: usize = 6;
-/// Reports after which an offset of the work was certainly told: every thirtieth does while it moves (`REPORT_WCO_REFRESH_BUSY_COUNT`).
-const REPORTS: usize = 40;
 /// How long a travel across the table may take.
 const TRAVELLING: Duration = Duration::from_mins(5);
-/// How long homing may take.
-const HOMING: Duration = Duration::from_mins(2);
-/// How long an answer to a command may take.
-const PATIENCE: Duration = Duration::from_secs(5);
-/// How long a machine may take from its start to its greeting: the boot loader alone waits a second or two.
-const STARTING: Duration = Duration::from_secs(6);
-/// Between two questions for the state.
-const ASKING: Duration = Duration::from_millis(20);
 /// Longest time to come to rest.
 const BRAKING: Duration = Duration::from_secs(20);
-/// Positions closer than this, in millimetres, are the same: reports have three decimals.
-const SAME: f64 = 0.002;
-
-/// Soft reset.
-const RESET: u8 = 0x18;
 
 /// What a machine says when it is met.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,6 +38,17 @@ pub struct Greeting {
     /// True if it restarted when the port was opened, so that it does not know where the pen is.
     pub is_restarted: bool,
 }
+
+/// Blocks of the planner where the machine does not tell their number: some builds of `grblHAL` and `FluidNC` have so many.
+const MOST_BLOCKS: usize = 128;
+/// How long an answer to a command may take.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// How long a machine may take from its start to its greeting: the boot loader alone waits a second or two.
+const STARTING: Duration = Duration::from_secs(6);
+/// Between two questions for the state.
+const ASKING: Duration = Duration::from_millis(20);
+/// Soft reset.
+const RESET: u8 = 0x18;
 
 /// A conversation with a machine.
 pub struct Grbl {
@@ -141,6 +135,9 @@ impl Grbl {
 
     /// Asks until the pen's position is known.
     pub fn locate(&mut self) -> Result<(), DriveError> {
+        /// Reports after which an offset of the work was certainly told: every thirtieth does while it moves
+        /// (`REPORT_WCO_REFRESH_BUSY_COUNT`).
+        const REPORTS: usize = 40;
         for _ in 0..REPORTS {
             self.ask_status()?;
             if self.position().is_some() {
@@ -227,6 +224,8 @@ impl Grbl {
 
     /// Homes it (`$H`); it answers when it is done.
     pub fn home(&mut self, interrupt: &Interrupt) -> Result<(), DriveError> {
+        /// How long homing may take.
+        const HOMING: Duration = Duration::from_mins(2);
         self.ask("$H", HOMING, interrupt).map(drop)
     }
 
@@ -262,6 +261,8 @@ impl Grbl {
 
     /// Gives the place where the pen stands its coordinates again.
     fn move_zero(&mut self, wanted: [f64; 3], told: [f64; 3]) -> Result<(), DriveError> {
+        /// Positions closer than this, in millimetres, are the same: reports have three decimals.
+        const SAME: f64 = 0.002;
         let differing = (0..3).filter(|axis| (wanted[*axis] - told[*axis]).abs() > SAME);
         let words: Vec<String> = differing.map(|axis| format!("{}{:.3}", ["X", "Y", "Z"][axis], wanted[axis])).collect();
         if words.is_empty() { Ok(()) } else { self.set_place(&words.join(" ")) }

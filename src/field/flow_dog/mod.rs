@@ -33,13 +33,6 @@ pub struct LineParameters {
     pub rounds: u32,
 }
 
-/// Standard deviation of the outer Gaussian, as a multiple of the inner one.
-const OUTER: f32 = 1.6;
-/// Cut-off of the Gaussians, in standard deviations: 1.2 % of their weight lies beyond.
-const CUT: f32 = 2.5;
-/// The filter's response assumes grey from 0 to 255 (errata): with 0 to 1 no line would appear.
-const GREY_LEVELS: f32 = 255.0;
-
 /// Result of the filter.
 #[derive(Clone, Debug)]
 pub struct FlowLines {
@@ -77,6 +70,11 @@ pub fn flow_lines(grey: &Raster<f32>, flow: &EdgeTangentFlow, parameters: LinePa
     found
 }
 
+/// Standard deviation of the outer Gaussian, as a multiple of the inner one.
+const OUTER: f32 = 1.6;
+/// The filter's response assumes grey from 0 to 255 (errata): with 0 to 1 no line would appear.
+const GREY_LEVELS: f32 = 255.0;
+
 /// The centre and right half of `G(s_c) - rho G(1.6 s_c)` at whole pixels, each Gaussian summing to 1.
 fn difference_kernel(sigma: f32, rho: f32) -> Vec<f32> {
     let outer = half_gaussian(OUTER * sigma);
@@ -84,6 +82,9 @@ fn difference_kernel(sigma: f32, rho: f32) -> Vec<f32> {
     inner.resize(outer.len(), 0.0);
     inner.iter().zip(&outer).map(|(inner, outer)| GREY_LEVELS * (inner - rho * outer)).collect()
 }
+
+/// Cut-off of the Gaussians, in standard deviations: 1.2 % of their weight lies beyond.
+const CUT: f32 = 2.5;
 
 /// The centre and right half of a Gaussian; the whole sums to 1.
 fn half_gaussian(sigma: f32) -> Vec<f32> {

@@ -7,26 +7,9 @@ use crate::field::Flow;
 use crate::geometry::{Point, Vec2};
 use crate::raster::Raster;
 
-/// Cosine of the angle between the flow on the line (in its middle and at its end) and beside it, from which a brush tries no other
-/// lines, since they would go the same way. Always trying them takes four times as long without a visible difference.
-const SAME_WAY: f64 = 0.98;
 /// Distance between cross-sections along the streamline, and between samples along a cross-section, in pixels.
 const STEP: f64 = 1.0;
 const SAMPLE_STEP: f64 = 0.5;
-/// Maximum widening of a side per pixel along the line. At 2 and at 0.4 the correlation with the pattern is about 0.015 lower: outlines
-/// get horns where other ribbons branch off, or ends are cut off.
-const MOST_SLOPE: f64 = 1.0;
-/// Distance of an end's half disc from the region's end, as a share of its radius: less than 1, since the region ends more squarely. At
-/// 1 the correlation with the pattern is 0.02 lower, at 0.25 no higher.
-const END_INSET: f64 = 0.35;
-/// Maximum width in radii of the line's curvature; at 2 the inner side shrinks to a point.
-const WIDEST_TURN: f64 = 1.9;
-/// Nodes are dropped within this distance of the line between their neighbours, or nearer to a neighbour than this share of the maximum
-/// width (otherwise wide ribbons have rugged sides).
-const TOLERANCE: f64 = 0.15;
-const LEAST_SPACING: f64 = 0.4;
-/// Maximum distance between nodes, in cross-sections.
-const MOST_SPACING: usize = 8;
 
 /// Input for sweeping one blob, in pixels.
 pub(super) struct Sweep<'a> {
@@ -70,6 +53,10 @@ impl Sweep<'_> {
 
     /// True if the flow at these distances beside a line has the same direction as on the line.
     fn goes_one_way(&self, line: &[Point], beside: &[f64]) -> bool {
+        /// Cosine of the angle between the flow on the line (in its middle and at its end) and beside it, from which a brush
+        /// tries no other lines, since they would go the same way. Always trying them takes four times as long without a visible
+        /// difference.
+        const SAME_WAY: f64 = 0.98;
         let at = |p: Point| {
             let way = self.flow.at(p);
             beside.iter().all(|n| self.flow.at(p + way.turn_90() * *n).dot(way) > SAME_WAY)
@@ -186,6 +173,10 @@ impl Sweep<'_> {
     }
 }
 
+/// Maximum widening of a side per pixel along the line. At 2 and at 0.4 the correlation with the pattern is about 0.015 lower: outlines
+/// get horns where other ribbons branch off, or ends are cut off.
+const MOST_SLOPE: f64 = 1.0;
+
 /// Narrows sections that widen too fast along the line; never widens them.
 fn smooth(sections: &mut [Section]) {
     let narrow = |sections: &mut [Section], i: usize, next: usize| {
@@ -202,6 +193,10 @@ fn smooth(sections: &mut [Section]) {
     }
 }
 
+/// Distance of an end's half disc from the region's end, as a share of its radius: less than 1, since the region ends more squarely. At
+/// 1 the correlation with the pattern is 0.02 lower, at 0.25 no higher.
+const END_INSET: f64 = 0.35;
+
 /// Shortens the end to make room for its half disc.
 fn end(stations: &mut Vec<(Point, f64)>) {
     let tip = stations[stations.len() - 1].0;
@@ -213,6 +208,13 @@ fn end(stations: &mut Vec<(Point, f64)>) {
         last.1 = last.1.min(2.0 * (room(last) + 0.5) / END_INSET);
     }
 }
+
+/// Nodes are dropped within this distance of the line between their neighbours, or nearer to a neighbour than this share of the maximum
+/// width (otherwise wide ribbons have rugged sides).
+const TOLERANCE: f64 = 0.15;
+const LEAST_SPACING: f64 = 0.4;
+/// Maximum distance between nodes, in cross-sections.
+const MOST_SPACING: usize = 8;
 
 /// Thins the stations: from each one, goes to the farthest whose straight connection passes near all between.
 fn thinned(stations: &[(Point, f64)]) -> Vec<(Point, f64)> {
@@ -235,6 +237,9 @@ fn thinned(stations: &[(Point, f64)]) -> Vec<(Point, f64)> {
     }
     kept
 }
+
+/// Maximum width in radii of the line's curvature; at 2 the inner side shrinks to a point.
+const WIDEST_TURN: f64 = 1.9;
 
 /// Narrows the ribbon where the line's radius of curvature is smaller than its width allows: an outline beyond its own centre of
 /// curvature has holes.

@@ -8,12 +8,6 @@ pub(super) struct Ground {
     reached: Region,
 }
 
-/// Sample points from the nib's centre to its edge; 5 are accurate to a tenth.
-const ACROSS: i32 = 5;
-/// Share of a dash on existing ink from which it must cover more than it spills. A dash that begins at a wide part's border has a
-/// tenth there; a thread of a net between two places where the nib fits, a third or more.
-const SHARED: f64 = 0.2;
-
 impl Ground {
     pub fn new(asked: &OffsetOutline, reached: &OffsetOutline) -> Self {
         // The outlines are polygons, so the flattening tolerance has no effect.
@@ -24,6 +18,11 @@ impl Ground {
     /// True if a dash may be drawn: it stands by itself, or covers more than it spills. Otherwise adjacent threads of a net would
     /// fill the holes.
     pub fn may_draw(&self, points: &[Point], nib: f64) -> bool {
+        /// Sample points from the nib's centre to its edge; 5 are accurate to a tenth.
+        const ACROSS: i32 = 5;
+        /// Share of a dash on existing ink from which it must cover more than it spills. A dash that begins at a wide part's
+        /// border has a tenth there; a thread of a net between two places where the nib fits, a third or more.
+        const SHARED: f64 = 0.2;
         let half = 0.5 * nib;
         let grid = (-ACROSS..=ACROSS).flat_map(|j| (-ACROSS..=ACROSS).map(move |i| Vec2::new(f64::from(i), f64::from(j))));
         let under: Vec<Vec2> = grid.map(|v| v * (half / f64::from(ACROSS))).filter(|v| v.hypot() <= half).collect();

@@ -8,12 +8,11 @@ pub(super) struct Room {
     step: f64,
 }
 
-/// Distance that a step may take the nib beyond the border, and spacing of the sample points on a step, both in nibs.
-const SLACK: f64 = 0.1;
-const LOOK: f64 = 0.25;
-
 impl Room {
     pub fn new(outermost: &OffsetOutline, nib: f64) -> Self {
+        /// Distance that a step may take the nib beyond the border, and spacing of the sample points on a step, both in nibs.
+        const SLACK: f64 = 0.1;
+        const LOOK: f64 = 0.25;
         // The outlines are polygons, so the flattening tolerance has no effect.
         Self { inside: Region::new(&outermost.grown(SLACK * nib).path(), 1.0), step: LOOK * nib }
     }

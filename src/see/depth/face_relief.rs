@@ -8,19 +8,6 @@ use crate::raster::{Raster, filled_polygon};
 use crate::source::Landmarks;
 use crate::source::outlines::OVAL;
 
-/// Spacing of the surface's finest knots in widths of the face. Landmarks are a tenth apart on cheeks and brow: finer knots leave
-/// a dimple at each.
-const FINEST: f64 = 0.07;
-/// Margin around the outline, in widths of the face.
-const ROOM: f64 = 0.1;
-/// Width of the fade-in from the outline inwards, in widths of the face.
-const SEAM: f64 = 0.12;
-/// Limit of the slopes (soft): a far cheek and the wings of a nose are steeper, which tears lines.
-const STEEPEST: f32 = 1.6;
-/// A landmark is hidden if another within `BESIDE` is nearer by more than `BEHIND`, both in widths of the face.
-const BESIDE: f64 = 0.06;
-const BEHIND: f64 = 0.12;
-
 /// The relief of one face, in pixels.
 pub(super) struct FaceRelief {
     surface: BSpline,
@@ -32,6 +19,13 @@ pub(super) struct FaceRelief {
 
 impl FaceRelief {
     pub(super) fn new(face: &Landmarks) -> Self {
+        /// Spacing of the surface's finest knots in widths of the face. Landmarks are a tenth apart on cheeks and brow: finer
+        /// knots leave a dimple at each.
+        const FINEST: f64 = 0.07;
+        /// Margin around the outline, in widths of the face.
+        const ROOM: f64 = 0.1;
+        /// Width of the fade-in from the outline inwards, in widths of the face.
+        const SEAM: f64 = 0.12;
         let width = face.width().max(1.0);
         let outline = face.line(&OVAL);
         let first = Rect::from_points(outline[0], outline[0]);
@@ -82,12 +76,19 @@ impl FaceRelief {
     }
 }
 
+/// A landmark is hidden if another within `BESIDE` is nearer by more than `BEHIND`, both in widths of the face.
+const BESIDE: f64 = 0.06;
+const BEHIND: f64 = 0.12;
+
 /// The landmarks that no nearer part of the face hides.
 fn seen(points: &[[f64; 3]], width: f64) -> impl Iterator<Item = [f64; 3]> {
     points.iter().copied().filter(move |[x, y, z]| {
         !points.iter().any(|[a, b, c]| *c < z - BEHIND * width && (a - x).hypotenuse(b - y) < BESIDE * width)
     })
 }
+
+/// Limit of the slopes (soft): a far cheek and the wings of a nose are steeper, which tears lines.
+const STEEPEST: f32 = 1.6;
 
 /// The slope in the same direction, limited to `STEEPEST`.
 fn bounded(slope: [f32; 2]) -> [f32; 2] {

@@ -7,15 +7,6 @@ use crate::raster::{Raster, fast_gaussian, filled_polygon};
 use crate::source::Landmarks;
 use crate::source::outlines::OVAL;
 
-/// Distance of the body behind the head, in widths of the face: the neck behind the chin.
-const BEHIND: f64 = 0.3;
-/// Where the body falls back: around the face's outline scaled by `OUTLINE`, as a Gaussian step of sigma `FALL` widths of the
-/// face. A fall that begins farther out leaves a rim around the face, whose own slopes end before.
-const OUTLINE: f64 = 1.05;
-const FALL: f64 = 0.12;
-/// Extra distance of a face of half the largest one's width, in widths of the largest.
-const FARTHER: f64 = 0.6;
-
 /// One head, in pixels.
 struct Head {
     chin: Point,
@@ -37,6 +28,10 @@ pub(super) struct Heads {
 
 impl Head {
     fn new(face: &Landmarks, [columns, rows]: [usize; 2]) -> Self {
+        /// Where the body falls back: around the face's outline scaled by `OUTLINE`, as a Gaussian step of sigma `FALL` widths of
+        /// the face. A fall that begins farther out leaves a rim around the face, whose own slopes end before.
+        const OUTLINE: f64 = 1.05;
+        const FALL: f64 = 0.12;
         let (chin, forehead) = (face.point(152), face.point(10));
         let along = forehead - chin;
         let up = if along.hypot() > 0.0 { along.normalize() } else { Vec2::new(0.0, -1.0) };
@@ -76,6 +71,10 @@ impl Heads {
 
     /// Distance behind the largest head, 0 or more: of bodies, and of smaller heads, which are farther away.
     pub(super) fn set_back(&self, columns: usize, rows: usize) -> Raster<f32> {
+        /// Distance of the body behind the head, in widths of the face: the neck behind the chin.
+        const BEHIND: f64 = 0.3;
+        /// Extra distance of a face of half the largest one's width, in widths of the largest.
+        const FARTHER: f64 = 0.6;
         Raster::from_fn(columns, rows, |x, y| {
             let (mut sum, mut weights) = (0.0, 0.0);
             for head in &self.heads {

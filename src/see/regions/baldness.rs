@@ -6,36 +6,15 @@ use crate::elementary::Elementary as _;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::srgb_to_linear;
 
-/// The middle of the forehead's upper border, about which the profiles are centred.
-const TOP: usize = 10;
-/// Profiles start at `FROM` (in `v`) and run upwards in steps of `STEP` to the person's silhouette, at most `MOST` steps.
-const FROM: f64 = 0.7;
-const STEP: f64 = 0.02;
-const MOST: usize = 60;
-/// Number of profiles, and the offset of the outermost ones from the middle, in `u`.
-const PROFILES: usize = 13;
-const ASIDE: f64 = 0.3;
 /// Samples dropped before the silhouette, and the fewest that a profile needs.
 const MARGIN: usize = 3;
 const LEAST: usize = 12;
-/// Least height that a profile must reach, in `v`: on a head that leans back the hair begins behind the edge.
-const HIGHEST: f64 = 1.15;
-/// Samples on either side of a step, whose means are compared: a tenth of the face's height.
-const HALF: usize = 5;
-/// Samples at either end, whose hues are compared.
-const END: usize = 8;
-/// Blur in working pixels, to suppress single hairs and grain.
-const BLUR: f32 = 1.2;
 /// Signs of hair: drop of L*, relative loss of colour, drop of redness. On 41 faces (sixteen portraits, five samples, four of two
 /// men, sixteen of women in company) the greatest of the three, each divided by its limit, is at least 1.0 where there is hair
 /// (least: a fair fringe in soft light, 1.0) and at most 0.9 on the two bare heads and the cropped one.
 const DARKER: f32 = 15.0;
 const PALER: f32 = 0.25;
 const LESS_RED: f32 = 0.2;
-/// A lamp's reflection on a bare scalp only adds white, until the photograph clips: from this L* on colour loss is ignored.
-const SHINE: f32 = 92.0;
-/// Below this chroma hue is unreliable.
-const LEAST_CHROMA: f32 = 5.0;
 
 /// One sample of a profile.
 #[derive(Clone, Copy)]
@@ -43,6 +22,14 @@ struct Spot {
     lab: [f32; 3],
     light: [f32; 3],
 }
+
+/// The middle of the forehead's upper border, about which the profiles are centred.
+const TOP: usize = 10;
+/// Number of profiles, and the offset of the outermost ones from the middle, in `u`.
+const PROFILES: usize = 13;
+const ASIDE: f64 = 0.3;
+/// Blur in working pixels, to suppress single hairs and grain.
+const BLUR: f32 = 1.2;
 
 /// True if most profiles show bare skin on the crown; false if too little of the crown is in the picture.
 pub(super) fn is_bald(plate: &Plate) -> bool {
@@ -63,6 +50,13 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
 }
 
+/// Profiles start at `FROM` (in `v`) and run upwards in steps of `STEP` to the person's silhouette, at most `MOST` steps.
+const FROM: f64 = 0.7;
+const STEP: f64 = 0.02;
+const MOST: usize = 60;
+/// Least height that a profile must reach, in `v`: on a head that leans back the hair begins behind the edge.
+const HIGHEST: f64 = 1.15;
+
 /// Colours from the forehead up to just below the silhouette.
 fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 3]) -> Option<Vec<Spot>> {
     let mut spots = Vec::with_capacity(MOST);
@@ -79,6 +73,13 @@ fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 
     (spots.len() >= LEAST && FROM + spots.len() as f64 * STEP >= HIGHEST).then_some(spots)
 }
 
+/// Samples on either side of a step, whose means are compared: a tenth of the face's height.
+const HALF: usize = 5;
+/// Samples at either end, whose hues are compared.
+const END: usize = 8;
+/// Below this chroma hue is unreliable.
+const LEAST_CHROMA: f32 = 5.0;
+
 /// The strongest sign of hair on a profile; 1 is the threshold.
 fn hairiness(spots: &[Spot]) -> f32 {
     let usual = mean(&spots[..LEAST]).lab[0];
@@ -89,6 +90,9 @@ fn hairiness(spots: &[Spot]) -> f32 {
     let hue = if has_hue { (redness(first) - redness(last)) / LESS_RED } else { 0.0 };
     step.max(hue)
 }
+
+/// A lamp's reflection on a bare scalp only adds white, until the photograph clips: from this L* on colour loss is ignored.
+const SHINE: f32 = 92.0;
 
 /// How much the change from one stretch to the next resembles a hairline. `usual` is the forehead's L*: the fall from a
 /// reflection back to plain skin above it does not count.

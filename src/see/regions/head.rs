@@ -4,15 +4,6 @@ use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
 use crate::source::{LEAST_FACE_WIDTH, Landmarks};
 
-/// The middle of the forehead's upper border, the chin, and the ends of the face's width before the ears.
-const FOREHEAD: usize = 10;
-const CHIN: usize = 152;
-const EARS: [usize; 2] = [234, 454];
-/// Distance of the skull's middle behind the face's width line, in widths: on a turned head it shows beside the face.
-const BACK: f64 = 0.3;
-/// Least width and height in pixels, to avoid division by zero.
-const LEAST: f64 = 1.0;
-
 /// A head in a picture. `u` increases to the picture's right: 0 at the middle of the skull, about 0.5 at the ears. `v` increases
 /// upwards: 0 at the chin, 1 at the forehead's upper border.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +21,14 @@ pub(super) struct Head {
 impl Head {
     /// The head of a face in the picture's pixels; `None` if the landmarks are degenerate.
     pub(super) fn new(face: &Landmarks) -> Option<Self> {
+        /// The middle of the forehead's upper border, the chin, and the ends of the face's width before the ears.
+        const FOREHEAD: usize = 10;
+        const CHIN: usize = 152;
+        const EARS: [usize; 2] = [234, 454];
+        /// Distance of the skull's middle behind the face's width line, in widths: on a turned head it shows beside the face.
+        const BACK: f64 = 0.3;
+        /// Least width and height in pixels, to avoid division by zero.
+        const LEAST: f64 = 1.0;
         let [forehead, chin, right, left] = [FOREHEAD, CHIN, EARS[0], EARS[1]].map(|i| face.point(i));
         let rise = forehead - chin;
         let deep = |a: usize, b: usize| face.points[a][2] - face.points[b][2];

@@ -7,18 +7,6 @@ use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate, gaussian_blur};
 
-/// Range of hair's hues in degrees from red towards yellow, for chroma above `LEAST_CHROMA`; a* above `REDDEST` is dyed or no
-/// hair.
-const HUES: (f32, f32) = (20.0, 105.0);
-const LEAST_CHROMA: f32 = 14.0;
-const REDDEST: f32 = 32.0;
-/// L* below and above which a pixel is black or white.
-const BLACK: f32 = 28.0;
-const WHITE: f32 = 72.0;
-/// Least fraction of odd colours in a hat, or least fraction of both black and white. Grey hair has 0.08 of the lesser of both.
-const ODD: f32 = 0.5;
-const BOTH: f32 = 0.12;
-
 /// Farther from the middle of the head than this (in `u`), and above the mouth, hair is taken for brim.
 const BRIM: f32 = 0.66;
 
@@ -46,6 +34,18 @@ pub(super) fn headwear(plate: &Plate, shares: &Raster<Shares>) -> Option<Raster<
     let smooth = Guide::new(&plate.colours, 4, 1e-3).filtered(&opened);
     Some(smooth.zip_map(shares, |v, s| v * s[HAIR]))
 }
+
+/// Range of hair's hues in degrees from red towards yellow, for chroma above `LEAST_CHROMA`; a* above `REDDEST` is dyed or no
+/// hair.
+const HUES: (f32, f32) = (20.0, 105.0);
+const LEAST_CHROMA: f32 = 14.0;
+const REDDEST: f32 = 32.0;
+/// L* below and above which a pixel is black or white.
+const BLACK: f32 = 28.0;
+const WHITE: f32 = 72.0;
+/// Least fraction of odd colours in a hat, or least fraction of both black and white. Grey hair has 0.08 of the lesser of both.
+const ODD: f32 = 0.5;
+const BOTH: f32 = 0.12;
 
 /// True if what lies above the forehead is not hair.
 fn is_hat(plate: &Plate, is_hair: &Raster<bool>) -> bool {

@@ -5,26 +5,6 @@ use super::skin_model::{BARE_REACH, median};
 use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate};
 
-/// Between the eyes.
-const BETWEEN_EYES: usize = 6;
-/// The cheek on the picture's left and on its right.
-const CHEEKS: [usize; 2] = [50, 280];
-/// A cheek below this fraction of the other's lightness may lie in black shadow.
-const SHADOW: f32 = 0.45;
-/// It does if it is also darker than this L*.
-const DARK_CHEEK: f32 = 35.0;
-/// Texture up to which black is taken for shadow, not hair; the same at the ears, whose folds are texture: in one portrait an ear in
-/// black shadow has 15 to 17, the hair about it 22.
-const SMOOTH: f32 = 14.0;
-const SMOOTH_EAR: f32 = 18.0;
-/// Light shines through an ear: it is redder than this, and its chroma is so much greater than the hair's.
-const RED: f32 = 18.0;
-const MORE_COLOURED: f32 = 18.0;
-/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*.
-const REFLECTION: f32 = 15.0;
-/// Cost of the way from the bare skin of the face up to which a reflection lies on the forehead and not on hair.
-const ON_FOREHEAD: f32 = 4.0;
-
 /// How a head is lit.
 pub(super) struct Lighting {
     /// Sides of the face in black shadow, where colour is meaningless: the picture's left, then right.
@@ -37,6 +17,8 @@ pub(super) struct Lighting {
 
 impl Lighting {
     pub(super) fn of(plate: &Plate) -> Self {
+        /// Between the eyes.
+        const BETWEEN_EYES: usize = 6;
         let reach = (0.2 * plate.face_width) as usize;
         Self {
             shadowed: shadowed(plate),
@@ -47,6 +29,10 @@ impl Lighting {
 
     /// True if a pixel may be skin in black shadow: in the face or at an ear, on a shadowed side.
     pub(super) fn is_shadow(&self, plate: &Plate, i: usize) -> bool {
+        /// Texture up to which black is taken for shadow, not hair; the same at the ears, whose folds are texture: in one
+        /// portrait an ear in black shadow has 15 to 17, the hair about it 22.
+        const SMOOTH: f32 = 14.0;
+        const SMOOTH_EAR: f32 = 18.0;
         let [u, v] = plate.at.pixels()[i];
         let is_face = v < 0.97 && u.abs() < 0.44;
         let is_ear = v < 0.72 && v > 0.2;
@@ -57,16 +43,31 @@ impl Lighting {
 
     /// True for a pixel of an ear that light shines through.
     pub(super) fn is_glowing(&self, v: f32, f: Feature, i: usize, hair: Feature) -> bool {
+        /// Light shines through an ear: it is redder than this, and its chroma is so much greater than the hair's.
+        const RED: f32 = 18.0;
+        const MORE_COLOURED: f32 = 18.0;
         let chroma = |f: Feature| f[1].hypotenuse(f[2]);
         v < 0.75 && self.with_ears.pixels()[i] && f[1] > RED && chroma(f) > chroma(hair) + MORE_COLOURED
     }
 }
+
+/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*.
+const REFLECTION: f32 = 15.0;
+/// Cost of the way from the bare skin of the face up to which a reflection lies on the forehead and not on hair.
+const ON_FOREHEAD: f32 = 4.0;
 
 /// True for a reflection on a forehead, `path` from the bare skin of the face; `medians` of skin and hair.
 pub(super) fn is_reflection(v: f32, f: Feature, path: f32, medians: [Feature; 2]) -> bool {
     let lightest = medians[0][0].max(medians[1][0]) + REFLECTION * LIGHTNESS_WEIGHT;
     v < 1.08 && path < ON_FOREHEAD && f[0] > lightest
 }
+
+/// The cheek on the picture's left and on its right.
+const CHEEKS: [usize; 2] = [50, 280];
+/// A cheek below this fraction of the other's lightness may lie in black shadow.
+const SHADOW: f32 = 0.45;
+/// It does if it is also darker than this L*.
+const DARK_CHEEK: f32 = 35.0;
 
 /// The sides whose cheek is nearly black compared with the other.
 fn shadowed(plate: &Plate) -> [bool; 2] {

@@ -10,27 +10,8 @@ use crate::source::{Landmarks, lab, srgb_to_linear};
 /// Lightness, green to red, blue to yellow, and texture, weighted so that a unit of each is equally significant.
 pub(super) type Feature = [f32; 4];
 
-/// Width of the face in working pixels: at 60 braids and brows blur, at 200 single hairs matter and time grows fourfold.
-const FACE: f64 = 110.0;
-/// Most pixels on the longer side of the working picture.
-const LONGEST: f64 = 400.0;
-/// Margin around the face, in widths to either side and in heights above and below the chin.
-const ASIDE: f64 = 2.6;
-const ABOVE: f64 = 2.4;
-const BELOW: f64 = 2.4;
 /// Weight of L* (0 to 100) relative to a* and b*.
 pub(super) const LIGHTNESS_WEIGHT: f32 = 2.2;
-/// Texture is the deviation from a blur of `TEXTURE_BLUR` pixels, averaged over `TEXTURE_REACH`, on a logarithmic scale of this
-/// weight.
-const TEXTURE_BLUR: f32 = 2.0;
-const TEXTURE_REACH: f32 = 2.5;
-const TEXTURE_WEIGHT: f32 = 9.0;
-/// The middle of the lower lip's lower border.
-const LIPS_END: usize = 17;
-/// Width of the oval's rim, in widths of the face.
-const RIM: f32 = 0.05;
-/// Least share of the subject for a pixel to be inside.
-const SOLID: f32 = 0.5;
 
 /// A head's surroundings.
 pub(super) struct Plate {
@@ -66,6 +47,14 @@ impl Plate {
         heads: &[Head],
         which: usize,
     ) -> Option<Self> {
+        /// Width of the face in working pixels: at 60 braids and brows blur, at 200 single hairs matter and time grows fourfold.
+        const FACE: f64 = 110.0;
+        /// Most pixels on the longer side of the working picture.
+        const LONGEST: f64 = 400.0;
+        /// Width of the oval's rim, in widths of the face.
+        const RIM: f32 = 0.05;
+        /// Least share of the subject for a pixel to be inside.
+        const SOLID: f32 = 0.5;
         let head = heads[which];
         let part = surroundings(&head, pixels.width() as f64, pixels.height() as f64)?;
         let scale = (FACE / head.width).min(LONGEST / part.width().max(part.height())).min(1.0);
@@ -109,6 +98,8 @@ impl Plate {
 
     /// Whether a pixel lies below the lips.
     pub(super) fn is_below_lips(&self, i: usize) -> bool {
+        /// The middle of the lower lip's lower border.
+        const LIPS_END: usize = 17;
         self.at.pixels()[i][1] < self.coordinates(self.point(LIPS_END))[1]
     }
 
@@ -155,6 +146,11 @@ pub(super) fn owner(heads: &[Head], p: Point) -> Option<usize> {
     nearest.map(|(i, _)| i)
 }
 
+/// Margin around the face, in widths to either side and in heights above and below the chin.
+const ASIDE: f64 = 2.6;
+const ABOVE: f64 = 2.4;
+const BELOW: f64 = 2.4;
+
 /// The part of the view around a head, in whole pixels; `None` outside the picture.
 fn surroundings(head: &Head, width: f64, height: f64) -> Option<Rect> {
     let corners = [(-ASIDE, ABOVE), (ASIDE, ABOVE), (-ASIDE, -BELOW), (ASIDE, -BELOW)].map(|(u, v)| head.place(u, v));
@@ -198,6 +194,12 @@ impl Grid {
         sum.map(|v| v / count)
     }
 }
+
+/// Texture is the deviation from a blur of `TEXTURE_BLUR` pixels, averaged over `TEXTURE_REACH`, on a logarithmic scale of this
+/// weight.
+const TEXTURE_BLUR: f32 = 2.0;
+const TEXTURE_REACH: f32 = 2.5;
+const TEXTURE_WEIGHT: f32 = 9.0;
 
 fn features(lab: &Raster<[f32; 3]>) -> Raster<Feature> {
     let light = lab.map(|c| LIGHTNESS_WEIGHT * c[0]);

@@ -17,23 +17,8 @@ pub(super) const SKIN: usize = 1;
 pub(super) const HAIR: usize = 2;
 pub(super) const CLOTHING: usize = 3;
 
-/// The middle of the forehead's upper border.
-const TOP: usize = 10;
-const HAIRS: usize = 4;
-const CLOTHS: usize = 5;
-/// Chroma from which hair can be distinguished from jackets.
-const COLOURED: f32 = 10.0;
-/// Distance of the shoulders' median from the hair's from which they cannot be confused.
-const UNLIKE: f32 = 15.0;
-/// Squared deviation of pixels outside the person.
-const FARTHEST: f32 = 1000.0;
 /// Squared deviation from which a pixel is certainly not skin.
 const NO_SKIN: f32 = 9.0;
-
-/// L* from which a pixel may be a lamp's reflection, and the least fraction of a crown in other colours than skin that makes it
-/// hair.
-const FULL: f32 = 88.0;
-const OTHER_CROWN: f32 = 0.6;
 
 /// What was learned about a head, from which its pixels are classified.
 pub(super) struct Segmentation<'a> {
@@ -69,6 +54,8 @@ impl Hair {
     /// True if hair hangs down on the side of `u`: hair that looks like the jacket must cover the area beside the jaw, of other
     /// hair some is enough.
     fn hangs(&self, u: f32) -> bool {
+        /// Chroma from which hair can be distinguished from jackets.
+        const COLOURED: f32 = 10.0;
         let is_coloured = self.middle[1].hypotenuse(self.middle[2]) > COLOURED;
         self.beside_jaw(u) > if is_coloured || self.is_unlike_clothing { 0.25 } else { 0.6 }
     }
@@ -77,6 +64,13 @@ impl Hair {
         self.beside_jaw[usize::from(u > 0.0)]
     }
 }
+
+/// The middle of the forehead's upper border.
+const TOP: usize = 10;
+/// L* from which a pixel may be a lamp's reflection, and the least fraction of a crown in other colours than skin that makes it
+/// hair.
+const FULL: f32 = 88.0;
+const OTHER_CROWN: f32 = 0.6;
 
 /// True if most of the crown has another colour than skin, however gradual the transition; highlights do not count.
 fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
@@ -91,6 +85,10 @@ fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
 
 impl<'a> Segmentation<'a> {
     pub(super) fn learned(plate: &'a Plate) -> Self {
+        /// Distance of the shoulders' median from the hair's from which they cannot be confused.
+        const UNLIKE: f32 = 15.0;
+        /// Squared deviation of pixels outside the person.
+        const FARTHEST: f32 = 1000.0;
         let skin = Skin::learned(plate);
         let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
             if !plate.inside.get(x, y) {
@@ -136,6 +134,8 @@ impl<'a> Segmentation<'a> {
 
     /// Learns hair beside the temples and on the crown, where there is no skin.
     fn hair_learned(&self) -> Option<Hair> {
+        /// Normal distributions in the mixture of a head's hair.
+        const HAIRS: usize = 4;
         let plate = self.plate;
         let outside = plate.inside.map(|is| u8::from(!is));
         let edge = dilate(&outside, (0.12 * plate.face_width) as usize);
@@ -188,6 +188,8 @@ impl<'a> Segmentation<'a> {
 
     /// Learns clothing on the shoulders, where there is no hair.
     fn clothing_learned(&self) -> Option<Mixture> {
+        /// Normal distributions in the mixture of clothing.
+        const CLOTHS: usize = 5;
         let plate = self.plate;
         let seeds = self.shoulders();
         let without_hair = plate.pixels_where(|[u, v], i| {

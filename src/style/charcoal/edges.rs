@@ -16,23 +16,13 @@ use crate::style::random::stream;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
 
-/// Brightness of the keep mask above which an edge is kept.
-const KEPT: f32 = 0.25;
-/// Tolerance in pixels between an edge and the keep mask.
-const KEPT_REACH: usize = 2;
-/// Length of a displaced segment as a share of its line, and the overlap of neighbours.
-const SEGMENT: (f64, f64) = (0.3, 0.7);
-const OVERLAP: f64 = 0.3;
-/// Pressures of the displaced segments and of the line itself, which is emphasised (section 6.3.2).
-const SKETCH_PRESSURE: f64 = 0.25;
-const LINE_PRESSURE: f64 = 0.9;
-/// Width of an edge as a share of the stick's: contours must stay lighter than the features.
-const LINE_WIDTH: f64 = 0.8;
-/// Length of line, in pitches, over which the hand's pressure wanders, and its amplitude.
-const WANDER: (f64, f64) = (9.0, 0.35);
-
 impl Drawer<'_> {
     pub(super) fn edges(&self, regions: &Regions, features: &Features) -> Vec<Mark> {
+        /// Pressures of the displaced segments and of the line itself, which is emphasised (section 6.3.2).
+        const SKETCH_PRESSURE: f64 = 0.25;
+        const LINE_PRESSURE: f64 = 0.9;
+        /// Width of an edge as a share of the stick's: contours must stay lighter than the features.
+        const LINE_WIDTH: f64 = 0.8;
         self.observer.begin("edges");
         let faces = Creases::of(self.portrait);
         let least = self.pixels(self.parameters.edge_length);
@@ -66,6 +56,10 @@ impl Drawer<'_> {
 
     /// Edges without the image mask and the specks, chosen by the user's keep mask; plus the subject's border.
     fn edge_lines(&self, regions: &Regions, features: &Features) -> Vec<Curve> {
+        /// Brightness of the keep mask above which an edge is kept.
+        const KEPT: f32 = 0.25;
+        /// Tolerance in pixels between an edge and the keep mask.
+        const KEPT_REACH: usize = 2;
         let parameters = self.edge_parameters();
         let steps = detect_edges(&self.portrait.on_white(&self.portrait.lightness), parameters);
         self.observer.picture("canny", &|| Picture::Mask(steps.canny.clone()));
@@ -141,6 +135,8 @@ impl Drawer<'_> {
 
     /// Pressure along an edge: by the step of tone at each point, with the wander of a hand.
     fn firmness(&self, points: &[Point], random: &mut impl Rng) -> Vec<f64> {
+        /// Length of line, in pitches, over which the hand's pressure wanders, and its amplitude.
+        const WANDER: (f64, f64) = (9.0, 0.35);
         let reach = self.pixels(1.5 * self.parameters.pitch);
         let lightness = &self.portrait.lightness;
         let phase = random.random_range(0.0..TAU);
@@ -161,6 +157,9 @@ impl Drawer<'_> {
 
     /// Overlapping pieces of a line, each with randomly displaced ends.
     fn sketched(&self, points: &[Point], random: &mut impl Rng) -> Vec<Vec<Point>> {
+        /// Length of a displaced segment as a share of its line, and the overlap of neighbours.
+        const SEGMENT: (f64, f64) = (0.3, 0.7);
+        const OVERLAP: f64 = 0.3;
         let length = polyline_length(points);
         let offset = self.pixels(self.parameters.sketch_offset);
         let least = 8.0 * self.pitch();

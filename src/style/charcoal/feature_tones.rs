@@ -10,17 +10,10 @@ use crate::geometry::{Millimetres, Point};
 use crate::raster::{Raster, gaussian_blur};
 use std::f64::consts::PI;
 
-/// Ovals of an eye with its lids, a nose's underside and a mouth: half sizes across and down as shares of their windows' half sizes;
-/// beyond is skin. Smaller loses the outer lashes of an eye found slightly off its place, larger takes in the brow.
-const EYE: Oval = Oval { half: (1.0, 0.2 / 0.17), has_white: true, sharp: SHARP };
-const NOSE: Oval = Oval { half: (0.4 / 0.36, 1.3), has_white: false, sharp: SHARP };
-const MOUTH: Oval = Oval { half: (0.56 / 0.52, 0.3 / 0.22), has_white: false, sharp: SOFT };
 /// Depth inside its oval (1 in its middle) at which a feature starts to be drawn and at which it is drawn fully. White of the eye is
 /// accepted in the same range: farther out, places lighter than skin are shining skin.
 const DRAWN: (f32, f32) = (0.0, 0.25);
 const WHITES: (f32, f32) = (0.3, 0.45);
-/// Tone relative to skin's at which a place starts to count as white of the eye, and at which it counts fully.
-const LIGHT: (f32, f32) = (1.05, 1.25);
 /// Range of the tone at which a feature ends and its skin begins, found from the feature's tones; and the softness of that end.
 const LIMITS: (f32, f32) = (0.75, 0.92);
 const GRADUAL: f32 = 0.08;
@@ -30,29 +23,9 @@ const AROUND: f64 = 0.1;
 const SHARP: (f32, f32) = (0.97, 0.82);
 /// The same for a mouth, whose lips are paler than an eye's lids.
 const SOFT: (f32, f32) = (1.0, 0.88);
-/// Blur of the drawn ink, in eye distances: a third of a lid's thickness.
-const BLUR: f64 = 0.006;
-/// Maximum tone, relative to skin's, that is taken as a face's darkest: pale features stay pale.
-const DARKEST: f32 = 0.5;
-/// Share of the features' pixels that are at least as dark as their darkest tone.
-const DARKEST_SHARE: f64 = 0.01;
 /// Bins of the histogram of tones, and the tone relative to skin's at its end.
 const BINS: usize = 256;
 const LIGHTEST_TONE: f32 = 1.25;
-/// Minimum share of a feature's pixels for a tone to count as a separate tone (section 6.1.1).
-const LEAST_SHARE: f64 = 0.02;
-/// Direction of the strokes, and of the cross strokes in the darkest places, in degrees.
-const ORIENT: f64 = -35.0;
-const CROSSING: f64 = -12.0;
-/// Ink below which nothing is drawn: a stroke at its lightest has twice as much.
-const FAINTEST: f32 = 0.2;
-/// Ink from which strokes are crossed: strokes of one direction leave slits.
-const CROSSED: f32 = 0.8;
-/// Distance of strokes in widths, and their length in eye distances.
-const SPACING: f64 = 0.9;
-const LENGTH: f64 = 0.7;
-/// Width of a stroke in eye distances: a fifteenth of an eye's opening.
-const WIDTH: f64 = 0.01;
 
 /// Where a feature is drawn.
 struct Oval {
@@ -73,6 +46,10 @@ pub(super) struct FeatureTones {
 
 impl Drawer<'_> {
     pub(super) fn feature_tones(&self, found: &FacialFeatures, frame: &FaceFrame) -> FeatureTones {
+        /// Tone relative to skin's at which a place starts to count as white of the eye, and at which it counts fully.
+        const LIGHT: (f32, f32) = (1.05, 1.25);
+        /// Blur of the drawn ink, in eye distances: a third of a lid's thickness.
+        const BLUR: f64 = 0.006;
         let sharp = gaussian_blur(&self.portrait.lightness, (BLUR * frame.eye_distance) as f32);
         let tone = Raster::from_fn(sharp.width(), sharp.height(), |x, y| sharp.get(x, y) / found.skin[x].max(0.02));
         let around = gaussian_blur(&tone, (AROUND * frame.eye_distance) as f32);
@@ -107,6 +84,16 @@ impl Drawer<'_> {
 
     /// Strokes with widths that make the ink, crossed where it is black.
     pub(super) fn draw_tones(&self, tones: &FeatureTones, frame: &FaceFrame) -> Vec<Mark> {
+        /// Direction of the strokes, and of the cross strokes in the darkest places, in degrees.
+        const ORIENT: f64 = -35.0;
+        const CROSSING: f64 = -12.0;
+        /// Ink below which nothing is drawn: a stroke at its lightest has twice as much.
+        const FAINTEST: f32 = 0.2;
+        /// Ink from which strokes are crossed: strokes of one direction leave slits.
+        const CROSSED: f32 = 0.8;
+        /// Distance of strokes in widths, and their length in eye distances.
+        const SPACING: f64 = 0.9;
+        const LENGTH: f64 = 0.7;
         let ink = &tones.ink;
         let width = self.feature_width(frame);
         let patch = |least: f32, degrees: f64| Patch {
@@ -128,6 +115,8 @@ impl Drawer<'_> {
 
     /// Width of a stroke in a face: an artist uses the stick's edge, so that an eye's lids and pupil keep their shapes.
     pub(super) fn feature_width(&self, frame: &FaceFrame) -> Millimetres {
+        /// Width of a stroke in eye distances: a fifteenth of an eye's opening.
+        const WIDTH: f64 = 0.01;
         let eyes = self.portrait.placement.mm(frame.eye_distance);
         self.parameters.stroke_width.min(WIDTH * eyes).max(0.2 * self.parameters.stroke_width)
     }
@@ -144,6 +133,12 @@ impl Oval {
         })
     }
 }
+
+/// Ovals of an eye with its lids, a nose's underside and a mouth: half sizes across and down as shares of their windows' half sizes;
+/// beyond is skin. Smaller loses the outer lashes of an eye found slightly off its place, larger takes in the brow.
+const EYE: Oval = Oval { half: (1.0, 0.2 / 0.17), has_white: true, sharp: SHARP };
+const NOSE: Oval = Oval { half: (0.4 / 0.36, 1.3), has_white: false, sharp: SHARP };
+const MOUTH: Oval = Oval { half: (0.56 / 0.52, 0.3 / 0.22), has_white: false, sharp: SOFT };
 
 /// The oval of a feature, if it is drawn by its tones.
 const fn oval_of(feature: FacialFeature) -> Option<Oval> {
@@ -164,6 +159,9 @@ fn bin(tone: f32) -> usize {
     ((tone / LIGHTEST_TONE * BINS as f32) as usize).min(BINS - 1)
 }
 
+/// Minimum share of a feature's pixels for a tone to count as a separate tone (section 6.1.1).
+const LEAST_SHARE: f64 = 0.02;
+
 /// The tone that separates skin from the darker parts of a feature, from the modes of its histogram (section 6.1.1).
 fn limit(tone: &Raster<f32>, inside: &Raster<f32>) -> f32 {
     let mut histogram = vec![0_u32; BINS];
@@ -174,6 +172,11 @@ fn limit(tone: &Raster<f32>, inside: &Raster<f32>) -> f32 {
     let darker = tones.filter(|tone| *tone < 1.0 - 2.0 * GRADUAL).fold(0.0, f32::max);
     f32::midpoint(1.0, darker).clamp(LIMITS.0, LIMITS.1)
 }
+
+/// Maximum tone, relative to skin's, that is taken as a face's darkest: pale features stay pale.
+const DARKEST: f32 = 0.5;
+/// Share of the features' pixels that are at least as dark as their darkest tone.
+const DARKEST_SHARE: f64 = 0.01;
 
 /// Tone of the features' darkest places, relative to skin's.
 fn darkest(tone: &Raster<f32>, ovals: &[Option<Raster<f32>>]) -> f32 {

@@ -34,24 +34,14 @@ pub(super) enum Pressing {
     Hatching,
 }
 
-/// Overlap of neighbouring swaths, as a share of an arc.
-const SWATH_OVERLAP: f64 = 0.2;
-/// Arcs drawn before the hand is set down anew, slightly displaced; and the displacement aside, along (shares of an arc's length) and in
-/// angle (radians). Without it the turns of all chains line up, and the background is one repeated wave.
-const ARCS_A_GROUP: std::ops::Range<usize> = 7..24;
-const ASIDE: f64 = 0.2;
-const LONGER: std::ops::Range<f64> = 0.8..1.2;
-const ASKEW: f64 = 0.07;
-/// Share of the turns at which the hand keeps the stick on the paper, in open hatching.
-const KEPT_TURNS: f64 = 0.85;
 /// Share of a swing's length at either end over which the pressure grows, and the pressure that is left at a turn on the paper.
 const TURN: f64 = 0.3;
 const TURN_PRESSURE: f64 = 0.35;
-/// Pieces shorter than this many widths are specks.
-const LEAST_WIDTHS: f64 = 1.5;
 impl Drawer<'_> {
     /// The strokes of a patch: chains of arcs side by side, cut to the region; `local` scales the pressure at a place.
     pub(super) fn shade_patch(&self, patch: &Patch, stage: &str, element: u64, local: impl Fn(Point) -> f64) -> Vec<Mark> {
+        /// Pieces shorter than this many widths are specks.
+        const LEAST_WIDTHS: f64 = 1.5;
         let is_hatching = patch.pressing == Pressing::Hatching;
         let touch = Touch {
             width: patch.width,
@@ -76,6 +66,14 @@ impl Drawer<'_> {
 
     /// Strokes that cover the region's bounds in its orientation: groups of arcs, one below another in swaths.
     fn chains(&self, patch: &Patch, random: &mut impl Rng) -> Vec<Vec<Point>> {
+        /// Overlap of neighbouring swaths, as a share of an arc.
+        const SWATH_OVERLAP: f64 = 0.2;
+        /// Arcs drawn before the hand is set down anew, slightly displaced; and the displacement aside, along (shares of an arc's
+        /// length) and in angle (radians). Without it the turns of all chains line up, and the background is one repeated wave.
+        const ARCS_A_GROUP: std::ops::Range<usize> = 7..24;
+        const ASIDE: f64 = 0.2;
+        const LONGER: std::ops::Range<f64> = 0.8..1.2;
+        const ASKEW: f64 = 0.07;
         let along = unit_at(patch.orientation);
         let across = Vec2::new(-along.y, along.x);
         let Some(bounds) = turned_bounds(&patch.region, along, across) else { return Vec::new() };
@@ -127,6 +125,9 @@ fn lightened(p: Point, turns: &[Point], ramp: f64) -> f64 {
     let t = away / ramp.max(1e-6);
     TURN_PRESSURE + (1.0 - TURN_PRESSURE) * t * t * (3.0 - 2.0 * t)
 }
+
+/// Share of the turns at which the hand keeps the stick on the paper, in open hatching.
+const KEPT_TURNS: f64 = 0.85;
 
 /// The arcs as strokes: a single one or, in open hatching, a new one after most turns.
 fn lifted(arcs: &[Vec<Point>], pressing: Pressing, random: &mut impl Rng) -> Vec<Vec<Point>> {

@@ -23,47 +23,6 @@ pub(super) struct Regions {
     pub has_background: bool,
 }
 
-/// Minimum score of a face found by search. In whole pictures the search finds faces in suits and coffee with scores as good as a real
-/// face's, so it is limited to the head of a silhouette.
-const LEAST_SCORE: f64 = 0.12;
-/// Position of the eyes in the box of a face (brow to chin) and of a head with its hair: how far down, the tolerances across and down,
-/// and the eye distance, as shares of the box.
-const IN_FACE: [f64; 4] = [0.39, 0.08, 0.07, 0.44];
-const IN_HEAD: [f64; 4] = [0.64, 0.1, 0.12, 0.36];
-/// Maximum colour step between neighbours within a plain background, in encoded light; even a blurred edge of a person is steeper.
-const BACKGROUND_STEP: f32 = 0.012;
-/// Maximum colour distance of a plain background from its border's median: a lit backdrop varies by a third.
-const BACKGROUND_SPREAD: f32 = 0.3;
-/// Range of shares of the picture in which a flooded background is accepted.
-const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
-/// Minimum of the colour distance within which a pixel is hair, if it is nearer to the hair's colour than to the skin's.
-const HAIR_REACH: f32 = 0.16;
-/// Minimum colour distance between hair and skin, and the distance from which colour alone identifies hair. On the dark bust it is
-/// smaller, and half of the face would become hair; blond hair has half as much, and only its crown and the hair hanging from it are
-/// taken.
-const LEAST_CONTRAST: f32 = 0.12;
-const CLEAR_CONTRAST: f32 = 0.3;
-/// Shares of its encoded light that skin has from its lit to its shaded side; hair differs from all of them.
-const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
-/// Share of its encoded light below which nothing is shaded skin, and the colour distance to skin in any light from which a colour is
-/// not skin. Tuned on the busts and the portraits: a shaved head's shaded side has 0.72 and 0.08, a bald forehead's gleam 1.12 and 0.05;
-/// black and brown hair has 0.3 to 0.57, white and grey hair 0.13 to 0.22.
-const DARKEST_SKIN: f32 = 0.62;
-const LEAST_STRANGE: f32 = 0.1;
-/// Width of a strand in eye distances, and the texture from which a skin-coloured region is hair, relative to the cheeks: two bald heads
-/// have 1.2 and 1.6, curls as light as skin 4.4. Cheeks in photographs have a texture of 0.024 to 0.08 of their light; drawn ones almost
-/// none.
-const STRAND: f64 = 0.03;
-const ROUGH: f64 = 2.5;
-const LEAST_TEXTURE: f64 = 0.02;
-/// Why no hair is drawn.
-const NO_HAIR: &str = "no hair was found: it is drawn like the rest, not in strokes";
-const LIKE_SKIN: &str = "the area above the brow is too like the skin, in light or shade, to count as hair: it is drawn like the rest, not in strokes";
-/// How far down hair hangs beside a face, in eye distances.
-const LOWEST_FRINGE: f64 = 0.75;
-/// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
-const CLOSED: f64 = 0.3;
-
 impl Regions {
     /// Bare skin: what is neither hair nor clothing.
     pub(super) fn skin(&self) -> Raster<f32> {
@@ -71,6 +30,10 @@ impl Regions {
         bare.zip_map(&self.clothing, |bare, cloth| (bare - cloth).max(0.0))
     }
 }
+
+/// Why no hair is drawn.
+const NO_HAIR: &str = "no hair was found: it is drawn like the rest, not in strokes";
+const LIKE_SKIN: &str = "the area above the brow is too like the skin, in light or shade, to count as hair: it is drawn like the rest, not in strokes";
 
 impl Drawer<'_> {
     pub(super) fn regions(&self) -> Regions {
@@ -139,6 +102,13 @@ impl Drawer<'_> {
 
     /// Flooded from the border through small steps of colour near the border's own (section 3.1.1's blue screen).
     fn plain_background(&self) -> Option<Raster<u8>> {
+        /// Maximum colour step between neighbours within a plain background, in encoded light; even a blurred edge of a person is
+        /// steeper.
+        const BACKGROUND_STEP: f32 = 0.012;
+        /// Maximum colour distance of a plain background from its border's median: a lit backdrop varies by a third.
+        const BACKGROUND_SPREAD: f32 = 0.3;
+        /// Range of shares of the picture in which a flooded background is accepted.
+        const BACKGROUND_SHARE: (f64, f64) = (0.1, 0.9);
         let colour = self.colours();
         let (width, height) = self.size();
         // A person is cut by the picture's lower border.
@@ -171,6 +141,13 @@ impl Drawer<'_> {
 
     /// The face's pattern: inside the given mask; otherwise in the head, which is known only from a silhouette.
     fn frame(&self, subject: &Raster<f32>, head: Option<Rect>, given: Option<&Raster<f32>>) -> Option<FaceFrame> {
+        /// Minimum score of a face found by search. In whole pictures the search finds faces in suits and coffee with scores as
+        /// good as a real face's, so it is limited to the head of a silhouette.
+        const LEAST_SCORE: f64 = 0.12;
+        /// Position of the eyes in the box of a face (brow to chin) and of a head with its hair: how far down, the tolerances
+        /// across and down, and the eye distance, as shares of the box.
+        const IN_FACE: [f64; 4] = [0.39, 0.08, 0.07, 0.44];
+        const IN_HEAD: [f64; 4] = [0.64, 0.1, 0.12, 0.36];
         let lightness = &self.portrait.lightness;
         if let Some(face) = given {
             return find_face(lightness, face, &expected_in(bounds(face)?, &IN_FACE));
@@ -206,6 +183,19 @@ impl Drawer<'_> {
         frame: &FaceFrame,
         fringe: &Raster<u8>,
     ) -> Result<Raster<f32>, &'static str> {
+        /// Minimum of the colour distance within which a pixel is hair, if it is nearer to the hair's colour than to the skin's.
+        const HAIR_REACH: f32 = 0.16;
+        /// Minimum colour distance between hair and skin, and the distance from which colour alone identifies hair. On the dark
+        /// bust it is smaller, and half of the face would become hair; blond hair has half as much, and only its crown and the
+        /// hair hanging from it are taken.
+        const LEAST_CONTRAST: f32 = 0.12;
+        const CLEAR_CONTRAST: f32 = 0.3;
+        /// Shares of its encoded light that skin has from its lit to its shaded side; hair differs from all of them.
+        const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
+        /// How far down hair hangs beside a face, in eye distances.
+        const LOWEST_FRINGE: f64 = 0.75;
+        /// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
+        const CLOSED: f64 = 0.3;
         let colour = self.colours();
         let (hair, skin) = Self::hair_and_skin(&colour, subject, frame).ok_or(NO_HAIR)?;
         let contrast = distance(hair, skin);
@@ -244,6 +234,12 @@ impl Drawer<'_> {
 
     /// True if a region has strands: compares its texture, relative to its light and away from its border, with that of the cheeks.
     fn is_rough(&self, region: &Raster<u8>, frame: &FaceFrame) -> bool {
+        /// Width of a strand in eye distances, and the texture from which a skin-coloured region is hair, relative to the cheeks:
+        /// two bald heads have 1.2 and 1.6, curls as light as skin 4.4. Cheeks in photographs have a texture of 0.024 to 0.08 of
+        /// their light; drawn ones almost none.
+        const STRAND: f64 = 0.03;
+        const ROUGH: f64 = 2.5;
+        const LEAST_TEXTURE: f64 = 0.02;
         let lightness = &self.portrait.lightness;
         let size = frame.eye_distance;
         let broad = gaussian_blur(lightness, (STRAND * size) as f32);
@@ -288,6 +284,12 @@ fn joined(a: Option<Raster<f32>>, b: Option<Raster<f32>>) -> Option<Raster<f32>>
         (a, b) => a.or(b),
     }
 }
+
+/// Share of its encoded light below which nothing is shaded skin, and the colour distance to skin in any light from which a colour is
+/// not skin. Tuned on the busts and the portraits: a shaved head's shaded side has 0.72 and 0.08, a bald forehead's gleam 1.12 and 0.05;
+/// black and brown hair has 0.3 to 0.57, white and grey hair 0.13 to 0.22.
+const DARKEST_SKIN: f32 = 0.62;
+const LEAST_STRANGE: f32 = 0.1;
 
 /// True if a colour differs from this skin's colour in any light.
 fn is_unlike_skin(hair: [f32; 3], skin: [f32; 3]) -> bool {

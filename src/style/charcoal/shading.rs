@@ -11,36 +11,13 @@ use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur, paper_texture};
 use crate::source::Landmarks;
 
-/// Pressure of the background's strokes, and their width at it as a share of the full width: lighter than anything in the portrait.
-const BACKGROUND_PRESSURE: f64 = 0.3;
-const BACKGROUND_WIDTH: f64 = 0.44;
-/// Distance of the strokes over what their ink asks for: the broad side of the stick makes the rest.
-const APART: f64 = 1.3;
-/// Width of a background stroke as a share of the stick's.
-const BACKGROUND_STROKE: f64 = 0.7;
 /// Distance over which the background falls away from a subject without a face, in sheet widths; and from the middle of a head, in widths
 /// of its face: there it has half of its pressure.
 const FALL: f64 = 0.22;
 const ABOUT_HEAD: f64 = 1.5;
-/// The middle of a head above the middle of its face, in widths of the face.
-const ABOVE_FACE: f64 = 0.25;
 /// By how much it is firmer on the side that the light comes from and fainter on the other, and how far it leans there in widths of the face.
 const TO_LIGHT: f64 = 0.45;
 const LEAN: f64 = 0.25;
-/// Width of the airy rim within the sheet's border, as a share of the sheet's short side.
-const AIRY: f64 = 0.2;
-/// By how much of that it wavers, so that the strokes have no straight border.
-const WAVER: f32 = 0.8;
-/// Shares of the pressure beside black and beside white parts of the subject.
-const AGAINST: [f32; 2] = [0.25, 1.5];
-/// Pressure below which the background stays paper, and the range over which it ends.
-const LEAST_BACKGROUND: f32 = 0.3;
-const SOFT_BACKGROUND: f32 = 0.1;
-/// Sets of strokes in clothing: ink from which they are drawn, distance in pitches, and angle against the shading's direction.
-const CLOTH_HATCHES: [Hatch; 2] =
-    [Hatch { from: 0.3, spacing: 1.5, turned: 0.0 }, Hatch { from: 0.6, spacing: 1.6, turned: 0.22 }];
-/// Share of the ink that each set aims at; with more the cloth is a net, with less it is grain alone.
-const CLOTH_SHARE: f64 = 0.5;
 
 /// A head before its background.
 struct Head {
@@ -51,6 +28,8 @@ struct Head {
 
 impl Head {
     fn of(face: &Landmarks, lightness: &Raster<f32>) -> Self {
+        /// The middle of a head above the middle of its face, in widths of the face.
+        const ABOVE_FACE: f64 = 0.25;
         let up = face.point(10) - face.point(152);
         let up = up / up.hypot().max(1.0);
         let (width, lit_side) = (face.width(), face.lit_side(lightness));
@@ -80,10 +59,20 @@ struct Hatch {
     turned: f64,
 }
 
+/// Pressure below which the background stays paper, and the range over which it ends.
+const LEAST_BACKGROUND: f32 = 0.3;
+const SOFT_BACKGROUND: f32 = 0.1;
+
 impl Drawer<'_> {
     /// Clothing and everything that is neither face nor hair, in the tones of its folds: strokes as firm as the cloth is dark, crossed in
     /// the darks; the grain makes up the rest.
     pub(super) fn shading(&self, regions: &Regions, features: &Features, wanted: &Raster<f32>) -> Vec<Mark> {
+        /// Sets of strokes in clothing: ink from which they are drawn, distance in pitches, and angle against the shading's
+        /// direction.
+        const CLOTH_HATCHES: [Hatch; 2] =
+            [Hatch { from: 0.3, spacing: 1.5, turned: 0.0 }, Hatch { from: 0.6, spacing: 1.6, turned: 0.22 }];
+        /// Share of the ink that each set aims at; with more the cloth is a net, with less it is grain alone.
+        const CLOTH_SHARE: f64 = 0.5;
         if !self.parameters.has_shading {
             return Vec::new();
         }
@@ -127,6 +116,14 @@ impl Drawer<'_> {
 
     /// Section 6.3.5: firmer beside the light parts of the subject.
     pub(super) fn background(&self, regions: &Regions, pressure: &Raster<f32>) -> Vec<Mark> {
+        /// Pressure of the background's strokes, and their width at it as a share of the full width: lighter than anything in the
+        /// portrait.
+        const BACKGROUND_PRESSURE: f64 = 0.3;
+        const BACKGROUND_WIDTH: f64 = 0.44;
+        /// Distance of the strokes over what their ink asks for: the broad side of the stick makes the rest.
+        const APART: f64 = 1.3;
+        /// Width of a background stroke as a share of the stick's.
+        const BACKGROUND_STROKE: f64 = 0.7;
         if pressure.pixels().iter().all(|p| *p <= 0.0) {
             return Vec::new();
         }
@@ -152,6 +149,12 @@ impl Drawer<'_> {
     /// Pressure of the background at a place: it fades away from the head, or without a face from the subject, and towards the sheet's
     /// border; firm beside light parts of the subject and faint beside dark ones, so that both stand out.
     fn nearness(&self, subject: &Raster<f32>) -> Raster<f32> {
+        /// Width of the airy rim within the sheet's border, as a share of the sheet's short side.
+        const AIRY: f64 = 0.2;
+        /// By how much of that it wavers, so that the strokes have no straight border.
+        const WAVER: f32 = 0.8;
+        /// Shares of the pressure beside black and beside white parts of the subject.
+        const AGAINST: [f32; 2] = [0.25, 1.5];
         let (width, height) = self.size();
         let short = width.min(height) as f64;
         let reach = (FALL * short) as f32;

@@ -15,40 +15,6 @@ use crate::style::solids::detail_zone;
 use kurbo::{Line, ParamCurveNearest};
 use std::f32::consts::PI;
 
-/// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
-const PIXELS_A_GRAIN: f64 = 5.0;
-/// Scale of the coarser texture that the thesis blends in, in grains: clumps of two or three grains make a middle tone gritty.
-const CLUMP: f32 = 2.0;
-/// Tolerance of a grain's outline, in grains.
-const OUTLINE_TOLERANCE: f64 = 0.04;
-/// Maximum effect of `brighten`: ink removed everywhere, so that lit skin is bare paper, and a share of the rest. Tuned on the busts:
-/// with less lifted, light skin is grey all over; with more, dark skin is washed out.
-const LIFTED: f32 = 0.3;
-const THINNED: f32 = 0.4;
-/// Ink below which paper is left clean, as smudging does; half a grain in a hundred would look like dust.
-const CLEAN: f32 = 0.012;
-/// How much firmer thin dark lines are than their tone: lines of a grain's width, as rims of spectacles, would break up.
-const FIRMER: f32 = 1.0;
-/// Distance from the line between the pupils, in eye distances, within which detail is kept, and at which it no longer is.
-const AROUND_EYES: (f64, f64) = (0.5, 0.75);
-/// Reaches over which half tones are rubbed into the lights of skin, in shares of the smudge's blur: at their borders, and over foreheads.
-const STUMP: [f64; 2] = [4.0, 12.0];
-/// Size of the grains on skin, as a share of the others'.
-const FINE_GRAIN: f32 = 0.6;
-/// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
-const BEHIND: f32 = 1.5;
-const BEHIND_BLUR: f64 = 4.0;
-/// Margin of the picture in which the background's smudge fades to nothing, as a share of its short side: it is clean for half of this
-/// and full at one and a half. Scattered grains look like dust.
-const CLEAN_MARGIN: f64 = 0.07;
-/// Width of the broad strokes in the background, in pitches.
-const BROAD: f64 = 7.0;
-/// Their least pressure, and by how much more they press at most.
-const BROAD_SPREAD: (f32, f32) = (0.45, 1.1);
-/// Blur in a face's features, as a share of the smudge's; and the square of the step of ink from which a border stays sharp.
-const FINE: f64 = 0.12;
-const SMUDGED_STEP: f32 = 0.09 * 0.09;
-
 /// What the grain is drawn under and beside, on the working grid.
 pub(super) struct Laid<'a> {
     pub regions: &'a Regions,
@@ -62,9 +28,19 @@ pub(super) struct Laid<'a> {
     pub background: &'a Raster<f32>,
 }
 
+/// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
+const PIXELS_A_GRAIN: f64 = 5.0;
+
 impl Drawer<'_> {
     /// Grain that makes the tone together with what else is drawn.
     pub(super) fn tone(&self, parts: &Laid<'_>) -> Vec<Mark> {
+        /// Scale of the coarser texture that the thesis blends in, in grains: clumps of two or three grains make a middle tone
+        /// gritty.
+        const CLUMP: f32 = 2.0;
+        /// Tolerance of a grain's outline, in grains.
+        const OUTLINE_TOLERANCE: f64 = 0.04;
+        /// Ink below which paper is left clean, as smudging does; half a grain in a hundred would look like dust.
+        const CLEAN: f32 = 0.012;
         self.observer.begin("tone");
         let smudged = self.smudged(parts);
         self.show("smudged", &smudged);
@@ -91,6 +67,8 @@ impl Drawer<'_> {
 
     /// The paper's tooth, finer on the skin of people whose faces are known: a hand presses smaller grains there.
     fn finer_in_faces(&self, tooth: Raster<f32>, parts: &Laid<'_>) -> Raster<f32> {
+        /// Size of the grains on skin, as a share of the others'.
+        const FINE_GRAIN: f32 = 0.6;
         let zone = parts.sharp.zip_map(&parts.regions.skin(), f32::max);
         let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
         let (width, height) = (tooth.width(), tooth.height());
@@ -107,6 +85,12 @@ impl Drawer<'_> {
 
     /// Tone of the grain (section 3.1.5): what strokes leave of the ink that is wanted, and a smudge behind the subject.
     fn smudged(&self, parts: &Laid<'_>) -> Raster<f32> {
+        /// Smudge in the background at full pressure, in shares of its strokes' ink, and its blur in shares of the smudge's.
+        const BEHIND: f32 = 1.5;
+        const BEHIND_BLUR: f64 = 4.0;
+        /// Margin of the picture in which the background's smudge fades to nothing, as a share of its short side: it is clean for
+        /// half of this and full at one and a half. Scattered grains look like dust.
+        const CLEAN_MARGIN: f64 = 0.07;
         let blur =
             |length: f64, raster: &Raster<f32>| gaussian_blur(raster, (length * self.pixels(self.parameters.smudge)) as f32);
         let left = parts.wanted.zip_map(parts.strokes, |wanted, laid| ((wanted - laid) / (1.0 - laid).max(0.05)).clamp(0.0, 1.0));
@@ -127,6 +111,10 @@ impl Drawer<'_> {
 
     /// Pressure of the stick's broad side, drawn to and fro in the direction of the shading: 1 in the mean.
     fn broad_strokes(&self) -> Raster<f32> {
+        /// Width of the broad strokes in the background, in pitches.
+        const BROAD: f64 = 7.0;
+        /// Their least pressure, and by how much more they press at most.
+        const BROAD_SPREAD: (f32, f32) = (0.45, 1.1);
         let (width, height) = self.size();
         let (long, across) = (self.pixels(self.parameters.arc_length), self.pixels(BROAD * self.parameters.pitch));
         let diagonal = (width as f64).hypotenuse(height as f64);
@@ -143,6 +131,15 @@ impl Drawer<'_> {
 
     /// Ink that strokes and grain make together: smooth on skin and cloth, sharp at borders, and as it is in the faces' features.
     pub(super) fn wanted(&self, regions: &Regions, sharp: &Raster<f32>) -> Raster<f32> {
+        /// How much firmer thin dark lines are than their tone: lines of a grain's width, as rims of spectacles, would break up.
+        const FIRMER: f32 = 1.0;
+        /// Reaches over which half tones are rubbed into the lights of skin, in shares of the smudge's blur: at their borders,
+        /// and over foreheads.
+        const STUMP: [f64; 2] = [4.0, 12.0];
+        /// Blur in a face's features, as a share of the smudge's; and the square of the step of ink from which a border stays
+        /// sharp.
+        const FINE: f64 = 0.12;
+        const SMUDGED_STEP: f32 = 0.09 * 0.09;
         let gain = self.parameters.hair_ink - 1.0;
         let ink = self.darkness().zip_map(&regions.hair, |ink, hair| (self.washed(ink) * (1.0 + gain * hair)).clamp(0.0, 1.0));
         let blur = self.pixels(self.parameters.smudge);
@@ -161,6 +158,9 @@ impl Drawer<'_> {
 
     /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
     pub(super) fn sharp_zone(&self) -> Raster<f32> {
+        /// Distance from the line between the pupils, in eye distances, within which detail is kept, and at which it no longer
+        /// is.
+        const AROUND_EYES: (f64, f64) = (0.5, 0.75);
         let detail = detail_zone(self.portrait, self.pitch());
         let faces = &self.portrait.faces;
         Raster::from_fn(detail.width(), detail.height(), |x, y| {
@@ -176,6 +176,10 @@ impl Drawer<'_> {
 
     /// Brightened ink of the smudge.
     pub(super) fn washed(&self, ink: f32) -> f32 {
+        /// Maximum effect of `brighten`: ink removed everywhere, so that lit skin is bare paper, and a share of the rest. Tuned
+        /// on the busts: with less lifted, light skin is grey all over; with more, dark skin is washed out.
+        const LIFTED: f32 = 0.3;
+        const THINNED: f32 = 0.4;
         let wash = self.parameters.brighten;
         (ink - LIFTED * wash).max(0.0) * (1.0 - THINNED * wash)
     }

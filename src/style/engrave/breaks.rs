@@ -7,15 +7,6 @@ use super::widths::{LineReading, LineReadings};
 use crate::geometry::{Point, Rect, radius_for_area};
 use crate::raster::Raster;
 
-/// Dashes shorter than this become dots, in pitches.
-const LEAST_DASH: f64 = 0.5;
-/// Width of a dash's end as a fraction of the dash's width.
-const END_WIDTH: f64 = 0.25;
-/// Longest taper of a dash, in pitches.
-const DASH_TAPER: f64 = 0.6;
-/// The golden section, which spreads the starting phases of lines.
-const GOLDEN: f64 = 0.618_033_988_749_895;
-
 /// Interruption of a family's lines.
 #[derive(Clone, Copy)]
 pub(super) struct LineBreaks<'a> {
@@ -94,6 +85,10 @@ impl Reading {
 impl LineBreaks<'_> {
     /// The pieces of one line.
     pub(super) fn pieces(&self, courses: &LineReadings<'_>, k: usize) -> Vec<Piece> {
+        /// Dashes shorter than this become dots, in pitches.
+        const LEAST_DASH: f64 = 0.5;
+        /// The golden section, which spreads the starting phases of lines.
+        const GOLDEN: f64 = 0.618_033_988_749_895;
         let course = &courses.lines[k];
         let mut pieces = Vec::new();
         // Ink too small for a dot is carried over to the next one.
@@ -239,6 +234,9 @@ fn centre(a: &Reading, b: &Reading) -> Option<f64> {
     (middle <= high && high - low < 0.9).then(|| a.at + (b.at - a.at) * (middle - a.phase) / (b.phase - a.phase))
 }
 
+/// Longest taper of a dash, in pitches.
+const DASH_TAPER: f64 = 0.6;
+
 /// A dash over a run with `wanted` ink, as far as there is room.
 fn dash(readings: &[Reading], run: Run, span: Span, wanted: f64, pitch: f64) -> Piece {
     let length = run.to - run.from;
@@ -265,6 +263,9 @@ fn dash(readings: &[Reading], run: Run, span: Span, wanted: f64, pitch: f64) -> 
     let places = profile.iter().map(|&(u, width, room, _)| (u, (width * factor).min(room))).collect();
     Piece::Dash { places, tapers }
 }
+
+/// Width of a dash's end as a fraction of the dash's width.
+const END_WIDTH: f64 = 0.25;
 
 /// Share of its width that a dash keeps near its ends.
 pub(super) fn taper_at(u: f64, from: f64, to: f64, tapers: [f64; 2]) -> f64 {

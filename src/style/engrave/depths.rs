@@ -7,22 +7,13 @@ use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{bend_by_shading, inflate};
 use crate::raster::{Raster, bilateral, enlarge, gaussian_blur, reduce};
 
-/// Smoothing of a photograph before its light is used as depth, in pitches: finer detail is texture, not form.
-const PHOTO_SMOOTHING: f64 = 1.5;
-/// Difference of lightness that this smoothing keeps as an edge.
-const PHOTO_EDGE: f32 = 0.15;
-/// Minimum shorter side of the raster on which forms are computed, in pixels.
-const FORM_SIDE: usize = 200;
-/// Scale, as a share of the picture's shorter side, above which changes of brightness are colour, not shading.
-const LOCAL: f64 = 0.12;
-/// Slope for a full step of lightness.
-const SHADING_GAIN: f32 = 2.0;
-/// Share of the height taken from the lightness itself: in faces and still lifes near parts catch the light.
-const NEAR_IS_LIGHT: f32 = 0.35;
-
 impl Drawer<'_> {
     /// Nearness, 0 to 1.
     pub(super) fn guessed_depth(&self) -> Raster<f32> {
+        /// Smoothing of a photograph before its light is used as depth, in pitches: finer detail is texture, not form.
+        const PHOTO_SMOOTHING: f64 = 1.5;
+        /// Difference of lightness that this smoothing keeps as an edge.
+        const PHOTO_EDGE: f32 = 0.15;
         let lightness = self.portrait.on_white(&self.portrait.lightness);
         let sigma = (PHOTO_SMOOTHING * self.pitch()) as f32;
         let smoothed = gaussian_blur(&bilateral(&lightness, sigma, PHOTO_EDGE), 0.5 * sigma);
@@ -35,6 +26,8 @@ impl Drawer<'_> {
 
     /// Computes a form on a smaller raster of the main regions and the lightness, since forms are smooth.
     fn at_form_scale(&self, lightness: &Raster<f32>, form: impl Fn(&Raster<i32>, &Raster<f32>) -> Raster<f32>) -> Raster<f32> {
+        /// Minimum shorter side of the raster on which forms are computed, in pixels.
+        const FORM_SIDE: usize = 200;
         let (width, height) = (lightness.width(), lightness.height());
         let factor = (width.min(height) / FORM_SIDE).max(1);
         let small = reduce(lightness, factor);
@@ -45,6 +38,12 @@ impl Drawer<'_> {
     }
 
     fn shaped(&self, regions: &Raster<i32>, lightness: &Raster<f32>) -> Raster<f32> {
+        /// Scale, as a share of the picture's shorter side, above which changes of brightness are colour, not shading.
+        const LOCAL: f64 = 0.12;
+        /// Slope for a full step of lightness.
+        const SHADING_GAIN: f32 = 2.0;
+        /// Share of the height taken from the lightness itself: in faces and still lifes near parts catch the light.
+        const NEAR_IS_LIGHT: f32 = 0.35;
         let side = lightness.width().min(lightness.height()) as f64;
         let local = gaussian_blur(lightness, (LOCAL * side) as f32);
         let shading = lightness.zip_map(&local, |v, mean| v - mean);

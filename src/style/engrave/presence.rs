@@ -4,14 +4,6 @@ use super::lines::{Family, Line};
 use crate::elementary::Elementary as _;
 use crate::parallel::collected;
 
-/// Spacing above which a line is inserted between two, in pitches.
-const OPEN: f64 = 1.5;
-/// Spacing below which it ends; the hysteresis keeps it from coming and going.
-const OPEN_ENOUGH: f64 = 1.3;
-/// Mean spacing below which every second line ends, in pitches: at 0.4 dark hollows fill up, at 0.7 the ends show as a seam.
-const CLOSED: f64 = 0.5;
-/// Mean spacing above which it continues.
-const CLOSED_NO_MORE: f64 = 0.6;
 /// Minimum length of an inserted line or of an interruption, in pitches.
 const LEAST_LENGTH: f64 = 3.0;
 /// Length over which a line tapers, in pitches.
@@ -42,6 +34,11 @@ impl Family {
 
     /// The presence of base line `k`, given those `reach` below and above; none if it is present everywhere.
     fn ends_between(&self, k: usize, reach: usize) -> Option<Vec<f32>> {
+        /// Mean spacing below which every second line ends, in pitches: at 0.4 dark hollows fill up, at 0.7 the ends show as a
+        /// seam.
+        const CLOSED: f64 = 0.5;
+        /// Mean spacing above which it continues.
+        const CLOSED_NO_MORE: f64 = 0.6;
         let (below, above) = (&self.lines[k - reach].heights, &self.lines[k + reach].heights);
         let limit = |of: f64| 2.0 * of * self.pitch;
         let closed = self.spaced(below, above, |spacing, was| spacing < limit(if was { CLOSED_NO_MORE } else { CLOSED }));
@@ -78,6 +75,10 @@ impl Family {
 
     /// Tapered lines between two curves whose first column is `first`, in order.
     fn between(&self, first: usize, below: &[f64], above: &[f64], levels: usize) -> Vec<Line> {
+        /// Spacing above which a line is inserted between two, in pitches.
+        const OPEN: f64 = 1.5;
+        /// Spacing below which it ends; the hysteresis keeps it from coming and going.
+        const OPEN_ENOUGH: f64 = 1.3;
         // Shortcut: most pairs are nowhere too far apart.
         if levels == 0 || below.iter().zip(above).all(|(a, b)| b - a <= OPEN * self.pitch) {
             return Vec::new();

@@ -11,18 +11,6 @@ use super::lines::{Family, Line};
 use super::widths::LineReadings;
 use crate::geometry::Vec2;
 
-/// Minimum room in pitches, as half a line's width, for a line along the rim: with less it would be a hairline that leaves its strip
-/// white, with more the strip beside the rim stays white.
-const ALONG: f64 = 0.25;
-/// Share of a line's half width that points at a side of the picture: up to the first value the line ends flat before the side, with
-/// room for its maximum width (narrowing would leave a spike); from the second it runs along the side.
-const ENDS: f64 = 0.35;
-const RUNS: f64 = 0.7;
-/// Maximum width for which room is kept, in pitches; wider lines narrow at the rim.
-const WIDEST: f64 = 1.5;
-/// Tolerance of the fit of widths and ends, in pitches.
-const FITTED: f64 = 0.03;
-
 /// The rim as a line meets it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rim {
@@ -35,6 +23,17 @@ pub(super) struct Rim {
 impl LineReadings<'_> {
     /// The rim at a place along a line.
     pub(super) fn rim(&self, line: &Line, u: f64) -> Rim {
+        /// Minimum room in pitches, as half a line's width, for a line along the rim: with less it would be a hairline that
+        /// leaves its strip white, with more the strip beside the rim stays white.
+        const ALONG: f64 = 0.25;
+        /// Share of a line's half width that points at a side of the picture: up to the first value the line ends flat before the
+        /// side, with room for its maximum width (narrowing would leave a spike); from the second it runs along the side.
+        const ENDS: f64 = 0.35;
+        const RUNS: f64 = 0.7;
+        /// Maximum width for which room is kept, in pitches; wider lines narrow at the rim.
+        const WIDEST: f64 = 1.5;
+        /// Tolerance of the fit of widths and ends, in pitches.
+        const FITTED: f64 = 0.03;
         let Family { first, step, frame, pitch, .. } = *self.family;
         let x = ((u - first) / step - line.first as f64).clamp(0.0, (line.heights.len() - 1) as f64);
         let i = (x as usize).min(line.heights.len() - 2);

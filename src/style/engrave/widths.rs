@@ -10,18 +10,6 @@ use crate::raster::Raster;
 
 /// Readings per pitch along a line.
 pub(super) const READINGS: f64 = 8.0;
-/// Tone samples from a line to the border of its strip.
-const DEPTHS: usize = 3;
-/// Maximum half-width of a line's strip on a side without a neighbour, in pitches: with less the picture's rim is too light, with more,
-/// lines that end at a slanted border end in knobs.
-const REACH: f64 = 0.7;
-/// Maximum distance of a neighbouring line, in pitches.
-const NEIGHBOURHOOD: f64 = 4.0;
-/// Rounds of smoothing the widths along a line, each over a quarter of a pitch: with none fine texture makes lines shiver, with many the
-/// texture is lost.
-const SMOOTHING_ROUNDS: usize = 2;
-/// Minimum share of a line's side that a border takes: along a border half the distance counts.
-const LEAST_ACROSS: f64 = 0.1;
 
 /// Target of a family: its region, turn and ink.
 #[derive(Clone, Copy)]
@@ -105,6 +93,9 @@ impl<'a> LineReadings<'a> {
 
     /// Sets each line's width from the ink of its strip.
     fn set_widths(&mut self) {
+        /// Rounds of smoothing the widths along a line, each over a quarter of a pitch: with none fine texture makes lines
+        /// shiver, with many the texture is lost.
+        const SMOOTHING_ROUNDS: usize = 2;
         let sides = self.sides();
         let step = self.step();
         let courses = std::mem::take(&mut self.lines);
@@ -135,6 +126,8 @@ impl<'a> LineReadings<'a> {
 
     /// Ink of a line's strip at one place and how much of it lies inside the region, in millimetres across.
     fn strip(&self, u: f64, height: f64, sides: Sides, inside: f64) -> (f64, f64) {
+        /// Tone samples from a line to the border of its strip.
+        const DEPTHS: usize = 3;
         let ground = self.wanted.ground;
         let soft = ground.grid.pixel_mm();
         let (mut area, mut within) = (0.0, 0.0);
@@ -159,6 +152,11 @@ impl<'a> LineReadings<'a> {
 
     /// The neighbours below and above, for every reading of every line.
     fn sides(&self) -> Vec<Vec<Sides>> {
+        /// Maximum half-width of a line's strip on a side without a neighbour, in pitches: with less the picture's rim is too
+        /// light, with more, lines that end at a slanted border end in knobs.
+        const REACH: f64 = 0.7;
+        /// Maximum distance of a neighbouring line, in pitches.
+        const NEIGHBOURHOOD: f64 = 4.0;
         let mut sides: Vec<Vec<Sides>> = self.lines.iter().map(|c| vec![Sides::default(); c.weight.len()]).collect();
         let columns = self.family.columns / self.stride + 1;
         let upwards: Vec<usize> = (0..self.lines.len()).collect();
@@ -189,6 +187,8 @@ impl<'a> LineReadings<'a> {
 
     /// Width at which a line's side touches a slanted border: the line ends there in a point, not in a protruding square end.
     fn border_room(&self, line: &Line, course: &LineReading, i: usize) -> f32 {
+        /// Minimum share of a line's side that a border takes: along a border half the distance counts.
+        const LEAST_ACROSS: f64 = 0.1;
         let Wanted { ground, region, turn, width_max, .. } = self.wanted;
         if f64::from(course.inside[i]) > ground.near.max(0.5 * width_max) {
             return f32::INFINITY;

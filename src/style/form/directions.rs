@@ -19,30 +19,8 @@ use crate::style::drawer::Pitched;
 use crate::style::head::Head;
 use std::f64::consts::PI;
 
-/// Cells of the grid on which directions are spread, per width of the largest face, and the most along the picture's longer side.
-const CELLS_PER_FACE: f64 = 60.0;
-const MOST_CELLS: f64 = 320.0;
-/// Stiffness of the spread fields.
-const SKIN_BENDING: f32 = 6.0;
-const HAIR_BENDING: f32 = 2.0;
-const CLOTH_BENDING: f32 = 8.0;
-/// Where the scalp begins and the neck, in heights of the face below the chin; how round lines are there; and the weights of these
-/// guesses, and of those beside the face, against the mesh's points.
-const SCALP: f64 = -0.45;
-const NECK: f64 = 0.05;
-const SCALP_ROUND: f64 = 1.5;
-const NECK_ROUND: f64 = 1.1;
-const BESIDE_ROUND: f64 = 0.35;
-const SCALP_WEIGHT: f32 = 0.004;
-const NECK_WEIGHT: f32 = 0.01;
-const BESIDE_WEIGHT: f32 = 0.0005;
-/// Slope of the shoulders, and how far from the middle they reach it, in face widths.
-const SHOULDER: f64 = 0.733;
-const SHOULDER_REACH: f64 = 0.22;
 /// How much coarser than the working grid texture is looked at.
 const HALF: usize = 2;
-/// How far folds turn the lines of cloth at most.
-const MOST_TURN: f64 = 0.9;
 
 /// The directions of each surface, in radians on the page (y down), on the working grid.
 pub(in crate::style) struct Directions {
@@ -71,6 +49,10 @@ struct Cells {
 
 impl Cells {
     fn new(placement: &Placement, face_width: f64) -> Self {
+        /// Cells of the grid on which directions are spread, per width of the largest face, and the most along the picture's
+        /// longer side.
+        const CELLS_PER_FACE: f64 = 60.0;
+        const MOST_CELLS: f64 = 320.0;
         let longest = placement.columns.max(placement.rows) as f64;
         let size = (face_width / CELLS_PER_FACE).max(longest / MOST_CELLS).max(1.0);
         let count = |side: usize| ((side as f64 / size).ceil() as usize).max(2);
@@ -130,6 +112,11 @@ impl Texture {
         strong.zip_map(region, |strong, share| strong * share)
     }
 }
+
+/// Stiffness of the spread fields.
+const SKIN_BENDING: f32 = 6.0;
+const HAIR_BENDING: f32 = 2.0;
+const CLOTH_BENDING: f32 = 8.0;
 
 impl<P: Pitched + Sync> Drawer<'_, P> {
     pub(in crate::style) fn directions(&self, surfaces: &Surfaces) -> Directions {
@@ -203,6 +190,11 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     }
 
     fn cloth_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
+        /// Slope of the shoulders, and how far from the middle they reach it, in face widths.
+        const SHOULDER: f64 = 0.733;
+        const SHOULDER_REACH: f64 = 0.22;
+        /// How far folds turn the lines of cloth at most.
+        const MOST_TURN: f64 = 0.9;
         let unit = self.pitch() / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 3.0 * unit, 10.0 * unit);
         let slope = |p: Point| {
@@ -240,6 +232,17 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
         Raster::from_fn(columns, rows, value)
     }
 }
+
+/// Where the scalp begins and the neck, in heights of the face below the chin; how round lines are there; and the weights of these
+/// guesses, and of those beside the face, against the mesh's points.
+const SCALP: f64 = -0.45;
+const NECK: f64 = 0.05;
+const SCALP_ROUND: f64 = 1.5;
+const NECK_ROUND: f64 = 1.1;
+const BESIDE_ROUND: f64 = 0.35;
+const SCALP_WEIGHT: f32 = 0.004;
+const NECK_WEIGHT: f32 = 0.01;
+const BESIDE_WEIGHT: f32 = 0.0005;
 
 /// The direction on skin away from the mesh, in radians on the page, and its weight.
 fn guessed(head: &Head, p: Point) -> (f32, f32) {

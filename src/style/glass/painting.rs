@@ -13,19 +13,9 @@ use crate::style::StyleError;
 
 /// Minimum visible area of a stroke, in working pixels: smaller flecks cannot be seen and make up half of the strokes.
 const LEAST_SHOWN: f64 = 1.0;
-/// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a new one begins. At 0.05 skin
-/// breaks into scales, at 0.2 eyes and lips smear over the face (judged on the astronaut and Grace Hopper).
-const COLOUR_CHANGE: f32 = 0.1;
+
 /// Grain of the background behind people, in that of their faces.
 const BROAD: f32 = 1.8;
-/// Width of the filling strokes in places that the pattern leaves bare, in grains.
-const FILLING_WIDTH: f64 = 4.0;
-/// Their value, that of the pattern's lowest third: if darker, they stand out as cracks and the painting becomes too dark.
-const FILLING_VALUE: f32 = -0.35;
-/// Their length as a share of the other strokes'.
-const FILLING_LENGTH: f64 = 0.5;
-/// Cosine of the maximum angle by which they turn away from their middle.
-const MOST_FILLING_TURN: f64 = 0.7;
 
 pub(super) fn layers(drawer: &Drawer<'_>, ground: &Ground) -> Result<Vec<Layer>, StyleError> {
     drawer.observer.begin("pattern");
@@ -96,6 +86,13 @@ impl Painter<'_> {
 
     /// Strokes under all others where these leave the canvas bare: at saddles of the noise and where the flow begins.
     fn filling(&self, canvas: &mut Canvas, colours: &mut Vec<[f32; 3]>) -> Vec<Mark> {
+        /// Width of the filling strokes in places that the pattern leaves bare, in grains.
+        const FILLING_WIDTH: f64 = 4.0;
+        /// Their value, that of the pattern's lowest third: if darker, they stand out as cracks and the painting becomes too
+        /// dark.
+        const FILLING_VALUE: f32 = -0.35;
+        /// Their length as a share of the other strokes'.
+        const FILLING_LENGTH: f64 = 0.5;
         let width = FILLING_WIDTH * self.drawer.pixels(self.drawer.parameters.grain);
         let length = FILLING_LENGTH * self.drawer.pixels(self.drawer.parameters.length);
         let flow = &self.ground.flow;
@@ -135,6 +132,9 @@ impl Painter<'_> {
         Some(Mark::Stroke(stroke.with_colour(colour).in_group(Some(0))))
     }
 }
+
+/// Cosine of the maximum angle by which filling strokes turn away from their middle.
+const MOST_FILLING_TURN: f64 = 0.7;
 
 /// Follows the flow both ways as long as it roughly keeps its direction, so that the stroke is sure to cover the place.
 fn filling_line(flow: &Flow, p: Point, reach: f64) -> Vec<Point> {
@@ -177,6 +177,10 @@ fn parts(shown: &[Shown]) -> Vec<Part> {
     parts.retain(|part| part.shown.area() >= LEAST_SHOWN);
     parts
 }
+
+/// Change of colour along a stroke (root of the channels' summed squares, of values 0 to 1) at which a new one begins. At 0.05 skin
+/// breaks into scales, at 0.2 eyes and lips smear over the face (judged on the astronaut and Grace Hopper).
+const COLOUR_CHANGE: f32 = 0.1;
 
 fn is_alike(a: &Shown, b: &Shown) -> bool {
     let (ca, cb) = (a.colour(), b.colour());

@@ -15,24 +15,6 @@ use crate::style::head::Head;
 use crate::style::solids::detail_zone;
 use std::f64::consts::FRAC_PI_2;
 
-/// Change of lightness over the blur of the flow at which the photograph and the form count the same, on skin and cloth and in hair. At
-/// half of it cheeks whirl around their highlights, at three times it strokes run across lips (judged on six portraits); in hair less
-/// is enough, so that curls curl.
-const CLEAR: f32 = 0.1;
-const CLEAR_HAIR: f32 = 0.04;
-/// How far the form's directions wander, in radians (standard deviation), and over how many pitches: without it foreheads look ruled.
-const WANDER: f32 = 0.22;
-const WANDER_REACH: f64 = 4.0;
-/// Blur of that weight, as a share of the flow's.
-const CLEAR_BLUR: f32 = 0.35;
-/// Blur of the border of broad strokes in pitches.
-const BROAD_BLUR: f64 = 1.5;
-/// How broad strokes on cloth are, between those of skin (0) and those of the background (1).
-const CLOTH: f32 = 0.4;
-
-/// What is left of the range of lightness between strokes on faces and behind people: with all of it skin is scratched, and walls are
-/// livelier than who stands before them.
-const CALM: [f32; 2] = [0.4, 0.4];
 /// Blur of the flow behind people in that of the others: larger whirls.
 pub(super) const BEHIND: f32 = 4.0;
 /// The band of eyes and spectacles, in heights of the face above its chin and in its widths from the middle, how fast it fades, and how
@@ -53,6 +35,9 @@ pub(super) struct People {
 impl People {
     /// What is left of the range of lightness between strokes at a place.
     pub(super) fn contrast(&self, p: Point) -> f32 {
+        /// What is left of the range of lightness between strokes on faces and behind people: with all of it skin is scratched,
+        /// and walls are livelier than who stands before them.
+        const CALM: [f32; 2] = [0.4, 0.4];
         let behind = self.broad.sample(p.x, p.y).clamp(0.0, 1.0);
         CALM[0] + (CALM[1] - CALM[0]) * behind
     }
@@ -61,6 +46,10 @@ impl People {
 impl Drawer<'_> {
     /// What is known of people; none without a face, or where all places are to be alike.
     pub(super) fn people(&self) -> Option<People> {
+        /// Blur of the border of broad strokes in pitches.
+        const BROAD_BLUR: f64 = 1.5;
+        /// How broad strokes on cloth are, between those of skin (0) and those of the background (1).
+        const CLOTH: f32 = 0.4;
         let parameters = &self.parameters;
         let is_even = parameters.strokes == Strokes::Even || parameters.transform != Transform::Photograph;
         if self.portrait.faces.is_empty() || is_even {
@@ -84,6 +73,17 @@ impl Drawer<'_> {
 
     /// A photograph's flow, bent to the form where the smoothed picture's lightness (`light`) hardly changes over `sigma` pixels.
     pub(super) fn over_people(&self, flow: &Flow, light: &Raster<f32>, sigma: f32) -> Flow {
+        /// Change of lightness over the blur of the flow at which the photograph and the form count the same, on skin and cloth
+        /// and in hair. At half of it cheeks whirl around their highlights, at three times it strokes run across lips (judged on
+        /// six portraits); in hair less is enough, so that curls curl.
+        const CLEAR: f32 = 0.1;
+        const CLEAR_HAIR: f32 = 0.04;
+        /// Blur of that weight, as a share of the flow's.
+        const CLEAR_BLUR: f32 = 0.35;
+        /// How far the form's directions wander, in radians (standard deviation), and over how many pitches: without it foreheads
+        /// look ruled.
+        const WANDER: f32 = 0.22;
+        const WANDER_REACH: f64 = 4.0;
         let people = self.portrait.people();
         let surfaces = self.surfaces(people);
         let directions = self.directions(&surfaces);

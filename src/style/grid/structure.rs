@@ -15,24 +15,6 @@ use crate::style::{Picture, random};
 use rand::RngExt;
 use std::f64::consts::TAU;
 
-/// Lattice nodes per narrowest pitch: with fewer, a stripe between two nodes could be lost.
-const NODES_PER_PITCH: f64 = 2.0;
-/// Levels from coarse to fine: the coarsest nodes are eight pitches apart. With three levels parallel rows keep breaks (0.7 degrees
-/// instead of 0.2); more than five change nothing on faces.
-const LEVELS: u32 = 5;
-/// Minimum distance of two dots, in pitches. At 0.5 twin dots appear at the ends of rows, at 0.7 holes show there.
-const LEAST_DISTANCE: f64 = 0.6;
-/// Radius of an empty place that gets an extra dot, in pitches; an even grid has 0.71. At 0.85 dots crowd where rows end, at 1.1 white
-/// spots show there.
-const HOLE: f64 = 0.95;
-/// Blur of a detail region's border, in pitches: rows end one by one over it, and no border was visible on six portraits at full size.
-/// Eyes in a portrait of 90 mm are five pitches high; a wider blur would leave little of them.
-const DETAIL_BLUR: f64 = 1.0;
-/// How strongly a row is held at its place beside a feature line; at 1 rows break beside short lines.
-const HOLD: f64 = 0.25;
-/// Distance from a feature line at which the hold ends, in pitches.
-const HOLD_REACH: f64 = 1.5;
-
 /// Both families: 0 runs along the features, 1 across them. In working pixels.
 pub(super) struct StructureGrid {
     pub stripes: [StripeLattice; 2],
@@ -123,6 +105,11 @@ impl Drawer<'_> {
     }
 
     fn stripe_parameters(&self) -> StripeParameters {
+        /// Lattice nodes per narrowest pitch: with fewer, a stripe between two nodes could be lost.
+        const NODES_PER_PITCH: f64 = 2.0;
+        /// Levels from coarse to fine: the coarsest nodes are eight pitches apart. With three levels parallel rows keep breaks
+        /// (0.7 degrees instead of 0.2); more than five change nothing on faces.
+        const LEVELS: u32 = 5;
         let step = self.pitch() / NODES_PER_PITCH * self.parameters.narrowest(self.detail().is_some());
         StripeParameters {
             step,
@@ -143,6 +130,11 @@ impl Drawer<'_> {
 
     /// Crossings of two families, followed by the points that fill holes between them; and the number of true crossings.
     pub(super) fn points(&self, along: &StripeLattice, across: &StripeLattice, spacing: &Spacing) -> (Vec<Point>, usize) {
+        /// Minimum distance of two dots, in pitches. At 0.5 twin dots appear at the ends of rows, at 0.7 holes show there.
+        const LEAST_DISTANCE: f64 = 0.6;
+        /// Radius of an empty place that gets an extra dot, in pitches; an even grid has 0.71. At 0.85 dots crowd where rows end,
+        /// at 1.1 white spots show there.
+        const HOLE: f64 = 0.95;
         let (width, height) = self.size();
         let least = |p: Point| LEAST_DISTANCE * spacing.at(p);
         let mut points: Vec<Point> = crossings(along, across, &least).into_iter().filter(|p| self.contains(*p)).collect();
@@ -159,6 +151,9 @@ impl Drawer<'_> {
 
     /// Factor by which lines stand closer than a pitch, at each pixel.
     fn closeness(&self, ink: &Raster<f32>) -> Raster<f32> {
+        /// Blur of a detail region's border, in pitches: rows end one by one over it, and no border was visible on six portraits
+        /// at full size. Eyes in a portrait of 90 mm are five pitches high; a wider blur would leave little of them.
+        const DETAIL_BLUR: f64 = 1.0;
         let adaptive = self.parameters.adaptive;
         let by_tone = if adaptive == 0.0 {
             ink.map(|_| 1.0)
@@ -235,6 +230,11 @@ impl Drawer<'_> {
         })
     }
 }
+
+/// How strongly a row is held at its place beside a feature line; at 1 rows break beside short lines.
+const HOLD: f64 = 0.25;
+/// Distance from a feature line at which the hold ends, in pitches.
+const HOLD_REACH: f64 = 1.5;
 
 /// The held phase at one place: the distance from the feature line in cycles, growing along the wave. Zero far away and where the field
 /// runs across the line.

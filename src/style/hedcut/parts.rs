@@ -17,33 +17,18 @@ use crate::style::coverage::covered;
 use crate::style::{StyleError, charcoal, grid};
 use std::ops::Range;
 
-/// Blur of the regions in pitches, and the gain of their edges: borders as smooth as the marks, without steps.
-const SMOOTH: f64 = 0.6;
-const SHARP: f32 = 3.0;
-/// From this value on a place is deep in a part.
-const DEEP: f32 = 0.95;
-/// Least area of a part in square pitches: what is smaller stays in dots.
-const LEAST_AREA: f64 = 60.0;
-/// Room around a part in its own box, in pitches: the directions of its lines are smoothed over less.
-const ROOM: f64 = 8.0;
-
-/// Rounds in which strokes of hair get the width of their tone, the reach around a node in pitches over which ink is compared,
-/// and the range of one round's change. A shorter reach would take the strands' contrast away.
-const TONE_ROUNDS: usize = 3;
-const TONE_REACH: f64 = 2.0;
-const TONE_STEP: [f32; 2] = [0.6, 1.4];
-/// Ink up to which strokes are not made wider, and from which they are made as much wider as a round allows: white and blond hair is a
-/// few thin lines, and its short ones would become blots.
-const LIGHT_HAIR: [f32; 2] = [0.35, 0.6];
-/// Ink that is as good as none, so that bare paper is not compared.
-const LEAST_INK: f32 = 0.01;
-
 /// Where the parts lie, each 0 to 1; they do not overlap.
 pub(super) struct Parts {
     hair: Option<Raster<f32>>,
     /// Clothing and headwear, which often lie far apart.
     cloths: Vec<Raster<f32>>,
 }
+
+/// Rounds in which strokes of hair get the width of their tone, the reach around a node in pitches over which ink is compared,
+/// and the range of one round's change. A shorter reach would take the strands' contrast away.
+const TONE_ROUNDS: usize = 3;
+const TONE_REACH: f64 = 2.0;
+const TONE_STEP: [f32; 2] = [0.6, 1.4];
 
 impl Drawer<'_> {
     /// The parts that are not drawn in dots; none without their masks.
@@ -72,6 +57,11 @@ impl Drawer<'_> {
 
     /// A mask as a part with a smooth border; none if it is too small.
     fn part(&self, mask: &Raster<f32>) -> Option<Raster<f32>> {
+        /// Blur of the regions in pitches, and the gain of their edges: borders as smooth as the marks, without steps.
+        const SMOOTH: f64 = 0.6;
+        const SHARP: f32 = 3.0;
+        /// Least area of a part in square pitches: what is smaller stays in dots.
+        const LEAST_AREA: f64 = 60.0;
         let soft = gaussian_blur(mask, (SMOOTH * self.pitch()) as f32);
         let part = soft.map(|v| ((v - 0.5) * SHARP + 0.5).clamp(0.0, 1.0));
         let area: f64 = part.pixels().iter().map(|v| f64::from(*v)).sum();
@@ -107,6 +97,8 @@ impl Drawer<'_> {
 
     /// A part and the portrait within the part's own box.
     fn boxed(&self, part: &Raster<f32>) -> Option<(Raster<f32>, Portrait)> {
+        /// Room around a part in its own box, in pitches: the directions of its lines are smoothed over less.
+        const ROOM: f64 = 8.0;
         let room = (ROOM * self.pitch()).ceil() as usize;
         let [columns, rows] = part.extent_above(0.0)?;
         let wider = |range: &Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
@@ -116,6 +108,11 @@ impl Drawer<'_> {
 
     /// Strokes of hair, wider or thinner by the ratio of the ink asked for around each node to the ink drawn there.
     fn with_tone(&self, marks: Vec<Mark>, hair: &Raster<f32>) -> Vec<Mark> {
+        /// Ink up to which strokes are not made wider, and from which they are made as much wider as a round allows: white and
+        /// blond hair is a few thin lines, and its short ones would become blots.
+        const LIGHT_HAIR: [f32; 2] = [0.35, 0.6];
+        /// Ink that is as good as none, so that bare paper is not compared.
+        const LEAST_INK: f32 = 0.01;
         let placement = &self.portrait.placement;
         let around =
             |ink: &Raster<f32>| gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), (TONE_REACH * self.pitch()) as f32);
@@ -158,6 +155,8 @@ impl Parts {
 
     /// True if a place lies deep in another part, where a large cell at the border may have its dot.
     pub(super) fn hold(&self, p: Point) -> bool {
+        /// From this value on a place is deep in a part.
+        const DEEP: f32 = 0.95;
         self.hair.iter().chain(&self.cloths).any(|part| part.sample(p.x, p.y) > DEEP)
     }
 

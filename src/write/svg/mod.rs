@@ -43,15 +43,6 @@ pub struct SvgHead {
     pub recipe: String,
 }
 
-/// Maximum number of dots written as circles; more are combined into paths. Readers (usvg, librsvg) refuse about 1,000,000
-/// elements, and the file may hold other marks too.
-const MOST_CIRCLES: usize = 600_000;
-/// Circles per combined path.
-const CIRCLES_PER_PATH: usize = 1000;
-/// Decimals of a radius: four, since 0.001 mm of a small dot's radius is a percent of its ink.
-const RADIUS_DIGITS: u32 = 4;
-const RADIUS_SCALE: f64 = 10_000.0;
-
 /// Writes a drawing with its ink at exact size.
 ///
 /// ```
@@ -190,6 +181,12 @@ impl Kind {
     }
 }
 
+/// Maximum number of dots written as circles; more are combined into paths. Readers (usvg, librsvg) refuse about 1,000,000
+/// elements, and the file may hold other marks too.
+const MOST_CIRCLES: usize = 600_000;
+/// Circles per combined path.
+const CIRCLES_PER_PATH: usize = 1000;
+
 /// The layer's marks, with one group per run of the same kind.
 fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
     let mut seen = [0_usize; 4];
@@ -248,6 +245,10 @@ fn line(text: &mut String, mark: &Mark, usual_width: f64) {
     }
     text.push_str("/>\n");
 }
+
+/// Decimals of a radius: four, since 0.001 mm of a small dot's radius is a percent of its ink.
+const RADIUS_DIGITS: u32 = 4;
+const RADIUS_SCALE: f64 = 10_000.0;
 
 fn filled(mark: &Mark) -> String {
     let mut owned = String::new();

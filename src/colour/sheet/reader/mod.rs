@@ -45,19 +45,6 @@ use picture::Probe;
 use sharpness::blur;
 use view::View;
 
-/// Least pixels of a cell.
-const LEAST_CELL: f64 = 20.0;
-/// Largest blur, in cells: beyond it paper shines into the windows.
-const BLURRED: f64 = 0.055;
-/// Largest share of clipped paper.
-const OVER_EXPOSED: f64 = 0.2;
-/// Largest robust deviation of paper from smooth light.
-const TOO_UNEVEN: f64 = 0.08;
-/// Least sRGB level of paper.
-const TOO_DARK: f64 = 50.0;
-/// Least light of a paper that is given, so that ratios to it stay finite.
-const LEAST_PAPER: f64 = 0.01;
-
 /// What is known besides the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Known<'a> {
@@ -68,6 +55,11 @@ pub struct Known<'a> {
     /// Reflectance, 0 to 1, of a neutral card that lies in the sheet's outlined field.
     pub grey: Option<f64>,
 }
+
+/// Least pixels of a cell.
+const LEAST_CELL: f64 = 20.0;
+/// Least light of a paper that is given, so that ratios to it stay finite.
+const LEAST_PAPER: f64 = 0.01;
 
 /// Reads a picture of the sheet.
 pub fn read_sheet(picture: Picture<'_>, known: &Known<'_>) -> Result<SheetReading, ReadError> {
@@ -126,6 +118,14 @@ impl<'a> Sight<'a> {
 
     /// The picture's quality, if it can be used.
     fn quality(&self, found: &Found, paper: [f64; 3]) -> Result<Quality, ReadError> {
+        /// Largest blur, in cells: beyond it paper shines into the windows.
+        const BLURRED: f64 = 0.055;
+        /// Largest share of clipped paper.
+        const OVER_EXPOSED: f64 = 0.2;
+        /// Largest robust deviation of paper from smooth light.
+        const TOO_UNEVEN: f64 = 0.08;
+        /// Least sRGB level of paper.
+        const TOO_DARK: f64 = 50.0;
         let cell = found.code.cell;
         let blur = blur(&self.view, &self.probe, found.grey);
         if blur > BLURRED {

@@ -9,13 +9,6 @@ use crate::geometry::{Point, Vec2};
 const STEP: f64 = 0.02;
 /// Least contrast of a mark: difference of paper and ink over paper.
 pub(super) const LEAST_CONTRAST: f64 = 0.2;
-/// Width of the bare ring around a mark, and the gap that blur may fill, in cells.
-const BARE: f64 = 0.045;
-const SOFT: f64 = 0.03;
-/// Rounds towards the centre of the ink.
-const ROUNDS: usize = 4;
-/// Part of the contrast below which darkness does not count as ink: noise and light.
-const FAINT: f64 = 0.15;
 
 /// What a grey value is made of.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +22,10 @@ impl Grey {
         f64::from(if self.darkest { r.min(g).min(b) } else { 0.2126 * r + 0.7152 * g + 0.0722 * b })
     }
 }
+
+/// Width of the bare ring around a mark, and the gap that blur may fill, in cells.
+const BARE: f64 = 0.045;
+const SOFT: f64 = 0.03;
 
 /// A round mark: where it is inked.
 #[derive(Clone, Debug)]
@@ -49,6 +46,10 @@ impl Stamp {
 
     /// The centre of the mark nearest to a point of the sheet; it may lie off by `reach` cells. `None` if there is nothing dark in bare paper.
     pub(super) fn seek(&self, view: &View, probe: &Probe<'_>, grey: Grey, at: Point, reach: f64) -> Option<Point> {
+        /// Rounds towards the centre of the ink.
+        const ROUNDS: usize = 4;
+        /// Part of the contrast below which darkness does not count as ink: noise and light.
+        const FAINT: f64 = 0.15;
         let shifts = (reach / STEP).round() as i32;
         let half = shifts + ((self.radius + SOFT + BARE) / STEP).ceil() as i32;
         let place = |i: i32, j: i32| at + STEP * Vec2::new(f64::from(i), f64::from(j));

@@ -12,21 +12,6 @@ use std::ops::Range;
 
 /// How much closer lines stand where detail is fine.
 pub(super) const FINE: f32 = 0.34;
-/// Nodes per narrowest pitch: with fewer a line between two nodes could be lost, more change nothing that is measured.
-const NODES_PER_PITCH: f64 = 1.5;
-/// Reach of the window in pitches, rounds, and levels from coarse to fine. Twice the work changes nothing that is measured on faces.
-const WINDOW: f64 = 1.6;
-const ROUNDS: u32 = 3;
-const LEVELS: u32 = 5;
-/// Cells in which the density is evened, in pitches, and the factors by which it may change so that lines need not end. With wider ones
-/// lines crowd beside noses; with none there are twice as many ends.
-const CELL: f64 = 1.5;
-const EVENED: [f32; 2] = [0.79, 1.2];
-/// Blur of the lines' density in pitches.
-const DENSITY_BLUR: f64 = 0.8;
-/// Smoothing of lines and the distance of their points, in pitches.
-const SMOOTH: f64 = 0.4;
-const SPACING: f64 = 0.25;
 
 /// The factor by which lines stand closer than a pitch at a pixel; 0 where there are none.
 pub(super) type Closeness<'a> = dyn Fn(usize, usize) -> f32 + Sync + 'a;
@@ -83,6 +68,15 @@ impl Drawer<'_> {
         closeness: &Closeness<'_>,
         name: &str,
     ) -> Family {
+        /// Cells in which the density is evened, in pitches, and the factors by which it may change so that lines need not end.
+        /// With wider ones lines crowd beside noses; with none there are twice as many ends.
+        const CELL: f64 = 1.5;
+        const EVENED: [f32; 2] = [0.79, 1.2];
+        /// Blur of the lines' density in pitches.
+        const DENSITY_BLUR: f64 = 0.8;
+        /// Smoothing of lines and the distance of their points, in pitches.
+        const SMOOTH: f64 = 0.4;
+        const SPACING: f64 = 0.25;
         let pitch = self.pitch();
         let (left, top) = (extent.columns.start, extent.rows.start);
         let (columns, rows) = (extent.columns.len(), extent.rows.len());
@@ -103,11 +97,10 @@ impl Drawer<'_> {
             let dense = evened * close / pitch as f32;
             [-sin * dense, cos * dense]
         });
-        let step = pitch / NODES_PER_PITCH / f64::from(1.0 / (1.0 - FINE));
-        let parameters = StripeParameters { step, window: WINDOW * pitch / step, rounds: ROUNDS, levels: LEVELS };
+        let parameters = self.stripe_parameters();
         let by_chance = |node: u64, _: Point, _: Wave| stream(self.seed, name, node).random::<f32>();
         let stripes = stripes(&wave, parameters, &by_chance, None);
-        let density = gaussian_blur(&stripes.frequency(), (DENSITY_BLUR * pitch / step) as f32);
+        let density = gaussian_blur(&stripes.frequency(), (DENSITY_BLUR * pitch / parameters.step) as f32);
         let origin = extent.origin();
         let lines = stripe_lines(&stripes).into_iter().map(|line| {
             let smooth = smooth_polyline(&line.points, line.closed.into(), SMOOTH * pitch, SPACING * pitch);
@@ -115,5 +108,18 @@ impl Drawer<'_> {
         });
         let lines = lines.filter(|line| line.points.len() > 1).collect();
         Family { stripes, origin, lines, density }
+    }
+
+    fn stripe_parameters(&self) -> StripeParameters {
+        /// Nodes per narrowest pitch: with fewer a line between two nodes could be lost, more change nothing that is measured.
+        const NODES_PER_PITCH: f64 = 1.5;
+        /// Reach of the window in pitches, rounds, and levels from coarse to fine. Twice the work changes nothing that is
+        /// measured on faces.
+        const WINDOW: f64 = 1.6;
+        const ROUNDS: u32 = 3;
+        const LEVELS: u32 = 5;
+        let pitch = self.pitch();
+        let step = pitch / NODES_PER_PITCH / f64::from(1.0 / (1.0 - FINE));
+        StripeParameters { step, window: WINDOW * pitch / step, rounds: ROUNDS, levels: LEVELS }
     }
 }

@@ -9,25 +9,11 @@ use crate::source::outlines;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::inside_outlines;
 
-/// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
-const TONE_BLUR: f64 = 0.22;
-const SHARPEN: f32 = 0.6;
-/// How far ink is averaged along a lock to either side, in pitches, and by how many steps.
-const ALONG: f64 = 1.6;
-const ALONG_STEPS: i32 = 4;
-/// Reach of the mean from which locks of hair differ, in pitches, and how much their difference grows in half tones.
-const LOCK: f64 = 6.0;
-const LOCK_CONTRAST: f32 = 0.7;
-
-/// Reach of half tones into a face's lights, in pitches: at their borders, and over foreheads and cheeks.
-const HALF_TONES: [f64; 2] = [8.0, 24.0];
-
-/// Blur of the brows' border, in pitches.
-const BROWS: f64 = 1.0;
-
 impl Drawer<'_> {
     /// The detail without the brows: their hairs are finer than the lines, and sharpened they tear them.
     pub(super) fn without_brows(&self, detail: &Raster<f32>) -> Raster<f32> {
+        /// Blur of the brows' border, in pitches.
+        const BROWS: f64 = 1.0;
         let brows = [&outlines::LEFT_BROW[..], &outlines::RIGHT_BROW];
         let brows = inside_outlines(&self.portrait.faces, brows, (detail.width(), detail.height()));
         let soft = gaussian_blur(&brows, (BROWS * self.pitch()) as f32);
@@ -36,6 +22,9 @@ impl Drawer<'_> {
 
     /// The ink wanted: without grain, and sharper in detail.
     pub(super) fn form_ink(&self, detail: &Raster<f32>) -> Raster<f32> {
+        /// Blur of the tone in pitches: grain makes lines shake. Details keep theirs, and are sharpened by this share.
+        const TONE_BLUR: f64 = 0.22;
+        const SHARPEN: f32 = 0.6;
         let sigma = (TONE_BLUR * self.pitch()) as f32;
         let ink = self.portrait.ink();
         let (smooth, wide) = (gaussian_blur(&ink, sigma), gaussian_blur(&ink, 2.0 * sigma));
@@ -47,6 +36,8 @@ impl Drawer<'_> {
 
     /// The ink with half tones in the lights of skin, which lines then reach as dots.
     pub(super) fn with_half_tones(&self, ink: &Raster<f32>, detail: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
+        /// Reach of half tones into a face's lights, in pitches: at their borders, and over foreheads and cheeks.
+        const HALF_TONES: [f64; 2] = [8.0, 24.0];
         let soft = gaussian_blur(skin, self.pitch() as f32).zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
         let skin = soft.zip_map(detail, |skin, detail| skin * (1.0 - detail));
         HALF_TONES.iter().fold(ink.clone(), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
@@ -54,6 +45,12 @@ impl Drawer<'_> {
 
     /// The ink of hair smooth along its locks and with more contrast between them; its mean stays.
     pub(super) fn with_locks(&self, ink: &Raster<f32>, hair: &Raster<f32>, directions: &Raster<f32>) -> Raster<f32> {
+        /// How far ink is averaged along a lock to either side, in pitches, and by how many steps.
+        const ALONG: f64 = 1.6;
+        const ALONG_STEPS: i32 = 4;
+        /// Reach of the mean from which locks of hair differ, in pitches, and how much their difference grows in half tones.
+        const LOCK: f64 = 6.0;
+        const LOCK_CONTRAST: f32 = 0.7;
         let step = ALONG * self.pitch() / f64::from(ALONG_STEPS);
         let along = Raster::from_fn(ink.width(), ink.height(), |x, y| {
             if hair.get(x, y) <= 0.0 {

@@ -11,20 +11,6 @@ use crate::source::Placement;
 
 /// Distance of readings along a line in pitches: the smallest dash between two of them is lost.
 const READING: f64 = 0.1;
-/// Distance of a stroke's nodes in pitches.
-const NODE: f64 = 0.7;
-/// A line that ends of itself tapers over this many pitches to this share of its width; so does one where its family begins.
-const TAPER: f64 = 1.5;
-const TIP: f64 = 0.25;
-/// Pieces that the surface's border cuts on both sides are left out below this length in pitches, and those of crossing families at all:
-/// they are crumbs and ticks.
-const CRUMB: f64 = 1.5;
-const TICK: f64 = 3.0;
-/// Length over which a line's own direction is measured, in pitches, and the sine of the angle from the directions at which it is a hook.
-const HOOK: f64 = 0.8;
-const MOST_OFF: f64 = 0.6;
-/// Pieces shorter than this many widths are dots.
-const DOT: f64 = 1.6;
 /// The widest line in distances of lines: a little more than all of it closes the slits between curved lines.
 const WIDEST: f64 = 1.04;
 
@@ -87,6 +73,10 @@ impl Course<'_> {
 
     /// The drawn runs of a line inside the region; `own` are the ends of the whole line.
     fn of_piece(&self, points: &[Point], own: [Option<Point>; 2]) -> Vec<Piece> {
+        /// Pieces that the surface's border cuts on both sides are left out below this length in pitches, and those of crossing
+        /// families at all: they are crumbs and ticks.
+        const CRUMB: f64 = 1.5;
+        const TICK: f64 = 3.0;
         let nodes = resample(points, READING * self.pitch);
         let along = lengths_along(&nodes);
         let mut readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along)).collect();
@@ -117,6 +107,10 @@ impl Course<'_> {
 
     /// Where two lines end side by side the phase joins them in a hook; what turns away from the directions is not drawn.
     fn cut_hooks(&self, readings: &mut [Reading]) {
+        /// Length over which a line's own direction is measured, in pitches, and the sine of the angle from the directions at
+        /// which it is a hook.
+        const HOOK: f64 = 0.8;
+        const MOST_OFF: f64 = 0.6;
         let reach = (0.5 * HOOK / READING) as usize;
         let places: Vec<Point> = readings.iter().map(|r| r.place).collect();
         let last = places.len() - 1;
@@ -145,6 +139,14 @@ impl Course<'_> {
     }
 
     fn piece(&self, run: &[Reading], from: f64, to: f64, tapers: [bool; 2]) -> Option<Piece> {
+        /// Distance of a stroke's nodes in pitches.
+        const NODE: f64 = 0.7;
+        /// A line that ends of itself tapers over this many pitches to this share of its width; so does one where its family
+        /// begins.
+        const TAPER: f64 = 1.5;
+        const TIP: f64 = 0.25;
+        /// Pieces shorter than this many widths are dots.
+        const DOT: f64 = 1.6;
         let widest = run.iter().map(|r| r.width).fold(0.0, f64::max);
         let length = to - from;
         if length < DOT * widest {

@@ -7,18 +7,6 @@ use crate::style::random;
 use rand::RngExt;
 use std::collections::VecDeque;
 
-/// Distance between an arc's points in pixels.
-const STEP: f64 = 0.5;
-/// Share of the local spacing at which a growing arc stops before another one. At 0.5 arcs pinch and the spacing varies, at 0.9 they
-/// break up into dashes (Jobard and Lefer: 0.5 to 0.8).
-const LEAST_SHARE: f64 = 0.75;
-/// Minimum distance of arcs as a share of their width; after smoothing moves them, they overlap by less than half of it.
-const LEAST_WIDTHS: f64 = 0.75;
-/// Cosine of the maximum turn in one step, a radius of two pixels: tighter whirls would be blots.
-const MOST_TURN: f64 = 0.969;
-/// Shortest arc, as a share of the target length; shorter ones look like dirt.
-const LEAST_LENGTH: f64 = 0.12;
-
 /// The target of a drawing; lengths in pixels.
 pub(super) struct Wanted<'a> {
     pub flow: &'a Flow,
@@ -31,6 +19,9 @@ pub(super) struct Wanted<'a> {
     /// Approximate length of an arc.
     pub length: f64,
 }
+
+/// Distance between an arc's points in pixels.
+const STEP: f64 = 0.5;
 
 /// The arcs so far, their points sorted into square cells.
 pub(super) struct Arcs<'a> {
@@ -99,6 +90,8 @@ impl<'a> Arcs<'a> {
 
     /// An arc through a place, if there is room for one.
     fn grow(&mut self, start: Point) -> bool {
+        /// Shortest arc, as a share of the target length; shorter ones look like dirt.
+        const LEAST_LENGTH: f64 = 0.12;
         if !self.is_free(start, &[]) {
             return false;
         }
@@ -123,6 +116,8 @@ impl<'a> Arcs<'a> {
 
     /// Adds up to `count` points to the line's end.
     fn extend(&self, line: &mut Vec<Point>, count: usize, sign: f64) {
+        /// Cosine of the maximum turn in one step, a radius of two pixels: tighter whirls would be blots.
+        const MOST_TURN: f64 = 0.969;
         let mut direction = Vec2::ZERO;
         for _ in 0..count {
             let here = line[line.len() - 1];
@@ -144,6 +139,11 @@ impl<'a> Arcs<'a> {
 
     /// True if a place lies on the picture, needs ink and is far enough from all arcs and from the earlier part of its own.
     fn is_free(&self, p: Point, own: &[Point]) -> bool {
+        /// Share of the local spacing at which a growing arc stops before another one. At 0.5 arcs pinch and the spacing varies,
+        /// at 0.9 they break up into dashes (Jobard and Lefer: 0.5 to 0.8).
+        const LEAST_SHARE: f64 = 0.75;
+        /// Minimum distance of arcs as a share of their width; after smoothing moves them, they overlap by less than half of it.
+        const LEAST_WIDTHS: f64 = 0.75;
         let spacing = self.spacing(p);
         if !self.wanted.flow.contains(p) || !spacing.is_finite() {
             return false;

@@ -4,20 +4,11 @@ use crate::elementary::Elementary as _;
 use crate::geometry::{Point, distance_to_segment};
 use crate::raster::{Raster, fast_gaussian};
 
-/// Sub-pixels per line width: finer changes the measured ink by less than 0.002.
-const FINE: f64 = 6.0;
 /// Number of tones for which the spacing is found separately.
 const TONES: usize = 20;
-/// Minimum number of a tone's pixels for it to be corrected.
-const LEAST_PIXELS: f64 = 200.0;
-/// Weight of each try relative to the next one: the first tries are far from the tone.
-const FORGETTING: f64 = 0.6;
-/// Maximum change of a factor's logarithm per round.
-const MOST_STEP: f64 = 0.4;
-/// Minimum variance of the tried factors' logarithms for a slope to be fitted.
-const LEAST_SPREAD: f64 = 1e-3;
-/// Blur of the ink before it is sorted by tone, in pixels: the tones at the foot of an edge differ from those of the lines there.
-const BLUR: f32 = 2.0;
+
+/// Sub-pixels per line width: finer changes the measured ink by less than 0.002.
+const FINE: f64 = 6.0;
 
 /// Share of each pixel that lines of this width (in pixels) with round ends cover.
 pub(super) fn coverage(lines: &[Vec<Point>], width: f64, like: &Raster<f32>) -> Raster<f32> {
@@ -72,6 +63,13 @@ impl Calibration {
 
     /// Corrects the factors by the ink drawn for each tone.
     pub(super) fn learn(&mut self, ink: &Raster<f32>, laid: &Raster<f32>) {
+        /// Minimum number of a tone's pixels for it to be corrected.
+        const LEAST_PIXELS: f64 = 200.0;
+        /// Maximum change of a factor's logarithm per round.
+        const MOST_STEP: f64 = 0.4;
+        /// Blur of the ink before it is sorted by tone, in pixels: the tones at the foot of an edge differ from those of the
+        /// lines there.
+        const BLUR: f32 = 2.0;
         let (ink, laid) = (fast_gaussian(ink, BLUR), fast_gaussian(laid, BLUR));
         let mut sums = [[0.0_f64; 3]; TONES + 1];
         for (&wanted, &laid) in ink.pixels().iter().zip(laid.pixels()) {
@@ -100,6 +98,11 @@ impl Calibration {
         }
     }
 }
+
+/// Weight of each try relative to the next one: the first tries are far from the tone.
+const FORGETTING: f64 = 0.6;
+/// Minimum variance of the tried factors' logarithms for a slope to be fitted.
+const LEAST_SPREAD: f64 = 1e-3;
 
 /// Weighted mean of all tries and the slope through them; ink falls about in proportion as the factor grows. At the same factor the ink
 /// of two drawings differs by up to 0.03, so the last try alone is a poor guide.
