@@ -4,6 +4,7 @@
 //! 3 GHz. They should be right to about a third, and rather high than low.
 
 use crate::geometry::Rect;
+use std::ops::{Add, Mul};
 
 /// Memory and time of one drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,16 +17,39 @@ pub struct Cost {
     pub seconds: f64,
 }
 
+/// What one working pixel, or one item of another kind, takes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Each {
+    pub bytes: f64,
+    pub microseconds: f64,
+}
+
+impl Add for Each {
+    type Output = Self;
+
+    fn add(self, more: Self) -> Self {
+        Self { bytes: self.bytes + more.bytes, microseconds: self.microseconds + more.microseconds }
+    }
+}
+
+impl Mul<f64> for Each {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { bytes: self.bytes * factor, microseconds: self.microseconds * factor }
+    }
+}
+
 impl Cost {
-    /// `bytes` and `microseconds` for each of `pixels` working pixels.
-    pub(super) fn each(pixels: f64, bytes: f64, microseconds: f64) -> Self {
-        Self { pixels, bytes: pixels * bytes, seconds: 1e-6 * pixels * microseconds }
+    /// The cost of `pixels` working pixels.
+    pub(super) fn of(pixels: f64, each: Each) -> Self {
+        Self { pixels, bytes: pixels * each.bytes, seconds: 1e-6 * pixels * each.microseconds }
     }
 
-    /// Adds `count` items, other than pixels, of `bytes` and `microseconds` each.
+    /// Adds `count` items other than pixels.
     #[must_use]
-    pub(super) fn and(self, count: f64, bytes: f64, microseconds: f64) -> Self {
-        Self { bytes: self.bytes + count * bytes, seconds: self.seconds + 1e-6 * count * microseconds, ..self }
+    pub(super) fn and(self, count: f64, each: Each) -> Self {
+        Self { bytes: self.bytes + count * each.bytes, seconds: self.seconds + 1e-6 * count * each.microseconds, ..self }
     }
 }
 

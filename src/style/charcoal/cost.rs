@@ -2,17 +2,15 @@
 
 use super::parameters::CharcoalParameters;
 use crate::geometry::Rect;
-use crate::style::cost::{Cost, pixels};
+use crate::style::cost::{Cost, Each, pixels};
 
-/// Bytes and microseconds per pixel: 50 MB and 0.22 s at 10 mm, where 0.36 megapixels hold hardly a mark.
-const BYTES: f64 = 90.0;
-const MICROSECONDS: f64 = 0.6;
-/// For each place of a grain of the smudged tone: 1.8 kB and 19 microseconds at 250 mm (0.7 million of them), 2 kB and 22 at 100 mm with
+/// Of a pixel: 50 MB and 0.22 s at 10 mm, where 0.36 megapixels hold hardly a mark.
+const PIXEL: Each = Each { bytes: 90.0, microseconds: 0.6 };
+/// Of each place of a grain of the smudged tone: 1.8 kB and 19 microseconds at 250 mm (0.7 million of them), 2 kB and 22 at 100 mm with
 /// grain=0.1 (1 million), 1.9 kB on a dark bust.
-const GRAIN_BYTES: f64 = 2600.0;
-const GRAIN_MICROSECONDS: f64 = 24.0;
+const GRAIN: Each = Each { bytes: 2600.0, microseconds: 24.0 };
 
 pub(super) fn cost(parameters: &CharcoalParameters, picture: Rect, pixels_per_mm: f64) -> Cost {
     let grains = picture.area() / parameters.grain.0.powi(2);
-    Cost::each(pixels(picture, pixels_per_mm), BYTES, MICROSECONDS).and(grains, GRAIN_BYTES, GRAIN_MICROSECONDS)
+    Cost::of(pixels(picture, pixels_per_mm), PIXEL).and(grains, GRAIN)
 }

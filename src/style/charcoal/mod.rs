@@ -28,8 +28,8 @@ use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::MaskRole::{self, Clothing, Detail, Edges, Face, FacialHair, Hair, Headwear, Subject};
-use parameters::CharcoalParameters;
+use crate::source::MaskRole;
+use parameters::{CARD, CharcoalParameters};
 use tone::Laid;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
@@ -44,17 +44,6 @@ const HAIR_SHARE: f32 = 0.62;
 
 /// The style.
 pub(super) struct Charcoal;
-
-/// What it is.
-const CARD: StyleCard = StyleCard {
-    name: "charcoal",
-    summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand",
-    source: "Wong 1999, Artistic Rendering of Portrait Photographs",
-    parameters: parameters::PARAMETERS,
-    masks: &[Subject, Hair, Face, Clothing, FacialHair, Headwear, Detail, Edges],
-    uses_depth: false,
-    leaves_out_background: true,
-};
 
 impl Style for Charcoal {
     fn card(&self) -> &StyleCard {

@@ -1,9 +1,21 @@
-//! Charcoal's parameters and their values.
+//! Charcoal's card, its parameters and their values.
 
 use crate::field::HoughForm;
 use crate::geometry::Millimetres;
+use crate::source::MaskRole::{Clothing, Detail, Edges, Face, FacialHair, Hair, Headwear, Subject};
 use crate::style::declaration::{ON, Radians, Setting, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need, Places, Settings};
+use crate::style::{Kind, Need, Places, Settings, StyleCard};
+
+/// What the style is.
+pub(super) const CARD: StyleCard = StyleCard {
+    name: "charcoal",
+    summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand",
+    source: "Wong 1999, Artistic Rendering of Portrait Photographs",
+    parameters: PARAMETERS,
+    masks: &[Subject, Hair, Face, Clothing, FacialHair, Headwear, Detail, Edges],
+    uses_depth: false,
+    leaves_out_background: true,
+};
 
 /// The background is shaded.
 const BACKGROUND: &[Need] = &[Need::Word("background", &["on"]), Need::Above("background_ink", 0.0)];

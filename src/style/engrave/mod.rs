@@ -26,10 +26,10 @@ use crate::drawing::{Colour, Drawing, Layer, Mark};
 use crate::geometry::{Point, Rect};
 use crate::parallel::{collected, mapped};
 use crate::raster::Raster;
-use crate::source::MaskRole::{self, Clothing, Detail, FacialHair, Hair, Headwear, Scribbles, Subject};
+use crate::source::MaskRole;
 use breaks::LineBreaks;
 use lines::{Family, FamilyLayout, Frame};
-use parameters::{EngraveParameters, GroundColour, Look, ToneFrom};
+use parameters::{CARD, EngraveParameters, GroundColour, Look, ToneFrom};
 use region_map::{Region, RegionMap};
 use relief::Relief;
 use tones::Layers;
@@ -41,17 +41,6 @@ const WHOLE_LINES: f64 = 0.75;
 
 /// The style.
 pub(super) struct Engrave;
-
-/// What it is.
-const CARD: StyleCard = StyleCard {
-    name: "engrave",
-    summary: "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes",
-    source: "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects",
-    parameters: parameters::PARAMETERS,
-    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Scribbles],
-    uses_depth: true,
-    leaves_out_background: true,
-};
 
 impl Style for Engrave {
     fn card(&self) -> &StyleCard {

@@ -1,9 +1,20 @@
-//! The engraving's parameters and their values.
+//! The engraving's card, its parameters and their values.
 
 use crate::geometry::Millimetres;
-use crate::source::MaskRole;
+use crate::source::MaskRole::{self, Clothing, Detail, FacialHair, Hair, Headwear, Scribbles, Subject};
 use crate::style::declaration::{OFF, choices, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need};
+use crate::style::{Kind, Need, StyleCard};
+
+/// What the style is.
+pub(super) const CARD: StyleCard = StyleCard {
+    name: "engrave",
+    summary: "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes",
+    source: "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects",
+    parameters: PARAMETERS,
+    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Scribbles],
+    uses_depth: true,
+    leaves_out_background: true,
+};
 
 /// Working pixels per pitch.
 pub(super) const PIXELS_PER_PITCH: f64 = 6.0;

@@ -22,7 +22,7 @@ use crate::field::{Flow, glass_pattern, line_integral_convolution};
 use crate::geometry::{Millimetres, Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, luminance};
-use parameters::{GlassParameters, Gradient, Manner, Strokes};
+use parameters::{CARD, GlassParameters, Gradient, Manner, Strokes};
 use people::People;
 
 /// Change of colour per pixel at which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes whirl in
@@ -41,17 +41,6 @@ const KEPT_SKIN: f32 = 0.4;
 
 /// The style.
 pub(super) struct Glass;
-
-/// What it is.
-const CARD: StyleCard = StyleCard {
-    name: "glass",
-    summary: "brush strokes that follow contours and whirl where there are none, as in impressionist paintings",
-    source: "Papari 2009, Texture vs contours, chapter 7; Papari and Petkov 2009, Continuous Glass Patterns for Painterly Rendering",
-    parameters: parameters::PARAMETERS,
-    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Hair, MaskRole::Clothing, MaskRole::FacialHair, MaskRole::Headwear],
-    uses_depth: false,
-    leaves_out_background: false,
-};
 
 impl Style for Glass {
     fn card(&self) -> &StyleCard {

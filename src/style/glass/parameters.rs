@@ -1,8 +1,20 @@
-//! The painting's parameters and their values.
+//! The painting's card, its parameters and their values.
 
 use crate::geometry::Millimetres;
+use crate::source::MaskRole;
 use crate::style::declaration::{Radians, choices, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need};
+use crate::style::{Kind, Need, StyleCard};
+
+/// What the style is.
+pub(super) const CARD: StyleCard = StyleCard {
+    name: "glass",
+    summary: "brush strokes that follow contours and whirl where there are none, as in impressionist paintings",
+    source: "Papari 2009, Texture vs contours, chapter 7; Papari and Petkov 2009, Continuous Glass Patterns for Painterly Rendering",
+    parameters: PARAMETERS,
+    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Hair, MaskRole::Clothing, MaskRole::FacialHair, MaskRole::Headwear],
+    uses_depth: false,
+    leaves_out_background: false,
+};
 
 /// Working resolution in millimetres per pixel at the default grain: 320 x 480 px are a sheet of 90 x 134 mm, so that the defaults in
 /// millimetres match those of Table 7.1 in pixels.

@@ -21,7 +21,7 @@ use crate::raster::{Raster, gaussian_blur};
 use crate::source::MaskRole;
 use cells::Cell;
 use darks::Darks;
-use parameters::{Detail, GridParameters, Primitive};
+use parameters::{CARD, Detail, GridParameters, Primitive};
 use structure::StructureGrid;
 
 /// Working pixels above which detail regions get the resolution of the rest: an A1 face at the default pitch would otherwise exceed a
@@ -30,17 +30,6 @@ const MOST_DETAILED_PIXELS: f64 = 25e6;
 
 /// The style.
 pub(super) struct Grid;
-
-/// What it is.
-const CARD: StyleCard = StyleCard {
-    name: "grid",
-    summary: "dots lined up along and across the features, turning into hatching where it is dark",
-    source: "Son, Lee, Kang and Lee 2011, Structure grid for directional stippling; Kang, Lee and Chui 2007",
-    parameters: parameters::PARAMETERS,
-    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes],
-    uses_depth: false,
-    leaves_out_background: true,
-};
 
 impl Style for Grid {
     fn card(&self) -> &StyleCard {

@@ -1,9 +1,20 @@
-//! The structure grid's parameters and their values.
+//! The structure grid's card, its parameters and their values.
 
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choices, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need};
+use crate::style::{Kind, Need, StyleCard};
+
+/// What the style is.
+pub(super) const CARD: StyleCard = StyleCard {
+    name: "grid",
+    summary: "dots lined up along and across the features, turning into hatching where it is dark",
+    source: "Son, Lee, Kang and Lee 2011, Structure grid for directional stippling; Kang, Lee and Chui 2007",
+    parameters: PARAMETERS,
+    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes],
+    uses_depth: false,
+    leaves_out_background: true,
+};
 
 /// Working pixels per pitch, as in the paper (`d = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;

@@ -15,10 +15,10 @@ use crate::drawing::{Dot, Drawing, Layer, Mark};
 use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
 use crate::geometry::{Point, Rect, Region, blob};
 use crate::raster::Raster;
-use crate::source::MaskRole::{self, Clothing, Detail, Edges, FacialHair, Hair, Headwear, Isophotes, Subject};
+use crate::source::MaskRole;
 use crate::style::solids::Solids;
 use features::Features;
-use parameters::HedcutParameters;
+use parameters::{CARD, HedcutParameters};
 use parts::Parts;
 
 /// Tolerance of solid shapes in millimetres.
@@ -28,17 +28,6 @@ const LIGHT: f32 = 0.06;
 
 /// The style.
 pub(super) struct Hedcut;
-
-/// What it is.
-const CARD: StyleCard = StyleCard {
-    name: "hedcut",
-    summary: "dots in rows along the features, as in the portraits of the Wall Street Journal",
-    source: "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010",
-    parameters: parameters::PARAMETERS,
-    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Edges, Isophotes],
-    uses_depth: false,
-    leaves_out_background: true,
-};
 
 impl Style for Hedcut {
     fn card(&self) -> &StyleCard {
@@ -131,7 +120,7 @@ impl Drawer<'_> {
 
     /// Takes out dots that lie in the lights of features, which are smaller than a dot's cell: a catchlight is clean.
     fn clear_lights(&self, drawing: &mut Drawing, ink: &Raster<f32>) {
-        let Some(detail) = self.portrait.masks.get(&Detail) else { return };
+        let Some(detail) = self.portrait.masks.get(&MaskRole::Detail) else { return };
         let is_light = |dot: &Dot| {
             let p = self.portrait.placement.to_grid(dot.centre);
             detail.sample(p.x, p.y) > 0.5 && ink.sample(p.x, p.y) < LIGHT

@@ -1,9 +1,29 @@
-//! The hedcut's parameters and their values.
+//! The hedcut's card, its parameters and their values.
 
 use crate::geometry::Millimetres;
 use crate::source::MaskRole;
 use crate::style::declaration::{ON, choices, count, millimetres, number, parameters, pitches};
-use crate::style::{Kind, Need};
+use crate::style::{Kind, Need, StyleCard};
+
+/// What the style is.
+pub(super) const CARD: StyleCard = StyleCard {
+    name: "hedcut",
+    summary: "dots in rows along the features, as in the portraits of the Wall Street Journal",
+    source: "Bruehl 2023, A Parameterized Approach for Hedcut Rendering; Kim et al. 2008, 2010",
+    parameters: PARAMETERS,
+    masks: &[
+        MaskRole::Subject,
+        MaskRole::Detail,
+        MaskRole::Hair,
+        MaskRole::FacialHair,
+        MaskRole::Clothing,
+        MaskRole::Headwear,
+        MaskRole::Edges,
+        MaskRole::Isophotes,
+    ],
+    uses_depth: false,
+    leaves_out_background: true,
+};
 
 /// Working pixels per pitch, as in the papers (`l = 6`).
 const PIXELS_PER_PITCH: f64 = 6.0;
