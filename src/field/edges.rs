@@ -69,15 +69,12 @@ pub fn lines_of(skeleton: &Raster<u8>, smoothing: f32, least: f32) -> Vec<Curve>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elementary::Elementary as _;
+    use crate::raster::distances_from;
 
     #[test]
     fn a_disc_s_edge_is_one_closed_line_at_its_radius_and_specks_are_gone() {
-        let picture = Raster::from_fn(120, 120, |x, y| {
-            let r = (x as f32 - 59.5).hypotenuse(y as f32 - 59.5);
-            let speck = (x as f32 - 10.0).hypotenuse(y as f32 - 10.0) < 2.5;
-            if r < 35.0 || speck { 0.2 } else { 0.9 }
-        });
+        let (disc, speck) = (distances_from(59.5, 120), distances_from(10.0, 120));
+        let picture = disc.zip_map(&speck, |disc, speck| if disc < 35.0 || speck < 2.5 { 0.2 } else { 0.9 });
         let parameters =
             EdgeParameters { blur: 1.5, thresholds: Thresholds { low: 0.02, high: 0.05 }, least_length: 40.0, smoothing: 3.0 };
         let steps = detect_edges(&picture, parameters);

@@ -130,13 +130,12 @@ fn add_weighted(here: Stretch<'_>, there: Stretch<'_>, x_out: &mut [f32], y_out:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::distances_from;
 
     #[test]
     fn the_flow_runs_around_a_noisy_disc() {
-        let grey = Raster::from_fn(120, 120, |x, y| {
-            let r = (x as f32 - 59.5).hypotenuse(y as f32 - 59.5);
-            0.8 / (1.0 + (35.0 - r).exponential()) + 0.04 * ((x * 31 + y * 57) % 7) as f32 / 7.0
-        });
+        let disc = distances_from(59.5, 120).map(|r| 0.8 / (1.0 + (35.0 - r).exponential()));
+        let grey = Raster::from_fn(120, 120, |x, y| disc.get(x, y) + 0.04 * ((x * 31 + y * 57) % 7) as f32 / 7.0);
         let flow = edge_tangent_flow(&grey, 5, 3);
         for degrees in 0..360 {
             let angle = (degrees as f32).to_radians();

@@ -237,6 +237,13 @@ impl Raster<f32> {
     }
 }
 
+/// Distances of a square picture's pixels from a place on its diagonal, for tests with discs and rings.
+#[cfg(test)]
+pub(crate) fn distances_from(place: f32, side: usize) -> Raster<f32> {
+    use crate::elementary::Elementary as _;
+    Raster::from_fn(side, side, |x, y| (x as f32 - place).hypotenuse(y as f32 - place))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -56,15 +56,12 @@ fn is_removable(lines: &Raster<u8>, index: usize, pass: Pass) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elementary::Elementary as _;
-    use crate::raster::components;
+    use crate::raster::{components, distances_from};
 
     #[test]
     fn a_thick_ring_becomes_a_thin_ring() {
-        let ring = Raster::from_fn(50, 50, |x, y| {
-            let r = (x as f32 - 24.5).hypotenuse(y as f32 - 24.5);
-            u8::from((14.0..19.0).contains(&r))
-        });
+        let from_middle = distances_from(24.5, 50);
+        let ring = from_middle.map(|r| u8::from((14.0..19.0).contains(&r)));
         let lines = thin(&ring);
         let (_, count) = components(&lines);
         assert_eq!(count, 1, "still one piece");
@@ -94,8 +91,7 @@ mod tests {
             seen.get(25, 25)
         };
         assert!(!centre_and_corner, "the hole stays closed off");
-        for (i, _) in lines.pixels().iter().enumerate().filter(|(_, v)| **v != 0) {
-            let r = ((i % 50) as f32 - 24.5).hypotenuse((i / 50) as f32 - 24.5);
+        for (r, _) in from_middle.pixels().iter().zip(lines.pixels()).filter(|(_, v)| **v != 0) {
             assert!((r - 16.5).abs() < 1.6, "pixel at radius {r}");
         }
     }
