@@ -62,10 +62,13 @@ impl Mouths {
         mouths
     }
 
-    /// The mouths' own lines on the page.
-    pub(super) fn strokes(&self, placement: &Placement) -> Vec<Mark> {
-        let taper = |line: &CoherentLine| TAPER * line.curve.length();
-        self.lines.iter().filter_map(|line| feature_stroke(line, placement, taper(line))).collect()
+    /// The mouths' own lines on the page, whose widths count by `share`.
+    pub(super) fn strokes(&self, placement: &Placement, share: f64) -> Vec<Mark> {
+        let scaled = |line: &CoherentLine| CoherentLine {
+            widths: line.widths.iter().map(|width| share * width).collect(),
+            ..line.clone()
+        };
+        self.lines.iter().filter_map(|line| feature_stroke(&scaled(line), placement, TAPER * line.curve.length())).collect()
     }
 
     /// Lines that were found, with the mouths' own in place of those inside the lips; what is left of one is at least `least` long.
@@ -195,4 +198,62 @@ fn smoothed(points: &[Point], widths: &[f64]) -> CoherentLine {
     let width = |i: usize| widths[(i * (widths.len() - 1) + last / 2) / last];
     let widths = (0..smooth.len()).map(width).collect();
     CoherentLine { curve: Curve { points: smooth, closed: false }, widths, contrast: 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Iris;
+
+    /// A mouth of 100 by 40 pixels about (80, 60) whose lips meet, or are `gap` apart in the middle.
+    fn mouth(gap: f64) -> Mouth {
+        let mut points = vec![[0.0; 3]; crate::source::POINTS];
+        let mut set = |closed: &[usize; 20], half: [f64; 2]| {
+            for (i, index) in closed.iter().enumerate() {
+                let turn = std::f64::consts::TAU * i as f64 / 20.0;
+                points[*index] = [80.0 - half[0] * turn.cos(), 60.0 + half[1] * turn.sin(), 0.0];
+            }
+        };
+        set(&outlines::LIPS, [50.0, 20.0]);
+        set(&outlines::MOUTH, [45.0, 0.5 * gap]);
+        let irises = [60.0, 100.0].map(|x| Iris { centre: Point::new(x, 20.0), radius: 4.0 });
+        Mouth::of(&Landmarks { points, irises, spectacles: None }).expect("it has a width")
+    }
+
+    /// Lips with a dark line of a depth along `at`.
+    fn lips(at: impl Fn(f64) -> f64 + Sync, depth: f32) -> Raster<f32> {
+        Raster::from_fn(160, 120, |x, y| if (y as f64 + 0.5 - at(x as f64)).abs() < 1.5 { 0.6 - depth } else { 0.6 })
+    }
+
+    #[test]
+    fn a_closed_mouth_has_one_line_where_it_is_darkest() {
+        let mouth = mouth(2.0);
+        assert!(mouth.gap() < OPEN);
+        let at = |x: f64| 58.0 + 0.05 * (x - 80.0);
+        let (faint, firm) = (lips(at, 0.05), lips(at, 0.3));
+        let line = |light: &Raster<f32>| {
+            let into = |lip: &[Vec<Point>; 2]| between(&lip[0], &lip[1], IN_LIP);
+            Seen { light, mouth: &mouth }.darkest(&into(&mouth.upper), &into(&mouth.lower), WIDEST)
+        };
+        let (faint, firm) = (line(&faint), line(&firm));
+        for p in firm.curve.points.iter().filter(|p| (50.0..110.0).contains(&p.x)) {
+            assert!((p.y - at(p.x)).abs() < 1.5, "{p:?}");
+        }
+        let middle = |line: &CoherentLine| line.widths[line.widths.len() / 2];
+        assert!(middle(&firm) > 1.5 * middle(&faint) && middle(&firm) <= WIDEST * mouth.width + 1e-9);
+    }
+
+    #[test]
+    fn creases_of_the_lips_go_and_lines_beyond_them_stay() {
+        let mouth = mouth(20.0);
+        assert!(mouth.gap() > OPEN);
+        let mouths = Mouths { inside: vec![mouth.inside()], lines: Vec::new() };
+        let line = |x: f64, y: [f64; 2]| {
+            let points: Vec<Point> = (0..=20).map(|i| Point::new(x, y[0] + (y[1] - y[0]) * f64::from(i) / 20.0)).collect();
+            CoherentLine { widths: vec![1.0; points.len()], curve: Curve { points, closed: false }, contrast: 0.3 }
+        };
+        let kept = mouths.redrawn(vec![line(80.0, [50.0, 70.0]), line(80.0, [90.0, 110.0]), line(70.0, [60.0, 100.0])], 5.0);
+        assert_eq!(kept.len(), 2, "the crease goes, the fold of the chin stays, and of the third a part");
+        assert!(kept[1].curve.points[0].y > 74.0 && kept[1].curve.length() > 15.0);
+    }
 }

@@ -32,6 +32,17 @@ pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
     )
 }
 
+/// Eyes and mouths, 0 to 1, whose lights stay paper; all details where no face is known.
+pub(super) fn eyes_and_mouths(portrait: &Portrait, pitch: f64) -> Raster<f32> {
+    if portrait.faces.is_empty() {
+        return detail_zone(portrait, pitch);
+    }
+    let size = (portrait.subject.width(), portrait.subject.height());
+    let eyes = inside_outlines(&portrait.faces, [&outlines::LEFT_EYE, &outlines::RIGHT_EYE], size);
+    let mouths = inside_outlines(&portrait.faces, [&outlines::LIPS, &outlines::MOUTH], size);
+    gaussian_blur(&eyes.zip_map(&mouths, f32::max), (DETAIL_BLUR * pitch) as f32).map(|v| (1.3 * v).min(1.0))
+}
+
 /// The inside of two closed outlines of all faces, 0 or 1.
 pub(super) fn inside_outlines(faces: &[Landmarks], of: [&[usize]; 2], (columns, rows): (usize, usize)) -> Raster<f32> {
     let lines = faces.iter().flat_map(|face| of.map(|outline| face.line(outline)));
@@ -68,9 +79,9 @@ impl Solids {
         Self { outline, lines: spectacles::frames(portrait, pitch) }
     }
 
-    /// The solids with the lines of the mouths.
-    pub(super) fn with_mouths(mut self, portrait: &Portrait, pitch: f64) -> Self {
-        self.lines.extend(Mouths::of(portrait, pitch).strokes(&portrait.placement));
+    /// The solids with the lines of the mouths, whose widths count by `share`.
+    pub(super) fn with_mouths(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
+        self.lines.extend(Mouths::of(portrait, pitch).strokes(&portrait.placement, share));
         self
     }
 

@@ -34,7 +34,7 @@ const BLACK: f32 = 0.06;
 const TOE: [f32; 2] = [0.10, 0.19];
 /// The lights: the percentiles of the skin that get `LIGHT_TONE` and white, of light skin and of dark; and the range of the curve's slope up to
 /// the first. With those of light skin, brown foreheads are white (01, 04, 11).
-const LIGHTS: [f64; 2] = [87.0, 93.0];
+const LIGHTS: [f64; 2] = [84.0, 93.0];
 const LIGHT_TONE: f32 = 0.955;
 const WHITES: [f64; 2] = [96.0, 98.5];
 const SLOPES: [f32; 2] = [0.8, 3.1];

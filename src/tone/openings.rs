@@ -116,8 +116,8 @@ fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster
 
 /// Lips are darker than the skin's median by this, within these limits; the share of their lights that is left above that; and the blur
 /// of their edge in widths of the face.
-const BELOW_SKIN: f32 = 0.2;
-const LIPS: [f32; 2] = [0.42, 0.66];
+const BELOW_SKIN: f32 = 0.25;
+const LIPS: [f32; 2] = [0.42, 0.63];
 const LIPS_LIGHT: f32 = 0.3;
 const LIPS_SOFT: f64 = 0.008;
 

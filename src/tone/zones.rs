@@ -16,7 +16,7 @@ const SOFT: f64 = 0.018;
 const DEVIATIONS: f32 = 2.2;
 const LEAST_SPREAD: f32 = 0.06;
 /// Median lightness of skin that is treated as light and as dark.
-const LIGHT_SKIN: f32 = 0.66;
+const LIGHT_SKIN: f32 = 0.64;
 const DARK_SKIN: f32 = 0.42;
 /// Ratio of a normal distribution's standard deviation to its median absolute deviation.
 const MEDIAN_DEVIATION: f32 = 1.4826;

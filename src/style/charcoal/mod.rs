@@ -78,6 +78,9 @@ pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Rast
     Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair, 1.0))
 }
 
+/// Widths of the mouth's lines, as a share: in full they are ink among charcoal.
+const MOUTH: f64 = 0.6;
+
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.
     fn draw(&self) -> Result<Drawing, StyleError> {
@@ -111,7 +114,7 @@ impl Drawer<'_> {
         let mut face = self.draw_features(&features);
         if self.parameters.has_features {
             let solids = Solids::of_darkest(self.portrait, &self.darkness(), self.pitch());
-            face.extend(solids.with_mouths(self.portrait, self.pitch()).layer().marks);
+            face.extend(solids.with_mouths(self.portrait, self.pitch(), MOUTH).layer().marks);
         }
         let background = self.background(&regions, &behind);
         let layers = [

@@ -11,7 +11,7 @@ use crate::parallel::mapped;
 use crate::raster::{Raster, gaussian_blur, paper_texture, self_guided};
 use crate::source::Landmarks;
 use crate::style::rubbing::rubbed;
-use crate::style::solids::detail_zone;
+use crate::style::solids::{detail_zone, eyes_and_mouths};
 use kurbo::{Line, ParamCurveNearest};
 use std::f32::consts::PI;
 
@@ -151,7 +151,7 @@ impl Drawer<'_> {
         });
         let around = gaussian_blur(&smudged, self.pixels(self.parameters.grain) as f32);
         let firm = smudged.zip_map(&around, |ink, around| (ink + FIRMER * (ink - around)).clamp(0.0, 1.0));
-        let features = detail_zone(self.portrait, self.pitch());
+        let features = eyes_and_mouths(self.portrait, self.pitch());
         let skin = regions.skin().zip_map(&features, |skin, features| skin * (1.0 - features));
         STUMP.iter().fold(firm, |firm, reach| rubbed(&firm, &skin, self.pixels(*reach * self.parameters.smudge) as f32))
     }

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::outlines;
 use crate::style::rubbing::rubbed;
-use crate::style::solids::inside_outlines;
+use crate::style::solids::{eyes_and_mouths, inside_outlines};
 
 impl Drawer<'_> {
     /// The detail without the brows: their hairs are finer than the lines, and sharpened they tear them.
@@ -35,11 +35,12 @@ impl Drawer<'_> {
     }
 
     /// The ink with half tones in the lights of skin, which lines then reach as dots.
-    pub(super) fn with_half_tones(&self, ink: &Raster<f32>, detail: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
+    pub(super) fn with_half_tones(&self, ink: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
         /// Reach of half tones into a face's lights, in pitches: at their borders, and over foreheads and cheeks.
         const HALF_TONES: [f64; 2] = [8.0, 24.0];
         let soft = gaussian_blur(skin, self.pitch() as f32).zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
-        let skin = soft.zip_map(detail, |skin, detail| skin * (1.0 - detail));
+        let features = eyes_and_mouths(self.portrait, self.pitch());
+        let skin = soft.zip_map(&features, |skin, feature| skin * (1.0 - feature));
         HALF_TONES.iter().fold(ink.clone(), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
     }
 

@@ -38,6 +38,8 @@ use runs::{Course, Piece};
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
 /// In hair lines cross at half the angle: steeper ones look woven.
 const HAIR_TURN: f64 = 0.5;
+/// Widths of the mouth's lines, as a share.
+const MOUTH: f64 = 0.85;
 /// Lines of hair stand this much closer.
 const HAIR_CLOSENESS: f32 = 1.08;
 /// How far lines are laid beyond a surface's border, in pitches, so that they are even at it.
@@ -69,9 +71,9 @@ impl Drawer<'_> {
         self.observer.begin("directions");
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
-        let ink = self.with_half_tones(&ink, &firm, &surfaces.skin);
+        let ink = self.with_half_tones(&ink, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
-        let solids = Solids::new(self.portrait, &ink, self.pitch()).with_mouths(self.portrait, self.pitch()).layer();
+        let solids = Solids::new(self.portrait, &ink, self.pitch()).with_mouths(self.portrait, self.pitch(), MOUTH).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
