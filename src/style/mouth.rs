@@ -203,6 +203,7 @@ fn smoothed(points: &[Point], widths: &[f64]) -> CoherentLine {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
     use crate::source::Iris;
 
     /// A mouth of 100 by 40 pixels about (80, 60) whose lips meet, or are `gap` apart in the middle.
@@ -210,8 +211,8 @@ mod tests {
         let mut points = vec![[0.0; 3]; crate::source::POINTS];
         let mut set = |closed: &[usize; 20], half: [f64; 2]| {
             for (i, index) in closed.iter().enumerate() {
-                let turn = std::f64::consts::TAU * i as f64 / 20.0;
-                points[*index] = [80.0 - half[0] * turn.cos(), 60.0 + half[1] * turn.sin(), 0.0];
+                let turn = unit_at(std::f64::consts::TAU * i as f64 / 20.0);
+                points[*index] = [80.0 - half[0] * turn.x, 60.0 + half[1] * turn.y, 0.0];
             }
         };
         set(&outlines::LIPS, [50.0, 20.0]);
