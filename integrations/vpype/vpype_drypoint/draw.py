@@ -104,13 +104,16 @@ def _add(document: vp.Document, drawn: Mapping[str, Any], dot_length: float, tar
 
 def _lines(drawn: Mapping[str, Any], dot_length: float) -> list[np.ndarray]:
     """The tool paths of one layer, in plotting order and in pixels."""
-    strokes = [_line(stroke) for stroke in drawn["strokes"]]
     half = np.array([-0.5 * dot_length, 0.5 * dot_length])
+    strokes = [_line(stroke, half) for stroke in drawn["strokes"]]
     dots = [complex(x, y) * _PIXELS_PER_MM + half for x, y, _ in drawn["dots"]]
     # Each kind is in order by itself, but not how they follow one another.
     return in_best_order([*dots, *strokes]) if dots and strokes else [*dots, *strokes]
 
 
-def _line(stroke: Mapping[str, Any]) -> np.ndarray:
+def _line(stroke: Mapping[str, Any], half: np.ndarray) -> np.ndarray:
     points = np.array(stroke["points"]) @ np.array([1, 1j]) * _PIXELS_PER_MM
+    if np.all(points == points[0]):
+        # Shorter than the step in which the command writes: a touch.
+        return points[0] + half
     return np.append(points, points[0]) if stroke["closed"] and points[0] != points[-1] else points
