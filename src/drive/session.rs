@@ -258,8 +258,11 @@ impl<'a> Session<'a> {
             match heard {
                 Heard::Taken(line) => {
                     self.still = 0;
-                    let proves = self.controller.proves(&self.standing.program.lines[line]);
-                    self.standing.take(line, proves, self.controller.hidden_moves());
+                    if self.controller.proves(&self.standing.program.lines[line]) {
+                        self.standing.prove(line);
+                    } else {
+                        self.standing.take(line, self.controller.hidden_moves());
+                    }
                 }
                 Heard::State { is_still } => {
                     self.still = if is_still { self.still + 1 } else { 0 };

@@ -52,12 +52,13 @@ impl<'a> Standing<'a> {
         self.clock.run(self.program, &self.under_the_pen(), percent);
     }
 
-    /// A line was taken.
-    pub fn take(&mut self, line: usize, proves: bool, hidden: usize) {
-        if proves {
-            self.drawn = self.drawn.max(line + 1);
-            return;
-        }
+    /// A line was taken, which proves that all before it is drawn.
+    pub fn prove(&mut self, line: usize) {
+        self.drawn = self.drawn.max(line + 1);
+    }
+
+    /// A line was taken; as many moves as are `hidden` may be waiting in the machine.
+    pub fn take(&mut self, line: usize, hidden: usize) {
         // The moves before the last `hidden` ones cannot all be waiting.
         let mut moves = 0;
         for i in (self.drawn..=line).rev() {

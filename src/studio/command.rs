@@ -96,9 +96,9 @@ impl Sender {
         self.0.id()
     }
 
-    /// Its status lines and its messages.
-    pub(super) fn pipes(&mut self) -> (ChildStdout, ChildStderr) {
-        (self.0.stdout.take().expect("it is piped"), self.0.stderr.take().expect("it is piped"))
+    /// Its status lines and its messages, once.
+    pub(super) fn pipes(&mut self) -> Option<(ChildStdout, ChildStderr)> {
+        self.0.stdout.take().zip(self.0.stderr.take())
     }
 
     /// Waits for its end; returns its status unless it succeeded.

@@ -194,7 +194,7 @@ fn machine_file(scene: &str, profile: &str, ending: &str) -> String {
 
 /// Hears the sender until it ends, and stops it when the studio ends.
 async fn follow(studio: Arc<Studio>, mut sender: Sender) {
-    let (stdout, stderr) = sender.pipes();
+    let Some((stdout, stderr)) = sender.pipes() else { return };
     let id = sender.id();
     let stopping = async {
         while !(studio.is_ending)() {

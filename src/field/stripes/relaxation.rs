@@ -28,7 +28,6 @@ pub type Start<'a> = &'a (dyn Fn(u64, Point, Wave) -> f32 + Sync);
 
 /// Stripes along `wave` (full size, in pixels), starting on the coarsest level from the given phases. An anchor pulls each node of the
 /// finest level to a phase (a complex number whose length is the strength, 0 for none).
-#[expect(clippy::missing_panics_doc, reason = "there is at least one level")]
 pub fn stripes(
     wave: &Raster<Wave>,
     parameters: StripeParameters,
@@ -47,11 +46,10 @@ pub fn stripes(
         phase: Raster::filled(0, 0, [0.0; 2]),
         angles: Raster::filled(0, 0, 0.0),
     };
-    let mut coarser: Option<StripeLattice> = None;
-    for level in (0..parameters.levels.max(1)).rev() {
+    let relaxed = |coarser: Option<&StripeLattice>, level: u32| {
         let step = parameters.step * f64::from(1_u32 << level);
         let waves = if level == 0 { finest.wave.clone() } else { nodes(step) };
-        let phase = match &coarser {
+        let phase = match coarser {
             None => Raster::from_fn(waves.width(), waves.height(), |i, j| {
                 let place = Point::new((i as f64 + 0.5) * step - margin, (j as f64 + 0.5) * step - margin);
                 let angle = std::f32::consts::TAU * start((j * waves.width() + i) as u64, place, waves.get(i, j));
@@ -62,9 +60,10 @@ pub fn stripes(
         let mut lattice = StripeLattice { step, margin, wave: waves, phase, angles: Raster::filled(0, 0, 0.0) };
         let edges = Edges::new(&lattice, &finest);
         relax(&mut lattice, &edges, parameters, if level == 0 { anchor } else { None });
-        coarser = Some(lattice);
-    }
-    coarser.expect("there is at least one level").settled()
+        lattice
+    };
+    let coarsest = parameters.levels.max(1) - 1;
+    (0..coarsest).rev().fold(relaxed(None, coarsest), |coarser, level| relaxed(Some(&coarser), level)).settled()
 }
 
 /// The wave at the nodes of a lattice.

@@ -194,8 +194,6 @@ impl Drawer<'_> {
         const SHADE: [f32; 5] = [1.0, 0.9, 0.8, 0.7, 0.6];
         /// How far down hair hangs beside a face, in eye distances.
         const LOWEST_FRINGE: f64 = 0.75;
-        /// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
-        const CLOSED: f64 = 0.3;
         let colour = self.colours();
         let (hair, skin) = Self::hair_and_skin(&colour, subject, frame).ok_or(NO_HAIR)?;
         let contrast = distance(hair, skin);
@@ -216,13 +214,7 @@ impl Drawer<'_> {
             u8::from(zone && (hangs || is_crown || (!is_face && is_hair && contrast >= CLEAR_CONTRAST)))
         });
         let near = face.map_or(near.clone(), |face| near.zip_map(face, |n, face| if face >= 0.5 { 0 } else { n }));
-        let gap = (CLOSED * frame.eye_distance).round() as usize;
-        let closed = dilate(&dilate(&majority(&near, 2), gap).map(|v| 1 - v), gap).map(|v| 1 - v);
-        let closed = Raster::from_fn(width, height, |x, y| {
-            let down = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5)).1;
-            if down < CROWN && subject.get(x, y) >= 0.5 { closed.get(x, y) } else { near.get(x, y) }
-        });
-        let whole = without_holes(&largest(&majority(&closed, 2), 0.2));
+        let whole = without_holes(&largest(&majority(&without_partings(&near, subject, frame), 2), 0.2));
         let area: f64 = whole.pixels().iter().map(|v| f64::from(*v)).sum();
         if area <= 0.3 * frame.eye_distance.powi(2) {
             return Err(NO_HAIR);
@@ -367,4 +359,16 @@ fn bounds(region: &Raster<f32>) -> Option<Rect> {
         .map(|(i, _)| ((i % region.width()) as f64, (i / region.width()) as f64))
         .map(|(x, y)| Rect::new(x, y, x + 1.0, y + 1.0))
         .reduce(|a, b| a.union(b))
+}
+
+/// The hair with its partings, where the scalp is lit, in the crown.
+fn without_partings(hair: &Raster<u8>, subject: &Raster<f32>, frame: &FaceFrame) -> Raster<u8> {
+    /// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
+    const CLOSED: f64 = 0.3;
+    let gap = (CLOSED * frame.eye_distance).round() as usize;
+    let closed = dilate(&dilate(&majority(hair, 2), gap).map(|v| 1 - v), gap).map(|v| 1 - v);
+    Raster::from_fn(hair.width(), hair.height(), |x, y| {
+        let down = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5)).1;
+        if down < CROWN && subject.get(x, y) >= 0.5 { closed.get(x, y) } else { hair.get(x, y) }
+    })
 }
