@@ -9,7 +9,7 @@
 
 use super::exact_ink::{grown, with_exact_ink};
 use super::failure::Failure;
-use super::palette::Palette;
+use super::palette::{APART, AT_ONCE, Palette};
 use super::task::Task;
 use crate::colour::{Candidate, deal};
 use crate::drawing::{Drawing, Layer, Mark};
@@ -21,11 +21,6 @@ use crate::style::{Observer, Picture, Settings, StyleError};
 
 /// Most of the paper that marks beside one another cover: above it round dots run together.
 const MOST_BESIDE: f32 = 0.75;
-/// Styles whose marks are long lines or smudges, which do not share their place: each pen draws for itself, and its marks cross those
-/// of the others by chance.
-pub(super) const APART: [&str; 2] = [LINES, "charcoal"];
-/// How many pens draw for themselves at the same time: parts of each have to wait for one another. More only take memory.
-pub(super) const AT_ONCE: usize = 2;
 /// The style of parallel lines.
 const LINES: &str = "engrave";
 /// Direction of the first pen's lines in degrees.

@@ -1,5 +1,6 @@
 //! Errors as the user sees them, and their exit statuses.
 
+use super::interruption::{INTERRUPTED, exit_status};
 use super::remedies::advised;
 use super::words::counted;
 use std::io;
@@ -23,7 +24,7 @@ pub(super) enum Failure {
         failed: u64,
     },
     /// The user stopped it.
-    #[error("interrupted; unfinished files are not written")]
+    #[error("{INTERRUPTED}")]
     Interrupted,
     /// A drawing was stopped at its machine by a key.
     #[cfg(feature = "drive")]
@@ -40,7 +41,7 @@ impl Failure {
             Self::Usage(_) => 2,
             Self::Work(_) | Self::Misfit(_) => 1,
             Self::Some { .. } => 3,
-            Self::Interrupted => super::interruption::exit_status(),
+            Self::Interrupted => exit_status(),
             #[cfg(feature = "drive")]
             Self::Stopped => 130,
             Self::ClosedPipe => 0,

@@ -1,6 +1,5 @@
 //! Ctrl-C, SIGTERM and SIGHUP: the work is asked to stop; if it does not stop soon, the process exits and leaves no temporary files.
 
-use super::failure::Failure;
 use super::messages::say;
 use crate::interrupt::Interrupt;
 #[cfg(unix)]
@@ -18,7 +17,7 @@ use std::sync::Arc;
 #[cfg(any(not(unix), feature = "drive"))]
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::{AtomicI32, Ordering};
-use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+use std::sync::{LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 use tempfile::NamedTempFile;
 
@@ -127,6 +126,18 @@ pub(super) fn is_interrupted() -> bool {
     INTERRUPT.is_raised()
 }
 
+/// What is said of an interruption.
+pub(super) const INTERRUPTED: &str = "interrupted; unfinished files are not written";
+
+/// What is done before the process exits.
+static LAST: OnceLock<fn()> = OnceLock::new();
+
+/// Has something done before an interrupted process exits, such as setting a terminal back. Only the first is done.
+#[cfg(feature = "drive")]
+pub(super) fn at_last(act: fn()) {
+    let _ = LAST.set(act);
+}
+
 /// 130 after Ctrl-C, 143 after SIGTERM or SIGHUP.
 pub(super) fn exit_status() -> u8 {
     if matches!(STOPPED_BY.load(Ordering::SeqCst), 0 | SIGINT) { 130 } else { 143 }
@@ -145,9 +156,10 @@ fn end() -> ! {
     for path in held.iter().flat_map(|paths| paths.iter()) {
         let _ = fs::remove_file(path);
     }
-    #[cfg(feature = "drive")]
-    super::send::restore_terminal();
-    say!("drypoint: {}", Failure::Interrupted);
+    if let Some(act) = LAST.get() {
+        act();
+    }
+    say!("drypoint: {INTERRUPTED}");
     std::process::exit(i32::from(exit_status()))
 }
 

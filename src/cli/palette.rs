@@ -1,7 +1,6 @@
 //! `--colours`: the pens in whose colours a photograph is drawn.
 
 use super::arguments::{ListOptions, PictureOptions};
-use super::coloured::APART;
 use super::failure::Failure;
 use super::messages::warning;
 use super::output;
@@ -28,6 +27,12 @@ pub(super) struct Palette {
     /// What was chosen, if not all pens.
     pub choice: Option<String>,
 }
+
+/// Styles whose marks are long lines or smudges, which do not share their place: each pen draws for itself, and its marks cross those
+/// of the others by chance.
+pub(super) const APART: [&str; 2] = ["engrave", "charcoal"];
+/// How many pens draw for themselves at the same time: parts of each have to wait for one another. More only take memory.
+pub(super) const AT_ONCE: usize = 2;
 
 impl Palette {
     /// Reads and checks the pens; none if the photograph is not drawn in colours. `light` is the photograph, linear sRGB, for which

@@ -1,5 +1,6 @@
 //! `drypoint sheet`: several scenes and drawings on one sheet.
 
+use super::arguments::Spelled;
 use super::arguments::{Arguments, Command, Format, SheetOptions};
 use super::failure::Failure;
 use super::formats;
@@ -10,7 +11,7 @@ use super::messages::say;
 use super::pens::PenSet;
 use super::progress::Watcher;
 use super::remedies::advised;
-use super::scene::{self, Refusal, Spelled};
+use super::scene::{self, Refusal};
 use super::threads::limit_threads;
 use super::words::{file_name, is_toml};
 use super::{affordable, job, layout, output, toolpaths};

@@ -1,20 +1,19 @@
 //! Everything that decides a drawing: the photograph, what is known of it, its place on the sheet, the style and its settings.
 
 use super::arguments::{PictureOptions, PlacingOptions};
-use super::coloured::{APART, AT_ONCE};
 use super::crop;
 use super::eyes;
 use super::failure::Failure;
 use super::known::{self, Known, Wanted};
 use super::layout::{Layout, lay_out, reach_of};
-use super::lists::{role_names, roles_of, styles_with_role};
 use super::looking;
 use super::manner::{Manner, find_style, given, resolved};
 use super::masks::{RoleMask, photograph};
 use super::messages::say;
-use super::palette::Palette;
+use super::palette::{APART, AT_ONCE, Palette};
 use super::regions::{self, Region};
 use super::remedies::advised;
+use super::roles::{role_names, roles_of, styles_with_role};
 use super::seen_stages;
 use crate::drawing::{Drawing, Page};
 use crate::geometry::{Affine, Rect};

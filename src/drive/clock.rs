@@ -3,8 +3,8 @@
 //! A machine takes lines some seconds ahead of its pen, and in gulps. The clock runs on by itself, never out of these bounds, and is set
 //! right by every place that the machine tells.
 
-use super::controller::Stand;
 use super::program::Program;
+use super::stand::Stand;
 use crate::geometry::Point;
 use std::ops::Range;
 use std::time::Instant;

@@ -2,6 +2,7 @@
 
 use super::error::DriveError;
 use super::program::ProgramLine;
+use super::stand::Stand;
 use crate::interrupt::Interrupt;
 use std::time::Duration;
 
@@ -63,15 +64,6 @@ impl SpeedChange {
             Self::Slower => percent.saturating_sub(10).max(10),
         }
     }
-}
-
-/// Where a machine stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stand {
-    /// The pen's position in the work's coordinates, in machine units.
-    pub at: [f64; 3],
-    /// The value that sets the pen's servo, if the machine tells it.
-    pub servo: Option<f64>,
 }
 
 /// A machine's protocol.

@@ -7,11 +7,12 @@
 //! A Roland DXY-1100, 1200 or 1300 has the same ones in RD-GL I mode (DXY-1300/1200/1100 Command Reference Manual, sections 5.3 and 5.4),
 //! with the same codes of status; its buffer holds 1024 bytes too, and its pin 20 falls when that is full.
 
-use super::controller::{Controller, Heard, SpeedChange, Stand};
+use super::controller::{Controller, Heard, SpeedChange};
 use super::error::DriveError;
 use super::lines::Lines;
 use super::port::{Handshake, Port};
 use super::program::ProgramLine;
+use super::stand::Stand;
 use crate::interrupt::Interrupt;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};

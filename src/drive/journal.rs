@@ -3,7 +3,6 @@
 //! One line of JSON for the beginning, then one for each path and each quarter of a second. A line cut off by a crash is ignored.
 
 use super::error::DriveError;
-use super::standing::Standing;
 use serde::{Deserialize, Serialize};
 use std::io;
 use std::time::{Duration, Instant};
@@ -85,8 +84,7 @@ impl<'a> Journal<'a> {
     }
 
     /// Writes where the drawing stands, if it is time.
-    pub(super) fn note(&mut self, standing: &Standing<'_>) -> Result<(), DriveError> {
-        let record = standing.record();
+    pub(super) fn note(&mut self, record: Record) -> Result<(), DriveError> {
         let is_other_path = record.path != self.last.path;
         let is_last = record.is_done || record.is_stopped;
         if record == self.last || !is_other_path && !is_last && self.recorded.elapsed() < RECORDING {

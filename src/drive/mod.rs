@@ -25,10 +25,11 @@ mod port;
 mod program;
 mod recovery;
 mod session;
+mod stand;
 mod standing;
 
 #[doc(hidden)]
-pub use controller::{Controller, Heard, SpeedChange, Stand};
+pub use controller::{Controller, Heard, SpeedChange};
 #[doc(hidden)]
 pub use dips::{Dip, Inkwell, Refill};
 #[doc(hidden)]
@@ -52,4 +53,6 @@ pub use program::{PathLines, Place, ProgramLine};
 pub use recovery::{Evidence, Found, place_to_continue};
 pub use session::Session;
 #[doc(hidden)]
-pub use session::{Ending, Happening, Onlooker, Progress, Wish};
+pub use session::{Ending, Happening, Onlooker, Wish};
+pub use stand::Stand;
+pub use standing::Progress;

@@ -10,8 +10,8 @@
 //!   G0 X0 Y0                   the tail
 //! ```
 
-use super::controller::Stand;
 use super::error::DriveError;
+use super::stand::Stand;
 use crate::elementary::{Elementary as _, angle_of};
 use crate::geometry::{Point, Vec2};
 use crate::interrupt::Interrupt;

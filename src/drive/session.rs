@@ -10,7 +10,7 @@ use super::controller::{Controller, Heard, SpeedChange};
 use super::error::DriveError;
 use super::journal::Journal;
 use super::program::Program;
-use super::standing::{Standing, pressed};
+use super::standing::{Progress, Standing, pressed};
 use crate::interrupt::Interrupt;
 use crate::plot::Act;
 use std::io;
@@ -56,23 +56,6 @@ pub enum Happening<'a> {
     Resumed,
     /// The machine said something.
     Said(&'a str),
-}
-
-/// How far a drawing is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Progress {
-    /// Fraction of the planned time that is drawn.
-    pub fraction: f64,
-    /// Planned seconds left.
-    pub seconds_left: f64,
-    /// Paths drawn.
-    pub paths: usize,
-    /// Paths in all.
-    pub paths_in_all: usize,
-    /// The pen in use.
-    pub pen: u32,
-    /// Where it was last, in machine units.
-    pub at: Option<[f64; 3]>,
 }
 
 /// Who watches a drawing and may change its course.
@@ -178,7 +161,7 @@ impl<'a> Session<'a> {
         }
         if is_ended {
             self.halt()?;
-            journal.note(&self.standing)?;
+            journal.note(self.standing.record())?;
             return Ok(Some(Ending::Stopped));
         }
         self.feed()?;
@@ -186,7 +169,7 @@ impl<'a> Session<'a> {
         self.ask()?;
         self.come_to_rest(onlooker);
         self.standing.pass_time(if self.phase == Phase::Waiting { 0 } else { self.standing.percent });
-        journal.note(&self.standing)?;
+        journal.note(self.standing.record())?;
         self.report(onlooker);
         Ok(self.standing.is_done.then_some(Ending::Done))
     }
@@ -364,7 +347,7 @@ impl<'a> Session<'a> {
         if obeys && !self.standing.is_stopped {
             let _ = self.halt();
         }
-        let _ = journal.note(&self.standing);
+        let _ = journal.note(self.standing.record());
         fault
     }
 }

@@ -1,13 +1,29 @@
 //! Where a drawing stands: what is sent, taken and certainly drawn.
 
 use super::clock::Clock;
-use super::controller::Stand;
 use super::journal::Record;
 use super::program::{Program, ProgramLine};
-use super::session::Progress;
+use super::stand::Stand;
 use crate::plot::{Act, word, words};
 use std::borrow::Cow;
 use std::ops::Range;
+
+/// How far a drawing is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Fraction of the planned time that is drawn.
+    pub fraction: f64,
+    /// Planned seconds left.
+    pub seconds_left: f64,
+    /// Paths drawn.
+    pub paths: usize,
+    /// Paths in all.
+    pub paths_in_all: usize,
+    /// The pen in use.
+    pub pen: u32,
+    /// Where it was last, in machine units.
+    pub at: Option<[f64; 3]>,
+}
 
 /// Where a drawing stands.
 pub(super) struct Standing<'a> {

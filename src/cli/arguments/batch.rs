@@ -1,21 +1,9 @@
 //! Options of `batch`.
 
 use super::draw::DrawOptions;
-use super::values::{memory_size, shard};
+use super::values::{Shard, memory_size, shard};
 use clap::Args;
 use std::path::PathBuf;
-
-/// The part of a batch that one machine draws: `number` of `count`, from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::cli) struct Shard {
-    pub number: u32,
-    pub count: u32,
-}
-
-impl Shard {
-    /// All pictures.
-    pub(in crate::cli) const WHOLE: Self = Self { number: 1, count: 1 };
-}
 
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct BatchOptions {

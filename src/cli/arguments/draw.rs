@@ -8,13 +8,23 @@ use super::values::{
     CropPart, crop, dot_gain, duration, fraction, gamma, ink, key_value, length_above_zero, length_from_zero, nib, role_file,
     screen, size_above_zero,
 };
-use crate::cli::lists::mask_roles;
 use crate::cli::region::{RegionOption, region};
-use crate::cli::scene::Spelled;
+use crate::cli::roles::mask_roles;
 use crate::colour::Black;
 use crate::drawing::{Colour, Ink};
 use clap::Args;
 use std::path::PathBuf;
+
+/// The options of a drawing that differ from their defaults, by their long names, in the order of the help.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in crate::cli) struct Spelled(pub Vec<(String, Vec<String>)>);
+
+impl Spelled {
+    /// The values of an option; none if it was not given.
+    pub(in crate::cli) fn get(&self, option: &str) -> Option<&[String]> {
+        self.0.iter().find(|(name, _)| name == option).map(|(_, values)| values.as_slice())
+    }
+}
 
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct PictureOptions {

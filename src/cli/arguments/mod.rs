@@ -27,7 +27,7 @@ pub(super) use sheet::*;
 #[cfg(feature = "studio")]
 pub(super) use studio::*;
 pub(super) use toolpaths::*;
-pub(super) use values::{CropNumber, CropPart, NIBS};
+pub(super) use values::{CropNumber, CropPart, NIBS, Shard};
 
 use clap::{Parser, Subcommand};
 

@@ -1,6 +1,5 @@
 //! Parsers of option values: lengths, times, fractions, crops.
 
-use super::batch::Shard;
 use crate::drawing::Ink;
 use crate::geometry::{parse_drawn_length, parse_length, parse_size};
 use std::ops::RangeInclusive;
@@ -246,6 +245,18 @@ pub(super) fn crop(text: &str) -> Result<CropPart, String> {
         .collect::<Option<_>>()
         .ok_or_else(refuse)?;
     numbers.try_into().map(CropPart::Box).map_err(|_| refuse())
+}
+
+/// The part of a batch that one machine draws: `number` of `count`, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::cli) struct Shard {
+    pub number: u32,
+    pub count: u32,
+}
+
+impl Shard {
+    /// All pictures.
+    pub(in crate::cli) const WHOLE: Self = Self { number: 1, count: 1 };
 }
 
 /// A part of a batch, such as `3/8`.

@@ -24,5 +24,4 @@ pub(super) use document::{named_files, names_file, with_mask};
 pub(super) use expansion::{Refusal, matches};
 pub(super) use presets::presets;
 pub(super) use schema::schema;
-pub(super) use spelled::Spelled;
 pub(super) use writer::{run, save};

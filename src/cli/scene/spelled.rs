@@ -1,6 +1,7 @@
 //! What a command line amounts to: each option of `draw` that differs from its default, as it would be typed.
 
 use super::document::{draw_command, is_switch, long};
+use crate::cli::arguments::Spelled;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches};
 
@@ -25,21 +26,12 @@ pub(super) const RUN_ONLY: [&str; 17] = [
     "explain",
 ];
 
-/// The options of a drawing that differ from their defaults, by their long names, in the order of the help.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(in crate::cli) struct Spelled(pub Vec<(String, Vec<String>)>);
-
 impl Spelled {
     /// The options that a parsed `draw` or `scene` was given.
     pub(in crate::cli) fn of(given: &ArgMatches) -> Self {
         let command = draw_command();
         let options = command.get_arguments().filter(|arg| is_drawn(arg));
         Self(options.filter_map(|arg| Some((long(arg).to_owned(), values(arg, given)?))).collect())
-    }
-
-    /// The values of an option; none if it was not given.
-    pub(in crate::cli) fn get(&self, option: &str) -> Option<&[String]> {
-        self.0.iter().find(|(name, _)| name == option).map(|(_, values)| values.as_slice())
     }
 }
 

@@ -1,8 +1,8 @@
 //! `drypoint scene` and `--save-scene`: a command line as a scene.
 
 use super::document::{MASK, PHOTOGRAPH, REGION, SET, draw_command, is_list, is_switch, long, names_file};
-use super::spelled::{Spelled, is_drawn};
-use crate::cli::arguments::DrawOptions;
+use super::spelled::is_drawn;
+use crate::cli::arguments::{DrawOptions, Spelled};
 use crate::cli::failure::Failure;
 use crate::cli::messages::say;
 use crate::cli::output;

@@ -1,17 +1,14 @@
 //! Single keys from a terminal, which is set back at the end, whatever the end is.
 
 #[cfg(unix)]
-pub(in crate::cli) use unix::restore_terminal;
-#[cfg(unix)]
 pub(super) use unix::{Keys, pause_is_asked_for};
 
-#[cfg(not(unix))]
-pub(in crate::cli) use waiting::restore_terminal;
 #[cfg(not(unix))]
 pub(super) use waiting::{Keys, pause_is_asked_for};
 
 #[cfg(unix)]
 mod unix {
+    use crate::cli::interruption::at_last;
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
     use rustix::io::read;
     use rustix::stdio::stdin;
@@ -35,7 +32,7 @@ mod unix {
     }
 
     /// Sets the terminal back.
-    pub(in crate::cli) fn restore_terminal() {
+    fn restore_terminal() {
         if let Some(before) = BEFORE.lock().unwrap_or_else(PoisonError::into_inner).take() {
             let _ = tcsetattr(stdin(), OptionalActions::Now, &before);
         }
@@ -55,6 +52,7 @@ mod unix {
             let mut now = before.clone();
             now.local_modes.remove(LocalModes::ICANON | LocalModes::ECHO);
             tcsetattr(stdin(), OptionalActions::Now, &now).ok()?;
+            at_last(restore_terminal);
             *BEFORE.lock().unwrap_or_else(PoisonError::into_inner) = Some(before);
             Some(Self)
         }
@@ -109,9 +107,6 @@ mod waiting {
             }
         }
     }
-
-    /// A console gives single keys without being changed.
-    pub(in crate::cli) fn restore_terminal() {}
 
     /// There is no signal for that.
     pub(in crate::cli::send) fn pause_is_asked_for() -> bool {

@@ -12,8 +12,6 @@ mod meeting;
 mod onlooker;
 mod part;
 
-pub(super) use keys::restore_terminal;
-
 use super::arguments::{PortsOptions, SendOptions, ToolpathOptions};
 use super::claims;
 use super::failure::Failure;

@@ -14,7 +14,8 @@ mod streaming;
 
 pub use plot::Rest;
 
-use super::controller::{Heard, Stand};
+use super::controller::Heard;
+use super::stand::Stand;
 
 use super::error::DriveError;
 use super::lines::Lines;

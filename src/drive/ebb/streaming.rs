@@ -2,9 +2,10 @@
 
 use super::plan::{Limits, plan};
 use super::{Ebb, GUARD, LISTENING, LONGEST_LINE, PATIENCE, Question, TRAVELLING, rates, seconds_of, steps_of};
-use crate::drive::controller::{Controller, Heard, SpeedChange, Stand};
+use crate::drive::controller::{Controller, Heard, SpeedChange};
 use crate::drive::error::DriveError;
 use crate::drive::program::ProgramLine;
+use crate::drive::stand::Stand;
 use crate::geometry::Point;
 use crate::interrupt::Interrupt;
 use std::time::{Duration, Instant};

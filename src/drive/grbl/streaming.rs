@@ -2,9 +2,10 @@
 
 use super::reply::{MachineState, Reply};
 use super::{BRAKING, Grbl, MOST_OUTSTANDING, SEGMENTED, TRAVELLING, faults};
-use crate::drive::controller::{Controller, Heard, SpeedChange, Stand};
+use crate::drive::controller::{Controller, Heard, SpeedChange};
 use crate::drive::error::DriveError;
 use crate::drive::program::ProgramLine;
+use crate::drive::stand::Stand;
 use crate::interrupt::Interrupt;
 use crate::plot::Act;
 use std::time::{Duration, Instant};

@@ -5,11 +5,12 @@
 
 mod reply;
 
-use super::controller::{Controller, Heard, SpeedChange, Stand};
+use super::controller::{Controller, Heard, SpeedChange};
 use super::error::DriveError;
 use super::lines::Lines;
 use super::port::Port;
 use super::program::ProgramLine;
+use super::stand::Stand;
 use crate::interrupt::Interrupt;
 use crate::plot::Act;
 use reply::Reply;

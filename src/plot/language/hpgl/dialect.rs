@@ -1,4 +1,4 @@
-//! The HP-GL dialect of a machine, and SVG for a machine driven by its own program.
+//! The HP-GL dialect of a machine.
 
 use crate::plot::language::Refusal;
 use serde::Deserialize;
