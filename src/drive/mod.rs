@@ -54,5 +54,7 @@ pub use recovery::{Evidence, Found, place_to_continue};
 pub use session::Session;
 #[doc(hidden)]
 pub use session::{Ending, Happening, Onlooker, Wish};
+#[doc(hidden)]
 pub use stand::Stand;
+#[doc(hidden)]
 pub use standing::Progress;
