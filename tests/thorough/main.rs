@@ -30,6 +30,7 @@ mod effects;
 mod ends_of_ranges;
 mod engrave;
 mod files_kept;
+mod flat_colours;
 mod glass;
 mod grid;
 mod hedcut;
