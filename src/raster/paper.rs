@@ -40,11 +40,16 @@ fn equalised(raster: &Raster<f32>) -> Raster<f32> {
     let rows = raster.height().div_ceil(BANDS);
     let counted = |band: usize| {
         let mut below = vec![0_u32; LEVELS + 1];
+        let mut count = |value: f32| below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
         for y in band * rows..((band + 1) * rows).min(raster.height()) {
+            let (row, next) = (raster.row(y), raster.row((y + 1).min(raster.height() - 1)));
             for x in 0..raster.width() {
-                for (dx, dy) in [(0.75, 0.75), (1.25, 0.75), (0.75, 1.25), (1.25, 1.25)] {
-                    let value = raster.sample(x as f64 + dx, y as f64 + dy);
-                    below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
+                let right = (x + 1).min(raster.width() - 1);
+                // A quarter and three quarters of the way to the neighbours.
+                let top = between(row[x], row[right]);
+                let bottom = between(next[x], next[right]);
+                for (top, bottom) in top.into_iter().zip(bottom) {
+                    between(top, bottom).into_iter().for_each(&mut count);
                 }
             }
         }
@@ -64,6 +69,11 @@ fn equalised(raster: &Raster<f32>) -> Raster<f32> {
         let (from, to) = (below[level] as f32, below[level + 1] as f32);
         ((from + (to - from) * at.fract()) / total.max(1) as f32).clamp(0.0, 1.0)
     })
+}
+
+/// The values at a quarter and at three quarters of the way.
+fn between(from: f32, to: f32) -> [f32; 2] {
+    [from * 0.75 + to * 0.25, from * 0.25 + to * 0.75]
 }
 
 #[cfg(test)]

@@ -40,6 +40,7 @@ pub use mask_role::MaskRole;
 #[doc(hidden)]
 pub use placement::fill_box;
 pub use placement::{Crop, Placement};
+pub(crate) use portrait::Relief;
 #[doc(hidden)]
 pub use portrait::mask_on;
 pub use portrait::{Portrait, ToneCurve, ToneTarget};

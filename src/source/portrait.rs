@@ -15,6 +15,7 @@ use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, gaussian_blur};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The mesh's point on the tip of the nose, the middle of a face.
 const NOSE_TIP: usize = 1;
@@ -84,6 +85,17 @@ pub struct Portrait {
     pub faces: Vec<Landmarks>,
     /// Regions marked by hand.
     pub scribbles: Option<Scribbles>,
+    /// The relief that bends an engraving's lines, once it is known.
+    pub(crate) relief: Option<Arc<Relief>>,
+}
+
+/// Form without tone, the same for all pens that draw a portrait.
+#[derive(Clone, Debug)]
+pub(crate) struct Relief {
+    /// Nearness, 0 to 1, continued beyond the known area.
+    pub nearness: Raster<f32>,
+    /// Share of each pixel that is drawn, 0 to 1.
+    pub cover: Raster<f32>,
 }
 
 impl Portrait {
@@ -121,6 +133,7 @@ impl Portrait {
             is_depth_found: false,
             faces: Vec::new(),
             scribbles: None,
+            relief: None,
         })
     }
 
@@ -226,6 +239,7 @@ impl Portrait {
             is_depth_found: self.is_depth_found,
             faces: self.faces.iter().map(|face| face.placed(place, 1.0)).collect(),
             scribbles: self.scribbles.as_ref().map(|scribbles| scribbles.part(columns, rows)),
+            relief: None,
         }
     }
 

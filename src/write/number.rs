@@ -1,29 +1,42 @@
 //! Decimal numbers in their shortest form.
 
-use std::fmt::Write;
-
 /// Converts a length in millimetres to whole units of 0.001 mm, the grid of files.
 pub fn thousandths(mm: f64) -> i64 {
     (mm * 1000.0).round() as i64
 }
 
-/// Appends `value` in units of `10^-digits`, without redundant zeros: 1500 thousandths are `1.5`, -20 are `-.02`.
+/// Appends `value` in units of `10^-digits`, without redundant zeros: 1500 thousandths are `1.5`, -20 are `-.02`. Digit by digit: a file has
+/// millions of numbers, and a formatter takes longer.
 pub fn decimal(out: &mut String, value: i64, digits: u32) {
-    let scale = 10_i64.pow(digits);
     if value < 0 {
         out.push('-');
     }
-    let (whole, fraction) = (value.abs() / scale, value.abs() % scale);
+    let scale = 10_u64.pow(digits);
+    let (whole, fraction) = (value.unsigned_abs() / scale, value.unsigned_abs() % scale);
     if whole != 0 || fraction == 0 {
-        let _ = write!(out, "{whole}");
+        push_digits(out, whole, 1);
     }
     if fraction != 0 {
-        let start = out.len();
-        let _ = write!(out, ".{fraction:0width$}", width = digits as usize);
-        while out.ends_with('0') && out.len() > start {
-            out.pop();
+        let (mut fraction, mut digits) = (fraction, digits as usize);
+        while fraction.is_multiple_of(10) {
+            (fraction, digits) = (fraction / 10, digits - 1);
         }
+        out.push('.');
+        push_digits(out, fraction, digits);
     }
+}
+
+/// Appends a whole number with at least so many digits.
+fn push_digits(out: &mut String, mut value: u64, least: usize) {
+    const MOST: usize = 20;
+    let mut digits = ['0'; MOST];
+    let mut first = MOST;
+    while value > 0 {
+        first -= 1;
+        digits[first] = char::from(b'0' + (value % 10) as u8);
+        value /= 10;
+    }
+    out.extend(&digits[first.min(MOST - least)..]);
 }
 
 #[cfg(test)]

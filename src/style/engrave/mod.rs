@@ -21,17 +21,16 @@ mod strokes;
 mod tones;
 mod widths;
 
-use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
+use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Colour, Drawing, Layer, Mark};
 use crate::geometry::{Point, Rect};
 use crate::parallel::{collected, mapped};
 use crate::raster::Raster;
-use crate::source::MaskRole;
+use crate::source::{MaskRole, Portrait, Relief};
 use breaks::LineBreaks;
 use lines::{Family, FamilyLayout, Frame};
 use parameters::{CARD, EngraveParameters, GroundColour, Look, ToneFrom};
 use region_map::{Region, RegionMap};
-use relief::Relief;
 use tones::Layers;
 use widths::{LineReadings, Wanted};
 
@@ -53,6 +52,14 @@ impl Style for Engrave {
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
         cost::cost(&EngraveParameters::new(settings), picture, pixels_per_mm)
+    }
+
+    fn prepare(&self, portrait: &mut Portrait, settings: &Settings, observer: &dyn Observer) {
+        let request = Request { portrait, settings, seed: 0, observer };
+        let drawer = request.drawer(EngraveParameters::new(settings));
+        if !drawer.follows_form() {
+            portrait.relief = Some(drawer.relief());
+        }
     }
 
     fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
@@ -124,9 +131,17 @@ impl Drawer<'_> {
     }
 
     fn region(&self, region: Region, ground: &RegionMap, relief: &Relief, layers: &Layers) -> Marks {
+        let bases = |turn| self.bases(region, region.angle + turn, ground, relief);
         let (family, crossing) = rayon::join(
-            || self.family(region, region.angle, ground, relief),
-            || self.family(region, region.angle + self.parameters.cross_angle, ground, relief),
+            || bases(0.0).in_full(),
+            // Without cross lines only places between its base lines are asked for.
+            || {
+                if layers.cross.is_some() {
+                    bases(self.parameters.cross_angle).in_full()
+                } else {
+                    bases(self.parameters.cross_angle)
+                }
+            },
         );
         let wanted = |ink, turn| Wanted { ground, region, turn, ink, width_max: self.parameters.width_max.0 };
         let breaking = self.breaking(ground);
@@ -150,7 +165,8 @@ impl Drawer<'_> {
         [lines, cross]
     }
 
-    fn family(&self, region: Region, angle: f64, ground: &RegionMap, relief: &Relief) -> Family {
+    /// The base lines of a region.
+    fn bases(&self, region: Region, angle: f64, ground: &RegionMap, relief: &Relief) -> Family {
         let p = &self.parameters;
         let range = [0.0, p.displacement.0];
         let laying = FamilyLayout {
@@ -160,10 +176,7 @@ impl Drawer<'_> {
             displaced: (range[0].min(range[1]), range[0].max(range[1])),
         };
         let displacement = |place: Point| p.displacement.0 * f64::from(ground.grid.read(&relief.nearness, place));
-        let mut family = Family::new(Frame::new(angle), region.bounds, laying, displacement);
-        family.thin_out();
-        family.fill_in();
-        family
+        Family::new(Frame::new(angle), region.bounds, laying, displacement)
     }
 
     fn breaking<'b>(&self, ground: &RegionMap) -> impl Fn(&'b Family) -> LineBreaks<'b> {

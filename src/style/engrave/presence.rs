@@ -12,8 +12,15 @@ const TAPER: f64 = 2.0;
 const LEVELS: usize = 5;
 
 impl Family {
+    /// With more lines where they are far apart and fewer where they are close.
+    pub(super) fn in_full(mut self) -> Self {
+        self.thin_out();
+        self.fill_in();
+        self
+    }
+
     /// Ends every second line where lines are pressed together, and repeats with every second of the rest where that is not enough.
-    pub(super) fn thin_out(&mut self) {
+    fn thin_out(&mut self) {
         for level in 1..=LEVELS {
             let apart = 1_i64 << (level - 1);
             let reach = apart as usize;
@@ -60,7 +67,7 @@ impl Family {
     }
 
     /// Inserts tapered lines between those that are too far apart.
-    pub(super) fn fill_in(&mut self) {
+    fn fill_in(&mut self) {
         let bases = std::mem::take(&mut self.lines);
         let between: Vec<Vec<Line>> =
             collected(bases.len().saturating_sub(1), &|k| self.between(0, &bases[k].heights, &bases[k + 1].heights, LEVELS));

@@ -9,6 +9,8 @@ use crate::source::Placement;
 /// Lines end this far inside the picture: the tolerance of their curves, so that no curve bulges over the rim, is cut there and comes
 /// too close to itself; and two micrometres for the outlines that programs make of strokes.
 const RIM: f64 = FIT_ROOM + 0.002;
+/// Distance used if there is no border, in millimetres.
+const NO_BORDER: f64 = 1e6;
 /// Error of distances to curved borders interpolated between pixels, in pixels.
 const BORDER_ERROR: f64 = 0.25;
 
@@ -68,8 +70,8 @@ pub(super) struct RegionMap {
     pub grid: Grid,
     /// The region of each pixel; 0 stays bare.
     pub labels: Raster<i32>,
-    /// Distance to the nearest border of a region, in millimetres.
-    pub border: Raster<f32>,
+    /// Distance to the nearest border of a region, in millimetres; none if one region fills the picture.
+    pub border: Option<Raster<f32>>,
     pub regions: Vec<Region>,
     /// Direction of the lines for each label from 1, in degrees.
     pub angles: Vec<f64>,
@@ -98,13 +100,14 @@ pub(super) fn angle_between(a: f64, b: f64) -> f64 {
 impl RegionMap {
     /// How far inside a region a place lies, in millimetres; below 0 outside. The picture's rim is not a border.
     pub(super) fn inside_region(&self, label: i32, p: Point) -> f64 {
+        let Some(border) = &self.border else { return NO_BORDER };
         let pixel = self.grid.pixel(p);
         let (fx, fy) = (pixel.x - 0.5, pixel.y - 0.5);
         let (x, y) = (fx.floor(), fy.floor());
         let (tx, ty) = (fx - x, fy - y);
         let (x, y) = (x as isize, y as isize);
         let signed = |x: isize, y: isize| {
-            let distance = f64::from(self.border.clamped(x, y));
+            let distance = f64::from(border.clamped(x, y));
             if self.labels.clamped(x, y) == label { distance } else { -distance }
         };
         let top = signed(x, y) * (1.0 - tx) + signed(x + 1, y) * tx;

@@ -5,15 +5,13 @@ use super::lines::FIT_ROOM;
 use super::merging::merge_similar;
 use super::parameters::Division;
 use super::region_map::{Grid, Region, RegionMap};
-use super::relief::Relief;
 use crate::elementary::Elementary as _;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
 use crate::geometry::{Rect, Vec2};
 use crate::parallel::collected;
 use crate::raster::{Raster, gaussian_blur, sobel};
+use crate::source::Relief;
 
-/// Distance used if there is no border, in millimetres.
-const NO_BORDER: f32 = 1e6;
 /// Standard deviation of the smoothing of regions' borders, in pitches: less leaves pixel stairs, more rounds off corners.
 const BORDER_SMOOTHING: f64 = 0.5;
 /// SLIC's compactness for CIE Lab from 0 to 100, and its rounds (Achanta et al. 2012).
@@ -33,8 +31,8 @@ impl Drawer<'_> {
         };
         let labels = labels.zip_map(&relief.cover, drawn_label);
         curves.extend(silhouette);
-        let border = distance_to_curves(&curves, placement.columns, placement.rows)
-            .map_or_else(|| labels.map(|_| NO_BORDER), |field| field.distance.map(|d| d * scale));
+        let border =
+            distance_to_curves(&curves, placement.columns, placement.rows).map(|field| field.distance.map(|d| d * scale));
         // A single region has no neighbour to overlap.
         let overlap = if angles.len() > 1 { self.parameters.overlap.0 } else { 0.0 };
         let regions = bounds_of(&labels, angles.len() as i32)

@@ -4,7 +4,9 @@ use super::Drawer;
 use crate::elementary::Elementary as _;
 use crate::field::nearest_seed;
 use crate::raster::{Raster, bilateral, fast_gaussian, gaussian_blur};
+use crate::source::Relief;
 use crate::style::Picture;
+use std::sync::Arc;
 
 /// Difference of depth that smoothing keeps as an edge, as a fraction of the whole range.
 const DEPTH_EDGE: f32 = 0.06;
@@ -15,16 +17,13 @@ const BORDER_BLUR: f32 = 0.8;
 /// still show, with twice it lines turn away before a silhouette.
 const CONTINUED: f64 = 2.0;
 
-/// The relief that bends the lines.
-pub(super) struct Relief {
-    /// Nearness, 0 to 1, continued beyond the known area.
-    pub nearness: Raster<f32>,
-    /// Share of each pixel that is drawn, 0 to 1.
-    pub cover: Raster<f32>,
-}
-
 impl Drawer<'_> {
-    pub(super) fn relief(&self) -> Relief {
+    /// The relief that bends the lines: the one at hand, or a new one.
+    pub(super) fn relief(&self) -> Arc<Relief> {
+        self.portrait.relief.clone().unwrap_or_else(|| Arc::new(self.new_relief()))
+    }
+
+    fn new_relief(&self) -> Relief {
         self.observer.begin("depth");
         let subject = &self.portrait.subject;
         let (depth, cover) = match &self.portrait.depth {
