@@ -114,10 +114,14 @@ impl Task<'_> {
         let settings: Vec<Settings> =
             (0..coverages.len()).map(|pen| self.settings_of_pen(pen, coverages.len(), portrait)).collect::<Result<_, _>>()?;
         let mut portrait = portrait.clone();
-        manner.style.prepare(&mut portrait, &settings[0], observer);
+        manner.style.prepare(&mut portrait, &settings[0], manner.seed, observer);
         let draw = |pen: usize| {
             let mut own = portrait.clone();
             own.tone = coverages[pen].map(|ink| 1.0 - ink);
+            if pen != line_pen && manner.style.card().masks.contains(&MaskRole::Edges) {
+                // Its lines would not be drawn; they need not be looked for.
+                own.masks.insert(MaskRole::Edges, own.tone.map(|_| 0.0));
+            }
             let beside = Beside(observer);
             let observer = if pen == 0 { observer } else { &beside };
             manner.style.draw(&own, &settings[pen], manner.seed ^ pen as u64, observer)

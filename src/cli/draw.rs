@@ -105,7 +105,7 @@ fn format_and_machine(options: &DrawOptions) -> Result<(Format, Option<Profile>)
 
 /// Writes one file; returns the job if the file is for a machine.
 fn write_one<'a>(
-    file: &LayerFile,
+    file: &LayerFile<'_>,
     format: Format,
     machine: Option<(&'a Profile, &PenSet)>,
     options: &DrawOptions,

@@ -18,7 +18,7 @@ pub(super) fn report(
     task: &Task<'_>,
     drawing: &Drawing,
     pens: &PenSet,
-    (files, jobs): (&[LayerFile], &[Job<'_>]),
+    (files, jobs): (&[LayerFile<'_>], &[Job<'_>]),
     seconds: &[(String, f64)],
     elapsed: f64,
 ) -> Result<(), Failure> {
@@ -54,7 +54,7 @@ fn report_json(
     task: &Task<'_>,
     drawing: &Drawing,
     pens: &PenSet,
-    (files, jobs): (&[LayerFile], &[Job<'_>]),
+    (files, jobs): (&[LayerFile<'_>], &[Job<'_>]),
     seconds: &[(String, f64)],
 ) -> Value {
     let layers: Vec<Value> = drawing.layers.iter().zip(drawing.ink_mm2()).map(|(layer, ink)| {

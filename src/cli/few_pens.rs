@@ -116,7 +116,9 @@ fn sorted(drawing: &Drawing, palette: &[Colour]) -> Sorted {
                 became[at].insert(colour);
             }
             painting.push(Painted::Mark { layer: at, mark: layers[at].marks.len() });
-            layers[at].marks.push(super::pens::without_own_colour(mark));
+            let mut mark = mark.clone();
+            super::pens::drop_own_colour(&mut mark);
+            layers[at].marks.push(mark);
         }
     }
     Sorted { layers, became, painting }

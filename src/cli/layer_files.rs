@@ -1,33 +1,34 @@
 //! One output file, or with `{layer}` in its name one file per layer.
 
 use crate::drawing::Drawing;
+use std::borrow::Cow;
 
 /// Placeholder for the layer in names of outputs and previews.
 const PLACEHOLDER: &str = "{layer}";
 
 /// A file and what it holds.
-pub(super) struct LayerFile {
+pub(super) struct LayerFile<'a> {
     pub name: String,
     /// Replaces `{layer}` in the names of the output and the preview.
     pub layer: String,
-    pub drawing: Drawing,
+    pub drawing: Cow<'a, Drawing>,
 }
 
 /// The whole drawing, or with `{layer}` in the name one drawing per layer.
-pub(super) fn split_by_layer(drawing: &Drawing, output: &str) -> Vec<LayerFile> {
+pub(super) fn split_by_layer<'a>(drawing: &'a Drawing, output: &str) -> Vec<LayerFile<'a>> {
     if !output.contains(PLACEHOLDER) {
         // A preview may still be named after the first layer.
         let layer = drawing.layers.first().map_or_else(String::new, |layer| file_part(&layer.name));
-        return vec![LayerFile { name: output.to_owned(), layer, drawing: drawing.clone() }];
+        return vec![LayerFile { name: output.to_owned(), layer, drawing: Cow::Borrowed(drawing) }];
     }
-    let mut files: Vec<LayerFile> = Vec::new();
+    let mut files: Vec<LayerFile<'_>> = Vec::new();
     for layer in &drawing.layers {
         let plain = file_part(&layer.name);
         // Layers whose names give the same file name must not overwrite each other.
         let numbered = (2..).map(|n| format!("{plain}-{n}"));
         let is_free = |part: &String| files.iter().all(|file| file.layer != *part);
         let part = std::iter::once(plain.clone()).chain(numbered).find(is_free).unwrap_or(plain);
-        let drawing = Drawing { page: drawing.page, layers: vec![layer.clone()] };
+        let drawing = Cow::Owned(Drawing { page: drawing.page, layers: vec![layer.clone()] });
         files.push(LayerFile { name: output.replace(PLACEHOLDER, &part), layer: part, drawing });
     }
     files
@@ -40,7 +41,7 @@ fn file_part(name: &str) -> String {
 }
 
 /// The file names, for a summary.
-pub(super) fn names(files: &[LayerFile]) -> String {
+pub(super) fn names(files: &[LayerFile<'_>]) -> String {
     files.iter().map(|file| file.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 

@@ -112,7 +112,7 @@ impl PenSet {
                 sorted.push(layer);
                 continue;
             }
-            for mark in &layer.marks {
+            for mut mark in layer.marks.iter().cloned() {
                 let colour = mark.colour().unwrap_or(layer.ink.colour());
                 let nearest =
                     palette.iter().enumerate().min_by(|(_, a), (_, b)| colour.difference(a.1).total_cmp(&colour.difference(b.1)));
@@ -125,7 +125,8 @@ impl PenSet {
                     sorted.len() - 1
                 });
                 painting.push(Painted::Mark { layer: at, mark: sorted[at].marks.len() });
-                sorted[at].marks.push(without_own_colour(mark));
+                drop_own_colour(&mut mark);
+                sorted[at].marks.push(mark);
             }
         }
         drawing.layers = sorted;
@@ -138,7 +139,7 @@ impl PenEntry {
         layer.pen = self.slot.unwrap_or(layer.pen);
         if self.colour.is_some() || self.plate.is_some() {
             layer.ink = self.ink(self.colour.unwrap_or(layer.ink.colour()));
-            layer.marks = layer.marks.iter().map(without_own_colour).collect();
+            layer.marks.iter_mut().for_each(drop_own_colour);
         }
         if let (Some(speed), Some(profile)) = (self.speed, profile) {
             let fastest = profile.motion.fastest_drawing();
@@ -161,15 +162,13 @@ impl PenEntry {
     }
 }
 
-/// A mark without a colour of its own.
-pub(super) fn without_own_colour(mark: &Mark) -> Mark {
-    let mut mark = mark.clone();
-    match &mut mark {
+/// Takes a mark's own colour away.
+pub(super) fn drop_own_colour(mark: &mut Mark) {
+    match mark {
         Mark::Dot(dot) => dot.colour = None,
         Mark::Stroke(stroke) => stroke.colour = None,
         Mark::Area(area) => area.colour = None,
     }
-    mark
 }
 
 #[cfg(test)]

@@ -100,8 +100,8 @@ pub(super) fn check_preview(output: &str, options: &ToolpathOptions) -> Result<(
 }
 
 /// Refuses files per layer if two of them are the same file, or one is an input.
-pub(super) fn check_layer_files(files: &[LayerFile], options: &ToolpathOptions) -> Result<(), Failure> {
-    let preview = |file: &LayerFile| Some(preview_name(options.preview.as_ref()?, Some(&file.layer)));
+pub(super) fn check_layer_files(files: &[LayerFile<'_>], options: &ToolpathOptions) -> Result<(), Failure> {
+    let preview = |file: &LayerFile<'_>| Some(preview_name(options.preview.as_ref()?, Some(&file.layer)));
     let previews: Vec<String> = files.iter().filter_map(preview).collect();
     claims::check_distinct(files.iter().map(|file| file.name.as_str()).chain(previews.iter().map(String::as_str)))
 }

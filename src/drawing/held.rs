@@ -14,6 +14,7 @@
 
 use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
+use crate::parallel::mapped;
 use kurbo::Shape;
 
 /// Distance that strokes keep from the box's border, in millimetres: the smallest written step.
@@ -30,7 +31,19 @@ impl Drawing {
     #[must_use]
     pub fn confined_to(mut self, rect: Rect) -> Self {
         for layer in &mut self.layers {
-            layer.marks = std::mem::take(&mut layer.marks).into_iter().flat_map(|mark| mark.confined_to(rect)).collect();
+            let lies_inside = mapped(&layer.marks, &|mark| mark.lies_in(rect));
+            if lies_inside.iter().all(|is_inside| *is_inside) {
+                continue;
+            }
+            let mut kept = Vec::with_capacity(layer.marks.len());
+            for (mark, is_inside) in std::mem::take(&mut layer.marks).into_iter().zip(lies_inside) {
+                if is_inside {
+                    kept.push(mark);
+                } else {
+                    kept.extend(mark.cut_to(rect));
+                }
+            }
+            layer.marks = kept;
         }
         self
     }
@@ -40,12 +53,18 @@ impl Mark {
     /// The part of its ink inside a rectangle.
     #[must_use]
     pub fn confined_to(self, rect: Rect) -> Vec<Self> {
+        if self.lies_in(rect) { vec![self] } else { self.cut_to(rect) }
+    }
+
+    /// True if all of its ink lies inside a rectangle.
+    fn lies_in(&self, rect: Rect) -> bool {
         /// Rounding tolerance in millimetres by which a mark may exceed the box and stay whole.
         const SLACK: f64 = 5e-7;
         let wide = rect.inflate(SLACK, SLACK);
-        if wide.union(self.bounding_box()) == wide {
-            return vec![self];
-        }
+        wide.union(self.bounding_box()) == wide
+    }
+
+    fn cut_to(self, rect: Rect) -> Vec<Self> {
         match self {
             Self::Stroke(stroke) if !is_engraved(&stroke) => held_stroke(stroke, rect.inset(-RIM)),
             cut => cut.clipped(rect),

@@ -40,9 +40,9 @@ pub use mask_role::MaskRole;
 #[doc(hidden)]
 pub use placement::fill_box;
 pub use placement::{Crop, Placement};
-pub(crate) use portrait::Relief;
 #[doc(hidden)]
 pub use portrait::mask_on;
+pub(crate) use portrait::{Paper, Relief};
 pub use portrait::{Portrait, ToneCurve, ToneTarget};
 pub use scribbles::Scribbles;
 pub use spectacles::Spectacles;

@@ -87,6 +87,17 @@ pub struct Portrait {
     pub scribbles: Option<Scribbles>,
     /// The relief that bends an engraving's lines, once it is known.
     pub(crate) relief: Option<Arc<Relief>>,
+    /// The paper on which several sticks of charcoal draw, once it is known.
+    pub(crate) paper: Option<Arc<Paper>>,
+}
+
+/// Textures of one sheet of paper, larger than the picture: each pen meets another part of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Paper {
+    /// Where the random numbers of the drawing start; a pen's differ from it by the pen's number.
+    pub seed: u64,
+    pub tooth: Raster<f32>,
+    pub clumps: Raster<f32>,
 }
 
 /// Form without tone, the same for all pens that draw a portrait.
@@ -134,6 +145,7 @@ impl Portrait {
             faces: Vec::new(),
             scribbles: None,
             relief: None,
+            paper: None,
         })
     }
 
@@ -240,6 +252,7 @@ impl Portrait {
             faces: self.faces.iter().map(|face| face.placed(place, 1.0)).collect(),
             scribbles: self.scribbles.as_ref().map(|scribbles| scribbles.part(columns, rows)),
             relief: None,
+            paper: None,
         }
     }
 

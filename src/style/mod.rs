@@ -101,8 +101,8 @@ pub trait Style: Sync {
     }
     /// Estimated cost of drawing a picture of this size at this resolution, from measured figures.
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
-    /// Finds what does not depend on tone and seed, once for several drawings of a portrait.
-    fn prepare(&self, _portrait: &mut Portrait, _settings: &Settings, _observer: &dyn Observer) {}
+    /// Finds, once, what several drawings of a portrait share: one for each pen, whose seeds differ by the pen's number.
+    fn prepare(&self, _portrait: &mut Portrait, _settings: &Settings, _seed: u64, _observer: &dyn Observer) {}
     /// Makes the marks, which may reach over the picture's border.
     fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError>;
 

@@ -12,6 +12,7 @@ mod edges;
 mod feature_tones;
 mod features;
 mod hair;
+mod paper;
 mod parameters;
 mod patch;
 mod regions;
@@ -24,12 +25,13 @@ mod tone;
 use super::coverage::covered;
 use super::drawer::Pitched;
 use super::solids::Solids;
-use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
+use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::MaskRole;
+use crate::source::{MaskRole, Portrait};
 use parameters::{CARD, CharcoalParameters};
+use std::sync::Arc;
 use tone::Laid;
 
 /// Pixels of the picture's short side at which the thesis works (chapter 7: 500 x 600 to 600 x 800).
@@ -63,6 +65,11 @@ impl Style for Charcoal {
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
         cost::cost(&CharcoalParameters::new(settings), picture, pixels_per_mm)
+    }
+
+    fn prepare(&self, portrait: &mut Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) {
+        let request = Request { portrait, settings, seed, observer };
+        portrait.paper = Some(Arc::new(request.drawer(CharcoalParameters::new(settings)).paper_for_pens()));
     }
 
     fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {

@@ -2,6 +2,7 @@
 
 use super::Drawer;
 use super::features::Features;
+use super::paper::PIXELS_A_GRAIN;
 use super::regions::Regions;
 use crate::drawing::{Area, Mark};
 use crate::elementary::{Elementary as _, unit_at};
@@ -28,15 +29,9 @@ pub(super) struct Laid<'a> {
     pub background: &'a Raster<f32>,
 }
 
-/// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
-const PIXELS_A_GRAIN: f64 = 5.0;
-
 impl Drawer<'_> {
     /// Grain that makes the tone together with what else is drawn.
     pub(super) fn tone(&self, parts: &Laid<'_>) -> Vec<Mark> {
-        /// Scale of the coarser texture that the thesis blends in, in grains: clumps of two or three grains make a middle tone
-        /// gritty.
-        const CLUMP: f32 = 2.0;
         /// Tolerance of a grain's outline, in grains.
         const OUTLINE_TOLERANCE: f64 = 0.04;
         /// Ink below which paper is left clean, as smudging does; half a grain in a hundred would look like dust.
@@ -44,12 +39,9 @@ impl Drawer<'_> {
         self.observer.begin("tone");
         let smudged = self.smudged(parts);
         self.show("smudged", &smudged);
-        let grain = self.parameters.grain.0;
         let picture = self.portrait.placement.picture;
-        let count = |length: f64| ((length / grain * PIXELS_A_GRAIN).round() as usize).max(4);
-        let (width, height) = (count(picture.width()), count(picture.height()));
-        let tooth = paper_texture(width, height, PIXELS_A_GRAIN as f32, self.seed ^ 0x7007);
-        let clumps = paper_texture(width, height, CLUMP * PIXELS_A_GRAIN as f32, self.seed ^ 0xc1a9);
+        let (tooth, clumps) = self.paper();
+        let (width, height) = (tooth.width(), tooth.height());
         let tooth = self.finer_in_faces(tooth, parts);
         let (fx, fy) = (smudged.width() as f64 / width as f64, smudged.height() as f64 / height as f64);
         let wanted = Raster::from_fn(width, height, |x, y| {
@@ -63,24 +55,6 @@ impl Drawer<'_> {
         let grains = grain_areas(&wanted, &tooth);
         let marks = mapped(&grains, &|outlines| area(outlines, OUTLINE_TOLERANCE * PIXELS_A_GRAIN, place));
         marks.into_iter().flatten().collect()
-    }
-
-    /// The paper's tooth, finer on the skin of people whose faces are known: a hand presses smaller grains there.
-    fn finer_in_faces(&self, tooth: Raster<f32>, parts: &Laid<'_>) -> Raster<f32> {
-        /// Size of the grains on skin, as a share of the others'.
-        const FINE_GRAIN: f32 = 0.6;
-        let zone = parts.sharp.zip_map(&parts.regions.skin(), f32::max);
-        let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
-        let (width, height) = (tooth.width(), tooth.height());
-        let (fx, fy) = (zone.width() as f64 / width as f64, zone.height() as f64 / height as f64);
-        let (left, top) = ((columns.start as f64 / fx) as usize, (rows.start as f64 / fy) as usize);
-        let (wide, high) = ((columns.len() as f64 / fx) as usize + 2, (rows.len() as f64 / fy) as usize + 2);
-        let fine = paper_texture(wide, high, FINE_GRAIN * PIXELS_A_GRAIN as f32, self.seed ^ 0xf17e);
-        Raster::from_fn(width, height, |x, y| {
-            let is_in_box = (left..left + wide).contains(&x) && (top..top + high).contains(&y);
-            let is_fine = is_in_box && zone.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy) > 0.5;
-            if is_fine { fine.get(x - left, y - top) } else { tooth.get(x, y) }
-        })
     }
 
     /// Tone of the grain (section 3.1.5): what strokes leave of the ink that is wanted, and a smudge behind the subject.

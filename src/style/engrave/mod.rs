@@ -54,8 +54,8 @@ impl Style for Engrave {
         cost::cost(&EngraveParameters::new(settings), picture, pixels_per_mm)
     }
 
-    fn prepare(&self, portrait: &mut Portrait, settings: &Settings, observer: &dyn Observer) {
-        let request = Request { portrait, settings, seed: 0, observer };
+    fn prepare(&self, portrait: &mut Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) {
+        let request = Request { portrait, settings, seed, observer };
         let drawer = request.drawer(EngraveParameters::new(settings));
         if !drawer.follows_form() {
             portrait.relief = Some(drawer.relief());
