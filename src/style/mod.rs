@@ -17,6 +17,7 @@ mod grid;
 mod guide_lines;
 mod head;
 mod hedcut;
+mod jaw;
 mod mouth;
 mod need;
 mod observer;

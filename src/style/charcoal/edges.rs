@@ -12,6 +12,7 @@ use crate::raster::{Raster, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::creases::Creases;
+use crate::style::jaw::jaw_lines;
 use crate::style::random::stream;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
@@ -23,6 +24,8 @@ impl Drawer<'_> {
         const LINE_PRESSURE: f64 = 0.9;
         /// Width of an edge as a share of the stick's: contours must stay lighter than the features.
         const LINE_WIDTH: f64 = 0.8;
+        /// Least pressure along a jaw, which a face needs even where it hardly shows.
+        const JAW_LEAST: f64 = 0.3;
         self.observer.begin("edges");
         let faces = Creases::of(self.portrait);
         let least = self.pixels(self.parameters.edge_length);
@@ -34,6 +37,8 @@ impl Drawer<'_> {
             .flat_map(|line| open_pieces(line, |p| !is_chosen && faces.are_in(*p)))
             .filter(|piece| is_chosen || polyline_length(piece) >= least)
             .collect();
+        let jaws = if is_chosen { Vec::new() } else { jaw_lines(self.portrait) };
+        let lines = self.not_beside(lines, &jaws, least);
         let touch = Touch {
             width: LINE_WIDTH * self.parameters.stroke_width,
             pressure: LINE_PRESSURE,
@@ -51,7 +56,24 @@ impl Drawer<'_> {
             let firm = self.firmness(points, &mut random);
             marks.extend(self.stroke(points, touch, |p| firm.get(nearest(points, p)).copied().unwrap_or(1.0)));
         }
+        for (i, jaw) in jaws.iter().enumerate() {
+            let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", i as u64));
+            let firm = |p: Point| firm.get(nearest(&jaw.points, p)).copied().unwrap_or(1.0);
+            marks.extend(self.stroke(&jaw.points, touch, |p| firm(p).max(JAW_LEAST)));
+        }
         marks
+    }
+
+    /// What is left of lines that do not run along one of the others.
+    fn not_beside(&self, lines: Vec<Vec<Point>>, others: &[Curve], least: f64) -> Vec<Vec<Point>> {
+        /// Distance within which two lines are one, in pitches.
+        const BESIDE: f64 = 4.0;
+        let (width, height) = self.size();
+        let Some(field) = distance_to_curves(others, width, height) else { return lines };
+        let reach = self.pixels(BESIDE * self.parameters.pitch) as f32;
+        let is_beside = |p: &Point| field.distance.sample(p.x, p.y) < reach;
+        let open = |points: Vec<Point>| open_pieces(&Curve { points, closed: false }, is_beside);
+        lines.into_iter().flat_map(open).filter(|piece| polyline_length(piece) >= least).collect()
     }
 
     /// Edges without the image mask and the specks, chosen by the user's keep mask; plus the subject's border.

@@ -1,0 +1,150 @@
+//! The line of the jaw, where a face ends above the neck.
+//!
+//! ```text
+//!   columns   along the lower border of the face, from below one ear over the chin to below the other
+//!   line      the way through the columns along which the neck is darkest against the face
+//!   kept      where skin lies below it: collars, beards and the subject's border have lines of their own
+//! ```
+
+use crate::field::Curve;
+use crate::geometry::{Point, Ring, Vec2, lengths_along, resample, smooth_polyline};
+use crate::raster::{Raster, best_way, gaussian_blur};
+use crate::source::{Landmarks, MaskRole, Portrait, outlines};
+
+/// Columns along a jaw, and rows across it.
+const COLUMNS: usize = 96;
+const ROWS: usize = 31;
+/// The part of the face's border that is the jaw.
+const JAW: std::ops::Range<usize> = 11..26;
+/// How far the line may lie inside and outside the border that was found, the distance on both sides at which it is compared, and the blur
+/// before that, in widths of the face.
+const INSIDE: f64 = 0.04;
+const OUTSIDE: f64 = 0.08;
+const BESIDE: f64 = 0.025;
+const BLUR: f64 = 0.008;
+/// The price of a bend by one row, and of a line at the farthest row. Looked at on eight portraits in charcoal: chins of 10, 12 and 13, which ran
+/// into their necks, have an edge.
+const BEND: f32 = 0.004;
+const AWAY: f32 = 0.06;
+/// The least step of lightness at which there is a line, and its shortest length in widths of the face.
+const LEAST_STEP: f64 = 0.012;
+const LEAST_LENGTH: f64 = 0.12;
+/// Where one looks for skin below the line, in widths of the face; and from which share it is skin, or anything else.
+const BELOW: f64 = 0.05;
+const HALF: f32 = 0.5;
+/// Columns over which steps are averaged, and those over which the line is smoothed.
+const AVERAGED: usize = 4;
+const SMOOTHED: f64 = 4.0;
+
+/// The lines of the jaws of all faces, in working pixels.
+pub(super) fn jaw_lines(portrait: &Portrait) -> Vec<Curve> {
+    portrait.faces.iter().filter_map(Jaw::of).flat_map(|jaw| jaw.lines(portrait)).collect()
+}
+
+/// The lower border of a face: even points with the ways outwards.
+struct Jaw {
+    width: f64,
+    points: Vec<Point>,
+    outwards: Vec<Vec2>,
+}
+
+impl Jaw {
+    fn of(face: &Landmarks) -> Option<Self> {
+        let border = face.line(&outlines::OVAL[JAW]);
+        let length = lengths_along(&border).last().copied().filter(|length| *length > 0.0)?;
+        let points = resample(&border, length / (COLUMNS - 1) as f64);
+        let middle =
+            outlines::OVAL.iter().fold(Vec2::ZERO, |sum, i| sum + face.point(*i).to_vec2()) / outlines::OVAL.len() as f64;
+        let outwards = (0..points.len()).map(|i| {
+            let along = points[(i + 1).min(points.len() - 1)] - points[i.saturating_sub(1)];
+            let across = along.turn_90() / along.hypot().max(1e-9);
+            if across.dot(points[i].to_vec2() - middle) < 0.0 { -across } else { across }
+        });
+        Some(Self { width: face.width(), outwards: outwards.collect(), points }).filter(|jaw| jaw.points.len() == COLUMNS)
+    }
+
+    fn lines(&self, portrait: &Portrait) -> Vec<Curve> {
+        let light = gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32);
+        let steps = Raster::from_fn(ROWS, COLUMNS, |row, column| self.step(&light, row, column));
+        let away = |row: usize| ((offset(row) / OUTSIDE) as f32).powi(2);
+        let way = best_way(&Raster::from_fn(ROWS, COLUMNS, |row, column| steps.get(row, column) - AWAY * away(row)), 1, BEND);
+        let found: Vec<f64> = way.iter().enumerate().map(|(column, row)| f64::from(steps.get(*row, column))).collect();
+        let line: Vec<Point> = way.iter().enumerate().map(|(column, row)| self.place(*row, column)).collect();
+        let is_drawn = |column: usize| mean(&found, column) > LEAST_STEP && self.has_skin_below(portrait, line[column], column);
+        let drawn: Vec<bool> = (0..COLUMNS).map(is_drawn).collect();
+        let mut lines = Vec::new();
+        let mut first = 0;
+        for run in drawn.chunk_by(|a, b| a == b) {
+            let part = &line[first..first + run.len()];
+            first += run.len();
+            let length = lengths_along(part).last().copied().unwrap_or(0.0);
+            if run[0] && length >= LEAST_LENGTH * self.width {
+                let spacing = (length / part.len() as f64).max(1.0);
+                lines.push(Curve { points: smooth_polyline(part, Ring::Open, SMOOTHED * spacing, spacing), closed: false });
+            }
+        }
+        lines
+    }
+
+    fn place(&self, row: usize, column: usize) -> Point {
+        self.points[column] + self.outwards[column] * (offset(row) * self.width)
+    }
+
+    /// By how much the neck is darker than the face.
+    fn step(&self, light: &Raster<f32>, row: usize, column: usize) -> f32 {
+        let (p, beside) = (self.place(row, column), self.outwards[column] * (BESIDE * self.width));
+        let at = |p: Point| light.sample(p.x, p.y);
+        at(p - beside) - at(p + beside)
+    }
+
+    fn has_skin_below(&self, portrait: &Portrait, line: Point, column: usize) -> bool {
+        let below = line + self.outwards[column] * (BELOW * self.width);
+        let is_in = |mask: &Raster<f32>| mask.sample(below.x, below.y) > HALF;
+        let others = [MaskRole::Hair, MaskRole::FacialHair, MaskRole::Clothing, MaskRole::Headwear];
+        is_in(&portrait.subject) && !others.iter().filter_map(|role| portrait.masks.get(role)).any(is_in)
+    }
+}
+
+/// Where a row lies, outwards from the border that was found, in widths of the face.
+fn offset(row: usize) -> f64 {
+    -INSIDE + (INSIDE + OUTSIDE) * row as f64 / (ROWS - 1) as f64
+}
+
+fn mean(values: &[f64], column: usize) -> f64 {
+    let near = &values[column.saturating_sub(AVERAGED)..(column + AVERAGED + 1).min(values.len())];
+    near.iter().sum::<f64>() / near.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elementary::unit_at;
+    use crate::source::{Iris, POINTS};
+    use std::f64::consts::{FRAC_PI_2, TAU};
+
+    /// A face of 100 by 120 pixels about (80, 70).
+    fn face() -> Landmarks {
+        let mut points = vec![[80.0, 70.0, 0.0]; POINTS];
+        for (i, index) in outlines::OVAL.iter().enumerate() {
+            let turn = unit_at(TAU * i as f64 / 36.0 - FRAC_PI_2);
+            points[*index] = [80.0 + 50.0 * turn.x, 70.0 + 60.0 * turn.y, 0.0];
+        }
+        let irises = [60.0, 100.0].map(|x| Iris { centre: Point::new(x, 50.0), radius: 4.0 });
+        Landmarks { points, irises, spectacles: None }
+    }
+
+    #[test]
+    fn the_line_lies_where_the_neck_begins_to_be_dark() {
+        let jaw = Jaw::of(&face()).expect("it has a border");
+        // The neck begins 3 pixels below the border that was found.
+        let light = Raster::from_fn(160, 160, |x, y| {
+            let off = Vec2::new((x as f64 + 0.5 - 80.0) / 50.0, (y as f64 + 0.5 - 70.0) / 60.0).hypot();
+            if off < 1.05 { 0.8 } else { 0.5 }
+        });
+        let steps: Vec<f32> = (0..ROWS).map(|row| jaw.step(&light, row, COLUMNS / 2)).collect();
+        let steepest = (0..ROWS).max_by(|a, b| steps[*a].total_cmp(&steps[*b])).expect("there are rows");
+        let chin = jaw.place(steepest, COLUMNS / 2);
+        assert!((chin.y - 133.0).abs() < 2.5 && (chin.x - 80.0).abs() < 1.5, "{chin:?}");
+        assert!(jaw.outwards.iter().all(|way| way.y > 0.0), "outwards is down");
+    }
+}
