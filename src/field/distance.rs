@@ -110,12 +110,24 @@ pub struct FeatureDistance {
 /// Distances to curves at sub-pixel accuracy: an exact transform finds the nearest rasterised pixel, which gives the pieces of curve
 /// that pass there. None if there is no curve.
 pub fn distance_to_curves(curves: &[Curve], width: usize, height: usize) -> Option<FeatureDistance> {
+    distance_within(curves, width, height, f64::INFINITY)
+}
+
+/// The same, exact up to a distance of `reach` pixels: farther away it is that of the nearest rasterised pixel, on no known side.
+pub(crate) fn distance_within(curves: &[Curve], width: usize, height: usize, reach: f64) -> Option<FeatureDistance> {
+    /// A curve lies less than this far from the pixels that it passes.
+    const OFF: f64 = 2.0;
     let pieces: Vec<[Point; 2]> = curves.iter().flat_map(segments).collect();
     let drawn = draw(&pieces, width, height);
     let nearest = nearest_seed(&drawn.map(|piece| u8::from(piece != NONE)))?;
     let pairs = Raster::from_fn(width, height, |x, y| {
         let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
-        let piece = drawn.pixels()[nearest.get(x, y) as usize] as usize;
+        let seed = nearest.get(x, y) as usize;
+        let away = p.distance(Point::new((seed % width) as f64 + 0.5, (seed / width) as f64 + 0.5));
+        if away > reach + OFF {
+            return (away as f32, 1_i8);
+        }
+        let piece = drawn.pixels()[seed] as usize;
         let best = descend(&pieces, piece, p);
         (best.0.sqrt() as f32, if best.1 >= 0.0 { 1_i8 } else { -1 })
     });

@@ -52,6 +52,7 @@ pub use crossings::{LocalLength, crossings, holes};
 pub use curve::Curve;
 #[doc(hidden)]
 pub use direction::{DirectionField, FieldParameters, Guides, Singularity, direction_field};
+pub(crate) use distance::distance_within;
 #[doc(hidden)]
 pub use distance::nearest_seed;
 pub use distance::{FeatureDistance, distance_to_curves};

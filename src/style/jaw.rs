@@ -6,10 +6,12 @@
 //!   kept      where skin lies below it: collars, beards and the subject's border have lines of their own
 //! ```
 
-use crate::field::Curve;
+use super::feature_line::feature_stroke;
+use crate::drawing::Mark;
+use crate::field::{CoherentLine, Curve, distance_to_curves};
 use crate::geometry::{Point, Ring, Vec2, lengths_along, resample, smooth_polyline};
 use crate::raster::{Raster, best_way, gaussian_blur};
-use crate::source::{Landmarks, MaskRole, Portrait, outlines};
+use crate::source::{Landmarks, MaskRole, Placement, Portrait, outlines};
 
 /// Columns along a jaw, and rows across it.
 const COLUMNS: usize = 96;
@@ -36,9 +38,53 @@ const HALF: f32 = 0.5;
 const AVERAGED: usize = 4;
 const SMOOTHED: f64 = 4.0;
 
-/// The lines of the jaws of all faces, in working pixels.
-pub(super) fn jaw_lines(portrait: &Portrait) -> Vec<Curve> {
-    portrait.faces.iter().filter_map(Jaw::of).flat_map(|jaw| jaw.lines(portrait)).collect()
+/// A face of fewer pitches has no line of its own.
+const LEAST_WIDTH: f64 = 30.0;
+/// Distance within which a line that was found is the jaw's, in pitches.
+const BESIDE_JAW: f64 = 3.0;
+/// The width of a line, in widths of the face, at the step from which it is full; and its least share of that.
+const WIDEST: f64 = 0.0065;
+const FULL: f64 = 0.15;
+const LEAST: f64 = 0.35;
+
+/// The jaws of a portrait.
+pub(super) struct Jaws {
+    pitch: f64,
+    size: (usize, usize),
+    lines: Vec<CoherentLine>,
+}
+
+impl Jaws {
+    /// Of the faces that were found, in working pixels; `pitch` in these.
+    pub(super) fn of(portrait: &Portrait, pitch: f64) -> Self {
+        let large = portrait.faces.iter().filter(|face| face.width() >= LEAST_WIDTH * pitch);
+        let lines = large.filter_map(Jaw::of).flat_map(|jaw| jaw.lines(portrait)).collect();
+        Self { pitch, size: (portrait.subject.width(), portrait.subject.height()), lines }
+    }
+
+    /// Where they run.
+    pub(super) fn curves(&self) -> Vec<Curve> {
+        self.lines.iter().map(|line| line.curve.clone()).collect()
+    }
+
+    /// Their strokes on the page.
+    pub(super) fn strokes(&self, placement: &Placement) -> Vec<Mark> {
+        self.lines.iter().filter_map(|line| feature_stroke(line, placement, f64::INFINITY)).collect()
+    }
+
+    /// Lines that were found, with the jaws' own in place of those beside them; what is left of one is at least `least` long.
+    pub(super) fn redrawn(&self, found: Vec<CoherentLine>, least: f64) -> Vec<CoherentLine> {
+        let Some(field) = distance_to_curves(&self.curves(), self.size.0, self.size.1) else { return found };
+        let reach = (BESIDE_JAW * self.pitch) as f32;
+        let is_apart = |p: &Point| field.distance.sample(p.x, p.y) >= reach;
+        let kept = found.into_iter().flat_map(|line| {
+            let whole = line.curve.points.len();
+            let mut rest = line.runs(&line.curve.points.iter().map(is_apart).collect::<Vec<_>>());
+            rest.retain(|part| part.curve.points.len() == whole || part.curve.length() >= least);
+            rest
+        });
+        kept.chain(self.lines.iter().cloned()).collect()
+    }
 }
 
 /// The lower border of a face: even points with the ways outwards.
@@ -63,7 +109,7 @@ impl Jaw {
         Some(Self { width: face.width(), outwards: outwards.collect(), points }).filter(|jaw| jaw.points.len() == COLUMNS)
     }
 
-    fn lines(&self, portrait: &Portrait) -> Vec<Curve> {
+    fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
         let light = gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32);
         let steps = Raster::from_fn(ROWS, COLUMNS, |row, column| self.step(&light, row, column));
         let away = |row: usize| ((offset(row) / OUTSIDE) as f32).powi(2);
@@ -75,12 +121,17 @@ impl Jaw {
         let mut lines = Vec::new();
         let mut first = 0;
         for run in drawn.chunk_by(|a, b| a == b) {
-            let part = &line[first..first + run.len()];
+            let (part, steps) = (&line[first..first + run.len()], &found[first..first + run.len()]);
             first += run.len();
             let length = lengths_along(part).last().copied().unwrap_or(0.0);
             if run[0] && length >= LEAST_LENGTH * self.width {
                 let spacing = (length / part.len() as f64).max(1.0);
-                lines.push(Curve { points: smooth_polyline(part, Ring::Open, SMOOTHED * spacing, spacing), closed: false });
+                let points = smooth_polyline(part, Ring::Open, SMOOTHED * spacing, spacing);
+                let last = points.len().max(2) - 1;
+                let step = |i: usize| mean(steps, (i * (steps.len() - 1) + last / 2) / last);
+                let width = |i: usize| WIDEST * self.width * (step(i) / FULL).clamp(LEAST, 1.0);
+                let widths = (0..points.len()).map(width).collect();
+                lines.push(CoherentLine { curve: Curve { points, closed: false }, widths, contrast: 1.0 });
             }
         }
         lines

@@ -1,5 +1,6 @@
 //! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
 
+use super::jaw::Jaws;
 use super::mouth::Mouths;
 use super::spectacles;
 use crate::drawing::{Area, Layer, Mark};
@@ -82,6 +83,12 @@ impl Solids {
     /// The solids with the lines of the mouths, whose widths count by `share`.
     pub(super) fn with_mouths(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
         self.lines.extend(Mouths::of(portrait, pitch).strokes(&portrait.placement, share));
+        self
+    }
+
+    /// The solids with the lines of the jaws.
+    pub(super) fn with_jaws(mut self, portrait: &Portrait, pitch: f64) -> Self {
+        self.lines.extend(Jaws::of(portrait, pitch).strokes(&portrait.placement));
         self
     }
 

@@ -12,7 +12,7 @@ use crate::raster::{Raster, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::creases::Creases;
-use crate::style::jaw::jaw_lines;
+use crate::style::jaw::Jaws;
 use crate::style::random::stream;
 use rand::{Rng, RngExt};
 use std::f64::consts::TAU;
@@ -24,8 +24,10 @@ impl Drawer<'_> {
         const LINE_PRESSURE: f64 = 0.9;
         /// Width of an edge as a share of the stick's: contours must stay lighter than the features.
         const LINE_WIDTH: f64 = 0.8;
-        /// Least pressure along a jaw, which a face needs even where it hardly shows.
-        const JAW_LEAST: f64 = 0.3;
+        /// Bounds of the pressure along a jaw, which a face needs even where it hardly shows, and the share of it over which it fades out
+        /// at both ends: a firm line that stops is a wire.
+        const JAW_PRESSURE: (f64, f64) = (0.2, 0.55);
+        const JAW_FADES: f64 = 0.3;
         self.observer.begin("edges");
         let faces = Creases::of(self.portrait);
         let least = self.pixels(self.parameters.edge_length);
@@ -37,7 +39,7 @@ impl Drawer<'_> {
             .flat_map(|line| open_pieces(line, |p| !is_chosen && faces.are_in(*p)))
             .filter(|piece| is_chosen || polyline_length(piece) >= least)
             .collect();
-        let jaws = if is_chosen { Vec::new() } else { jaw_lines(self.portrait) };
+        let jaws = if is_chosen { Vec::new() } else { Jaws::of(self.portrait, self.pitch()).curves() };
         let lines = self.not_beside(lines, &jaws, least);
         let touch = Touch {
             width: LINE_WIDTH * self.parameters.stroke_width,
@@ -58,8 +60,14 @@ impl Drawer<'_> {
         }
         for (i, jaw) in jaws.iter().enumerate() {
             let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", i as u64));
-            let firm = |p: Point| firm.get(nearest(&jaw.points, p)).copied().unwrap_or(1.0);
-            marks.extend(self.stroke(&jaw.points, touch, |p| firm(p).max(JAW_LEAST)));
+            let last = (jaw.points.len() - 1) as f64;
+            let pressure = |p: Point| {
+                let at = nearest(&jaw.points, p);
+                let along = at as f64 / last;
+                let fade = (along.min(1.0 - along) / JAW_FADES).min(1.0);
+                fade * firm.get(at).copied().unwrap_or(0.0).clamp(JAW_PRESSURE.0, JAW_PRESSURE.1)
+            };
+            marks.extend(self.stroke(&jaw.points, touch, pressure));
         }
         marks
     }
@@ -67,7 +75,7 @@ impl Drawer<'_> {
     /// What is left of lines that do not run along one of the others.
     fn not_beside(&self, lines: Vec<Vec<Point>>, others: &[Curve], least: f64) -> Vec<Vec<Point>> {
         /// Distance within which two lines are one, in pitches.
-        const BESIDE: f64 = 4.0;
+        const BESIDE: f64 = 8.0;
         let (width, height) = self.size();
         let Some(field) = distance_to_curves(others, width, height) else { return lines };
         let reach = self.pixels(BESIDE * self.parameters.pitch) as f32;

@@ -4,7 +4,7 @@ use super::Drawer;
 use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::elementary::unit_at;
-use crate::field::{contours, distance_to_curves, pieces_inside};
+use crate::field::{contours, distance_within, pieces_inside};
 use crate::geometry::{HandShading, Millimetres, Point, Rect, Vec2, polyline_length};
 use crate::raster::Raster;
 use crate::style::random::stream;
@@ -147,7 +147,7 @@ fn inset(region: &Raster<f32>, by: f64) -> Raster<f32> {
     if by <= 0.0 {
         return region.clone();
     }
-    let Some(outside) = distance_to_curves(&contours(region, 0.5), region.width(), region.height()) else {
+    let Some(outside) = distance_within(&contours(region, 0.5), region.width(), region.height(), by + 1.0) else {
         return region.clone();
     };
     let within = region.zip_map(&outside.distance, |inside, distance| if inside >= 0.5 { distance } else { -distance });

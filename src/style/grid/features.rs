@@ -11,6 +11,7 @@ use crate::geometry::{BezPath, Point, Vec2};
 use crate::raster::Raster;
 use crate::source::MaskRole;
 use crate::style::Picture;
+use crate::style::jaw::Jaws;
 use crate::style::mouth::Mouths;
 
 /// The lines that steer the grid and their direction field, in working pixels.
@@ -91,7 +92,9 @@ impl Drawer<'_> {
         let widest = self.pixels(parameters.line_widest);
         let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
         let lines = steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect();
-        Mouths::of(self.portrait, self.pitch()).redrawn(lines, self.pixels(parameters.line_least))
+        let least = self.pixels(parameters.line_least);
+        let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
+        Jaws::of(self.portrait, self.pitch()).redrawn(lines, least)
     }
 
     fn line_parameters(&self) -> LineParameters {

@@ -9,6 +9,7 @@ use crate::field::{
 use crate::raster::{Raster, bilateral};
 use crate::source::MaskRole;
 use crate::style::Picture;
+use crate::style::jaw::Jaws;
 use crate::style::mouth::Mouths;
 
 /// The lines that steer the dots, in working pixels.
@@ -79,6 +80,7 @@ impl Drawer<'_> {
         let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing), least).lines;
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
+        let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
         let steering = self.pixels(self.parameters.edge_length);
         let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
         let width = self.pixels(self.parameters.outline_width);

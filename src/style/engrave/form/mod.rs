@@ -73,7 +73,8 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
-        let solids = Solids::new(self.portrait, &ink, self.pitch()).with_mouths(self.portrait, self.pitch(), MOUTH).layer();
+        let solids = Solids::new(self.portrait, &ink, self.pitch());
+        let solids = solids.with_mouths(self.portrait, self.pitch(), MOUTH).with_jaws(self.portrait, self.pitch()).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
