@@ -24,10 +24,6 @@ impl Drawer<'_> {
         const LINE_PRESSURE: f64 = 0.9;
         /// Width of an edge as a share of the stick's: contours must stay lighter than the features.
         const LINE_WIDTH: f64 = 0.8;
-        /// Bounds of the pressure along a jaw, which a face needs even where it hardly shows, and the share of it over which it fades out
-        /// at both ends: a firm line that stops is a wire.
-        const JAW_PRESSURE: (f64, f64) = (0.2, 0.55);
-        const JAW_FADES: f64 = 0.3;
         self.observer.begin("edges");
         let faces = Creases::of(self.portrait);
         let least = self.pixels(self.parameters.edge_length);
@@ -58,18 +54,25 @@ impl Drawer<'_> {
             let firm = self.firmness(points, &mut random);
             marks.extend(self.stroke(points, touch, |p| firm.get(nearest(points, p)).copied().unwrap_or(1.0)));
         }
-        for (i, jaw) in jaws.iter().enumerate() {
-            let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", i as u64));
-            let last = (jaw.points.len() - 1) as f64;
-            let pressure = |p: Point| {
-                let at = nearest(&jaw.points, p);
-                let along = at as f64 / last;
-                let fade = (along.min(1.0 - along) / JAW_FADES).min(1.0);
-                fade * firm.get(at).copied().unwrap_or(0.0).clamp(JAW_PRESSURE.0, JAW_PRESSURE.1)
-            };
-            marks.extend(self.stroke(&jaw.points, touch, pressure));
-        }
+        marks.extend(jaws.iter().enumerate().filter_map(|(i, jaw)| self.jaw(jaw, i as u64, touch)));
         marks
+    }
+
+    /// The soft line of a jaw.
+    fn jaw(&self, jaw: &Curve, element: u64, touch: Touch) -> Option<Mark> {
+        /// Bounds of the pressure along a jaw, which a face needs even where it hardly shows, and the share of it over which it fades out
+        /// at both ends: a firm line that stops is a wire.
+        const JAW_PRESSURE: (f64, f64) = (0.2, 0.55);
+        const JAW_FADES: f64 = 0.3;
+        let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", element));
+        let last = (jaw.points.len() - 1) as f64;
+        let pressure = |p: Point| {
+            let at = nearest(&jaw.points, p);
+            let along = at as f64 / last;
+            let fade = (along.min(1.0 - along) / JAW_FADES).min(1.0);
+            fade * firm.get(at).copied().unwrap_or(0.0).clamp(JAW_PRESSURE.0, JAW_PRESSURE.1)
+        };
+        self.stroke(&jaw.points, touch, pressure)
     }
 
     /// What is left of lines that do not run along one of the others.

@@ -1,7 +1,6 @@
 //! The paper that charcoal catches on.
 
 use super::Drawer;
-use super::tone::Laid;
 use crate::raster::{Raster, paper_texture};
 use crate::source::Paper;
 
@@ -43,20 +42,19 @@ impl Drawer<'_> {
         (texture(1.0, 0x7007), texture(CLUMP, 0xc1a9))
     }
 
-    /// The paper's tooth, finer on the skin of people whose faces are known: a hand presses smaller grains there.
-    pub(super) fn finer_in_faces(&self, tooth: Raster<f32>, parts: &Laid<'_>) -> Raster<f32> {
+    /// The paper's tooth, finer on the skin of people whose faces are known, 0 to 1: a hand presses smaller grains there.
+    pub(super) fn finer_in_faces(&self, tooth: Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
         /// Size of the grains on skin, as a share of the others'.
         const FINE_GRAIN: f32 = 0.6;
-        let zone = parts.sharp.zip_map(&parts.regions.skin(), f32::max);
-        let Some([columns, rows]) = zone.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
+        let Some([columns, rows]) = skin.extent_above(0.5).filter(|_| !self.portrait.faces.is_empty()) else { return tooth };
         let (width, height) = (tooth.width(), tooth.height());
-        let (fx, fy) = (zone.width() as f64 / width as f64, zone.height() as f64 / height as f64);
+        let (fx, fy) = (skin.width() as f64 / width as f64, skin.height() as f64 / height as f64);
         let (left, top) = ((columns.start as f64 / fx) as usize, (rows.start as f64 / fy) as usize);
         let (wide, high) = ((columns.len() as f64 / fx) as usize + 2, (rows.len() as f64 / fy) as usize + 2);
         let fine = paper_texture(wide, high, FINE_GRAIN * PIXELS_A_GRAIN as f32, self.seed ^ 0xf17e);
         Raster::from_fn(width, height, |x, y| {
             let is_in_box = (left..left + wide).contains(&x) && (top..top + high).contains(&y);
-            let is_fine = is_in_box && zone.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy) > 0.5;
+            let is_fine = is_in_box && skin.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy) > 0.5;
             if is_fine { fine.get(x - left, y - top) } else { tooth.get(x, y) }
         })
     }

@@ -42,7 +42,7 @@ impl Drawer<'_> {
         let picture = self.portrait.placement.picture;
         let (tooth, clumps) = self.paper();
         let (width, height) = (tooth.width(), tooth.height());
-        let tooth = self.finer_in_faces(tooth, parts);
+        let tooth = self.finer_in_faces(tooth, &parts.sharp.zip_map(&parts.regions.skin(), f32::max));
         let (fx, fy) = (smudged.width() as f64 / width as f64, smudged.height() as f64 / height as f64);
         let wanted = Raster::from_fn(width, height, |x, y| {
             let s = smudged.sample((x as f64 + 0.5) * fx, (y as f64 + 0.5) * fy);
