@@ -43,6 +43,14 @@ impl CoherentLine {
         }
         out
     }
+
+    /// The parts of it at which `keep` is true; itself if it is everywhere, else those of at least `least` pixels.
+    pub(crate) fn parts_where(&self, keep: impl Fn(&Point) -> bool, least: f64) -> Vec<Self> {
+        let whole = self.curve.points.len();
+        let mut parts = self.runs(&self.curve.points.iter().map(keep).collect::<Vec<_>>());
+        parts.retain(|part| part.curve.points.len() == whole || part.curve.length() >= least);
+        parts
+    }
 }
 
 /// Every step from pixels to curves, for `stages`.

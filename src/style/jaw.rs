@@ -77,12 +77,7 @@ impl Jaws {
         let Some(field) = distance_to_curves(&self.curves(), self.size.0, self.size.1) else { return found };
         let reach = (BESIDE_JAW * self.pitch) as f32;
         let is_apart = |p: &Point| field.distance.sample(p.x, p.y) >= reach;
-        let kept = found.into_iter().flat_map(|line| {
-            let whole = line.curve.points.len();
-            let mut rest = line.runs(&line.curve.points.iter().map(is_apart).collect::<Vec<_>>());
-            rest.retain(|part| part.curve.points.len() == whole || part.curve.length() >= least);
-            rest
-        });
+        let kept = found.iter().flat_map(|line| line.parts_where(is_apart, least));
         kept.chain(self.lines.iter().cloned()).collect()
     }
 }

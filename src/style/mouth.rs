@@ -77,12 +77,7 @@ impl Mouths {
             return found;
         }
         let is_outside = |p: &Point| !self.inside.iter().any(|mouth| mouth.contains(*p));
-        let kept = found.into_iter().flat_map(|line| {
-            let whole = line.curve.points.len();
-            let mut rest = line.runs(&line.curve.points.iter().map(is_outside).collect::<Vec<_>>());
-            rest.retain(|part| part.curve.points.len() == whole || part.curve.length() >= least);
-            rest
-        });
+        let kept = found.iter().flat_map(|line| line.parts_where(is_outside, least));
         kept.chain(self.lines.iter().cloned()).collect()
     }
 }
