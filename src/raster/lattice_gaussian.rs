@@ -26,6 +26,13 @@ pub fn fast_gaussian(raster: &Raster<f32>, sigma: f32) -> Raster<f32> {
     lattice.blur_columns(&lattice.blur_rows(raster))
 }
 
+/// The weighted Gaussian mean of values around each pixel. Callers add a tiny weight everywhere, which decides where there is no
+/// other.
+pub(crate) fn fast_gaussian_within(values: &Raster<f32>, weight: &Raster<f32>, sigma: f32) -> Raster<f32> {
+    let sum = fast_gaussian(&values.zip_map(weight, |v, w| v * w), sigma);
+    sum.zip_map(&fast_gaussian(weight, sigma), |sum, weight| sum / weight.max(1e-6))
+}
+
 /// The cubic B-spline of unit step.
 fn b_spline(t: f32) -> f32 {
     let t = t.abs();

@@ -51,6 +51,7 @@ pub(crate) use guided::shares_of_bytes;
 pub use guided::{guided_enlargement, guided_filter, self_guided};
 #[doc(hidden)]
 pub use lattice_gaussian::fast_gaussian;
+pub(crate) use lattice_gaussian::fast_gaussian_within;
 #[doc(hidden)]
 pub use local_laplacian::{Remapping, local_laplacian};
 #[doc(hidden)]

@@ -21,7 +21,7 @@ mod mixing;
 mod openings;
 mod zones;
 
-use crate::raster::{Raster, box_blur, enlarge, fast_gaussian, reduce};
+use crate::raster::{Raster, box_blur, enlarge, reduce};
 use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
 
@@ -110,11 +110,4 @@ fn at_full_size(tone: &Raster<f32>, reduced: &Raster<f32>, full: &Raster<f32>, f
     let large = |raster: &Raster<f32>| enlarge(raster, factor, full.width(), full.height());
     let (slope, offset) = (large(&mean(&slope)), large(&mean(&offset)));
     slope.zip_map(full, |a, v| a * v).zip_map(&offset, |av, b| (av + b).clamp(0.0, 1.0))
-}
-
-/// The weighted Gaussian mean of values around each pixel. Callers add a tiny weight everywhere, which decides where there is no
-/// other.
-fn blurred_within(values: &Raster<f32>, weight: &Raster<f32>, sigma: f32) -> Raster<f32> {
-    let sum = fast_gaussian(&values.zip_map(weight, |v, w| v * w), sigma);
-    sum.zip_map(&fast_gaussian(weight, sigma), |sum, weight| sum / weight.max(1e-6))
 }

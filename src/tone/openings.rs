@@ -1,11 +1,10 @@
 //! Eyes and open mouths, whose small forms the tone of skin would grey over: whites are lightened, irises darkened, catchlights
 //! left as paper, and the gaps between teeth kept.
 
-use super::blurred_within;
 use super::mixing::mixed;
 use super::zones::{Zones, polygon};
 use crate::geometry::{Point, convex_hull, polygon_area};
-use crate::raster::{Raster, dilate, fast_gaussian};
+use crate::raster::{Raster, dilate, fast_gaussian, fast_gaussian_within};
 use crate::source::{Iris, Landmarks, outlines};
 
 /// Height over width of an opening: below the first it is closed, from the second on it is treated in full.
@@ -108,7 +107,7 @@ fn teeth(zones: &Zones, tone: &Raster<f32>, lips: &[Point], skin: f32) -> Raster
     if open == 0.0 || inside.pixels().iter().all(|v| *v == 0.0) {
         return tone.clone();
     }
-    let mean = blurred_within(tone, &inside.map(|v| v + 1e-6), (TEETH_REACH * zones.width) as f32);
+    let mean = fast_gaussian_within(tone, &inside.map(|v| v + 1e-6), (TEETH_REACH * zones.width) as f32);
     let drawn = tone.zip_map(&mean, |v, mean| mean.min(TEETH) + (1.0 + TEETH_DETAIL) * (v - mean));
     let soft = fast_gaussian(&inside, (0.3 * TEETH_REACH * zones.width) as f32);
     mixed(tone, &drawn, &soft.map(|share| open * share))

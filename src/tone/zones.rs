@@ -1,8 +1,7 @@
 //! The skin and the features of a face.
 
-use super::blurred_within;
 use crate::geometry::{Point, convex_hull};
-use crate::raster::{Raster, dilate, fast_gaussian, filled_polygon};
+use crate::raster::{Raster, dilate, fast_gaussian, fast_gaussian_within, filled_polygon};
 use crate::source::{Landmarks, outlines};
 
 /// Distance of skin from the face's border and from its features, in widths of the face: lashes and shadows at the hair are not
@@ -78,7 +77,7 @@ impl Zones {
 
     /// Values blurred over the weighted area only; `share` is sigma in widths of the face.
     pub(super) fn over_skin(&self, values: &Raster<f32>, weight: &Raster<f32>, share: f64) -> Raster<f32> {
-        blurred_within(values, weight, (share * self.width) as f32)
+        fast_gaussian_within(values, weight, (share * self.width) as f32)
     }
 }
 

@@ -29,6 +29,15 @@ const ALONG_STEPS: u32 = 12;
 /// Angles of the Hough accumulator.
 const ANGLES: usize = 36;
 
+/// Strokes of hair.
+#[derive(Clone, Copy)]
+pub(in crate::style) struct Hairs {
+    /// Width at full pressure.
+    pub width: Millimetres,
+    /// Mean length.
+    pub length: Millimetres,
+}
+
 impl Drawer<'_> {
     /// Strokes inside a region, 0 to 1, that make a share of its ink.
     pub(super) fn hair(&self, hair: &Raster<f32>, share: f32) -> Vec<Mark> {
@@ -38,25 +47,26 @@ impl Drawer<'_> {
         }
         let field = self.hair_orientation(hair);
         let darkness = self.darkness();
-        let covering = Covering {
-            width: self.pixels(HAIR_WIDTH * self.parameters.stroke_width) * 0.75,
-            length: self.pixels(self.parameters.hair_length),
-            length_spread: 0.6,
-            turn: self.parameters.hair_turn.0,
-            reach: self.pixels(0.9 * self.parameters.pitch),
-        };
         let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
         let ink = ink.map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
-        let soft = gaussian_blur(&ink, self.pixels(0.5 * self.parameters.pitch) as f32);
-        let touch = Touch {
-            width: HAIR_WIDTH * self.parameters.stroke_width,
-            pressure: 1.0,
-            taper: 0.35,
-            node: 2.0 * self.parameters.pitch,
+        let width = HAIR_WIDTH * self.parameters.stroke_width;
+        self.hairs(&field, hair, &ink, Hairs { width, length: self.parameters.hair_length })
+    }
+
+    /// Strokes along a field inside a region whose ink is as given.
+    pub(super) fn hairs(&self, field: &OrientationField, region: &Raster<f32>, ink: &Raster<f32>, hairs: Hairs) -> Vec<Mark> {
+        let covering = Covering {
+            width: self.pixels(hairs.width) * 0.75,
+            length: self.pixels(hairs.length),
+            length_spread: 0.6,
+            turn: self.parameters.hair_turn.0,
+            reach: self.pixels(0.9 * self.parameters.pitch),
         };
-        cover(&field, hair, &ink, covering, &mut stream(self.seed, "hair", 0))
+        let soft = gaussian_blur(ink, self.pixels(0.5 * self.parameters.pitch) as f32);
+        let touch = Touch { width: hairs.width, pressure: 1.0, taper: 0.35, node: 2.0 * self.parameters.pitch };
+        cover(field, region, ink, covering, &mut stream(self.seed, "hair", 0))
             .iter()
             .filter_map(|line| {
                 let line = smooth_polyline(line, Ring::Open, self.pitch(), 1.5);

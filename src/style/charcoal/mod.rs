@@ -27,9 +27,11 @@ use super::drawer::Pitched;
 use super::solids::Solids;
 use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
+use crate::field::OrientationField;
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
+pub(super) use hair::Hairs;
 use parameters::{CARD, CharcoalParameters};
 use std::sync::Arc;
 use tone::Laid;
@@ -83,6 +85,17 @@ type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
     let settings = CARD.settings_at(drawer.parameters.pitch(), &[])?;
     Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair, 1.0))
+}
+
+/// Strokes along a field that make the ink inside a region, for a style of another kind at its pitch.
+pub(super) fn strokes_along(
+    drawer: &super::Drawer<'_, impl Pitched>,
+    field: &OrientationField,
+    region: &Raster<f32>,
+    hairs: Hairs,
+) -> Result<Vec<Mark>, StyleError> {
+    let settings = CARD.settings_at(drawer.parameters.pitch(), &[])?;
+    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hairs(field, region, &drawer.portrait.ink(), hairs))
 }
 
 /// Widths of the mouth's lines, as a share: in full they are ink among charcoal.

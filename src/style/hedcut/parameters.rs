@@ -127,7 +127,7 @@ parameters! {
             "lanes in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto and even make them sqrt(3) times as dense, so that three times the dots stay in square cells; thesis makes them three times as dense; off leaves them as everywhere",
             "Bruehl 4.3.2, corrected", needs [Need::With(MaskRole::Detail)];
         parts: PartsRule = "parts": Kind::Choice(PartsRule::WORDS),
-            "what is drawn in dots: auto draws hair and beards in flowing strokes and clothing and hats in hatches, where they were detected or their masks are given; dots draws everything in dots",
+            "what is drawn in dots: auto draws hair, beards and brows in flowing strokes and clothing and hats in hatches, where they were detected or their masks are given; dots draws everything in dots",
             "Bruehl 0.1.1", needs [HAS_PARTS];
         blob: f64 = "blob": number(0.0, 0.0..=1.0),
             "irregularity of the dots: 0 draws circles, 1 ragged ink blobs of the same area",

@@ -8,8 +8,10 @@
 //! ```
 
 use super::Drawer;
+use super::brows::Brows;
 use super::parameters::PartsRule;
 use crate::drawing::{Layer, Mark, Stroke, Width};
+use crate::field::OrientationField;
 use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
@@ -20,6 +22,7 @@ use std::ops::Range;
 /// Where the parts lie, each 0 to 1; they do not overlap.
 pub(super) struct Parts {
     hair: Option<Raster<f32>>,
+    brows: Option<Brows>,
     /// Clothing and headwear, which often lie far apart.
     cloths: Vec<Raster<f32>>,
 }
@@ -34,7 +37,7 @@ impl Drawer<'_> {
     /// The parts that are not drawn in dots; none without their masks.
     pub(super) fn parts(&self) -> Parts {
         if self.parameters.parts == PartsRule::Dots {
-            return Parts { hair: None, cloths: Vec::new() };
+            return Parts { hair: None, brows: None, cloths: Vec::new() };
         }
         let masks = &self.portrait.masks;
         let union = |roles: [MaskRole; 2]| {
@@ -52,7 +55,11 @@ impl Drawer<'_> {
             (_, headwear) => headwear,
         };
         let cloths = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
-        Parts { hair, cloths }
+        let brows = self.brows().map(|brows| match &hair {
+            Some(hair) => brows.beside(hair),
+            None => brows,
+        });
+        Parts { hair, brows, cloths }
     }
 
     /// A mask as a part with a smooth border; none if it is too small.
@@ -77,7 +84,7 @@ impl Drawer<'_> {
 
     /// The portrait with white paper where another part is drawn.
     pub(super) fn without(&self, parts: &Parts) -> Portrait {
-        let others = parts.hair.iter().chain(&parts.cloths);
+        let others = parts.regions();
         let rest =
             others.fold(self.portrait.tone.map(|_| 1.0), |rest, part| rest.zip_map(part, |rest, part| rest * (1.0 - part)));
         self.only(&rest)
@@ -85,25 +92,38 @@ impl Drawer<'_> {
 
     /// Hair in strokes.
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
-        let Some((hair, portrait)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) else { return Ok(None) };
-        let drawer = self.on(&portrait);
-        let mut marks = charcoal::hair_strokes(&drawer, &hair)?;
-        for _ in 0..TONE_ROUNDS {
-            self.check()?;
-            marks = drawer.with_tone(marks, &hair);
+        let mut marks = Vec::new();
+        if let Some((hair, portrait, _)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) {
+            let drawer = self.on(&portrait);
+            marks = drawer.toned(charcoal::hair_strokes(&drawer, &hair)?, &hair)?;
+        }
+        if let Some(brows) = &parts.brows
+            && let Some((region, portrait, [columns, rows])) = self.boxed(&brows.region)
+        {
+            let drawer = self.on(&portrait);
+            let hairs = OrientationField::new(brows.hairs.doubled().part(&columns, &rows));
+            marks.extend(drawer.toned(charcoal::strokes_along(&drawer, &hairs, &region, brows.sizes)?, &region)?);
         }
         Ok(layer("hair", marks))
     }
 
+    /// Strokes with the tone of their region.
+    fn toned(&self, marks: Vec<Mark>, region: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
+        (0..TONE_ROUNDS).try_fold(marks, |marks, _| {
+            self.check()?;
+            Ok(self.with_tone(marks, region))
+        })
+    }
+
     /// A part and the portrait within the part's own box.
-    fn boxed(&self, part: &Raster<f32>) -> Option<(Raster<f32>, Portrait)> {
+    fn boxed(&self, part: &Raster<f32>) -> Option<(Raster<f32>, Portrait, [Range<usize>; 2])> {
         /// Room around a part in its own box, in pitches: the directions of its lines are smoothed over less.
         const ROOM: f64 = 8.0;
         let room = (ROOM * self.pitch()).ceil() as usize;
         let [columns, rows] = part.extent_above(0.0)?;
         let wider = |range: &Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
         let (columns, rows) = (wider(&columns, part.width()), wider(&rows, part.height()));
-        Some((part.part(&columns, &rows), self.portrait.part(&columns, &rows)))
+        Some((part.part(&columns, &rows), self.portrait.part(&columns, &rows), [columns, rows]))
     }
 
     /// Strokes of hair, wider or thinner by the ratio of the ink asked for around each node to the ink drawn there.
@@ -118,10 +138,13 @@ impl Drawer<'_> {
             |ink: &Raster<f32>| gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), (TONE_REACH * self.pitch()) as f32);
         let drawn = around(&covered(&marks, placement));
         let asked = around(&self.portrait.ink());
-        let ratio = asked.zip_map(&drawn, |asked, drawn| {
-            let most = 1.0 + (TONE_STEP[1] - 1.0) * ((asked - LIGHT_HAIR[0]) / (LIGHT_HAIR[1] - LIGHT_HAIR[0])).clamp(0.0, 1.0);
-            ((asked + LEAST_INK) / (drawn + LEAST_INK)).clamp(TONE_STEP[0], most)
+        let within = gaussian_blur(hair, (TONE_REACH * self.pitch()) as f32);
+        let most = asked.zip_map(&within, |asked, within| {
+            let ink = asked / within.max(LEAST_INK);
+            1.0 + (TONE_STEP[1] - 1.0) * ((ink - LIGHT_HAIR[0]) / (LIGHT_HAIR[1] - LIGHT_HAIR[0])).clamp(0.0, 1.0)
         });
+        let ratio = asked.zip_map(&drawn, |asked, drawn| (asked + LEAST_INK) / (drawn + LEAST_INK));
+        let ratio = ratio.zip_map(&most, |ratio, most| ratio.clamp(TONE_STEP[0], most));
         let toned = |stroke: Stroke| {
             let places: Vec<Point> = stroke.nodes().map(|node| placement.to_grid(node)).collect();
             let mut ratios = places.iter().map(|p| f64::from(ratio.sample(p.x, p.y)));
@@ -138,7 +161,7 @@ impl Drawer<'_> {
     /// Clothing in hatches.
     pub(super) fn clothing_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let mut marks = Vec::new();
-        for (cloth, portrait) in parts.cloths.iter().filter_map(|cloth| self.boxed(cloth)) {
+        for (cloth, portrait, _) in parts.cloths.iter().filter_map(|cloth| self.boxed(cloth)) {
             let mut worn = self.on(&portrait).only(&cloth);
             worn.masks.clear();
             marks.extend(grid::hatches(&self.on(&worn))?);
@@ -150,19 +173,25 @@ impl Drawer<'_> {
 impl Parts {
     /// True if all of it is drawn in dots.
     pub(super) fn is_empty(&self) -> bool {
-        self.hair.is_none() && self.cloths.is_empty()
+        self.hair.is_none() && self.brows.is_none() && self.cloths.is_empty()
+    }
+
+    /// The regions of all parts.
+    fn regions(&self) -> impl Iterator<Item = &Raster<f32>> {
+        self.hair.iter().chain(self.brows.iter().map(|brows| &brows.region)).chain(&self.cloths)
     }
 
     /// True if a place lies deep in another part, where a large cell at the border may have its dot.
     pub(super) fn hold(&self, p: Point) -> bool {
         /// From this value on a place is deep in a part.
         const DEEP: f32 = 0.95;
-        self.hair.iter().chain(&self.cloths).any(|part| part.sample(p.x, p.y) > DEEP)
+        self.regions().any(|part| part.sample(p.x, p.y) > DEEP)
     }
 
-    /// How far a place lies in hair, 0 to 1; in working pixels.
+    /// How far a place lies in hair or in a brow, 0 to 1; in working pixels.
     pub(super) fn hair_at(&self, p: Point) -> f32 {
-        self.hair.as_ref().map_or(0.0, |hair| hair.sample(p.x, p.y))
+        let hairs = self.hair.iter().chain(self.brows.iter().map(|brows| &brows.region));
+        hairs.map(|hair| hair.sample(p.x, p.y)).fold(0.0, f32::max)
     }
 }
 
