@@ -1,4 +1,4 @@
-//! Likeness of drawn faces, and their tone: `cargo bench --bench portraits [-- FOLDER]`.
+//! Likeness of drawn faces, and their tone: `cargo bench --bench portraits [-- FOLDER [STYLE]]`.
 //!
 //! Each photograph of a person (those of `samples`, or all JPEG and PNG files of a folder) is drawn in every style by the whole
 //! command, with no mask and default settings, and printed by resvg. The face detector that analysed the photograph then analyses
@@ -38,7 +38,8 @@ const TO_LOOK_AT: f64 = 20.0;
 const TO_WEIGH: f64 = 40.0;
 
 fn main() {
-    let folder = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with('-'));
+    let (folder, only) = (arguments.next(), arguments.next());
     let paths = sitter::photographs(folder.as_deref().map(Path::new));
     let (sitters, faceless): (Vec<Sitter>, Vec<String>) = sitter::seen(&paths);
     faceless.iter().for_each(|name| println!("{name}: no face found, left out"));
@@ -58,7 +59,7 @@ fn main() {
         "", "found", "eyes", "nose", "mouth", "light", "brown", "dark"
     );
     let mut hedcuts = Vec::new();
-    for way in &WAYS {
+    for way in WAYS.iter().filter(|way| only.as_ref().is_none_or(|only| only == way.name)) {
         let drawings: Vec<String> = sitters.iter().map(|sitter| print::drawn(&sitter.path, way.options, place.path())).collect();
         let row = |(sitter, svg): (&Sitter, &String)| Row::new(sitter, likeness::likeness(sitter, &Print::new(svg, TO_LOOK_AT)));
         let rows: Vec<Row> = sitters.iter().zip(&drawings).map(row).collect();
@@ -66,6 +67,9 @@ fn main() {
         if way.name == "hedcut" {
             hedcuts = drawings;
         }
+    }
+    if hedcuts.is_empty() {
+        return;
     }
     println!("\ntone of faces, hedcut 90 mm wide");
     let weighed = |(sitter, svg): (&Sitter, &String)| face_tone::measured(sitter, &Print::new(svg, TO_WEIGH));

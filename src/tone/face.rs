@@ -57,7 +57,7 @@ const OPENED_IN_FACE: f32 = 0.07;
 /// face's lights reach paper, and the tone of paper. With the 98th percentile, three of sixteen faces had less than 2 % of bare
 /// paper.
 const SEEN: f64 = 0.03;
-const BELOW_PAPER: f64 = 96.5;
+const BELOW_PAPER: f64 = 92.5;
 const PAPER: f32 = 0.985;
 /// Lights above this percentile are raised, at most by this multiple of the range from there to the lights.
 const RAISED_FROM: f64 = 75.0;

@@ -5,7 +5,7 @@ use crate::raster::{Raster, fast_gaussian, soft_rise};
 
 /// Most of the counted skin, in hundredths, that may be paper as seen in print. With 25 foreheads and noses are holes with hard edges, with 13
 /// and 8 still too white for editors; with 6 light faces look veiled (sixteen portraits). For light skin and for dark.
-const MOST_BARE: [f64; 2] = [10.0, 5.0];
+const MOST_BARE: [f64; 2] = [11.0, 7.0];
 /// Reach of the half tones in widths of the face, their share at most, and the ink above which places are features and do not count.
 const REACH: f64 = 0.09;
 const MOST: f32 = 0.9;

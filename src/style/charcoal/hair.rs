@@ -8,6 +8,7 @@ use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
 use crate::geometry::{Millimetres, Point, Ring, Vec2, smooth_polyline};
 use crate::raster::{Raster, gaussian_blur, ridges};
 use crate::style::Picture;
+use crate::style::declaration::Radians;
 use crate::style::random::stream;
 
 /// Blur before line detection, in pixels (section 3.1.2).
@@ -36,6 +37,8 @@ pub(in crate::style) struct Hairs {
     pub width: Millimetres,
     /// Mean length.
     pub length: Millimetres,
+    /// Maximum angle to the field.
+    pub turn: Radians,
 }
 
 impl Drawer<'_> {
@@ -52,7 +55,7 @@ impl Drawer<'_> {
         let ink = ink.map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let width = HAIR_WIDTH * self.parameters.stroke_width;
-        self.hairs(&field, hair, &ink, Hairs { width, length: self.parameters.hair_length })
+        self.hairs(&field, hair, &ink, Hairs { width, length: self.parameters.hair_length, turn: self.parameters.hair_turn })
     }
 
     /// Strokes along a field inside a region whose ink is as given.
@@ -61,7 +64,7 @@ impl Drawer<'_> {
             width: self.pixels(hairs.width) * 0.75,
             length: self.pixels(hairs.length),
             length_spread: 0.6,
-            turn: self.parameters.hair_turn.0,
+            turn: hairs.turn.0,
             reach: self.pixels(0.9 * self.parameters.pitch),
         };
         let soft = gaussian_blur(ink, self.pixels(0.5 * self.parameters.pitch) as f32);

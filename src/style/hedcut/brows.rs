@@ -13,6 +13,7 @@ use crate::geometry::{Millimetres, Point, Vec2};
 use crate::raster::{Raster, fast_gaussian, fast_gaussian_within, filled_polygon};
 use crate::source::{Landmarks, outlines};
 use crate::style::charcoal::Hairs;
+use crate::style::declaration::Radians;
 
 /// A face of fewer pitches keeps its brows in dots: a brow would be three strokes.
 const LEAST_WIDTH: f64 = 24.0;
@@ -23,14 +24,20 @@ const AROUND: f64 = 0.07;
 const FINE: f64 = 0.006;
 /// A brow is at least this much darker than the skin around; its border is where the difference is this share of the brow's own.
 const LEAST_DEPTH: f32 = 0.03;
-const BORDER: [f32; 2] = [0.15, 0.42];
-/// Width of a hair in pitches, and its mean length in widths of the face.
-const WIDTH: f64 = 0.42;
-const LENGTH: f64 = 0.075;
+const BORDER: [f32; 2] = [0.1, 0.34];
+/// Width of a hair in pitches, its mean length in widths of the face, and its angle to the others at most, in degrees. Wider or less even ones
+/// are combs and false lashes (03, 08, 15).
+const WIDTH: f64 = 0.36;
+const LENGTH: f64 = 0.085;
+const TURN: f64 = 6.0;
+/// The share of a brow's ink that is dots, below the strokes. Without dots brows have white gaps, as if grizzled.
+pub(super) const DOTS: f32 = 0.4;
+/// A brow of which hair or a hat covers more than this share is not one.
+const MOST_COVERED: f64 = 0.5;
 /// The angle of the hairs above the ridge at its inner end, a third along, two thirds along and at the outer end, and by how much hairs at the
 /// upper border lean down and those at the lower border up, in degrees.
-const RISES: [f64; 4] = [48.0, 24.0, 8.0, -4.0];
-const LEAN: f64 = 16.0;
+const RISES: [f64; 4] = [38.0, 18.0, 6.0, -6.0];
+const LEAN: f64 = 10.0;
 
 /// Where brows are, and the direction of their hairs; on the working grid.
 pub(super) struct Brows {
@@ -40,36 +47,29 @@ pub(super) struct Brows {
     pub sizes: Hairs,
 }
 
-impl Brows {
-    /// The brows without what hair covers.
-    pub(super) fn beside(self, hair: &Raster<f32>) -> Self {
-        Self { region: self.region.zip_map(hair, |brow, hair| brow.min(1.0 - hair)), ..self }
-    }
-}
-
 impl Drawer<'_> {
-    /// The brows of the faces that are large enough; none if no brow is darker than its skin.
-    pub(super) fn brows(&self) -> Option<Brows> {
+    /// The brows of the faces that are large enough, where hair does not cover them. A face has both or none.
+    pub(super) fn brows(&self, hair: Option<&Raster<f32>>) -> Option<Brows> {
         let least = LEAST_WIDTH * self.pitch();
-        let size = self.size();
-        let mut region = Raster::filled(size.0, size.1, 0.0_f32);
+        let (width, height) = self.size();
+        let mut region = Raster::filled(width, height, 0.0_f32);
         let mut ridges = Vec::new();
         let mut widest = 0.0_f64;
         for face in self.portrait.faces.iter().filter(|face| face.width() >= least) {
-            for outline in [&outlines::RIGHT_BROW, &outlines::LEFT_BROW] {
-                if self.add_brow(face, outline, &mut region) {
-                    ridges.push(Ridge::of(face, outline));
-                    widest = widest.max(face.width());
-                }
-            }
+            let both = [&outlines::RIGHT_BROW, &outlines::LEFT_BROW].map(|outline| self.brow(face, outline, hair));
+            let [Some(right), Some(left)] = both else { continue };
+            right.add_to(&mut region);
+            left.add_to(&mut region);
+            ridges.extend([right.ridge, left.ridge]);
+            widest = widest.max(face.width());
         }
         let length = Millimetres(LENGTH * widest * self.portrait.placement.mm_per_pixel());
-        let sizes = Hairs { width: WIDTH * self.parameters.pitch, length };
+        let sizes = Hairs { width: WIDTH * self.parameters.pitch, length, turn: Radians(TURN.to_radians()) };
         (!ridges.is_empty()).then(|| Brows { hairs: hairs(&region, &ridges), region, sizes })
     }
 
-    /// Adds one brow to a region, in the box around it; false if it is too pale.
-    fn add_brow(&self, face: &Landmarks, outline: &[usize; 10], region: &mut Raster<f32>) -> bool {
+    /// One brow; none if it is too pale or covered.
+    fn brow(&self, face: &Landmarks, outline: &[usize; 10], hair: Option<&Raster<f32>>) -> Option<Brow> {
         let sigma = |share: f64| (share * face.width()) as f32;
         let line = face.line(outline);
         let room = 3.0 * AROUND * face.width();
@@ -77,9 +77,9 @@ impl Drawer<'_> {
             let (least, last) = line.iter().map(of).fold((f64::MAX, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
             ((least - room).max(0.0) as usize).min(most)..((last + room).ceil() as usize).min(most)
         };
-        let (columns, rows) = (range(|p| p.x, region.width()), range(|p| p.y, region.height()));
+        let (columns, rows) = (range(|p| p.x, self.size().0), range(|p| p.y, self.size().1));
         if columns.is_empty() || rows.is_empty() {
-            return false;
+            return None;
         }
         let corners: Vec<[f64; 2]> = line.iter().map(|p| [p.x - columns.start as f64, p.y - rows.start as f64]).collect();
         let inside = filled_polygon(columns.len(), rows.len(), &corners).map(f32::from);
@@ -87,15 +87,44 @@ impl Drawer<'_> {
         let tone = self.portrait.tone.part(&columns, &rows).map(|v| v.clamp(0.0, 1.0));
         let around = fast_gaussian_within(&tone, &near.map(|near| 1.0 - near + 1e-6), sigma(AROUND));
         let below = around.zip_map(&fast_gaussian(&tone, sigma(FINE)), |around, tone| around - tone);
-        let Some(depth) = depth(&below, &inside) else { return false };
-        let brow = near.zip_map(&below, |near, below| near * share_of(below / depth, BORDER));
-        for (y, row) in rows.clone().enumerate() {
-            for (x, column) in columns.clone().enumerate() {
-                region.set(column, row, region.get(column, row).max(brow.get(x, y)));
+        let depth = depth(&below, &inside)?;
+        let mut region = near.zip_map(&below, |near, below| near * share_of(below / depth, BORDER));
+        if let Some(hair) = hair.map(|hair| hair.part(&columns, &rows)) {
+            let whole = sum(&region);
+            region = region.zip_map(&hair, |brow, hair| brow.min(1.0 - hair));
+            if sum(&region) < (1.0 - MOST_COVERED) * whole {
+                return None;
             }
         }
-        true
+        Some(Brow { region, at: (columns.start, rows.start), ridge: Ridge::of(face, outline) })
     }
+}
+
+/// The tone of strokes that make a tone together with the dots below them.
+pub(super) fn tone_over_dots(tone: f32) -> f32 {
+    let ink = (1.0 - tone).clamp(0.0, 1.0);
+    1.0 - ink * (1.0 - DOTS) / (1.0 - DOTS * ink)
+}
+
+/// One brow in its box.
+struct Brow {
+    region: Raster<f32>,
+    at: (usize, usize),
+    ridge: Ridge,
+}
+
+impl Brow {
+    /// Adds it to a region of the whole grid.
+    fn add_to(&self, region: &mut Raster<f32>) {
+        for (y, x) in (0..self.region.height()).flat_map(|y| (0..self.region.width()).map(move |x| (y, x))) {
+            let (column, row) = (x + self.at.0, y + self.at.1);
+            region.set(column, row, region.get(column, row).max(self.region.get(x, y)));
+        }
+    }
+}
+
+fn sum(region: &Raster<f32>) -> f64 {
+    region.pixels().iter().map(|v| f64::from(*v)).sum()
 }
 
 /// The middle of a brow from its inner to its outer end, and the side on which the forehead is.

@@ -16,8 +16,8 @@ const LEAST_FADING_RADIUS: f64 = 0.14;
 /// With a tone made for faces: ink below which paper stays bare, and ink at which the fade ends. That tone sets its own whites. With
 /// 0.14 and 0.24, as from the levels of a plain photograph, foreheads are blown out, and with 0.05 and 0.13 cheeks have holes; without a fade
 /// they end in dust (judged on sixteen portraits).
-const PORTRAIT_BARE: f32 = 0.02;
-const PORTRAIT_FADE: f32 = 0.08;
+const PORTRAIT_BARE: f32 = 0.03;
+const PORTRAIT_FADE: f32 = 0.09;
 
 /// The ink without highlights: 0 in the lightest levels, rising to the full ink over the fade.
 pub(super) fn fade_ink(drawer: &Drawer<'_>, ink: &Raster<f32>, features: &Features) -> Raster<f32> {

@@ -8,7 +8,7 @@
 //! ```
 
 use super::Drawer;
-use super::brows::Brows;
+use super::brows::{self, Brows};
 use super::parameters::PartsRule;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::OrientationField;
@@ -55,10 +55,7 @@ impl Drawer<'_> {
             (_, headwear) => headwear,
         };
         let cloths = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
-        let brows = self.brows().map(|brows| match &hair {
-            Some(hair) => brows.beside(hair),
-            None => brows,
-        });
+        let brows = self.brows(hair.as_ref());
         Parts { hair, brows, cloths }
     }
 
@@ -84,9 +81,13 @@ impl Drawer<'_> {
 
     /// The portrait with white paper where another part is drawn.
     pub(super) fn without(&self, parts: &Parts) -> Portrait {
-        let others = parts.regions();
+        let others = parts.hair.iter().chain(&parts.cloths);
         let rest =
             others.fold(self.portrait.tone.map(|_| 1.0), |rest, part| rest.zip_map(part, |rest, part| rest * (1.0 - part)));
+        let rest = match &parts.brows {
+            Some(brows) => rest.zip_map(&brows.region, |rest, brow| rest * (1.0 - (1.0 - brows::DOTS) * brow)),
+            None => rest,
+        };
         self.only(&rest)
     }
 
@@ -98,8 +99,9 @@ impl Drawer<'_> {
             marks = drawer.toned(charcoal::hair_strokes(&drawer, &hair)?, &hair)?;
         }
         if let Some(brows) = &parts.brows
-            && let Some((region, portrait, [columns, rows])) = self.boxed(&brows.region)
+            && let Some((region, mut portrait, [columns, rows])) = self.boxed(&brows.region)
         {
+            portrait.tone = portrait.tone.map(brows::tone_over_dots);
             let drawer = self.on(&portrait);
             let hairs = OrientationField::new(brows.hairs.doubled().part(&columns, &rows));
             marks.extend(drawer.toned(charcoal::strokes_along(&drawer, &hairs, &region, brows.sizes)?, &region)?);
@@ -176,16 +178,11 @@ impl Parts {
         self.hair.is_none() && self.brows.is_none() && self.cloths.is_empty()
     }
 
-    /// The regions of all parts.
-    fn regions(&self) -> impl Iterator<Item = &Raster<f32>> {
-        self.hair.iter().chain(self.brows.iter().map(|brows| &brows.region)).chain(&self.cloths)
-    }
-
     /// True if a place lies deep in another part, where a large cell at the border may have its dot.
     pub(super) fn hold(&self, p: Point) -> bool {
         /// From this value on a place is deep in a part.
         const DEEP: f32 = 0.95;
-        self.regions().any(|part| part.sample(p.x, p.y) > DEEP)
+        self.hair.iter().chain(&self.cloths).any(|part| part.sample(p.x, p.y) > DEEP)
     }
 
     /// How far a place lies in hair or in a brow, 0 to 1; in working pixels.
