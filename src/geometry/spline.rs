@@ -1,5 +1,7 @@
 //! Least-squares fit of a smooth piecewise cubic to a curve over one axis.
 
+use std::sync::LazyLock;
+
 /// A knot of a piecewise cubic over one axis: position, height and slope.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Knot {
@@ -10,10 +12,14 @@ pub(crate) struct Knot {
 
 /// Maximum number of sample positions per piece, evenly spread: more cost time and make no visible difference.
 const PLACES: usize = 12;
+const LEAST_PLACES: usize = 3;
 /// Weight of a knot's values before the fit; it only matters where there are too few samples.
 const PRIOR: f64 = 1e-3;
 /// Weight that pins the heights of the two ends.
 const PINNED: f64 = 1e6;
+
+/// By the number of places, from `LEAST_PLACES` to `PLACES`.
+static BASES: LazyLock<Vec<Basis>> = LazyLock::new(|| (LEAST_PLACES..=PLACES).map(Basis::new).collect());
 
 /// A 2 x 2 matrix, row by row.
 type Block = [f64; 4];
@@ -34,31 +40,64 @@ pub(crate) fn least_squares(knots: &[Knot], height: impl Fn(f64) -> f64, resolve
         right[i] = [weight * knot.height, by_slope * knot.slope];
     }
     for i in 0..last {
-        let places = ((length(i) / resolved).ceil() as usize).clamp(3, PLACES);
-        for place in 0..places {
-            let t = (place as f64 + 0.5) / places as f64;
-            let wanted = height(knots[i].at + t * length(i));
-            let (a, b) = basis(t, length(i));
-            for (block, side, base) in [(i, i, a), (i + 1, i + 1, b)] {
-                add(&mut diagonal[block], base, base);
-                right[side][0] += base[0] * wanted;
-                right[side][1] += base[1] * wanted;
-            }
-            add(&mut beside[i], a, b);
+        let places = ((length(i) / resolved).ceil() as usize).clamp(LEAST_PLACES, PLACES);
+        let (basis, length) = (&BASES[places - LEAST_PLACES], length(i));
+        for (block, of) in [(&mut diagonal[i], (0, 0)), (&mut beside[i], (0, 1))] {
+            add(block, basis.products(of, length));
+        }
+        add(&mut diagonal[i + 1], basis.products((1, 1), length));
+        let mut sums = [[0.0; 2]; 2];
+        for ([a, b], t) in &basis.places {
+            let wanted = height(knots[i].at + t * length);
+            sums = [
+                [sums[0][0] + a[0] * wanted, sums[0][1] + a[1] * wanted],
+                [sums[1][0] + b[0] * wanted, sums[1][1] + b[1] * wanted],
+            ];
+        }
+        for (side, sum) in sums.into_iter().enumerate() {
+            right[i + side][0] += sum[0];
+            right[i + side][1] += sum[1] * length;
         }
     }
     let solved = solve(diagonal, &beside, right);
     knots.iter().zip(solved).map(|(knot, [height, slope])| Knot { at: knot.at, height, slope }).collect()
 }
 
-/// The Hermite basis at `t` of a piece: for height and slope at its start, then at its end.
-fn basis(t: f64, length: f64) -> ([f64; 2], [f64; 2]) {
-    let (t2, t3) = (t * t, t * t * t);
-    ([2.0 * t3 - 3.0 * t2 + 1.0, (t3 - 2.0 * t2 + t) * length], [3.0 * t2 - 2.0 * t3, (t3 - t2) * length])
+/// The Hermite basis at the places of a piece of length 1, and the sums of its products over them: they are the same for all pieces with as
+/// many places, up to powers of the length.
+struct Basis {
+    /// For height and slope at the start, then at the end; and the place, 0 to 1.
+    places: Vec<([[f64; 2]; 2], f64)>,
+    /// Start by start, start by end, end by end.
+    sums: [Block; 3],
 }
 
-fn add(block: &mut Block, a: [f64; 2], b: [f64; 2]) {
-    block.iter_mut().zip([a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]]).for_each(|(v, w)| *v += w);
+impl Basis {
+    fn new(count: usize) -> Self {
+        let of = |place: usize| {
+            let t = (place as f64 + 0.5) / count as f64;
+            let (t2, t3) = (t * t, t * t * t);
+            ([[2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t], [3.0 * t2 - 2.0 * t3, t3 - t2]], t)
+        };
+        let places: Vec<([[f64; 2]; 2], f64)> = (0..count).map(of).collect();
+        let mut sums = [[0.0; 4]; 3];
+        for ([a, b], _) in &places {
+            for (sum, (a, b)) in sums.iter_mut().zip([(a, a), (a, b), (b, b)]) {
+                add(sum, [a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]]);
+            }
+        }
+        Self { places, sums }
+    }
+
+    /// The sums of the products of two ends of a piece of this length.
+    fn products(&self, (a, b): (usize, usize), length: f64) -> Block {
+        let [heights, right, left, slopes] = self.sums[a + b];
+        [heights, right * length, left * length, slopes * length * length]
+    }
+}
+
+fn add(block: &mut Block, more: Block) {
+    block.iter_mut().zip(more).for_each(|(v, w)| *v += w);
 }
 
 /// Solves a symmetric block-tridiagonal system with blocks on the `diagonal` and `beside` it (row i, column i + 1).

@@ -114,7 +114,7 @@ pub enum Stretch {
 /// # Panics
 /// If `widths` does not have one entry per node.
 pub fn stations(curve: &BezPath, widths: &[f64], spacing: f64, is_clear: impl Fn(Rect) -> bool) -> Vec<(Station, Stretch)> {
-    let kept = curve.segments().enumerate().filter(|(_, s)| s.arclen(1e-3) > 1e-9).map(|(i, _)| i as f64);
+    let kept = curve.segments().enumerate().filter(|(_, s)| is_long(s)).map(|(i, _)| i as f64);
     let mut stations = Vec::new();
     for (piece, first) in pieces(curve, widths).iter().zip(kept) {
         if stations.is_empty() {
@@ -128,16 +128,26 @@ pub fn stations(curve: &BezPath, widths: &[f64], spacing: f64, is_clear: impl Fn
 /// The stroke's segments, each with the width and its slope at both ends.
 fn pieces(curve: &BezPath, widths: &[f64]) -> Vec<Swelling> {
     assert_eq!(widths.len(), curve.segments().count() + 1, "a width for each node");
-    let segments: Vec<CubicBez> = curve.segments().filter(|s| s.arclen(1e-3) > 1e-9).map(to_cubic).collect();
+    let kept: Vec<(CubicBez, f64)> = curve.segments().filter(is_long).map(|s| with_length(to_cubic(s))).collect();
     let widths = kept_widths(curve, widths);
-    let slopes = width_slopes(&segments, &widths);
-    let piece = |(i, &curve): (usize, &CubicBez)| Swelling {
+    let slopes = width_slopes(&kept, &widths);
+    let piece = |(i, &(curve, length)): (usize, &(CubicBez, f64))| Swelling {
         curve,
-        length: curve.arclen(1e-4),
+        length,
         from: (widths[i], slopes[i]),
         to: (widths[i + 1], slopes[i + 1]),
     };
-    segments.iter().enumerate().map(piece).collect()
+    kept.iter().enumerate().map(piece).collect()
+}
+
+/// True for a segment that is longer than nothing.
+fn is_long(segment: &PathSeg) -> bool {
+    let cubic = segment.to_cubic();
+    [(cubic.p0, cubic.p1), (cubic.p1, cubic.p2), (cubic.p2, cubic.p3)].into_iter().any(|(a, b)| (b - a).hypot() > 1e-9)
+}
+
+fn with_length(curve: CubicBez) -> (CubicBez, f64) {
+    (curve, curve.arclen(1e-4))
 }
 
 fn to_cubic(segment: PathSeg) -> CubicBez {
@@ -153,7 +163,7 @@ fn to_cubic(segment: PathSeg) -> CubicBez {
 fn kept_widths(curve: &BezPath, widths: &[f64]) -> Vec<f64> {
     let mut kept = vec![widths[0].max(0.0)];
     for (segment, &width) in curve.segments().zip(&widths[1..]) {
-        if segment.arclen(1e-3) > 1e-9 {
+        if is_long(&segment) {
             kept.push(width.max(0.0));
         }
     }
@@ -162,9 +172,9 @@ fn kept_widths(curve: &BezPath, widths: &[f64]) -> Vec<f64> {
 
 /// Slope of the width per millimetre at each node: the harmonic mean of the neighbouring secants (Fritsch and Butland 1984), 0 at
 /// a peak, so that the width never overshoots its nodes.
-fn width_slopes(segments: &[CubicBez], widths: &[f64]) -> Vec<f64> {
+fn width_slopes(segments: &[(CubicBez, f64)], widths: &[f64]) -> Vec<f64> {
     let secants: Vec<f64> =
-        segments.iter().enumerate().map(|(i, s)| (widths[i + 1] - widths[i]) / s.arclen(1e-4).max(1e-9)).collect();
+        segments.iter().enumerate().map(|(i, (_, length))| (widths[i + 1] - widths[i]) / length.max(1e-9)).collect();
     (0..widths.len())
         .map(|i| match (i.checked_sub(1).map(|j| secants[j]), secants.get(i).copied()) {
             (Some(a), Some(b)) if a * b > 0.0 => 2.0 * a * b / (a + b),

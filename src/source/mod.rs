@@ -17,6 +17,7 @@ mod mask_role;
 mod placement;
 mod png;
 mod portrait;
+mod prepared;
 mod resample;
 mod scribbles;
 mod spectacles;
@@ -42,7 +43,7 @@ pub use placement::fill_box;
 pub use placement::{Crop, Placement};
 #[doc(hidden)]
 pub use portrait::mask_on;
-pub(crate) use portrait::{Paper, Relief};
 pub use portrait::{Portrait, ToneCurve, ToneTarget};
+pub(crate) use prepared::Prepared;
 pub use scribbles::Scribbles;
 pub use spectacles::Spectacles;

@@ -7,6 +7,7 @@ use super::error::SourceError;
 use super::landmarks::Landmarks;
 use super::mask_role::MaskRole;
 use super::placement::{Crop, Placement, crop_on_grid};
+use super::prepared::Prepared;
 use super::resample::{resample, resample_grey};
 use super::scribbles::Scribbles;
 use crate::drawing::Page;
@@ -15,7 +16,6 @@ use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, gaussian_blur};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// The mesh's point on the tip of the nose, the middle of a face.
 const NOSE_TIP: usize = 1;
@@ -85,28 +85,8 @@ pub struct Portrait {
     pub faces: Vec<Landmarks>,
     /// Regions marked by hand.
     pub scribbles: Option<Scribbles>,
-    /// The relief that bends an engraving's lines, once it is known.
-    pub(crate) relief: Option<Arc<Relief>>,
-    /// The paper on which several sticks of charcoal draw, once it is known.
-    pub(crate) paper: Option<Arc<Paper>>,
-}
-
-/// Textures of one sheet of paper, larger than the picture: each pen meets another part of it.
-#[derive(Clone, Debug)]
-pub(crate) struct Paper {
-    /// Where the random numbers of the drawing start; a pen's differ from it by the pen's number.
-    pub seed: u64,
-    pub tooth: Raster<f32>,
-    pub clumps: Raster<f32>,
-}
-
-/// Form without tone, the same for all pens that draw a portrait.
-#[derive(Clone, Debug)]
-pub(crate) struct Relief {
-    /// Nearness, 0 to 1, continued beyond the known area.
-    pub nearness: Raster<f32>,
-    /// Share of each pixel that is drawn, 0 to 1.
-    pub cover: Raster<f32>,
+    /// What the style that draws it has prepared.
+    pub(crate) prepared: Prepared,
 }
 
 impl Portrait {
@@ -144,8 +124,7 @@ impl Portrait {
             is_depth_found: false,
             faces: Vec::new(),
             scribbles: None,
-            relief: None,
-            paper: None,
+            prepared: Prepared::default(),
         })
     }
 
@@ -251,8 +230,7 @@ impl Portrait {
             is_depth_found: self.is_depth_found,
             faces: self.faces.iter().map(|face| face.placed(place, 1.0)).collect(),
             scribbles: self.scribbles.as_ref().map(|scribbles| scribbles.part(columns, rows)),
-            relief: None,
-            paper: None,
+            prepared: Prepared::default(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Half tones of a face's skin rubbed into its lights, as a stump does on charcoal and as an engraver's dots do: lights end softly.
 
 use crate::raster::{Raster, gaussian_blur, soft_rise};
+use std::ops::Range;
 
 /// The share of the half tones that reaches a light, and the most ink that counts as one. With more, faces are veiled; with less,
 /// foreheads and noses are holes with hard edges (sixteen portraits in charcoal).
@@ -11,10 +12,29 @@ const SOFT: f32 = 0.04;
 
 /// Ink with the mean of `skin` (0 to 1), blurred by `reach` pixels, in its lights.
 pub(super) fn rubbed(ink: &Raster<f32>, skin: &Raster<f32>, reach: f32) -> Raster<f32> {
-    let sum = gaussian_blur(&ink.zip_map(skin, |ink, skin| ink.min(MOST_INK) * skin), reach);
-    let mean = sum.zip_map(&gaussian_blur(skin, reach), |sum, skin| sum / skin.max(1e-3));
-    let rubbed = mean.zip_map(skin, |mean, skin| RUBBED * mean * skin);
-    ink.zip_map(&rubbed, |ink, rubbed| ink + soft_rise(rubbed - ink, SOFT))
+    let half_tones = half_tones(ink, skin, reach);
+    ink.zip_map(&half_tones, |ink, rubbed| ink + soft_rise(rubbed - ink, SOFT))
+}
+
+/// What is rubbed into the lights: found in the box around the skin.
+fn half_tones(ink: &Raster<f32>, skin: &Raster<f32>, reach: f32) -> Raster<f32> {
+    /// Room around the skin in reaches of the blur, so that its borders do not count.
+    const ROOM: f32 = 4.0;
+    let mut all = skin.map(|_| 0.0);
+    let Some([columns, rows]) = skin.extent_above(0.0) else { return all };
+    let room = (ROOM * reach).ceil() as usize + 2;
+    let wider = |range: &Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
+    let (columns, rows) = (wider(&columns, skin.width()), wider(&rows, skin.height()));
+    let (ink, skin) = (ink.part(&columns, &rows), skin.part(&columns, &rows));
+    let sum = gaussian_blur(&ink.zip_map(&skin, |ink, skin| ink.min(MOST_INK) * skin), reach);
+    let mean = sum.zip_map(&gaussian_blur(&skin, reach), |sum, skin| sum / skin.max(1e-3));
+    let rubbed = mean.zip_map(&skin, |mean, skin| RUBBED * mean * skin);
+    for (y, row) in rows.enumerate() {
+        for (x, column) in columns.clone().enumerate() {
+            all.set(column, row, rubbed.get(x, y));
+        }
+    }
+    all
 }
 
 #[cfg(test)]

@@ -29,14 +29,15 @@ pub fn decimal(out: &mut String, value: i64, digits: u32) {
 /// Appends a whole number with at least so many digits.
 fn push_digits(out: &mut String, mut value: u64, least: usize) {
     const MOST: usize = 20;
-    let mut digits = ['0'; MOST];
+    let mut digits = [b'0'; MOST];
     let mut first = MOST;
     while value > 0 {
         first -= 1;
-        digits[first] = char::from(b'0' + (value % 10) as u8);
+        digits[first] = b'0' + (value % 10) as u8;
         value /= 10;
     }
-    out.extend(&digits[first.min(MOST - least)..]);
+    // Digits are text.
+    out.push_str(std::str::from_utf8(&digits[first.min(MOST - least)..]).unwrap_or_default());
 }
 
 #[cfg(test)]

@@ -93,6 +93,10 @@ impl Drawer<'_> {
         const KEPT: f32 = 0.25;
         /// Tolerance in pixels between an edge and the keep mask.
         const KEPT_REACH: usize = 2;
+        if self.portrait.masks.get(&MaskRole::Edges).is_some_and(|mask| mask.pixels().iter().all(|v| *v < KEPT)) {
+            // None is wanted.
+            return Vec::new();
+        }
         let parameters = self.edge_parameters();
         let steps = detect_edges(&self.portrait.on_white(&self.portrait.lightness), parameters);
         self.observer.picture("canny", &|| Picture::Mask(steps.canny.clone()));

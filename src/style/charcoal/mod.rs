@@ -30,9 +30,11 @@ use crate::drawing::{Drawing, Layer, Mark};
 use crate::field::OrientationField;
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
-use crate::source::{MaskRole, Portrait};
+use crate::source::{MaskRole, Portrait, Prepared};
 pub(super) use hair::Hairs;
+use paper::Sheet;
 use parameters::{CARD, CharcoalParameters};
+use regions::Regions;
 use std::sync::Arc;
 use tone::Laid;
 
@@ -71,12 +73,19 @@ impl Style for Charcoal {
 
     fn prepare(&self, portrait: &mut Portrait, settings: &Settings, seed: u64, observer: &dyn Observer) {
         let request = Request { portrait, settings, seed, observer };
-        portrait.paper = Some(Arc::new(request.drawer(CharcoalParameters::new(settings)).paper_for_pens()));
+        let drawer = request.drawer(CharcoalParameters::new(settings));
+        portrait.prepared = Prepared::new(ForPens { sheet: drawer.paper_for_pens(), regions: Arc::new(drawer.new_regions()) });
     }
 
     fn sketch(&self, request: &Request<'_>) -> Result<Drawing, StyleError> {
         request.drawer(CharcoalParameters::new(request.settings)).draw()
     }
+}
+
+/// What all pens share: the sheet of paper, and what is where.
+struct ForPens {
+    sheet: Sheet,
+    regions: Arc<Regions>,
 }
 
 type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
@@ -107,23 +116,24 @@ impl Drawer<'_> {
         if self.portrait.lightness.pixels().iter().all(|&v| v >= 1.0) {
             return Err(StyleError::NothingToDraw("the picture is white all over".to_owned()));
         }
-        let regions = self.regions();
+        let shared = self.portrait.prepared.get::<ForPens>().map(|shared| shared.regions.clone());
+        let regions = &*shared.unwrap_or_else(|| Arc::new(self.new_regions()));
         self.check()?;
         let hair = self.hair(&regions.hair, HAIR_SHARE);
         self.check()?;
-        let features = self.features(&regions);
+        let features = self.features(regions);
         self.check()?;
-        let edges = self.edges(&regions, &features);
+        let edges = self.edges(regions, &features);
         self.check()?;
         let sharp = self.sharp_zone();
-        let wanted = self.wanted(&regions, &sharp);
-        let shading = self.shading(&regions, &features, &wanted);
+        let wanted = self.wanted(regions, &sharp);
+        let shading = self.shading(regions, &features, &wanted);
         self.check()?;
-        let behind = self.background_pressure(&regions);
+        let behind = self.background_pressure(regions);
         let strokes = covered(hair.iter().chain(&shading), &self.portrait.placement);
         let strokes = gaussian_blur(&strokes, self.pitch() as f32);
         let tone = self.tone(&Laid {
-            regions: &regions,
+            regions,
             features: &features,
             wanted: &wanted,
             strokes: &strokes,
@@ -136,7 +146,7 @@ impl Drawer<'_> {
             let solids = Solids::of_darkest(self.portrait, &self.darkness(), self.pitch());
             face.extend(solids.with_mouths(self.portrait, self.pitch(), MOUTH).layer().marks);
         }
-        let background = self.background(&regions, &behind);
+        let background = self.background(regions, &behind);
         let layers = [
             ("tone", tone),
             ("shading", shading),

@@ -1,8 +1,7 @@
 //! The paper that charcoal catches on.
 
-use super::Drawer;
+use super::{Drawer, ForPens};
 use crate::raster::{Raster, paper_texture};
-use crate::source::Paper;
 
 /// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
 pub(super) const PIXELS_A_GRAIN: f64 = 5.0;
@@ -13,22 +12,31 @@ const STEP: (usize, usize) = (43, 31);
 /// Pens that share a sheet.
 const MOST_PENS: u64 = 8;
 
+/// Textures of one sheet of paper, larger than the picture: each pen meets another part of it.
+pub(super) struct Sheet {
+    /// Where the random numbers of the drawing start; a pen's differ from it by the pen's number.
+    seed: u64,
+    tooth: Raster<f32>,
+    clumps: Raster<f32>,
+}
+
 impl Drawer<'_> {
     /// The paper's tooth and its clumps, 0 to 1.
     pub(super) fn paper(&self) -> (Raster<f32>, Raster<f32>) {
         let (width, height) = self.paper_size();
-        let Some(sheet) = &self.portrait.paper else { return self.textures(width, height) };
+        let Some(shared) = self.portrait.prepared.get::<ForPens>() else { return self.textures(width, height) };
+        let sheet = &shared.sheet;
         let pen = ((self.seed ^ sheet.seed) % MOST_PENS) as usize;
         let (columns, rows) = (pen * STEP.0..pen * STEP.0 + width, pen * STEP.1..pen * STEP.1 + height);
         (sheet.tooth.part(&columns, &rows), sheet.clumps.part(&columns, &rows))
     }
 
     /// A sheet large enough that each pen has its own part.
-    pub(super) fn paper_for_pens(&self) -> Paper {
+    pub(super) fn paper_for_pens(&self) -> Sheet {
         let (width, height) = self.paper_size();
         let more = MOST_PENS as usize - 1;
         let (tooth, clumps) = self.textures(width + more * STEP.0, height + more * STEP.1);
-        Paper { seed: self.seed, tooth, clumps }
+        Sheet { seed: self.seed, tooth, clumps }
     }
 
     fn paper_size(&self) -> (usize, usize) {

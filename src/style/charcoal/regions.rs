@@ -36,7 +36,7 @@ const NO_HAIR: &str = "no hair was found: it is drawn like the rest, not in stro
 const LIKE_SKIN: &str = "the area above the brow is too like the skin, in light or shade, to count as hair: it is drawn like the rest, not in strokes";
 
 impl Drawer<'_> {
-    pub(super) fn regions(&self) -> Regions {
+    pub(super) fn new_regions(&self) -> Regions {
         self.observer.begin("regions");
         let mask = |role| self.portrait.masks.get(&role).cloned();
         let (subject, has_background) = self.subject();

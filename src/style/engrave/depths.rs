@@ -2,10 +2,10 @@
 
 use super::Drawer;
 use super::parameters::DepthFrom;
+use super::relief::Relief;
 use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{bend_by_shading, inflate};
 use crate::raster::{Raster, bilateral, enlarge, gaussian_blur, reduce};
-use crate::source::Relief;
 
 impl Drawer<'_> {
     /// Nearness, 0 to 1.

@@ -26,11 +26,12 @@ use crate::drawing::{Colour, Drawing, Layer, Mark};
 use crate::geometry::{Point, Rect};
 use crate::parallel::{collected, mapped};
 use crate::raster::Raster;
-use crate::source::{MaskRole, Portrait, Relief};
+use crate::source::{MaskRole, Portrait, Prepared};
 use breaks::LineBreaks;
 use lines::{Family, FamilyLayout, Frame};
 use parameters::{CARD, EngraveParameters, GroundColour, Look, ToneFrom};
 use region_map::{Region, RegionMap};
+use relief::Relief;
 use tones::Layers;
 use widths::{LineReadings, Wanted};
 
@@ -58,7 +59,7 @@ impl Style for Engrave {
         let request = Request { portrait, settings, seed, observer };
         let drawer = request.drawer(EngraveParameters::new(settings));
         if !drawer.follows_form() {
-            portrait.relief = Some(drawer.relief());
+            portrait.prepared = Prepared::new(drawer.new_relief());
         }
     }
 

@@ -5,12 +5,12 @@ use super::lines::FIT_ROOM;
 use super::merging::merge_similar;
 use super::parameters::Division;
 use super::region_map::{Grid, Region, RegionMap};
+use super::relief::Relief;
 use crate::elementary::Elementary as _;
 use crate::field::{Curve, contours, distance_to_curves, superpixels, watershed};
 use crate::geometry::{Rect, Vec2};
 use crate::parallel::collected;
 use crate::raster::{Raster, gaussian_blur, sobel};
-use crate::source::Relief;
 
 /// Standard deviation of the smoothing of regions' borders, in pitches: less leaves pixel stairs, more rounds off corners.
 const BORDER_SMOOTHING: f64 = 0.5;
@@ -23,14 +23,13 @@ impl Drawer<'_> {
         self.observer.begin("regions");
         let placement = &self.portrait.placement;
         let scale = placement.mm_per_pixel() as f32;
-        let silhouette = contours(&relief.cover, 0.5);
         let (parts, angles) = self.directed_parts(&relief.cover);
         let (labels, mut curves) = match &parts {
             Some(parts) => smooth_borders(parts, (BORDER_SMOOTHING * self.pitch()) as f32),
             None => (relief.cover.map(|_| 1), Vec::new()),
         };
         let labels = labels.zip_map(&relief.cover, drawn_label);
-        curves.extend(silhouette);
+        curves.extend(relief.silhouette.iter().cloned());
         let border =
             distance_to_curves(&curves, placement.columns, placement.rows).map(|field| field.distance.map(|d| d * scale));
         // A single region has no neighbour to overlap.
@@ -170,10 +169,14 @@ impl Patch {
 fn bounds_of(labels: &Raster<i32>, count: i32) -> Vec<Option<Rect>> {
     let mut bounds: Vec<Option<Rect>> = vec![None; count.max(0) as usize];
     for y in 0..labels.height() {
-        for (x, &label) in labels.row(y).iter().enumerate().filter(|(_, label)| **label > 0) {
-            let pixel = Rect::new(x as f64, y as f64, x as f64 + 1.0, y as f64 + 1.0);
-            let bounds = &mut bounds[label as usize - 1];
-            *bounds = Some(bounds.map_or(pixel, |b| b.union(pixel)));
+        let mut x = 0;
+        for run in labels.row(y).chunk_by(|a, b| a == b) {
+            let pixels = Rect::new(x as f64, y as f64, (x + run.len()) as f64, y as f64 + 1.0);
+            x += run.len();
+            if run[0] > 0 {
+                let bounds = &mut bounds[run[0] as usize - 1];
+                *bounds = Some(bounds.map_or(pixels, |b| b.union(pixels)));
+            }
         }
     }
     bounds

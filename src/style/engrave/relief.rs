@@ -2,9 +2,8 @@
 
 use super::Drawer;
 use crate::elementary::Elementary as _;
-use crate::field::nearest_seed;
+use crate::field::{Curve, contours, nearest_seed};
 use crate::raster::{Raster, bilateral, fast_gaussian, gaussian_blur};
-use crate::source::Relief;
 use crate::style::Picture;
 use std::sync::Arc;
 
@@ -17,13 +16,22 @@ const BORDER_BLUR: f32 = 0.8;
 /// still show, with twice it lines turn away before a silhouette.
 const CONTINUED: f64 = 2.0;
 
+/// Form without tone, the same for all pens that draw a portrait.
+pub(super) struct Relief {
+    /// Nearness, 0 to 1, continued beyond the known area.
+    pub nearness: Raster<f32>,
+    /// Share of each pixel that is drawn, 0 to 1, and the border of that.
+    pub cover: Raster<f32>,
+    pub silhouette: Vec<Curve>,
+}
+
 impl Drawer<'_> {
     /// The relief that bends the lines: the one at hand, or a new one.
     pub(super) fn relief(&self) -> Arc<Relief> {
-        self.portrait.relief.clone().unwrap_or_else(|| Arc::new(self.new_relief()))
+        self.portrait.prepared.get().unwrap_or_else(|| Arc::new(self.new_relief()))
     }
 
-    fn new_relief(&self) -> Relief {
+    pub(super) fn new_relief(&self) -> Relief {
         self.observer.begin("depth");
         let subject = &self.portrait.subject;
         let (depth, cover) = match &self.portrait.depth {
@@ -36,7 +44,7 @@ impl Drawer<'_> {
         self.observer.picture("depth", &|| Picture::Grey(depth.clone()));
         let nearness = self.smoothed(&continued(&depth, &cover, self.pixels(CONTINUED * self.parameters.pitch) as f32));
         self.observer.picture("depth-smoothed", &|| Picture::Grey(nearness.clone()));
-        Relief { nearness, cover }
+        Relief { nearness, silhouette: contours(&cover, 0.5), cover }
     }
 
     /// Smooths within edges, then slightly across them, so that no line has a corner.

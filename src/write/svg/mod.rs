@@ -187,37 +187,53 @@ const MOST_CIRCLES: usize = 600_000;
 /// Circles per combined path.
 const CIRCLES_PER_PATH: usize = 1000;
 
+/// A run of fewer marks is written by one thread.
+const LEAST_SHARED: usize = 256;
+
 /// The layer's marks, with one group per run of the same kind.
 fn runs(layer_id: &str, layer: &Layer) -> Vec<Group> {
+    let runs: Vec<&[Mark]> = layer.marks.chunk_by(|a, b| Kind::of(a) == Kind::of(b)).collect();
+    let texts = mapped(&runs, &|run| text_of(run));
     let mut seen = [0_usize; 4];
-    layer
-        .marks
-        .chunk_by(|a, b| Kind::of(a) == Kind::of(b))
-        .map(|run| {
-            let kind = Kind::of(&run[0]);
-            seen[kind as usize] += 1;
-            let again = if seen[kind as usize] > 1 { format!(".{}", seen[kind as usize]) } else { String::new() };
-            let id = format!("{layer_id}-{}{again}", kind.name());
-            let mut text = String::new();
-            if kind == Kind::Lines {
-                let width = constant_width(&run[0]);
-                for mark in run {
-                    line(&mut text, mark, width);
-                }
-                let mut width_text = String::new();
-                decimal(&mut width_text, thousandths(width), 3);
-                lines_group(&id, &width_text, layer.ink.colour()).add(Blob::new(text))
-            } else if kind == Kind::Dots && run.len() > MOST_CIRCLES {
-                run.chunk_by(|a, b| a.colour() == b.colour())
-                    .flat_map(|same| same.chunks(CIRCLES_PER_PATH))
-                    .for_each(|dots| bundle(&mut text, dots));
-                Group::new().set("id", id).add(Blob::new(text))
-            } else {
-                let marks: Vec<String> = mapped(run, &filled);
-                Group::new().set("id", id).add(Blob::new(marks.concat()))
-            }
-        })
-        .collect()
+    let group = |(run, text): (&[Mark], String)| {
+        let kind = Kind::of(&run[0]);
+        seen[kind as usize] += 1;
+        let again = if seen[kind as usize] > 1 { format!(".{}", seen[kind as usize]) } else { String::new() };
+        let id = format!("{layer_id}-{}{again}", kind.name());
+        if kind == Kind::Lines {
+            let mut width = String::new();
+            decimal(&mut width, thousandths(constant_width(&run[0])), 3);
+            return lines_group(&id, &width, layer.ink.colour()).add(Blob::new(text));
+        }
+        Group::new().set("id", id).add(Blob::new(text))
+    };
+    runs.into_iter().zip(texts).map(group).collect()
+}
+
+/// The paths and circles of a run of one kind.
+fn text_of(run: &[Mark]) -> String {
+    let mut text = String::new();
+    match Kind::of(&run[0]) {
+        Kind::Lines => {
+            let width = constant_width(&run[0]);
+            run.iter().for_each(|mark| line(&mut text, mark, width));
+        }
+        Kind::Dots if run.len() > MOST_CIRCLES => run
+            .chunk_by(|a, b| a.colour() == b.colour())
+            .flat_map(|same| same.chunks(CIRCLES_PER_PATH))
+            .for_each(|dots| bundle(&mut text, dots)),
+        _ if run.len() < LEAST_SHARED => run.iter().for_each(|mark| filled(&mut text, mark)),
+        _ => {
+            let shares: Vec<&[Mark]> = run.chunks(LEAST_SHARED).collect();
+            let texts = mapped(&shares, &|share| {
+                let mut text = String::new();
+                share.iter().for_each(|mark| filled(&mut text, mark));
+                text
+            });
+            text = texts.concat();
+        }
+    }
+    text
 }
 
 fn constant_width(mark: &Mark) -> f64 {
@@ -250,9 +266,7 @@ fn line(text: &mut String, mark: &Mark, usual_width: f64) {
 const RADIUS_DIGITS: u32 = 4;
 const RADIUS_SCALE: f64 = 10_000.0;
 
-fn filled(mark: &Mark) -> String {
-    let mut owned = String::new();
-    let text = &mut owned;
+fn filled(text: &mut String, mark: &Mark) {
     match mark {
         Mark::Dot(Dot { centre, radius, outline: None, .. }) => {
             text.push_str("<circle cx=\"");
@@ -283,7 +297,6 @@ fn filled(mark: &Mark) -> String {
         let _ = write!(text, " fill=\"{colour}\"");
     }
     text.push_str("/>\n");
-    owned
 }
 
 /// Writes dots of one colour as the subpaths of one path.
