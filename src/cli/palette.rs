@@ -6,8 +6,8 @@ use super::messages::warning;
 use super::output;
 use super::pen_file::{PenEntry, read_pens};
 use crate::colour::{
-    ColourPen, KnownPen, Lab, Opacity, Overlap, Paper, PenSet, PensError, Separator, Settings, choose, drawing_order, known_pens,
-    on_screen,
+    ColourPen, KnownPen, Lab, Opacity, Overlap, Overprint, Paper, PenSet, PensError, Separator, Settings, choose, drawing_order,
+    known_pens, on_screen,
 };
 use crate::drawing::{Colour, Drawing, Ink, Layer, Mixing, Page};
 use crate::plot::Nibs;
@@ -43,6 +43,7 @@ impl Palette {
     ) -> Result<Option<Self>, Failure> {
         let Some(file) = &options.colours else { return Ok(None) };
         let mut entries = read_pens(file, &output::read_settings(file)?)?;
+        check_overprints(file, &entries)?;
         let about = |problem: &dyn std::fmt::Display| Failure::Work(format!("{file}: {problem}"));
         let paper = Paper::new(options.paper);
         let mut pens: Vec<ColourPen> =
@@ -61,8 +62,9 @@ impl Palette {
         let order = drawing_order(&pens);
         let numbers = numbers(order.iter().map(|pen| &entries[*pen]));
         let inks = order.iter().map(|pen| entries[*pen].ink(shown_colour(&pens[*pen], paper))).collect();
+        let measured = overprints(&order, &entries);
         let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
-        let pens = PenSet::new(pens, paper, Vec::new()).map_err(|error| match error {
+        let pens = PenSet::new(pens, paper, measured).map_err(|error| match error {
             PensError::TooMany(_) => about(&format!("{error}: --choose 4")),
             error => about(&error),
         })?;
@@ -165,6 +167,28 @@ pub(super) fn pen_of(entry: &PenEntry, paper: Paper) -> Result<ColourPen, String
         }
     };
     Ok(if entry.is_opaque { pen.opaque() } else { pen })
+}
+
+/// Overprints that were measured, of pens in this drawing order. Only the pen that is drawn later lies over another.
+fn overprints(order: &[usize], entries: &[PenEntry]) -> Vec<Overprint> {
+    let place = |key: &str| order.iter().position(|pen| entries[*pen].key == key);
+    let of_pen = |(upper, pen): (usize, &usize)| {
+        let over = entries[*pen].over.iter();
+        let lower = over.filter_map(move |(key, colour)| Some((place(key).filter(|lower| *lower < upper)?, *colour)));
+        lower.map(move |(lower, [l, a, b])| Overprint { pens: vec![lower, upper], colour: Lab { l, a, b }.to_rgb() })
+    };
+    order.iter().enumerate().flat_map(of_pen).collect()
+}
+
+/// Refuses an overprint with a pen that is not in the file.
+fn check_overprints(file: &str, entries: &[PenEntry]) -> Result<(), Failure> {
+    let is_known = |key: &str| entries.iter().any(|entry| entry.key == key);
+    let mut pairs = entries.iter().flat_map(|entry| entry.over.iter().map(move |(key, _)| (&entry.key, key)));
+    pairs.find(|(_, key)| !is_known(key)).map_or(Ok(()), |(pen, key)| {
+        Err(Failure::Work(format!(
+            "{file}: [{pen}] has a colour over '{key}', which is no pen of this file; name its table as it stands there"
+        )))
+    })
 }
 
 /// `drypoint pens`: the pens whose colour is known, or those whose name holds a word.

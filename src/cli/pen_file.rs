@@ -27,13 +27,14 @@ speed = 30          # mm/s with the pen down; without it the machine's, or --spe
 # like = "Pigma Micron 05 red" # width and estimated colour of a common pen; `drypoint pens` lists them
 # lab = [45, 62, 40] # its colour on the paper as measured, L*a*b* (D65), instead of `colour`, for --colours
 # ink = "spot:Warm Red" # its name for the press: a plate of its own in PDF; or "k", the black plate
+# over = { black = [12, 3, 1] } # what it looks like drawn over other pens of this file, L*a*b*, for --colours
 # opaque = true     # covers what lies below, as a white gel pen does, for --colours
 # dwell = 0.1       # seconds that a touch rests beyond the time that the pen takes to come down (G-code)
 # offset = [0, 0]   # how far its ink lies off, in mm along the machine's x and y: see docs/calibration.md
 "##;
 
 /// The keys of a pen and the values that each takes.
-const KEYS: [(&str, &str); 10] = [
+const KEYS: [(&str, &str); 11] = [
     ("width", "a length from 0.01 to 20 mm, such as \"0.3mm\" or 0.3"),
     ("slot", "a whole number from 1, such as 2"),
     ("colour", "a CSS colour, such as \"navy\" or \"#1f77b4\""),
@@ -41,6 +42,7 @@ const KEYS: [(&str, &str); 10] = [
     ("dwell", "seconds from 0 to 60, such as 0.1"),
     ("like", "the name of a pen that `drypoint pens` lists, such as \"fine-liner cyan\""),
     ("lab", "three numbers: L* from 0 to 100, a* and b*, such as [45, 62, 40]"),
+    ("over", "other pens and what it looks like over each, L* from 0 to 100, a* and b*, such as { yellow = [52, 61, 38] }"),
     ("ink", "\"k\", the black plate, or \"spot:NAME\", a plate of that name; a colour goes into colour"),
     ("opaque", "true or false"),
     ("offset", "two numbers in mm, along x and along y, such as [0.1, 0]"),
@@ -56,6 +58,8 @@ pub(super) struct PenEntry {
     pub colour: Option<Colour>,
     /// L\*a\*b\* under D65.
     pub lab: Option<[f64; 3]>,
+    /// Its colour, L\*a\*b\*, over other pens, by their keys.
+    pub over: Vec<(String, [f64; 3])>,
     /// The plate that a press prints it with; none for a colour.
     pub plate: Option<Ink>,
     /// Covers what lies below.
@@ -140,7 +144,8 @@ impl Reader<'_> {
                 }
                 None => false,
             },
-            "lab" => set(&mut pen.lab, triple(value).filter(|[l, ..]| (0.0..=100.0).contains(l))),
+            "lab" => set(&mut pen.lab, triple(value).filter(is_colour)),
+            "over" => overprints(value).inspect(|over| pen.over.clone_from(over)).is_some(),
             "ink" => set(&mut pen.plate, value.as_str().and_then(plate)),
             "opaque" => value.as_bool().inspect(|is_opaque| pen.is_opaque = *is_opaque).is_some(),
             _ => set(&mut pen.offset, pair(value)),
@@ -206,6 +211,15 @@ fn triple(value: &toml::Value) -> Option<[f64; 3]> {
         [l, a, b] => Some([number(l)?, number(a)?, number(b)?]),
         _ => None,
     }
+}
+
+fn is_colour([l, ..]: &[f64; 3]) -> bool {
+    (0.0..=100.0).contains(l)
+}
+
+/// Other pens, each with a colour.
+fn overprints(value: &toml::Value) -> Option<Vec<(String, [f64; 3])>> {
+    value.as_table()?.iter().map(|(pen, colour)| Some((pen.clone(), triple(colour).filter(is_colour)?))).collect()
 }
 
 fn pair(value: &toml::Value) -> Option<[f64; 2]> {

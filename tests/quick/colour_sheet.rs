@@ -78,13 +78,31 @@ fn pens_are_measured_and_drawn_with() {
         println!("{name}: {lab:?}, {off:.2} off");
         assert!(off <= 2.0, "{name}: {lab:?}, {off} off");
     }
+    // What lies over another pen is darker than either.
+    let (upper, lower) = read.iter().find_map(|(_, pen)| Some((pen, pen.get("over")?.as_table()?.iter().next()?))).unwrap();
+    let light = |lab: &toml::Value| lab[0].as_float().unwrap();
+    println!("over {}: {} where it is {} itself", lower.0, lower.1, upper["lab"]);
+    assert!(light(lower.1) <= light(&upper["lab"]) + 1.0 && light(lower.1) <= light(&read[lower.0]["lab"]) + 1.0, "{text}");
     // All else is as it was.
-    let kept = |text: &str| text.lines().filter(|line| !line.starts_with("lab")).collect::<Vec<_>>().join("\n");
+    let kept = |text: &str| {
+        text.lines().filter(|line| !line.starts_with("lab") && !line.starts_with("over")).collect::<Vec<_>>().join("\n")
+    };
     assert_eq!(kept(&text), kept(PENS));
     assert!(text.contains("] # by eye"), "{text}");
     fs::write(folder.join("cat.png"), sample("chelsea.png")).unwrap();
     done(folder, &["draw", "cat.png", "-o", "cat.svg", "--colours", "measured.toml", "--size", "40x30mm", "--sight=none"]);
     assert_eq!(fs::read_to_string(folder.join("pens.toml")).unwrap(), PENS);
+    // An overprint that was measured counts, and one with a pen that is not there is told.
+    let drawn = |name: &str, text: &str| {
+        fs::write(folder.join("other.toml"), text).unwrap();
+        run(folder, &["draw", "cat.png", "-o", name, "--colours", "other.toml", "--size", "40x30mm", "--sight=none", "-q"])
+    };
+    let alone: String = text.lines().filter(|line| !line.starts_with("over")).map(|line| format!("{line}\n")).collect();
+    assert_eq!(drawn("alone.svg", &alone).0, Some(0));
+    let marks = |name: &str| fs::read_to_string(folder.join(name)).unwrap().split_once("<g").unwrap().1.len();
+    assert_ne!(marks("alone.svg"), marks("cat.svg"));
+    let (status, said) = drawn("none.svg", &format!("{alone}over = {{ nobody = [1, 2, 3] }}\n"));
+    assert!(status == Some(1) && said.contains("a colour over 'nobody', which is no pen of this file"), "{said}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A picture of a colour sheet, read: `drypoint calibrate --colours PENS --read PHOTO`.
 
-use super::measured_file::with_colours;
+use super::measured_file::{MeasuredPen, with_colours};
 use super::pen_box::PenBox;
 use crate::cli::arguments::CalibrateOptions;
 use crate::cli::claims;
@@ -10,7 +10,7 @@ use crate::cli::messages::{say, warning};
 use crate::cli::output;
 use crate::cli::progress::Watcher;
 use crate::cli::words::counted;
-use crate::colour::sheet::{Known, Picture, ReadWarning, SheetReading, read_sheet};
+use crate::colour::sheet::{Known, PenReading, Picture, ReadWarning, SheetReading, read_sheet};
 use crate::colour::{ColourPen, Lab, Opacity, Paper, PenSet, on_screen};
 use crate::source::{Crop, Photograph};
 use crate::style::Observer as _;
@@ -34,9 +34,7 @@ pub(super) fn run(options: &CalibrateOptions, file: &str, picture: &str) -> Resu
     reading.warnings.iter().for_each(|told| warning!("{picture}: {told}{}", names(told, &pen_box)));
     warn_of_swapped(&pen_box, &reading);
     warn_of_unusable(&pen_box, &reading, &options.output);
-    let colours: Vec<(&str, [f64; 3])> =
-        pen_box.pens.iter().zip(&reading.pens).map(|(pen, read)| (pen.entry.key.as_str(), bounded(read.solid.lab))).collect();
-    let text = with_colours(&pen_box.text, &colours).ok_or_else(|| {
+    let text = with_colours(&pen_box.text, &measured(&pen_box, &reading)).ok_or_else(|| {
         Failure::Work(format!("{file} cannot be written anew; write each pen as a table of its own, such as [black]"))
     })?;
     if !options.dry_run {
@@ -55,6 +53,17 @@ fn read(options: &CalibrateOptions, pen_box: &PenBox, photograph: &Photograph, n
     let nibs = pen_box.nibs();
     let known = Known { nibs: &nibs, paper: options.paper.map(|_| pen_box.paper.colour), grey: options.grey_card };
     read_sheet(Picture::Encoded(&pixels), &known).map_err(|error| about(&error))
+}
+
+/// The pens' colours, alone and over one another.
+fn measured<'a>(pen_box: &'a PenBox, reading: &SheetReading) -> Vec<MeasuredPen<'a>> {
+    let name = |pen: usize| pen_box.pens[pen].entry.key.as_str();
+    let over = |upper: usize| {
+        let pairs = reading.pairs.iter().filter(move |pair| pair.pens[1] == upper);
+        pairs.map(|pair| (name(pair.pens[0]), bounded(pair.colour.lab))).collect()
+    };
+    let pen = |(i, read): (usize, &PenReading)| MeasuredPen { name: name(i), colour: bounded(read.solid.lab), over: over(i) };
+    reading.pens.iter().enumerate().map(pen).collect()
 }
 
 /// As a file of pens takes it.
