@@ -25,7 +25,7 @@ fn main() {
     });
     println!("four of {} pens chosen, s {seconds:21.2}", pens.len());
     let folder = tempfile::tempdir().expect("a folder for the outputs");
-    for style in ["hedcut", "grid", "engrave"] {
+    for style in ["hedcut", "grid", "engrave", "charcoal"] {
         let [one, four] = [1, 4].map(|count| drawing(folder.path(), style, count));
         line(&format!("{style} in four pens, times one"), four / one, "at most 1.8", four / one <= 1.8);
     }

@@ -97,7 +97,7 @@ fn pens_are_measured_and_drawn_with() {
         fs::write(folder.join("other.toml"), text).unwrap();
         run(folder, &["draw", "cat.png", "-o", name, "--colours", "other.toml", "--size", "40x30mm", "--sight=none", "-q"])
     };
-    let alone: String = text.lines().filter(|line| !line.starts_with("over")).map(|line| format!("{line}\n")).collect();
+    let alone = text.lines().filter(|line| !line.starts_with("over")).collect::<Vec<_>>().join("\n") + "\n";
     assert_eq!(drawn("alone.svg", &alone).0, Some(0));
     let marks = |name: &str| fs::read_to_string(folder.join(name)).unwrap().split_once("<g").unwrap().1.len();
     assert_ne!(marks("alone.svg"), marks("cat.svg"));
