@@ -13,7 +13,7 @@ from pathlib import Path
 import book
 
 # Options of other programs that the pages name.
-FOREIGN = {"--array", "--example", "--fast", "--open", "--path", "--release", "--version"}
+FOREIGN = {"--array", "--example", "--fast", "--features", "--no-default-features", "--open", "--path", "--release", "--version"}
 # Pages about other things than the command line.
 INSIDE = {"architecture.md", "samples.md"}
 
