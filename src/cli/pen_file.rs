@@ -258,7 +258,7 @@ mod tests {
             ("[a]\nwidth = \"wide\"\n", "line 2: [a] width takes a length from 0.01 to 20 mm"),
             (
                 "[a]\nwidht = 0.3\n",
-                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, ink, opaque, offset",
+                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, over, ink, opaque, offset",
             ),
             ("[pen.1]\nwidth = 0.3\n", "line 1: [pen.1] is a table within a table"),
             ("[[pen]]\nwidth = 0.3\n", "line 1: 'pen' is a list"),
