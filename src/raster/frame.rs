@@ -33,6 +33,13 @@ impl Raster<f32> {
         let rows: Vec<usize> = (0..self.height()).filter(|y| (0..self.width()).any(|x| has(x, *y))).collect();
         Some([*columns.first()?..columns.last()? + 1, *rows.first()?..rows.last()? + 1])
     }
+
+    /// The same with room around them, as far as the raster goes.
+    pub fn extent_with_room(&self, least: f32, room: usize) -> Option<[Range<usize>; 2]> {
+        let [columns, rows] = self.extent_above(least)?;
+        let wider = |range: Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
+        Some([wider(columns, self.width()), wider(rows, self.height())])
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Half tones of a face's skin rubbed into its lights, as a stump does on charcoal and as an engraver's dots do: lights end softly.
 
 use crate::raster::{Raster, gaussian_blur, soft_rise};
-use std::ops::Range;
 
 /// The share of the half tones that reaches a light, and the most ink that counts as one. With more, faces are veiled; with less,
 /// foreheads and noses are holes with hard edges (sixteen portraits in charcoal).
@@ -21,10 +20,8 @@ fn half_tones(ink: &Raster<f32>, skin: &Raster<f32>, reach: f32) -> Raster<f32> 
     /// Room around the skin in reaches of the blur, so that its borders do not count.
     const ROOM: f32 = 4.0;
     let mut all = skin.map(|_| 0.0);
-    let Some([columns, rows]) = skin.extent_above(0.0) else { return all };
     let room = (ROOM * reach).ceil() as usize + 2;
-    let wider = |range: &Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
-    let (columns, rows) = (wider(&columns, skin.width()), wider(&rows, skin.height()));
+    let Some([columns, rows]) = skin.extent_with_room(0.0, room) else { return all };
     let (ink, skin) = (ink.part(&columns, &rows), skin.part(&columns, &rows));
     let sum = gaussian_blur(&ink.zip_map(&skin, |ink, skin| ink.min(MOST_INK) * skin), reach);
     let mean = sum.zip_map(&gaussian_blur(&skin, reach), |sum, skin| sum / skin.max(1e-3));

@@ -122,9 +122,7 @@ impl Drawer<'_> {
         /// Room around a part in its own box, in pitches: the directions of its lines are smoothed over less.
         const ROOM: f64 = 8.0;
         let room = (ROOM * self.pitch()).ceil() as usize;
-        let [columns, rows] = part.extent_above(0.0)?;
-        let wider = |range: &Range<usize>, most: usize| range.start.saturating_sub(room)..(range.end + room).min(most);
-        let (columns, rows) = (wider(&columns, part.width()), wider(&rows, part.height()));
+        let [columns, rows] = part.extent_with_room(0.0, room)?;
         Some((part.part(&columns, &rows), self.portrait.part(&columns, &rows), [columns, rows]))
     }
 
