@@ -6,9 +6,9 @@
 //! ```
 
 use super::eye::{Oklab, look_of_light};
+use super::matching::Matching;
 use super::pens::{ColourPen, MOST_PENS, Paper, PenSet, PensError, drawing_order};
-use super::separation::{Colours, Inks, RIDGE, Settings};
-use super::solver::Solver;
+use super::separation::Settings;
 use crate::parallel::mapped;
 use crate::raster::Raster;
 use std::collections::BTreeMap;
@@ -126,11 +126,8 @@ impl Choice<'_> {
         let pens: Vec<ColourPen> = set.iter().map(|pen| self.pens[*pen].clone()).collect();
         let order = drawing_order(&pens);
         let set = PenSet::new(order.into_iter().map(|pen| pens[pen].clone()).collect(), self.paper, Vec::new())?;
-        let (model, inks) = (self.settings.model(&set), Inks::new(&set));
-        let most = self.settings.most(&set);
-        let solver = Solver { model: &model, eye: &inks.eye, most, limit: self.settings.ink_limit, ridge: RIDGE };
-        let colours = Colours::new(solver, &inks, self.settings);
-        let cost = |colour: &MainColour| colour.weight * (2.0 * colours.nearest(colour.look).cost).sqrt();
+        let matching = Matching::new(&set, self.settings);
+        let cost = |colour: &MainColour| colour.weight * (2.0 * matching.nearest(colour.look).cost).sqrt();
         Ok(self.colours.iter().map(cost).sum())
     }
 }

@@ -5,6 +5,7 @@ mod choice;
 mod dealing;
 mod eye;
 mod library;
+mod matching;
 mod neugebauer;
 mod overlap;
 mod overprints;

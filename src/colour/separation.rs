@@ -1,25 +1,16 @@
 //! Separation of a photograph into pens.
 
-use super::bands::xyz_of;
-use super::eye::{Aim, Eye, Oklab};
+use super::matching::Matching;
 use super::neugebauer::{Model, yule_nielsen};
 use super::overlap::Overlap;
-use super::overprints::overprints;
 use super::pens::{MOST_PENS, PenSet};
-use super::rendering::Rendering;
-use super::solver::{Coverages, Problem, Solution, Solver};
+use super::solver::Coverages;
 use super::space::Lab;
-use super::table::{Place, Problems, Table, of_nodes};
+use super::table::{Nodes, Place, Table, of_nodes};
 use crate::parallel;
 use crate::raster::Raster;
+use std::sync::OnceLock;
 use thiserror::Error;
-
-/// Out of gamut, differences in chroma count less and those in hue more, so that colours go towards the grey of their lightness.
-const CHROMA: f32 = 0.8;
-const HUE: f32 = 3.0;
-/// Weight of squared coverages, and of squared distances from what neighbouring colours use.
-pub(super) const RIDGE: f32 = 1.0;
-const HOLD: f32 = 20.0;
 
 /// What the black pen does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,12 +75,18 @@ pub enum SeparationError {
 /// Separates any number of photographs into the same pens.
 #[derive(Clone, Debug)]
 pub struct Separator {
-    model: Model,
+    matching: Matching,
+    pens: usize,
+    /// Of all colours, solved when first asked for.
+    whole: OnceLock<Solved>,
+}
+
+/// The table at some nodes.
+#[derive(Clone, Debug)]
+struct Solved {
     table: Table,
     /// CIEDE2000 between the photograph and what the model predicts, at the table's nodes.
     errors: Vec<[f32; 1]>,
-    white: [f64; 3],
-    pens: usize,
 }
 
 /// A separated photograph.
@@ -113,55 +110,66 @@ pub struct GamutError {
 }
 
 impl Separator {
-    /// Solves the table of all colours: 0.3 s for four pens on two processors.
+    /// Checks that these pens can be separated into.
+    ///
+    /// # Errors
+    /// If no pen is left for tones, or the limit of ink is out of range.
     pub fn new(set: &PenSet, settings: &Settings) -> Result<Self, SeparationError> {
-        let pens = set.pens().len();
-        let most = settings.most(set);
-        if most.iter().all(|c| *c == 0.0) {
+        if settings.most(set).iter().all(|c| *c == 0.0) {
             return Err(SeparationError::NoPen);
         }
         if !(0.5..=8.0).contains(&settings.ink_limit) {
             return Err(SeparationError::InkLimit(settings.ink_limit));
         }
-        let model = settings.model(set);
-        let inks = Inks::new(set);
-        let solver = Solver { model: &model, eye: &inks.eye, most, limit: settings.ink_limit, ridge: RIDGE };
-        let colours = Colours::new(solver, &inks, settings);
-        let table = Table::solved(&colours);
-        let white = inks.white;
-        let errors = of_nodes(|node, light| [difference(&model, &table.nodes()[node][..pens], white, light)]);
-        Ok(Self { model, table, errors, white, pens })
+        Ok(Self { matching: Matching::new(set, settings), pens: set.pens().len(), whole: OnceLock::new() })
     }
 
     /// The model of these pens on this paper.
     pub const fn model(&self) -> &Model {
-        &self.model
+        self.matching.model()
     }
 
     /// XYZ of what is taken for white: the paper, or a covering ink lighter than the paper.
     pub const fn white(&self) -> [f64; 3] {
-        self.white
+        self.matching.white()
     }
 
     /// Coverages for one colour, linear sRGB light.
     pub fn coverages_of(&self, light: [f32; 3]) -> Vec<f32> {
-        Place::of(light).mix(self.table.nodes())[..self.pens].to_vec()
+        Place::of(light).mix(self.whole().table.nodes())[..self.pens].to_vec()
     }
 
     /// Predicted difference (CIEDE2000) of one colour, linear sRGB light.
     pub fn error_of(&self, light: [f32; 3]) -> f32 {
-        Place::of(light).mix(&self.errors)[0]
+        self.whole().error_of(light)
     }
 
-    /// Separates a photograph: linear sRGB light, 0 to 1 per channel; values outside are clamped.
+    /// The table of all colours.
+    fn whole(&self) -> &Solved {
+        self.whole.get_or_init(|| self.solved(&Nodes::all()))
+    }
+
+    fn solved(&self, nodes: &Nodes) -> Solved {
+        let table = Table::solved(&self.matching, nodes);
+        let (model, white) = (self.model(), self.white());
+        let errors = of_nodes(nodes, |node, light| [difference(model, &table.nodes()[node][..self.pens], white, light)]);
+        Solved { table, errors }
+    }
+
+    /// Separates a photograph: linear sRGB light, 0 to 1 per channel; values outside are clamped. Only the colours that it has are solved.
     pub fn separate(&self, photograph: &Raster<[f32; 3]>) -> Separation {
-        let coverages = if self.pens <= 4 { self.looked_up::<4>(photograph) } else { self.looked_up::<MOST_PENS>(photograph) };
-        Separation { coverages, error: self.error(photograph) }
+        let solved = self.solved(&Nodes::used_by(photograph.pixels()));
+        let coverages = if self.pens <= 4 {
+            self.looked_up::<4>(&solved.table, photograph)
+        } else {
+            self.looked_up::<MOST_PENS>(&solved.table, photograph)
+        };
+        Separation { coverages, error: solved.error(photograph) }
     }
 
-    fn looked_up<const LANES: usize>(&self, photograph: &Raster<[f32; 3]>) -> Vec<Raster<f32>> {
+    fn looked_up<const LANES: usize>(&self, table: &Table, photograph: &Raster<[f32; 3]>) -> Vec<Raster<f32>> {
         const SHARE: usize = 1 << 14;
-        let nodes = self.table.lanes::<LANES>();
+        let nodes = table.lanes::<LANES>();
         let mut planes: Vec<Vec<f32>> = (0..self.pens).map(|_| vec![0.0; photograph.len()]).collect();
         let mut shares: Vec<Vec<&mut [f32]>> = photograph.pixels().chunks(SHARE).map(|_| Vec::new()).collect();
         for plane in &mut planes {
@@ -175,6 +183,12 @@ impl Separator {
             }
         });
         planes.into_iter().map(|plane| Raster::from_vec(photograph.width(), photograph.height(), plane)).collect()
+    }
+}
+
+impl Solved {
+    fn error_of(&self, light: [f32; 3]) -> f32 {
+        Place::of(light).mix(&self.errors)[0]
     }
 
     fn error(&self, photograph: &Raster<[f32; 3]>) -> GamutError {
@@ -195,132 +209,6 @@ impl Separator {
             most: f64::from(errors[(0.95 * (count - 1.0)) as usize]),
             outside: outside as f64 / count,
         }
-    }
-}
-
-/// What the eye sees of the paper and of each ink alone.
-pub(super) struct Inks {
-    pub eye: Eye,
-    white: [f64; 3],
-    paper: Oklab,
-    looks: Vec<Oklab>,
-}
-
-impl Inks {
-    pub fn new(set: &PenSet) -> Self {
-        let colours = overprints(set);
-        let alone = (0..set.pens().len()).map(|i| &colours[1 << i]);
-        let white = alone.clone().fold(&colours[0], |white, ink| if xyz_of(ink)[1] > xyz_of(white)[1] { ink } else { white });
-        let eye = Eye::adapted_to(white);
-        Self { white: xyz_of(white), paper: eye.look(&colours[0]), looks: alone.map(|ink| eye.look(ink)).collect(), eye }
-    }
-}
-
-/// The darkest look that ink reaches.
-fn darkest(solver: &Solver<'_>) -> Oklab {
-    let aim = Aim::new([0.0; 3], 1.0, 1.0);
-    let found = best_of_starts(solver, &aim, &[0.0; MOST_PENS]);
-    solver.eye.look(&solver.model.tint(&found.coverages[..solver.model.pens()]).value)
-}
-
-/// The best from several starts: nearly bare paper, each pen alone, and some of all.
-fn best_of_starts(solver: &Solver<'_>, aim: &Aim, prices: &Coverages) -> Solution {
-    let pens = solver.model.pens();
-    let start = |alone: usize| -> Coverages {
-        std::array::from_fn(|i| match i {
-            _ if alone == pens => 0.05,
-            _ if alone > pens => 0.4,
-            _ if i == alone => 0.6,
-            _ => 0.05,
-        })
-    };
-    let solve = |start: &Coverages| solver.solve(Problem { aim, prices, start, hold: 0.0 });
-    let mut best = solve(&start(pens));
-    for other in (0..pens).chain([pens + 1]) {
-        let found = solve(&start(other));
-        if found.cost < best.cost {
-            best = found;
-        }
-    }
-    best
-}
-
-/// For a simplified drawing, the price of using a pen at all, and the coverage at which half of it is paid.
-const SIMPLE: f32 = 30.0;
-const FEW: f32 = 0.1;
-
-/// The problems of the table.
-pub(super) struct Colours<'a> {
-    solver: Solver<'a>,
-    rendering: Rendering,
-    paper: Oklab,
-    looks: &'a [Oklab],
-    simple: f32,
-}
-
-impl<'a> Colours<'a> {
-    pub fn new(solver: Solver<'a>, inks: &'a Inks, settings: &Settings) -> Self {
-        let simple = SIMPLE * settings.simplify.clamp(0.0, 1.0);
-        let rendering = Rendering::new(darkest(&solver), inks.paper);
-        Self { solver, rendering, paper: inks.paper, looks: &inks.looks, simple }
-    }
-
-    /// The coverages nearest to a look.
-    pub fn nearest(&self, look: Oklab) -> Solution {
-        let aim = Aim::new(look, CHROMA, HUE);
-        best_of_starts(&self.solver_for(look), &aim, &self.prices(look, &[1.0; MOST_PENS]))
-    }
-
-    /// A white pen heightens: no tone that is darker than toned paper has ink lighter than that, whose dots would glare in the dark.
-    fn solver_for(&self, look: Oklab) -> Solver<'_> {
-        /// How much lighter than toned paper, in Oklab, a tone is that a light ink may cover wholly.
-        const HEIGHTENED: f32 = 0.05;
-        let mut solver = self.solver;
-        let share = ((look[0] - self.paper[0]) / HEIGHTENED).clamp(0.0, 1.0);
-        for (most, _) in solver.most.iter_mut().zip(self.looks).filter(|(_, ink)| ink[0] > self.paper[0]) {
-            *most = most.min(share);
-        }
-        solver
-    }
-
-    /// The price of using a pen is a concave function of its coverage; its slope is taken where the coverages are now (reweighting
-    /// of Candes, Wakin and Boyd 2008), so that pens in use become cheap and others stay dear.
-    fn prices(&self, look: Oklab, now: &Coverages) -> Coverages {
-        /// Price of full coverage, in halves of squared visible differences: of any ink, and more by the square of the difference
-        /// in lightness between ink and colour (dark dots in light tones are seen as grain).
-        const INK: f32 = 1.0;
-        const GRAIN: f32 = 8.0;
-        /// The same for the difference in hue and chroma: pale greys of cyan, magenta and yellow dots are seen as confetti. Tuned
-        /// on four samples in four and eight pens: at 0 they are, at 60 skin has black freckles.
-        const CONFETTI: f32 = 20.0;
-        let mut prices = [0.0; MOST_PENS];
-        for ((price, ink), c) in prices.iter_mut().zip(self.looks).zip(now) {
-            let contrast = ink[0] - look[0];
-            let [a, b] = [ink[1] - look[1], ink[2] - look[2]];
-            *price = INK + GRAIN * contrast * contrast + CONFETTI * (a * a + b * b) + self.simple * FEW / ((c + FEW) * (c + FEW));
-        }
-        prices
-    }
-}
-
-impl Problems for Colours<'_> {
-    fn first(&self, light: [f32; 3]) -> Coverages {
-        /// Rounds in which prices at the coarsest level follow the coverages.
-        const ROUNDS: usize = 3;
-        let look = self.rendering.look(light);
-        let aim = Aim::new(look, CHROMA, HUE);
-        let solver = self.solver_for(look);
-        let mut found = self.nearest(look).coverages;
-        for _ in 0..if self.simple > 0.0 { ROUNDS } else { 0 } {
-            found = solver.solve(Problem { aim: &aim, prices: &self.prices(look, &found), start: &found, hold: 0.0 }).coverages;
-        }
-        found
-    }
-
-    fn near(&self, light: [f32; 3], suggested: &Coverages) -> Coverages {
-        let look = self.rendering.look(light);
-        let (aim, prices) = (Aim::new(look, CHROMA, HUE), self.prices(look, suggested));
-        self.solver_for(look).solve(Problem { aim: &aim, prices: &prices, start: suggested, hold: HOLD }).coverages
     }
 }
 
