@@ -62,7 +62,7 @@ impl Palette {
         let order = drawing_order(&pens);
         let numbers = numbers(order.iter().map(|pen| &entries[*pen]));
         let inks = order.iter().map(|pen| entries[*pen].ink(shown_colour(&pens[*pen], paper))).collect();
-        let measured = overprints(&order, &entries);
+        let measured = overprints(&order, &entries, choice.is_none());
         let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
         let pens = PenSet::new(pens, paper, measured).map_err(|error| match error {
             PensError::TooMany(_) => about(&format!("{error}: --choose 4")),
@@ -169,15 +169,19 @@ pub(super) fn pen_of(entry: &PenEntry, paper: Paper) -> Result<ColourPen, String
     Ok(if entry.is_opaque { pen.opaque() } else { pen })
 }
 
-/// Overprints that were measured, of pens in this drawing order. Only the pen that is drawn later lies over another.
-fn overprints(order: &[usize], entries: &[PenEntry]) -> Vec<Overprint> {
+/// Overprints that were measured, of pens in this drawing order: of pairs, and of all pens of the file if all are used. Only a pen that
+/// is drawn later lies over another.
+fn overprints(order: &[usize], entries: &[PenEntry], are_all: bool) -> Vec<Overprint> {
+    let colour = |[l, a, b]: [f64; 3]| Lab { l, a, b }.to_rgb();
     let place = |key: &str| order.iter().position(|pen| entries[*pen].key == key);
     let of_pen = |(upper, pen): (usize, &usize)| {
         let over = entries[*pen].over.iter();
         let lower = over.filter_map(move |(key, colour)| Some((place(key).filter(|lower| *lower < upper)?, *colour)));
-        lower.map(move |(lower, [l, a, b])| Overprint { pens: vec![lower, upper], colour: Lab { l, a, b }.to_rgb() })
+        lower.map(move |(lower, lab)| Overprint { pens: vec![lower, upper], colour: colour(lab) })
     };
-    order.iter().enumerate().flat_map(of_pen).collect()
+    let last = order.last().filter(|_| are_all && order.len() > 2).and_then(|last| entries[*last].over_all);
+    let of_all = last.map(|lab| Overprint { pens: (0..order.len()).collect(), colour: colour(lab) });
+    order.iter().enumerate().flat_map(of_pen).chain(of_all).collect()
 }
 
 /// Refuses an overprint with a pen that is not in the file.

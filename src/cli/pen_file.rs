@@ -28,13 +28,14 @@ speed = 30          # mm/s with the pen down; without it the machine's, or --spe
 # lab = [45, 62, 40] # its colour on the paper as measured, L*a*b* (D65), instead of `colour`, for --colours
 # ink = "spot:Warm Red" # its name for the press: a plate of its own in PDF; or "k", the black plate
 # over = { black = [12, 3, 1] } # what it looks like drawn over other pens of this file, L*a*b*, for --colours
+# over_all = [9, 2, 1] # what it looks like over all other pens of this file together, for --colours
 # opaque = true     # covers what lies below, as a white gel pen does, for --colours
 # dwell = 0.1       # seconds that a touch rests beyond the time that the pen takes to come down (G-code)
 # offset = [0, 0]   # how far its ink lies off, in mm along the machine's x and y: see docs/calibration.md
 "##;
 
 /// The keys of a pen and the values that each takes.
-const KEYS: [(&str, &str); 11] = [
+const KEYS: [(&str, &str); 12] = [
     ("width", "a length from 0.01 to 20 mm, such as \"0.3mm\" or 0.3"),
     ("slot", "a whole number from 1, such as 2"),
     ("colour", "a CSS colour, such as \"navy\" or \"#1f77b4\""),
@@ -43,6 +44,7 @@ const KEYS: [(&str, &str); 11] = [
     ("like", "the name of a pen that `drypoint pens` lists, such as \"fine-liner cyan\""),
     ("lab", "three numbers: L* from 0 to 100, a* and b*, such as [45, 62, 40]"),
     ("over", "other pens and what it looks like over each, L* from 0 to 100, a* and b*, such as { yellow = [52, 61, 38] }"),
+    ("over_all", "its look over all other pens: L* from 0 to 100, a* and b*, such as [14, 3, 2]"),
     ("ink", "\"k\", the black plate, or \"spot:NAME\", a plate of that name; a colour goes into colour"),
     ("opaque", "true or false"),
     ("offset", "two numbers in mm, along x and along y, such as [0.1, 0]"),
@@ -60,6 +62,8 @@ pub(super) struct PenEntry {
     pub lab: Option<[f64; 3]>,
     /// Its colour, L\*a\*b\*, over other pens, by their keys.
     pub over: Vec<(String, [f64; 3])>,
+    /// Its colour, L\*a\*b\*, over all other pens together.
+    pub over_all: Option<[f64; 3]>,
     /// The plate that a press prints it with; none for a colour.
     pub plate: Option<Ink>,
     /// Covers what lies below.
@@ -146,6 +150,7 @@ impl Reader<'_> {
             },
             "lab" => set(&mut pen.lab, triple(value).filter(is_colour)),
             "over" => overprints(value).inspect(|over| pen.over.clone_from(over)).is_some(),
+            "over_all" => set(&mut pen.over_all, triple(value).filter(is_colour)),
             "ink" => set(&mut pen.plate, value.as_str().and_then(plate)),
             "opaque" => value.as_bool().inspect(|is_opaque| pen.is_opaque = *is_opaque).is_some(),
             _ => set(&mut pen.offset, pair(value)),
@@ -258,7 +263,7 @@ mod tests {
             ("[a]\nwidth = \"wide\"\n", "line 2: [a] width takes a length from 0.01 to 20 mm"),
             (
                 "[a]\nwidht = 0.3\n",
-                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, over, ink, opaque, offset",
+                "line 2: [a] has no key 'widht'; it takes width, slot, colour, speed, dwell, like, lab, over, over_all, ink, opaque, offset",
             ),
             ("[pen.1]\nwidth = 0.3\n", "line 1: [pen.1] is a table within a table"),
             ("[[pen]]\nwidth = 0.3\n", "line 1: 'pen' is a list"),

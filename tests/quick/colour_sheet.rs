@@ -83,6 +83,8 @@ fn pens_are_measured_and_drawn_with() {
     let light = |lab: &toml::Value| lab[0].as_float().unwrap();
     println!("over {}: {} where it is {} itself", lower.0, lower.1, upper["lab"]);
     assert!(light(lower.1) <= light(&upper["lab"]) + 1.0 && light(lower.1) <= light(&read[lower.0]["lab"]) + 1.0, "{text}");
+    let over_all: Vec<&toml::Value> = read.values().filter_map(|pen| pen.get("over_all")).collect();
+    assert!(over_all.len() == 1 && light(over_all[0]) <= light(&upper["lab"]) + 1.0, "{text}");
     // All else is as it was.
     let kept = |text: &str| {
         text.lines().filter(|line| !line.starts_with("lab") && !line.starts_with("over")).collect::<Vec<_>>().join("\n")
@@ -101,6 +103,12 @@ fn pens_are_measured_and_drawn_with() {
     assert_eq!(drawn("alone.svg", &alone).0, Some(0));
     let marks = |name: &str| fs::read_to_string(folder.join(name)).unwrap().split_once("<g").unwrap().1.len();
     assert_ne!(marks("alone.svg"), marks("cat.svg"));
+    let paler: String = text
+        .lines()
+        .map(|line| if line.starts_with("over_all") { "over_all = [60, 0, 0]" } else { line }.to_owned() + "\n")
+        .collect();
+    assert_eq!(drawn("paler.svg", &paler).0, Some(0));
+    assert_ne!(marks("paler.svg"), marks("cat.svg"));
     let (status, said) = drawn("none.svg", &format!("{alone}over = {{ nobody = [1, 2, 3] }}\n"));
     assert!(status == Some(1) && said.contains("a colour over 'nobody', which is no pen of this file"), "{said}");
 }

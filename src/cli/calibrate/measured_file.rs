@@ -12,18 +12,23 @@ pub(super) struct MeasuredPen<'a> {
     pub colour: [f64; 3],
     /// Its colours over other pens, by their names.
     pub over: Vec<(&'a str, [f64; 3])>,
+    /// Its colour over all other pens together.
+    pub over_all: Option<[f64; 3]>,
 }
 
 /// The file's text with the pens' colours; `None` if a pen is not in it.
 pub(super) fn with_colours(text: &str, pens: &[MeasuredPen<'_>]) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
-    for MeasuredPen { name, colour, over } in pens {
+    for MeasuredPen { name, colour, over, over_all } in pens {
         let pen = document.get_mut(name)?.as_table_like_mut()?;
         set(pen, "lab", Value::Array(rounded(*colour)));
         if !over.is_empty() {
             let table: InlineTable = over.iter().map(|(lower, colour)| (*lower, Value::Array(rounded(*colour)))).collect();
             pen.remove("over");
             set(pen, "over", Value::InlineTable(table));
+        }
+        if let Some(colour) = over_all {
+            set(pen, "over_all", Value::Array(rounded(*colour)));
         }
     }
     Some(document.to_string())
@@ -49,15 +54,17 @@ mod tests {
     use super::*;
 
     fn pen(name: &str, colour: [f64; 3]) -> MeasuredPen<'_> {
-        MeasuredPen { name, colour, over: Vec::new() }
+        MeasuredPen { name, colour, over: Vec::new(), over_all: None }
     }
 
     #[test]
     fn overprints_stand_with_the_upper_pen() {
-        let upper = MeasuredPen { over: vec![("a b", [30.04, -1.0, 2.0])], ..pen("c", [50.0, 0.0, 0.0]) };
+        let (over, over_all) = (vec![("a b", [30.04, -1.0, 2.0])], Some([9.0, 0.5, 0.0]));
+        let upper = MeasuredPen { over, over_all, ..pen("c", [50.0, 0.0, 0.0]) };
         let made = with_colours("[\"a b\"]\n[c]\nslot = 2\nover.x = [1, 2, 3]\n", &[pen("a b", [1.0; 3]), upper]).unwrap();
         let read: toml::Table = toml::from_str(&made).unwrap();
         assert_eq!(read["c"]["over"].to_string(), "{ \"a b\" = [30.0, -1.0, 2.0] }", "{made}");
+        assert_eq!(read["c"]["over_all"].to_string(), "[9.0, 0.5, 0.0]", "{made}");
         assert!(!read["a b"].as_table().unwrap().contains_key("over") && read["c"]["slot"].as_integer() == Some(2), "{made}");
     }
 

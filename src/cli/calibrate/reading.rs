@@ -62,7 +62,13 @@ fn measured<'a>(pen_box: &'a PenBox, reading: &SheetReading) -> Vec<MeasuredPen<
         let pairs = reading.pairs.iter().filter(move |pair| pair.pens[1] == upper);
         pairs.map(|pair| (name(pair.pens[0]), bounded(pair.colour.lab))).collect()
     };
-    let pen = |(i, read): (usize, &PenReading)| MeasuredPen { name: name(i), colour: bounded(read.solid.lab), over: over(i) };
+    let all = |pen: usize| reading.all.as_ref().filter(|_| pen + 1 == reading.pens.len()).map(|all| bounded(all.lab));
+    let pen = |(i, read): (usize, &PenReading)| MeasuredPen {
+        name: name(i),
+        colour: bounded(read.solid.lab),
+        over: over(i),
+        over_all: all(i),
+    };
     reading.pens.iter().enumerate().map(pen).collect()
 }
 
