@@ -1,7 +1,7 @@
 //! Lines that set modes: said again after a reset, and where lines are left out.
 
 use super::program::{PathLines, Program, ProgramLine};
-use crate::plot::{Act, word, words};
+use crate::plot::{Act, is_instruction, word, words};
 
 /// Codes of G that move, set places or last for one line only.
 const NO_MODES: [f64; 11] = [4.0, 10.0, 28.0, 28.1, 29.0, 30.0, 30.1, 38.2, 53.0, 92.0, 92.1];
@@ -16,7 +16,7 @@ fn sets_a_mode(line: &ProgramLine) -> bool {
     if line.act != Act::Mode || text.is_empty() {
         return false;
     }
-    if text.ends_with(';') {
+    if is_instruction(text) {
         return HELD.iter().any(|name| text.starts_with(name));
     }
     let words = words(text);
@@ -32,7 +32,7 @@ fn sets_a_mode(line: &ProgramLine) -> bool {
 /// What a mode is about: a later line of the same kind takes its place.
 fn kind(text: &str) -> &str {
     let is_code = text.starts_with(['G', 'M']);
-    let length = if text.ends_with(';') {
+    let length = if is_instruction(text) {
         2
     } else if is_code {
         text.len()
@@ -53,7 +53,7 @@ pub(super) struct Modes {
 impl Modes {
     /// A line is left out.
     pub fn take(&mut self, line: &ProgramLine) {
-        if !line.text.ends_with(';') {
+        if !is_instruction(&line.text) {
             let feed = words(&line.text).into_iter().rev().find(|word| word.0 == 'F').map(|word| word.1);
             self.feed = feed.filter(|_| line.act.moves()).or(self.feed);
         }
@@ -74,7 +74,7 @@ impl Program {
     /// path, the first lifting, and the waits after it.
     pub fn to_lift(&self) -> Vec<&ProgramLine> {
         let first = self.paths.first().map_or(0, |path| path.lower);
-        let modes = self.lines[..first].iter().filter(|line| sets_a_mode(line) && !line.text.ends_with(';'));
+        let modes = self.lines[..first].iter().filter(|line| sets_a_mode(line) && !is_instruction(&line.text));
         let lift = self.lines.iter().position(|line| line.act == Act::Lift).unwrap_or(self.lines.len());
         let waits = self.lines[lift..].iter().skip(1).take_while(|line| matches!(line.act, Act::Wait(_)));
         modes.chain(self.lines.get(lift)).chain(waits).filter(|line| !line.text.is_empty()).collect()
@@ -87,7 +87,8 @@ impl Program {
         let before = lower.checked_sub(1).map_or([0.0; 3], |before| self.lines[before].at);
         let has_approach = begin < lower && {
             let own = words(&self.lines[begin].text);
-            self.lines[begin].text.ends_with(';') || ['G', 'X', 'Y'].iter().all(|letter| own.iter().any(|word| word.0 == *letter))
+            is_instruction(&self.lines[begin].text)
+                || ['G', 'X', 'Y'].iter().all(|letter| own.iter().any(|word| word.0 == *letter))
         };
         let mut lines: Vec<ProgramLine> = (!has_approach).then(|| self.approach(before)).into_iter().collect();
         let first = (draw..lift).find(|i| self.lines[*i].act.moves());
@@ -107,7 +108,7 @@ impl Program {
     /// A line that says its motion and its feed itself, wherever it stands. `feed` is for strokes that depend on an earlier line.
     pub(super) fn spelled_out(&self, line: usize, feed: Option<f64>) -> String {
         let ProgramLine { text, act, .. } = &self.lines[line];
-        if text.is_empty() || text.ends_with(';') {
+        if text.is_empty() || is_instruction(text) {
             return text.clone();
         }
         let own = words(text);
@@ -125,7 +126,7 @@ impl Program {
     /// A line that goes with the pen up to a place, in the words of the file.
     pub(super) fn approach(&self, [x, y, z]: [f64; 3]) -> ProgramLine {
         let own = self.paths.iter().find(|path| path.begin < path.lower).map(|path| &self.lines[path.begin]);
-        let is_hpgl = self.lines.iter().any(|line| line.text.ends_with(';'));
+        let is_hpgl = self.lines.iter().any(|line| is_instruction(&line.text));
         let text = if is_hpgl {
             format!("PU{x:.0},{y:.0};")
         } else {

@@ -6,14 +6,14 @@ use super::program::{PathLines, Program, ProgramLine};
 use crate::elementary::Elementary as _;
 use crate::geometry::Point;
 use crate::interrupt::Interrupt;
-use crate::plot::{Act, Language, Profile, word};
+use crate::plot::{Act, Language, Profile, is_instruction, word};
 use std::fmt::Write as _;
 use std::ops::Range;
 
 impl Program {
     /// The program that draws only some paths, and begins the first of them in its middle if that is asked for.
     pub fn part(&self, profile: &Profile, chosen: &[usize], along: f64, interrupt: &Interrupt) -> Result<Self, DriveError> {
-        if self.lines.iter().any(|line| line.text.ends_with(';') && line.text.starts_with("PR")) {
+        if self.lines.iter().any(|line| is_instruction(&line.text) && line.text.starts_with("PR")) {
             let problem = "its moves are relative (PR), so that it can only be drawn as a whole";
             return Err(DriveError::Unfit(problem.to_owned()));
         }

@@ -47,7 +47,7 @@ pub use language::{Act, Replayed};
 pub use language::{Comment, Dialect, GcodeDialect, Height, HpglDialect, Lift, PenLift, Protocol, SvgDialect, Travel};
 pub use language::{GcodeError, HpglError, Language, MotionError, ResumeError, StopPlace, Strokes};
 #[cfg(feature = "drive")]
-pub(crate) use language::{word, words};
+pub(crate) use language::{is_instruction, word, words};
 pub use lower::{InkModel, Nibs, lower};
 pub use mounting::MountingError;
 #[doc(hidden)]

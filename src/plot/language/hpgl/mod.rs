@@ -23,6 +23,11 @@ pub(super) fn begins(text: &str) -> bool {
     text.starts_with("IN") || text.starts_with('\u{1b}')
 }
 
+/// True for a line without comments that is an instruction of HP-GL, which ends in `;`; a block of G-code does not.
+pub(crate) fn is_instruction(line: &str) -> bool {
+    line.ends_with(';')
+}
+
 impl Speech for HpglDialect {
     fn language(&self) -> Language {
         Language::Hpgl
