@@ -1,7 +1,7 @@
 //! Exact Euclidean distances (Felzenszwalb and Huttenlocher 2012; Bruehl 2023, section 3.1.1), to pixels and to curves.
 
 use super::curve::Curve;
-use crate::geometry::{Point, resample};
+use crate::geometry::{Point, Vec2, resample};
 use crate::parallel::rows_with;
 use crate::raster::Raster;
 
@@ -117,7 +117,7 @@ pub fn distance_to_curves(curves: &[Curve], width: usize, height: usize) -> Opti
 pub(crate) fn distance_within(curves: &[Curve], width: usize, height: usize, reach: f64) -> Option<FeatureDistance> {
     /// A curve lies less than this far from the pixels that it passes.
     const OFF: f64 = 2.0;
-    let pieces: Vec<[Point; 2]> = curves.iter().flat_map(segments).collect();
+    let pieces: Vec<Piece> = curves.iter().flat_map(segments).collect();
     let drawn = draw(&pieces, width, height);
     let nearest = nearest_seed(&drawn.map(|piece| u8::from(piece != NONE)))?;
     let pairs = Raster::from_fn(width, height, |x, y| {
@@ -128,42 +128,70 @@ pub(crate) fn distance_within(curves: &[Curve], width: usize, height: usize, rea
             return (away as f32, 1_i8);
         }
         let piece = drawn.pixels()[seed] as usize;
-        let best = descend(&pieces, piece, p);
-        (best.0.sqrt() as f32, if best.1 >= 0.0 { 1_i8 } else { -1 })
+        let (squared, piece) = descend(&pieces, piece, p);
+        (squared.sqrt() as f32, if pieces[piece].side(p) >= 0.0 { 1_i8 } else { -1 })
     });
     Some(FeatureDistance { distance: pairs.map(|p| p.0), side: pairs.map(|p| p.1) })
 }
 
-/// Squared distance and signed side of the nearest piece, found by descending along the curve from `piece`.
+/// A piece of a curve.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    from: Point,
+    way: Vec2,
+    /// Of its length.
+    square: f64,
+}
+
+impl Piece {
+    fn new(from: Point, to: Point) -> Self {
+        let way = to - from;
+        Self { from, way, square: way.hypot2() }
+    }
+
+    /// Squared distance of a point.
+    fn squared(&self, p: Point) -> f64 {
+        let t = if self.square > 0.0 { ((p - self.from).dot(self.way) / self.square).clamp(0.0, 1.0) } else { 0.0 };
+        p.distance_squared(self.from + self.way * t)
+    }
+
+    /// Positive to the left on a page with y down.
+    fn side(&self, p: Point) -> f64 {
+        self.way.cross(p - self.from)
+    }
+}
+
+/// Squared distance and index of the nearest piece, found by descending along the curve from `piece`.
 ///
 /// Near a curve's centre of curvature the transform, which only knows pixels, may start that far from the true nearest piece.
-fn descend(pieces: &[[Point; 2]], piece: usize, p: Point) -> (f64, f64) {
-    let offset = |[a, b]: [Point; 2]| {
-        let d = b - a;
-        let t = if d.hypot2() > 0.0 { ((p - a).dot(d) / d.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
-        (p.distance_squared(a + d * t), d.cross(p - a))
-    };
-    let mut centre = piece;
+fn descend(pieces: &[Piece], piece: usize, p: Point) -> (f64, usize) {
+    let mut centre = (pieces[piece].squared(p), piece);
     loop {
-        let (low, high) = (centre.saturating_sub(NEIGHBOURS), (centre + NEIGHBOURS + 1).min(pieces.len()));
-        let own = (offset(pieces[centre]), centre);
-        let nearest = (low..high).map(|i| (offset(pieces[i]), i)).min_by(|a, b| a.0.0.total_cmp(&b.0.0)).unwrap_or(own);
-        if nearest.1 == centre || nearest.0.0 >= own.0.0 {
-            return nearest.0;
+        let low = centre.1.saturating_sub(NEIGHBOURS);
+        let around = &pieces[low..(centre.1 + NEIGHBOURS + 1).min(pieces.len())];
+        let mut nearest = (f64::INFINITY, centre.1);
+        for (i, piece) in around.iter().enumerate() {
+            let squared = piece.squared(p);
+            if squared < nearest.0 {
+                nearest = (squared, low + i);
+            }
         }
-        centre = nearest.1;
+        if nearest.1 == centre.1 || nearest.0 >= centre.0 {
+            return nearest;
+        }
+        centre = nearest;
     }
 }
 
 /// The curve in equal pieces about a pixel long, in order.
-fn segments(curve: &Curve) -> Vec<[Point; 2]> {
+fn segments(curve: &Curve) -> Vec<Piece> {
     let mut points = curve.points.clone();
     if curve.closed
         && let Some(&first) = points.first()
     {
         points.push(first);
     }
-    let mut pieces: Vec<[Point; 2]> = resample(&points, 1.0).windows(2).map(|w| [w[0], w[1]]).collect();
+    let mut pieces: Vec<Piece> = resample(&points, 1.0).windows(2).map(|w| Piece::new(w[0], w[1])).collect();
     if curve.closed {
         // Repeats the first pieces, so that the seam has neighbours on both sides.
         pieces.extend_from_within(..pieces.len().min(2 * NEIGHBOURS));
@@ -172,11 +200,11 @@ fn segments(curve: &Curve) -> Vec<[Point; 2]> {
 }
 
 /// For each pixel that a piece passes, the index of the piece; later ones win.
-fn draw(pieces: &[[Point; 2]], width: usize, height: usize) -> Raster<u32> {
+fn draw(pieces: &[Piece], width: usize, height: usize) -> Raster<u32> {
     let mut drawn = Raster::filled(width, height, NONE);
-    for (i, [a, b]) in pieces.iter().enumerate() {
+    for (i, piece) in pieces.iter().enumerate() {
         for step in 0..=6 {
-            let p = a.lerp(*b, f64::from(step) / 6.0);
+            let p = piece.from + piece.way * (f64::from(step) / 6.0);
             let x = p.x.clamp(0.0, width as f64 - 1.0) as usize;
             let y = p.y.clamp(0.0, height as f64 - 1.0) as usize;
             drawn.set(x, y, i as u32);
