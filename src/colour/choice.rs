@@ -8,7 +8,7 @@
 use super::eye::{Oklab, look_of_light};
 use super::matching::Matching;
 use super::pens::{ColourPen, MOST_PENS, Paper, PenSet, PensError, drawing_order};
-use super::separation::Settings;
+use super::settings::Settings;
 use crate::parallel::mapped;
 use crate::raster::Raster;
 use std::collections::BTreeMap;

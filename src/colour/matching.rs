@@ -6,7 +6,7 @@ use super::neugebauer::Model;
 use super::overprints::overprints;
 use super::pens::{MOST_PENS, PenSet};
 use super::rendering::Rendering;
-use super::separation::Settings;
+use super::settings::Settings;
 use super::solver::{Coverages, Problem, Solution, Solver};
 use super::table::Problems;
 

@@ -11,6 +11,7 @@ mod svg;
 pub use gcode::{Comment, GcodeDialect, GcodeError, Height, Lift, Protocol, Travel};
 #[cfg(feature = "drive")]
 pub(crate) use gcode::{word, words};
+#[cfg(feature = "drive")]
 pub(crate) use hpgl::is_instruction;
 pub use hpgl::{HpglDialect, HpglError};
 pub use replayed::{Act, Replayed};

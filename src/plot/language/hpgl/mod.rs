@@ -24,6 +24,7 @@ pub(super) fn begins(text: &str) -> bool {
 }
 
 /// True for a line without comments that is an instruction of HP-GL, which ends in `;`; a block of G-code does not.
+#[cfg(feature = "drive")]
 pub(crate) fn is_instruction(line: &str) -> bool {
     line.ends_with(';')
 }
