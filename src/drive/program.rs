@@ -76,6 +76,17 @@ pub struct Place {
 
 impl Program {
     /// Reads a machine's file.
+    ///
+    /// ```
+    /// use drypoint::{drive::Program, interrupt::Interrupt, plot::Profile};
+    ///
+    /// let machine = Profile::built_in("grbl-servo")?;
+    /// let file = "G21\nG90\nM3 S300\nG4 P0.2\nG0 X10 Y10\nM3 S700\nG4 P0.2\nG1 X40 Y10 F3000\nM3 S300\nG4 P0.2\nG0 X0 Y0\n";
+    /// let program = Program::read(&machine, file, &Interrupt::never())?;
+    /// assert_eq!(program.paths.len(), 1);
+    /// assert!(program.seconds() > 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read(profile: &Profile, text: &str, interrupt: &Interrupt) -> Result<Self, DriveError> {
         let replayed = replayed(profile, text)
             .ok_or_else(|| DriveError::Unfit(format!("{} is driven by a program of its own", profile.name)))?;

@@ -22,6 +22,15 @@ pub struct EdgeTangentFlow {
 ///
 /// Each round replaces the direction at `x` by the sum over the window (`radius` pixels, mu = 5) of `sign(t(x).t(y)) t(y) w_m w_d`,
 /// `w_d = |t(x).t(y)|`, `w_m = (1 + tanh(g(y) - g(x))) / 2`. Kang's value: 2 to 3 rounds.
+///
+/// ```
+/// use drypoint::{field::edge_tangent_flow, raster::Raster};
+///
+/// // Light rises to the right: edges run up and down.
+/// let grey = Raster::from_fn(40, 40, |x, _| if x < 20 { 0.2 } else { 0.8 });
+/// let [x, y] = edge_tangent_flow(&grey, 5, 2).tangent.get(20, 20);
+/// assert!(x.abs() < 0.01 && y.abs() > 0.99);
+/// ```
 pub fn edge_tangent_flow(grey: &Raster<f32>, radius: usize, rounds: u32) -> EdgeTangentFlow {
     let gradient = sobel(grey);
     let magnitude = gradient.map(|[x, y]| x.hypotenuse(y));

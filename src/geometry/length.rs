@@ -24,6 +24,15 @@ pub enum LengthError {
 const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0), ("px", 25.4 / 96.0)];
 
 /// Parses a length, in millimetres; the default unit is mm. May be negative. Pixels are refused.
+///
+/// ```
+/// use drypoint::geometry::parse_length;
+///
+/// assert_eq!(parse_length("1in")?, 25.4);
+/// assert_eq!(parse_length("0.3")?, 0.3);
+/// assert!(parse_length("3px").is_err());
+/// # Ok::<(), drypoint::geometry::LengthError>(())
+/// ```
 pub fn parse_length(text: &str) -> Result<f64, LengthError> {
     let value = parse_drawn_length(text)?;
     if text.trim().ends_with("px") { Err(LengthError::Pixels(text.to_owned())) } else { Ok(value) }

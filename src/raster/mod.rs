@@ -77,6 +77,14 @@ use crate::parallel::shares;
 use blur::gaussian_kernel;
 
 /// A rectangle of pixels in row order; pixel `(x, y)` has its centre at `(x + 0.5, y + 0.5)`.
+///
+/// ```
+/// use drypoint::raster::Raster;
+///
+/// let ramp = Raster::from_fn(4, 2, |x, y| (x + 10 * y) as f32);
+/// assert_eq!(ramp.row(1), [10.0, 11.0, 12.0, 13.0]);
+/// assert_eq!(ramp.map(|v| v * 2.0).get(3, 0), 6.0);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster<T> {
     width: usize,

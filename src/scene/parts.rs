@@ -28,6 +28,17 @@ pub struct Parts {
 
 impl Parts {
     /// The parts of masks on one grid, each 0 to 1, later ones over earlier ones, each with its border.
+    ///
+    /// ```
+    /// use drypoint::{geometry::Rect, raster::Raster, scene::{Border, Parts}, source::Placement};
+    ///
+    /// let placement = Placement::new(Rect::new(0.0, 0.0, 40.0, 40.0), 5.0);
+    /// let left = Raster::from_fn(200, 200, |x, _| if x < 100 { 1.0 } else { 0.0 });
+    /// let parts = Parts::new(placement, &[(left, Border::Butt)]);
+    /// assert_eq!(parts.count(), 2);
+    /// let inside = parts.drawn_share(1, &placement);
+    /// assert!(inside.get(50, 100) > 0.9 && inside.get(190, 100) < 0.1);
+    /// ```
     pub fn new(placement: Placement, masks: &[(Raster<f32>, Border)]) -> Self {
         let sigma = placement.pixels(Millimetres(SMOOTH)) as f32;
         let smooth: Vec<Raster<f32>> = masks.iter().map(|(mask, _)| gaussian_blur(mask, sigma)).collect();
