@@ -56,7 +56,7 @@ pub fn deal(marks: &[Candidate]) -> Vec<Dealt> {
     }
     let around = Neighbours::of(marks);
     let shares = Shares { pens, all: marks.iter().flat_map(|mark| mark.shares.iter().copied()).collect() };
-    let mut search = Search { marks, shares: &shares, around: &around, pen: vec![None; marks.len()] };
+    let mut search = Search::of(marks, &shares, &around);
     for _ in 0..ROUNDS {
         let changed = around.order.iter().filter(|mark| search.improve(**mark)).count();
         if changed * 1000 < marks.len() {
@@ -117,6 +117,10 @@ impl Neighbours {
         });
         // Six neighbours of an even pattern lie nearest; their mean distance is that of marks.
         let spacing = mapped(&near, &|near| mean_of_nearest(near).unwrap_or(mean));
+        let near = collected(marks.len(), &|i| {
+            let met = |j: u32, d: f32| f64::from(d) <= within(FARTHEST * spacing[i], spacing[i], spacing[j as usize]);
+            near[i].iter().copied().filter(|(j, d)| met(*j, *d)).collect()
+        });
         let mut order: Vec<usize> = (0..marks.len()).collect();
         let row = |i: usize| ((marks[i].at.y / mean) as i64, marks[i].at.x);
         order.sort_by(|a, b| {
@@ -159,13 +163,29 @@ struct Search<'a> {
     shares: &'a Shares,
     around: &'a Neighbours,
     pen: Vec<Option<usize>>,
+    /// When each mark changed its pen, and when it was last looked at, by the number of looks until then.
+    changed: Vec<u32>,
+    looked: Vec<u32>,
+    looks: u32,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn of(marks: &'a [Candidate], shares: &'a Shares, around: &'a Neighbours) -> Self {
+        let never = vec![0; marks.len()];
+        Self { marks, shares, around, pen: vec![None; marks.len()], changed: never.clone(), looked: never, looks: 0 }
+    }
+
     /// Gives a mark to the pen that is missed most around it; true if it changed.
     fn improve(&mut self, mark: usize) -> bool {
         /// Where a pen has a smaller share of the ink it gets no mark.
         const LEAST_SHARE: f32 = 0.01;
+        // What surrounds most marks stays as it was after the second round.
+        let before = self.looked[mark];
+        if before > 0 && self.around.near[mark].iter().all(|(other, _)| self.changed[*other as usize] <= before) {
+            return false;
+        }
+        self.looks += 1;
+        self.looked[mark] = self.looks;
         let shares = self.shares.of(mark);
         let excess = self.excess(mark);
         let wanted = (0..shares.len()).filter(|pen| shares[*pen] >= LEAST_SHARE);
@@ -173,6 +193,9 @@ impl Search<'_> {
         let best = best.or_else(|| (0..shares.len()).max_by(|a, b| shares[*a].total_cmp(&shares[*b]).then(b.cmp(a))));
         let has_changed = self.pen[mark] != best;
         self.pen[mark] = best;
+        if has_changed {
+            self.changed[mark] = self.looks;
+        }
         has_changed
     }
 
@@ -189,8 +212,11 @@ impl Search<'_> {
         for (other, distance) in &self.around.near[mark] {
             // A mark not yet dealt counts as it will be on average.
             let Some(its) = self.pen[*other as usize] else { continue };
-            let ink = self.marks[*other as usize].ink;
             let kept = KEEPING * bell(distance * wide);
+            if kept <= 0.0 {
+                continue;
+            }
+            let ink = self.marks[*other as usize].ink;
             for (pen, share) in self.shares.of(*other as usize).iter().enumerate() {
                 let present = if its == pen { 1.0 } else { 0.0 };
                 sums[pen] += ink * f64::from(bell(distance * own[pen]) + kept) * (present - f64::from(*share));
@@ -213,41 +239,72 @@ const UNION: f64 = 2.0;
 
 /// Marks moved a little so that those of each pen lie evenly, and all of them still do.
 fn moved_apart(marks: &[Candidate], shares: &Shares, pens: &[usize], around: &Neighbours) -> Vec<Point> {
-    let force = |places: &[Point], mark: usize| {
-        let (pen, spacing) = (pens[mark], around.spacing[mark]);
-        let reach = reach_of(f64::from(shares.of(mark)[pen]), spacing);
-        let own = 1.0 / reach.powi(2);
-        let all = 1.0 / (REACH * spacing).powi(2);
-        let mut sum = [Vec2::ZERO; 3];
-        for (other, _) in &around.near[mark] {
-            let j = *other as usize;
-            let way = places[mark] - places[j];
-            let distance = way.hypot2();
-            if distance >= reach * reach {
-                continue;
-            }
-            let present = if pens[j] == pen { 1.0 } else { 0.0 };
-            sum[0] += way * (f64::from(bell((distance * own) as f32)) * (present - f64::from(shares.of(j)[pen])));
-            let apart = way * f64::from(bell((distance * all) as f32));
-            sum[1] += apart;
-            if marks[j].round == marks[mark].round {
-                sum[2] += apart;
-            }
-        }
-        sum
-    };
     let first: Vec<Point> = marks.iter().map(|mark| mark.at).collect();
-    let rest: Vec<_> = collected(marks.len(), &|mark| force(&first, mark)[2]);
+    let crowds = collected(marks.len(), &|mark| Crowd::of(mark, shares, pens, around));
+    let together = |mark: usize, other: usize| marks[mark].round == marks[other].round;
+    let rest: Vec<_> = collected(marks.len(), &|mark| crowds[mark].at_rest(&first, mark, together));
     let mut places = first.clone();
     for _ in 0..MOVES {
         places = collected(marks.len(), &|mark| {
-            let [own, all, _] = force(&places, mark);
+            let [own, all] = crowds[mark].forces(&places, mark);
             let moved = places[mark] + (own + (all - rest[mark]) * UNION) * STEP - first[mark];
             let most = FARTHEST_MOVE * around.spacing[mark];
             first[mark] + if moved.hypot() > most { moved * (most / moved.hypot()) } else { moved }
         });
     }
     places
+}
+
+/// The marks that can come within reach of a mark while all of them move.
+struct Crowd {
+    /// Each mark, with 1 if it is of the same pen, less that pen's share there.
+    others: Vec<(u32, f64)>,
+    /// Squared reach of the pen; and, inverted, of the pen and of all marks together.
+    reach: f64,
+    own: f64,
+    all: f64,
+}
+
+impl Crowd {
+    fn of(mark: usize, shares: &Shares, pens: &[usize], around: &Neighbours) -> Self {
+        let (pen, spacing) = (pens[mark], around.spacing[mark]);
+        let reach = reach_of(f64::from(shares.of(mark)[pen]), spacing);
+        let near = around.near[mark].iter().map(|(other, distance)| (*other as usize, f64::from(*distance)));
+        let met = near.filter(|(j, distance)| *distance <= within(reach, spacing, around.spacing[*j]));
+        let others = met.map(|(j, _)| {
+            let present = if pens[j] == pen { 1.0 } else { 0.0 };
+            (j as u32, present - f64::from(shares.of(j)[pen]))
+        });
+        Self { others: others.collect(), reach: reach * reach, own: 1.0 / reach.powi(2), all: 1.0 / (REACH * spacing).powi(2) }
+    }
+
+    /// The force of the pen's marks on a mark, and that of all marks.
+    fn forces(&self, places: &[Point], mark: usize) -> [Vec2; 2] {
+        let mut sum = [Vec2::ZERO; 2];
+        for (other, missed) in &self.others {
+            let way = places[mark] - places[*other as usize];
+            let distance = way.hypot2();
+            if distance < self.reach {
+                sum[0] += way * (f64::from(bell((distance * self.own) as f32)) * missed);
+                sum[1] += way * f64::from(bell((distance * self.all) as f32));
+            }
+        }
+        sum
+    }
+
+    /// The force of all marks that were placed together with a mark, which is what they had when they lay evenly.
+    fn at_rest(&self, places: &[Point], mark: usize, together: impl Fn(usize, usize) -> bool) -> Vec2 {
+        let others = self.others.iter().map(|(other, _)| *other as usize).filter(|other| together(mark, *other));
+        let ways = others.map(|other| places[mark] - places[other]).filter(|way| way.hypot2() < self.reach);
+        ways.fold(Vec2::ZERO, |sum, way| sum + way * f64::from(bell((way.hypot2() * self.all) as f32)))
+    }
+}
+
+/// The squared distance within which a mark of one spacing can come within `reach` of one of another while both move.
+fn within(reach: f64, spacing: f64, other: f64) -> f64 {
+    /// Distances are kept in single precision.
+    const ROOM: f64 = 1.000_01;
+    ((reach + FARTHEST_MOVE * (spacing + other)) * ROOM).powi(2)
 }
 
 /// How far marks of a pen act on one another.
