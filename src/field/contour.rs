@@ -9,7 +9,7 @@ use crate::raster::Raster;
 /// the right with y down). Open lines end at the raster's border.
 pub fn contours(raster: &Raster<f32>, level: f32) -> Vec<Curve> {
     let (width, height) = (raster.width(), raster.height());
-    let of_row = |y: usize| (0..width.saturating_sub(1)).flat_map(move |x| cell_segments(raster, x, y, level)).collect();
+    let of_row = |y: usize| row_segments(raster, y, level);
     let rows: Vec<Vec<(Side, Side)>> = collected(height.saturating_sub(1), &of_row);
     let mut sides = Sides { width, next: vec![NONE; 2 * width * height], is_entered: vec![false; 2 * width * height] };
     for (from, to) in rows.iter().flatten() {
@@ -59,6 +59,18 @@ fn crossing(raster: &Raster<f32>, side: Side, level: f32) -> Point {
     let t = f64::from((level - a) / (b - a)).clamp(0.0, 1.0);
     let (dx, dy) = if side.down { (0.0, t) } else { (t, 0.0) };
     Point::new(x as f64 + 0.5 + dx, y as f64 + 0.5 + dy)
+}
+
+/// The pieces of contour in the squares between two rows. Most squares have none, and are passed over at once.
+fn row_segments(raster: &Raster<f32>, y: usize, level: f32) -> Vec<(Side, Side)> {
+    let mut pieces = Vec::new();
+    for (x, (upper, lower)) in raster.row(y).windows(2).zip(raster.row(y + 1).windows(2)).enumerate() {
+        let is_above = upper[0] > level;
+        if is_above != (upper[1] > level) || is_above != (lower[0] > level) || is_above != (lower[1] > level) {
+            pieces.extend(cell_segments(raster, x, y, level));
+        }
+    }
+    pieces
 }
 
 /// The one or two pieces of contour in the square whose upper left corner is the centre of pixel `(x, y)`.
