@@ -237,13 +237,23 @@ impl Raster<f32> {
     #[inline]
     pub fn sample(&self, x: f64, y: f64) -> f32 {
         let (fx, fy) = (x - 0.5, y - 0.5);
+        // Inside the raster, which is the usual case, nothing needs holding to its border, and to cut off is to round down.
+        let (x0, y0) = (fx as usize, fy as usize);
+        if fx >= 0.0 && fy >= 0.0 && x0 + 1 < self.width && y0 + 1 < self.height {
+            let (upper, lower) = (&self.row(y0)[x0..x0 + 2], &self.row(y0 + 1)[x0..x0 + 2]);
+            return mixed([upper[0], upper[1], lower[0], lower[1]], (fx - x0 as f64) as f32, (fy - y0 as f64) as f32);
+        }
         let (x0, y0) = (fx.floor(), fy.floor());
         let (tx, ty) = ((fx - x0) as f32, (fy - y0) as f32);
-        let (x0, y0) = (x0 as isize, y0 as isize);
-        let top = self.clamped(x0, y0) * (1.0 - tx) + self.clamped(x0 + 1, y0) * tx;
-        let bottom = self.clamped(x0, y0 + 1) * (1.0 - tx) + self.clamped(x0 + 1, y0 + 1) * tx;
-        top * (1.0 - ty) + bottom * ty
+        let at = |dx: isize, dy: isize| self.clamped(x0 as isize + dx, y0 as isize + dy);
+        mixed([at(0, 0), at(1, 0), at(0, 1), at(1, 1)], tx, ty)
     }
+}
+
+/// Bilinear between four values, row by row.
+fn mixed([a, b, c, d]: [f32; 4], tx: f32, ty: f32) -> f32 {
+    let (top, bottom) = (a * (1.0 - tx) + b * tx, c * (1.0 - tx) + d * tx);
+    top * (1.0 - ty) + bottom * ty
 }
 
 /// Distances of a square picture's pixels from a place on its diagonal, for tests with discs and rings.

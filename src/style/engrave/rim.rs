@@ -39,6 +39,11 @@ impl LineReadings<'_> {
         let i = (x as usize).min(line.heights.len() - 2);
         let rise = line.heights[i + 1] - line.heights[i];
         let sides = self.wanted.ground.grid.inside_sides(frame.to_page(u, line.heights[i] + rise * (x - i as f64)));
+        // Far from the rim, which is the usual case, it sets no limit.
+        let nearest = sides[0].min(sides[1]);
+        if nearest > self.wanted.width_max + FITTED * pitch {
+            return Rim { width: f64::INFINITY, inside: nearest };
+        }
         let along = frame.to_page(step, rise) - frame.to_page(0.0, 0.0);
         let across = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
         let mut rim = Rim { width: f64::INFINITY, inside: f64::INFINITY };
