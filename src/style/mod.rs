@@ -3,6 +3,7 @@
 //! A style is called with the portrait, its parameters (resolved [`Settings`]), a seed and an [`Observer`]; it draws on the
 //! portrait's page and knows nothing of machines, formats or files. To add one: write its folder and add it to [`STYLES`].
 
+mod brows;
 mod charcoal;
 mod cost;
 mod coverage;

@@ -12,6 +12,7 @@ mod edges;
 mod feature_tones;
 mod features;
 mod hair;
+mod modelling;
 mod paper;
 mod parameters;
 mod patch;
@@ -108,7 +109,7 @@ pub(super) fn strokes_along(
 }
 
 /// Widths of the mouth's lines, as a share: in full they are ink among charcoal.
-const MOUTH: f64 = 0.6;
+const MOUTH: f64 = 0.85;
 
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.
@@ -130,7 +131,9 @@ impl Drawer<'_> {
         let shading = self.shading(regions, &features, &wanted);
         self.check()?;
         let behind = self.background_pressure(regions);
-        let strokes = covered(hair.iter().chain(&shading), &self.portrait.placement);
+        let modelling = self.modelling(regions, &wanted);
+        self.check()?;
+        let strokes = covered(hair.iter().chain(&shading).chain(&modelling), &self.portrait.placement);
         let strokes = gaussian_blur(&strokes, self.pitch() as f32);
         let tone = self.tone(&Laid {
             regions,
@@ -141,7 +144,8 @@ impl Drawer<'_> {
             background: &behind,
         });
         self.check()?;
-        let mut face = self.draw_features(&features);
+        let mut face = modelling;
+        face.extend(self.draw_features(&features));
         if self.parameters.has_features {
             let solids = Solids::of_darkest(self.portrait, &self.darkness(), self.pitch());
             face.extend(solids.with_mouths(self.portrait, self.pitch(), MOUTH).layer().marks);

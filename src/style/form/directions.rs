@@ -118,15 +118,28 @@ const SKIN_BENDING: f32 = 6.0;
 const HAIR_BENDING: f32 = 2.0;
 const CLOTH_BENDING: f32 = 8.0;
 
+/// The head nearest to a place.
+fn nearest_head(heads: &[Head], p: Point) -> Head {
+    let by_distance = |a: &&Head, b: &&Head| a.away(p).total_cmp(&b.away(p));
+    *heads.iter().min_by(by_distance).expect("directions of form need a face")
+}
+
 impl<P: Pitched + Sync> Drawer<'_, P> {
-    pub(in crate::style) fn directions(&self, surfaces: &Surfaces) -> Directions {
+    /// The directions of lines on skin alone, in radians on the page (y down), on the working grid.
+    pub(in crate::style) fn directions_on_skin(&self) -> Raster<f32> {
+        let (heads, cells) = self.heads();
+        self.skin_directions(&cells, &heads, &|p| nearest_head(&heads, p))
+    }
+
+    fn heads(&self) -> (Vec<Head>, Cells) {
         let heads: Vec<Head> = self.portrait.faces.iter().map(Head::new).collect();
         let widest = heads.iter().map(|head| head.width).fold(1.0, f64::max);
-        let cells = Cells::new(&self.portrait.placement, widest);
-        let nearest = |p: Point| {
-            let by_distance = |a: &&Head, b: &&Head| a.away(p).total_cmp(&b.away(p));
-            *heads.iter().min_by(by_distance).expect("directions of form need a face")
-        };
+        (heads, Cells::new(&self.portrait.placement, widest))
+    }
+
+    pub(in crate::style) fn directions(&self, surfaces: &Surfaces) -> Directions {
+        let (heads, cells) = self.heads();
+        let nearest = |p: Point| nearest_head(&heads, p);
         let ((skin, hair), cloth) = rayon::join(
             || {
                 rayon::join(

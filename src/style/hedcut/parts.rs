@@ -8,13 +8,13 @@
 //! ```
 
 use super::Drawer;
-use super::brows::{self, Brows};
 use super::parameters::PartsRule;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::OrientationField;
 use crate::geometry::Point;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
+use crate::style::brows::{self, Brows};
 use crate::style::coverage::covered;
 use crate::style::{StyleError, charcoal, grid};
 use std::ops::Range;

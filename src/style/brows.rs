@@ -7,13 +7,14 @@
 //! ```
 
 use super::Drawer;
+use super::charcoal::Hairs;
+use super::declaration::Radians;
+use super::drawer::Pitched;
 use crate::elementary::Elementary as _;
 use crate::field::OrientationField;
 use crate::geometry::{Millimetres, Point, Vec2};
 use crate::raster::{Raster, fast_gaussian, fast_gaussian_within, filled_polygon};
 use crate::source::{Landmarks, outlines};
-use crate::style::charcoal::Hairs;
-use crate::style::declaration::Radians;
 
 /// A face of fewer pitches keeps its brows in dots: a brow would be three strokes.
 const LEAST_WIDTH: f64 = 24.0;
@@ -47,7 +48,7 @@ pub(super) struct Brows {
     pub sizes: Hairs,
 }
 
-impl Drawer<'_> {
+impl<P: Pitched> Drawer<'_, P> {
     /// The brows of the faces that are large enough, where hair does not cover them. A face has both or none.
     pub(super) fn brows(&self, hair: Option<&Raster<f32>>) -> Option<Brows> {
         let least = LEAST_WIDTH * self.pitch();
@@ -64,7 +65,7 @@ impl Drawer<'_> {
             widest = widest.max(face.width());
         }
         let length = Millimetres(LENGTH * widest * self.portrait.placement.mm_per_pixel());
-        let sizes = Hairs { width: WIDTH * self.parameters.pitch, length, turn: Radians(TURN.to_radians()) };
+        let sizes = Hairs { width: WIDTH * self.parameters.pitch(), length, turn: Radians(TURN.to_radians()) };
         (!ridges.is_empty()).then(|| Brows { hairs: hairs(&region, &ridges), region, sizes })
     }
 
