@@ -62,7 +62,7 @@ impl Drawer<'_> {
     fn jaw(&self, jaw: &Curve, element: u64, touch: Touch) -> Option<Mark> {
         /// Bounds of the pressure along a jaw, which a face needs even where it hardly shows, and the share of it over which it fades out
         /// at both ends: a firm line that stops is a wire.
-        const JAW_PRESSURE: (f64, f64) = (0.2, 0.55);
+        const JAW_PRESSURE: (f64, f64) = (0.0, 0.5);
         const JAW_FADES: f64 = 0.3;
         let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", element));
         let last = (jaw.points.len() - 1) as f64;

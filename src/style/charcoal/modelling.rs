@@ -12,9 +12,13 @@ use crate::style::declaration::Radians;
 use crate::style::solids::detail_zone;
 
 /// The share of a brow's ink that its strokes make.
-const BROW_SHARE: f32 = 0.6;
+const BROW_SHARE: f32 = 0.42;
+/// Width of a brow's hair, as a share of that in a hedcut.
+const BROW_WIDTH: f64 = 0.75;
 /// Ink over that of a face's median from which its shade is modelled, the range over which strokes set in, and their share of the ink there.
-const SHADE: f32 = 0.04;
+const SHADE: f32 = 0.08;
+/// Least ink of shade: fair skin has none, where strokes would be wrinkles.
+const LEAST_SHADE: f32 = 0.42;
 const SETS_IN: f32 = 0.2;
 const SHADE_SHARE: f32 = 0.5;
 /// Blur of the shade, so that strokes model form and not spots; the width of a stroke as a share of the stick's; its mean length; in pitches.
@@ -39,7 +43,8 @@ impl Drawer<'_> {
     fn brow_strokes(&self, regions: &Regions, wanted: &Raster<f32>) -> Vec<Mark> {
         let Some(brows) = self.brows(Some(&regions.hair)) else { return Vec::new() };
         let ink = wanted.map(|ink| BROW_SHARE * ink);
-        self.hairs(&brows.hairs, &brows.region, &ink, brows.sizes)
+        let sizes = Hairs { width: BROW_WIDTH * brows.sizes.width, ..brows.sizes };
+        self.hairs(&brows.hairs, &brows.region, &ink, sizes)
     }
 
     /// Strokes along the form where a face is darker than most of it.
@@ -49,7 +54,7 @@ impl Drawer<'_> {
         let soft = gaussian_blur(wanted, self.pixels(SHADE_BLUR * self.parameters.pitch) as f32);
         let within = soft.pixels().iter().zip(skin.pixels()).filter(|(_, skin)| **skin > 0.5).map(|(ink, _)| *ink);
         let Some(usual) = median(within.collect()) else { return Vec::new() };
-        let shade = soft.zip_map(&skin, |ink, skin| skin * ((ink - usual - SHADE) / SETS_IN).clamp(0.0, 1.0));
+        let shade = soft.zip_map(&skin, |ink, skin| skin * ((ink - (usual + SHADE).max(LEAST_SHADE)) / SETS_IN).clamp(0.0, 1.0));
         self.show("shade", &shade);
         let angles = self.directions_on_skin();
         let field = OrientationField::new(angles.map(|angle| [(2.0 * angle).cosine(), (2.0 * angle).sine()]));

@@ -138,14 +138,21 @@ impl Drawer<'_> {
         const AROUND: f64 = 0.05;
         const PRESSED: f32 = 0.9;
         const MOST: f32 = 0.17;
+        /// By how much less in eyes.
+        const EYES: f32 = 0.8;
         let Some(widest) = self.portrait.faces.iter().map(Landmarks::width).reduce(f64::max) else { return ink.clone() };
         let around = fast_gaussian(ink, (AROUND * widest) as f32);
         let pressed = ink.zip_map(&around, |ink, around| MOST * (PRESSED * (ink - around) / MOST).hyperbolic_tangent());
-        // Brows and moustaches are strokes of hair, firm enough.
+        // Brows and moustaches are strokes of hair, firm enough; and eyes are dark enough as they are.
         let brows = inside_outlines(&self.portrait.faces, [&outlines::LEFT_BROW, &outlines::RIGHT_BROW], self.size());
         let brows = gaussian_blur(&brows, self.pitch() as f32);
+        let eyes = inside_outlines(&self.portrait.faces, [&outlines::LEFT_EYE, &outlines::RIGHT_EYE], self.size());
+        let eyes = gaussian_blur(&eyes, self.pitch() as f32);
         let detail = detail_zone(self.portrait, self.pitch());
-        let zone = detail.zip_map(&brows, |detail, brow| detail * (1.0 - brow)).zip_map(hair, |zone, hair| zone * (1.0 - hair));
+        let zone = detail
+            .zip_map(&brows, |detail, brow| detail * (1.0 - brow))
+            .zip_map(&eyes, |zone, eye| zone * (1.0 - EYES * eye))
+            .zip_map(hair, |zone, hair| zone * (1.0 - hair));
         ink.zip_map(&pressed.zip_map(&zone, |pressed, zone| pressed * zone), |ink, more| (ink + more).clamp(0.0, 1.0))
     }
 

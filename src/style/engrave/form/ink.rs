@@ -4,7 +4,7 @@ use super::super::Drawer;
 use super::LEAST_SHARE;
 use crate::elementary::unit_at;
 use crate::geometry::Point;
-use crate::raster::{Raster, gaussian_blur};
+use crate::raster::{Raster, gaussian_blur, self_guided};
 use crate::source::outlines;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::{eyes_and_mouths, inside_outlines};
@@ -41,7 +41,16 @@ impl Drawer<'_> {
         let soft = gaussian_blur(skin, self.pitch() as f32).zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
         let features = eyes_and_mouths(self.portrait, self.pitch());
         let skin = soft.zip_map(&features, |skin, feature| skin * (1.0 - feature));
-        HALF_TONES.iter().fold(ink.clone(), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
+        HALF_TONES.iter().fold(self.even_skin(ink, &skin), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
+    }
+
+    /// The ink without the grain of skin, which makes crumbs where lines break into dots; borders of shadows stay.
+    fn even_skin(&self, ink: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
+        /// Reach in pitches, and the square of the step of ink that stays.
+        const REACH: f64 = 2.0;
+        const STEP: f32 = 0.05 * 0.05;
+        let even = self_guided(ink, (REACH * self.pitch()).round().max(1.0) as usize, STEP);
+        ink.zip_map(&even, |ink, even| even - ink).zip_map(skin, |more, skin| more * skin).zip_map(ink, |more, ink| ink + more)
     }
 
     /// The ink of hair smooth along its locks and with more contrast between them; its mean stays.

@@ -19,6 +19,7 @@ mod measures;
 mod runs;
 mod shares;
 mod specks;
+mod strands;
 
 use super::Drawer;
 use super::parameters::Look;
@@ -71,6 +72,7 @@ impl Drawer<'_> {
         self.observer.begin("directions");
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
+        let surfaces = self.with_strands(surfaces, directions.of(Surface::Hair));
         let ink = self.with_half_tones(&ink, &surfaces.skin);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
         let solids = Solids::new(self.portrait, &ink, self.pitch());
@@ -120,6 +122,7 @@ impl Drawer<'_> {
                 turn: turn(family),
                 ink: &shares[family],
                 region: share,
+                tapered: (surface == Surface::Hair).then_some(&surfaces.skin),
                 breaks: if family == 0 { families[1].as_ref() } else { None },
                 thinnest: self.parameters.thinnest / self.parameters.pitch,
                 dot_min: self.pixels(self.parameters.dot_min),
