@@ -30,6 +30,7 @@ mod rubbing;
 mod settings;
 mod solids;
 mod spectacles;
+mod streaks;
 mod tone_error;
 
 pub use cost::Cost;

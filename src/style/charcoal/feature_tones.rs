@@ -2,7 +2,7 @@
 //! each drawn finely, as dark against its skin as in the photograph.
 
 use super::Drawer;
-use super::patch::{Patch, Pressing};
+use super::patch::{LEAST_WIDTHS, Patch, Pressing};
 use crate::drawing::Mark;
 use crate::elementary::Elementary as _;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, FeatureWindow, histogram_modes};
@@ -106,6 +106,7 @@ impl Drawer<'_> {
             pressure: 1.0,
             inset: Millimetres(0.0),
             pressing: Pressing::Filling,
+            least: LEAST_WIDTHS * width,
         };
         let press = |p: Point| super::strokes::pressure_for(SPACING * f64::from(ink.sample(p.x, p.y)));
         let mut marks = self.shade_patch(&patch(FAINTEST, ORIENT), "features", 0, press);

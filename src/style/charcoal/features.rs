@@ -2,7 +2,7 @@
 
 use super::Drawer;
 use super::feature_tones::FeatureTones;
-use super::patch::{Patch, Pressing};
+use super::patch::{LEAST_WIDTHS, Patch, Pressing};
 use super::regions::Regions;
 use crate::drawing::Mark;
 use crate::field::{FaceFrame, FacialFeature, FacialFeatures, SkinTone, facial_features};
@@ -113,6 +113,7 @@ impl Drawer<'_> {
             pressure: 0.8,
             inset: Millimetres(0.0),
             pressing: Pressing::Filling,
+            least: LEAST_WIDTHS * width,
         }
     }
 }

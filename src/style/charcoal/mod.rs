@@ -127,11 +127,13 @@ impl Drawer<'_> {
         let edges = self.edges(regions, &features);
         self.check()?;
         let sharp = self.sharp_zone();
+        let model = self.model(regions);
         let wanted = self.wanted(regions, &sharp);
+        let wanted = model.as_ref().map_or_else(|| wanted.clone(), |model| self.modelled(&wanted, model));
         let shading = self.shading(regions, &features, &wanted);
         self.check()?;
         let behind = self.background_pressure(regions);
-        let modelling = self.modelling(regions, &wanted);
+        let modelling = model.as_ref().map_or_else(Vec::new, |model| self.modelling(regions, &wanted, model));
         self.check()?;
         let strokes = covered(hair.iter().chain(&shading).chain(&modelling), &self.portrait.placement);
         let strokes = gaussian_blur(&strokes, self.pitch() as f32);

@@ -1,15 +1,24 @@
-//! Faces modelled in strokes over the smudge: brows along their hairs, and the shaded side of a face along its form.
+//! Faces modelled over the even smudge, as a portraitist does.
 //!
-//! The strokes take a share of the ink that is wanted, the grain keeps the rest.
+//! ```text
+//!   broad side   the smudge of skin varies along the form, as the stick's broad side leaves it
+//!   teeth        shaded towards the corners of the mouth
+//!   shade        fine strokes along the form where a face is dark
+//!   brows        strokes along their hairs
+//! ```
+//! Strokes take a share of the ink that is wanted, the grain keeps the rest.
 
 use super::regions::Regions;
 use super::{Drawer, Hairs};
 use crate::drawing::Mark;
 use crate::elementary::Elementary as _;
 use crate::field::OrientationField;
-use crate::raster::{Raster, gaussian_blur, median};
+use crate::geometry::Point;
+use crate::raster::{Raster, fast_gaussian, gaussian_blur, median};
+use crate::source::{Landmarks, outlines};
 use crate::style::declaration::Radians;
-use crate::style::solids::detail_zone;
+use crate::style::solids::{detail_zone, inside_outlines};
+use crate::style::streaks::Streaks;
 
 /// The share of a brow's ink that its strokes make.
 const BROW_SHARE: f32 = 0.42;
@@ -28,15 +37,69 @@ const LENGTH: f64 = 9.0;
 /// Maximum angle to the form, in degrees.
 const TURN: f64 = 5.0;
 
+/// Width and length of the marks of the stick's broad side in pitches, and how much more or less ink they have, as a share of it: with more
+/// skin is striped.
+const BROAD: [f64; 2] = [2.6, 16.0];
+const BROAD_SPREAD: f32 = 1.3;
+/// Ink of teeth in the middle of a mouth, by how much more they have in its corners, and the blur of their border in widths of the face. As
+/// white as paper they are the lightest place of the sheet.
+const TEETH: [f32; 2] = [0.05, 0.3];
+const TEETH_BLUR: f64 = 0.006;
+
+/// The skin of the faces that were found, outside their features, and the direction of its form in radians on the page.
+pub(super) struct Model {
+    skin: Raster<f32>,
+    angles: Raster<f32>,
+}
+
 impl Drawer<'_> {
-    /// Strokes of the faces that were found.
-    pub(super) fn modelling(&self, regions: &Regions, wanted: &Raster<f32>) -> Vec<Mark> {
+    /// None without faces.
+    pub(super) fn model(&self, regions: &Regions) -> Option<Model> {
         if !self.parameters.has_features || self.portrait.faces.is_empty() {
-            return Vec::new();
+            return None;
         }
+        let details = detail_zone(self.portrait, self.pitch());
+        let skin = regions.skin().zip_map(&details, |skin, details| (skin * (1.0 - details)).clamp(0.0, 1.0));
+        Some(Model { skin, angles: self.directions_on_skin() })
+    }
+
+    /// The ink that is wanted, with the marks of the broad side in skin and with shaded teeth.
+    pub(super) fn modelled(&self, wanted: &Raster<f32>, model: &Model) -> Raster<f32> {
+        let [width, length] = BROAD.map(|pitches| pitches * self.pitch());
+        let streaks = Streaks::new(width, length, self.seed ^ 0xb0ad);
+        let teeth = self.teeth();
+        Raster::from_fn(wanted.width(), wanted.height(), |x, y| {
+            let (ink, skin) = (wanted.get(x, y), model.skin.get(x, y));
+            // Neither lights nor blacks vary.
+            let more = 4.0 * ink * (1.0 - ink) * skin * BROAD_SPREAD * streaks.at(x, y, model.angles.get(x, y));
+            (ink * (1.0 + more)).max(teeth.get(x, y)).clamp(0.0, 1.0)
+        })
+    }
+
+    /// The ink that teeth have at least.
+    fn teeth(&self) -> Raster<f32> {
+        let (width, height) = self.size();
+        let mut ink = Raster::filled(width, height, 0.0_f32);
+        for face in &self.portrait.faces {
+            let [right, left] = [outlines::MOUTH[0], outlines::MOUTH[10]].map(|corner| face.point(corner));
+            let (middle, half) = (right.midpoint(left), 0.5 * (left - right));
+            let along = |p: Point| ((p - middle).dot(half) / half.hypot2().max(1e-9)).clamp(-1.0, 1.0);
+            let inside = inside_outlines(std::slice::from_ref(face), [&outlines::MOUTH, &outlines::MOUTH], (width, height));
+            let inside = fast_gaussian(&inside, (TEETH_BLUR * Landmarks::width(face)) as f32);
+            let own = Raster::from_fn(width, height, |x, y| {
+                let away = along(Point::new(x as f64 + 0.5, y as f64 + 0.5)) as f32;
+                inside.get(x, y) * (TEETH[0] + TEETH[1] * away * away)
+            });
+            ink = ink.zip_map(&own, f32::max);
+        }
+        ink
+    }
+
+    /// Strokes of the faces: brows, and their shade along the form.
+    pub(super) fn modelling(&self, regions: &Regions, wanted: &Raster<f32>, model: &Model) -> Vec<Mark> {
         self.observer.begin("modelling");
         let mut marks = self.brow_strokes(regions, wanted);
-        marks.extend(self.shade_strokes(regions, wanted));
+        marks.extend(self.shade_strokes(wanted, model));
         marks
     }
 
@@ -48,15 +111,13 @@ impl Drawer<'_> {
     }
 
     /// Strokes along the form where a face is darker than most of it.
-    fn shade_strokes(&self, regions: &Regions, wanted: &Raster<f32>) -> Vec<Mark> {
-        let details = detail_zone(self.portrait, self.pitch());
-        let skin = regions.skin().zip_map(&details, |skin, details| (skin * (1.0 - details)).clamp(0.0, 1.0));
+    fn shade_strokes(&self, wanted: &Raster<f32>, Model { skin, angles }: &Model) -> Vec<Mark> {
         let soft = gaussian_blur(wanted, self.pixels(SHADE_BLUR * self.parameters.pitch) as f32);
         let within = soft.pixels().iter().zip(skin.pixels()).filter(|(_, skin)| **skin > 0.5).map(|(ink, _)| *ink);
         let Some(usual) = median(within.collect()) else { return Vec::new() };
-        let shade = soft.zip_map(&skin, |ink, skin| skin * ((ink - (usual + SHADE).max(LEAST_SHADE)) / SETS_IN).clamp(0.0, 1.0));
+        let least = (usual + SHADE).max(LEAST_SHADE);
+        let shade = soft.zip_map(skin, |ink, skin| skin * ((ink - least) / SETS_IN).clamp(0.0, 1.0));
         self.show("shade", &shade);
-        let angles = self.directions_on_skin();
         let field = OrientationField::new(angles.map(|angle| [(2.0 * angle).cosine(), (2.0 * angle).sine()]));
         let ink = soft.zip_map(&shade, |ink, shade| SHADE_SHARE * shade * ink);
         let sizes = Hairs {

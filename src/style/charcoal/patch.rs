@@ -23,6 +23,8 @@ pub(super) struct Patch {
     /// Inset of a stroke's centre line from the region's border.
     pub inset: Millimetres,
     pub pressing: Pressing,
+    /// Pieces shorter than this are specks.
+    pub least: Millimetres,
 }
 
 /// Pressure of the hand as it swings to and fro.
@@ -34,14 +36,14 @@ pub(super) enum Pressing {
     Hatching,
 }
 
+/// Pieces shorter than this many widths are specks.
+pub(super) const LEAST_WIDTHS: f64 = 1.5;
 /// Share of a swing's length at either end over which the pressure grows, and the pressure that is left at a turn on the paper.
 const TURN: f64 = 0.3;
 const TURN_PRESSURE: f64 = 0.35;
 impl Drawer<'_> {
     /// The strokes of a patch: chains of arcs side by side, cut to the region; `local` scales the pressure at a place.
     pub(super) fn shade_patch(&self, patch: &Patch, stage: &str, element: u64, local: impl Fn(Point) -> f64) -> Vec<Mark> {
-        /// Pieces shorter than this many widths are specks.
-        const LEAST_WIDTHS: f64 = 1.5;
         let is_hatching = patch.pressing == Pressing::Hatching;
         let touch = Touch {
             width: patch.width,
@@ -50,7 +52,7 @@ impl Drawer<'_> {
             node: if is_hatching { 1.2 * self.parameters.pitch } else { 1.5 * patch.width },
         };
         let region = inset(&patch.region, self.pixels(patch.inset));
-        let least = LEAST_WIDTHS * self.pixels(patch.width);
+        let least = self.pixels(patch.least);
         let mut random = stream(self.seed, stage, element);
         let mut marks = Vec::new();
         for stroke in self.chains(patch, &mut random) {

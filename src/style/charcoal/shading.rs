@@ -3,7 +3,7 @@
 
 use super::Drawer;
 use super::features::Features;
-use super::patch::{Patch, Pressing};
+use super::patch::{LEAST_WIDTHS, Patch, Pressing};
 use super::regions::Regions;
 use super::strokes::pressure_for;
 use crate::drawing::Mark;
@@ -94,6 +94,7 @@ impl Drawer<'_> {
                 pressure: 1.0,
                 inset: 0.5 * width,
                 pressing: Pressing::Hatching,
+                least: LEAST_WIDTHS * width,
             };
             let press = |p: Point| {
                 let asked = f64::from(ink.sample(p.x, p.y) - 0.5 * from) * CLOTH_SHARE;
@@ -122,6 +123,8 @@ impl Drawer<'_> {
         const BACKGROUND_WIDTH: f64 = 0.44;
         /// Distance of the strokes over what their ink asks for: the broad side of the stick makes the rest.
         const APART: f64 = 1.3;
+        /// Least length of a background stroke in arcs: shorter ones are ticks far from the head.
+        const LEAST_BEHIND: f64 = 0.6;
         /// Width of a background stroke as a share of the stick's.
         const BACKGROUND_STROKE: f64 = 0.7;
         if pressure.pixels().iter().all(|p| *p <= 0.0) {
@@ -142,6 +145,7 @@ impl Drawer<'_> {
             pressure: BACKGROUND_PRESSURE,
             inset: 0.5 * width,
             pressing: Pressing::Hatching,
+            least: LEAST_BEHIND * self.parameters.arc_length,
         };
         self.shade_patch(&patch, "background", 0, |p| f64::from(pressure.sample(p.x, p.y)))
     }

@@ -138,11 +138,14 @@ impl Drawer<'_> {
         const AROUND: f64 = 0.05;
         const PRESSED: f32 = 0.9;
         const MOST: f32 = 0.17;
+        /// How much ink is lifted at most: places between the hairs of a moustache would be flecks.
+        const LIFTED: f32 = 0.03;
         /// By how much less in eyes.
         const EYES: f32 = 0.8;
         let Some(widest) = self.portrait.faces.iter().map(Landmarks::width).reduce(f64::max) else { return ink.clone() };
         let around = fast_gaussian(ink, (AROUND * widest) as f32);
-        let pressed = ink.zip_map(&around, |ink, around| MOST * (PRESSED * (ink - around) / MOST).hyperbolic_tangent());
+        let pressed =
+            ink.zip_map(&around, |ink, around| (MOST * (PRESSED * (ink - around) / MOST).hyperbolic_tangent()).max(-LIFTED));
         // Brows and moustaches are strokes of hair, firm enough; and eyes are dark enough as they are.
         let brows = inside_outlines(&self.portrait.faces, [&outlines::LEFT_BROW, &outlines::RIGHT_BROW], self.size());
         let brows = gaussian_blur(&brows, self.pitch() as f32);
