@@ -35,13 +35,14 @@ impl Drawer<'_> {
     }
 
     /// The ink with half tones in the lights of skin, which lines then reach as dots.
-    pub(super) fn with_half_tones(&self, ink: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
+    pub(super) fn with_half_tones(&self, ink: &Raster<f32>, skin: &Raster<f32>, detail: &Raster<f32>) -> Raster<f32> {
         /// Reach of half tones into a face's lights, in pitches: at their borders, and over foreheads and cheeks.
         const HALF_TONES: [f64; 2] = [8.0, 24.0];
         let soft = gaussian_blur(skin, self.pitch() as f32).zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
         let features = eyes_and_mouths(self.portrait, self.pitch());
         let skin = soft.zip_map(&features, |skin, feature| skin * (1.0 - feature));
-        HALF_TONES.iter().fold(self.even_skin(ink, &skin), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
+        let plain = skin.zip_map(detail, |skin, detail| skin * (1.0 - detail));
+        HALF_TONES.iter().fold(self.even_skin(ink, &plain), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))
     }
 
     /// The ink without the grain of skin, which makes crumbs where lines break into dots; borders of shadows stay.
