@@ -54,15 +54,15 @@ impl Drawer<'_> {
             let firm = self.firmness(points, &mut random);
             marks.extend(self.stroke(points, touch, |p| firm.get(nearest(points, p)).copied().unwrap_or(1.0)));
         }
-        marks.extend(jaws.iter().enumerate().filter_map(|(i, jaw)| self.jaw(jaw, i as u64, touch)));
+        marks.extend(jaws.iter().enumerate().flat_map(|(i, jaw)| self.jaw(jaw, i as u64, touch)));
         marks
     }
 
-    /// The soft line of a jaw.
-    fn jaw(&self, jaw: &Curve, element: u64, touch: Touch) -> Option<Mark> {
-        /// Bounds of the pressure along a jaw, which a face needs even where it hardly shows, and the share of it over which it fades out
-        /// at both ends: a firm line that stops is a wire.
-        const JAW_PRESSURE: (f64, f64) = (0.0, 0.5);
+    /// The soft line of a jaw, where it shows.
+    fn jaw(&self, jaw: &Curve, element: u64, touch: Touch) -> Vec<Mark> {
+        /// Pressure from which a jaw is drawn, the most that it has, and the share of it over which it fades out at both ends: a firm line
+        /// that stops is a wire, and so is one where the face has no border.
+        const JAW_PRESSURE: (f64, f64) = (0.14, 0.5);
         const JAW_FADES: f64 = 0.3;
         let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", element));
         let last = (jaw.points.len() - 1) as f64;
@@ -70,9 +70,12 @@ impl Drawer<'_> {
             let at = nearest(&jaw.points, p);
             let along = at as f64 / last;
             let fade = (along.min(1.0 - along) / JAW_FADES).min(1.0);
-            fade * firm.get(at).copied().unwrap_or(0.0).clamp(JAW_PRESSURE.0, JAW_PRESSURE.1)
+            fade * firm.get(at).copied().unwrap_or(0.0).min(JAW_PRESSURE.1)
         };
-        self.stroke(&jaw.points, touch, pressure)
+        let shown = |p: &Point| firm.get(nearest(&jaw.points, *p)).is_some_and(|firm| *firm >= JAW_PRESSURE.0);
+        let pieces =
+            jaw.points.split(|p| !shown(p)).filter(|piece| polyline_length(piece) >= self.pixels(8.0 * self.parameters.pitch));
+        pieces.filter_map(|piece| self.stroke(piece, touch, pressure)).collect()
     }
 
     /// What is left of lines that do not run along one of the others.

@@ -25,25 +25,25 @@ const BROW_SHARE: f32 = 0.42;
 /// Width of a brow's hair, as a share of that in a hedcut.
 const BROW_WIDTH: f64 = 0.75;
 /// Ink over that of a face's median from which its shade is modelled, the range over which strokes set in, and their share of the ink there.
-const SHADE: f32 = 0.08;
+const SHADE: f32 = 0.1;
 /// Least ink of shade: fair skin has none, where strokes would be wrinkles.
 const LEAST_SHADE: f32 = 0.42;
-const SETS_IN: f32 = 0.2;
-const SHADE_SHARE: f32 = 0.5;
+const SETS_IN: f32 = 0.3;
+const SHADE_SHARE: f32 = 0.45;
 /// Blur of the shade, so that strokes model form and not spots; the width of a stroke as a share of the stick's; its mean length; in pitches.
 const SHADE_BLUR: f64 = 2.0;
 const WIDTH: f64 = 0.34;
 const LENGTH: f64 = 9.0;
 /// Maximum angle to the form, in degrees.
-const TURN: f64 = 5.0;
+const TURN: f64 = 9.0;
 
 /// Width and length of the marks of the stick's broad side in pitches, and how much more or less ink they have, as a share of it: with more
 /// skin is striped.
 const BROAD: [f64; 2] = [2.6, 16.0];
 const BROAD_SPREAD: f32 = 1.3;
-/// Ink of teeth in the middle of a mouth, by how much more they have in its corners, and the blur of their border in widths of the face. As
+/// Ink on teeth in the middle of a mouth, by how much more they have in its corners, and the blur of their border in widths of the face. As
 /// white as paper they are the lightest place of the sheet.
-const TEETH: [f32; 2] = [0.05, 0.3];
+const TEETH: [f32; 2] = [0.03, 0.26];
 const TEETH_BLUR: f64 = 0.006;
 
 /// The skin of the faces that were found, outside their features, and the direction of its form in radians on the page.
@@ -72,11 +72,11 @@ impl Drawer<'_> {
             let (ink, skin) = (wanted.get(x, y), model.skin.get(x, y));
             // Neither lights nor blacks vary.
             let more = 4.0 * ink * (1.0 - ink) * skin * BROAD_SPREAD * streaks.at(x, y, model.angles.get(x, y));
-            (ink * (1.0 + more)).max(teeth.get(x, y)).clamp(0.0, 1.0)
+            (ink * (1.0 + more) + teeth.get(x, y)).clamp(0.0, 1.0)
         })
     }
 
-    /// The ink that teeth have at least.
+    /// The ink that is laid over teeth.
     fn teeth(&self) -> Raster<f32> {
         let (width, height) = self.size();
         let mut ink = Raster::filled(width, height, 0.0_f32);
