@@ -4,7 +4,7 @@ use super::super::Drawer;
 use super::LEAST_SHARE;
 use crate::elementary::unit_at;
 use crate::geometry::Point;
-use crate::raster::{Raster, gaussian_blur, self_guided};
+use crate::raster::{Raster, fast_gaussian, gaussian_blur, self_guided};
 use crate::source::outlines;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::{eyes_and_mouths, inside_outlines};
@@ -50,7 +50,18 @@ impl Drawer<'_> {
         /// Reach in pitches, and the square of the step of ink that stays.
         const REACH: f64 = 2.0;
         const STEP: f32 = 0.05 * 0.05;
+        /// Ink below which lights are soft, and no longer are; and their blur in pitches. With a sharp border a light is an island of
+        /// dots among lines.
+        const LIGHTS: [f32; 2] = [0.12, 0.3];
+        const LIGHTS_BLUR: f64 = 3.5;
         let even = self_guided(ink, (REACH * self.pitch()).round().max(1.0) as usize, STEP);
+        let sigma = (LIGHTS_BLUR * self.pitch()) as f32;
+        let sum = fast_gaussian(&even.zip_map(skin, |ink, skin| ink * skin), sigma);
+        let soft = sum.zip_map(&fast_gaussian(skin, sigma), |sum, skin| sum / skin.max(1e-3));
+        let even = even.zip_map(&soft, |even, soft| {
+            let light = ((LIGHTS[1] - soft) / (LIGHTS[1] - LIGHTS[0])).clamp(0.0, 1.0);
+            even + (soft - even) * light
+        });
         ink.zip_map(&even, |ink, even| even - ink).zip_map(skin, |more, skin| more * skin).zip_map(ink, |more, ink| ink + more)
     }
 
