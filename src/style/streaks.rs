@@ -1,4 +1,4 @@
-//! Streaks along a direction, as strands of hair and the broad side of a stick leave them: noise averaged along lines (Cabral and Leedom 1993,
+//! Streaks along a direction, as the broad side of a stick leaves them: noise averaged along lines (Cabral and Leedom 1993,
 //! with straight lines, which serve over a few pitches).
 
 use crate::elementary::unit_at;

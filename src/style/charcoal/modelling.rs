@@ -40,7 +40,7 @@ const TURN: f64 = 9.0;
 /// Width and length of the marks of the stick's broad side in pitches, and how much more or less ink they have, as a share of it: with more
 /// skin is striped.
 const BROAD: [f64; 2] = [2.6, 16.0];
-const BROAD_SPREAD: f32 = 1.3;
+const BROAD_SPREAD: f32 = 0.9;
 /// Ink on teeth in the middle of a mouth, by how much more they have in its corners, and the blur of their border in widths of the face. As
 /// white as paper they are the lightest place of the sheet.
 const TEETH: [f32; 2] = [0.03, 0.26];

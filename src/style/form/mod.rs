@@ -7,4 +7,4 @@ mod surfaces;
 #[cfg(test)]
 pub(super) use canonical::tests::mean_portrait;
 pub(super) use directions::Directions;
-pub(super) use surfaces::{OVERLAP, Surface, Surfaces};
+pub(super) use surfaces::{Surface, Surfaces};

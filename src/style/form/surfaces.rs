@@ -10,7 +10,7 @@ const SMOOTH: f64 = 0.6;
 const SHARP: f32 = 3.0;
 
 /// How far surfaces overlap, as a share: lines that end side by side at a border would leave a white seam.
-pub(in crate::style) const OVERLAP: f32 = 0.15;
+const OVERLAP: f32 = 0.15;
 
 /// What lines run over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -19,7 +19,6 @@ mod measures;
 mod runs;
 mod shares;
 mod specks;
-mod strands;
 
 use super::Drawer;
 use super::parameters::Look;
@@ -28,13 +27,12 @@ use crate::geometry::Rect;
 use crate::parallel::collected;
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
-use crate::style::form::{Directions, Surface};
+use crate::style::form::{Directions, Surface, Surfaces};
 use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
 use families::{Closeness, Extent, FINE, Family};
 use runs::{Course, Piece};
-use strands::Interlocked;
 
 /// The turns of the second and the third family in degrees. At -60 the third makes honeycombs with the second.
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
@@ -73,8 +71,6 @@ impl Drawer<'_> {
         self.observer.begin("directions");
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
-        let interlocked = self.with_strands(surfaces, directions.of(Surface::Hair));
-        let surfaces = &interlocked.surfaces;
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
         let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
         let solids = Solids::new(self.portrait, &ink, self.pitch());
@@ -83,7 +79,7 @@ impl Drawer<'_> {
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
         for surface in [Surface::Skin, Surface::Hair, Surface::Cloth] {
-            let own = self.lines_over(surface, &interlocked, &directions, &detail, &ink);
+            let own = self.lines_over(surface, &surfaces, &directions, &detail, &ink);
             pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
             self.check()?;
         }
@@ -100,7 +96,7 @@ impl Drawer<'_> {
     fn lines_over(
         &self,
         surface: Surface,
-        Interlocked { surfaces, strands }: &Interlocked,
+        surfaces: &Surfaces,
         directions: &Directions,
         detail: &Raster<f32>,
         ink: &Raster<f32>,
@@ -124,7 +120,6 @@ impl Drawer<'_> {
                 turn: turn(family),
                 ink: &shares[family],
                 region: share,
-                tapered: strands.as_ref().filter(|_| surface == Surface::Hair),
                 breaks: if family == 0 { families[1].as_ref() } else { None },
                 thinnest: self.parameters.thinnest / self.parameters.pitch,
                 dot_min: self.pixels(self.parameters.dot_min),

@@ -33,8 +33,6 @@ pub(super) struct Course<'a> {
     pub ink: &'a Raster<f32>,
     /// Where it is drawn: from 0.5 on.
     pub region: &'a Raster<f32>,
-    /// Lines that the region's border cuts taper where this is above a half; elsewhere they end flat.
-    pub tapered: Option<&'a Raster<f32>>,
     /// The family at whose lines thin lines keep their dashes; without it this is a crossing family, whose lines end instead.
     pub breaks: Option<&'a Family>,
     /// Share of the spacing below which a line is not drawn thinner, but broken.
@@ -97,9 +95,7 @@ impl Course<'_> {
             let after = readings.get(range.end).copied();
             let from = before.map_or(first.along, |b| crossing(&b, first));
             let to = after.map_or(last.along, |a| crossing(last, &a));
-            let is_soft = |p: Point| self.tapered.is_some_and(|where_soft| where_soft.sample(p.x, p.y) > 0.5);
-            let ends = |beyond: Option<Reading>, p: Point| beyond.is_some() || is_own(p) || is_soft(p);
-            let tapers = [ends(before, first.place), ends(after, last.place)];
+            let tapers = [before.is_some() || is_own(first.place), after.is_some() || is_own(last.place)];
             let least = if self.breaks.is_none() { TICK } else { CRUMB };
             if (self.breaks.is_none() || tapers == [false; 2]) && to - from < least * self.pitch {
                 continue;
