@@ -57,12 +57,14 @@ impl Palette {
             let of = pens.len();
             (entries, pens) =
                 entries.into_iter().zip(pens).enumerate().filter(|(i, _)| chosen.contains(i)).map(|(_, pen)| pen).unzip();
+            // What was measured with all pens says nothing of some.
+            entries.iter_mut().for_each(|entry| entry.over_all = None);
             choice = Some(format!("{count} of {of} pens chosen: {}", names(&pens)));
         }
         let order = drawing_order(&pens);
         let numbers = numbers(order.iter().map(|pen| &entries[*pen]));
         let inks = order.iter().map(|pen| entries[*pen].ink(shown_colour(&pens[*pen], paper))).collect();
-        let measured = overprints(&order, &entries, choice.is_none());
+        let measured = overprints(&order, &entries);
         let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
         let pens = PenSet::new(pens, paper, measured).map_err(|error| match error {
             PensError::TooMany(_) => about(&format!("{error}: --choose 4")),
@@ -169,9 +171,9 @@ pub(super) fn pen_of(entry: &PenEntry, paper: Paper) -> Result<ColourPen, String
     Ok(if entry.is_opaque { pen.opaque() } else { pen })
 }
 
-/// Overprints that were measured, of pens in this drawing order: of pairs, and of all pens of the file if all are used. Only a pen that
+/// Overprints that were measured, of pens in this drawing order: of pairs, and of all pens. Only a pen that
 /// is drawn later lies over another.
-fn overprints(order: &[usize], entries: &[PenEntry], are_all: bool) -> Vec<Overprint> {
+fn overprints(order: &[usize], entries: &[PenEntry]) -> Vec<Overprint> {
     let colour = |[l, a, b]: [f64; 3]| Lab { l, a, b }.to_rgb();
     let place = |key: &str| order.iter().position(|pen| entries[*pen].key == key);
     let of_pen = |(upper, pen): (usize, &usize)| {
@@ -179,7 +181,7 @@ fn overprints(order: &[usize], entries: &[PenEntry], are_all: bool) -> Vec<Overp
         let lower = over.filter_map(move |(key, colour)| Some((place(key).filter(|lower| *lower < upper)?, *colour)));
         lower.map(move |(lower, lab)| Overprint { pens: vec![lower, upper], colour: colour(lab) })
     };
-    let last = order.last().filter(|_| are_all && order.len() > 2).and_then(|last| entries[*last].over_all);
+    let last = order.last().filter(|_| order.len() > 2).and_then(|last| entries[*last].over_all);
     let of_all = last.map(|lab| Overprint { pens: (0..order.len()).collect(), colour: colour(lab) });
     order.iter().enumerate().flat_map(of_pen).chain(of_all).collect()
 }
