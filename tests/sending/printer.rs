@@ -42,6 +42,8 @@ struct Printer {
     drawn: f64,
     noise: Chance,
     every: u64,
+    /// A byte of this line was hit. One at most is: the checksum, a sum by exclusive or, cannot see two equal bytes hit alike.
+    is_hit: bool,
     lost: usize,
     pub resent: usize,
 }
@@ -67,6 +69,7 @@ impl Printer {
             drawn: 0.0,
             noise: Chance(seed),
             every,
+            is_hit: false,
             lost: 0,
             resent: 0,
         }
@@ -206,7 +209,9 @@ impl Device for Printer {
             self.stop();
         }
         for &byte in bytes {
-            let byte = if byte != b'\n' && self.noise.below(self.every) == 0 { b'x' } else { byte };
+            let is_hit = byte != b'\n' && !self.is_hit && self.noise.below(self.every) == 0;
+            self.is_hit = byte != b'\n' && (self.is_hit || is_hit);
+            let byte = if is_hit { b'x' } else { byte };
             if self.serial.len() < 128 { self.serial.push_back(byte) } else { self.lost += 1 }
         }
     }

@@ -109,7 +109,7 @@ pub(super) fn strokes_along(
 }
 
 /// Widths of the mouth's lines, as a share: in full they are ink among charcoal.
-const MOUTH: f64 = 0.85;
+const MOUTH: f64 = 0.72;
 
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.

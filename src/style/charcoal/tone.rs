@@ -137,7 +137,7 @@ impl Drawer<'_> {
         /// nostrils are black holes.
         const AROUND: f64 = 0.05;
         const PRESSED: f32 = 0.9;
-        const MOST: f32 = 0.17;
+        const MOST: f32 = 0.13;
         /// How much ink is lifted at most: places between the hairs of a moustache would be flecks.
         const LIFTED: f32 = 0.03;
         /// By how much less in eyes.
