@@ -128,3 +128,47 @@ impl Drawer<'_> {
         self.hairs(&field, &shade.map(|shade| (4.0 * shade).min(1.0)), &ink, sizes)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameters::{CARD, CharcoalParameters};
+    use super::*;
+    use crate::source::Portrait;
+    use crate::style::Silent;
+    use crate::style::form::mean_portrait;
+
+    fn drawer(portrait: &Portrait) -> Drawer<'_> {
+        let settings = CARD.settings_at(crate::geometry::Millimetres(0.6), &[]).unwrap();
+        Drawer { portrait, parameters: CharcoalParameters::new(&settings), seed: 0, observer: &Silent }
+    }
+
+    fn model(drawer: &Drawer<'_>) -> Model {
+        Model { skin: drawer.portrait.lightness.map(|_| 1.0), angles: drawer.directions_on_skin() }
+    }
+
+    #[test]
+    fn strokes_model_the_dark_side_alone() {
+        let portrait = mean_portrait(6.0, 0.0, |_| 140);
+        let drawer = drawer(&portrait);
+        let (width, height) = drawer.size();
+        let wanted = Raster::from_fn(width, height, |x, _| if 5 * x < 2 * width { 0.75 } else { 0.25 });
+        let strokes = drawer.shade_strokes(&wanted, &model(&drawer));
+        assert!(strokes.len() > 50, "{}", strokes.len());
+        // The border is at 24 mm, and soft.
+        let nodes =
+            strokes.iter().flat_map(|mark| if let Mark::Stroke(stroke) = mark { stroke.nodes().collect() } else { Vec::new() });
+        let rightmost = nodes.map(|node| node.x).fold(0.0, f64::max);
+        assert!(rightmost < 27.0, "{rightmost}");
+    }
+
+    #[test]
+    fn the_broad_side_leaves_marks_and_keeps_the_tone() {
+        let portrait = mean_portrait(6.0, 0.0, |_| 140);
+        let drawer = drawer(&portrait);
+        let wanted = portrait.lightness.map(|_| 0.4);
+        let ink = drawer.modelled(&wanted, &model(&drawer));
+        let mean = |of: &dyn Fn(f32) -> f32| ink.pixels().iter().map(|ink| of(*ink)).sum::<f32>() / ink.len() as f32;
+        let (tone, spread) = (mean(&|ink| ink), mean(&|ink| (ink - 0.4).powi(2)).sqrt());
+        assert!((tone - 0.4).abs() < 0.01 && (0.01..0.12).contains(&spread), "{tone} {spread}");
+    }
+}
