@@ -1,8 +1,8 @@
 //! The charcoal portrait (Wong 1999): smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand.
 //!
 //! ```text
-//!   regions -> hair -> features -> edges -> shading -> tone   the order of processing: each region is visited once
-//!   tone, shading, edges, hair, features, background          the order of drawing: one layer each
+//!   regions -> hair -> features -> edges -> shading -> modelling -> tone   the order of processing: each region is visited once
+//!   tone, shading, edges, hair, features with modelling, background       the order of drawing: one layer each
 //! ```
 //!
 //! The sum is the tone: the grain of the smudge adds, place by place, what the strokes leave of the ink that is asked for.
@@ -128,8 +128,8 @@ impl Drawer<'_> {
         self.check()?;
         let sharp = self.sharp_zone();
         let model = self.model(regions);
-        let wanted = self.wanted(regions, &sharp);
-        let wanted = model.as_ref().map_or_else(|| wanted.clone(), |model| self.modelled(&wanted, model));
+        let smooth = self.wanted(regions, &sharp);
+        let wanted = if let Some(model) = &model { self.modelled(&smooth, model) } else { smooth };
         let shading = self.shading(regions, &features, &wanted);
         self.check()?;
         let behind = self.background_pressure(regions);

@@ -6,7 +6,8 @@
 //!   shade        fine strokes along the form where a face is dark
 //!   brows        strokes along their hairs
 //! ```
-//! Strokes take a share of the ink that is wanted, the grain keeps the rest.
+//! Strokes take a share of the ink that is wanted, the grain keeps the rest. The constants were tuned on sixteen portraits of light to dark
+//! skin: as strokes twice as broad and in lighter places, shade reads as wrinkles and scars on fair skin; without it faces are grain alone.
 
 use super::regions::Regions;
 use super::{Drawer, Hairs};
@@ -20,7 +21,7 @@ use crate::style::declaration::Radians;
 use crate::style::solids::{detail_zone, inside_outlines};
 use crate::style::streaks::Streaks;
 
-/// The share of a brow's ink that its strokes make.
+/// The share of a brow's ink that its strokes make: with six tenths brows are scribbled over, without strokes they are blots.
 const BROW_SHARE: f32 = 0.42;
 /// Width of a brow's hair, as a share of that in a hedcut.
 const BROW_WIDTH: f64 = 0.75;
