@@ -25,7 +25,7 @@ mod tone;
 
 use super::coverage::covered;
 use super::drawer::Pitched;
-use super::solids::Solids;
+use super::solids::{Solids, detail_zone};
 use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::field::OrientationField;
@@ -126,9 +126,10 @@ impl Drawer<'_> {
         self.check()?;
         let edges = self.edges(regions, &features);
         self.check()?;
-        let sharp = self.sharp_zone();
-        let model = self.model(regions);
-        let smooth = self.wanted(regions, &sharp);
+        let detail = detail_zone(self.portrait, self.pitch());
+        let sharp = self.sharp_zone(&detail);
+        let model = self.model(regions, &detail);
+        let smooth = self.wanted(regions, &sharp, &detail);
         let wanted = if let Some(model) = &model { self.modelled(&smooth, model) } else { smooth };
         let shading = self.shading(regions, &features, &wanted);
         self.check()?;

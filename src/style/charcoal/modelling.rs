@@ -18,7 +18,7 @@ use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, gaussian_blur, median};
 use crate::source::{Landmarks, outlines};
 use crate::style::declaration::Radians;
-use crate::style::solids::{detail_zone, inside_outlines};
+use crate::style::solids::inside_outlines;
 use crate::style::streaks::Streaks;
 
 /// The share of a brow's ink that its strokes make: with six tenths brows are scribbled over, without strokes they are blots.
@@ -54,13 +54,12 @@ pub(super) struct Model {
 }
 
 impl Drawer<'_> {
-    /// None without faces.
-    pub(super) fn model(&self, regions: &Regions) -> Option<Model> {
+    /// None without faces; `detail` is where features are.
+    pub(super) fn model(&self, regions: &Regions, detail: &Raster<f32>) -> Option<Model> {
         if !self.parameters.has_features || self.portrait.faces.is_empty() {
             return None;
         }
-        let details = detail_zone(self.portrait, self.pitch());
-        let skin = regions.skin().zip_map(&details, |skin, details| (skin * (1.0 - details)).clamp(0.0, 1.0));
+        let skin = regions.skin().zip_map(detail, |skin, detail| (skin * (1.0 - detail)).clamp(0.0, 1.0));
         Some(Model { skin, angles: self.directions_on_skin() })
     }
 

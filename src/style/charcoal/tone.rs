@@ -12,7 +12,7 @@ use crate::parallel::mapped;
 use crate::raster::{Raster, fast_gaussian, gaussian_blur, paper_texture, self_guided};
 use crate::source::{Landmarks, outlines};
 use crate::style::rubbing::rubbed;
-use crate::style::solids::{detail_zone, eyes_and_mouths, inside_outlines};
+use crate::style::solids::{eyes_and_mouths, inside_outlines};
 use kurbo::{Line, ParamCurveNearest};
 use std::f32::consts::PI;
 
@@ -104,7 +104,7 @@ impl Drawer<'_> {
     }
 
     /// Ink that strokes and grain make together: smooth on skin and cloth, sharp at borders, and as it is in the faces' features.
-    pub(super) fn wanted(&self, regions: &Regions, sharp: &Raster<f32>) -> Raster<f32> {
+    pub(super) fn wanted(&self, regions: &Regions, sharp: &Raster<f32>, detail: &Raster<f32>) -> Raster<f32> {
         /// How much firmer thin dark lines are than their tone: lines of a grain's width, as rims of spectacles, would break up.
         const FIRMER: f32 = 1.0;
         /// Reaches over which half tones are rubbed into the lights of skin, in shares of the smudge's blur: at their borders,
@@ -117,7 +117,7 @@ impl Drawer<'_> {
         let gain = self.parameters.hair_ink - 1.0;
         let ink = self.darkness().zip_map(&regions.hair, |ink, hair| (self.washed(ink) * (1.0 + gain * hair)).clamp(0.0, 1.0));
         let blur = self.pixels(self.parameters.smudge);
-        let fine = self.pressed_features(&gaussian_blur(&ink, (FINE * blur) as f32), &regions.hair);
+        let fine = self.pressed_features(&gaussian_blur(&ink, (FINE * blur) as f32), &regions.hair, detail);
         let smooth = self_guided(&ink, (1.4 * blur).round().max(1.0) as usize, SMUDGED_STEP);
         let smudged = Raster::from_fn(ink.width(), ink.height(), |x, y| {
             let t = sharp.get(x, y);
@@ -132,7 +132,7 @@ impl Drawer<'_> {
 
     /// Ink with the features of faces pressed: what is darker than its surroundings is darker still, so that lips, nostrils and the wings
     /// of a nose do not fade into the grain.
-    fn pressed_features(&self, ink: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
+    fn pressed_features(&self, ink: &Raster<f32>, hair: &Raster<f32>, detail: &Raster<f32>) -> Raster<f32> {
         /// Reach of the surroundings, in widths of a face; by how much features differ more from them, and at most. Without a limit
         /// nostrils are black holes.
         const AROUND: f64 = 0.05;
@@ -151,7 +151,6 @@ impl Drawer<'_> {
         let brows = gaussian_blur(&brows, self.pitch() as f32);
         let eyes = inside_outlines(&self.portrait.faces, [&outlines::LEFT_EYE, &outlines::RIGHT_EYE], self.size());
         let eyes = gaussian_blur(&eyes, self.pitch() as f32);
-        let detail = detail_zone(self.portrait, self.pitch());
         let zone = detail
             .zip_map(&brows, |detail, brow| detail * (1.0 - brow))
             .zip_map(&eyes, |zone, eye| zone * (1.0 - EYES * eye))
@@ -160,11 +159,10 @@ impl Drawer<'_> {
     }
 
     /// Where the photograph's own detail is kept, 0 to 1: features of known faces, and around their eyes, where spectacles are.
-    pub(super) fn sharp_zone(&self) -> Raster<f32> {
+    pub(super) fn sharp_zone(&self, detail: &Raster<f32>) -> Raster<f32> {
         /// Distance from the line between the pupils, in eye distances, within which detail is kept, and at which it no longer
         /// is.
         const AROUND_EYES: (f64, f64) = (0.5, 0.75);
-        let detail = detail_zone(self.portrait, self.pitch());
         let faces = &self.portrait.faces;
         Raster::from_fn(detail.width(), detail.height(), |x, y| {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
