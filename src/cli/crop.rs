@@ -18,10 +18,11 @@ struct Room {
 }
 
 /// The part of the photograph that is drawn. It may exceed the photograph by 0.01 px, for percentages that do not quite add up.
-pub(super) fn part(options: &PictureOptions, photograph: &Photograph, faces: &[Landmarks]) -> Result<Crop, Failure> {
+/// The photograph may be a copy at a `scale`; boxes are given in pixels of the photograph itself.
+pub(super) fn part(options: &PictureOptions, photograph: &Photograph, scale: f64, faces: &[Landmarks]) -> Result<Crop, Failure> {
     let crop = match options.crop {
         None => Crop::all(photograph),
-        Some(CropPart::Box(numbers)) => requested_crop(numbers, photograph),
+        Some(CropPart::Box(numbers)) => requested_crop(numbers, photograph, scale),
         Some(CropPart::Head) => return round_faces(&HEAD, "head", options, photograph, faces),
         Some(CropPart::Face) => return round_faces(&FACE, "face", options, photograph, faces),
     };
@@ -29,24 +30,24 @@ pub(super) fn part(options: &PictureOptions, photograph: &Photograph, faces: &[L
     let ends = |crop: Crop| [crop.x, crop.y, crop.x + crop.width, crop.y + crop.height];
     if ends(crop).into_iter().zip(ends(within)).any(|(asked, there)| (asked - there).abs() > 0.01) {
         let shown = |crop: Crop| {
-            [crop.x, crop.y, crop.width, crop.height].map(|px| format!("{}", (px * 100.0).round() / 100.0)).join(",")
+            [crop.x, crop.y, crop.width, crop.height].map(|px| format!("{}", (px / scale * 100.0).round() / 100.0)).join(",")
         };
         return Err(Failure::Work(format!(
             "--crop {} reaches beyond {}, which is {} x {} px; the part inside it is --crop {}",
             shown(crop),
             if options.photo == "-" { "the photograph" } else { &options.photo },
-            photograph.width(),
-            photograph.height(),
+            (f64::from(photograph.width()) / scale).round(),
+            (f64::from(photograph.height()) / scale).round(),
             shown(within)
         )));
     }
     Ok(within)
 }
 
-fn requested_crop([x, y, w, h]: [CropNumber; 4], photograph: &Photograph) -> Crop {
+fn requested_crop([x, y, w, h]: [CropNumber; 4], photograph: &Photograph, scale: f64) -> Crop {
     let whole = Crop::all(photograph);
     let pixels = |number: CropNumber, of: f64| match number {
-        CropNumber::Pixels(pixels) => pixels,
+        CropNumber::Pixels(pixels) => pixels * scale,
         CropNumber::Percent(percent) => percent / 100.0 * of,
     };
     Crop { x: pixels(x, whole.width), y: pixels(y, whole.height), width: pixels(w, whole.width), height: pixels(h, whole.height) }

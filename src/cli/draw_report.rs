@@ -66,7 +66,7 @@ fn report_json(
         "files": files.iter().map(|file| &file.name).collect::<Vec<_>>(),
         "page_mm": [drawing.page.width, drawing.page.height],
         // The photograph's pixel (x, y) lies at (a x + c y + e, b x + d y + f) mm; the box is of the part drawn.
-        "picture": { "pixels": [task.photograph.width(), task.photograph.height()], "to_sheet": task.to_sheet().as_coeffs(), "box": [placed.x0, placed.y0, placed.width(), placed.height()] },
+        "picture": { "pixels": task.size, "to_sheet": task.to_sheet().as_coeffs(), "box": [placed.x0, placed.y0, placed.width(), placed.height()] },
         "layers": layers,
         "seconds": seconds_of_steps(seconds),
     });

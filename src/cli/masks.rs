@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::words::file_name;
-use super::{output, vector_mask};
+use super::{output, proof, vector_mask};
 use crate::source::{Limits, MaskRole, Photograph};
 use serde_json::{Value, json};
 use std::io::Read;
@@ -21,7 +21,7 @@ pub(super) struct RoleMask {
 impl RoleMask {
     /// Reads a mask of a role. Scribbles are colours, which shapes do not have.
     pub(super) fn read(role: MaskRole, file: &str) -> Result<Self, Failure> {
-        let mask = if role == MaskRole::Scribbles { photograph(file)? } else { mask(file)? };
+        let mask = if role == MaskRole::Scribbles { photograph(file)? } else { mask_or_copy(file)? };
         Ok(Self { role, file: Some(file.to_owned()), mask: Arc::new(mask) })
     }
 
@@ -39,6 +39,18 @@ impl RoleMask {
     }
 }
 
+/// Reads a mask, or its small copy.
+fn mask_or_copy(file: &str) -> Result<Photograph, Failure> {
+    match proof::folder() {
+        Some(_) if !is_shapes(file) => Ok(proof::photograph(file)?.photograph),
+        _ => mask(file),
+    }
+}
+
+fn is_shapes(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+}
+
 /// Reads a mask: a picture, or the shapes of an SVG.
 pub(super) fn mask(name: &str) -> Result<Photograph, Failure> {
     let mut bytes = Vec::new();
@@ -54,8 +66,7 @@ pub(super) fn mask(name: &str) -> Result<Photograph, Failure> {
 pub(super) fn photograph(name: &str) -> Result<Photograph, Failure> {
     let shown = if name == "-" { "stdin" } else { name };
     Photograph::read(output::open(name)?, Limits::default()).map_err(|error| {
-        let is_svg = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
-        let other = if is_svg { "; an SVG is plotted with `drypoint plot`" } else { "" };
+        let other = if is_shapes(name) { "; an SVG is plotted with `drypoint plot`" } else { "" };
         Failure::about(shown)(&format_args!("{error}{other}"))
     })
 }

@@ -46,6 +46,7 @@ mod plot;
 mod plotted_part;
 mod png;
 mod progress;
+mod proof;
 mod recipe;
 mod region;
 mod regions;

@@ -3,7 +3,7 @@
 use super::arguments::PictureOptions;
 use super::failure::Failure;
 use super::known;
-use super::manner::{Manner, find_style, given, resolved};
+use super::manner::{Manner, find_style, fineness, given, resolved};
 use super::masks::{RoleMask, mask};
 use super::region::RegionOption;
 use super::seen::Seen;
@@ -58,7 +58,7 @@ pub(super) fn regions(
         let known = known::of(options, style, photograph, own, seen.clone())?;
         let seed = option.seed.unwrap_or(options.seed);
         regions.push(Region {
-            manner: Manner { style, settings, known, seed },
+            manner: Manner { style, settings, known, seed, fineness: fineness(options) },
             mask,
             file,
             border: option.border,

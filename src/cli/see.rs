@@ -5,10 +5,12 @@ use super::failure::Failure;
 use super::interruption::interrupt;
 use super::masks::photograph;
 use super::messages::{say, warning};
+use super::progress::Watcher;
 use super::threads::limit_threads;
 use super::words::counted;
-use super::{looking, output, sight_folder};
+use super::{looking, output, proof, sight_folder};
 use crate::see::{Sight, look};
+use crate::style::Observer as _;
 
 pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
     limit_threads(options.threads)?;
@@ -20,6 +22,11 @@ pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
         warning!("{}: {warning}", options.photo);
     }
     let sight = look(&photograph, interrupt()).map_err(|error| looking::failure(&options.photo, error))?;
+    if let Some(proofs) = proof::folder() {
+        proof::keep(&options.photo, &photograph)?;
+        sight_folder::write_small(&proof::sight(&proofs), &sight, &photograph)?;
+        Watcher::new(true).begin("proof");
+    }
     if let Some(folder) = &options.output {
         sight_folder::write(folder, &sight, &photograph)?;
     }

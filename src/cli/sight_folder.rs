@@ -2,19 +2,20 @@
 //! an overlay.
 
 use super::failure::Failure;
-use super::masks::{RoleMask, photograph};
+use super::masks::RoleMask;
 use super::overlay::{Overlaid, overlay};
 use super::png::png;
 use super::seen::{Depth, Seen};
-use super::{claims, output};
+use super::{claims, output, proof};
 use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::see::{Face, Sight};
 use crate::source::grey_image;
 use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph, Spectacles};
+use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 const SIGHT: &str = "sight.json";
@@ -41,22 +42,48 @@ pub(super) fn write(folder: &Path, sight: &Sight, photograph: &Photograph) -> Re
             std::fs::remove_file(&stale).map_err(|error| Failure::Work(format!("{stale} cannot be removed: {error}")))?;
         }
     }
-    for (file, mask) in &masks {
-        let full = sight.at_full_size(&mask.map(f32::from)).map(|v| v.round() as u8);
-        png(file, &grey_image(&full).into())?;
-    }
-    if let Some(map) = &sight.depth {
-        let full = sight.at_full_size(&map.map(f32::from)).map(|v| v.round() as u16);
-        png(depth, &grey_image(&full).into())?;
-    }
-    if sight.subject.is_some() {
+    let write_depth = || {
+        let Some(map) = &sight.depth else { return Ok(()) };
+        png(depth, &grey_image(&sight.at_full_size(&map.map(f32::from)).map(|v| v.round() as u16)).into())
+    };
+    let write_overlay = || {
+        if sight.subject.is_none() {
+            return Ok(());
+        }
         let faces: Vec<Overlaid<'_>> =
             sight.faces.iter().map(|face| Overlaid { landmarks: &face.landmarks, bounds: Some(face.bounds) }).collect();
         let picture = overlay(photograph, sight.subject.as_ref(), &faces).map_err(|error| Failure::about(&name)(&error))?;
-        png(overlaid, &picture.into())?;
+        png(overlaid, &picture.into())
+    };
+    let write_mask = |(file, mask): &(String, &Raster<u8>)| {
+        png(file, &grey_image(&sight.at_full_size(&mask.map(f32::from)).map(|v| v.round() as u8)).into())
+    };
+    // The largest takes as long as all others.
+    let (depth, others) = rayon::join(write_depth, || {
+        write_overlay()?;
+        masks.par_iter().try_for_each(write_mask)
+    });
+    depth.and(others)?;
+    write_json(json, sight, photograph)
+}
+
+/// Writes what was found in its own size, for drafts.
+pub(super) fn write_small(folder: &Path, sight: &Sight, photograph: &Photograph) -> Result<(), Failure> {
+    let name = folder.to_string_lossy();
+    std::fs::create_dir_all(folder).map_err(|error| Failure::Work(format!("{name} cannot be created: {error}")))?;
+    let path = |file: &str| folder.join(file).to_string_lossy().into_owned();
+    for (role, mask) in sight.masks() {
+        png(&path(&file_of(role)), &grey_image(mask).into())?;
     }
+    if let Some(map) = &sight.depth {
+        png(&path(DEPTH), &grey_image(map).into())?;
+    }
+    write_json(&path(SIGHT), sight, photograph)
+}
+
+fn write_json(file: &str, sight: &Sight, photograph: &Photograph) -> Result<(), Failure> {
     let text = format!("{:#}\n", as_json(sight, photograph));
-    output::write(json, |out| out.write_all(text.as_bytes()))
+    output::write(file, |out| out.write_all(text.as_bytes()))
 }
 
 /// Reads a folder, edited or not.
@@ -68,17 +95,20 @@ pub(super) fn read(folder: &str, photograph: &Photograph) -> Result<Seen, Failur
             "{folder} has no {SIGHT} and no picture named by a role, such as subject.png; `drypoint see PHOTO -o {folder}` writes them"
         )));
     }
-    let masks = of_roles().filter(|(_, file)| file.exists()).map(|(role, file)| {
-        let file = file.to_string_lossy().into_owned();
-        Ok(RoleMask { role, mask: Arc::new(self::photograph(&file)?), file: Some(file) })
-    });
-    let masks = masks.collect::<Result<_, Failure>>()?;
-    let depth = Some(path(DEPTH)).filter(|file| file.exists()).map(|file| {
-        let file = file.to_string_lossy().into_owned();
-        Ok::<_, Failure>(Depth { map: Arc::new(self::photograph(&file)?), file: Some(file) })
-    });
+    let picture = |file: &Path| Ok::<_, Failure>(Arc::new(proof::photograph(&file.to_string_lossy())?.photograph));
+    let name = |file: &Path| Some(file.to_string_lossy().into_owned());
+    let read_masks = || {
+        let there: Vec<(MaskRole, PathBuf)> = of_roles().filter(|(_, file)| file.exists()).collect();
+        let masks = there.into_par_iter().map(|(role, file)| Ok(RoleMask { role, mask: picture(&file)?, file: name(&file) }));
+        masks.collect::<Result<_, Failure>>()
+    };
+    let read_depth = || {
+        let depth = Some(path(DEPTH)).filter(|file| file.exists());
+        depth.map(|file| Ok::<_, Failure>(Depth { map: picture(&file)?, file: name(&file) })).transpose()
+    };
+    let (depth, masks) = rayon::join(read_depth, read_masks);
     let faces = if path(SIGHT).exists() { faces(&path(SIGHT).to_string_lossy(), photograph)? } else { Vec::new() };
-    Ok(Seen { masks, faces, depth: depth.transpose()?, lack: None })
+    Ok(Seen { masks: masks?, faces, depth: depth?, lack: None })
 }
 
 /// The part of `sight.json` that is read; the rest is for other programs.

@@ -7,10 +7,11 @@ use super::failure::Failure;
 use super::known::{self, Known, Wanted};
 use super::layout::{Layout, lay_out, reach_of};
 use super::looking;
-use super::manner::{Manner, find_style, given, resolved};
-use super::masks::{RoleMask, photograph};
+use super::manner::{Manner, find_style, fineness, given, resolved};
+use super::masks::RoleMask;
 use super::messages::say;
 use super::palette::{APART, AT_ONCE, Palette};
+use super::proof;
 use super::regions::{self, Region};
 use super::remedies::advised;
 use super::roles::{role_names, roles_of, styles_with_role};
@@ -36,6 +37,8 @@ pub(super) struct Task<'a> {
     /// Regions in manners of their own, later ones over earlier ones.
     pub regions: Vec<Region>,
     pub photograph: Photograph,
+    /// Columns and rows of the photograph itself, of which that may be a small copy.
+    pub size: [u32; 2],
     pub layout: Layout,
     /// The parameters given by the user.
     given: Vec<(String, String)>,
@@ -70,7 +73,8 @@ impl<'a> Task<'a> {
             let able = able.join(", ");
             return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
         }
-        let photograph = photograph(&options.photo)?;
+        let proof = proof::photograph(&options.photo)?;
+        let (scale, size, photograph) = (proof.scale(), proof.size, proof.photograph);
         let painted = mask_files.into_iter().map(|(role, file)| RoleMask::read(role, file));
         let painted: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
         let seen = looking::seen(options, &photograph)?;
@@ -81,20 +85,20 @@ impl<'a> Task<'a> {
         known.notices.extend(notices);
         // Marks on the picture's border extend beyond it by less than a pitch.
         let pitch = settings.pitch().unwrap_or(UNKNOWN_PITCH);
-        let crop = crop::part(options, &photograph, &known.faces)?;
+        let crop = crop::part(options, &photograph, scale, &known.faces)?;
         let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
-        if style.card().leaves_out_background {
+        if style.card().leaves_out_background && !options.draft {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
         let palette = Palette::read(options, || roughly(options, &photograph, &layout))?;
         known.notices.extend(palette.iter().filter_map(|palette| palette.choice.clone()));
-        let manner = Manner { style, settings, known, seed: options.seed };
-        Ok(Self { options, manner, regions, photograph, layout, given, palette })
+        let manner = Manner { style, settings, known, seed: options.seed, fineness: fineness(options) };
+        Ok(Self { options, manner, regions, photograph, size, layout, given, palette })
     }
 
     /// True if the picture with other options, including all its ink, would lie within the machine's reach.
     pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
-        let Ok(crop) = crop::part(picture, &self.photograph, &self.manner.known.faces) else { return false };
+        let Ok(crop) = crop::part(picture, &self.photograph, self.scale(), &self.manner.known.faces) else { return false };
         let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
         let (width, height) = layout.sheet();
         let page = Page { width, height, ..layout.page };
@@ -164,11 +168,19 @@ impl<'a> Task<'a> {
         Cost { bytes: cost.bytes * at_once as f64 + photographs as f64, ..cost }
     }
 
+    /// Pixels of the copy that is drawn from for each of the photograph's.
+    fn scale(&self) -> f64 {
+        f64::from(self.photograph.width()) / f64::from(self.size[0])
+    }
+
     /// Where the photograph lies on the turned sheet: from its pixels to millimetres.
     pub(super) fn to_sheet(&self) -> Affine {
         let Layout { crop, picture, page, turning } = self.layout;
         let scale = picture.width() / crop.width;
-        let placed = Affine::translate((picture.x0, picture.y0)) * Affine::scale(scale) * Affine::translate((-crop.x, -crop.y));
+        let placed = Affine::translate((picture.x0, picture.y0))
+            * Affine::scale(scale)
+            * Affine::translate((-crop.x, -crop.y))
+            * Affine::scale(self.scale());
         turning.matrix(&page) * placed
     }
 

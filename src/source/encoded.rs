@@ -42,6 +42,22 @@ impl Photograph {
         Ok(light.map(|[r, g, b, _]| [byte(r), byte(g), byte(b)]))
     }
 
+    /// A copy whose longer side has `longest` pixels: grey and transparent pictures as stored, colours as sRGB bytes. None if it would
+    /// not be smaller.
+    pub(crate) fn small_copy(&self, longest: u32) -> Option<DynamicImage> {
+        let [width, height] = [self.width(), self.height()];
+        if width.max(height) <= longest {
+            return None;
+        }
+        let scale = f64::from(longest) / f64::from(width.max(height));
+        let [columns, rows] = [width, height].map(|side| ((f64::from(side) * scale).round() as u32).max(1));
+        if self.lineariser.has_plain_grey(&self.pixels) || self.has_alpha() {
+            return (!self.lineariser.is_managed()).then(|| self.pixels.thumbnail_exact(columns, rows));
+        }
+        let small = self.encoded(Crop::all(self), columns as usize, rows as usize).ok()?;
+        RgbImage::from_raw(columns, rows, small.into_vec().concat()).map(DynamicImage::ImageRgb8)
+    }
+
     /// True if any pixel is transparent: the alpha channel then marks the subject.
     pub fn is_cut_out(&self) -> bool {
         self.has_alpha() && self.pixels.pixels().any(|(.., pixel)| pixel.0[3] < 255)

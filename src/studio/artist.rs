@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
+use tokio::sync::Notify;
 use tokio::sync::watch::Receiver;
 
 /// Draws until the studio ends.
@@ -36,34 +37,58 @@ async fn newer(revisions: &mut Receiver<u64>) {
 async fn draw(studio: &Studio, revision: u64, looked_at: &mut Option<Seal>) {
     let Ok(photograph) = studio.photograph() else { return };
     let seal = Seal::of(&photograph);
-    if looked_at.as_ref() != Some(&seal) {
-        look(studio, &photograph).await;
-        *looked_at = Some(seal);
+    let proof = Notify::new();
+    let looking = async {
+        if looked_at.as_ref() != Some(&seal) {
+            look(studio, &photograph, &proof).await;
+        }
+        proof.notify_one();
+    };
+    // The coarse drawing waits for the small copies of what was found, not for the large ones.
+    let coarse = async {
+        proof.notified().await;
+        tell_one(studio, revision, Quality::Coarse).await
+    };
+    let ((), is_drawn) = tokio::join!(looking, coarse);
+    *looked_at = Some(seal);
+    if is_drawn {
+        tell_one(studio, revision, Quality::Full).await;
     }
-    for quality in [Quality::Coarse, Quality::Full] {
-        let id = studio.next_drawing();
-        studio.events.tell("started", json!({ "id": id, "quality": quality.name(), "revision": revision }));
-        match one(studio, id, revision, quality).await {
-            Ok(drawn) => {
-                studio.drawings.keep(drawn);
-                studio.events.tell("finished", json!({ "id": id, "quality": quality.name(), "revision": revision }));
-            }
-            Err(error) => {
-                studio.tell_failure(json!({ "quality": quality.name(), "revision": revision, "message": error.to_string() }));
-                return;
-            }
+}
+
+/// Makes one drawing and tells the pages of it; false if it failed.
+async fn tell_one(studio: &Studio, revision: u64, quality: Quality) -> bool {
+    let id = studio.next_drawing();
+    studio.events.tell("started", json!({ "id": id, "quality": quality.name(), "revision": revision }));
+    match one(studio, id, revision, quality).await {
+        Ok(drawn) => {
+            studio.drawings.keep(drawn);
+            studio.events.tell("finished", json!({ "id": id, "quality": quality.name(), "revision": revision }));
+            true
+        }
+        Err(error) => {
+            studio.tell_failure(json!({ "quality": quality.name(), "revision": revision, "message": error.to_string() }));
+            false
         }
     }
 }
 
-/// Finds what is in the photograph, once for all drawings of it.
-async fn look(studio: &Studio, photograph: &Path) {
+/// Finds what is in the photograph, once for all drawings of it. `proof` is told when the small copies of it are written.
+async fn look(studio: &Studio, photograph: &Path, proof: &Notify) {
     studio.tell_sight("looking", "");
-    let found = studio.found();
-    let _ = std::fs::remove_dir_all(&found);
+    let (found, proofs) = (studio.found(), studio.proofs());
+    for before in [&found, &proofs] {
+        let _ = std::fs::remove_dir_all(before);
+    }
+    let _ = std::fs::create_dir_all(&proofs);
     let folder = photograph.parent().unwrap_or(Path::new("."));
     let words = ["see", &photograph.to_string_lossy(), "-o", &found.to_string_lossy()];
-    match studio.program.run(folder, &words, |_| {}).await {
+    let hear = |step: &str| {
+        if step == "proof" {
+            proof.notify_one();
+        }
+    };
+    match studio.program.with_proofs(&proofs).run(folder, &words, hear).await {
         Ok(done) => {
             let state = if found.join("subject.png").exists() { "found" } else { "none" };
             studio.tell_sight(state, done.said.first().map_or("", String::as_str));
@@ -76,13 +101,14 @@ async fn one(studio: &Studio, id: u64, revision: u64, quality: Quality) -> Resul
     let document = studio.document()?;
     let started = Instant::now();
     let marks = studio.scratch.path().join("drawing.json");
-    let (scene, output, found) = (document.name(), marks.to_string_lossy().into_owned(), studio.usable_sight(&document));
+    let (scene, output) = (document.name(), marks.to_string_lossy().into_owned());
+    let (program, found) = studio.drawing_with(&document, quality);
     let mut words = vec!["draw", &scene, "-o", &output, "--format", "json", "--json"];
     words.extend(found.iter().flat_map(|found| ["--sight", found]));
     if quality == Quality::Coarse {
         words.push("--draft");
     }
-    let done = studio.program.run(document.folder(), &words, |stage| {
+    let done = program.run(document.folder(), &words, |stage| {
         studio.events.tell("stage", json!({ "id": id, "stage": stage }));
     });
     let done = done.await?;

@@ -14,7 +14,11 @@ const MOST_MESSAGES: usize = 1 << 16;
 
 /// The program that draws.
 #[derive(Clone, Debug)]
-pub(super) struct Program(pub PathBuf);
+pub(super) struct Program {
+    pub file: PathBuf,
+    /// The folder of small copies, if it draws from these.
+    pub proofs: Option<PathBuf>,
+}
 
 /// What a process left.
 #[derive(Debug, Default)]
@@ -25,6 +29,15 @@ pub(super) struct Done {
 }
 
 impl Program {
+    pub(super) const fn new(file: PathBuf) -> Self {
+        Self { file, proofs: None }
+    }
+
+    /// The same, with a folder of small copies of photographs and masks.
+    pub(super) fn with_proofs(&self, folder: &Path) -> Self {
+        Self { proofs: Some(folder.to_owned()), ..self.clone() }
+    }
+
     /// Runs to the end in the folder. `stage` hears the name of each step. Dropping the future ends the process.
     pub(super) async fn run(&self, folder: &Path, words: &[&str], mut stage: impl FnMut(&str)) -> Result<Done, StudioError> {
         let mut child = self.start(folder, words)?;
@@ -63,10 +76,11 @@ impl Program {
     }
 
     fn start(&self, folder: &Path, words: &[&str]) -> Result<Child, StudioError> {
-        let mut command = Command::new(&self.0);
+        let mut command = Command::new(&self.file);
         command.args(words).current_dir(folder).env("DRYPOINT_PROGRESS", "lines");
+        command.envs(self.proofs.iter().map(|folder| ("DRYPOINT_PROOFS", folder)));
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).kill_on_drop(true);
-        command.spawn().map_err(|error| StudioError::Failed(format!("{} cannot be started: {error}", self.0.display())))
+        command.spawn().map_err(|error| StudioError::Failed(format!("{} cannot be started: {error}", self.file.display())))
     }
 }
 
@@ -81,12 +95,12 @@ impl Program {
             let why = "the page cannot pause or stop a machine on this system";
             return Err(StudioError::Refused(format!("{why}; export the file and use drypoint send in a terminal")));
         }
-        let mut command = Command::new(&self.0);
+        let mut command = Command::new(&self.file);
         command.args(words).current_dir(folder);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).kill_on_drop(false);
         #[cfg(unix)]
         command.process_group(0);
-        let cannot = |error| StudioError::Failed(format!("{} cannot be started: {error}", self.0.display()));
+        let cannot = |error| StudioError::Failed(format!("{} cannot be started: {error}", self.file.display()));
         command.spawn().map(Sender).map_err(cannot)
     }
 }

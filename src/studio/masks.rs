@@ -1,6 +1,8 @@
 //! Masks: what was found in the photograph, and what was painted over it.
 
+use super::command::Program;
 use super::document::{Change, Document};
+use super::drawings::Quality;
 use super::error::StudioError;
 use super::folder;
 use super::history::Masks;
@@ -84,6 +86,24 @@ impl Studio {
         let found = self.found();
         let is_used = document.string("sight").is_none() && found.join("sight.json").exists();
         is_used.then(|| found.to_string_lossy().into_owned())
+    }
+
+    /// The folder of small copies of photographs and masks, and of what was found.
+    pub(super) fn proofs(&self) -> PathBuf {
+        self.scratch.path().join("proofs")
+    }
+
+    /// The program and the folder of what was found for drawings of a quality: coarse ones are made from small copies.
+    pub(super) fn drawing_with(&self, document: &Document, quality: Quality) -> (Program, Option<String>) {
+        let proofs = self.proofs();
+        match quality {
+            Quality::Full => (self.program.clone(), self.usable_sight(document)),
+            Quality::Coarse => {
+                let small = proofs.join("sight");
+                let is_used = document.string("sight").is_none() && small.join("sight.json").exists();
+                (self.program.with_proofs(&proofs), is_used.then(|| small.to_string_lossy().into_owned()))
+            }
+        }
     }
 
     /// The folder of sight that holds now: the scene's own, or what was found.

@@ -87,7 +87,7 @@ impl Studio {
         Ok(Self {
             port,
             token,
-            program: Program(program),
+            program: Program::new(program),
             events: Events::new(),
             drawings: Drawings::default(),
             photographs: Photographs::new(show),

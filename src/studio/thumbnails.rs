@@ -1,6 +1,7 @@
 //! Presets as small drawings of the present portrait.
 
 use super::document::Document;
+use super::drawings::Quality;
 use super::error::StudioError;
 use super::folder;
 use super::session::Studio;
@@ -48,10 +49,11 @@ impl Studio {
         let values: DocumentMut = whole["toml"].as_str().unwrap_or_default().parse().unwrap_or_default();
         let [scene, output] = ["thumbnail.toml", "thumbnail.svg"].map(|name| self.scratch.path().join(name));
         folder::write(&scene, with_preset(&document, &values).to_string().as_bytes())?;
-        let (scene, file, found) = (scene.to_string_lossy(), output.to_string_lossy(), self.usable_sight(&document));
+        let (scene, file) = (scene.to_string_lossy(), output.to_string_lossy());
+        let (program, found) = self.drawing_with(&document, Quality::Coarse);
         let mut words = vec!["draw", &scene, "-o", &file, "--draft", "-q"];
         words.extend(found.iter().flat_map(|found| ["--sight", found]));
-        self.program.run(document.folder(), &words, |_| {}).await?;
+        program.run(document.folder(), &words, |_| {}).await?;
         std::fs::read(&output).map_err(StudioError::about(&output))
     }
 }

@@ -44,7 +44,8 @@ impl StripeLattice {
 
     /// True if a node has stripes.
     pub(super) fn is_striped(&self, i: usize, j: usize) -> bool {
-        self.wave.get(i, j) != [0.0; 2]
+        let [x, y] = self.wave.get(i, j);
+        x != 0.0 || y != 0.0
     }
 
     /// The node's phase in radians.

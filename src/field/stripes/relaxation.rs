@@ -204,35 +204,40 @@ impl Edges {
 
 /// Rounds of small steps; each round ends by normalising every phase to length 1, so that no patch of stripes fades away.
 fn relax(lattice: &mut StripeLattice, edges: &Edges, parameters: StripeParameters, anchor: Option<&Raster<[f32; 2]>>) {
+    /// Least nodes of a share: a row of a small lattice takes less time than handing it to a thread.
+    const LEAST_NODES: usize = 2048;
     // Each step adds 2 SHARE to the window's variance.
     let steps = ((0.5 * parameters.window).powi(2) / f64::from(2.0 * SHARE)).round().max(1.0) as usize;
+    let width = lattice.phase.width().max(1);
+    let rows = (LEAST_NODES / width).max(1);
     let mut next = lattice.phase.clone();
     for _ in 0..parameters.rounds {
         for step in 0..steps {
-            let is_striped = |i: usize, j: usize| lattice.is_striped(i, j);
-            small_step(&lattice.phase, edges, &mut next, &is_striped, step + 1 == steps, anchor);
+            let small = SmallStep { lattice, edges, anchor, is_last: step + 1 == steps };
+            shares(next.pixels_mut(), rows * width, &|part, out| {
+                out.chunks_mut(width).enumerate().for_each(|(j, out)| small.row(rows * part + j, out));
+            });
             std::mem::swap(&mut lattice.phase, &mut next);
         }
     }
 }
 
-fn small_step(
-    phase: &Raster<[f32; 2]>,
-    edges: &Edges,
-    next: &mut Raster<[f32; 2]>,
-    is_striped: &(impl Fn(usize, usize) -> bool + Sync),
+/// One small step towards the four neighbours' predictions.
+struct SmallStep<'a> {
+    lattice: &'a StripeLattice,
+    edges: &'a Edges,
+    anchor: Option<&'a Raster<[f32; 2]>>,
+    /// Whether it ends a round.
     is_last: bool,
-    anchor: Option<&Raster<[f32; 2]>>,
-) {
-    let (width, height) = (phase.width(), phase.height());
-    shares(next.pixels_mut(), width, &|j, out| {
+}
+
+impl SmallStep<'_> {
+    fn row(&self, j: usize, out: &mut [[f32; 2]]) {
+        let (phase, edges) = (&self.lattice.phase, self.edges);
         let (row, right, down) = (phase.row(j), edges.right.row(j), edges.down.row(j));
         let above = (j > 0).then(|| (phase.row(j - 1), edges.down.row(j - 1)));
-        let below = (j + 1 < height).then(|| phase.row(j + 1));
-        for i in 0..width {
-            if !is_striped(i, j) {
-                continue;
-            }
+        let below = (j + 1 < phase.height()).then(|| phase.row(j + 1));
+        for (i, out) in out.iter_mut().enumerate().filter(|(i, _)| self.lattice.is_striped(*i, j)) {
             let (mut sum, mut count) = ([0.0_f32; 2], 0.0_f32);
             let mut add = |edge: Edge, [re, im]: [f32; 2]| {
                 sum = [sum[0] + re, sum[1] + im];
@@ -241,7 +246,7 @@ fn small_step(
             if i > 0 {
                 add(right[i - 1], right[i - 1].ahead(row[i - 1]));
             }
-            if i + 1 < width {
+            if i + 1 < row.len() {
                 add(right[i], right[i].back(row[i + 1]));
             }
             if let Some((above, edges)) = above {
@@ -253,11 +258,11 @@ fn small_step(
             let own = 1.0 - SHARE * count;
             let [re, im] = row[i];
             let mut value = [own * re + SHARE * sum[0], own * im + SHARE * sum[1]];
-            if let Some(anchor) = anchor {
+            if let Some(anchor) = self.anchor {
                 let [re, im] = anchor.get(i, j);
                 value = [value[0] + re, value[1] + im];
             }
-            out[i] = if is_last { unit(value) } else { value };
+            *out = if self.is_last { unit(value) } else { value };
         }
-    });
+    }
 }
