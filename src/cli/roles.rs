@@ -2,11 +2,11 @@
 
 use crate::source::MaskRole;
 use crate::style::{STYLES, Style};
-use crate::tone::ROLES;
+use crate::tone::{ALWAYS, ROLES};
 
 /// The mask roles that a style or the portrait tone takes, with their names.
 pub(super) fn roles_of(style: &dyn Style) -> impl Iterator<Item = (&'static str, MaskRole)> {
-    MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role) || ROLES.contains(role))
+    MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role) || ROLES.contains(role) || ALWAYS.contains(role))
 }
 
 pub(super) fn role_names(style: &dyn Style) -> String {

@@ -252,6 +252,7 @@ impl<'a> Task<'a> {
         {
             portrait.set_portrait_tone(&tone, curve);
         }
+        portrait.open_highlights();
         Ok(portrait)
     }
 }

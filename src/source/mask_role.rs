@@ -23,13 +23,17 @@ pub enum MaskRole {
     Edges,
     /// Hand-made isophotes, as white lines.
     Isophotes,
+    /// Lines along which marks run.
+    Directions,
+    /// Where the paper stays open.
+    Highlights,
     /// One colour for each region.
     Scribbles,
 }
 
 impl MaskRole {
     /// Every role and its name on the command line.
-    pub const ALL: [(&'static str, Self); 11] = [
+    pub const ALL: [(&'static str, Self); 13] = [
         ("subject", Self::Subject),
         ("detail", Self::Detail),
         ("hair", Self::Hair),
@@ -40,6 +44,8 @@ impl MaskRole {
         ("headwear", Self::Headwear),
         ("edges", Self::Edges),
         ("isophotes", Self::Isophotes),
+        ("directions", Self::Directions),
+        ("highlights", Self::Highlights),
         ("scribbles", Self::Scribbles),
     ];
 
@@ -68,6 +74,8 @@ impl MaskRole {
                 "edges as white lines, instead of the detected ones (charcoal: which detected edges to keep, and more to add)"
             }
             Self::Isophotes => "isophotes as white lines, instead of the detected ones",
+            Self::Directions => "white lines along which marks run near them, instead of the direction found",
+            Self::Highlights => "where the paper stays open, white; grey is lighter than the photograph",
             Self::Scribbles => "one flat colour scribbled into each region, on black or transparent",
         }
     }

@@ -170,6 +170,28 @@ impl Portrait {
         self.has_portrait_tone = true;
     }
 
+    /// Lightens the tone to paper where the mask of highlights says so. Light and lightness stay: regions and lines are found in them.
+    pub fn open_highlights(&mut self) {
+        let Some(highlights) = self.masks.get(&MaskRole::Highlights) else { return };
+        self.tone = self.tone.zip_map(highlights, lighter);
+    }
+
+    /// Linear light as it is painted: white where the mask of highlights opens the paper.
+    pub(crate) fn painted_light(&self) -> Raster<[f32; 3]> {
+        match self.masks.get(&MaskRole::Highlights) {
+            Some(highlights) => self.light.zip_map(highlights, |rgb, open| rgb.map(|v| lighter(v, open))),
+            None => self.light.clone(),
+        }
+    }
+
+    /// Ink with none where the mask of highlights opens the paper, for styles that smooth the tone.
+    pub(crate) fn opened(&self, ink: Raster<f32>) -> Raster<f32> {
+        match self.masks.get(&MaskRole::Highlights) {
+            Some(highlights) => ink.zip_map(highlights, |ink, open| ink * (1.0 - open)),
+            None => ink,
+        }
+    }
+
     /// Whether the tone was made for its faces; its whites are then intended.
     pub const fn has_portrait_tone(&self) -> bool {
         self.has_portrait_tone
@@ -242,7 +264,8 @@ impl Portrait {
     /// Linear light of the subject alone: none of its background's colour shows at its border. All of it if nothing is left out.
     pub fn subject_light(&self) -> Raster<[f32; 3]> {
         let is_whole = self.subject.pixels().iter().all(|v| *v >= 1.0);
-        if is_whole || self.is_on_white { self.light.clone() } else { without_fringe(&self.light, &self.subject) }
+        let light = self.painted_light();
+        if is_whole || self.is_on_white { light } else { without_fringe(&light, &self.subject) }
     }
 
     /// A raster of tone or lightness with white outside the subject. A picture already composited on white by its alpha is not
@@ -250,6 +273,11 @@ impl Portrait {
     pub fn on_white(&self, tone: &Raster<f32>) -> Raster<f32> {
         if self.is_on_white { tone.clone() } else { tone.zip_map(&self.subject, |tone, subject| 1.0 - (1.0 - tone) * subject) }
     }
+}
+
+/// A value of 0 to 1 lightened towards white.
+fn lighter(v: f32, open: f32) -> f32 {
+    v + open * (1.0 - v)
 }
 
 /// Reach of a background's colour across the subject's border and of the colours that replace it there, in pixels.

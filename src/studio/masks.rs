@@ -15,8 +15,9 @@ use std::sync::Arc;
 
 /// Roles that are shown and painted, as the folder of sight names its pictures.
 const ROLES: [&str; 8] = ["subject", "skin", "hair", "facial-hair", "headwear", "clothing", "detail", "depth"];
-/// Roles of lines that are drawn by hand, instead of those that the style detects. They lie beside the scene, which names them.
-const LINES: [&str; 2] = ["edges", "isophotes"];
+/// Roles that are only drawn by hand: lines, instead of those that the style detects, and lights. They lie beside the scene, which names
+/// them.
+const OWN: [&str; 4] = ["edges", "isophotes", "directions", "highlights"];
 /// Bytes of a mask.
 const MOST_BYTES: usize = 32 << 20;
 /// The first bytes of a PNG.
@@ -27,18 +28,18 @@ fn file_of(folder: &Path, role: &str) -> Result<PathBuf, StudioError> {
     if ROLES.contains(&role) {
         return Ok(folder.join(format!("{role}.png")));
     }
-    Err(StudioError::Missing(format!("there is no mask '{role}'; there are {}", [&ROLES[..], &LINES[..]].concat().join(", "))))
+    Err(StudioError::Missing(format!("there is no mask '{role}'; there are {}", [&ROLES[..], &OWN[..]].concat().join(", "))))
 }
 
-/// The file's name of lines drawn by hand.
-fn lines_name(document: &Document, role: &str) -> String {
+/// The file's name of what is drawn by hand.
+fn drawn_name(document: &Document, role: &str) -> String {
     format!("{}-{role}.png", document.file.file_stem().unwrap_or_default().to_string_lossy())
 }
 
 /// Where the scene's own mask of a role lies, if it has a place.
 fn own_file(folder: &Path, document: &Document, role: &str) -> Result<Option<PathBuf>, StudioError> {
-    if LINES.contains(&role) {
-        return Ok(Some(folder.join(lines_name(document, role))));
+    if OWN.contains(&role) {
+        return Ok(Some(folder.join(drawn_name(document, role))));
     }
     own_folder(folder, document).map(|own| file_of(&own, role)).transpose()
 }
@@ -122,7 +123,7 @@ impl Studio {
         });
         let size = ROLES.iter().find_map(|role| imagesize::size(sight.join(format!("{role}.png"))).ok());
         let size = size.map(|size| [size.width, size.height]);
-        let lines = LINES.map(|role| {
+        let lines = OWN.map(|role| {
             let is_named = document.mask(role).is_some();
             json!({ "role": role, "is_there": is_named, "is_painted": is_named })
         });
@@ -133,7 +134,7 @@ impl Studio {
     /// `GET /api/mask/ROLE`: the picture.
     pub(super) fn mask(&self, role: &str) -> Result<Vec<u8>, StudioError> {
         let document = self.document()?;
-        if LINES.contains(&role) {
+        if OWN.contains(&role) {
             let none = || StudioError::Missing(format!("no {role} are drawn yet; draw them"));
             let name = document.mask(role).ok_or_else(none)?;
             return fs::read(document.folder().join(name)).map_err(|_| none());
@@ -144,8 +145,8 @@ impl Studio {
 
     /// `PUT /api/mask/ROLE`: a painted picture, or the one that was found again.
     pub(super) fn paint(&self, role: &str, picture: Option<Vec<u8>>) -> Result<(), StudioError> {
-        if LINES.contains(&role) {
-            return self.draw_lines(role, picture);
+        if OWN.contains(&role) {
+            return self.draw_own(role, picture);
         }
         file_of(Path::new(""), role)?;
         if let Some(picture) = &picture {
@@ -163,11 +164,11 @@ impl Studio {
         self.step(&format!("{role} painted"), masks, |document| document.changed(&change))
     }
 
-    /// Lines drawn by hand, or none of them: then the style detects its own again.
-    fn draw_lines(&self, role: &str, picture: Option<Vec<u8>>) -> Result<(), StudioError> {
+    /// What is drawn by hand, or nothing: then the style detects its own lines again.
+    fn draw_own(&self, role: &str, picture: Option<Vec<u8>>) -> Result<(), StudioError> {
         picture.as_deref().map_or(Ok(()), check)?;
         let document = self.document()?;
-        let name = picture.as_ref().map(|_| lines_name(&document, role));
+        let name = picture.as_ref().map(|_| drawn_name(&document, role));
         let change = [Change::of_mask(role, json!(name))];
         let masks = BTreeMap::from([(role.to_owned(), picture.map(Arc::from))]);
         self.step(&format!("{role} drawn"), masks, |document| document.changed(&change))

@@ -10,6 +10,7 @@ mod coverage;
 mod creases;
 mod declaration;
 mod drawer;
+mod drawn_directions;
 mod engrave;
 mod feature_line;
 mod form;

@@ -143,7 +143,7 @@ fn wrong_command_lines_end_with_status_2_and_say_what_works() {
         ("must be below --white", &["--black", "0.9", "--white", "0.2"]),
         ("write it as X,Y,W,H", &["--crop", "1,2"]),
         (
-            "--mask nose: hedcut takes subject, detail, hair, clothing, facial-hair, headwear, edges, isophotes",
+            "--mask nose: hedcut takes subject, detail, hair, clothing, facial-hair, headwear, edges, isophotes, directions, highlights",
             &["--mask", "nose=photo.png"],
         ),
         ("there is no plotter profile 'etch'", &["--profile", "etch"]),

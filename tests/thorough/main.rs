@@ -22,6 +22,7 @@ mod photographed;
 mod rasterised;
 
 mod bounds;
+mod by_hand;
 mod charcoal;
 mod colour_accuracy;
 mod colour_sheet;

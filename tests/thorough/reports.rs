@@ -64,10 +64,13 @@ fn a_role_of_other_styles_is_refused_with_those() {
     for (role, words) in [
         (
             "face=photo.png",
-            "--mask face: hedcut takes subject, detail, hair, clothing, facial-hair, headwear, edges, isophotes; face is for charcoal",
+            "--mask face: hedcut takes subject, detail, hair, clothing, facial-hair, headwear, edges, isophotes, directions, highlights; face is for charcoal",
         ),
         ("scribbles=photo.png", "scribbles is for engrave"),
-        ("nose=photo.png", "--mask nose: hedcut takes subject, detail, hair, clothing, facial-hair, headwear, edges, isophotes"),
+        (
+            "nose=photo.png",
+            "--mask nose: hedcut takes subject, detail, hair, clothing, facial-hair, headwear, edges, isophotes, directions, highlights",
+        ),
         ("hair", "write it as ROLE=FILE"),
     ] {
         let output = run(folder.path(), &["draw", "photo.png", "-o", "o.svg", "--mask", role]);

@@ -90,7 +90,11 @@ impl Drawer<'_> {
         let radius = (self.pixels(self.parameters.hough_radius).round() as usize).max(2);
         let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
-        let field = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
+        let found = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
+        let field = match self.drawn_directions() {
+            Some(drawn) => OrientationField::new(drawn.over_doubled(found.doubled())),
+            None => found,
+        };
         self.observer.picture("hair-orientation", &|| {
             Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.angle_over(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });

@@ -2,7 +2,7 @@
 
 use crate::field::HoughForm;
 use crate::geometry::Millimetres;
-use crate::source::MaskRole::{Clothing, Detail, Edges, Face, FacialHair, Hair, Headwear, Subject};
+use crate::source::MaskRole::{Clothing, Detail, Directions, Edges, Face, FacialHair, Hair, Headwear, Subject};
 use crate::style::declaration::{ON, Radians, Setting, count, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need, Places, Settings, StyleCard};
 
@@ -12,7 +12,7 @@ pub(super) const CARD: StyleCard = StyleCard {
     summary: "a portrait in charcoal: smudged tone, sketchy contours, flowing hair, clothing and background shaded by hand",
     source: "Wong 1999, Artistic Rendering of Portrait Photographs",
     parameters: PARAMETERS,
-    masks: &[Subject, Hair, Face, Clothing, FacialHair, Headwear, Detail, Edges],
+    masks: &[Subject, Hair, Face, Clothing, FacialHair, Headwear, Detail, Edges, Directions],
     uses_depth: false,
     leaves_out_background: true,
 };

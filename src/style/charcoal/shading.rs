@@ -81,6 +81,9 @@ impl Drawer<'_> {
         let ink = gaussian_blur(wanted, soft);
         let cloth = regions.clothing.zip_map(&features.drawn, |c, drawn| c.min(1.0 - drawn));
         let width = self.parameters.stroke_width;
+        let is_cloth = cloth.map(|share| i32::from(share > 0.5));
+        let drawn = self.drawn_directions().and_then(|drawn| drawn.means_in(&is_cloth, 1)[0]);
+        let direction = drawn.unwrap_or(self.parameters.arc_orient.0);
         let mut marks = Vec::new();
         for (i, Hatch { from, spacing, turned }) in CLOTH_HATCHES.into_iter().enumerate() {
             let spacing = spacing * self.parameters.pitch;
@@ -90,7 +93,7 @@ impl Drawer<'_> {
                 width,
                 spacing,
                 length: 0.8 * self.parameters.arc_length,
-                orientation: self.parameters.arc_orient.0 + turned,
+                orientation: direction + turned,
                 pressure: 1.0,
                 inset: 0.5 * width,
                 pressing: Pressing::Hatching,

@@ -127,7 +127,8 @@ impl Drawer<'_> {
         let firm = smudged.zip_map(&around, |ink, around| (ink + FIRMER * (ink - around)).clamp(0.0, 1.0));
         let features = eyes_and_mouths(self.portrait, self.pitch());
         let skin = regions.skin().zip_map(&features, |skin, features| skin * (1.0 - features));
-        STUMP.iter().fold(firm, |firm, reach| rubbed(&firm, &skin, self.pixels(*reach * self.parameters.smudge) as f32))
+        let rub = |firm: Raster<f32>, reach: &f64| rubbed(&firm, &skin, self.pixels(*reach * self.parameters.smudge) as f32);
+        self.portrait.opened(STUMP.iter().fold(firm, rub))
     }
 
     /// Ink with the features of faces pressed: what is darker than its surroundings is darker still, so that lips, nostrils and the wings

@@ -19,8 +19,15 @@ const WEAK: f64 = 0.05;
 const FILL_ROUNDS: usize = 200;
 
 impl Drawer<'_> {
-    /// Degrees for regions 1 to `count`.
+    /// Degrees for regions 1 to `count`; lines drawn by hand come first.
     pub(super) fn angles(&self, labels: &Raster<i32>, count: i32) -> Vec<f64> {
+        let found = self.found_angles(labels, count);
+        let Some(drawn) = self.drawn_directions() else { return found };
+        let drawn = drawn.means_in(labels, count as usize);
+        found.into_iter().zip(drawn).map(|(found, drawn)| drawn.map_or(found, |angle| upright(-angle))).collect()
+    }
+
+    fn found_angles(&self, labels: &Raster<i32>, count: i32) -> Vec<f64> {
         let p = &self.parameters;
         let is_scribbled = p.regions == Division::Auto && self.portrait.scribbles.is_some();
         match p.angles {

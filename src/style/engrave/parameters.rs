@@ -1,7 +1,7 @@
 //! The engraving's card, its parameters and their values.
 
 use crate::geometry::Millimetres;
-use crate::source::MaskRole::{self, Clothing, Detail, FacialHair, Hair, Headwear, Scribbles, Subject};
+use crate::source::MaskRole::{self, Clothing, Detail, Directions, FacialHair, Hair, Headwear, Scribbles, Subject};
 use crate::style::declaration::{OFF, choices, millimetres, number, parameters, pitches};
 use crate::style::{Kind, Need, StyleCard};
 
@@ -11,7 +11,7 @@ pub(super) const CARD: StyleCard = StyleCard {
     summary: "swelling lines bent over the form by a depth map, crossed in the dark, as on banknotes",
     source: "Galarza 2017, Image Stylization using Depth Information for Hatching and Engraving effects",
     parameters: PARAMETERS,
-    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Scribbles],
+    masks: &[Subject, Detail, Hair, FacialHair, Clothing, Headwear, Directions, Scribbles],
     uses_depth: true,
     leaves_out_background: true,
 };

@@ -128,7 +128,8 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     /// The directions of lines on skin alone, in radians on the page (y down), on the working grid.
     pub(in crate::style) fn directions_on_skin(&self) -> Raster<f32> {
         let (heads, cells) = self.heads();
-        self.skin_directions(&cells, &heads, &|p| nearest_head(&heads, p))
+        let skin = self.skin_directions(&cells, &heads, &|p| nearest_head(&heads, p));
+        self.drawn_directions().map_or_else(|| skin.clone(), |drawn| drawn.over_angles(&skin))
     }
 
     fn heads(&self) -> (Vec<Head>, Cells) {
@@ -149,7 +150,13 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
             },
             || self.cloth_directions(&cells, surfaces, &nearest),
         );
-        Directions { skin, hair, cloth }
+        match self.drawn_directions() {
+            Some(drawn) => {
+                let [skin, hair, cloth] = [skin, hair, cloth].map(|found| drawn.over_angles(&found));
+                Directions { skin, hair, cloth }
+            }
+            None => Directions { skin, hair, cloth },
+        }
     }
 
     fn skin_directions(&self, cells: &Cells, heads: &[Head], nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {

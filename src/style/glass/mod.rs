@@ -23,7 +23,7 @@ use crate::geometry::{Millimetres, Point, Rect};
 use crate::raster::{Raster, anisotropic_diffusion, edge_preserving, equalised, fast_gaussian, gradient, structure_tensor};
 use crate::source::{MaskRole, luminance};
 use parameters::{CARD, GlassParameters, Gradient, Manner, Strokes};
-use people::People;
+use people::{People, along};
 
 /// Change of colour per pixel at which diffusion stops: 6 of 255 steps. At half of it skin keeps its texture and the strokes whirl in
 /// every pore; at three times it the astronaut's collar loses its corners.
@@ -124,7 +124,7 @@ impl Drawer<'_> {
     /// Edge-preserving smoothing and the flow (section 7.3).
     fn ground(&self) -> Ground {
         self.observer.begin("smoothing");
-        let planes = colour::planes(&self.portrait.light);
+        let planes = colour::planes(&self.portrait.painted_light());
         let sigma = self.pixels(self.parameters.smoothing) as f32;
         let people = self.people();
         let smoothed = if sigma > 0.0 { self.smoothed(&planes, sigma, people.as_ref()) } else { planes };
@@ -146,6 +146,11 @@ impl Drawer<'_> {
                     self.over_people(&flow, &grey(&smoothed), sigma)
                 }
                 None => broad,
+            };
+            let drawn = self.drawn_directions();
+            let (broad, fine) = match &drawn {
+                Some(drawn) => (along(&broad, drawn), along(&fine, drawn)),
+                None => (broad, fine),
             };
             (framed(broad), framed(fine))
         };

@@ -11,7 +11,15 @@ pub(super) const CARD: StyleCard = StyleCard {
     summary: "brush strokes that follow contours and whirl where there are none, as in impressionist paintings",
     source: "Papari 2009, Texture vs contours, chapter 7; Papari and Petkov 2009, Continuous Glass Patterns for Painterly Rendering",
     parameters: PARAMETERS,
-    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Hair, MaskRole::Clothing, MaskRole::FacialHair, MaskRole::Headwear],
+    masks: &[
+        MaskRole::Subject,
+        MaskRole::Detail,
+        MaskRole::Hair,
+        MaskRole::Clothing,
+        MaskRole::FacialHair,
+        MaskRole::Headwear,
+        MaskRole::Directions,
+    ],
     uses_depth: false,
     leaves_out_background: false,
 };

@@ -10,6 +10,7 @@ use crate::field::Flow;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, fast_gaussian, gradient};
 use crate::source::MaskRole;
+use crate::style::drawn_directions::DrawnDirections;
 use crate::style::form::Surface;
 use crate::style::head::Head;
 use crate::style::solids::detail_zone;
@@ -116,6 +117,19 @@ fn in_band(head: &Head, p: Point) -> f64 {
     let (u, v) = head.relative(p);
     let inside = (v - BAND.start).min(BAND.end - v).min(BAND_REACH - u.abs());
     (0.5 + inside / BAND_FADE).clamp(0.0, 1.0)
+}
+
+/// A flow with the directions drawn by hand over it; the sense of the flow stays.
+pub(super) fn along(flow: &Flow, drawn: &DrawnDirections) -> Flow {
+    let flow = flow.completed();
+    let directions = flow.directions();
+    Flow::from_fn(directions.width(), directions.height(), |p| {
+        let [x, y] = directions.get(p.x as usize, p.y as usize).map(f64::from);
+        let (angle, weight) = drawn.at(p);
+        let seen = Vec2::new(x, y);
+        let wanted = unit_at(angle);
+        between(seen, if wanted.dot(seen) < 0.0 { -wanted } else { wanted }, weight)
+    })
 }
 
 /// The axis between two, by their doubled angles, with the sign of the second.

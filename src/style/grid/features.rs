@@ -61,8 +61,14 @@ impl Drawer<'_> {
     fn field(&self, lines: &[Curve], isophotes: &[Curve]) -> DirectionField {
         self.observer.begin("field");
         let (width, height) = self.size();
-        let guides =
-            [Guides { curves: lines, weight: 1.0 }, Guides { curves: isophotes, weight: self.parameters.isophote_weight }];
+        /// Weight of lines drawn by hand: what was found beside them hardly counts.
+        const DRAWN: f32 = 8.0;
+        let drawn = self.drawn_directions().map_or_else(Vec::new, |drawn| drawn.lines);
+        let guides = [
+            Guides { curves: lines, weight: 1.0 },
+            Guides { curves: isophotes, weight: self.parameters.isophote_weight },
+            Guides { curves: &drawn, weight: DRAWN },
+        ];
         let field = direction_field(&guides, width, height, self.field_parameters());
         self.observer.picture("field", &|| self.picture_of(self.field_layers(&field)));
         field

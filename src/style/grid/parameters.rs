@@ -11,7 +11,7 @@ pub(super) const CARD: StyleCard = StyleCard {
     summary: "dots lined up along and across the features, turning into hatching where it is dark",
     source: "Son, Lee, Kang and Lee 2011, Structure grid for directional stippling; Kang, Lee and Chui 2007",
     parameters: PARAMETERS,
-    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes],
+    masks: &[MaskRole::Subject, MaskRole::Detail, MaskRole::Edges, MaskRole::Isophotes, MaskRole::Directions],
     uses_depth: false,
     leaves_out_background: true,
 };

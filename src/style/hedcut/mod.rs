@@ -12,7 +12,7 @@ mod size;
 
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Dot, Drawing, Layer, Mark};
-use crate::field::{LaneParameters, Lanes, distance_to_curves, offset_lanes};
+use crate::field::{Curve, LaneParameters, Lanes, distance_to_curves, offset_lanes};
 use crate::geometry::{Point, Rect, Region, blob};
 use crate::raster::Raster;
 use crate::source::MaskRole;
@@ -134,7 +134,9 @@ impl Drawer<'_> {
     fn lanes(&self, features: &Features) -> Lanes {
         self.observer.begin("lanes");
         let size = self.size();
-        let edges = distance_to_curves(&features.edges, size.0, size.1);
+        let drawn = self.drawn_directions().map_or_else(Vec::new, |drawn| drawn.lines);
+        let edges: Vec<Curve> = features.edges.iter().chain(&drawn).cloned().collect();
+        let edges = distance_to_curves(&edges, size.0, size.1);
         let isophotes = distance_to_curves(&features.isophotes, size.0, size.1);
         for (name, field) in [("distance-to-edges", &edges), ("distance-to-isophotes", &isophotes)] {
             if let Some(field) = field {

@@ -20,6 +20,7 @@ pub(super) const CARD: StyleCard = StyleCard {
         MaskRole::Headwear,
         MaskRole::Edges,
         MaskRole::Isophotes,
+        MaskRole::Directions,
     ],
     uses_depth: false,
     leaves_out_background: true,

@@ -72,7 +72,7 @@ impl Drawer<'_> {
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
-        let ink = self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair));
+        let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair)));
         let solids = Solids::new(self.portrait, &ink, self.pitch());
         let solids = solids.with_mouths(self.portrait, self.pitch(), MOUTH).with_jaws(self.portrait, self.pitch()).layer();
         self.check()?;

@@ -97,7 +97,7 @@ export const KEYS: { name: string; keys: Key[] }[] = [
       tool("B", "brush", "Brush"),
       tool("E", "eraser", "Eraser"),
       tool("L", "lasso", "Lasso"),
-      tool("N", "line", "Pen for edges: clicks or Enter join corners"),
+      tool("N", "line", "Pen for lines: clicks or Enter join corners"),
       { keys: "Escape", name: "End the pen's line", act: endLine },
       tool("F", "fill", "Fill"),
       { keys: "[", name: "Smaller brush", act: () => resizeBrush(1 / 1.2) },

@@ -17,7 +17,7 @@ export const TOOLS: { tool: Tool; name: string; keys: string }[] = [
   { tool: "brush", name: "Brush: add to the mask", keys: "B" },
   { tool: "eraser", name: "Eraser: take from the mask", keys: "E" },
   { tool: "lasso", name: "Lasso: add what is inside; Alt takes away", keys: "L" },
-  { tool: "line", name: "Pen: draw edges that the rows follow", keys: "N" },
+  { tool: "line", name: "Pen: draw lines that rows and marks follow", keys: "N" },
   { tool: "fill", name: "Fill what the mask encloses; Alt empties", keys: "F" },
 ];
 

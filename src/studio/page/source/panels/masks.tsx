@@ -40,8 +40,12 @@ export function MasksPanel() {
         ))}
       </ul>
       {LINE_ROLES.includes(role) && isTaken(role) && (
-        <p class="remark">Draw with the pen (N): click for corners, or drag. Rows follow these lines instead of those that are detected. As found takes them all away.</p>
+        <p class="remark">
+          Draw with the pen (N): click for corners, or drag.{" "}
+          {role === "directions" ? "Near these lines marks run along them." : "Rows follow these lines instead of those that are detected."} As found takes them all away.
+        </p>
       )}
+      {role === "highlights" && <p class="remark">Paint where the paper shall stay open. As found takes it all away.</p>}
       <Brush />
       <Files role={role} />
     </>

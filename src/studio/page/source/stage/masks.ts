@@ -16,10 +16,12 @@ export const ROLE_COLORS: { [role: string]: string } = {
   detail: "#c9a21d",
   edges: "#d0337c",
   isophotes: "#2b79c9",
+  directions: "#7a8b1f",
+  highlights: "#d9a400",
 };
 
 /** Roles of lines, which only some styles take. */
-export const LINE_ROLES = ["edges", "isophotes"];
+export const LINE_ROLES = ["edges", "isophotes", "directions"];
 
 /** True unless the drawing's style takes no lines of this role. */
 export function isTaken(role: string): boolean {
