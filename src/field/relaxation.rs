@@ -59,22 +59,22 @@ fn towards_centres(sites: &[Point], weight: &Raster<f32>, constraint: Option<Lan
     };
     let rows = height.div_ceil(BANDS);
     let sums: Vec<BandSums> = collected(BANDS, &|band| {
-        let range = (band * rows * width).min(width * height)..((band + 1) * rows * width).min(width * height);
-        let mut sums = BandSums::new(&nearest.pixels()[range.clone()]);
-        for pixel in range {
-            let site = nearest.pixels()[pixel];
-            let base = weight.pixels()[pixel];
-            if site == u32::MAX || base == 0.0 {
-                continue;
+        let rows = (band * rows).min(height)..((band + 1) * rows).min(height);
+        let mut sums = BandSums::new(&nearest.pixels()[rows.start * width..rows.end * width]);
+        for y in rows {
+            for (x, (&site, &base)) in nearest.row(y).iter().zip(weight.row(y)).enumerate() {
+                if site == u32::MAX || base == 0.0 {
+                    continue;
+                }
+                let w = base * constraint.map_or(1.0, |c| c.weight(y * width + x, lane_of[site as usize]));
+                sums.add(site, w, x as f32 + 0.5, y as f32 + 0.5);
             }
-            let w = base * constraint.map_or(1.0, |c| c.weight(pixel, lane_of[site as usize]));
-            sums.add(site, w, (pixel % width) as f32 + 0.5, (pixel / width) as f32 + 0.5);
         }
         sums
     });
     let mut totals = vec![[0.0_f64; 3]; sites.len()];
     for band in &sums {
-        for (total, sum) in totals[band.first..].iter_mut().zip(&band.sums) {
+        for (total, sum) in totals.iter_mut().skip(band.first).zip(&band.sums) {
             total.iter_mut().zip(sum).for_each(|(t, s)| *t += s);
         }
     }
@@ -89,10 +89,13 @@ struct BandSums {
 
 impl BandSums {
     fn new(labels: &[u32]) -> Self {
-        let present = || labels.iter().filter(|&&l| l != u32::MAX);
-        let first = present().min().copied().unwrap_or(0) as usize;
-        let last = present().max().copied().map_or(first, |l| l as usize + 1);
-        Self { first, sums: vec![[0.0; 3]; last - first] }
+        // `u32::MAX` is no site: the least label is a site's unless there is none, and one more than the greatest wraps to 0.
+        let (mut first, mut end) = (u32::MAX, 0);
+        for label in labels {
+            first = first.min(*label);
+            end = end.max(label.wrapping_add(1));
+        }
+        Self { first: first as usize, sums: vec![[0.0; 3]; (end as usize).saturating_sub(first as usize)] }
     }
 
     fn add(&mut self, site: u32, weight: f32, x: f32, y: f32) {

@@ -7,6 +7,8 @@ use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2, half_plane};
 use crate::parallel::shares;
 use crate::raster::Raster;
+use std::ops::Range;
+use wide::{CmpLt as _, f32x8};
 
 /// Sites in a uniform grid of about one site per cell.
 pub struct Sites<'a> {
@@ -15,7 +17,9 @@ pub struct Sites<'a> {
     columns: usize,
     rows: usize,
     start: Vec<u32>,
+    /// The numbers of the sites, cell after cell, and their places.
     members: Vec<u32>,
+    places: Vec<Point>,
 }
 
 impl<'a> Sites<'a> {
@@ -23,7 +27,8 @@ impl<'a> Sites<'a> {
     pub fn new(points: &'a [Point], width: f64, height: f64, cell: f64) -> Self {
         let columns = (width / cell).ceil().max(1.0) as usize;
         let rows = (height / cell).ceil().max(1.0) as usize;
-        let mut sites = Self { points, cell, columns, rows, start: vec![0; columns * rows + 1], members: vec![0; points.len()] };
+        let (start, members) = (vec![0; columns * rows + 1], vec![0; points.len()]);
+        let mut sites = Self { points, cell, columns, rows, start, members, places: points.to_vec() };
         for p in points {
             let c = sites.cell_index(*p);
             sites.start[c + 1] += 1;
@@ -35,6 +40,7 @@ impl<'a> Sites<'a> {
         for (i, p) in points.iter().enumerate() {
             let c = sites.cell_index(*p);
             sites.members[next[c] as usize] = i as u32;
+            sites.places[next[c] as usize] = *p;
             next[c] += 1;
         }
         sites
@@ -50,7 +56,12 @@ impl<'a> Sites<'a> {
     }
 
     fn row_members(&self, x0: usize, x1: usize, y: usize) -> &[u32] {
-        &self.members[self.start[y * self.columns + x0] as usize..self.start[y * self.columns + x1 + 1] as usize]
+        &self.members[self.row_range(x0, x1, y)]
+    }
+
+    /// Where the sites in some cells of a row stand in `members`.
+    fn row_range(&self, x0: usize, x1: usize, y: usize) -> Range<usize> {
+        self.start[y * self.columns + x0] as usize..self.start[y * self.columns + x1 + 1] as usize
     }
 
     /// Sites in the cells at chessboard distance `ring` from the cell of `p`; false when no such cell exists.
@@ -78,8 +89,32 @@ impl<'a> Sites<'a> {
 
     /// Appends to `out` every site that can be nearest to some point within `radius` of `centre`.
     fn candidates(&self, centre: Point, radius: f64, out: &mut Vec<u32>) {
-        let mut best = f64::INFINITY;
-        let mut ring = 0;
+        let best = self.near(centre);
+        let reach = best + 2.0 * radius;
+        let squared = reach * reach;
+        let (x0, y0) = self.cell_of(Point::new(centre.x - reach, centre.y - reach));
+        let (x1, y1) = self.cell_of(Point::new(centre.x + reach, centre.y + reach));
+        for y in y0..=y1 {
+            let range = self.row_range(x0, x1, y);
+            for (i, place) in self.members[range.clone()].iter().zip(&self.places[range]) {
+                if place.distance_squared(centre) <= squared {
+                    out.push(*i);
+                }
+            }
+        }
+    }
+
+    /// The distance of the nearest site among the cells around a place, or of the nearest of all if these are empty.
+    fn near(&self, centre: Point) -> f64 {
+        let (cx, cy) = self.cell_of(centre);
+        let around = |c: usize, count: usize| c.saturating_sub(1)..=(c + 1).min(count - 1);
+        let (columns, rows) = (around(cx, self.columns), around(cy, self.rows));
+        let places = rows.flat_map(|y| &self.places[self.row_range(*columns.start(), *columns.end(), y)]);
+        let nearest = places.fold(f64::INFINITY, |nearest, place| nearest.min(place.distance_squared(centre)));
+        if nearest.is_finite() {
+            return nearest.sqrt();
+        }
+        let (mut best, mut ring) = (f64::INFINITY, 2);
         // A ring's sites are at least (ring - 1) cells plus something away; stops once none can beat the best.
         while (ring as f64 - 1.0) * self.cell <= best {
             let found = self.for_ring(centre, ring, |i| best = best.min(self.points[i as usize].distance(centre)));
@@ -88,16 +123,7 @@ impl<'a> Sites<'a> {
             }
             ring += 1;
         }
-        let reach = best + 2.0 * radius;
-        let (x0, y0) = self.cell_of(Point::new(centre.x - reach, centre.y - reach));
-        let (x1, y1) = self.cell_of(Point::new(centre.x + reach, centre.y + reach));
-        for y in y0..=y1 {
-            for &i in self.row_members(x0, x1, y) {
-                if self.points[i as usize].distance(centre) <= reach {
-                    out.push(i);
-                }
-            }
-        }
+        best
     }
 
     /// The nearest site of each pixel's centre; equal distances go to the lower number. Tiles of pixels in which `wanted` is 0
@@ -111,7 +137,7 @@ impl<'a> Sites<'a> {
         let tile = (self.cell.round() as usize).clamp(2, 64);
         let mut out = Raster::filled(width, height, u32::MAX);
         shares(out.pixels_mut(), width * tile, &|band, out| {
-            let (mut candidates, mut positions) = (Vec::new(), Vec::new());
+            let (mut candidates, mut places) = (Vec::new(), Vec::new());
             let y0 = band * tile;
             let rows = out.len() / width;
             for x0 in (0..width).step_by(tile) {
@@ -124,31 +150,42 @@ impl<'a> Sites<'a> {
                 candidates.clear();
                 self.candidates(centre, radius, &mut candidates);
                 candidates.sort_unstable();
-                positions.clear();
-                positions.extend(candidates.iter().map(|&i| {
+                places.clear();
+                places.extend(candidates.iter().map(|&i| {
                     let offset = self.points[i as usize] - Point::new(x0 as f64 + 0.5, y0 as f64 + 0.5);
                     (offset.x as f32, offset.y as f32)
                 }));
-                label_tile(out, width, x0..x1, &candidates, &positions);
+                label_tile(out, width, x0..x1, &candidates, &places);
             }
         });
         out
     }
 }
 
-/// Writes the nearest candidate of each pixel of a tile; positions are relative to the tile's first pixel.
-fn label_tile(out: &mut [u32], width: usize, columns: std::ops::Range<usize>, candidates: &[u32], positions: &[(f32, f32)]) {
-    for (dy, row) in out.chunks_mut(width).enumerate() {
-        for (dx, label) in row[columns.clone()].iter_mut().enumerate() {
-            let (x, y) = (dx as f32, dy as f32);
-            let mut best = (f32::INFINITY, 0);
-            for (slot, &(sx, sy)) in positions.iter().enumerate() {
-                let squared = (sx - x) * (sx - x) + (sy - y) * (sy - y);
-                if squared < best.0 {
-                    best = (squared, slot);
-                }
-            }
-            *label = candidates[best.1];
+/// Pixels of a row that are labelled at a time.
+const LANES: usize = 8;
+
+/// The slots of the nearest candidates of pixels in a row, the first at `x`; places are relative to the tile's first pixel.
+fn nearest_in_row(places: &[(f32, f32)], x: f32, y: f32) -> [u32; LANES] {
+    let columns = f32x8::from([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]) + f32x8::splat(x);
+    let (mut best, mut nearest) = (f32x8::splat(f32::INFINITY), f32x8::ZERO);
+    for (slot, &(sx, sy)) in places.iter().enumerate() {
+        let across = f32x8::splat(sx) - columns;
+        let squared = across * across + f32x8::splat((sy - y) * (sy - y));
+        let is_nearer = squared.cmp_lt(best);
+        best = best ^ (is_nearer & (squared ^ best));
+        // Slots are carried as bits, which no arithmetic touches.
+        nearest = nearest ^ (is_nearer & (f32x8::splat(f32::from_bits(slot as u32)) ^ nearest));
+    }
+    nearest.to_array().map(f32::to_bits)
+}
+
+/// Writes the nearest candidate of each pixel of a tile; places are relative to the tile's first pixel.
+fn label_tile(out: &mut [u32], width: usize, columns: Range<usize>, candidates: &[u32], places: &[(f32, f32)]) {
+    for (y, row) in out.chunks_mut(width).enumerate() {
+        for (i, labels) in row[columns.clone()].chunks_mut(LANES).enumerate() {
+            let nearest = nearest_in_row(places, (i * LANES) as f32, y as f32);
+            labels.iter_mut().zip(nearest).for_each(|(label, slot)| *label = candidates[slot as usize]);
         }
     }
 }

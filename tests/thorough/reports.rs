@@ -39,7 +39,10 @@ fn help_manual_and_lists_name_every_role_that_a_style_takes() {
     for style in STYLES {
         let roles: Vec<(&str, MaskRole)> = MaskRole::ALL
             .into_iter()
-            .filter(|(_, role)| style.masks().contains(role) || drypoint::tone::ROLES.contains(role))
+            .filter(|(_, role)| {
+                let of_tone = drypoint::tone::ROLES.contains(role) || *role == MaskRole::Highlights;
+                style.masks().contains(role) || of_tone
+            })
             .collect();
         let names: Vec<&str> = roles.iter().map(|(name, _)| *name).collect();
         for page in &pages {
