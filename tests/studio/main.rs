@@ -3,5 +3,6 @@
 
 mod asking;
 mod keeping;
+mod proofs;
 mod showing;
 mod trust;
