@@ -4,6 +4,7 @@
 use super::arguments::{Background, PictureOptions, Tone};
 use super::failure::Failure;
 use super::masks::{RoleMask, photograph};
+use super::roles::ALWAYS;
 use super::seen::{Depth, Seen};
 use super::words::counted;
 use crate::source::{Landmarks, MaskRole, Photograph, ToneTarget};
@@ -36,7 +37,7 @@ pub(super) enum Wanted {
 
 /// True if a style or the tone uses masks of a role.
 pub(super) fn takes(style: &dyn Style, role: MaskRole) -> bool {
-    style.masks().contains(&role) || tone::ROLES.contains(&role) || tone::ALWAYS.contains(&role)
+    style.masks().contains(&role) || tone::ROLES.contains(&role) || ALWAYS.contains(&role)
 }
 
 /// Makes the decisions for a style; `painted` are the masks given by the user.
@@ -59,7 +60,7 @@ pub(super) fn of(
     };
     decide_background(&mut known, &mut seen, options, style, photograph.is_cut_out())?;
     let by_tone: &[MaskRole] = if matches!(known.tone, Wanted::Portrait(_)) { tone::ROLES } else { &[] };
-    for role in style.masks().iter().chain(by_tone).chain(tone::ALWAYS).filter(|role| **role != MaskRole::Subject) {
+    for role in style.masks().iter().chain(by_tone).chain(ALWAYS).filter(|role| **role != MaskRole::Subject) {
         if known.masks.iter().all(|mask| mask.role != *role) {
             known.masks.extend(seen.take(*role));
         }
@@ -150,9 +151,10 @@ fn add_idle_mask_notices(known: &mut Known, style: &dyn Style) {
     if matches!(known.tone, Wanted::Portrait(_)) {
         return;
     }
-    let idle = known.masks.iter().filter(|mask| {
-        mask.role != MaskRole::Subject && !style.masks().contains(&mask.role) && !tone::ALWAYS.contains(&mask.role)
-    });
+    let idle = known
+        .masks
+        .iter()
+        .filter(|mask| mask.role != MaskRole::Subject && !style.masks().contains(&mask.role) && !ALWAYS.contains(&mask.role));
     let told = idle.map(|mask| format!("--mask {} changes nothing here: only the portrait tone uses it", mask.name()));
     let told: Vec<String> = told.collect();
     known.notices.extend(told);

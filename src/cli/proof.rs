@@ -73,8 +73,8 @@ impl Place {
         let changed = known.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
         let identity = format!("{} {} {}", file.display(), known.len(), changed.as_nanos());
         let digest = Sha256::digest(identity.as_bytes());
-        let key = digest.iter().take(12).map(|byte| format!("{byte:02x}")).collect();
-        Some(Self { folder: folder.to_owned(), key })
+        let [a, b] = [0, 8].map(|from| digest[from..from + 8].iter().fold(0_u64, |all, byte| all << 8 | u64::from(*byte)));
+        Some(Self { folder: folder.to_owned(), key: format!("{a:016x}{b:016x}") })
     }
 
     fn known(&self) -> Option<Proof> {

@@ -2,7 +2,10 @@
 
 use crate::source::MaskRole;
 use crate::style::{STYLES, Style};
-use crate::tone::{ALWAYS, ROLES};
+use crate::tone::ROLES;
+
+/// The masks that change the tone of every drawing.
+pub(super) const ALWAYS: &[MaskRole] = &[MaskRole::Highlights];
 
 /// The mask roles that a style or the portrait tone takes, with their names.
 pub(super) fn roles_of(style: &dyn Style) -> impl Iterator<Item = (&'static str, MaskRole)> {

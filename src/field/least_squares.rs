@@ -50,8 +50,8 @@ pub(crate) fn negative_laplacian(a: &Raster<f32>) -> Raster<f32> {
             let (here, above, below) = (a.row(y), a.row(y.saturating_sub(1)), a.row((y + 1).min(height - 1)));
             let at = |x: usize, left: usize, right: usize| 4.0 * here[x] - here[left] - here[right] - above[x] - below[x];
             out[0] = at(0, 0, 1.min(width - 1));
-            for x in 1..width.saturating_sub(1) {
-                out[x] = at(x, x - 1, x + 1);
+            for (x, out) in out.iter_mut().enumerate().take(width.saturating_sub(1)).skip(1) {
+                *out = at(x, x - 1, x + 1);
             }
             if width > 1 {
                 out[width - 1] = at(width - 1, width - 2, width - 1);

@@ -44,6 +44,7 @@ impl Photograph {
 
     /// A copy whose longer side has `longest` pixels: grey and transparent pictures as stored, colours as sRGB bytes. None if it would
     /// not be smaller.
+    #[cfg(feature = "cli")]
     pub(crate) fn small_copy(&self, longest: u32) -> Option<DynamicImage> {
         let [width, height] = [self.width(), self.height()];
         if width.max(height) <= longest {

@@ -28,9 +28,6 @@ use catchlights::with_catchlights;
 /// The masks that are used besides the subject.
 pub const ROLES: &[MaskRole] = &[MaskRole::Hair, MaskRole::Headwear, MaskRole::Clothing];
 
-/// The masks that change the tone of every drawing.
-pub(crate) const ALWAYS: &[MaskRole] = &[MaskRole::Highlights];
-
 /// Width of a face in pixels at which the tone is computed; finer detail is copied unchanged. Half of it loses lids, twice as
 /// much costs four times the time and shows no difference (seen on sixteen portraits).
 const FACE_WIDTH: f64 = 240.0;

@@ -59,10 +59,10 @@ impl Drawer<'_> {
 
     /// Section 4.2: the directions between the lines.
     fn field(&self, lines: &[Curve], isophotes: &[Curve]) -> DirectionField {
-        self.observer.begin("field");
-        let (width, height) = self.size();
         /// Weight of lines drawn by hand: what was found beside them hardly counts.
         const DRAWN: f32 = 8.0;
+        self.observer.begin("field");
+        let (width, height) = self.size();
         let drawn = self.drawn_directions().map_or_else(Vec::new, |drawn| drawn.lines);
         let guides = [
             Guides { curves: lines, weight: 1.0 },
