@@ -18,39 +18,48 @@ struct Room {
 }
 
 /// The part of the photograph that is drawn. It may exceed the photograph by 0.01 px, for percentages that do not quite add up.
-/// The photograph may be a copy at a `scale`; boxes are given in pixels of the photograph itself.
-pub(super) fn part(options: &PictureOptions, photograph: &Photograph, scale: f64, faces: &[Landmarks]) -> Result<Crop, Failure> {
+/// The photograph may be a copy of one of another `size`, in whose pixels boxes are given.
+pub(super) fn part(
+    options: &PictureOptions,
+    photograph: &Photograph,
+    size: [u32; 2],
+    faces: &[Landmarks],
+) -> Result<Crop, Failure> {
     let crop = match options.crop {
         None => Crop::all(photograph),
-        Some(CropPart::Box(numbers)) => requested_crop(numbers, photograph, scale),
+        Some(CropPart::Box(numbers)) => requested_crop(numbers, photograph, size),
         Some(CropPart::Head) => return round_faces(&HEAD, "head", options, photograph, faces),
         Some(CropPart::Face) => return round_faces(&FACE, "face", options, photograph, faces),
     };
     let within = crop.within(photograph).map_err(|error| Failure::about(&options.photo)(&error))?;
     let ends = |crop: Crop| [crop.x, crop.y, crop.x + crop.width, crop.y + crop.height];
     if ends(crop).into_iter().zip(ends(within)).any(|(asked, there)| (asked - there).abs() > 0.01) {
+        let [across, down] = [photograph.width(), photograph.height()].map(f64::from);
+        let [across, down] = [f64::from(size[0]) / across, f64::from(size[1]) / down];
         let shown = |crop: Crop| {
-            [crop.x, crop.y, crop.width, crop.height].map(|px| format!("{}", (px / scale * 100.0).round() / 100.0)).join(",")
+            let numbers = [crop.x * across, crop.y * down, crop.width * across, crop.height * down];
+            numbers.map(|px| format!("{}", (px * 100.0).round() / 100.0)).join(",")
         };
         return Err(Failure::Work(format!(
             "--crop {} reaches beyond {}, which is {} x {} px; the part inside it is --crop {}",
             shown(crop),
             if options.photo == "-" { "the photograph" } else { &options.photo },
-            (f64::from(photograph.width()) / scale).round(),
-            (f64::from(photograph.height()) / scale).round(),
+            size[0],
+            size[1],
             shown(within)
         )));
     }
     Ok(within)
 }
 
-fn requested_crop([x, y, w, h]: [CropNumber; 4], photograph: &Photograph, scale: f64) -> Crop {
+fn requested_crop([x, y, w, h]: [CropNumber; 4], photograph: &Photograph, size: [u32; 2]) -> Crop {
     let whole = Crop::all(photograph);
-    let pixels = |number: CropNumber, of: f64| match number {
-        CropNumber::Pixels(pixels) => pixels * scale,
+    let pixels = |number: CropNumber, of: f64, itself: u32| match number {
+        CropNumber::Pixels(pixels) => pixels * of / f64::from(itself),
         CropNumber::Percent(percent) => percent / 100.0 * of,
     };
-    Crop { x: pixels(x, whole.width), y: pixels(y, whole.height), width: pixels(w, whole.width), height: pixels(h, whole.height) }
+    let (across, down) = (|number| pixels(number, whole.width, size[0]), |number| pixels(number, whole.height, size[1]));
+    Crop { x: across(x), y: down(y), width: across(w), height: down(h) }
 }
 
 /// The box of all faces with a margin around each, clipped to the photograph.

@@ -19,9 +19,13 @@ pub(super) struct RoleMask {
 }
 
 impl RoleMask {
-    /// Reads a mask of a role. Scribbles are colours, which shapes do not have.
+    /// Reads a mask of a role. Scribbles are colours, which shapes do not have; thin lines would fade in a small copy.
     pub(super) fn read(role: MaskRole, file: &str) -> Result<Self, Failure> {
-        let mask = if role == MaskRole::Scribbles { photograph(file)? } else { mask_or_copy(file)? };
+        let mask = match role {
+            MaskRole::Scribbles => photograph(file)?,
+            MaskRole::Edges | MaskRole::Isophotes | MaskRole::Directions => mask(file)?,
+            _ => mask_or_copy(file)?,
+        };
         Ok(Self { role, file: Some(file.to_owned()), mask: Arc::new(mask) })
     }
 

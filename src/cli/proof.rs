@@ -6,28 +6,20 @@
 use super::failure::Failure;
 use super::masks;
 use super::png::png;
-use crate::source::Photograph;
-use sha2::{Digest, Sha256};
+use crate::source::{Photograph, sha256};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 /// The variable that names the folder.
 const FOLDER: &str = "DRYPOINT_PROOFS";
-/// Longer side of a copy in pixels: a third of it, a head, is still finer than a coarse drawing.
-const LONGEST: u32 = 900;
+/// Longer side of a copy in pixels, that of what is found: a third of it, a head, is still finer than a coarse drawing.
+const LONGEST: u32 = 1024;
 
 /// A photograph, or a small copy that stands for it.
 pub(super) struct Proof {
     pub photograph: Photograph,
     /// Columns and rows of the photograph itself.
     pub size: [u32; 2],
-}
-
-impl Proof {
-    /// Pixels of the copy for each of the photograph's.
-    pub(super) fn scale(&self) -> f64 {
-        f64::from(self.photograph.width()) / f64::from(self.size[0])
-    }
 }
 
 /// The folder of the copies, if drawings shall be made from them.
@@ -47,16 +39,14 @@ pub(super) fn photograph(name: &str) -> Result<Proof, Failure> {
         return Ok(known);
     }
     let photograph = masks::photograph(name)?;
-    if let Some(place) = place {
-        place.keep(&photograph)?;
-    }
+    place.iter().for_each(|place| place.keep(&photograph));
     Ok(Proof { size: [photograph.width(), photograph.height()], photograph })
 }
 
 /// Keeps the copy of a photograph that was read for another purpose.
-pub(super) fn keep(name: &str, photograph: &Photograph) -> Result<(), Failure> {
+pub(super) fn keep(name: &str, photograph: &Photograph) {
     let place = folder().and_then(|folder| Place::of(name, &folder));
-    place.map_or(Ok(()), |place| place.keep(photograph))
+    place.iter().for_each(|place| place.keep(photograph));
 }
 
 /// Where the copy of a file lies: its name begins with what the file is now, and ends with the photograph's size.
@@ -72,9 +62,7 @@ impl Place {
         let known = file.metadata().ok().filter(std::fs::Metadata::is_file)?;
         let changed = known.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
         let identity = format!("{} {} {}", file.display(), known.len(), changed.as_nanos());
-        let digest = Sha256::digest(identity.as_bytes());
-        let [a, b] = [0, 8].map(|from| digest[from..from + 8].iter().fold(0_u64, |all, byte| all << 8 | u64::from(*byte)));
-        Some(Self { folder: folder.to_owned(), key: format!("{a:016x}{b:016x}") })
+        Some(Self { folder: folder.to_owned(), key: sha256(identity.as_bytes())[..32].to_owned() })
     }
 
     fn known(&self) -> Option<Proof> {
@@ -89,10 +77,10 @@ impl Place {
         Some(Proof { photograph: masks::photograph(&file.to_string_lossy()).ok()?, size })
     }
 
-    /// Writes the copy; a small picture needs none.
-    fn keep(&self, photograph: &Photograph) -> Result<(), Failure> {
-        let Some(copy) = photograph.small_copy(LONGEST) else { return Ok(()) };
+    /// Writes the copy; a small picture needs none. It only saves time, so that a failure is of no interest.
+    fn keep(&self, photograph: &Photograph) {
+        let Some(copy) = photograph.small_copy(LONGEST) else { return };
         let file = self.folder.join(format!("{}-{}x{}.png", self.key, photograph.width(), photograph.height()));
-        png(&file.to_string_lossy(), &copy)
+        let _ = png(&file.to_string_lossy(), &copy);
     }
 }

@@ -1,15 +1,15 @@
 //! Which masks which style takes.
 
+use super::known::takes;
 use crate::source::MaskRole;
 use crate::style::{STYLES, Style};
-use crate::tone::ROLES;
 
 /// The masks that change the tone of every drawing.
 pub(super) const ALWAYS: &[MaskRole] = &[MaskRole::Highlights];
 
-/// The mask roles that a style or the portrait tone takes, with their names.
+/// The mask roles that a style or the tone takes, with their names.
 pub(super) fn roles_of(style: &dyn Style) -> impl Iterator<Item = (&'static str, MaskRole)> {
-    MaskRole::ALL.into_iter().filter(|(_, role)| style.masks().contains(role) || ROLES.contains(role) || ALWAYS.contains(role))
+    MaskRole::ALL.into_iter().filter(|(_, role)| takes(style, *role))
 }
 
 pub(super) fn role_names(style: &dyn Style) -> String {

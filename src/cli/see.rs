@@ -23,7 +23,7 @@ pub(super) fn run(options: &SeeOptions) -> Result<(), Failure> {
     }
     let sight = look(&photograph, interrupt()).map_err(|error| looking::failure(&options.photo, error))?;
     if let Some(proofs) = proof::folder() {
-        proof::keep(&options.photo, &photograph)?;
+        proof::keep(&options.photo, &photograph);
         sight_folder::write_small(&proof::sight(&proofs), &sight, &photograph)?;
         Watcher::new(true).begin("proof");
     }

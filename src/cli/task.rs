@@ -74,7 +74,7 @@ impl<'a> Task<'a> {
             return Err(Failure::Usage(format!("--depth: {} does not use a depth map; it is for {able}", style.name())));
         }
         let proof = proof::photograph(&options.photo)?;
-        let (scale, size, photograph) = (proof.scale(), proof.size, proof.photograph);
+        let (size, photograph) = (proof.size, proof.photograph);
         let painted = mask_files.into_iter().map(|(role, file)| RoleMask::read(role, file));
         let painted: Vec<RoleMask> = painted.collect::<Result<_, Failure>>()?;
         let seen = looking::seen(options, &photograph)?;
@@ -85,7 +85,7 @@ impl<'a> Task<'a> {
         known.notices.extend(notices);
         // Marks on the picture's border extend beyond it by less than a pitch.
         let pitch = settings.pitch().unwrap_or(UNKNOWN_PITCH);
-        let crop = crop::part(options, &photograph, scale, &known.faces)?;
+        let crop = crop::part(options, &photograph, size, &known.faces)?;
         let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
         if style.card().leaves_out_background && !options.draft {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
@@ -98,7 +98,7 @@ impl<'a> Task<'a> {
 
     /// True if the picture with other options, including all its ink, would lie within the machine's reach.
     pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
-        let Ok(crop) = crop::part(picture, &self.photograph, self.scale(), &self.manner.known.faces) else { return false };
+        let Ok(crop) = crop::part(picture, &self.photograph, self.size, &self.manner.known.faces) else { return false };
         let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
         let (width, height) = layout.sheet();
         let page = Page { width, height, ..layout.page };
@@ -168,20 +168,14 @@ impl<'a> Task<'a> {
         Cost { bytes: cost.bytes * at_once as f64 + photographs as f64, ..cost }
     }
 
-    /// Pixels of the copy that is drawn from for each of the photograph's.
-    fn scale(&self) -> f64 {
-        f64::from(self.photograph.width()) / f64::from(self.size[0])
-    }
-
     /// Where the photograph lies on the turned sheet: from its pixels to millimetres.
     pub(super) fn to_sheet(&self) -> Affine {
         let Layout { crop, picture, page, turning } = self.layout;
         let scale = picture.width() / crop.width;
-        let placed = Affine::translate((picture.x0, picture.y0))
-            * Affine::scale(scale)
-            * Affine::translate((-crop.x, -crop.y))
-            * Affine::scale(self.scale());
-        turning.matrix(&page) * placed
+        let placed = Affine::translate((picture.x0, picture.y0)) * Affine::scale(scale) * Affine::translate((-crop.x, -crop.y));
+        let [across, down] = [(self.photograph.width(), self.size[0]), (self.photograph.height(), self.size[1])]
+            .map(|(copy, itself)| f64::from(copy) / f64::from(itself));
+        turning.matrix(&page) * placed * Affine::scale_non_uniform(across, down)
     }
 
     /// Working resolution in pixels per millimetre.

@@ -102,10 +102,10 @@ impl Placement {
 /// The photograph's crop on the pixel grid of a mask or depth map, which has the photograph's proportions at any size.
 pub(super) fn crop_on_grid(mask: &Photograph, photograph: &Photograph, crop: Crop) -> Result<Crop, SourceError> {
     let [w, h, width, height] = [mask.width(), mask.height(), photograph.width(), photograph.height()].map(f64::from);
-    // The difference of the proportions, cross-multiplied: 0 if equal, up to one pixel of the mask after a program rounded its
-    // sides.
+    // The difference of the proportions, cross-multiplied: 0 if equal, up to one pixel of either picture after a program rounded
+    // its sides.
     let across = (w * height - h * width).abs();
-    if across > width.max(height) || across > MOST_DISTORTION * w * height {
+    if across > width.max(height).max(w).max(h) || across > MOST_DISTORTION * w * height {
         return Err(SourceError::OtherSize {
             width: mask.width(),
             height: mask.height(),

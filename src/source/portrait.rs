@@ -14,6 +14,7 @@ use crate::drawing::Page;
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect};
 use crate::raster::{Raster, gaussian_blur};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -177,10 +178,10 @@ impl Portrait {
     }
 
     /// Linear light as it is painted: white where the mask of highlights opens the paper.
-    pub(crate) fn painted_light(&self) -> Raster<[f32; 3]> {
+    pub(crate) fn painted_light(&self) -> Cow<'_, Raster<[f32; 3]>> {
         match self.masks.get(&MaskRole::Highlights) {
-            Some(highlights) => self.light.zip_map(highlights, |rgb, open| rgb.map(|v| lighter(v, open))),
-            None => self.light.clone(),
+            Some(highlights) => Cow::Owned(self.light.zip_map(highlights, |rgb, open| rgb.map(|v| lighter(v, open)))),
+            None => Cow::Borrowed(&self.light),
         }
     }
 
@@ -265,7 +266,7 @@ impl Portrait {
     pub fn subject_light(&self) -> Raster<[f32; 3]> {
         let is_whole = self.subject.pixels().iter().all(|v| *v >= 1.0);
         let light = self.painted_light();
-        if is_whole || self.is_on_white { light } else { without_fringe(&light, &self.subject) }
+        if is_whole || self.is_on_white { light.into_owned() } else { without_fringe(&light, &self.subject) }
     }
 
     /// A raster of tone or lightness with white outside the subject. A picture already composited on white by its alpha is not

@@ -40,36 +40,35 @@ async fn draw(studio: &Studio, revision: u64, looked_at: &mut Option<Seal>) {
     let proof = Notify::new();
     let looking = async {
         if looked_at.as_ref() != Some(&seal) {
+            // What was found before is gone from here on, also if a newer change ends this look.
+            *looked_at = None;
             look(studio, &photograph, &proof).await;
+            *looked_at = Some(seal);
         }
         proof.notify_one();
     };
     // The coarse drawing waits for the small copies of what was found, not for the large ones.
     let coarse = async {
         proof.notified().await;
-        tell_one(studio, revision, Quality::Coarse).await
+        tell_one(studio, revision, Quality::Coarse).await;
     };
-    let ((), is_drawn) = tokio::join!(looking, coarse);
-    *looked_at = Some(seal);
-    if is_drawn {
-        tell_one(studio, revision, Quality::Full).await;
-    }
+    tokio::join!(looking, coarse);
+    tell_one(studio, revision, Quality::Full).await;
 }
 
-/// Makes one drawing and tells the pages of it; false if it failed.
-async fn tell_one(studio: &Studio, revision: u64, quality: Quality) -> bool {
+/// Makes one drawing and tells the pages of it. Of a failure only the full drawing tells: it is what the command would say.
+async fn tell_one(studio: &Studio, revision: u64, quality: Quality) {
     let id = studio.next_drawing();
     studio.events.tell("started", json!({ "id": id, "quality": quality.name(), "revision": revision }));
     match one(studio, id, revision, quality).await {
         Ok(drawn) => {
             studio.drawings.keep(drawn);
             studio.events.tell("finished", json!({ "id": id, "quality": quality.name(), "revision": revision }));
-            true
         }
-        Err(error) => {
+        Err(error) if quality == Quality::Full => {
             studio.tell_failure(json!({ "quality": quality.name(), "revision": revision, "message": error.to_string() }));
-            false
         }
+        Err(_) => {}
     }
 }
 

@@ -78,7 +78,10 @@ impl Program {
     fn start(&self, folder: &Path, words: &[&str]) -> Result<Child, StudioError> {
         let mut command = Command::new(&self.file);
         command.args(words).current_dir(folder).env("DRYPOINT_PROGRESS", "lines");
-        command.envs(self.proofs.iter().map(|folder| ("DRYPOINT_PROOFS", folder)));
+        match &self.proofs {
+            Some(folder) => command.env("DRYPOINT_PROOFS", folder),
+            None => command.env_remove("DRYPOINT_PROOFS"),
+        };
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).kill_on_drop(true);
         command.spawn().map_err(|error| StudioError::Failed(format!("{} cannot be started: {error}", self.file.display())))
     }

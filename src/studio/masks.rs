@@ -84,9 +84,7 @@ impl Studio {
 
     /// The folder of what was found, for a command; `None` if the scene says itself what is seen, or nothing was found.
     pub(super) fn usable_sight(&self, document: &Document) -> Option<String> {
-        let found = self.found();
-        let is_used = document.string("sight").is_none() && found.join("sight.json").exists();
-        is_used.then(|| found.to_string_lossy().into_owned())
+        usable(&self.found(), document)
     }
 
     /// The folder of small copies of photographs and masks, and of what was found.
@@ -99,11 +97,7 @@ impl Studio {
         let proofs = self.proofs();
         match quality {
             Quality::Full => (self.program.clone(), self.usable_sight(document)),
-            Quality::Coarse => {
-                let small = proofs.join("sight");
-                let is_used = document.string("sight").is_none() && small.join("sight.json").exists();
-                (self.program.with_proofs(&proofs), is_used.then(|| small.to_string_lossy().into_owned()))
-            }
+            Quality::Coarse => (self.program.with_proofs(&proofs), usable(&proofs.join("sight"), document)),
         }
     }
 
@@ -123,11 +117,11 @@ impl Studio {
         });
         let size = ROLES.iter().find_map(|role| imagesize::size(sight.join(format!("{role}.png"))).ok());
         let size = size.map(|size| [size.width, size.height]);
-        let lines = OWN.map(|role| {
+        let own = OWN.map(|role| {
             let is_named = document.mask(role).is_some();
             json!({ "role": role, "is_there": is_named, "is_painted": is_named })
         });
-        let roles = [&found_roles[..], &lines[..]].concat();
+        let roles = [&found_roles[..], &own[..]].concat();
         Ok(json!({ "roles": roles, "size": size }))
     }
 
@@ -184,6 +178,12 @@ impl Studio {
         }
         Ok(())
     }
+}
+
+/// A folder of what was found, if the scene leaves it to that.
+fn usable(found: &Path, document: &Document) -> Option<String> {
+    let is_used = document.string("sight").is_none() && found.join("sight.json").exists();
+    is_used.then(|| found.to_string_lossy().into_owned())
 }
 
 /// The name of the folder of sight that belongs to a scene.

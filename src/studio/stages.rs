@@ -42,7 +42,7 @@ impl Studio {
         *made = None;
         let (scene, folder) = (document.name(), self.stages_folder(quality));
         let _ = std::fs::remove_dir_all(&folder);
-        let (output, found) = (folder.to_string_lossy().into_owned(), self.usable_sight(&document));
+        let (output, found) = (folder.to_string_lossy().into_owned(), self.drawing_with(&document, quality).1);
         let mut words = vec!["stages", &scene, "-o", &output];
         words.extend((quality == Quality::Coarse).then_some("--draft"));
         words.extend(found.iter().flat_map(|found| ["--sight", found]));

@@ -129,7 +129,10 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     pub(in crate::style) fn directions_on_skin(&self) -> Raster<f32> {
         let (heads, cells) = self.heads();
         let skin = self.skin_directions(&cells, &heads, &|p| nearest_head(&heads, p));
-        self.drawn_directions().map_or_else(|| skin.clone(), |drawn| drawn.over_angles(&skin))
+        match self.drawn_directions() {
+            Some(drawn) => drawn.over_angles(&skin),
+            None => skin,
+        }
     }
 
     fn heads(&self) -> (Vec<Head>, Cells) {

@@ -20,6 +20,7 @@ use crate::style::solids::Solids;
 use features::Features;
 use parameters::{CARD, HedcutParameters};
 use parts::Parts;
+use std::borrow::Cow;
 
 /// Tolerance of solid shapes in millimetres.
 const SOLID_TOLERANCE: f64 = 0.01;
@@ -134,8 +135,10 @@ impl Drawer<'_> {
     fn lanes(&self, features: &Features) -> Lanes {
         self.observer.begin("lanes");
         let size = self.size();
-        let drawn = self.drawn_directions().map_or_else(Vec::new, |drawn| drawn.lines);
-        let edges: Vec<Curve> = features.edges.iter().chain(&drawn).cloned().collect();
+        let edges: Cow<'_, [Curve]> = match self.drawn_directions() {
+            Some(drawn) => Cow::Owned([&features.edges[..], &drawn.lines[..]].concat()),
+            None => Cow::Borrowed(&features.edges),
+        };
         let edges = distance_to_curves(&edges, size.0, size.1);
         let isophotes = distance_to_curves(&features.isophotes, size.0, size.1);
         for (name, field) in [("distance-to-edges", &edges), ("distance-to-isophotes", &isophotes)] {

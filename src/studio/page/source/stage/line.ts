@@ -1,4 +1,4 @@
-// The pen: thin lines on the masks of edges and isophotes. Clicks join into a polyline, dragging draws freehand.
+// The pen: thin lines on the masks of edges, isophotes and directions. Clicks join into a polyline, dragging draws freehand.
 
 import { say } from "../model/scene.ts";
 import { now, set } from "../model/store.ts";
@@ -15,7 +15,7 @@ export function chooseLines(): boolean {
   const { mask } = now();
   const role = LINE_ROLES.includes(mask.role) && isTaken(mask.role) ? mask.role : LINE_ROLES.find(isTaken);
   if (!role) {
-    say("This style takes no drawn edges");
+    say("This style takes no drawn lines");
     return false;
   }
   set({ mask: { ...mask, role } });
