@@ -4,15 +4,19 @@ use crate::asking::sample;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
+
+/// Draws `large.jpg` coarsely.
+fn drafted(folder: &Path, proofs: Option<&Path>, options: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
+    let words = ["draw", "large.jpg", "-o", "out.json", "--draft", "--sight", "none", "-q"];
+    command.current_dir(folder).args(words).args(options).envs(proofs.map(|folder| ("DRYPOINT_PROOFS", folder)));
+    command.output().unwrap()
+}
 
 /// The report of a coarse drawing of a part of `large.jpg`, which reaches its lower border.
 fn report(folder: &Path, proofs: Option<&Path>) -> Value {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-    let words = ["draw", "large.jpg", "-o", "out.json", "--draft", "--json", "--sight", "none", "-q"];
-    command.current_dir(folder).args(words).args(["--crop", "300,200,900,880", "--size", "60x55mm"]);
-    command.envs(proofs.map(|folder| ("DRYPOINT_PROOFS", folder)));
-    let output = command.output().unwrap();
+    let output = drafted(folder, proofs, &["--json", "--crop", "300,200,900,880", "--size", "60x55mm"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }
@@ -58,10 +62,7 @@ fn masks_of_full_size_fit_a_copy() {
     image::GrayImage::from_pixel(1920, 1080, image::Luma([255])).save(folder.path().join("white.png")).unwrap();
     for role in ["subject", "edges", "highlights", "directions"] {
         let mask = format!("{role}=white.png");
-        let words =
-            ["draw", "large.jpg", "-o", "out.json", "--draft", "--sight", "none", "-q", "--style", "grid", "--mask", &mask];
-        let mut command = Command::new(env!("CARGO_BIN_EXE_drypoint"));
-        let output = command.current_dir(folder.path()).args(words).env("DRYPOINT_PROOFS", &proofs).output().unwrap();
+        let output = drafted(folder.path(), Some(&proofs), &["--style", "grid", "--mask", &mask]);
         let said = String::from_utf8_lossy(&output.stderr);
         // All of it a highlight: nothing is left to draw, which is said.
         assert!(output.status.success() || (role == "highlights" && said.contains("white all over")), "{role}: {said}");

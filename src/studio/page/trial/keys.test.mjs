@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile, rename, stat } from "node:fs/promises";
 import { join } from "node:path";
 import { afterEach, beforeEach, test } from "node:test";
-import { folderWith, openPage, scene, shownInFull, startStudio } from "./studio.mjs";
+import { folderWith, openPage, scene, sceneThat, shownInFull, startStudio } from "./studio.mjs";
 
 let studio, shown, page;
 
@@ -54,14 +54,7 @@ async function picked(name, letters) {
   await page.keyboard.type(letters);
 }
 
-async function until(isTrue) {
-  for (let tries = 0; tries < 200; tries++) {
-    const state = await scene(page);
-    if (isTrue(state)) return state;
-    await page.waitForTimeout(50);
-  }
-  assert.fail(`the scene stays ${(await scene(page)).toml}`);
-}
+const until = (isTrue) => sceneThat(page, isTrue);
 
 /// Exports with the dialog's own keys; returns the bytes written.
 async function exported(format) {

@@ -71,3 +71,13 @@ export function scene(page) {
     return (await fetch(`/api/scene?token=${token}`)).json();
   });
 }
+
+/// Waits until the scene fulfils a condition.
+export async function sceneThat(page, isTrue) {
+  for (let tries = 0; tries < 200; tries++) {
+    const state = await scene(page);
+    if (isTrue(state)) return state;
+    await page.waitForTimeout(50);
+  }
+  throw new Error(`the scene stays ${(await scene(page)).toml}`);
+}

@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
 import { startMachine } from "./machine.mjs";
-import { command, folderWith, openPage, scene, shownInFull, startStudio } from "./studio.mjs";
+import { command, folderWith, openPage, scene, sceneThat, shownInFull, startStudio } from "./studio.mjs";
 
 const run = promisify(execFile);
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -46,15 +46,7 @@ async function drop(name, kind, bytes) {
   );
 }
 
-/// Waits until the scene fulfils a condition.
-async function until(isTrue) {
-  for (let tries = 0; tries < 200; tries++) {
-    const state = await scene(page);
-    if (isTrue(state)) return state;
-    await page.waitForTimeout(50);
-  }
-  assert.fail(`the scene stays ${(await scene(page)).toml}`);
-}
+const until = (isTrue) => sceneThat(page, isTrue);
 
 /// The file that the page exports beside the scene, and the one that its command makes.
 async function exported(file) {
