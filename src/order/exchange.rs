@@ -32,6 +32,16 @@ impl Rearrangement {
         is_allowed.then(|| Self::around_longest(tour.len(), &cuts[..count], &mut walked[..count]))
     }
 
+    /// Cuts the tour behind these ascending seats and reverses the order of the segments, keeping the direction of each.
+    ///
+    /// ```text
+    ///      before:  == A == B == C == D == (A)
+    ///      after:   == A == D == C == B == (A)
+    /// ```
+    pub(super) fn reverse_order<const CUTS: usize>(paths: usize, cuts: [usize; CUTS]) -> Self {
+        Self::around_longest(paths, &cuts, &mut std::array::from_fn::<_, CUTS, _>(|i| ((CUTS - i) % CUTS, false)))
+    }
+
     fn around_longest(paths: usize, cuts: &[usize], walked: &mut [(usize, bool)]) -> Self {
         let segment = |index: usize| segment(paths, cuts, index);
         let longest = (0..walked.len()).max_by_key(|&i| segment(walked[i].0).1).unwrap_or(0);

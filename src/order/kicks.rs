@@ -13,7 +13,7 @@ const CUTS: usize = 4;
 /// for 0.1 to 0.2 %.
 const STEPS: usize = 10;
 
-/// Kicks the tour `times` times and returns the millimetres gained. One kick takes about 25 microseconds regardless of the tour's
+/// Kicks the tour `times` times and returns the millimetres gained. One kick takes about 20 microseconds regardless of the tour's
 /// length, as long as the changes to its array stay short.
 pub(super) fn kick(search: &mut LinKernighan, times: usize, random: &mut SplitMix) -> f64 {
     (0..times).take_while(|_| !search.sites.interrupt().is_raised()).filter_map(|_| kick_once(search, random)).sum()
@@ -23,21 +23,20 @@ pub(super) fn kick(search: &mut LinKernighan, times: usize, random: &mut SplitMi
 fn kick_once(search: &mut LinKernighan, random: &mut SplitMix) -> Option<f64> {
     let seats = nearby_seats(search, random)?;
     let tour = &search.tour;
-    let lengths: [usize; CUTS - 1] = std::array::from_fn(|i| seats[i + 1] - seats[i]);
     let ends: [End; 2 * CUTS] =
         std::array::from_fn(|i| if i % 2 == 0 { tour.entry(seats[i / 2]) ^ 1 } else { tour.entry(seats[i / 2] + 1) });
     let before = search.length_at(&ends);
-    search.tour.rearrange(&Rearrangement::reverse_order(search.tour.len(), seats[0], &lengths));
+    search.rearrange(&Rearrangement::reverse_order(search.tour.len(), seats));
     let loss = search.length_at(&ends) - before;
     for end in ends {
         search.look_at(end);
     }
     let gain = search.improve(|_| ()) - loss;
     if gain >= 0.0 {
-        search.tour.keep();
+        search.keep();
         Some(gain)
     } else {
-        search.tour.take_back();
+        search.take_back();
         Some(0.0)
     }
 }

@@ -1,7 +1,7 @@
 //! The segments of a tour in a new order.
 
-/// Maximum links in one exchange.
-pub(super) const MAX_LINKS: usize = 8;
+/// Maximum links in one exchange: a kick's.
+pub(super) const MAX_LINKS: usize = 4;
 
 /// A piece of the tour between two cut links, and its new position.
 #[derive(Clone, Copy, Default)]
@@ -28,24 +28,6 @@ pub(super) struct Rearrangement {
 }
 
 impl Rearrangement {
-    /// Reverses the order of the segments of these lengths behind a seat, keeping the direction of each.
-    ///
-    /// ```text
-    ///      before:  == A == B == C == D == (A)
-    ///      after:   == A == D == C == B == (A)
-    /// ```
-    pub(super) fn reverse_order(paths: usize, seat: usize, lengths: &[usize]) -> Self {
-        let mut segments = [Segment::default(); MAX_LINKS];
-        let mut first = seat + 1;
-        let mut to = first + lengths.iter().sum::<usize>();
-        for (segment, &len) in segments[1..].iter_mut().zip(lengths) {
-            to -= len;
-            *segment = Segment { first: first % paths, len, reversed: false, to: to % paths };
-            first += len;
-        }
-        Self { segments, count: lengths.len() + 1 }
-    }
-
     /// The segments that change seats or direction. The longest never does.
     pub(super) fn moved(&self) -> impl Iterator<Item = &Segment> {
         self.segments[1..self.count].iter().filter(|segment| segment.reversed || segment.first != segment.to)

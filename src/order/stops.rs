@@ -28,7 +28,7 @@ pub enum Effort {
     /// About 2 % longer than the best known order for dots, 4 % for segments and 8 % for hatches; about 15 microseconds per path.
     #[default]
     Fast,
-    /// About 1 % longer than the best known order; about 100 microseconds per path, and a second for the first thousand.
+    /// About 1 % longer than the best known order; about 50 microseconds per path, and a second for the first thousand.
     Full,
 }
 

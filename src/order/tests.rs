@@ -10,6 +10,7 @@ use super::neighbours::Neighbours;
 use super::one_way::OneWay;
 use super::random::SplitMix;
 use super::rearrangement::Rearrangement;
+use super::rings::Rings;
 use super::sites::{Sites, numbering};
 use super::tour::Tour;
 use super::{Direction, Effort, NEIGHBOURS, PathEnds, Stop, Visit, order, pen_up_length};
@@ -171,7 +172,7 @@ fn gains_add_up_to_the_difference_in_length() {
         for &end in &all {
             search.look_at(end);
         }
-        let mut gained = search.improve(Tour::keep);
+        let mut gained = search.improve(LinKernighan::keep);
         gained += kick(&mut search, 2000, &mut SplitMix::new(1));
         let after = search.length_at(&all);
         assert!(gained > 0.0 && (before - after - gained).abs() < 1e-9 * before, "{before} - {after} is not {gained}");
@@ -182,8 +183,8 @@ fn gains_add_up_to_the_difference_in_length() {
 fn changes_are_taken_back() {
     let entries: Vec<u32> = (0..50).map(|path| 2 * path + path % 2).collect();
     let mut tour = Tour::new(entries.clone());
-    for seat in [0, 7, 30, 44, 49] {
-        tour.rearrange(&Rearrangement::reverse_order(50, seat, &[3, 1, 5]));
+    for cuts in [[0, 3, 4, 9], [7, 10, 11, 16], [3, 30, 44, 49], [0, 1, 2, 48]] {
+        tour.rearrange(&Rearrangement::reverse_order(50, cuts));
     }
     assert_ne!(tour.entries_from(entries[0]), entries);
     tour.take_back();
@@ -198,4 +199,27 @@ fn exchanges_that_leave_several_rings_are_refused() {
     assert!(Rearrangement::new(&tour, &[3, 4, 11, 12], &free).is_none());
     let reversal = Rearrangement::new(&tour, &[3, 4, 12, 11], &free);
     assert!(reversal.is_some_and(|new| { new.moved().all(|segment| segment.reversed && segment.len == 4) }));
+}
+
+#[test]
+fn rings_are_joined_to_one_tour() {
+    let stops: Vec<Stop> = scattered(300, 2.0).into_iter().map(|ends| Stop::new(ends, Direction::Either)).collect();
+    let numbering = numbering(&stops);
+    let sites = Sites::new(&stops, &numbering, HOME, &Interrupt::never());
+    let neighbours = Neighbours::new(&sites, NEIGHBOURS);
+    let tour = Tour::new(greedy_tour(&sites, &neighbours));
+    // Close the seats 10 to 19, 40 to 89 and 100 alone to rings, and the rest over the gaps.
+    let close = |first, last| [[tour.entry(first), tour.entry(last) ^ 1], [tour.entry(first - 1) ^ 1, tour.entry(last + 1)]];
+    let links = [close(10, 19), close(40, 89), close(100, 100)].concat();
+    let (joined, joints) = Rings::with(&tour, links.into_iter()).joined(&sites, &neighbours);
+    let paths: std::collections::BTreeSet<u32> = joined.entries_from(0).into_iter().map(|entry| entry >> 1).collect();
+    assert_eq!((joined.len(), paths.len(), joints.len()), (301, 301, 3 * 4));
+}
+
+#[test]
+fn one_way_paths_among_others_keep_their_direction_in_every_tile() {
+    // Dots may be entered from either side; so that the two kinds are mixed.
+    let paths: Vec<PathEnds> = [scattered(4500, 0.0), scattered(4500, 3.0)].concat();
+    let visits = order(&paths, HOME, Effort::Fast, Direction::AsDrawn);
+    assert!(is_permutation(&visits, paths.len()) && visits.iter().all(|visit| !visit.reversed));
 }
