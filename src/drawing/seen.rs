@@ -1,5 +1,7 @@
 //! The visible ink of a drawing: opaque paint covers what lies below it, so it counts once.
 
+use std::ops::Range;
+
 use super::{Drawing, Layer, Mark, Mixing};
 use crate::geometry::{BezPath, Rect, flatten};
 use crate::parallel::{mapped, shares};
@@ -58,20 +60,20 @@ impl Lines {
 
     /// Adds what a layer's marks cover.
     fn add(&self, covered: &mut [Spans], layer: &Layer) {
-        let outlines: Vec<BezPath> = mapped(&layer.marks, &ink_outline);
-        let edges: Vec<Vec<Edge>> = mapped(&outlines, &edges);
+        let marks: Vec<Vec<Edge>> = mapped(&layer.marks, &|mark| self.edges(&ink_outline(mark)));
+        let reach: Vec<Range<usize>> = marks.iter().map(|edges| reach(edges)).collect();
         shares(covered, BAND, &|band, rows| {
             let (first, end) = (band * BAND, band * BAND + rows.len());
-            for mark in &edges {
-                let mut crossings: Vec<Vec<(f64, i32)>> = Vec::new();
-                for edge in mark {
-                    let range = self.crossed(edge);
-                    for line in range.start.max(first)..range.end.min(end) {
-                        crossings.resize_with(rows.len(), Vec::new);
+            let mut crossings: Vec<Vec<(f64, i32)>> = vec![Vec::new(); rows.len()];
+            for (edges, reach) in marks.iter().zip(&reach).filter(|(_, reach)| reach.start < end && reach.end > first) {
+                for edge in edges {
+                    for line in edge.lines.start.max(first)..edge.lines.end.min(end) {
                         crossings[line - first].push((edge.at(self.height(line)), edge.winding));
                     }
                 }
-                rows.iter_mut().zip(crossings).for_each(|(row, crossings)| append_inside(row, crossings));
+                for line in reach.start.max(first)..reach.end.min(end) {
+                    append_inside(&mut rows[line - first], &mut crossings[line - first]);
+                }
             }
             rows.iter_mut().for_each(join);
         });
@@ -81,10 +83,27 @@ impl Lines {
         self.top + (line as f64 + 0.5) * self.step
     }
 
-    /// The lines that an edge crosses, including its upper end and excluding its lower one.
-    fn crossed(&self, edge: &Edge) -> std::ops::Range<usize> {
+    /// The sides of an outline that cross lines.
+    fn edges(&self, outline: &BezPath) -> Vec<Edge> {
+        let mut edges = Vec::new();
+        for (polygon, _) in flatten(outline, TOLERANCE) {
+            for (i, a) in polygon.iter().enumerate() {
+                let b = polygon[(i + 1) % polygon.len()];
+                let (a, b) = ((a.x, a.y), (b.x, b.y));
+                let (top, bottom, winding) = if a.1 < b.1 { (a, b, 1) } else { (b, a, -1) };
+                let lines = self.crossed(top.1, bottom.1);
+                if !lines.is_empty() {
+                    edges.push(Edge { top, bottom, winding, lines });
+                }
+            }
+        }
+        edges
+    }
+
+    /// The lines from one height to another, including the first and excluding the last.
+    fn crossed(&self, top: f64, bottom: f64) -> Range<usize> {
         let index = |y: f64| ((y - self.top) / self.step - 0.5).ceil().clamp(0.0, self.count as f64) as usize;
-        index(edge.top.1)..index(edge.bottom.1)
+        index(top)..index(bottom)
     }
 }
 
@@ -93,6 +112,8 @@ struct Edge {
     top: (f64, f64),
     bottom: (f64, f64),
     winding: i32,
+    /// The lines that it crosses.
+    lines: Range<usize>,
 }
 
 impl Edge {
@@ -109,27 +130,16 @@ fn ink_outline(mark: &Mark) -> BezPath {
     }
 }
 
-fn edges(outline: &BezPath) -> Vec<Edge> {
-    let mut edges = Vec::new();
-    for (polygon, _) in flatten(outline, TOLERANCE) {
-        for (i, a) in polygon.iter().enumerate() {
-            let b = polygon[(i + 1) % polygon.len()];
-            let (a, b) = ((a.x, a.y), (b.x, b.y));
-            if a.1 < b.1 {
-                edges.push(Edge { top: a, bottom: b, winding: 1 });
-            } else if b.1 < a.1 {
-                edges.push(Edge { top: b, bottom: a, winding: -1 });
-            }
-        }
-    }
-    edges
+/// The lines that these edges cross, from the first to the last.
+fn reach(edges: &[Edge]) -> Range<usize> {
+    edges.iter().map(|edge| edge.lines.clone()).reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0)
 }
 
-/// Adds the intervals of a line inside one outline, by the nonzero rule.
-fn append_inside(spans: &mut Spans, mut crossings: Vec<(f64, i32)>) {
+/// Adds the intervals of a line inside one outline, by the nonzero rule, and clears its crossings.
+fn append_inside(spans: &mut Spans, crossings: &mut Vec<(f64, i32)>) {
     crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (mut winding, mut from) = (0, 0.0);
-    for (x, turn) in crossings {
+    for (x, turn) in crossings.drain(..) {
         if winding == 0 {
             from = x;
         }
