@@ -17,7 +17,7 @@ use crate::geometry::Point;
 use crate::parallel::{collected, shares};
 use crate::raster::Raster;
 use crate::source::{MaskRole, Placement, Portrait};
-use crate::style::{Observer, Picture, Settings, StyleError};
+use crate::style::{Observer, Parameter, Picture, Settings, StyleError};
 
 /// Most of the paper that marks beside one another cover: above it round dots run together.
 const MOST_BESIDE: f32 = 0.75;
@@ -181,10 +181,11 @@ impl Task<'_> {
         let mut given = self.given().to_vec();
         for (key, value) in SOLID {
             // Without regions there are no strokes in them.
-            if key == "parts" && portrait.masks.is_empty() {
-                continue;
-            }
-            if style.parameters().iter().any(|parameter| parameter.name == key) && !given.iter().any(|(known, _)| known == key) {
+            let has_effect =
+                |parameter: &Parameter| key != "parts" || parameter.needs.iter().all(|need| need.is_met(settings, portrait));
+            if style.parameters().iter().any(|parameter| parameter.name == key && has_effect(parameter))
+                && !given.iter().any(|(known, _)| known == key)
+            {
                 given.push((key.to_owned(), value.to_owned()));
             }
         }

@@ -65,6 +65,9 @@ impl Palette {
         let numbers = numbers(order.iter().map(|pen| &entries[*pen]));
         let inks = order.iter().map(|pen| entries[*pen].ink(shown_colour(&pens[*pen], paper))).collect();
         let measured = overprints(&order, &entries);
+        for told in unused_overprints(&order, &entries) {
+            warning!("{file}: {told}");
+        }
         let pens = order.into_iter().map(|pen| pens[pen].clone()).collect();
         let pens = PenSet::new(pens, paper, measured).map_err(|error| match error {
             PensError::TooMany(_) => about(&format!("{error}: --choose 4")),
@@ -184,6 +187,20 @@ fn overprints(order: &[usize], entries: &[PenEntry]) -> Vec<Overprint> {
     let last = order.last().filter(|_| order.len() > 2).and_then(|last| entries[*last].over_all);
     let of_all = last.map(|lab| Overprint { pens: (0..order.len()).collect(), colour: colour(lab) });
     order.iter().enumerate().flat_map(of_pen).chain(of_all).collect()
+}
+
+/// What was measured of a pen over pens that are drawn after it.
+fn unused_overprints(order: &[usize], entries: &[PenEntry]) -> Vec<String> {
+    let drawn: Vec<&PenEntry> = order.iter().map(|pen| &entries[*pen]).collect();
+    let of_pen = |(i, pen): (usize, &&PenEntry)| {
+        let later = drawn[i + 1..].iter().map(|later| &later.key);
+        let over = later.clone().filter(|later| pen.over.iter().any(|(key, _)| key == *later));
+        let pair = |later| format!("[{}] is drawn before [{later}], so its colour over '{later}' is not used", pen.key);
+        let all = later.last().filter(|_| pen.over_all.is_some());
+        let all = all.map(|last| format!("over_all of [{}] is not used, as [{last}] is drawn last; give it there", pen.key));
+        over.map(pair).chain(all).collect::<Vec<_>>()
+    };
+    drawn.iter().enumerate().flat_map(of_pen).collect()
 }
 
 /// Refuses an overprint with a pen that is not in the file.

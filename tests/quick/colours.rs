@@ -193,3 +193,16 @@ fn pens_that_cannot_serve_are_told() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success() && said.contains("no pen is dark"), "{said}");
 }
+
+#[test]
+fn a_look_over_pens_drawn_later_is_told() {
+    let light = "[light]\ncolour = \"#ffcc00\"\nover_all = [50, 1, 1]\nover = { dark = [20, 0, 0] }\n";
+    let folder = with_pens(&format!("{light}[mid]\ncolour = \"#cc3344\"\n[dark]\ncolour = \"#101020\"\n"));
+    flat(folder.path(), [180, 150, 120]);
+    let output = draw(folder.path(), &["flat.png", "-o", "flat.svg", "--colours", "pens.toml", "--size", "20x20mm"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    assert!(told.contains("[light] is drawn before [dark], so its colour over 'dark' is not used"), "{told}");
+    assert!(told.contains("over_all of [light] is not used, as [dark] is drawn last; give it there"), "{told}");
+    assert!(!told.contains("has no effect here"), "{told}");
+}
