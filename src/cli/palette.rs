@@ -193,10 +193,10 @@ fn overprints(order: &[usize], entries: &[PenEntry]) -> Vec<Overprint> {
 fn unused_overprints(order: &[usize], entries: &[PenEntry]) -> Vec<String> {
     let drawn: Vec<&PenEntry> = order.iter().map(|pen| &entries[*pen]).collect();
     let of_pen = |(i, pen): (usize, &&PenEntry)| {
-        let later = drawn[i + 1..].iter().map(|later| &later.key);
+        let mut later = drawn[i + 1..].iter().map(|later| &later.key);
         let over = later.clone().filter(|later| pen.over.iter().any(|(key, _)| key == *later));
         let pair = |later| format!("[{}] is drawn before [{later}], so its colour over '{later}' is not used", pen.key);
-        let all = later.last().filter(|_| pen.over_all.is_some());
+        let all = later.next_back().filter(|_| pen.over_all.is_some());
         let all = all.map(|last| format!("over_all of [{}] is not used, as [{last}] is drawn last; give it there", pen.key));
         over.map(pair).chain(all).collect::<Vec<_>>()
     };

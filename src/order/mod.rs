@@ -116,7 +116,10 @@ struct Best {
 impl Best {
     fn as_given(stops: &[Stop], home: Point) -> Self {
         let mut best = Self { home, visits: Vec::new(), seats: Vec::new(), length: f64::INFINITY };
-        best.take((0..stops.len()).map(|path| Visit { path, reversed: false }).collect(), stops, f64::INFINITY);
+        let visits: Vec<Visit> = (0..stops.len()).map(|path| Visit { path, reversed: false }).collect();
+        let ends: Vec<PathEnds> = stops.iter().map(|stop| stop.ends).collect();
+        let length = pen_up_length(&ends, &visits, home);
+        best.take(visits, stops, length);
         best
     }
 

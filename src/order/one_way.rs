@@ -3,7 +3,7 @@
 use super::tour::Tour;
 
 /// Up to this many are looked up one by one. More are found by walking along the segment in question, where one turns up soon.
-/// Both cost at most a few hundred steps in a patch of 5000.
+/// Both cost at most a few hundred steps in a patch of 4000.
 const FEW: usize = 32;
 
 /// The paths that may not be reversed.
@@ -25,6 +25,13 @@ impl OneWay {
         }
         let few = if count <= FEW { (0..).zip(&is).filter(|(_, is)| **is).map(|(path, _)| path).collect() } else { Vec::new() };
         Self { few, is_mixed: count < is.len(), is }
+    }
+
+    /// The one-way paths of a patch. Among paths of which some may be reversed, directions have to be checked also where a patch has
+    /// none of these: its bundles may begin with one.
+    pub(super) fn part(&self, is: Vec<bool>) -> Self {
+        let part = Self::new(is);
+        Self { is_mixed: self.is_mixed && !part.is_empty(), ..part }
     }
 
     pub(super) fn contains(&self, path: usize) -> bool {

@@ -2,26 +2,23 @@
 
 use super::ends::End;
 use super::neighbours::Neighbours;
-use super::one_way::OneWay;
 use super::sites::Sites;
 use super::tour::Tour;
 
-/// Some paths of a tour as a smaller tour. The tour's course outside the patch, from the last path before it to the first behind
-/// it, is one bundle, which is a path like any other: it has two ends and may be drawn in either direction.
+/// Some paths of a tour as a smaller tour, which is cut behind each of them. So the tour's course outside the patch is tied to the
+/// path at which it comes back, as one bundle, which is a path like any other: it has two ends and may be drawn in either direction.
 ///
 /// ```text
 ///           +----------+
-///      -----|-1      6-|-------       1 to 6 are in the patch; the tour's course from 3 to 4 and from 6 to 1
-///     |     | 2      5 |       |      outside of it are two bundles
+///      -----|-1      6-|-------       1 to 6 are in the patch; the tour's course from behind 3 to 4, and from
+///     |     | 2      5 |       |      behind 6 to 1, are two bundles
 ///      ---  |  3    4  |  -----
 ///         | +--|----|--+ |
 ///          ----      ----
 /// ```
 ///
-/// So patches without a common path have no common link.
-///
-/// Any improvement of the small tour also improves the large one, but a change moves at most some hundred entries, and everything
-/// that the search examines stays in the cache.
+/// Every link belongs to the path before it, so patches without a common path change no link in common. An improvement of the small
+/// tour also improves the large one, but a change moves few entries, and everything that the search examines stays in the cache.
 pub(super) struct Patch {
     pub(super) sites: Sites,
     pub(super) neighbours: Neighbours,
@@ -30,7 +27,7 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// The patch of the links between these paths. `renumbered` is scratch space with an entry `End::MAX` for each end, and is
+    /// The patch of the links behind these paths. `renumbered` is scratch space with an entry `End::MAX` for each end, and is
     /// restored. O(number of paths in the patch).
     pub(super) fn new(sites: &Sites, neighbours: &Neighbours, tour: &Tour, paths: &[u32], renumbered: &mut [End]) -> Self {
         let pieces = pieces(tour, paths);
@@ -45,7 +42,7 @@ impl Patch {
         let one_way = sites.one_way();
         let is_one_way = |piece: &[usize]| one_way.is_within(tour, piece[0], piece[1] - piece[0]);
         let one_way = if one_way.is_empty() { Vec::new() } else { pieces.windows(2).map(is_one_way).collect() };
-        Self { sites: sites.part(&ends, OneWay::new(one_way)), neighbours, ends }
+        Self { sites: sites.part(&ends, sites.one_way().part(one_way)), neighbours, ends }
     }
 
     /// The small tour before any change.
@@ -53,14 +50,15 @@ impl Patch {
         Tour::new((0..self.ends.len() as End).step_by(2).collect())
     }
 
-    /// The links of a small tour, in the large tour's numbering. O(their number).
-    pub(super) fn links(&self, small: &Tour) -> impl Iterator<Item = [End; 2]> {
-        (0..small.len()).map(|seat| [small.entry(seat) ^ 1, small.entry(seat + 1)].map(|end| self.ends[end as usize]))
+    /// The links of a small tour that are new, in the large tour's numbering. O(number of its paths).
+    pub(super) fn new_links(&self, small: &Tour) -> Vec<[End; 2]> {
+        let before = self.tour();
+        let links = (0..small.len()).map(|seat| [small.entry(seat) ^ 1, small.entry(seat + 1)]);
+        links.filter(|link| before.link(link[0]) != link[1]).map(|link| link.map(|end| self.ends[end as usize])).collect()
     }
 }
 
-/// The first seats of the patch's pieces, ascending, and the first one's again, one round later: the tour is cut wherever it goes
-/// from one of the paths straight to another.
+/// The first seats of the patch's pieces, ascending, and the first one's again, one round later.
 fn pieces(tour: &Tour, paths: &[u32]) -> Vec<usize> {
     let mut pieces: Vec<usize> = paths.iter().map(|&path| (tour.seat_of(2 * path) + 1) % tour.len()).collect();
     pieces.sort_unstable();

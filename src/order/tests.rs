@@ -13,6 +13,7 @@ use super::rearrangement::Rearrangement;
 use super::rings::Rings;
 use super::sites::{Sites, numbering};
 use super::tour::Tour;
+use super::workpiece::Workpiece;
 use super::{Direction, Effort, NEIGHBOURS, PathEnds, Stop, Visit, order, pen_up_length};
 use crate::interrupt::Interrupt;
 
@@ -218,8 +219,33 @@ fn rings_are_joined_to_one_tour() {
 
 #[test]
 fn one_way_paths_among_others_keep_their_direction_in_every_tile() {
-    // Dots may be entered from either side; so that the two kinds are mixed.
-    let paths: Vec<PathEnds> = [scattered(4500, 0.0), scattered(4500, 3.0)].concat();
-    let visits = order(&paths, HOME, Effort::Fast, Direction::AsDrawn);
-    assert!(is_permutation(&visits, paths.len()) && visits.iter().all(|visit| !visit.reversed));
+    // Dots may be entered from either side. On one half of the paper there are lines alone, so that a tile may hold nothing else.
+    let shifted = |paths: Vec<PathEnds>, by: f64| -> Vec<PathEnds> {
+        paths.into_iter().map(|PathEnds { start, end }| PathEnds { start: start + (by, 0.0), end: end + (by, 0.0) }).collect()
+    };
+    let paths = [shifted(scattered(6000, 3.0), 0.0), shifted(scattered(6100, 0.0), 100.0)].concat();
+    let stops: Vec<Stop> = paths.iter().map(|ends| Stop::new(*ends, Direction::AsDrawn)).collect();
+    let numbering = numbering(&stops);
+    let sites = Sites::new(&stops, &numbering, HOME, &Interrupt::never());
+    let neighbours = Neighbours::new(&sites, NEIGHBOURS);
+    let tour = Tour::new(greedy_tour(&sites, &neighbours));
+    let mut work = Workpiece { sites, neighbours, tour };
+    work.settle();
+    work.kick(1.0, 0);
+    let entries = work.tour.entries_from(work.sites.free_end());
+    assert_eq!(entries.len(), 12_101);
+    assert!(entries.into_iter().all(|entry| entry & 1 == 0 || !work.sites.one_way().contains(entry as usize >> 1)));
+}
+
+#[test]
+fn a_good_order_is_kept() {
+    let line: Vec<PathEnds> =
+        (0..200).map(|i| PathEnds { start: Point::new(f64::from(i), 0.0), end: Point::new(f64::from(i), 0.5) }).collect();
+    let once = order(&line, HOME, Effort::Full, Direction::Either);
+    let turned = |visit: &Visit| {
+        let PathEnds { start, end } = line[visit.path];
+        if visit.reversed { PathEnds { start: end, end: start } } else { PathEnds { start, end } }
+    };
+    let given: Vec<PathEnds> = once.iter().map(turned).collect();
+    assert!(length(&given, Effort::Fast, Direction::Either) <= length(&given, Effort::None, Direction::Either));
 }

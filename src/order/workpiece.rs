@@ -27,7 +27,7 @@ impl Workpiece {
     /// Kicks the tour `kicks_per_path` times the number of paths. A different `sequence` gives different kicks, in tiles with
     /// other borders.
     pub(super) fn kick(&mut self, kicks_per_path: f64, sequence: u32) {
-        let tiles = tiles(&self.sites, 1 + sequence as usize);
+        let tiles = tiles(&self.sites, Some(sequence as usize));
         self.improve_in(&tiles, |patch, tile| {
             let mut random = SplitMix::new((u64::from(sequence) << 32) + tile as u64);
             let kicks = (kicks_per_path * tiles[tile].len() as f64).round() as usize;
@@ -50,7 +50,7 @@ impl Workpiece {
 
     /// Searches from all links: first in tiles, where changes are cheap; then in the whole tour, from the ends at their borders.
     pub(super) fn settle(&mut self) {
-        let tiles = tiles(&self.sites, 0);
+        let tiles = tiles(&self.sites, None);
         self.improve_in(&tiles, |patch, _| {
             let all = 0..patch.sites.end_count() as End;
             settled(&patch.sites, &patch.neighbours, patch.tour(), all)
@@ -88,18 +88,21 @@ impl Workpiece {
         // A patch keeps the directions of one-way paths outside it only as long as these are linked as before.
         let at_once = if self.sites.one_way().is_mixed() { 1 } else { tiles.len() };
         let mut first = 0;
-        for tiles in tiles.chunks(at_once) {
+        let interrupt = self.sites.interrupt().clone();
+        for tiles in tiles.chunks(at_once).take_while(|_| !interrupt.is_raised()) {
             let scratch = || vec![End::MAX; self.sites.end_count()];
             let links = tiles.par_iter().enumerate().map_init(scratch, |renumbered, (tile, paths)| {
                 let patch = Patch::new(&self.sites, &self.neighbours, &self.tour, paths, renumbered);
                 let small = improved(&patch, first + tile);
-                patch.links(&small).collect()
+                patch.new_links(&small)
             });
-            let links: Vec<Vec<[End; 2]>> = links.collect();
-            let (tour, joints) = Rings::with(&self.tour, links.into_iter().flatten()).joined(&self.sites, &self.neighbours);
-            self.tour = tour;
-            self.settle_at(joints);
+            let links: Vec<[End; 2]> = links.collect::<Vec<_>>().concat();
             first += at_once;
+            if !links.is_empty() {
+                let (tour, joints) = Rings::with(&self.tour, links.into_iter()).joined(&self.sites, &self.neighbours);
+                self.tour = tour;
+                self.settle_at(joints);
+            }
         }
     }
 }
