@@ -1,6 +1,6 @@
 //! Half tones of a face's skin rubbed into its lights, as a stump does on charcoal and as an engraver's dots do: lights end softly.
 
-use crate::raster::{Raster, gaussian_blur, soft_rise};
+use crate::raster::{Raster, fast_gaussian, soft_rise};
 
 /// The share of the half tones that reaches a light, and the most ink that counts as one. With more, faces are veiled; with less,
 /// foreheads and noses are holes with hard edges (sixteen portraits in charcoal).
@@ -23,8 +23,8 @@ fn half_tones(ink: &Raster<f32>, skin: &Raster<f32>, reach: f32) -> Raster<f32> 
     let room = (ROOM * reach).ceil() as usize + 2;
     let Some([columns, rows]) = skin.extent_with_room(0.0, room) else { return all };
     let (ink, skin) = (ink.part(&columns, &rows), skin.part(&columns, &rows));
-    let sum = gaussian_blur(&ink.zip_map(&skin, |ink, skin| ink.min(MOST_INK) * skin), reach);
-    let mean = sum.zip_map(&gaussian_blur(&skin, reach), |sum, skin| sum / skin.max(1e-3));
+    let sum = fast_gaussian(&ink.zip_map(&skin, |ink, skin| ink.min(MOST_INK) * skin), reach);
+    let mean = sum.zip_map(&fast_gaussian(&skin, reach), |sum, skin| sum / skin.max(1e-3));
     let rubbed = mean.zip_map(&skin, |mean, skin| RUBBED * mean * skin);
     for (y, row) in rows.enumerate() {
         for (x, column) in columns.clone().enumerate() {

@@ -18,7 +18,6 @@ const LIGHT_EVENED: f32 = 0.35;
 /// Local contrast: contrasts below `sigma` are raised by the power `alpha`, larger ones lowered a little. Pyramid levels finer
 /// than `FINE` of a sixtieth of the face (about a dot) are left unchanged.
 const CONTRAST: Remapping = Remapping { alpha: 0.65, sigma: 0.16, beta: 0.85 };
-const LEFT: Remapping = Remapping { alpha: 1.0, sigma: 0.16, beta: 0.85 };
 const DOTS: f64 = 60.0;
 const FINE: f64 = 0.35;
 const SAMPLES: usize = 14;
@@ -43,10 +42,11 @@ const DOT: f64 = 0.012;
 /// Clothing's own curve: black cloth is lightened, white cloth stays white.
 const CLOTHING: [[f32; 2]; 6] = [[-0.3, 0.0], [0.0, 0.06], [0.10, 0.17], [0.35, 0.40], [0.70, 0.73], [1.0, 1.0]];
 /// Hair lighter than `LIGHT_HAIR` is compressed, and the contrast of its strands raised. With 0.76 and 0.45 white hair is bare paper with a
-/// few lines (12, 13).
+/// few lines (12, 13); without a limit on how far strands go from their surroundings, shade between white locks is black blots (12 to 14).
 const LIGHT_HAIR: f32 = 0.68;
 const HELD: f32 = 0.4;
 const STRANDS: f32 = 2.2;
+const MOST_STRAND: f32 = 0.3;
 /// How much the difference of eyes, brows and lips from the surrounding skin is raised.
 const FEATURES: f32 = 0.40;
 /// Large blacks below this tone are lightened; in the face the threshold is higher.
@@ -71,7 +71,7 @@ pub(super) struct Setting<'a> {
     pub lightness: &'a Raster<f32>,
     /// 0 to 1, with a sharpened edge.
     pub subject: Raster<f32>,
-    /// Hair and headwear.
+    /// Hair, beards and headwear.
     pub hair: Option<Raster<f32>>,
     pub clothing: Option<Raster<f32>>,
 }
@@ -96,7 +96,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     let tone = raised_features(&zones, face, &tone, &setting.subject);
     let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, face, &tone, &setting.subject);
-    let tone = lights_to_paper(&zones, &tone);
+    let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }
@@ -123,9 +123,8 @@ fn local_contrast(zones: &Zones, evened: &Raster<f32>, subject: &Raster<f32>) ->
     let beyond = zones.over_skin(evened, &weight, 0.1);
     let filled = mixed(&beyond, evened, subject);
     let count = ((zones.width / 10.0).max(1.0).binary_logarithm().round() as usize).max(3);
-    let levels: Vec<Remapping> =
-        (0..count).map(|level| if f64::from(1 << level) < FINE * zones.width / DOTS { LEFT } else { CONTRAST }).collect();
-    local_laplacian(&filled, &levels, SAMPLES)
+    let left = (0..count).take_while(|level| f64::from(1 << level) < FINE * zones.width / DOTS).count();
+    local_laplacian(&filled, left..count, CONTRAST, SAMPLES)
 }
 
 /// Step 3: the rising curve through the skin's median and its lights.
@@ -162,7 +161,9 @@ fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster
     let weight = zone.zip_map(subject, |zone, subject| zone + 1e-4 * subject + 1e-6);
     let mean = zones.over_skin(&tone.map(|v| v.clamp(0.0, 1.05)), &weight, 0.05);
     let held = tone.zip_map(&mean, |tone, mean| {
-        let strand = (tone - mean) * (1.0 + STRANDS * ((mean - 0.5) / 0.3).clamp(0.0, 1.0));
+        let (strand, light) = (tone - mean, ((mean - 0.5) / 0.3).clamp(0.0, 1.0));
+        let raised = MOST_STRAND * ((1.0 + STRANDS) * strand / MOST_STRAND).hyperbolic_tangent();
+        let strand = strand + light * (raised - strand);
         mean.min(LIGHT_HAIR + HELD * (mean - LIGHT_HAIR).max(0.0)) + strand
     });
     mixed(tone, &held, &zone)
@@ -194,12 +195,13 @@ fn opened_blacks(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, subject: &
 }
 
 /// Step 9: a face whose lights are small or scattered gets bare paper too. Above the face's bright quarter the curve is
-/// steepened, by the least amount that takes its lights, as seen in print, to paper.
-fn lights_to_paper(zones: &Zones, tone: &Raster<f32>) -> Raster<f32> {
+/// steepened, by the least amount that takes its lights, as seen in print, to paper. Light beards keep their strands.
+fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>) -> Raster<f32> {
     let before = seen(zones, tone);
     let [from, lights] = [RAISED_FROM, BELOW_PAPER].map(|hundredths| zones.percentile(&before, hundredths));
     let range = lights - from;
     let in_face = fast_gaussian(&zones.oval.map(f32::from), (FACE_EDGE * zones.width) as f32);
+    let in_face = hair.map_or_else(|| in_face.clone(), |hair| in_face.zip_map(hair, |face, hair| face * (1.0 - hair)));
     let raised = |most: f32| {
         let more = tone.map(|v| {
             let above = ((v - from) / range).max(0.0);
