@@ -28,6 +28,9 @@ fn hash(seed: u64, x: u64, y: u64) -> f32 {
     (z >> 40) as f32 / 8_388_608.0 - 1.0
 }
 
+/// Pixels that are counted at least if there are more, in rows that are at most this far apart: hills are about five pixels apart.
+const ENOUGH: usize = 1 << 20;
+const MOST_APART: usize = 4;
 /// Bands of rows that are counted in parallel; each has a table of all levels.
 const BANDS: usize = 16;
 
@@ -38,10 +41,11 @@ fn equalised(raster: &Raster<f32>) -> Raster<f32> {
     let (low, high) = raster.pixels().iter().map(|&v| (v, v)).fold((f32::INFINITY, f32::NEG_INFINITY), bounds);
     let scale = if high > low { (LEVELS - 1) as f32 / (high - low) } else { 0.0 };
     let rows = raster.height().div_ceil(BANDS);
+    let apart = (raster.len() / ENOUGH).clamp(1, MOST_APART);
     let counted = |band: usize| {
         let mut below = vec![0_u32; LEVELS + 1];
         let mut count = |value: f32| below[((value - low) * scale).clamp(0.0, (LEVELS - 1) as f32) as usize + 1] += 1;
-        for y in band * rows..((band + 1) * rows).min(raster.height()) {
+        for y in (band * rows..((band + 1) * rows).min(raster.height())).step_by(apart) {
             let (row, next) = (raster.row(y), raster.row((y + 1).min(raster.height() - 1)));
             for x in 0..raster.width() {
                 let right = (x + 1).min(raster.width() - 1);
@@ -59,10 +63,10 @@ fn equalised(raster: &Raster<f32>) -> Raster<f32> {
     for band in collected(BANDS, &counted) {
         below.iter_mut().zip(band).for_each(|(all, part)| *all += part);
     }
-    let total: u32 = 4 * raster.len() as u32;
     for level in 0..LEVELS {
         below[level + 1] += below[level];
     }
+    let total = below[LEVELS];
     raster.map(|value| {
         let at = (value - low) * scale;
         let level = (at as usize).min(LEVELS - 1);
