@@ -32,6 +32,7 @@ mod settings;
 mod solids;
 mod spectacles;
 mod streaks;
+mod teeth;
 mod tone_error;
 
 pub use cost::Cost;

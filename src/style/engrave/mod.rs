@@ -47,8 +47,8 @@ impl Style for Engrave {
         &CARD
     }
 
-    fn pixels_per_mm(&self, settings: &Settings, _: &[MaskRole]) -> f64 {
-        parameters::PIXELS_PER_PITCH / settings.number("pitch")
+    fn pixels_per_mm(&self, settings: &Settings, masks: &[MaskRole]) -> f64 {
+        EngraveParameters::new(settings).pixels_per_pitch(masks) / settings.number("pitch")
     }
 
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {

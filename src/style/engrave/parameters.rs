@@ -16,8 +16,9 @@ pub(super) const CARD: StyleCard = StyleCard {
     leaves_out_background: true,
 };
 
-/// Working pixels per pitch.
-pub(super) const PIXELS_PER_PITCH: f64 = 6.0;
+/// Working pixels per pitch; and where masks show a person, whose lines follow the form: they are laid between pixels.
+const PIXELS_PER_PITCH: f64 = 6.0;
+const PIXELS_PER_PITCH_OF_FORM: f64 = 5.0;
 
 /// Depth bends the lines or gives the tone.
 const DEPTH_COUNTS: Need = Need::AnyOf(&[&[Need::Nonzero("displacement")], &[Need::Word("tone_from", &["depth"])]]);
@@ -38,7 +39,7 @@ const NOT_STIPPLED: Need = Need::Word("look", &["crosshatch", "engraving", "hatc
 parameters! {
     /// The parameters of an engraving; angles in degrees; lengths in millimetres.
     pub(super) struct EngraveParameters {
-        pitch: Millimetres = "pitch": millimetres(0.45, 0.1..=50.0),
+        pitch: Millimetres = "pitch": millimetres(0.36, 0.1..=50.0),
             "distance between neighbouring lines where the depth is flat",
             "Galarza 3.5.1, delta_y";
         look: Look = "look": Kind::Choice(Look::WORDS),
@@ -144,6 +145,12 @@ choices! {
 }
 
 impl EngraveParameters {
+    /// Working pixels per pitch, given the masks that are known.
+    pub(super) fn pixels_per_pitch(&self, masks: &[MaskRole]) -> f64 {
+        let has_person = masks.iter().any(|role| matches!(role, Hair | Clothing));
+        if self.may_follow_form() && has_person { PIXELS_PER_PITCH_OF_FORM } else { PIXELS_PER_PITCH }
+    }
+
     /// True if nothing asks for lines other than those that follow the form of a face.
     pub(super) fn may_follow_form(&self) -> bool {
         self.way == Way::Form

@@ -36,8 +36,12 @@ impl Extent {
     }
 }
 
+/// Working pixels per pixel of the grid on which lines are laid: there is one for about each node of their lattice.
+const COARSER: usize = 2;
+
 /// Lines in one direction over one surface.
 pub(super) struct Family {
+    /// On the coarser grid.
     stripes: StripeLattice,
     origin: Vec2,
     /// In working pixels.
@@ -48,13 +52,18 @@ pub(super) struct Family {
 impl Family {
     /// The distance of neighbouring lines at a place, in pixels.
     pub(super) fn spacing(&self, p: Point) -> f64 {
-        1.0 / f64::from(self.stripes.read(&self.density, p - self.origin)).max(1e-6)
+        COARSER as f64 / f64::from(self.stripes.read(&self.density, self.on_grid(p))).max(1e-6)
     }
 
     /// How far a place lies from the nearest line, 0 on it to 1 midway between two.
     pub(super) fn away(&self, p: Point) -> f64 {
-        let phase = self.stripes.phase_at(p - self.origin) / TAU;
+        let phase = self.stripes.phase_at(self.on_grid(p)) / TAU;
         2.0 * (phase - phase.round()).abs()
+    }
+
+    /// A place in working pixels on the coarser grid of the lines.
+    fn on_grid(&self, p: Point) -> Point {
+        ((p - self.origin).to_vec2() / COARSER as f64).to_point()
     }
 }
 
@@ -87,29 +96,33 @@ impl Drawer<'_> {
             directions.get(at(x, left, columns), at(y, top, rows)) + turn as f32
         });
         let evened = evening(&coarse, EVENED);
-        let wave: Raster<Wave> = Raster::from_fn(columns, rows, |x, y| {
+        let middle = |i: usize, count: usize| (COARSER * i + COARSER / 2).min(count - 1);
+        let wave: Raster<Wave> = Raster::from_fn(columns.div_ceil(COARSER), rows.div_ceil(COARSER), |i, j| {
+            let (x, y) = (middle(i, columns), middle(j, rows));
             let close = closeness(left + x, top + y);
             if close <= 0.0 {
                 return [0.0; 2];
             }
             let (sin, cos) = (directions.get(left + x, top + y) + turn as f32).sine_and_cosine();
             let evened = evened.sample((x as f64 + 0.5) / cell, (y as f64 + 0.5) / cell);
-            let dense = evened * close / pitch as f32;
+            let dense = COARSER as f32 * evened * close / pitch as f32;
             [-sin * dense, cos * dense]
         });
         let parameters = self.stripe_parameters();
         let by_chance = |node: u64, _: Point, _: Wave| stream(self.seed, name, node).random::<f32>();
         let stripes = stripes(&wave, parameters, &by_chance, None);
-        let density = gaussian_blur(&stripes.frequency(), (DENSITY_BLUR * pitch / parameters.step) as f32);
+        let density = gaussian_blur(&stripes.frequency(), (DENSITY_BLUR * pitch / COARSER as f64 / parameters.step) as f32);
         let origin = extent.origin();
         let lines = stripe_lines(&stripes).into_iter().map(|line| {
-            let smooth = smooth_polyline(&line.points, line.closed.into(), SMOOTH * pitch, SPACING * pitch);
+            let points: Vec<Point> = line.points.iter().map(|p| (p.to_vec2() * COARSER as f64).to_point()).collect();
+            let smooth = smooth_polyline(&points, line.closed.into(), SMOOTH * pitch, SPACING * pitch);
             Curve { points: smooth.into_iter().map(|p| p + origin).collect(), closed: line.closed }
         });
         let lines = lines.filter(|line| line.points.len() > 1).collect();
         Family { stripes, origin, lines, density }
     }
 
+    /// In pixels of the coarser grid.
     fn stripe_parameters(&self) -> StripeParameters {
         /// Nodes per narrowest pitch: with fewer a line between two nodes could be lost, more change nothing that is measured.
         const NODES_PER_PITCH: f64 = 1.5;
@@ -118,7 +131,7 @@ impl Drawer<'_> {
         const WINDOW: f64 = 1.6;
         const ROUNDS: u32 = 3;
         const LEVELS: u32 = 5;
-        let pitch = self.pitch();
+        let pitch = self.pitch() / COARSER as f64;
         let step = pitch / NODES_PER_PITCH / f64::from(1.0 / (1.0 - FINE));
         StripeParameters { step, window: WINDOW * pitch / step, rounds: ROUNDS, levels: LEVELS }
     }

@@ -8,6 +8,7 @@ use crate::raster::{Raster, fast_gaussian, gaussian_blur, self_guided};
 use crate::source::outlines;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::{eyes_and_mouths, inside_outlines};
+use crate::style::teeth::with_whole_teeth;
 
 impl Drawer<'_> {
     /// The detail without the brows: their hairs are finer than the lines, and sharpened they tear them.
@@ -31,6 +32,7 @@ impl Drawer<'_> {
         let sharp = ink.zip_map(&wide, |ink, wide| ink + SHARPEN * (ink - wide));
         let mixed = smooth.zip_map(&sharp, |smooth, sharp| (smooth, sharp));
         let mixed = mixed.zip_map(detail, |(smooth, sharp), detail| smooth + (sharp - smooth) * detail);
+        let mixed = with_whole_teeth(self.portrait, mixed);
         mixed.zip_map(&self.portrait.subject, |ink, subject| if subject > LEAST_SHARE { ink.clamp(0.0, 1.0) } else { 0.0 })
     }
 
@@ -99,8 +101,8 @@ impl Drawer<'_> {
         });
         let ink = &ink.zip_map(&along, |ink, along| (ink, along)).zip_map(hair, |(ink, along), hair| ink + (along - ink) * hair);
         let reach = (LOCK * self.pitch()) as f32;
-        let around = gaussian_blur(&ink.zip_map(hair, |ink, hair| ink * hair), reach);
-        let mean = around.zip_map(&gaussian_blur(hair, reach), |ink, hair| ink / hair.max(1e-3));
+        let around = fast_gaussian(&ink.zip_map(hair, |ink, hair| ink * hair), reach);
+        let mean = around.zip_map(&fast_gaussian(hair, reach), |ink, hair| ink / hair.max(1e-3));
         let apart = ink.zip_map(&mean, |ink, mean| LOCK_CONTRAST * (ink - mean) * (4.0 * mean * (1.0 - mean)).max(0.0));
         ink.zip_map(&apart.zip_map(hair, |apart, hair| apart * hair), |ink, apart| (ink + apart).clamp(0.0, 1.0))
     }

@@ -3,19 +3,23 @@
 //!
 //! ```text
 //!   surfaces     skin, hair, cloth: each has lines of its own, which end at its border
+//!   roots        where hair begins among the lines of skin
 //!   directions   from the face's mesh, along locks, along folds
 //!   families     even lines along the directions, and turned from them
 //!   shares       ink of each family for the tone
 //!   runs         pieces of lines with their widths
+//!   hooks        strokes of coiled hair
 //!   tone         widths corrected until the ink drawn is the ink wanted
 //! ```
 
 mod contour;
 mod correction;
 mod families;
+mod hooks;
 mod ink;
 #[cfg(test)]
 mod measures;
+mod roots;
 mod runs;
 mod shares;
 mod specks;
@@ -27,7 +31,7 @@ use crate::geometry::Rect;
 use crate::parallel::collected;
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
-use crate::style::form::{Directions, Surface, Surfaces};
+use crate::style::form::{Directions, Surface};
 use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
@@ -78,8 +82,15 @@ impl Drawer<'_> {
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
+        let roots = self.roots(&surfaces, directions.of(Surface::Hair));
         for surface in [Surface::Skin, Surface::Hair, Surface::Cloth] {
-            let own = self.lines_over(surface, &surfaces, &directions, &detail, &ink);
+            let (region, mut own) = (roots.region_of(surface, &surfaces), roots.ink_of(surface, &ink));
+            if surface == Surface::Hair {
+                let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
+                pieces[0].extend(self.hooks(&coils, &region, directions.of(surface), &own));
+                own = hooks::beneath(&own, &coils);
+            }
+            let own = self.lines_over(surface, &region, &directions, &detail, &own);
             pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
             self.check()?;
         }
@@ -96,12 +107,11 @@ impl Drawer<'_> {
     fn lines_over(
         &self,
         surface: Surface,
-        surfaces: &Surfaces,
+        share: &Raster<f32>,
         directions: &Directions,
         detail: &Raster<f32>,
         ink: &Raster<f32>,
     ) -> Pieces {
-        let share = surfaces.of(surface);
         let turn = |family: usize| TURNS[family].to_radians() * if surface == Surface::Hair { HAIR_TURN } else { 1.0 };
         let shares = [0, 1, 2].map(|family| match (self.parameters.look, family) {
             (Look::Hatch, 0) => ink.clone(),

@@ -3,9 +3,9 @@
 use super::families::Family;
 use crate::drawing::{Dot, Mark, Stroke};
 use crate::elementary::unit_at;
-use crate::field::{Curve, pieces_inside};
+use crate::field::pieces_inside;
 use crate::geometry::{Ends, Point, Rect, Ring, catmull_rom, lengths_along, resample};
-use crate::parallel::mapped;
+use crate::parallel::collected;
 use crate::raster::Raster;
 use crate::source::Placement;
 
@@ -13,6 +13,8 @@ use crate::source::Placement;
 const READING: f64 = 0.1;
 /// The widest line in distances of lines: a little more than all of it closes the slits between curved lines.
 const WIDEST: f64 = 1.04;
+/// The golden section: neighbouring multiples of it have parts far from one another.
+const GOLDEN: f64 = 0.618_033_988_75;
 
 /// One piece of a line, in working pixels; a piece of one node is a dot with its diameter.
 #[derive(Clone, Debug)]
@@ -58,28 +60,31 @@ struct Reading {
 impl Course<'_> {
     /// All pieces, line by line.
     pub(super) fn pieces(&self) -> Vec<Piece> {
-        mapped(&self.family.lines, &|line| self.of_line(line)).into_iter().flatten().collect()
+        collected(self.family.lines.len(), &|i| self.of_line(i)).into_iter().flatten().collect()
     }
 
-    fn of_line(&self, line: &Curve) -> Vec<Piece> {
+    fn of_line(&self, i: usize) -> Vec<Piece> {
+        let line = &self.family.lines[i];
+        let stagger = 2.0 * (GOLDEN * i as f64).fract() - 1.0;
         let mut points = line.points.clone();
         if line.closed {
             points.push(points[0]);
         }
         let own = [points[0], points[points.len() - 1]].map(|end| (!line.closed).then_some(end));
         let inside = pieces_inside(&points, self.region);
-        inside.iter().flat_map(|points| self.of_piece(points, own)).collect()
+        inside.iter().flat_map(|points| self.of_piece(points, own, stagger)).collect()
     }
 
-    /// The drawn runs of a line inside the region; `own` are the ends of the whole line.
-    fn of_piece(&self, points: &[Point], own: [Option<Point>; 2]) -> Vec<Piece> {
+    /// The drawn runs of a line inside the region; `own` are the ends of the whole line, `stagger` (-1 to 1) is by how much it ends before
+    /// or after its neighbours.
+    fn of_piece(&self, points: &[Point], own: [Option<Point>; 2], stagger: f64) -> Vec<Piece> {
         /// Pieces that the surface's border cuts on both sides are left out below this length in pitches, and those of crossing
         /// families at all: they are crumbs and ticks.
         const CRUMB: f64 = 1.5;
-        const TICK: f64 = 3.0;
+        const TICK: f64 = 4.5;
         let nodes = resample(points, READING * self.pitch);
         let along = lengths_along(&nodes);
-        let mut readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along)).collect();
+        let mut readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along, stagger)).collect();
         self.cut_hooks(&mut readings);
         let is_own = |p: Point| own.iter().flatten().any(|end| end.distance(p) < self.pitch);
         let mut pieces = Vec::new();
@@ -124,16 +129,22 @@ impl Course<'_> {
         }
     }
 
-    fn read(&self, place: Point, along: f64) -> Reading {
+    fn read(&self, place: Point, along: f64, stagger: f64) -> Reading {
+        /// By how much the ink varies from line to line at which lines break into dashes, as a share, and at which crossing lines begin:
+        /// where all do so at one tone, its border is the border of a plate, and crossing lines are a block with combs at its ends.
+        const BREAKS: f64 = 0.3;
+        const BEGINS: f64 = 0.07;
         let ink = f64::from(self.ink.sample(place.x, place.y));
         // At the picture's border no wider than the paper.
         let to_border =
             [place.x - self.picture.x0, self.picture.x1 - place.x, place.y - self.picture.y0, self.picture.y1 - place.y];
         let room = to_border.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
         let spacing = self.family.spacing(place).min(2.0 * self.pitch).min(2.0 * room / WIDEST);
+        let thinnest = self.thinnest * (1.0 + BREAKS * stagger);
         let (width, excess) = match self.breaks {
-            Some(breaks) if ink < self.thinnest => (self.thinnest, ink / self.thinnest - breaks.away(place)),
-            _ => (ink, ink - 1e-3),
+            Some(breaks) if ink < thinnest => (thinnest, ink / thinnest - breaks.away(place)),
+            Some(_) => (ink, ink - 1e-3),
+            None => (ink, ink - 1e-3 - BEGINS * (1.0 + stagger)),
         };
         Reading { place, along, width: width * spacing, spacing, excess }
     }
@@ -142,8 +153,8 @@ impl Course<'_> {
         /// Distance of a stroke's nodes in pitches.
         const NODE: f64 = 0.7;
         /// A line that ends of itself tapers over this many pitches to this share of its width; so does one where its family
-        /// begins.
-        const TAPER: f64 = 1.5;
+        /// begins. A crossing line tapers over more.
+        const TAPER: [f64; 2] = [1.5, 4.0];
         const TIP: f64 = 0.25;
         /// Pieces shorter than this many widths are dots.
         const DOT: f64 = 1.6;
@@ -156,7 +167,7 @@ impl Course<'_> {
             return is_drawn.then(|| Piece { nodes: vec![middle.place], widths: vec![diameter], ceilings: vec![middle.spacing] });
         }
         let count = (length / (NODE * self.pitch)).ceil().max(2.0) as usize;
-        let taper = (TAPER * self.pitch).min(0.45 * length);
+        let taper = (TAPER[usize::from(self.breaks.is_none())] * self.pitch).min(0.45 * length);
         let mut piece = Piece { nodes: Vec::new(), widths: Vec::new(), ceilings: Vec::new() };
         for i in 0..=count {
             let at = from + length * i as f64 / count as f64;

@@ -1,0 +1,53 @@
+//! Teeth as one light shape: the gaps between them, which marks would make strings of beads of, are rubbed out.
+
+use super::solids::inside_outlines;
+use crate::raster::{Raster, fast_gaussian, fast_gaussian_within};
+use crate::source::{Landmarks, Portrait, outlines};
+
+/// Reach of a tooth's tone and blur of the teeth's border, in widths of the face.
+const REACH: f64 = 0.016;
+const BORDER: f64 = 0.004;
+/// Mean ink of teeth, and that above which a place is none: with more the dark of open mouths is grey.
+const TOOTH: [f32; 2] = [0.3, 0.45];
+
+/// Ink without the gaps between teeth.
+pub(super) fn with_whole_teeth(portrait: &Portrait, ink: Raster<f32>) -> Raster<f32> {
+    let Some(widest) = portrait.faces.iter().map(Landmarks::width).reduce(f64::max) else { return ink };
+    let mouths = inside_outlines(&portrait.faces, [&outlines::MOUTH, &outlines::MOUTH], (ink.width(), ink.height()));
+    if mouths.pixels().iter().all(|inside| *inside == 0.0) {
+        return ink;
+    }
+    let around = fast_gaussian_within(&ink, &mouths.map(|inside| inside + 1e-6), (REACH * widest) as f32);
+    let teeth = mouths.zip_map(&around, |inside, around| inside * ((TOOTH[1] - around) / (TOOTH[1] - TOOTH[0])).clamp(0.0, 1.0));
+    let soft = fast_gaussian(&teeth, (BORDER * widest) as f32);
+    let darker = ink.zip_map(&around, |ink, around| (ink - around).max(0.0));
+    ink.zip_map(&darker.zip_map(&soft, |darker, tooth| darker * tooth), |ink, less| ink - less)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::form::mean_portrait;
+
+    #[test]
+    fn gaps_between_teeth_go_and_an_open_mouth_stays_dark() {
+        let portrait = mean_portrait(6.0, 0.0, |_| 140);
+        let face = &portrait.faces[0];
+        let middle = face.point(outlines::MOUTH[0]).midpoint(face.point(outlines::MOUTH[10]));
+        let (width, height) = (portrait.lightness.width(), portrait.lightness.height());
+        let at = |ink: &Raster<f32>| {
+            let near = inside_outlines(&portrait.faces, [&outlines::MOUTH, &outlines::MOUTH], (width, height));
+            ink.pixels()
+                .iter()
+                .zip(near.pixels())
+                .filter(|(_, inside)| **inside > 0.0)
+                .map(|(ink, _)| *ink)
+                .fold(0.0_f32, f32::max)
+        };
+        let gaps = Raster::from_fn(width, height, |x, _| if x.abs_diff(middle.x as usize) % 8 == 0 { 0.9 } else { 0.05 });
+        let dark = Raster::filled(width, height, 0.9);
+        let (whole, open) = (with_whole_teeth(&portrait, gaps.clone()), with_whole_teeth(&portrait, dark.clone()));
+        assert!(at(&gaps) == 0.0 || at(&whole) < 0.6 * at(&gaps), "{} of {}", at(&whole), at(&gaps));
+        assert_eq!(open, dark);
+    }
+}
