@@ -43,6 +43,8 @@ impl Drawer<'_> {
             taper: 0.3,
             node: 2.0 * self.parameters.pitch,
         };
+        // As firm as what is drawn asks for: a background that is not drawn makes no line firm, and the light side's line is faint.
+        let tone = self.portrait.on_white(&self.portrait.tone);
         let mut marks = Vec::new();
         for (i, points) in lines.iter().enumerate() {
             let mut random = stream(self.seed, "sketch", i as u64);
@@ -51,20 +53,20 @@ impl Drawer<'_> {
                 let segments = self.sketched(points, &mut random);
                 marks.extend(segments.iter().filter_map(|segment| self.stroke(segment, light, |_| 1.0)));
             }
-            let firm = self.firmness(points, &mut random);
+            let firm = self.firmness(&tone, points, &mut random);
             marks.extend(self.stroke(points, touch, |p| firm.get(nearest(points, p)).copied().unwrap_or(1.0)));
         }
-        marks.extend(jaws.iter().enumerate().flat_map(|(i, jaw)| self.jaw(jaw, i as u64, touch)));
+        marks.extend(jaws.iter().enumerate().flat_map(|(i, jaw)| self.jaw(jaw, &tone, i as u64, touch)));
         marks
     }
 
     /// The soft line of a jaw, where it shows.
-    fn jaw(&self, jaw: &Curve, element: u64, touch: Touch) -> Vec<Mark> {
+    fn jaw(&self, jaw: &Curve, tone: &Raster<f32>, element: u64, touch: Touch) -> Vec<Mark> {
         /// Pressure from which a jaw is drawn, the most that it has, and the share of it over which it fades out at both ends: a firm line
         /// that stops is a wire, and so is one where the face has no border.
-        const JAW_PRESSURE: (f64, f64) = (0.14, 0.5);
+        const JAW_PRESSURE: (f64, f64) = (0.2, 0.6);
         const JAW_FADES: f64 = 0.3;
-        let firm = self.firmness(&jaw.points, &mut stream(self.seed, "jaw", element));
+        let firm = self.firmness(tone, &jaw.points, &mut stream(self.seed, "jaw", element));
         let last = (jaw.points.len() - 1) as f64;
         let pressure = |p: Point| {
             let at = nearest(&jaw.points, p);
@@ -189,11 +191,13 @@ impl Drawer<'_> {
     }
 
     /// Pressure along an edge: by the step of tone at each point, with the wander of a hand.
-    fn firmness(&self, points: &[Point], random: &mut impl Rng) -> Vec<f64> {
+    fn firmness(&self, tone: &Raster<f32>, points: &[Point], random: &mut impl Rng) -> Vec<f64> {
         /// Length of line, in pitches, over which the hand's pressure wanders, and its amplitude.
         const WANDER: (f64, f64) = (9.0, 0.35);
+        /// Pressure without a step, and by how much it grows over a whole step. At twice the growth a light head is in a wire.
+        const FAINTEST: f64 = 0.08;
+        const STEEP: f64 = 1.3;
         let reach = self.pixels(1.5 * self.parameters.pitch);
-        let lightness = &self.portrait.lightness;
         let phase = random.random_range(0.0..TAU);
         let wave = TAU / (WANDER.0 * self.pitch() * random.random_range(0.7..1.4));
         let mut travelled = 0.0;
@@ -201,10 +205,10 @@ impl Drawer<'_> {
             let along = pair[1] - pair[0];
             travelled += along.hypot();
             let across = Vec2::new(-along.y, along.x) / along.hypot().max(1e-9) * reach;
-            let at = |p: Point| f64::from(lightness.sample(p.x, p.y));
+            let at = |p: Point| f64::from(tone.sample(p.x, p.y));
             let step = (at(pair[0] + across) - at(pair[0] - across)).abs();
             let wander = 1.0 - WANDER.1 * (0.5 + 0.5 * (wave * travelled + phase).sine());
-            ((0.1 + 2.1 * step) * wander).clamp(0.08, 1.0)
+            ((FAINTEST + STEEP * step) * wander).clamp(FAINTEST, 1.0)
         });
         let firm: Vec<f64> = steps.collect();
         running_mean(&firm, (4.0 * self.pitch()) as usize)

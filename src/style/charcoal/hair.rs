@@ -41,21 +41,45 @@ pub(in crate::style) struct Hairs {
     pub turn: Radians,
 }
 
+/// The direction of hair as it was detected, and as strokes follow it.
+struct Orientation {
+    raw: OrientationField,
+    field: OrientationField,
+}
+
+/// What strokes of hair are.
+#[derive(Clone, Copy)]
+pub(super) enum Strands {
+    /// Long lines everywhere.
+    Long,
+    /// Hooks where hair is coiled.
+    Curled,
+}
+
 impl Drawer<'_> {
     /// Strokes inside a region, 0 to 1, that make a share of its ink.
-    pub(super) fn hair(&self, hair: &Raster<f32>, share: f32) -> Vec<Mark> {
+    pub(super) fn hair(&self, hair: &Raster<f32>, share: f32, strands: Strands) -> Vec<Mark> {
         self.observer.begin("hair");
         if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
         }
-        let field = self.hair_orientation(hair);
+        let Orientation { raw, field } = self.hair_orientation(hair);
         let darkness = self.darkness();
         let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
         let ink = ink.map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let width = HAIR_WIDTH * self.parameters.stroke_width;
-        self.hairs(&field, hair, &ink, Hairs { width, length: self.parameters.hair_length, turn: self.parameters.hair_turn })
+        let sizes = Hairs { width, length: self.parameters.hair_length, turn: self.parameters.hair_turn };
+        match strands {
+            Strands::Long => self.hairs(&field, hair, &ink, sizes),
+            Strands::Curled => {
+                // Light hair shows by the shade of its locks, which hooks would crumble.
+                let dark = 1.0 - lightness_of(levels[1]);
+                let coils = self.coils(hair, &raw, &field).map(|coil| dark * coil);
+                self.curled(&field, &coils, hair, &ink, sizes)
+            }
+        }
     }
 
     /// Strokes along a field inside a region whose ink is as given.
@@ -79,7 +103,7 @@ impl Drawer<'_> {
     }
 
     /// Section 3.1.2: blur, lines, Hough filter, smoothing.
-    fn hair_orientation(&self, hair: &Raster<f32>) -> OrientationField {
+    fn hair_orientation(&self, hair: &Raster<f32>) -> Orientation {
         let blurred = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
         let region = hair.map(|v| u8::from(v >= 0.5));
         let all = ridges(&blurred, 0.0);
@@ -98,7 +122,7 @@ impl Drawer<'_> {
         self.observer.picture("hair-orientation", &|| {
             Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.angle_over(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });
-        field
+        Orientation { raw, field }
     }
 
     /// The curvature at `LINE_QUANTILE` of the hair's pixels.

@@ -8,6 +8,7 @@
 //! The sum is the tone: the grain of the smudge adds, place by place, what the strokes leave of the ink that is asked for.
 
 mod cost;
+mod curls;
 mod edges;
 mod feature_tones;
 mod features;
@@ -33,6 +34,7 @@ use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait, Prepared};
 pub(super) use hair::Hairs;
+use hair::Strands;
 use paper::Sheet;
 use parameters::{CARD, CharcoalParameters};
 use regions::Regions;
@@ -47,7 +49,7 @@ const MOST_PIXELS: f64 = 2.0 * SHORT_SIDE * SHORT_SIDE;
 const MOST_PIXELS_PER_PITCH: f64 = 8.0;
 const LEAST_SHORT_SIDE: f64 = 0.5 * SHORT_SIDE;
 /// Share of the hair's ink that its strokes make where grain makes the rest.
-const HAIR_SHARE: f32 = 0.62;
+const HAIR_SHARE: f32 = 0.45;
 
 /// The style.
 pub(super) struct Charcoal;
@@ -94,7 +96,7 @@ type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 /// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch.
 pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
     let settings = CARD.settings_at(drawer.parameters.pitch(), &[])?;
-    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair, 1.0))
+    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hair(hair, 1.0, Strands::Long))
 }
 
 /// Strokes along a field that make the ink inside a region, for a style of another kind at its pitch.
@@ -120,7 +122,7 @@ impl Drawer<'_> {
         let shared = self.portrait.prepared.get::<ForPens>().map(|shared| shared.regions.clone());
         let regions = &*shared.unwrap_or_else(|| Arc::new(self.new_regions()));
         self.check()?;
-        let hair = self.hair(&regions.hair, HAIR_SHARE);
+        let hair = self.hair(&regions.hair, HAIR_SHARE, Strands::Curled);
         self.check()?;
         let features = self.features(regions);
         self.check()?;

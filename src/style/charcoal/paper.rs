@@ -1,12 +1,12 @@
 //! The paper that charcoal catches on.
 
 use super::{Drawer, ForPens};
-use crate::raster::{Raster, paper_texture};
+use crate::raster::{Raster, enlarge, paper_texture};
 
 /// Pixels per grain: with fewer, small grains lose their shape; more cost time and bytes.
 pub(super) const PIXELS_A_GRAIN: f64 = 5.0;
 /// Scale of the coarser texture that the thesis blends in, in grains: clumps of two or three grains make a middle tone gritty.
-const CLUMP: f32 = 2.0;
+const CLUMP: usize = 2;
 /// From one pen's part of a shared sheet to the next one's, in pixels: eight grains and more, where the texture no longer knows of itself.
 const STEP: (usize, usize) = (43, 31);
 /// Pens that share a sheet.
@@ -46,8 +46,10 @@ impl Drawer<'_> {
     }
 
     fn textures(&self, width: usize, height: usize) -> (Raster<f32>, Raster<f32>) {
-        let texture = |clump: f32, salt: u64| paper_texture(width, height, clump * PIXELS_A_GRAIN as f32, self.seed ^ salt);
-        (texture(1.0, 0x7007), texture(CLUMP, 0xc1a9))
+        let texture = |width, height, salt: u64| paper_texture(width, height, PIXELS_A_GRAIN as f32, self.seed ^ salt);
+        // Clumps need fewer pixels.
+        let clumps = texture(width.div_ceil(CLUMP), height.div_ceil(CLUMP), 0xc1a9);
+        (texture(width, height, 0x7007), enlarge(&clumps, CLUMP, width, height))
     }
 
     /// The paper's tooth, finer on the skin of people whose faces are known, 0 to 1: a hand presses smaller grains there.

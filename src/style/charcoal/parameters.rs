@@ -29,7 +29,7 @@ parameters! {
         stroke_width: Millimetres = "stroke_width": pitches(0.7, 0.02..=50.0),
             "width of a stroke at full pressure",
             "";
-        grain: Millimetres = "grain": pitches(0.5, 0.1..=50.0),
+        grain: Millimetres = "grain": pitches(0.35, 0.1..=50.0),
             "distance between the grains of the smudged tone",
             "Wong 6.3.1, the paper's texture";
         smudge: Millimetres = "smudge": pitches(1.5, 0.0..=100.0),

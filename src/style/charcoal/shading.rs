@@ -72,7 +72,7 @@ impl Drawer<'_> {
         const CLOTH_HATCHES: [Hatch; 2] =
             [Hatch { from: 0.3, spacing: 1.5, turned: 0.0 }, Hatch { from: 0.6, spacing: 1.6, turned: 0.22 }];
         /// Share of the ink that each set aims at; with more the cloth is a net, with less it is grain alone.
-        const CLOTH_SHARE: f64 = 0.5;
+        const CLOTH_SHARE: f64 = 0.38;
         if !self.parameters.has_shading {
             return Vec::new();
         }
@@ -124,8 +124,8 @@ impl Drawer<'_> {
         /// portrait.
         const BACKGROUND_PRESSURE: f64 = 0.3;
         const BACKGROUND_WIDTH: f64 = 0.44;
-        /// Distance of the strokes over what their ink asks for: the broad side of the stick makes the rest.
-        const APART: f64 = 1.3;
+        /// Distance of the strokes over what their ink asks for, behind a person and else: the broad side of the stick makes the rest.
+        const APART: [f64; 2] = [0.9, 1.3];
         /// Least length of a background stroke in arcs: shorter ones are ticks far from the head.
         const LEAST_BEHIND: f64 = 0.6;
         /// Width of a background stroke as a share of the stick's.
@@ -134,15 +134,15 @@ impl Drawer<'_> {
             return Vec::new();
         }
         self.observer.begin("background");
-        let outside = regions.subject.map(|subject| 1.0 - subject);
-        let region = pressure.zip_map(&outside, |p, outside| outside * (p / (0.5 * LEAST_BACKGROUND)).min(1.0));
+        let region = self.hatched(regions, pressure);
         self.show("background", &region);
         let width = BACKGROUND_STROKE * self.parameters.stroke_width;
         let patch = Patch {
             region,
             width,
             // Spreads a stroke's ink, at the pressure below, over its spacing.
-            spacing: APART * BACKGROUND_WIDTH * width / self.parameters.background_ink,
+            spacing: APART[usize::from(self.portrait.faces.is_empty())] * BACKGROUND_WIDTH * width
+                / self.parameters.background_ink,
             length: self.parameters.arc_length,
             orientation: self.parameters.arc_orient.0,
             pressure: BACKGROUND_PRESSURE,
@@ -151,6 +151,23 @@ impl Drawer<'_> {
             least: LEAST_BEHIND * self.parameters.arc_length,
         };
         self.shade_patch(&patch, "background", 0, |p| f64::from(pressure.sample(p.x, p.y)))
+    }
+
+    /// Where the background has strokes, 0 to 1: behind people only where it is pressed firmly, as behind a lit cheek. Over the whole smudge
+    /// strokes are needles around a head.
+    fn hatched(&self, regions: &Regions, pressure: &Raster<f32>) -> Raster<f32> {
+        /// The pressure, and the range over which strokes set in.
+        const FIRM: [f32; 2] = [0.75, 0.25];
+        /// Blur in pitches that small patches do not outlast, and what is left of those that do: a stroke or two are scratches.
+        const PATCH: f64 = 5.0;
+        const LEFT: f32 = 0.4;
+        let outside = regions.subject.map(|subject| 1.0 - subject);
+        if self.portrait.faces.is_empty() {
+            return pressure.zip_map(&outside, |p, outside| outside * (p / (0.5 * LEAST_BACKGROUND)).min(1.0));
+        }
+        let firm = pressure.zip_map(&outside, |p, outside| outside * ((p - FIRM[0]) / FIRM[1] + 0.5).clamp(0.0, 1.0));
+        let wide = gaussian_blur(&firm, self.pixels(PATCH * self.parameters.pitch) as f32);
+        firm.zip_map(&wide, |firm, wide| if wide > LEFT { firm } else { 0.0 })
     }
 
     /// Pressure of the background at a place: it fades away from the head, or without a face from the subject, and towards the sheet's
