@@ -27,7 +27,7 @@ struct Way {
 const WAYS: [Way; 6] = [
     Way { name: "hedcut", options: &["--style", "hedcut"], limit: 3.0 },
     Way { name: "grid", options: &["--style", "grid"], limit: 3.0 },
-    Way { name: "engrave", options: &["--style", "engrave", "--set", "pitch=0.4"], limit: 3.0 },
+    Way { name: "engrave", options: &["--style", "engrave"], limit: 3.0 },
     Way { name: "charcoal", options: &["--style", "charcoal"], limit: 3.0 },
     Way { name: "glass", options: &["--style", "glass"], limit: 3.0 },
     Way { name: "hedcut 38x50", options: &["--crop", "head", "--size", "38x50mm", "--set", "pitch=0.35"], limit: 5.0 },
