@@ -2,6 +2,7 @@
 
 use super::super::Drawer;
 use super::runs::Piece;
+use super::shares::part_of;
 use crate::elementary::Elementary as _;
 use crate::field::{Covering, OrientationField, cover};
 use crate::geometry::{Point, Ring, smooth_polyline};
@@ -50,11 +51,6 @@ impl Drawer<'_> {
 /// The ink of the lines beneath hooks.
 pub(super) fn beneath(ink: &Raster<f32>, coils: &Raster<f32>) -> Raster<f32> {
     ink.zip_map(coils, |ink, coil| if coil >= 0.5 { part_of(ink, 1.0 - SHARE) } else { ink })
-}
-
-/// The ink of what has a share of the darkness: one over the other leave white together what the tone does.
-fn part_of(ink: f32, share: f32) -> f32 {
-    1.0 - (1.0 - ink).max(0.02).power(share)
 }
 
 fn hook(nodes: &[Point], pitch: f64) -> Piece {

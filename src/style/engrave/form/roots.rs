@@ -2,6 +2,7 @@
 //! it, and the skin's lines run on beneath them. A border where one family ends and the next begins is a seam.
 
 use super::super::Drawer;
+use super::shares::part_of;
 use crate::elementary::Elementary as _;
 use crate::field::nearest_seed;
 use crate::raster::{Raster, dilate};
@@ -56,8 +57,8 @@ impl Roots {
     /// The ink that a surface's lines make.
     pub(super) fn ink_of(&self, surface: Surface, ink: &Raster<f32>) -> Raster<f32> {
         match surface {
-            Surface::Skin => ink.zip_map(&self.hair, |ink, hair| part_of(ink, 1.0 - hair)),
-            Surface::Hair => ink.zip_map(&self.hair, part_of),
+            Surface::Skin => ink.zip_map(&self.hair, |ink, hair| rooted(ink, 1.0 - hair)),
+            Surface::Hair => ink.zip_map(&self.hair, rooted),
             Surface::Cloth => ink.clone(),
         }
     }
@@ -77,10 +78,9 @@ impl Roots {
     }
 }
 
-/// The ink of a family that has a share of the darkness: where both families cross, they leave white together what the tone does.
-fn part_of(ink: f32, share: f32) -> f32 {
-    let white = (1.0 - ink).max(0.02);
-    let [own, other] = [share, 1.0 - share].map(|share| 1.0 - white.power(share));
+/// The ink of a family that has a share of the darkness: where both families cross it is a part, else all or nothing.
+fn rooted(ink: f32, share: f32) -> f32 {
+    let [own, other] = [share, 1.0 - share].map(|share| part_of(ink, share));
     if own >= LEAST && other >= LEAST {
         own
     } else if share >= 0.48 {

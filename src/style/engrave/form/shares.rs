@@ -1,5 +1,6 @@
 //! How much ink each of three families of lines carries: the second and the third enter where it is darker, without a step.
 
+use crate::elementary::Elementary as _;
 use crate::raster::Raster;
 use crate::style::form::Surface;
 
@@ -42,6 +43,11 @@ pub(super) fn shares(ink: f32, surface: Surface) -> [f32; 3] {
 /// [`shares`] of a raster for one family.
 pub(super) fn share_of(ink: &Raster<f32>, surface: Surface, family: usize) -> Raster<f32> {
     ink.map(|ink| shares(ink, surface)[family])
+}
+
+/// The ink of what has a share of the darkness, 0 to 1: together with the rest, over it, it leaves white what the tone does.
+pub(super) fn part_of(ink: f32, share: f32) -> f32 {
+    1.0 - (1.0 - ink).max(0.02).power(share)
 }
 
 #[cfg(test)]
