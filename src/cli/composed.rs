@@ -1,6 +1,7 @@
 //! A drawing of several regions, each in its own style.
 
 use super::failure::Failure;
+use super::known::Known;
 use super::regions::Region;
 use super::remedies::advised;
 use super::task::Task;
@@ -8,14 +9,12 @@ use crate::drawing::{Drawing, Ink, Layer};
 use crate::geometry::Rect;
 use crate::raster::Raster;
 use crate::scene::{Border, Parts};
-use crate::source::{Placement, mask_on};
+use crate::source::{Placement, Portrait, mask_on};
 use crate::style::{Observer, Settings, StyleError};
 
 /// The finest grid of regions in pixels per millimetre, and the most pixels it has.
 const FINEST: f64 = 8.0;
 const MOST_PIXELS: f64 = 4e6;
-/// Share from which a place counts to a part's box: less draws no mark.
-const LEAST_SHARE: f32 = 0.005;
 
 impl Task<'_> {
     /// All parts in one drawing: the rest first, then the regions in their order.
@@ -27,6 +26,8 @@ impl Task<'_> {
     ) -> Result<Drawing, Failure> {
         let parts = self.parts(placement.picture)?;
         let mut layers = Vec::new();
+        // The portrait that the last part was drawn from: regions in one style share it.
+        let mut prepared: Option<(&Known, Portrait)> = None;
         for part in 0..parts.count() {
             let region = part.checked_sub(1).map(|i| &self.regions[i]);
             let (manner, placement) = match region {
@@ -36,10 +37,16 @@ impl Task<'_> {
                 }
             };
             let settings = if region.is_some() { &manner.settings } else { settings };
-            let portrait = self.portrait(&manner.known, placement)?;
-            let share = parts.drawn_share(part, &placement);
-            let Some([columns, rows]) = share.extent_above(LEAST_SHARE) else { continue };
-            let (share, mut portrait) = (share.part(&columns, &rows), portrait.part(&columns, &rows));
+            if prepared
+                .as_ref()
+                .is_none_or(|(known, portrait)| portrait.placement != placement || !known.makes_the_same_as(&manner.known))
+            {
+                prepared = Some((&manner.known, self.portrait(&manner.known, placement)?));
+            }
+            let Some((_, portrait)) = &prepared else { continue };
+            let Some([columns, rows]) = parts.extent(part, &portrait.subject, &placement) else { continue };
+            let share = parts.drawn_share(part, &placement).part(&columns, &rows);
+            let mut portrait = portrait.part(&columns, &rows);
             portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
             let drawing = match manner.style.draw(&portrait, settings, manner.seed, observer) {
                 Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,

@@ -26,6 +26,20 @@ pub(super) struct Known {
     pub notices: Vec<String>,
 }
 
+impl Known {
+    /// True if portraits made with both on one grid are the same. The faces are always those of the photograph.
+    pub(super) fn makes_the_same_as(&self, other: &Self) -> bool {
+        let masks = |known: &Self| -> Vec<_> {
+            known.masks.iter().chain(&known.people).map(|mask| (mask.role, Arc::as_ptr(&mask.mask))).collect()
+        };
+        let depth = |known: &Self| known.depth.as_ref().map(|depth| Arc::as_ptr(&depth.map));
+        masks(self) == masks(other)
+            && self.people.is_some() == other.people.is_some()
+            && depth(self) == depth(other)
+            && self.tone == other.tone
+    }
+}
+
 /// The tone that the ink reproduces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wanted {

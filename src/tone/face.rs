@@ -1,9 +1,10 @@
 //! The tone of one face, over the whole picture.
 
 use super::curve::Curve;
+use super::ears::with_ears;
 use super::lights::rubbed;
 use super::mixing::mixed;
-use super::openings::{dark_of_mouth, firm_eyes, opened};
+use super::openings::{dark_of_mouth, eyes_at_least, firm_eyes, opened};
 use super::zones::Zones;
 use crate::elementary::Elementary as _;
 use crate::geometry::Point;
@@ -62,6 +63,13 @@ const PAPER: f32 = 0.985;
 /// Lights above this percentile are raised, at most by this multiple of the range from there to the lights.
 const RAISED_FROM: f64 = 75.0;
 const MOST_RAISED: f32 = 1.8;
+/// Lights that are narrow, as on moist skin, are raised from a lower percentile on, at lowest this one, until this percentile is seen as this
+/// tone, which a print still shows as paper.
+const LOWEST_RAISED: f64 = 20.0;
+const LEAST_BARE: f64 = 95.6;
+const NEARLY_PAPER: f32 = 0.975;
+/// How far lights are told by the tone around them, 0 to 1: by their own tone alone, single pores are raised and the paper between is not.
+const WIDE: f32 = 0.8;
 const HALVINGS: usize = 5;
 /// Width of the transition, in widths of the face, from raised lights inside the face to the unchanged tone outside.
 const FACE_EDGE: f64 = 0.05;
@@ -94,10 +102,12 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
         tone = light_hair(&zones, face, &tone, hair, &setting.subject);
     }
     let tone = raised_features(&zones, face, &tone, &setting.subject);
+    let tone = with_ears(&zones, &tone, &skin_of(setting), heights(face));
     let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, face, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
+    let tone = eyes_at_least(&zones, face, &tone, setting.lightness);
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }
 
@@ -169,6 +179,21 @@ fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster
     mixed(tone, &held, &zone)
 }
 
+/// The person without hair and clothing.
+fn skin_of(setting: &Setting<'_>) -> Raster<f32> {
+    let without = |skin: Raster<f32>, mask: &Option<Raster<f32>>| match mask {
+        Some(mask) => skin.zip_map(mask, |skin, mask| skin * (1.0 - mask)),
+        None => skin,
+    };
+    without(without(setting.subject.clone(), &setting.hair), &setting.clothing)
+}
+
+/// Height of a pixel's middle above the chin, in heights of the face.
+fn heights(face: &Landmarks) -> impl Fn(usize, usize) -> f64 + Sync {
+    let above_chin = above_chin(face);
+    move |x, y| above_chin(Point::new(x as f64 + 0.5, y as f64 + 0.5))
+}
+
 /// Height of a point above the chin, in heights of the face.
 fn above_chin(face: &Landmarks) -> impl Fn(Point) -> f64 + Sync {
     let (chin, up) = (face.point(152), face.point(10) - face.point(152));
@@ -195,16 +220,18 @@ fn opened_blacks(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, subject: &
 }
 
 /// Step 9: a face whose lights are small or scattered gets bare paper too. Above the face's bright quarter the curve is
-/// steepened, by the least amount that takes its lights, as seen in print, to paper. Light beards keep their strands.
+/// steepened, by the least amount that takes its lights, as seen in print, to paper; if that is not enough, from further below. Light
+/// beards keep their strands.
 fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>) -> Raster<f32> {
     let before = seen(zones, tone);
-    let [from, lights] = [RAISED_FROM, BELOW_PAPER].map(|hundredths| zones.percentile(&before, hundredths));
+    let [from, lowest, lights] =
+        [RAISED_FROM, LOWEST_RAISED, BELOW_PAPER].map(|hundredths| zones.percentile(&before, hundredths));
     let range = lights - from;
     let in_face = fast_gaussian(&zones.oval.map(f32::from), (FACE_EDGE * zones.width) as f32);
     let in_face = hair.map_or_else(|| in_face.clone(), |hair| in_face.zip_map(hair, |face, hair| face * (1.0 - hair)));
-    let raised = |most: f32| {
-        let more = tone.map(|v| {
-            let above = ((v - from) / range).max(0.0);
+    let raised = |from: f32, most: f32| {
+        let more = tone.zip_map(&before, |v, light| {
+            let above = ((v + WIDE * (light - v) - from) / range).max(0.0);
             most * if above < 1.0 { above * above } else { 2.0 * above - 1.0 }
         });
         tone.zip_map(&more.zip_map(&in_face, |more, face| more * face), |tone, more| tone + more)
@@ -212,13 +239,24 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>
     if lights >= PAPER || range <= 0.0 {
         return tone.clone();
     }
-    let (mut low, mut high) = (0.0, MOST_RAISED * range);
+    let reaches = |tone: Raster<f32>, hundredths: f64, paper: f32| zones.percentile(&seen(zones, &tone), hundredths) >= paper;
+    let most = MOST_RAISED * range;
+    if reaches(raised(from, most), LEAST_BARE, NEARLY_PAPER) {
+        raised(from, most * least(|share| reaches(raised(from, share * most), BELOW_PAPER, PAPER)))
+    } else {
+        let lower = |share: f32| raised(from + share * (lowest - from), most);
+        lower(least(|share| reaches(lower(share), LEAST_BARE, NEARLY_PAPER)))
+    }
+}
+
+/// The least share that is enough, or 1.
+fn least(is_enough: impl Fn(f32) -> bool) -> f32 {
+    let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        let reaches = zones.percentile(&seen(zones, &raised(middle)), BELOW_PAPER) >= PAPER;
-        if reaches { high = middle } else { low = middle }
+        if is_enough(middle) { high = middle } else { low = middle }
     }
-    raised(high)
+    high
 }
 
 /// A tone as it is seen at the viewing distance of a print.

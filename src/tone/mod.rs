@@ -15,6 +15,7 @@
 
 mod catchlights;
 mod curve;
+mod ears;
 mod face;
 mod lights;
 mod mixing;

@@ -57,6 +57,32 @@ pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, rou
     })
 }
 
+/// The skin that an eye is compared with, in widths of the face; how much more than the photograph's its contrast is made, so that it is
+/// left after printing; and the most that it is darkened.
+const COMPARED: f64 = 0.08;
+const SPARE: f32 = 0.015;
+const MOST_FIRMED: f32 = 0.2;
+
+/// Eyes that a tone made for the whole face has left with less contrast than in the photograph get it back; their lights are kept.
+pub(super) fn eyes_at_least(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, lightness: &Raster<f32>) -> Raster<f32> {
+    eyes(face).into_iter().fold(tone.clone(), |tone, (lids, _)| {
+        let eye = polygon(tone.width(), tone.height(), &lids);
+        let round = dilate(&eye, (COMPARED * zones.width).round().max(1.0) as usize);
+        let round = round.zip_map(&zones.features, |near, feature| f32::from(u8::from(near == 1 && feature < 0.1)));
+        let eye = eye.map(f32::from);
+        let contrast = |of: &Raster<f32>| Some(mean(of, &round)? - mean(of, &eye)?);
+        let (Some(wanted), Some(is)) = (contrast(lightness), contrast(&tone)) else { return tone };
+        let missing = (wanted + SPARE - is).clamp(0.0, MOST_FIRMED);
+        if wanted <= 0.0 || missing == 0.0 {
+            return tone;
+        }
+        let soft = fast_gaussian(&eye, (0.5 * WITH_LIDS * zones.width) as f32);
+        let dark = tone.zip_map(&soft, |v, share| share * (1.1 - v).max(0.0));
+        let Some(share) = mean(&dark, &eye).filter(|share| *share > 0.05) else { return tone };
+        tone.zip_map(&dark, |v, dark| v - missing / share * dark)
+    })
+}
+
 /// The lids' own line, in radii of the iris, is left as it is; so is a ring around the iris.
 const LID: f64 = 0.16;
 const LIMBUS: f64 = 1.08;
@@ -137,6 +163,14 @@ pub(super) fn dark_of_mouth(zones: &Zones, face: &Landmarks, tone: &Raster<f32>)
     let most = TEETH_ABOVE * zones.median_of(tone);
     let inside = polygon(tone.width(), tone.height(), &line);
     inside.zip_map(tone, |inside, v| if inside == 1 && v < most { open } else { 0.0 })
+}
+
+/// The mean of the values in a zone; `None` if the zone is empty.
+fn mean(values: &Raster<f32>, zone: &Raster<f32>) -> Option<f32> {
+    let weighted = values.pixels().iter().zip(zone.pixels());
+    let (sum, count) =
+        weighted.filter(|(_, zone)| **zone > 0.5).fold((0.0, 0), |(sum, count), (v, _)| (sum + f64::from(*v), count + 1));
+    (count > 0).then(|| (sum / f64::from(count)) as f32)
 }
 
 /// The median of the values in a zone; `None` if the zone is empty.

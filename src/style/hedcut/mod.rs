@@ -8,6 +8,7 @@ mod outline;
 mod parameters;
 mod parts;
 mod seeds;
+mod silhouette;
 mod size;
 
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};

@@ -4,6 +4,7 @@
 use super::Drawer;
 use super::features::Features;
 use super::parts::Parts;
+use super::silhouette::Silhouette;
 use crate::drawing::{Layer, Mark, Stroke};
 use crate::elementary::Elementary as _;
 use crate::field::{CoherentLine, Curve};
@@ -29,10 +30,12 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
     if !features.drawn.is_empty() {
         let widest = drawer.pixels(drawer.parameters.outline_width);
         let taper = LONGEST_TAPER * drawer.pitch();
+        let silhouette = Silhouette::of(drawer.portrait);
         let capped =
             |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
         let longest = features.drawn.iter().filter(|line| is_outline(&line.curve)).flat_map(|line| creases.cut_from(line));
-        let strokes = longest.filter_map(|line| feature_stroke(&capped(&line), &drawer.portrait.placement, taper));
+        let strokes =
+            longest.filter_map(|line| feature_stroke(&silhouette.holds(capped(&line)), &drawer.portrait.placement, taper));
         layer.marks = strokes.collect();
         return layer;
     }
