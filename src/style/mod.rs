@@ -33,6 +33,7 @@ mod solids;
 mod spectacles;
 mod streaks;
 mod teeth;
+mod thick_frame;
 mod tone_error;
 
 pub use cost::Cost;

@@ -86,9 +86,9 @@ impl Solids {
         self
     }
 
-    /// The solids with the lines of the jaws.
-    pub(super) fn with_jaws(mut self, portrait: &Portrait, pitch: f64) -> Self {
-        self.lines.extend(Jaws::of(portrait, pitch).strokes(&portrait.placement));
+    /// The solids with the lines of the jaws, whose widths count by `share`.
+    pub(super) fn with_jaws(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
+        self.lines.extend(Jaws::of(portrait, pitch).strokes(&portrait.placement, share));
         self
     }
 
@@ -141,7 +141,7 @@ impl Darks<'_> {
         let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + eye_lift * (2.0 * eyes).min(1.0));
         let dark =
             gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
-        self.shapes(&dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2))
+        shapes(self.portrait, pitch, &dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2))
     }
 
     /// Thin dark lines before eyes.
@@ -151,22 +151,27 @@ impl Darks<'_> {
             bounds.width().hypotenuse(bounds.height())
         };
         let widest = self.portrait.faces.iter().map(Landmarks::width).fold(1.0, f64::max);
-        self.shapes(&self.thin_darks(), THIN_DARK, |curve| longest(curve) > LONG * widest)
+        shapes(self.portrait, self.pitch, &self.thin_darks(), THIN_DARK, |curve| longest(curve) > LONG * widest)
     }
+}
 
-    /// The smooth outlines of what lies above a level: the shapes that are wanted, with their holes.
-    fn shapes(&self, dark: &Raster<f32>, level: f32, is_wanted: impl Fn(&[Point]) -> bool) -> BezPath {
-        let pitch = self.pitch;
-        let curves = contours(dark, level).into_iter().filter(|curve| curve.closed).map(|curve| curve.points);
-        let (shapes, holes): (Vec<Vec<Point>>, Vec<Vec<Point>>) = curves.partition(|curve| polygon_area(curve) < 0.0);
-        let shapes: Vec<Vec<Point>> = shapes.into_iter().filter(|shape| is_wanted(shape)).collect();
-        let inside = Region::of_polygons(shapes.clone());
-        let mut outline = BezPath::new();
-        for curve in shapes.into_iter().chain(holes.into_iter().filter(|hole| inside.contains(hole[0]))) {
-            let smooth = smooth_polyline(&curve, Ring::Closed, 0.1 * pitch, NODE * pitch);
-            let places: Vec<Point> = smooth.iter().map(|p| self.portrait.placement.to_page(*p)).collect();
-            outline.extend(catmull_rom(&places, Ring::Closed));
-        }
-        outline
+/// The smooth outlines on the page of what lies above a level: the shapes that are wanted, with their holes.
+pub(super) fn shapes(
+    portrait: &Portrait,
+    pitch: f64,
+    dark: &Raster<f32>,
+    level: f32,
+    is_wanted: impl Fn(&[Point]) -> bool,
+) -> BezPath {
+    let curves = contours(dark, level).into_iter().filter(|curve| curve.closed).map(|curve| curve.points);
+    let (shapes, holes): (Vec<Vec<Point>>, Vec<Vec<Point>>) = curves.partition(|curve| polygon_area(curve) < 0.0);
+    let shapes: Vec<Vec<Point>> = shapes.into_iter().filter(|shape| is_wanted(shape)).collect();
+    let inside = Region::of_polygons(shapes.clone());
+    let mut outline = BezPath::new();
+    for curve in shapes.into_iter().chain(holes.into_iter().filter(|hole| inside.contains(hole[0]))) {
+        let smooth = smooth_polyline(&curve, Ring::Closed, 0.1 * pitch, NODE * pitch);
+        let places: Vec<Point> = smooth.iter().map(|p| portrait.placement.to_page(*p)).collect();
+        outline.extend(catmull_rom(&places, Ring::Closed));
     }
+    outline
 }

@@ -1,15 +1,43 @@
 //! Frames of spectacles as lines: an engraver draws each rim first, in one line.
 
 use super::creases::share;
-use crate::drawing::{Mark, Stroke};
+use super::solids::shapes;
+use super::thick_frame::thick_frame;
+use crate::drawing::{Area, Mark, Stroke};
 use crate::field::Curve;
-use crate::geometry::{Ends, Point, Ring, catmull_rom, resample, smooth_polyline};
-use crate::raster::{Raster, dilate};
+use crate::geometry::{Ends, Point, Ring, catmull_rom, polygon_area, resample, smooth_polyline};
+use crate::raster::{Raster, dilate, gaussian_blur};
 use crate::source::{Landmarks, Portrait, Spectacles};
 
 /// The frames of all faces' spectacles on the page; `pitch` in working pixels.
 pub(super) fn frames(portrait: &Portrait, pitch: f64) -> Vec<Mark> {
-    portrait.faces.iter().filter_map(|face| face.spectacles.as_ref()).flat_map(|frame| marks(frame, portrait, pitch)).collect()
+    let faces = portrait.faces.iter().filter_map(|face| Some((face, face.spectacles.as_ref()?)));
+    let of = |(face, frame)| match thick_frame(face, &portrait.lightness) {
+        Some(mask) => {
+            let mut marks = marks(frame, portrait, pitch, Lines::Rims);
+            marks.extend(solid(&mask, portrait, pitch));
+            marks
+        }
+        None => marks(frame, portrait, pitch, Lines::All),
+    };
+    faces.flat_map(of).collect()
+}
+
+/// Blur of a thick frame's mask in pitches: its pixels' steps vanish, its corners stay.
+const MASK_BLUR: f64 = 0.2;
+
+/// The shape of a thick frame; none if it is smaller than a dot.
+fn solid(mask: &Raster<u8>, portrait: &Portrait, pitch: f64) -> Option<Mark> {
+    let smooth = gaussian_blur(&mask.map(f32::from), (MASK_BLUR * pitch).max(0.7) as f32);
+    let outline = shapes(portrait, pitch, &smooth, 0.5, |curve| polygon_area(curve).abs() >= pitch * pitch);
+    (!outline.is_empty()).then_some(Mark::Area(Area { outline, colour: None }))
+}
+
+/// The lines of a frame that are drawn: a thick frame's bridge and temples are in its mask, and lines would run along their edges.
+#[derive(Clone, Copy, PartialEq)]
+enum Lines {
+    Rims,
+    All,
 }
 
 /// Share of the width measured in the photograph, whose blur widens lines, and limits in pitches.
@@ -29,7 +57,7 @@ const TAPER: f64 = 4.0;
 /// Smoothing of the lines, in widths of the frame: they were found on a grid of pixels.
 const SMOOTH: f64 = 1.0;
 
-fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
+fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, drawn: Lines) -> Vec<Mark> {
     let scale = portrait.placement.mm_per_pixel();
     let width = drawn_width(frame, pitch) * scale;
     let smooth = |line: &[Point], ring| smooth_polyline(line, ring, SMOOTH * frame.width, NODE * pitch);
@@ -46,7 +74,7 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64) -> Vec<Mark> {
         Stroke::swelling(catmull_rom(&nodes, Ring::Closed), widths).map(Mark::Stroke)
     });
     let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
-    let open = open.filter(|(line, _)| line.len() > 1).filter_map(|(line, tapers)| {
+    let open = open.filter(|(line, _)| drawn == Lines::All && line.len() > 1).filter_map(|(line, tapers)| {
         let nodes = on_page(&smooth(line, Ring::Open));
         let last = (nodes.len() - 1) as f64;
         let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
@@ -80,13 +108,19 @@ const OWN: f64 = 1.2;
 pub(super) fn zone(faces: &[Landmarks], width: usize, height: usize) -> Raster<u8> {
     let mut all = Raster::filled(width, height, 0_u8);
     for frame in faces.iter().filter_map(|face| face.spectacles.as_ref()) {
-        let mut lines = Raster::filled(width, height, 0_u8);
-        for p in frame.lines().iter().flat_map(|line| resample(line, 0.7)) {
-            if p.x >= 0.0 && p.y >= 0.0 && p.x < width as f64 && p.y < height as f64 {
-                lines.set(p.x as usize, p.y as usize, 1);
-            }
-        }
+        let lines = frame_lines(frame, width, height);
         all = all.zip_map(&dilate(&lines, (OWN * frame.width).round().max(1.0) as usize), u8::max);
     }
     all
+}
+
+/// 1 on the lines of a frame, one pixel wide.
+pub(super) fn frame_lines(frame: &Spectacles, width: usize, height: usize) -> Raster<u8> {
+    let mut lines = Raster::filled(width, height, 0_u8);
+    for p in frame.lines().iter().flat_map(|line| resample(line, 0.7)) {
+        if p.x >= 0.0 && p.y >= 0.0 && p.x < width as f64 && p.y < height as f64 {
+            lines.set(p.x as usize, p.y as usize, 1);
+        }
+    }
+    lines
 }

@@ -17,6 +17,7 @@ mod catchlights;
 mod curve;
 mod ears;
 mod face;
+mod irises;
 mod lights;
 mod mixing;
 mod openings;
@@ -25,6 +26,7 @@ mod zones;
 use crate::raster::{Raster, box_blur, enlarge, reduce};
 use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
+use irises::with_light_irises;
 
 /// The masks that are used besides the subject.
 pub const ROLES: &[MaskRole] = &[MaskRole::Hair, MaskRole::FacialHair, MaskRole::Headwear, MaskRole::Clothing];
@@ -78,7 +80,11 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
         .collect();
     let tone = blended(&tones)?.zip_map(&lightness, |tone, lightness| lightness + strength * (tone - lightness));
     let tone = at_full_size(&tone, &lightness, &portrait.lightness, factor);
-    Some(if strength > 0.0 { with_catchlights(tone, &portrait.lightness, &portrait.faces) } else { tone })
+    if strength == 0.0 {
+        return Some(tone);
+    }
+    let tone = with_light_irises(tone, &portrait.lightness, &portrait.faces);
+    Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }
 
 /// The weighted mean of the tones of several faces.

@@ -42,8 +42,9 @@ use runs::{Course, Piece};
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
 /// In hair lines cross at half the angle: steeper ones look woven.
 const HAIR_TURN: f64 = 0.5;
-/// Widths of the mouth's lines, as a share.
+/// Widths of the lines of mouths and of jaws, as shares: among lines as thin as these full jaws are wires (10, 12, 13).
 const MOUTH: f64 = 0.85;
+const JAW: f64 = 0.5;
 /// Lines of hair stand this much closer.
 const HAIR_CLOSENESS: f32 = 1.08;
 /// How far lines are laid beyond a surface's border, in pitches, so that they are even at it.
@@ -78,7 +79,7 @@ impl Drawer<'_> {
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
         let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair)));
         let solids = Solids::new(self.portrait, &ink, self.pitch());
-        let solids = solids.with_mouths(self.portrait, self.pitch(), MOUTH).with_jaws(self.portrait, self.pitch()).layer();
+        let solids = solids.with_mouths(self.portrait, self.pitch(), MOUTH).with_jaws(self.portrait, self.pitch(), JAW).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();
