@@ -5,7 +5,7 @@
 //! head, and the picture's own edges decide the rest.
 //!
 //! ```text
-//!   view, subject, points --> plate (face 110 px wide) --> is it bald? --> parting: skin, hair, clothing --> pieces that hang together
+//!   view, subject, points --> plate (face 110 px wide) --> is it bald? --> parting: skin, hair, clothing --> pieces that hang together, shaded necks
 //!                                                                             /             \
 //!                                                                       facial hair      headwear --> shares at the view's size
 //! ```
@@ -16,6 +16,7 @@ mod head;
 mod headwear;
 mod lighting;
 mod mixture;
+mod neck;
 mod path;
 mod pieces;
 mod plate;
@@ -31,6 +32,7 @@ use crate::source::Landmarks;
 use facial_hair::Beard;
 use head::Head;
 use headwear::headwear;
+use neck::with_shaded_neck;
 use plate::{Plate, owner};
 use segmentation::{CLOTHING, HAIR, SKIN, Segmentation, Shares};
 use smoothing::{Guide, Lines, value};
@@ -66,6 +68,7 @@ fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads:
     let beard = Beard::found(&plate);
     let shares = pieces::reassign_stray_pieces(&parting, &plate, parting.shares(&guides), beard.as_ref());
     let beard = beard.map(|beard| beard.shares(&plate, &shares));
+    let shares = with_shaded_neck(&plate, shares, beard.as_ref());
     let hat = headwear(&plate, &shares);
     let kinds = kinds(&shares, beard.as_ref(), hat.as_ref());
     let lines = [0, 1, 2, 3, 4].map(|k| {

@@ -66,7 +66,7 @@ const MOST_RAISED: f32 = 1.8;
 /// Lights that are narrow, as on moist skin, are raised from a lower percentile on, at lowest this one, until this percentile is seen as this
 /// tone, which a print still shows as paper.
 const LOWEST_RAISED: f64 = 20.0;
-const LEAST_BARE: f64 = 95.6;
+const LEAST_BARE: f64 = 95.2;
 const NEARLY_PAPER: f32 = 0.975;
 /// How far lights are told by the tone around them, 0 to 1: by their own tone alone, single pores are raised and the paper between is not.
 const WIDE: f32 = 0.8;

@@ -1,0 +1,138 @@
+//! A neck in the shade of its chin: too dark to be like the skin of the face, but of its colour.
+
+use super::plate::Plate;
+use super::segmentation::{CLOTHING, HAIR, SKIN, Shares, greatest};
+use super::skin_model::apart;
+use crate::elementary::Elementary as _;
+use crate::raster::{Raster, box_blur, components, dilate, median};
+
+/// Where necks are between chin and collar, in `u` and `v`.
+const ASIDE: f32 = 0.36;
+const HEIGHTS: [f32; 2] = [-0.6, 0.12];
+/// Where clothing is whose colour is sure.
+const CLOTH_BELOW: f32 = -0.5;
+/// A neck's shade-free colour lies nearer to the face's than this share of the face's distance from grey, and than this share of its distance
+/// from the clothing's; red and brown clothes are too near to tell.
+const FROM_GREY: f32 = 0.5;
+const FROM_CLOTH: f32 = 0.45;
+const TOLD_APART: f32 = 0.1;
+/// Darker places, in L*, have no colour.
+const BLACK: f32 = 2.5;
+/// Radius in working pixels of the mean of a colour: that of a single dark pixel is noise.
+const MEAN: usize = 1;
+/// The smallest piece of a neck, in squared widths of the face, and how near it comes to the face or its beard in working pixels.
+const LEAST: f32 = 0.004;
+const NEAR: usize = 3;
+/// Where the collar around a piece is looked for, in working pixels, and the least step between their colours: a black shirt that is cut out by
+/// the limits of the zone has none.
+const BESIDE: usize = 3;
+const COLLAR: f32 = 9.0;
+
+/// The shares with shaded necks as skin.
+pub(super) fn with_shaded_neck(plate: &Plate, mut shares: Raster<Shares>, beard: Option<&Raster<f32>>) -> Raster<Shares> {
+    let Some(neck) = shaded_neck(plate, &shares, beard) else { return shares };
+    for (share, _) in shares.pixels_mut().iter_mut().zip(neck.pixels()).filter(|(_, is)| **is) {
+        share[SKIN] += share[CLOTHING];
+        share[CLOTHING] = 0.0;
+    }
+    shares
+}
+
+fn shaded_neck(plate: &Plate, shares: &Raster<Shares>, beard: Option<&Raster<f32>>) -> Option<Raster<bool>> {
+    let class = shares.map(greatest);
+    let is_beard = |i: usize| beard.is_some_and(|beard| beard.pixels()[i] > 0.5);
+    let lab = [0, 1, 2].map(|k| box_blur(&plate.lab.map(|lab| lab[k]), MEAN));
+    let colour = Raster::from_fn(plate.width(), plate.height(), |x, y| {
+        let [l, a, b] = [0, 1, 2].map(|k| lab[k].get(x, y));
+        [a / (l + 16.0), b / (l + 16.0)]
+    });
+    let usual = |is_counted: &dyn Fn(usize, [f32; 2]) -> bool| {
+        let counted: Vec<usize> = (0..class.len()).filter(|i| is_counted(*i, plate.at.pixels()[*i])).collect();
+        let axis = |k: usize| median(counted.iter().map(|i| colour.pixels()[*i][k]).collect());
+        Some([axis(0)?, axis(1)?])
+    };
+    let skin = usual(&|i, _| plate.core.pixels()[i] && class.pixels()[i] == SKIN)?;
+    let cloth = usual(&|i, [u, v]| class.pixels()[i] == CLOTHING && (u.abs() > ASIDE || v < CLOTH_BELOW))?;
+    if apart(skin, cloth) < TOLD_APART {
+        return None;
+    }
+    let nearest = (FROM_GREY * skin[0].hypotenuse(skin[1])).min(FROM_CLOTH * apart(skin, cloth));
+    let is_like = |i: usize| {
+        let [u, v] = plate.at.pixels()[i];
+        class.pixels()[i] == CLOTHING
+            && !is_beard(i)
+            && u.abs() < ASIDE
+            && (HEIGHTS[0]..HEIGHTS[1]).contains(&v)
+            && lab[0].pixels()[i] > BLACK
+            && apart(colour.pixels()[i], skin) < nearest
+    };
+    let like = Raster::from_fn(plate.width(), plate.height(), |x, y| u8::from(is_like(y * plate.width() + x)));
+    let above = Raster::from_fn(plate.width(), plate.height(), |x, y| {
+        let i = y * plate.width() + x;
+        let is_above = plate.oval.pixels()[i] || is_beard(i) || matches!(class.pixels()[i], SKIN | HAIR);
+        u8::from(is_above && plate.at.pixels()[i][0].abs() < ASIDE)
+    });
+    let near = dilate(&above, NEAR);
+    let (labels, count) = components(&like);
+    let least = (LEAST * plate.face_width * plate.face_width).max(1.0) as usize;
+    let is_neck = |label: u32| {
+        let piece = labels.map(|own| u8::from(own == label));
+        let beside = dilate(&piece, BESIDE);
+        let of = |is_counted: &dyn Fn(usize) -> bool| (0..class.len()).filter(|i| is_counted(*i)).collect::<Vec<usize>>();
+        let own = of(&|i| piece.pixels()[i] == 1);
+        if own.len() < least || own.iter().all(|i| near.pixels()[*i] == 0) {
+            return false;
+        }
+        let colour = |of: &[usize]| [0, 1, 2].map(|k| median(of.iter().map(|i| lab[k].pixels()[*i]).collect()).unwrap_or(0.0));
+        let cloth = of(&|i| beside.pixels()[i] == 1 && piece.pixels()[i] == 0 && class.pixels()[i] == CLOTHING && !is_beard(i));
+        let (inside, outside) = (colour(&own), colour(&cloth));
+        let step = [0, 1, 2].map(|k| inside[k] - outside[k]).iter().map(|d| d * d).sum::<f32>().sqrt();
+        cloth.is_empty() || step > COLLAR
+    };
+    let is_kept: Vec<bool> = (0..=count as u32).map(|label| label != 0 && is_neck(label)).collect();
+    Some(labels.map(|label| is_kept[label as usize]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::head::Head;
+    use super::*;
+    use crate::elementary::unit_at;
+    use crate::geometry::Point;
+    use crate::source::{Iris, Landmarks, outlines};
+
+    /// The share of skin below a chin of this colour above clothing of that one.
+    fn skin_at_neck(neck: [u8; 3], cloth: [u8; 3]) -> f32 {
+        let centre = Point::new(100.0, 70.0);
+        let mut points = vec![[centre.x, centre.y, 0.0]; 468];
+        for (i, &index) in outlines::OVAL.iter().enumerate() {
+            let out = unit_at(std::f64::consts::TAU * i as f64 / outlines::OVAL.len() as f64 - std::f64::consts::FRAC_PI_2);
+            points[index] = [centre.x + 40.0 * out.x, centre.y + 50.0 * out.y, 0.0];
+        }
+        let face = Landmarks { points, irises: [Iris { centre, radius: 3.0 }; 2], spectacles: None };
+        let pixels = Raster::from_fn(200, 200, |x, y| {
+            let (dx, dy) = ((x as f64 - centre.x) / 40.0, (y as f64 - centre.y) / 50.0);
+            if dx * dx + dy * dy < 1.0 {
+                [200, 140, 110]
+            } else if y < 150 && (78..122).contains(&x) {
+                neck
+            } else {
+                cloth
+            }
+        });
+        let heads = [Head::new(&face).expect("a head")];
+        let plate = Plate::new(&pixels, &Raster::filled(200, 200, 255_u8), &face, &heads, 0).expect("a plate");
+        let shares = plate.oval.map(|is_face| if is_face { [0.0, 1.0, 0.0, 0.0] } else { [0.0, 0.0, 0.0, 1.0] });
+        let shares = with_shaded_neck(&plate, shares, None);
+        let at = |v: f64, from: f64| ((v - from) * plate.scale) as usize;
+        shares.get(at(100.0, plate.part.x0), at(135.0, plate.part.y0))[SKIN]
+    }
+
+    #[test]
+    fn a_dark_neck_is_skin_and_a_black_shirt_is_not() {
+        let navy = [30, 35, 70];
+        assert_eq!(skin_at_neck([60, 42, 33], navy), 1.0, "the face's colour in shade");
+        assert_eq!(skin_at_neck([20, 20, 22], navy), 0.0, "a black shirt");
+        assert_eq!(skin_at_neck([28, 20, 16], [28, 20, 16]), 0.0, "a brown pullover");
+    }
+}
