@@ -37,14 +37,18 @@ impl Task<'_> {
                 }
             };
             let settings = if region.is_some() { &manner.settings } else { settings };
-            if prepared
-                .as_ref()
-                .is_none_or(|(known, portrait)| portrait.placement != placement || !known.makes_the_same_as(&manner.known))
-            {
-                prepared = Some((&manner.known, self.portrait(&manner.known, placement)?));
-            }
-            let Some((_, portrait)) = &prepared else { continue };
-            let Some([columns, rows]) = parts.extent(part, &portrait.subject, &placement) else { continue };
+            let is_same = |(known, portrait): &(&Known, Portrait)| {
+                portrait.placement == placement && known.makes_the_same_as(&manner.known)
+            };
+            // The last one goes before the next is made: they are large.
+            prepared = prepared.filter(is_same);
+            let portrait = match &mut prepared {
+                Some((_, portrait)) => portrait,
+                none => &mut none.insert((&manner.known, self.portrait(&manner.known, placement)?)).1,
+            };
+            let ground = manner.style.draws_ground().then(|| portrait.subject.map(|_| 1.0));
+            let drawn = ground.unwrap_or_else(|| whole(&portrait.subject));
+            let Some([columns, rows]) = parts.extent(part, &drawn, &placement) else { continue };
             let share = parts.drawn_share(part, &placement).part(&columns, &rows);
             let mut portrait = portrait.part(&columns, &rows);
             portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
@@ -53,7 +57,10 @@ impl Task<'_> {
                 drawn => drawn.map_err(|error| self.undrawn(&error))?,
             };
             let confined = parts.confined(part, &drawing);
-            layers.extend(confined.layers.into_iter().map(|layer| region.map_or(layer.clone(), |region| region.named(layer))));
+            layers.extend(confined.layers.into_iter().map(|layer| match region {
+                Some(region) => region.named(layer),
+                None => layer,
+            }));
         }
         if layers.is_empty() {
             return Err(self.undrawn(&StyleError::NothingToDraw("every region is white".to_owned())));
@@ -79,4 +86,10 @@ impl Task<'_> {
         let of = |region: &&Region| layer.name.strip_prefix(&region.name).is_some_and(|rest| rest.starts_with('-'));
         self.regions.iter().filter(of).max_by_key(|region| region.name.len())?.ink.as_ref()
     }
+}
+
+/// A subject whose most certain place counts in full: a faint one is drawn too.
+fn whole(subject: &Raster<f32>) -> Raster<f32> {
+    let most = subject.pixels().iter().copied().fold(0.0, f32::max).max(f32::MIN_POSITIVE);
+    subject.map(|share| share / most)
 }

@@ -172,6 +172,13 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
             return Err(Failure::Work(format!("{name}: each face must have {POINTS} points of three numbers")));
         }
         let irises = [iris(&face.irises.right), iris(&face.irises.left)];
+        let is_eye =
+            |iris: &Iris| [iris.centre.x, iris.centre.y, iris.radius].iter().all(|v| v.abs() <= 1e6) && iris.radius >= 0.0;
+        if !irises.iter().all(is_eye) {
+            return Err(Failure::Work(format!(
+                "{name}: irises must have a centre of two numbers and a radius of 0 or more, in pixels"
+            )));
+        }
         let spectacles = face.spectacles.as_ref().map(spectacles);
         if spectacles.as_ref().is_some_and(|spectacles| !is_sound(spectacles, width.max(height))) {
             return Err(Failure::Work(format!(

@@ -112,13 +112,13 @@ impl Parts {
         self.on(&drawn, placement)
     }
 
-    /// The columns and rows of another grid in which a part has something of a subject to draw, with the room that it is drawn beyond its
-    /// border; none if it has nothing. Slivers do not count.
-    pub fn extent(&self, part: usize, subject: &Raster<f32>, placement: &Placement) -> Option<[Range<usize>; 2]> {
+    /// The columns and rows of another grid in which a part has something to draw of what is drawn at all (0 to 1), with the room that it is
+    /// drawn beyond its border; none if it has nothing. Slivers do not count.
+    pub fn extent(&self, part: usize, drawn: &Raster<f32>, placement: &Placement) -> Option<[Range<usize>; 2]> {
         let pixels = |reach: f64| placement.pixels(Millimetres(reach));
         let is_fading = self.borders.iter().any(|border| matches!(border, Border::Fade(_)));
         let least = if is_fading { LEAST_SHARE } else { LEAST_SUBSTANCE };
-        let own = self.on(&self.shares[part], placement).zip_map(subject, |share, subject| share * subject);
+        let own = self.on(&self.shares[part], placement).zip_map(drawn, |share, drawn| share * drawn);
         gaussian_blur(&own, pixels(SLIVER) as f32).extent_with_room(least, pixels(BEYOND).ceil() as usize)
     }
 

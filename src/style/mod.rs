@@ -105,6 +105,10 @@ pub trait Style: Sync {
     fn resolution(&self, settings: &Settings, masks: &[MaskRole], _picture: Rect) -> f64 {
         self.pixels_per_mm(settings, masks)
     }
+    /// True if it draws a ground of its own where the background is left out.
+    fn draws_ground(&self) -> bool {
+        false
+    }
     /// Estimated cost of drawing a picture of this size at this resolution, from measured figures.
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost;
     /// Finds, once, what several drawings of a portrait share: one for each pen, whose seeds differ by the pen's number.

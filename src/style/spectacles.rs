@@ -1,4 +1,4 @@
-//! Frames of spectacles as lines: an engraver draws each rim first, in one line.
+//! Frames of spectacles: an engraver draws each rim first, in one line. Thick dark ones are solid shapes.
 
 use super::creases::share;
 use super::solids::shapes;
@@ -7,18 +7,16 @@ use crate::drawing::{Area, Mark, Stroke};
 use crate::field::Curve;
 use crate::geometry::{Ends, Point, Ring, catmull_rom, polygon_area, resample, smooth_polyline};
 use crate::raster::{Raster, dilate, gaussian_blur};
-use crate::source::{Landmarks, Portrait, Spectacles};
+use crate::source::{Landmarks, MaskRole, Portrait, Spectacles};
 
 /// The frames of all faces' spectacles on the page; `pitch` in working pixels.
 pub(super) fn frames(portrait: &Portrait, pitch: f64) -> Vec<Mark> {
     let faces = portrait.faces.iter().filter_map(|face| Some((face, face.spectacles.as_ref()?)));
-    let of = |(face, frame)| match thick_frame(face, &portrait.lightness) {
-        Some(mask) => {
-            let mut marks = marks(frame, portrait, pitch, Lines::Rims);
-            marks.extend(solid(&mask, portrait, pitch));
-            marks
-        }
-        None => marks(frame, portrait, pitch, Lines::All),
+    let of = |(face, frame)| {
+        let mask = thick_frame(face, &portrait.lightness, portrait.masks.get(&MaskRole::Hair));
+        let mut marks = marks(frame, portrait, pitch, mask.as_ref());
+        marks.extend(mask.and_then(|mask| solid(&mask, portrait, pitch)));
+        marks
     };
     faces.flat_map(of).collect()
 }
@@ -31,13 +29,6 @@ fn solid(mask: &Raster<u8>, portrait: &Portrait, pitch: f64) -> Option<Mark> {
     let smooth = gaussian_blur(&mask.map(f32::from), (MASK_BLUR * pitch).max(0.7) as f32);
     let outline = shapes(portrait, pitch, &smooth, 0.5, |curve| polygon_area(curve).abs() >= pitch * pitch);
     (!outline.is_empty()).then_some(Mark::Area(Area { outline, colour: None }))
-}
-
-/// The lines of a frame that are drawn: a thick frame's bridge and temples are in its mask, and lines would run along their edges.
-#[derive(Clone, Copy, PartialEq)]
-enum Lines {
-    Rims,
-    All,
 }
 
 /// Share of the width measured in the photograph, whose blur widens lines, and limits in pitches.
@@ -57,7 +48,8 @@ const TAPER: f64 = 4.0;
 /// Smoothing of the lines, in widths of the frame: they were found on a grid of pixels.
 const SMOOTH: f64 = 1.0;
 
-fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, drawn: Lines) -> Vec<Mark> {
+/// The lines of a frame. A bridge or temple that lies in the mask of a thick frame is in its shape: its line would run along an edge.
+fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Raster<u8>>) -> Vec<Mark> {
     let scale = portrait.placement.mm_per_pixel();
     let width = drawn_width(frame, pitch) * scale;
     let smooth = |line: &[Point], ring| smooth_polyline(line, ring, SMOOTH * frame.width, NODE * pitch);
@@ -74,15 +66,22 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, drawn: Lines) -> V
         Stroke::swelling(catmull_rom(&nodes, Ring::Closed), widths).map(Mark::Stroke)
     });
     let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
-    let open = open.filter(|(line, _)| drawn == Lines::All && line.len() > 1).filter_map(|(line, tapers)| {
-        let nodes = on_page(&smooth(line, Ring::Open));
-        let last = (nodes.len() - 1) as f64;
-        let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
-        let widths = (0..nodes.len()).map(|i| width * (0.2 + 0.8 * rest(i))).collect();
-        let stroke = Stroke::swelling(catmull_rom(&nodes, Ring::Open), widths)?;
-        Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
-    });
+    let open = open.filter(|(line, _)| line.len() > 1 && !mask.is_some_and(|mask| is_mostly_in(line, mask))).filter_map(
+        |(line, tapers)| {
+            let nodes = on_page(&smooth(line, Ring::Open));
+            let last = (nodes.len() - 1) as f64;
+            let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
+            let widths = (0..nodes.len()).map(|i| width * (0.2 + 0.8 * rest(i))).collect();
+            let stroke = Stroke::swelling(catmull_rom(&nodes, Ring::Open), widths)?;
+            Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
+        },
+    );
     rims.chain(open).collect()
+}
+
+fn is_mostly_in(line: &[Point], mask: &Raster<u8>) -> bool {
+    let inside = line.iter().filter(|p| mask.clamped(p.x as isize, p.y as isize) == 1).count();
+    2 * inside > line.len()
 }
 
 /// Lines that frames take the place of.

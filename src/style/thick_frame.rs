@@ -1,6 +1,7 @@
-//! Thick dark frames of spectacles, as a mask: a line along each rim would be a wire.
+//! Thick dark frames of spectacles, as a mask: lines alone would show frames of wire.
 
 use super::spectacles::frame_lines;
+use crate::geometry::{Point, convex_hull};
 use crate::raster::{Raster, components, dilate, fast_gaussian, filled_polygon, median, remove_components};
 use crate::source::{Landmarks, outlines};
 
@@ -14,11 +15,15 @@ const AROUND: f64 = 0.06;
 /// Mean width in distances of the eyes from which a frame is thick: black wire seen in a photograph has 0.03, horn rims 0.07 (portraits of
 /// five with spectacles).
 const THICK: f64 = 0.05;
+/// The least mean width in pixels: a wire of a small face is no thinner.
+const LEAST_PIXELS: f64 = 3.0;
+/// Brows and hair are dark too; farther than this from the line they are no frame, in distances of the eyes.
+const OWN: f64 = 0.05;
 /// Room around the lids, in distances of the eyes: lashes are no frame.
 const LIDS: f64 = 0.05;
 
 /// 1 in a face's thick frame; none if it has none.
-pub(super) fn thick_frame(face: &Landmarks, lightness: &Raster<f32>) -> Option<Raster<u8>> {
+pub(super) fn thick_frame(face: &Landmarks, lightness: &Raster<f32>, hair: Option<&Raster<f32>>) -> Option<Raster<u8>> {
     let frame = face.spectacles.as_ref()?;
     let (columns, rows) = (lightness.width(), lightness.height());
     let apart = face.eye_distance();
@@ -31,18 +36,24 @@ pub(super) fn thick_frame(face: &Landmarks, lightness: &Raster<f32>) -> Option<R
     let near = dilate(&line, pixels(REACH));
     let around = dilate(&near, pixels(AROUND)).zip_map(&near, |wide, near| wide * (1 - near));
     let border = dark + BORDER * (median(values(&around))? - dark).max(0.0);
-    let lids = [&outlines::LEFT_EYE, &outlines::RIGHT_EYE].map(|lids| polygon(face, lids, columns, rows));
-    let lids = dilate(&lids[0].zip_map(&lids[1], u8::max), pixels(LIDS));
+    let open = near.zip_map(&other_darks(face, hair, &dilate(&line, pixels(OWN)), pixels(LIDS)), |near, dark| near * (1 - dark));
     let smooth = fast_gaussian(lightness, (0.008 * apart).max(0.5) as f32);
-    let is_dark = smooth.zip_map(&near.zip_map(&lids, |near, lids| near * (1 - lids)), |v, near| near * u8::from(v < border));
+    let is_dark = smooth.zip_map(&open, |v, open| open * u8::from(v < border));
     let grown = joined_to(&is_dark, &line);
     let area = grown.pixels().iter().filter(|v| **v == 1).count() as f64;
     let length = line.pixels().iter().filter(|v| **v == 1).count() as f64;
-    (area > THICK * apart * length).then_some(grown)
+    (area > (THICK * apart).max(LEAST_PIXELS) * length).then_some(grown)
 }
 
-fn polygon(face: &Landmarks, of: &[usize], columns: usize, rows: usize) -> Raster<u8> {
-    filled_polygon(columns, rows, &face.line(of).iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())
+/// 1 around the lids, and in brows and hair away from the frame's own place.
+fn other_darks(face: &Landmarks, hair: Option<&Raster<f32>>, own: &Raster<u8>, round_lids: usize) -> Raster<u8> {
+    let filled =
+        |corners: Vec<Point>| filled_polygon(own.width(), own.height(), &corners.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>());
+    let both = |[a, b]: [Raster<u8>; 2]| a.zip_map(&b, u8::max);
+    let lids = dilate(&both([&outlines::LEFT_EYE, &outlines::RIGHT_EYE].map(|lids| filled(face.line(lids)))), round_lids);
+    let brows = both([&outlines::LEFT_BROW, &outlines::RIGHT_BROW].map(|brow| filled(convex_hull(face.line(brow)))));
+    let dark = hair.map_or_else(|| brows.clone(), |hair| brows.zip_map(hair, |brow, hair| brow.max(u8::from(hair > 0.5))));
+    lids.zip_map(&dark.zip_map(own, |dark, own| dark * (1 - own)), u8::max)
 }
 
 /// The connected parts of a mask that a line runs through.
@@ -53,4 +64,42 @@ fn joined_to(mask: &Raster<u8>, line: &Raster<u8>) -> Raster<u8> {
         is_met[*label as usize] |= *line == 1;
     }
     remove_components(mask, &labels, |label| is_met[label as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::distance_to_segment;
+    use crate::source::{Iris, POINTS, Spectacles};
+
+    /// Eyes 60 pixels apart behind square rims whose lines are drawn so wide on light skin; how many pixels are a thick frame.
+    fn thick_pixels(width: f64, dark: f32) -> Option<usize> {
+        let rim = |x: f64| {
+            [(-20.0, -14.0), (20.0, -14.0), (20.0, 14.0), (-20.0, 14.0)].map(|(dx, dy)| Point::new(x + dx, 60.0 + dy)).to_vec()
+        };
+        let frame = Spectacles {
+            rims: [rim(60.0), rim(120.0)],
+            bridge: vec![Point::new(80.0, 55.0), Point::new(100.0, 55.0)],
+            temples: [Vec::new(), Vec::new()],
+            width: 3.0,
+        };
+        let lines = frame.lines();
+        let light = Raster::from_fn(180, 120, |x, y| {
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let away =
+                |line: &Vec<Point>| line.windows(2).map(|w| distance_to_segment(p, w[0], w[1])).fold(f64::INFINITY, f64::min);
+            if lines.iter().map(away).fold(f64::INFINITY, f64::min) < 0.5 * width { dark } else { 0.7 }
+        });
+        let irises = [60.0, 120.0].map(|x| Iris { centre: Point::new(x, 60.0), radius: 4.0 });
+        let face = Landmarks { points: vec![[90.0, 60.0, 0.0]; POINTS], irises, spectacles: Some(frame) };
+        Some(thick_frame(&face, &light, None)?.pixels().iter().filter(|v| **v == 1).count())
+    }
+
+    #[test]
+    fn horn_is_solid_and_neither_wire_nor_a_clear_frame_is() {
+        let horn = thick_pixels(6.0, 0.1).expect("a thick frame");
+        assert!((1300..2000).contains(&horn), "{horn}");
+        assert_eq!(thick_pixels(1.6, 0.1), None, "black wire");
+        assert_eq!(thick_pixels(6.0, 0.45), None, "clear plastic");
+    }
 }

@@ -8,8 +8,9 @@ use crate::raster::{Raster, dilate, fast_gaussian};
 /// included), with a border so soft.
 const HEIGHTS: [f64; 2] = [0.15, 0.85];
 const SOFT: f64 = 0.08;
-/// Distance from the oval in widths of the face: its border is a cheek's shade, not an ear.
+/// Distances from the oval in widths of the face: its border is a cheek's shade, and farther away are hands and other people.
 const BESIDE: f64 = 0.02;
+const FARTHEST: f64 = 0.32;
 /// The blurs that folds lie between, in widths of the face: narrower is grain, wider is the light on the whole ear.
 const FINEST: f64 = 0.008;
 const WIDEST: f64 = 0.05;
@@ -25,11 +26,12 @@ pub(super) fn with_ears(
     above_chin: impl Fn(usize, usize) -> f64 + Sync,
 ) -> Raster<f32> {
     let pixels = |share: f64| (share * zones.width) as f32;
-    let face = dilate(&zones.oval, pixels(BESIDE).round().max(1.0) as usize).map(f32::from);
+    let within = |reach: f64| dilate(&zones.oval, pixels(reach).round().max(1.0) as usize);
+    let beside = within(FARTHEST).zip_map(&within(BESIDE), |near, face| f32::from(near * (1 - face)));
     let ears = Raster::from_fn(tone.width(), tone.height(), |x, y| {
         let height = above_chin(x, y);
         let level = ((height - HEIGHTS[0]) / SOFT).min((HEIGHTS[1] - height) / SOFT).clamp(0.0, 1.0) as f32;
-        level * skin.get(x, y) * (1.0 - face.get(x, y))
+        level * skin.get(x, y) * beside.get(x, y)
     });
     let weight = ears.map(|v| v + 1e-5);
     let light = zones.over_skin(tone, &weight, WIDEST);

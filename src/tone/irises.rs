@@ -1,4 +1,4 @@
-//! Step 10b: light irises stay lighter than their pupils: as discs of black, blue and green eyes stare.
+//! Light irises stay lighter than their pupils: as discs of black, blue and green eyes stare.
 
 use super::catchlights::pixels_about;
 use super::openings::eyes;
@@ -22,9 +22,10 @@ const SOFT: f64 = 0.12;
 /// Irises of fewer pixels have no ring.
 const LEAST_RADIUS: f64 = 4.0;
 
-/// The tone with light irises, by the photograph's lightness.
-pub(super) fn with_light_irises(tone: Raster<f32>, lightness: &Raster<f32>, faces: &[Landmarks]) -> Raster<f32> {
-    faces.iter().fold(tone, |tone, face| {
+/// The tone with light irises, by the photograph's lightness; `strength` is that of the tone, 0 to 1.
+pub(super) fn with_light_irises(tone: Raster<f32>, lightness: &Raster<f32>, faces: &[Landmarks], strength: f32) -> Raster<f32> {
+    let large = faces.iter().filter(|face| face.irises.iter().any(|iris| iris.radius >= LEAST_RADIUS));
+    large.fold(tone, |tone, face| {
         let eyes = eyes(face).map(|(lids, iris)| (polygon(tone.width(), tone.height(), &lids), iris));
         // Both eyes of a face have one colour.
         let seen: Vec<f32> = eyes.iter().filter_map(|(opening, iris)| iris_light(lightness, opening, *iris)).collect();
@@ -33,27 +34,27 @@ pub(super) fn with_light_irises(tone: Raster<f32>, lightness: &Raster<f32>, face
             return tone;
         }
         eyes.into_iter().fold(tone, |tone, (opening, iris)| {
-            let Some(was) = Ring::of(&tone, &opening, iris) else { return tone };
+            let Some(was) = Eye::of(&tone, &opening, iris) else { return tone };
             let more = (GAIN * light).min(MOST) * (was.white - was.pupil) - (was.ring - was.pupil);
-            raised(tone, &opening, iris, more.max(0.0))
+            raised(tone, &opening, iris, strength * more.max(0.0))
         })
     })
 }
 
 /// How light an iris is in the photograph, from 0, as its pupil, to 1, as the white of the eye. None if it is too small to tell.
 fn iris_light(lightness: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> Option<f32> {
-    let seen = Ring::of(lightness, opening, iris).filter(|_| iris.radius >= LEAST_RADIUS)?;
+    let seen = Eye::of(lightness, opening, iris).filter(|_| iris.radius >= LEAST_RADIUS)?;
     Some(((seen.ring - seen.pupil) / (seen.white - seen.pupil).max(0.02)).clamp(0.0, 1.0))
 }
 
 /// Values of the three parts of an eye.
-struct Ring {
+struct Eye {
     pupil: f32,
     ring: f32,
     white: f32,
 }
 
-impl Ring {
+impl Eye {
     /// None where a part is not between the lids.
     fn of(values: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> Option<Self> {
         let within = |from: f64, to: f64| -> Vec<f32> {

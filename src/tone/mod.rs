@@ -8,7 +8,8 @@
 //!   lightness -> light evened over skin -> local contrast -> one rising curve, through the skin's median and its lights,
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
-//!   -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held -> catchlights
+//!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
+//!   -> eyes at least as dark as in the photograph -> light irises -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
@@ -83,7 +84,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     if strength == 0.0 {
         return Some(tone);
     }
-    let tone = with_light_irises(tone, &portrait.lightness, &portrait.faces);
+    let tone = with_light_irises(tone, &portrait.lightness, &portrait.faces, strength);
     Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }
 

@@ -1,5 +1,5 @@
-//! Eyes and open mouths, whose small forms the tone of skin would grey over: whites are lightened, irises darkened, catchlights
-//! left as paper, and the gaps between teeth kept.
+//! Eyes and open mouths, whose small forms the tone of skin would grey over: eyes keep at least the photograph's contrast, whites are
+//! lightened, irises darkened, catchlights left as paper, and the gaps between teeth kept.
 
 use super::mixing::mixed;
 use super::zones::{Zones, polygon};

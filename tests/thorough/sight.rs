@@ -356,7 +356,7 @@ fn the_first_stages_are_what_was_seen() {
     assert_eq!(stages("unseen", &["--sight", "none"])[0], "01-tone.png");
 }
 
-/// Grace Hopper wears spectacles, an astronaut none; they are drawn in one line, and are left out by an edited file.
+/// Grace Hopper wears spectacles, an astronaut none; hers, of wire, are drawn as lines, and are left out by an edited file.
 #[cfg(feature = "see")]
 #[test]
 fn spectacles_are_found_drawn_and_taken_out_again() {

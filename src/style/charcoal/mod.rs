@@ -70,6 +70,10 @@ impl Style for Charcoal {
         (SHORT_SIDE / short).min((MOST_PIXELS / picture.area()).sqrt()).min(fine)
     }
 
+    fn draws_ground(&self) -> bool {
+        true
+    }
+
     fn cost(&self, settings: &Settings, picture: Rect, pixels_per_mm: f64) -> Cost {
         cost::cost(&CharcoalParameters::new(settings), picture, pixels_per_mm)
     }

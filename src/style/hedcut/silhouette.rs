@@ -7,8 +7,10 @@ use crate::source::Portrait;
 
 /// The blur from which distances to the silhouette are read, in pixels: narrower finds no direction at a soft border, wider cuts corners.
 const BLUR: f32 = 3.0;
-/// Distances beyond this multiple of the blur cannot be read.
-const READ: f64 = 2.0;
+/// Greatest depth in blurs at which a line can be held: distances are read from the blur, which ends there.
+const DEEPEST: f64 = 1.1;
+/// Share of a straight border's slope from which there is a direction inwards, and from which a point moves in full.
+const SLOPES: [f64; 2] = [0.1, 0.3];
 /// What stays free between a line and the silhouette, in pixels.
 const FREE: f64 = 0.6;
 
@@ -36,10 +38,26 @@ impl Silhouette {
         let slope = Vec2::new(0.5 * (at(1.0, 0.0) - at(-1.0, 0.0)), 0.5 * (at(0.0, 1.0) - at(0.0, -1.0)));
         // The slope of the blur of a straight border at its middle is 1 / (sqrt(2 pi) sigma).
         let steepest = 1.0 / ((2.0 * std::f64::consts::PI).sqrt() * f64::from(BLUR));
-        if slope.hypot() < 0.15 * steepest {
+        let sure = ((slope.hypot() / steepest - SLOPES[0]) / (SLOPES[1] - SLOPES[0])).clamp(0.0, 1.0);
+        if sure == 0.0 {
             return Vec2::ZERO;
         }
-        let inside = ((at(0.0, 0.0) - 0.5) / steepest).clamp(-READ * f64::from(BLUR), READ * f64::from(BLUR));
-        (depth - inside).max(0.0) / slope.hypot() * slope
+        let inside = (at(0.0, 0.0) - 0.5) / steepest;
+        sure * (depth.min(DEEPEST * f64::from(BLUR)) - inside).max(0.0) / slope.hypot() * slope
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_on_a_straight_border_moves_inside_and_one_far_from_it_stays() {
+        let subject = Raster::from_fn(60, 40, |x, _| f32::from(u8::from(x < 30)));
+        let silhouette = Silhouette { blurred: gaussian_blur(&subject, BLUR) };
+        let moved = silhouette.inwards(Point::new(30.0, 20.0), 2.0);
+        assert!((moved.x + 2.0).abs() < 0.2 && moved.y.abs() < 1e-6, "{moved:?}");
+        assert_eq!(silhouette.inwards(Point::new(10.0, 20.0), 2.0), Vec2::ZERO);
+        assert_eq!(silhouette.inwards(Point::new(26.0, 20.0), 2.0), Vec2::ZERO, "it is deep enough");
     }
 }

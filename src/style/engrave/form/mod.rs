@@ -42,7 +42,8 @@ use runs::{Course, Piece};
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
 /// In hair lines cross at half the angle: steeper ones look woven.
 const HAIR_TURN: f64 = 0.5;
-/// Widths of the lines of mouths and of jaws, as shares: among lines as thin as these full jaws are wires (10, 12, 13).
+/// Widths of the lines of mouths and of jaws, as shares. A jaw of full width looks like a wire among the fine lines of skin (portraits 10, 12
+/// and 13).
 const MOUTH: f64 = 0.85;
 const JAW: f64 = 0.5;
 /// Lines of hair stand this much closer.
