@@ -66,7 +66,7 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Rast
         Stroke::swelling(catmull_rom(&nodes, Ring::Closed), widths).map(Mark::Stroke)
     });
     let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
-    let open = open.filter(|(line, _)| line.len() > 1 && !mask.is_some_and(|mask| is_mostly_in(line, mask))).filter_map(
+    let open = open.filter(|(line, _)| line.len() > 1 && !mask.is_some_and(|mask| is_largely_in(line, mask))).filter_map(
         |(line, tapers)| {
             let nodes = on_page(&smooth(line, Ring::Open));
             let last = (nodes.len() - 1) as f64;
@@ -79,9 +79,9 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Rast
     rims.chain(open).collect()
 }
 
-fn is_mostly_in(line: &[Point], mask: &Raster<u8>) -> bool {
+fn is_largely_in(line: &[Point], mask: &Raster<u8>) -> bool {
     let inside = line.iter().filter(|p| mask.clamped(p.x as isize, p.y as isize) == 1).count();
-    2 * inside > line.len()
+    3 * inside > line.len()
 }
 
 /// Lines that frames take the place of.

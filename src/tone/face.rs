@@ -70,6 +70,8 @@ const LEAST_BARE: f64 = 95.2;
 const NEARLY_PAPER: f32 = 0.975;
 /// How far lights are told by the tone around them, 0 to 1: by their own tone alone, single pores are raised and the paper between is not.
 const WIDE: f32 = 0.8;
+/// What is darker than the light around it by more than this is a furrow.
+const PORES: f32 = 0.04;
 const HALVINGS: usize = 5;
 /// Width of the transition, in widths of the face, from raised lights inside the face to the unchanged tone outside.
 const FACE_EDGE: f64 = 0.05;
@@ -234,7 +236,10 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>
             let above = ((v + WIDE * (light - v) - from) / range).max(0.0);
             most * if above < 1.0 { above * above } else { 2.0 * above - 1.0 }
         });
-        tone.zip_map(&more.zip_map(&in_face, |more, face| more * face), |tone, more| tone + more)
+        let raised = tone.zip_map(&more.zip_map(&in_face, |more, face| more * face), |tone, more| tone + more);
+        // Furrows stay as deep as they are; pores go.
+        let most = tone.zip_map(&before, |v, light| v.max(1.0 + (v - light + PORES).min(0.0)));
+        raised.zip_map(&most, f32::min)
     };
     if lights >= PAPER || range <= 0.0 {
         return tone.clone();

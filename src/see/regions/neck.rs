@@ -86,7 +86,11 @@ fn shaded_neck(plate: &Plate, shares: &Raster<Shares>, beard: Option<&Raster<f32
     let is_neck =
         |label: usize| label != 0 && sizes[label] >= least && is_joined[label] && has_collar(&labels, label, &is_cloth, &lab);
     let is_kept: Vec<bool> = (0..=count).map(is_neck).collect();
-    Some(labels.map(|label| is_kept[label as usize]))
+    let neck = labels.map(|label| u8::from(is_kept[label as usize]));
+    // The edge of a chin, between it and the neck, is neither's colour.
+    let edge = dilate(&neck, NEAR).zip_map(&near, |neck, above| neck == 1 && above == 1);
+    let edge = edge.zip_map(&is_cloth, |edge, is_cloth| edge && is_cloth);
+    Some(neck.zip_map(&edge, |neck, edge| neck == 1 || edge))
 }
 
 /// True if a piece differs from the clothing around it, or there is none.
