@@ -68,7 +68,10 @@ const MOST_RAISED: f32 = 1.8;
 const LOWEST_RAISED: f64 = 20.0;
 const LEAST_BARE: f64 = 95.2;
 const NEARLY_PAPER: f32 = 0.975;
-/// How far lights are told by the tone around them, 0 to 1: by their own tone alone, single pores are raised and the paper between is not.
+/// Above this percentile a face is not raised to paper, however scattered that is: Grace Hopper's would be to more than a quarter.
+const MOST_SPREAD: f64 = 80.0;
+/// How far these narrow lights are told by the tone around them, 0 to 1: by their own tone alone, single pores are raised and the skin between
+/// is not.
 const WIDE: f32 = 0.8;
 /// What is darker than the light around it by more than this is a furrow.
 const PORES: f32 = 0.04;
@@ -231,9 +234,9 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>
     let range = lights - from;
     let in_face = fast_gaussian(&zones.oval.map(f32::from), (FACE_EDGE * zones.width) as f32);
     let in_face = hair.map_or_else(|| in_face.clone(), |hair| in_face.zip_map(hair, |face, hair| face * (1.0 - hair)));
-    let raised = |from: f32, most: f32| {
+    let raised = |from: f32, most: f32, wide: f32| {
         let more = tone.zip_map(&before, |v, light| {
-            let above = ((v + WIDE * (light - v) - from) / range).max(0.0);
+            let above = ((v + wide * (light - v) - from) / range).max(0.0);
             most * if above < 1.0 { above * above } else { 2.0 * above - 1.0 }
         });
         let raised = tone.zip_map(&more.zip_map(&in_face, |more, face| more * face), |tone, more| tone + more);
@@ -246,11 +249,12 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>
     }
     let reaches = |tone: Raster<f32>, hundredths: f64, paper: f32| zones.percentile(&seen(zones, &tone), hundredths) >= paper;
     let most = MOST_RAISED * range;
-    if reaches(raised(from, most), LEAST_BARE, NEARLY_PAPER) {
-        raised(from, most * least(|share| reaches(raised(from, share * most), BELOW_PAPER, PAPER)))
+    if reaches(raised(from, most, 0.0), LEAST_BARE, NEARLY_PAPER) {
+        raised(from, most * least(|share| reaches(raised(from, share * most, 0.0), BELOW_PAPER, PAPER)), 0.0)
     } else {
-        let lower = |share: f32| raised(from + share * (lowest - from), most);
-        lower(least(|share| reaches(lower(share), LEAST_BARE, NEARLY_PAPER)))
+        let lower = |share: f32| raised(from + share * (lowest - from), most, WIDE);
+        let is_spread = |tone: &Raster<f32>| zones.percentile(tone, MOST_SPREAD) >= NEARLY_PAPER;
+        lower(least(|share| is_spread(&lower(share)) || reaches(lower(share), LEAST_BARE, NEARLY_PAPER)))
     }
 }
 
