@@ -167,11 +167,10 @@ fn curve_of(zones: &Zones, contrasted: &Raster<f32>, base: &Raster<f32>) -> Curv
 
 /// Step 5: light hair gets strands instead of bare paper.
 fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
-    let above_chin = above_chin(face);
+    let height = heights(face);
     let soft = fast_gaussian(hair, (0.015 * zones.width) as f32);
     let zone = Raster::from_fn(tone.width(), tone.height(), |x, y| {
-        let height = above_chin(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-        soft.get(x, y) * subject.get(x, y) * ((height + 0.3) / 0.3).clamp(0.0, 1.0) as f32
+        soft.get(x, y) * subject.get(x, y) * ((height(x, y) + 0.3) / 0.3).clamp(0.0, 1.0) as f32
     });
     let weight = zone.zip_map(subject, |zone, subject| zone + 1e-4 * subject + 1e-6);
     let mean = zones.over_skin(&tone.map(|v| v.clamp(0.0, 1.05)), &weight, 0.05);
@@ -195,14 +194,8 @@ fn skin_of(setting: &Setting<'_>) -> Raster<f32> {
 
 /// Height of a pixel's middle above the chin, in heights of the face.
 fn heights(face: &Landmarks) -> impl Fn(usize, usize) -> f64 + Sync {
-    let above_chin = above_chin(face);
-    move |x, y| above_chin(Point::new(x as f64 + 0.5, y as f64 + 0.5))
-}
-
-/// Height of a point above the chin, in heights of the face.
-fn above_chin(face: &Landmarks) -> impl Fn(Point) -> f64 + Sync {
     let (chin, up) = (face.point(152), face.point(10) - face.point(152));
-    move |p| (p - chin).dot(up) / up.hypot2().max(1e-9)
+    move |x, y| (Point::new(x as f64 + 0.5, y as f64 + 0.5) - chin).dot(up) / up.hypot2().max(1e-9)
 }
 
 /// Step 6: eyes, brows and lips get more contrast against the surrounding skin.
