@@ -4,6 +4,7 @@ use super::SeeError;
 use super::depth::depth;
 use super::faces::{self, Found};
 use super::iris::irises;
+use super::jewellery::with_pearls;
 use super::mesh::mesh;
 use super::networks::{DETECTOR, Engine, IRIS, MESH, Network, PERSON};
 use super::regions::regions;
@@ -57,7 +58,8 @@ pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sig
     let step = view.step();
     let on_view = |p: Point| Point::new((p.x - view.part.x0) / step.x, (p.y - view.part.y0) / step.y);
     let landmarks: Vec<Landmarks> = faces.iter().map(|face| face.landmarks.placed(on_view, 1.0 / step.x)).collect();
-    sight.regions = Some(regions(&view.pixels, &subject, &landmarks).map(|plane| turn.raster_back(plane)));
+    let regions = with_pearls(&view.pixels, &subject, &landmarks, regions(&view.pixels, &subject, &landmarks));
+    sight.regions = Some(regions.map(|plane| turn.raster_back(plane)));
     sight.depth = Some(turn.raster_back(&depth(&subject, &view, &faces)));
     sight.subject = Some(turn.raster_back(&subject));
     sight.faces = faces.iter().map(|face| turned_back(turn, face)).collect();

@@ -26,6 +26,7 @@ mod faces;
 mod head;
 #[cfg(feature = "see")]
 mod iris;
+mod jewellery;
 #[cfg(feature = "see")]
 mod looking;
 #[cfg(feature = "see")]

@@ -26,7 +26,7 @@ pub struct Sight {
 /// Share of each pixel in each region, 0 to 255. All but `detail` add up to the subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions {
-    /// Bare skin: face, ears, neck, hands, shaved heads.
+    /// Bare skin: face, ears, neck, hands, shaved heads; and pearls on it.
     pub skin: Raster<u8>,
     /// Hair of the head, including long hair on shoulders.
     pub hair: Raster<u8>,
@@ -36,7 +36,7 @@ pub struct Regions {
     pub headwear: Raster<u8>,
     /// Clothing and anything else worn below the chin.
     pub clothing: Raster<u8>,
-    /// Eyes with their lids, brows, nose and mouth, which need finer strokes; overlaps the other regions.
+    /// Eyes with their lids, brows, nose and mouth, and pearls, which need finer strokes; overlaps the other regions.
     pub detail: Raster<u8>,
 }
 

@@ -129,7 +129,7 @@ impl Drawer<'_> {
         /// Least length of a background stroke in arcs: shorter ones are ticks far from the head.
         const LEAST_BEHIND: f64 = 0.6;
         /// Width of a background stroke as a share of the stick's.
-        const BACKGROUND_STROKE: f64 = 0.7;
+        const BACKGROUND_STROKE: f64 = 0.4;
         if pressure.pixels().iter().all(|p| *p <= 0.0) {
             return Vec::new();
         }
@@ -160,7 +160,7 @@ impl Drawer<'_> {
         const FIRM: [f32; 2] = [0.75, 0.25];
         /// Blur in pitches that small patches do not outlast, and what is left of those that do: a stroke or two are scratches.
         const PATCH: f64 = 5.0;
-        const LEFT: f32 = 0.4;
+        const LEFT: f32 = 0.7;
         let outside = regions.subject.map(|subject| 1.0 - subject);
         if self.portrait.faces.is_empty() {
             return pressure.zip_map(&outside, |p, outside| outside * (p / (0.5 * LEAST_BACKGROUND)).min(1.0));

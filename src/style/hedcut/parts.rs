@@ -12,7 +12,7 @@ use super::parameters::PartsRule;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::OrientationField;
 use crate::geometry::Point;
-use crate::raster::{Raster, gaussian_blur};
+use crate::raster::{Raster, fast_gaussian, gaussian_blur};
 use crate::source::{MaskRole, Portrait};
 use crate::style::brows::{self, Brows};
 use crate::style::coverage::covered;
@@ -22,6 +22,10 @@ use std::ops::Range;
 /// Where the parts lie, each 0 to 1; they do not overlap.
 pub(super) struct Parts {
     hair: Option<Raster<f32>>,
+    /// Dark hair with a band around it, 0 to 1.
+    dark_hair: Option<Raster<f32>>,
+    /// 1 in slivers of skin between hair and paper, which are wisps.
+    wisps: Option<Raster<f32>>,
     brows: Option<Brows>,
     /// Clothing and headwear, which often lie far apart.
     cloths: Vec<Raster<f32>>,
@@ -37,7 +41,7 @@ impl Drawer<'_> {
     /// The parts that are not drawn in dots; none without their masks.
     pub(super) fn parts(&self) -> Parts {
         if self.parameters.parts == PartsRule::Dots {
-            return Parts { hair: None, brows: None, cloths: Vec::new() };
+            return Parts { hair: None, dark_hair: None, wisps: None, brows: None, cloths: Vec::new() };
         }
         let masks = &self.portrait.masks;
         let union = |roles: [MaskRole; 2]| {
@@ -54,9 +58,41 @@ impl Drawer<'_> {
             (Some(clothing), Some(headwear)) => Some(headwear.zip_map(clothing, |hat, cloth| hat.min(1.0 - cloth))),
             (_, headwear) => headwear,
         };
-        let cloths = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
+        let cloths: Vec<_> = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
         let brows = self.brows(hair.as_ref());
-        Parts { hair, brows, cloths }
+        let dark_hair = hair.as_ref().map(|hair| self.dark(hair));
+        let wisps = hair.as_ref().map(|hair| self.wisps(hair, &cloths));
+        Parts { hair, dark_hair, wisps, brows, cloths }
+    }
+
+    /// Where hair is near and little else of the subject is.
+    fn wisps(&self, hair: &Raster<f32>, cloths: &[Raster<f32>]) -> Raster<f32> {
+        /// The blur, in pitches: slivers are narrower. And the share of skin around a place up to which it is a sliver: at a
+        /// straight border it is half.
+        const AROUND: f64 = 1.0;
+        const SLIVER: f32 = 0.4;
+        /// The blur of the hair, in pitches, and the least share of it: wisps stand off.
+        const HAIR_AROUND: f64 = 3.0;
+        const LEAST_HAIR: f32 = 0.06;
+        let rest =
+            cloths.iter().fold(self.portrait.subject.zip_map(hair, |subject, hair| (subject - hair).max(0.0)), |rest, cloth| {
+                rest.zip_map(cloth, |rest, cloth| (rest - cloth).max(0.0))
+            });
+        let around = |raster: &Raster<f32>, pitches: f64| fast_gaussian(raster, (pitches * self.pitch()) as f32);
+        around(&rest, AROUND)
+            .zip_map(&around(hair, HAIR_AROUND), |rest, hair| f32::from(u8::from(rest < SLIVER && hair > LEAST_HAIR)))
+    }
+
+    /// Where hair is dark, with a band around it.
+    fn dark(&self, hair: &Raster<f32>) -> Raster<f32> {
+        /// Ink of hair whose strokes stand so close that they are its edge.
+        const DARK: f32 = 0.4;
+        /// The blur of the ink, in pitches, and the share of hair around a place.
+        const AROUND: f64 = 2.0;
+        const LEAST_HAIR: f32 = 0.2;
+        let around = |raster: &Raster<f32>| fast_gaussian(raster, (AROUND * self.pitch()) as f32);
+        let ink = around(&self.portrait.ink().zip_map(hair, |ink, hair| ink * hair));
+        ink.zip_map(&around(hair), |ink, hair| f32::from(u8::from(hair > LEAST_HAIR && ink > DARK * hair)))
     }
 
     /// A mask as a part with a smooth border; none if it is too small.
@@ -181,6 +217,12 @@ impl Parts {
         /// From this value on a place is deep in a part.
         const DEEP: f32 = 0.95;
         self.hair.iter().chain(&self.cloths).any(|part| part.sample(p.x, p.y) > DEEP)
+            || self.wisps.as_ref().is_some_and(|wisps| wisps.sample(p.x, p.y) > 0.5)
+    }
+
+    /// True beside or in dark hair.
+    pub(super) fn is_dark_hair(&self, p: Point) -> bool {
+        self.dark_hair.as_ref().is_some_and(|dark| dark.sample(p.x, p.y) > 0.5)
     }
 
     /// How far a place lies in hair or in a brow, 0 to 1; in working pixels.

@@ -1,5 +1,7 @@
-//! Lines along the silhouette lie inside it, with the whole of their width: outside the paper stays bare.
+//! Lines along the silhouette lie inside it, with the whole of their width: outside the paper stays bare. Dark hair has no line
+//! around it: its strokes are its edge, and a line that follows every wisp is a wire with knots.
 
+use super::parts::Parts;
 use crate::field::CoherentLine;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
@@ -21,6 +23,27 @@ pub(super) struct Silhouette {
 impl Silhouette {
     pub(super) fn of(portrait: &Portrait) -> Self {
         Self { blurred: gaussian_blur(&portrait.subject.map(|v| f32::from(u8::from(v >= 0.5))), BLUR) }
+    }
+
+    /// The parts of a line, in working pixels, that do not run along the border of dark hair.
+    pub(super) fn beside_dark_hair(&self, line: &CoherentLine, parts: &Parts, least: f64) -> Vec<CoherentLine> {
+        let is_drawn: Vec<bool> = line.curve.points.iter().map(|p| !(self.is_near(*p) && parts.is_dark_hair(*p))).collect();
+        let Some(first) = is_drawn.iter().position(|drawn| !drawn) else { return vec![line.clone()] };
+        let mut line = line.clone();
+        let mut is_drawn = is_drawn;
+        if line.curve.closed {
+            line.curve.points.rotate_left(first);
+            line.widths.rotate_left(first);
+            is_drawn.rotate_left(first);
+        }
+        let mut rest = line.runs(&is_drawn);
+        rest.retain(|part| part.curve.length() >= least);
+        rest
+    }
+
+    /// True for a place on the silhouette.
+    fn is_near(&self, p: Point) -> bool {
+        (0.1..=0.9).contains(&self.blurred.sample(p.x, p.y))
     }
 
     /// A line, in working pixels, moved inwards where it would reach over the silhouette.

@@ -115,11 +115,10 @@ impl Drawer<'_> {
         ink: &Raster<f32>,
     ) -> Pieces {
         let turn = |family: usize| TURNS[family].to_radians() * if surface == Surface::Hair { HAIR_TURN } else { 1.0 };
-        let shares = [0, 1, 2].map(|family| match (self.parameters.look, family) {
-            (Look::Hatch, 0) => ink.clone(),
-            (Look::Hatch, _) => ink.map(|_| 0.0),
-            _ => shares::share_of(ink, surface, family),
-        });
+        let shares = match self.parameters.look {
+            Look::Hatch => [ink.clone(), ink.map(|_| 0.0), ink.map(|_| 0.0)],
+            _ => shares::shares_of(ink, surface, self.pitch()),
+        };
         let families = self.families_over(surface, share, &shares[2], detail, &|family, extent, closeness| {
             let name = format!("{surface:?} {family}");
             self.even_lines(extent, directions.of(surface), turn(family), closeness, &name)

@@ -1,0 +1,265 @@
+//! Pearls: earrings and necklaces, which are small, bright and round. By colour they are taken for the collar or the hair beside them.
+//!
+//! ```text
+//!   ears and neck --> bright round spots at four sizes --> those on bare skin --> on strings, or firm ones below an ear
+//! ```
+
+use super::sight::Regions;
+use crate::geometry::{Point, Region, Vec2};
+use crate::parallel::collected;
+use crate::raster::{Raster, fast_gaussian, shares_of_bytes};
+use crate::source::{Landmarks, lightness, luminance, outlines, srgb_to_linear};
+use std::ops::Range;
+
+/// Scales of the spots in widths of the face: a pearl has a radius of 1.41 scales.
+const SCALES: [f64; 4] = [0.011, 0.015, 0.02, 0.027];
+const RADIUS: f64 = std::f64::consts::SQRT_2;
+/// Narrower spots, in pixels, are grain.
+const LEAST_SCALE: f64 = 1.2;
+/// The least curvature of a spot, scaled, in lightness, and its least share of that across. On sixteen portraits pearls have 0.04 to 0.14;
+/// collars and brooches have as much, but stand alone.
+const CURVED: f32 = 0.04;
+const ROUND: f32 = 0.4;
+/// That of a spot that needs no company, below an ear.
+const FIRM: f32 = 0.09;
+
+/// The least share of skin around a pearl. Around those of the portraits it is 0.2 and more; around dotted ties, ribbons and prints, 0.06.
+const LEAST_SKIN: f64 = 0.12;
+
+/// A pearl in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spot {
+    centre: Point,
+    scale: f64,
+    curved: f32,
+}
+
+/// Where a face may wear pearls.
+struct Bust<'a> {
+    face: &'a Landmarks,
+    width: f64,
+    up: Vec2,
+    oval: Region,
+}
+
+/// Regions with the pearls as detail, and with skin in place of the cloth and hair there: neither hatches nor strands run over them.
+pub(super) fn with_pearls(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks], regions: Regions) -> Regions {
+    let mut regions = regions;
+    for bust in faces.iter().filter_map(Bust::of) {
+        let mut spots = bust.spots(pixels, subject);
+        spots.retain(|spot| skin_share(spot, &regions) > LEAST_SKIN);
+        bust.pearls(&spots).into_iter().for_each(|pearl| paint(&mut regions, subject, pearl));
+    }
+    regions
+}
+
+impl<'a> Bust<'a> {
+    fn of(face: &'a Landmarks) -> Option<Self> {
+        /// The face's outline shrinks by this share: earrings hang beside it.
+        const SHRUNK: f64 = 0.93;
+        let width = face.width();
+        let height = face.point(10) - face.point(152);
+        if width * SCALES[SCALES.len() - 1] < LEAST_SCALE || height.hypot() <= 0.0 {
+            return None;
+        }
+        let oval = face.line(&outlines::OVAL);
+        let middle = (oval.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / oval.len() as f64).to_point();
+        let oval = Region::of_polygons(vec![oval.iter().map(|p| middle.lerp(*p, SHRUNK)).collect()]);
+        Some(Self { face, width, up: height / height.hypot(), oval })
+    }
+
+    /// How far a place lies beside the chin and below it, in widths of the face.
+    fn from_chin(&self, p: Point) -> [f64; 2] {
+        let from = (p - self.face.point(152)) / self.width;
+        [from.cross(self.up), -from.dot(self.up)]
+    }
+
+    /// Those of the spots that are pearls.
+    fn pearls(&self, spots: &[Spot]) -> Vec<Spot> {
+        let mut pearls = on_strings(spots);
+        let earrings = spots.iter().filter(|spot| self.is_earring(spot) && !pearls.contains(spot));
+        let earrings: Vec<Spot> = earrings.copied().collect();
+        pearls.extend(earrings);
+        pearls
+    }
+
+    /// True for a firm spot at the height of the lobes, beside the face.
+    fn is_earring(&self, spot: &Spot) -> bool {
+        /// Heights above the chin and distances from the middle, in widths of the face.
+        const HEIGHTS: Range<f64> = 0.25..0.75;
+        const BESIDE: Range<f64> = 0.35..0.7;
+        let [beside, below] = self.from_chin(spot.centre);
+        spot.curved >= FIRM && HEIGHTS.contains(&-below) && BESIDE.contains(&beside.abs())
+    }
+
+    /// Bright round spots beside the face and below it, each where it is roundest, the firmest first.
+    fn spots(&self, pixels: &Raster<[u8; 3]>, subject: &Raster<u8>) -> Vec<Spot> {
+        let Some([columns, rows]) = self.extent(pixels) else { return Vec::new() };
+        let light = Raster::from_fn(columns.len(), rows.len(), |x, y| {
+            let colour = shares_of_bytes(pixels.get(columns.start + x, rows.start + y));
+            lightness(luminance(colour.map(srgb_to_linear)))
+        });
+        let scales: Vec<f64> = SCALES.into_iter().map(|scale| scale * self.width).filter(|s| *s >= LEAST_SCALE).collect();
+        let mut found: Vec<Spot> = collected(scales.len(), &|i| spots_of(&light, scales[i])).into_iter().flatten().collect();
+        found.iter_mut().for_each(|spot| spot.centre += Vec2::new(columns.start as f64, rows.start as f64));
+        found.retain(|spot| self.may_be_worn_at(spot.centre, subject));
+        found.sort_by(|a, b| b.curved.total_cmp(&a.curved));
+        let mut kept: Vec<Spot> = Vec::new();
+        for spot in found {
+            let is_apart = |other: &Spot| other.centre.distance(spot.centre) > 1.2 * RADIUS * other.scale.max(spot.scale);
+            if kept.iter().all(is_apart) {
+                kept.push(spot);
+            }
+        }
+        kept
+    }
+
+    fn may_be_worn_at(&self, p: Point, subject: &Raster<u8>) -> bool {
+        /// How far beside the chin, above and below it, in widths of the face.
+        const BESIDE: f64 = 0.7;
+        const HEIGHTS: Range<f64> = -0.75..1.2;
+        let [beside, below] = self.from_chin(p);
+        subject.get(p.x as usize, p.y as usize) > 127
+            && beside.abs() < BESIDE
+            && HEIGHTS.contains(&below)
+            && !self.oval.contains(p)
+    }
+
+    /// The columns and rows around a head and its neck.
+    fn extent(&self, pixels: &Raster<[u8; 3]>) -> Option<[Range<usize>; 2]> {
+        const REACH: f64 = 1.6;
+        let chin = self.face.point(152);
+        let range = |at: f64, count: usize| {
+            let end = |v: f64| v.clamp(0.0, count as f64) as usize;
+            end(at - REACH * self.width)..end(at + REACH * self.width)
+        };
+        let [columns, rows] = [range(chin.x, pixels.width()), range(chin.y, pixels.height())];
+        (!columns.is_empty() && !rows.is_empty()).then_some([columns, rows])
+    }
+}
+
+/// Peaks of the smaller curvature at a scale, in pixels.
+fn spots_of(light: &Raster<f32>, scale: f64) -> Vec<Spot> {
+    let blurred = fast_gaussian(light, scale as f32);
+    let square = (scale * scale) as f32;
+    let curvatures = Raster::from_fn(light.width(), light.height(), |x, y| {
+        let (x, y) = (x as isize, y as isize);
+        let at = |dx: isize, dy: isize| blurred.clamped(x + dx, y + dy);
+        let xx = at(1, 0) + at(-1, 0) - 2.0 * at(0, 0);
+        let yy = at(0, 1) + at(0, -1) - 2.0 * at(0, 0);
+        let xy = 0.25 * (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1));
+        let (mean, spread) = (0.5 * (xx + yy), (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt());
+        [-square * (mean + spread), -square * (mean - spread)]
+    });
+    let is_peak = |x: usize, y: usize| {
+        let [least, most] = curvatures.get(x, y);
+        least > CURVED
+            && least > ROUND * most
+            && (-1..=1).all(|dy| (-1..=1).all(|dx| curvatures.clamped(x as isize + dx, y as isize + dy)[0] <= least))
+    };
+    let rows = collected(light.height(), &|y| {
+        let peaks = (0..light.width()).filter(|x| is_peak(*x, y));
+        let spot = |x: usize| Spot { centre: Point::new(x as f64 + 0.5, y as f64 + 0.5), scale, curved: curvatures.get(x, y)[0] };
+        peaks.map(spot).collect::<Vec<Spot>>()
+    });
+    rows.into_iter().flatten().collect()
+}
+
+/// Those of the spots that lie on a string: between two others at about equal distances, with a neighbour of which that is also true, and
+/// their neighbours.
+fn on_strings(spots: &[Spot]) -> Vec<Spot> {
+    /// Sizes and firmnesses of neighbours, as shares; their distance at most, in scales; and how much nearer one may be.
+    const ALIKE: Range<f64> = 0.5..2.0;
+    const AS_FIRM: Range<f32> = 0.3..3.4;
+    const NEAR: f64 = 7.5;
+    const EVEN: Range<f64> = 0.6..1.67;
+    /// The cosine of the angle in a string.
+    const BENT: f64 = -0.7;
+    let are_next = |a: &Spot, b: &Spot| {
+        a != b
+            && ALIKE.contains(&(b.scale / a.scale))
+            && AS_FIRM.contains(&(b.curved / a.curved))
+            && a.centre.distance(b.centre) < NEAR * a.scale.max(b.scale)
+    };
+    let is_between = |spot: &Spot| {
+        let next: Vec<Vec2> =
+            spots.iter().filter(|other| are_next(spot, other)).map(|other| other.centre - spot.centre).collect();
+        let are_opposite =
+            |a: &Vec2, b: &Vec2| EVEN.contains(&(a.hypot() / b.hypot())) && a.dot(*b) < BENT * a.hypot() * b.hypot();
+        next.iter().enumerate().any(|(i, a)| next[i + 1..].iter().any(|b| are_opposite(a, b)))
+    };
+    let between: Vec<&Spot> = spots.iter().filter(|spot| is_between(spot)).collect();
+    let inner: Vec<&Spot> = between.iter().copied().filter(|spot| between.iter().any(|other| are_next(spot, other))).collect();
+    spots.iter().filter(|spot| inner.contains(spot) || inner.iter().any(|other| are_next(spot, other))).copied().collect()
+}
+
+/// The share of skin around a spot.
+fn skin_share(spot: &Spot, regions: &Regions) -> f64 {
+    /// The radius looked at, in those of the pearl.
+    const AROUND: f64 = 3.5;
+    let reach = AROUND * RADIUS * spot.scale;
+    let skin = &regions.skin;
+    let range = |at: f64, count: usize| ((at - reach).max(0.0) as usize)..((at + reach + 1.0).max(0.0) as usize).min(count);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for y in range(spot.centre.y, skin.height()) {
+        for x in range(spot.centre.x, skin.width()) {
+            if spot.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < reach {
+                sum += f64::from(skin.get(x, y)) / 255.0;
+                count += 1.0;
+            }
+        }
+    }
+    sum / f64::max(count, 1.0)
+}
+
+/// Marks a pearl as detail and gives what is cloth or hair there to the skin.
+fn paint(regions: &mut Regions, subject: &Raster<u8>, pearl: Spot) {
+    /// Radii of the detail and of the skin, in those of the pearl, and the soft edge, in pixels.
+    const DETAIL: f64 = 1.5;
+    const SKIN: f64 = 1.25;
+    const SOFT: f64 = 1.5;
+    let radius = RADIUS * pearl.scale;
+    let reach = DETAIL * radius + SOFT;
+    let range = |at: f64, count: usize| ((at - reach).max(0.0) as usize)..((at + reach + 1.0).max(0.0) as usize).min(count);
+    for y in range(pearl.centre.y, subject.height()) {
+        for x in range(pearl.centre.x, subject.width()) {
+            let away = pearl.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            let share = |radius: f64| ((radius - away) / SOFT + 0.5).clamp(0.0, 1.0);
+            let whole = subject.get(x, y);
+            let detail = (255.0 * share(DETAIL * radius)).round() as u8;
+            regions.detail.set(x, y, regions.detail.get(x, y).max(detail.min(whole)));
+            let kept = 1.0 - share(SKIN * radius);
+            let mut given = 0;
+            for plane in [&mut regions.hair, &mut regions.clothing, &mut regions.headwear] {
+                let left = (kept * f64::from(plane.get(x, y))).round() as u8;
+                given += plane.get(x, y) - left;
+                plane.set(x, y, left);
+            }
+            regions.skin.set(x, y, regions.skin.get(x, y) + given);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lit(spots: &[(f64, f64)], radius: f64) -> Raster<f32> {
+        Raster::from_fn(120, 60, |x, y| {
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let is_lit = spots.iter().any(|(x, y)| p.distance(Point::new(*x, *y)) < radius);
+            if is_lit { 0.9 } else { 0.4 }
+        })
+    }
+
+    #[test]
+    fn a_string_of_pearls_is_found_and_a_button_or_a_line_is_not() {
+        let string: Vec<(f64, f64)> = (0..6).map(|i| (20.0 + 10.0 * f64::from(i), 30.0)).collect();
+        let spots = spots_of(&lit(&string, 4.5), 3.2);
+        assert_eq!(on_strings(&spots).len(), 6, "{spots:?}");
+        let button = spots_of(&lit(&[(60.0, 30.0)], 4.5), 3.2);
+        assert!(button.len() == 1 && on_strings(&button).is_empty(), "{button:?}");
+        let line = Raster::from_fn(120, 60, |_, y| if (28..33).contains(&y) { 0.9 } else { 0.4 });
+        assert!(spots_of(&line, 3.2).is_empty());
+    }
+}
