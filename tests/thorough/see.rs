@@ -58,6 +58,28 @@ fn a_face_is_found_with_its_eyes_where_they_are() {
     }
 }
 
+/// In black and white, and toned brown: skin, hair, hat and clothing are found nearly as in colour, and no beard.
+#[test]
+fn regions_are_found_without_colour() {
+    let brown = |light: f32| [light.powf(0.85), light, light.powf(1.3)].map(|v| (255.0 * v).round() as u8);
+    for name in ["astronaut.jpg", "grace-hopper.jpg"] {
+        let colour = seen(&sample(name)).regions.unwrap();
+        let grey = image::DynamicImage::ImageRgb8(picture(name)).to_luma8();
+        let tones: [&dyn Fn(u8) -> [u8; 3]; 2] = [&|v| [v; 3], &|v| brown(f32::from(v) / 255.0)];
+        for tone in tones {
+            let toned = RgbImage::from_fn(grey.width(), grey.height(), |x, y| Rgb(tone(grey.get_pixel(x, y).0[0])));
+            let found = seen(&png(toned)).regions.unwrap();
+            let alike = |a: &Raster<u8>, b: &Raster<u8>| agreement(a, |x, y| b.get(x as usize, y as usize));
+            let shares = [alike(&found.skin, &colour.skin), alike(&found.clothing, &colour.clothing)];
+            let hair = |of: &drypoint::see::Regions| of.hair.zip_map(&of.headwear, u8::max);
+            println!("{name}: skin and clothing {shares:.2?}, hair and hat {:.2}", alike(&hair(&found), &hair(&colour)));
+            assert!(shares.iter().all(|share| *share > 0.8), "{name}: {shares:?}");
+            assert!(alike(&hair(&found), &hair(&colour)) > 0.7, "{name}");
+            assert!(found.facial_hair.pixels().iter().all(|v| *v < 128), "{name}");
+        }
+    }
+}
+
 /// Intersection over union of a subject and the truth, both thresholded at middle grey.
 fn agreement(subject: &Raster<u8>, truth: impl Fn(u32, u32) -> u8) -> f64 {
     let (mut both, mut either) = (0.0, 0.0);

@@ -21,6 +21,7 @@ const LESS_RED: f32 = 0.2;
 struct Spot {
     lab: [f32; 3],
     light: [f32; 3],
+    texture: f32,
 }
 
 /// The middle of the forehead's upper border, about which the profiles are centred.
@@ -46,8 +47,31 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
             profile(plate, u, &lab, &light).map(|spots| hairiness(&spots))
         })
         .collect();
+    if plate.is_grey && is_wide(plate) {
+        return false;
+    }
     evidence.sort_unstable_by(f32::total_cmp);
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
+}
+
+/// True for a head too high or too wide for a bare one: in black and white the grey of a forehead and of white hair are one.
+fn is_wide(plate: &Plate) -> bool {
+    /// The zones above the crown and beside the temples, in `u` and `v`, and the least share of the person in them: beside both temples
+    /// (white curls have 0.87, a bald head turned aside 0.51), or above (white hair 1, bare heads 0.1).
+    const ABOVE: f32 = 0.4;
+    const BESIDE: f32 = 0.6;
+    let share = |zone: &dyn Fn(f32, f32) -> bool| {
+        let (mut all, mut within) = (0_usize, 0_usize);
+        for (at, inside) in plate.at.pixels().iter().zip(plate.inside.pixels()) {
+            if zone(at[0], at[1]) {
+                all += 1;
+                within += usize::from(*inside);
+            }
+        }
+        within as f32 / all.max(1) as f32
+    };
+    let beside = |sign: f32| share(&|u, v| (0.75..1.0).contains(&v) && (0.6..0.75).contains(&(sign * u)));
+    share(&|u, v| (1.45..1.6).contains(&v) && u.abs() < 0.3) > ABOVE || beside(-1.0).min(beside(1.0)) > BESIDE
 }
 
 /// Profiles start at `FROM` (in `v`) and run upwards in steps of `STEP` to the person's silhouette, at most `MOST` steps.
@@ -67,7 +91,8 @@ fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 
             break;
         }
         let at = |planes: &[Raster<f32>; 3]| [0, 1, 2].map(|k| planes[k].get(x as usize, y as usize));
-        spots.push(Spot { lab: at(lab), light: at(light) });
+        let texture = plate.features.get(x as usize, y as usize)[3];
+        spots.push(Spot { lab: at(lab), light: at(light), texture });
     }
     spots.truncate(spots.len().saturating_sub(MARGIN));
     (spots.len() >= LEAST && FROM + spots.len() as f64 * STEP >= HIGHEST).then_some(spots)
@@ -94,12 +119,19 @@ fn hairiness(spots: &[Spot]) -> f32 {
 /// A lamp's reflection on a bare scalp only adds white, until the photograph clips: from this L* on colour loss is ignored.
 const SHINE: f32 = 92.0;
 
+/// In black and white, below this colourfulness, hair is darker than the forehead, or rougher by this texture.
+const GREY: f32 = 1e-4;
+const ROUGHER: f32 = 6.0;
+
 /// How much the change from one stretch to the next resembles a hairline. `usual` is the forehead's L*: the fall from a
 /// reflection back to plain skin above it does not count.
 fn step(below: &[Spot], above: &[Spot], usual: f32) -> f32 {
     let is_shine = below.iter().chain(above).any(|spot| spot.lab[0] > SHINE);
     let (below, above) = (mean(below), mean(above));
     let darker = (below.lab[0].min(usual) - above.lab[0]) / DARKER;
+    if colourfulness(below) < GREY {
+        return darker.max((above.texture - below.texture) / ROUGHER);
+    }
     let shade = (above.light[1] / below.light[1].max(1e-4)).min(1.0);
     let kept = colourfulness(above) / (colourfulness(below) * shade).max(0.002);
     if is_shine { darker } else { darker.max((1.0 - kept) / PALER) }
@@ -108,7 +140,8 @@ fn step(below: &[Spot], above: &[Spot], usual: f32) -> f32 {
 fn mean(spots: &[Spot]) -> Spot {
     let count = spots.len() as f32;
     let of = |part: &dyn Fn(&Spot) -> [f32; 3]| [0, 1, 2].map(|k| spots.iter().map(|spot| part(spot)[k]).sum::<f32>() / count);
-    Spot { lab: of(&|spot| spot.lab), light: of(&|spot| spot.light) }
+    let [texture, ..] = of(&|spot| [spot.texture; 3]);
+    Spot { lab: of(&|spot| spot.lab), light: of(&|spot| spot.light), texture }
 }
 
 fn chroma(spot: Spot) -> f32 {
@@ -135,7 +168,7 @@ mod tests {
             let light = colour(i as f32 / 30.0);
             let y = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
             let l = 116.0 * y.cube_root() - 16.0;
-            Spot { lab: [l, 15.0, 15.0], light }
+            Spot { lab: [l, 15.0, 15.0], light, texture: 0.0 }
         };
         (0..30).map(spot).collect()
     }

@@ -74,7 +74,7 @@ impl<'a> Face<'a> {
                     (median_in(&self.light, &half)?, median_in(&self.colour, &half)?, median_in(&self.uneven, &half)?);
                 let l = median_in(&self.plate.lab.map(|c| c[0]), &half)?;
                 let is_dark = light < DARK && uneven > UNEVEN;
-                let is_pale = colour < PALE && l > BLACK;
+                let is_pale = !self.plate.is_grey && colour < PALE && l > BLACK;
                 let is_darkest = light < DARKEST && uneven > 6.5 && colour < 1.3;
                 Some(is_dark || is_pale || is_darkest)
             })
@@ -95,7 +95,8 @@ impl<'a> Face<'a> {
         self.plate.pixels_where(|_, i| {
             let (l, c) = (light.pixels()[i], colour.pixels()[i]);
             let is_dark = l < 0.74 && uneven.pixels()[i] > 5.5;
-            is_dark || c < 0.74 || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
+            let is_pale = !self.plate.is_grey && c < 0.74;
+            is_dark || is_pale || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
         })
     }
 }

@@ -27,6 +27,8 @@ pub(super) struct Plate {
     /// L*, a*, b*.
     pub lab: Raster<[f32; 3]>,
     pub features: Raster<Feature>,
+    /// True for a photograph in black and white, or toned: only lightness, texture and place tell the regions.
+    pub is_grey: bool,
     /// `u` and `v` of each pixel.
     pub at: Raster<[f32; 2]>,
     /// The pixels of this head's person.
@@ -70,12 +72,18 @@ impl Plate {
             (share > SOLID || oval.get(x, y)) && owner(heads, grid.middle(x, y)) == Some(which)
         });
         let lab = colours.map(|encoded| lab(encoded.map(srgb_to_linear)));
+        let is_grey = is_monochrome(&lab);
+        let (lab, colours) = if is_grey {
+            (lab.map(|c| [c[0], 0.0, 0.0]), colours.map(|[r, g, b]| [(r + g + b) / 3.0; 3]))
+        } else {
+            (lab, colours)
+        };
         let features = features(&lab);
         let at = Raster::from_fn(width, height, |x, y| head.coordinates(grid.middle(x, y)));
         let face_width = (head.width * scale) as f32;
         let beyond = dilate(&oval.map(|is| u8::from(!is)), (RIM * face_width) as usize);
         let core = beyond.map(|v| v == 0);
-        Some(Self { head, part, scale, face_width, colours, lab, features, at, inside, oval, core, points })
+        Some(Self { head, part, scale, face_width, colours, lab, features, is_grey, at, inside, oval, core, points })
     }
 
     pub(super) fn width(&self) -> usize {
@@ -138,6 +146,24 @@ impl Plate {
         let width = self.width();
         Raster::from_fn(width, self.height(), |x, y| rule(self.at.get(x, y), y * width + x))
     }
+}
+
+/// True if colour follows from lightness: grey, or toned as a whole.
+fn is_monochrome(lab: &Raster<[f32; 3]>) -> bool {
+    /// Steps of L*, the distance in a* and b* from the step's mean up to which a pixel has its colour, and the least share of those: on sixteen
+    /// portraits in colour it is at most 0.69.
+    const STEPS: usize = 10;
+    const SAME: f32 = 4.0;
+    const MOST: f32 = 0.98;
+    let step = |l: f32| ((l / 100.0 * STEPS as f32) as usize).min(STEPS - 1);
+    let mut sums = [[0.0_f64; 3]; STEPS];
+    for [l, a, b] in lab.pixels() {
+        let sum = &mut sums[step(*l)];
+        *sum = [sum[0] + f64::from(*a), sum[1] + f64::from(*b), sum[2] + 1.0];
+    }
+    let means = sums.map(|[a, b, count]| [(a / count.max(1.0)) as f32, (b / count.max(1.0)) as f32]);
+    let is_usual = |[l, a, b]: &[f32; 3]| (a - means[step(*l)][0]).hypotenuse(b - means[step(*l)][1]) < SAME;
+    lab.pixels().iter().filter(|pixel| is_usual(pixel)).count() as f32 >= MOST * lab.len() as f32
 }
 
 /// The index of the head that is nearest in widths of its face.
@@ -206,4 +232,18 @@ fn features(lab: &Raster<[f32; 3]>) -> Raster<Feature> {
     let smooth = gaussian_blur(&light, TEXTURE_BLUR);
     let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), TEXTURE_REACH);
     lab.zip_map(&energy, |c, e| [LIGHTNESS_WEIGHT * c[0], c[1], c[2], TEXTURE_WEIGHT * e.max(0.0).sqrt().logarithm_above_1()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn toned_photographs_are_monochrome_and_a_face_before_grey_is_not() {
+        let light = |x: usize| 5.0 + 90.0 * x as f32 / 99.0;
+        assert!(is_monochrome(&Raster::from_fn(100, 50, |x, _| [light(x), 0.0, 0.0])));
+        assert!(is_monochrome(&Raster::from_fn(100, 50, |x, _| [light(x), 0.05 * light(x), 0.2 * light(x)])));
+        let is_face = |x: usize, y: usize| (30..60).contains(&x) && (10..30).contains(&y);
+        assert!(!is_monochrome(&Raster::from_fn(100, 50, |x, y| [light(x), 0.0, if is_face(x, y) { 12.0 } else { 0.0 }])));
+    }
 }

@@ -6,7 +6,7 @@ use super::lighting::{Lighting, is_reflection};
 use super::mixture::{Mixture, log_sum};
 use super::path::path_from;
 use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
-use super::skin_model::{BARE, BARE_REACH, LEAST_SEEDS, Place, Skin, apart, median, shadeless};
+use super::skin_model::{BARE, BARE_REACH, LEAST_SEEDS, NO_SKIN, Place, Skin, apart, median, shadeless};
 use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate, gaussian_blur};
@@ -16,9 +16,6 @@ pub(super) type Shares = [f32; 4];
 pub(super) const SKIN: usize = 1;
 pub(super) const HAIR: usize = 2;
 pub(super) const CLOTHING: usize = 3;
-
-/// Squared deviation from which a pixel is certainly not skin.
-const NO_SKIN: f32 = 9.0;
 
 /// What was learned about a head, from which its pixels are classified.
 pub(super) struct Segmentation<'a> {
@@ -141,14 +138,16 @@ impl<'a> Segmentation<'a> {
         let edge = dilate(&outside, (0.12 * plate.face_width) as usize);
         let seeds = plate.pixels_where(|[u, v], i| {
             let (f, a) = (plate.features.pixels()[i], u.abs());
-            let is_no_skin = self.from_skin.pixels()[i] > NO_SKIN;
+            // In black and white the places alone tell.
+            let is_no_skin = self.from_skin.pixels()[i] > NO_SKIN
+                || (plate.is_grey && self.from_skin.pixels()[i] > 3.0 && !self.is_bald && v > 0.8 && a.max(v - 0.5) > 0.62);
             let is_blush = f[1].hypotenuse(f[2]) > 40.0 && f[1] > 30.0;
             let beside = v > 0.35 && v < 1.25 && a > 0.52 && a < 1.05 && is_no_skin && !is_blush;
             let is_far = self.path.pixels()[i] > 2.0 && self.from_skin.pixels()[i] > 2.0;
             let crown = v > 1.05 && a < 0.55 && (is_no_skin || (v > 1.14 && edge.pixels()[i] != 0 && is_far));
             let is_dark = f[0] < self.skin.middle[0] - 25.0 * LIGHTNESS_WEIGHT
                 && self.path.pixels()[i] > 6.0
-                && apart(shadeless(f), shadeless(self.skin.middle)) > 0.07;
+                && (plate.is_grey || apart(shadeless(f), shadeless(self.skin.middle)) > 0.07);
             self.is_out(i) && if self.is_bald { beside && is_dark } else { beside || crown }
         });
         let samples = plate.samples(&seeds);
@@ -182,7 +181,7 @@ impl<'a> Segmentation<'a> {
             let a = u.abs();
             let is_low = ((v < -0.12 && a > 0.62) || v < -0.42) && v < 0.25 - 0.25 * a;
             let is_last = i / width + border > height && v < -0.1;
-            self.is_out(i) && (is_low || is_last) && self.from_skin.pixels()[i] > NO_SKIN
+            self.is_out(i) && (is_low || is_last) && (plate.is_grey || self.from_skin.pixels()[i] > NO_SKIN)
         })
     }
 
@@ -252,7 +251,9 @@ impl<'a> Segmentation<'a> {
             e -= 4.0;
         }
         let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0;
-        if is_bare {
+        if self.plate.is_grey {
+            e -= self.unlikely_in_grey(u, v, is_face);
+        } else if is_bare {
             // Necks, shoulders and arms.
             e += 5.0;
         } else if !((a < 0.6 && v > -0.8) || v > -0.1) {
@@ -262,6 +263,26 @@ impl<'a> Segmentation<'a> {
             e += 6.0;
         }
         e
+    }
+
+    /// What a place speaks against skin where no colour does: beside the neck, above the forehead and beyond the ears.
+    fn unlikely_in_grey(&self, u: f32, v: f32, is_face: bool) -> f32 {
+        /// Half the width of a neck and that of a head with its ears, in `u`; how far a neck reaches below the chin, in `v`; the slope of the
+        /// penalty and its most.
+        const NECK: f32 = 0.38;
+        const EARS: f32 = 0.56;
+        const COLLAR: f32 = 0.3;
+        const SLOPE: f32 = 40.0;
+        const MOST: f32 = 14.0;
+        let a = u.abs();
+        let beyond = if v < 0.1 {
+            (a - NECK).max(0.0) + (-v - COLLAR).max(0.0)
+        } else if is_face || self.is_bald {
+            0.0
+        } else {
+            (a - EARS).max(0.0) + (v - 0.8).max(0.0)
+        };
+        (SLOPE * beyond).min(MOST)
     }
 
     fn hair_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {

@@ -38,6 +38,9 @@ const MATT: f32 = 0.6;
 const SHADE_HUE: f32 = 0.03;
 const SHADE_DEPTH: f32 = 35.0;
 
+/// Squared deviation from which a pixel is certainly not skin.
+pub(super) const NO_SKIN: f32 = 9.0;
+
 /// Position of a pixel, which selects the model of skin.
 #[derive(Clone, Copy)]
 pub(super) enum Place {
@@ -54,6 +57,7 @@ pub(super) struct Skin {
     /// Without highlights, with the plain spread.
     matt: Vec<Gaussian>,
     pub(super) middle: Feature,
+    is_grey: bool,
 }
 
 impl Skin {
@@ -94,8 +98,8 @@ impl Skin {
         let all = |middles: &[Feature], spread| middles.iter().map(|m| Gaussian::new(*m, spread)).collect();
         let colour = |f: Feature| apart(shadeless(f), [0.0; 2]);
         let most = middles.iter().map(|m| colour(*m)).fold(0.0, f32::max);
-        let matt: Vec<Feature> = middles.iter().filter(|m| colour(**m) > MATT * most).copied().collect();
-        Self { plain: all(&middles, spread), shaded: all(&matt, wide), matt: all(&matt, spread), middle }
+        let matt: Vec<Feature> = middles.iter().filter(|m| plate.is_grey || colour(**m) > MATT * most).copied().collect();
+        Self { plain: all(&middles, spread), shaded: all(&matt, wide), matt: all(&matt, spread), middle, is_grey: plate.is_grey }
     }
 
     /// Squared deviation from skin.
@@ -110,11 +114,25 @@ impl Skin {
             let hue = ((f[1] - m[1]).powi(2) + (f[2] - m[2]).powi(2)) / (SKIN_HUE * SKIN_HUE);
             part.distance(f).max(hue)
         };
-        parts.iter().map(of).fold(f32::INFINITY, f32::min)
+        parts.iter().map(of).fold(f32::INFINITY, f32::min) + self.too_light(f, place)
+    }
+
+    /// Squared deviation of what is lighter than the face on a neck in black and white, where nothing else tells a collar.
+    fn too_light(&self, f: Feature, place: Place) -> f32 {
+        /// L* above the median of the skin at which it is certain.
+        const CERTAIN: f32 = 9.0;
+        if !self.is_grey || !matches!(place, Place::Neck) {
+            return 0.0;
+        }
+        let over = (f[0] - self.middle[0]).max(0.0) / (CERTAIN * LIGHTNESS_WEIGHT);
+        NO_SKIN * over * over
     }
 
     /// Squared deviation from shaded skin: darker at little cost, but of the same hue and as smooth.
     pub(super) fn shaded_distance(&self, f: Feature) -> f32 {
+        if self.is_grey {
+            return f32::INFINITY;
+        }
         let of = |part: &Gaussian| {
             let m = part.mean();
             let hue = apart(shadeless(f), shadeless(m)) / SHADE_HUE;
