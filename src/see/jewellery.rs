@@ -44,12 +44,16 @@ struct Bust<'a> {
 
 /// Regions with the pearls as detail, and with skin in place of the cloth and hair there: neither hatches nor strands run over them.
 pub(super) fn with_pearls(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks], regions: Regions) -> Regions {
-    let mut regions = regions;
-    for bust in faces.iter().filter_map(Bust::of) {
+    let busts: Vec<Bust<'_>> = faces.iter().filter_map(Bust::of).collect();
+    let is_face = |p: Point| busts.iter().any(|bust| bust.oval.contains(p));
+    let of_bust = |bust: &Bust<'_>| {
         let mut spots = bust.spots(pixels, subject);
-        spots.retain(|spot| skin_share(spot, &regions) > LEAST_SKIN);
-        bust.pearls(&spots).into_iter().for_each(|pearl| paint(&mut regions, subject, pearl));
-    }
+        spots.retain(|spot| !is_face(spot.centre) && skin_share(spot, &regions) > LEAST_SKIN);
+        bust.pearls(&spots)
+    };
+    let pearls: Vec<Spot> = busts.iter().flat_map(of_bust).collect();
+    let mut regions = regions;
+    pearls.into_iter().for_each(|pearl| paint(&mut regions, subject, pearl));
     regions
 }
 
@@ -69,7 +73,7 @@ impl<'a> Bust<'a> {
     }
 
     /// How far a place lies beside the chin and below it, in widths of the face.
-    fn from_chin(&self, p: Point) -> [f64; 2] {
+    fn off_chin(&self, p: Point) -> [f64; 2] {
         let from = (p - self.face.point(152)) / self.width;
         [from.cross(self.up), -from.dot(self.up)]
     }
@@ -88,7 +92,7 @@ impl<'a> Bust<'a> {
         /// Heights above the chin and distances from the middle, in widths of the face.
         const HEIGHTS: Range<f64> = 0.25..0.75;
         const BESIDE: Range<f64> = 0.35..0.7;
-        let [beside, below] = self.from_chin(spot.centre);
+        let [beside, below] = self.off_chin(spot.centre);
         spot.curved >= FIRM && HEIGHTS.contains(&-below) && BESIDE.contains(&beside.abs())
     }
 
@@ -118,11 +122,8 @@ impl<'a> Bust<'a> {
         /// How far beside the chin, above and below it, in widths of the face.
         const BESIDE: f64 = 0.7;
         const HEIGHTS: Range<f64> = -0.75..1.2;
-        let [beside, below] = self.from_chin(p);
-        subject.get(p.x as usize, p.y as usize) > 127
-            && beside.abs() < BESIDE
-            && HEIGHTS.contains(&below)
-            && !self.oval.contains(p)
+        let [beside, below] = self.off_chin(p);
+        subject.get(p.x as usize, p.y as usize) > 127 && beside.abs() < BESIDE && HEIGHTS.contains(&below)
     }
 
     /// The columns and rows around a head and its neck.
@@ -170,9 +171,9 @@ fn spots_of(light: &Raster<f32>, scale: f64) -> Vec<Spot> {
 fn on_strings(spots: &[Spot]) -> Vec<Spot> {
     /// Sizes and firmnesses of neighbours, as shares; their distance at most, in scales; and how much nearer one may be.
     const ALIKE: Range<f64> = 0.5..2.0;
-    const AS_FIRM: Range<f32> = 0.3..3.4;
+    const AS_FIRM: Range<f32> = 0.3..1.0 / 0.3;
     const NEAR: f64 = 7.5;
-    const EVEN: Range<f64> = 0.6..1.67;
+    const EVEN: Range<f64> = 0.6..1.0 / 0.6;
     /// The cosine of the angle in a string.
     const BENT: f64 = -0.7;
     let are_next = |a: &Spot, b: &Spot| {
@@ -214,9 +215,8 @@ fn skin_share(spot: &Spot, regions: &Regions) -> f64 {
 
 /// Marks a pearl as detail and gives what is cloth or hair there to the skin.
 fn paint(regions: &mut Regions, subject: &Raster<u8>, pearl: Spot) {
-    /// Radii of the detail and of the skin, in those of the pearl, and the soft edge, in pixels.
-    const DETAIL: f64 = 1.5;
-    const SKIN: f64 = 1.25;
+    /// Radius of the detail and of the skin, in those of the pearl, and the soft edge, in pixels.
+    const DETAIL: f64 = 1.25;
     const SOFT: f64 = 1.5;
     let radius = RADIUS * pearl.scale;
     let reach = DETAIL * radius + SOFT;
@@ -228,7 +228,7 @@ fn paint(regions: &mut Regions, subject: &Raster<u8>, pearl: Spot) {
             let whole = subject.get(x, y);
             let detail = (255.0 * share(DETAIL * radius)).round() as u8;
             regions.detail.set(x, y, regions.detail.get(x, y).max(detail.min(whole)));
-            let kept = 1.0 - share(SKIN * radius);
+            let kept = 1.0 - share(DETAIL * radius);
             let mut given = 0;
             for plane in [&mut regions.hair, &mut regions.clothing, &mut regions.headwear] {
                 let left = (kept * f64::from(plane.get(x, y))).round() as u8;

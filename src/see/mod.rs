@@ -10,7 +10,7 @@
 //!                   \           \               \--oval, width--v
 //!                    \           \--unsure ones: strangers--v
 //!                     \----> person, three looks --> colours of both sides --> guided filter --> what hangs together with a face
-//!                                                                                  \--> skin, hair, headwear, clothing by colour
+//!                                                                                  \--> skin, hair, headwear, clothing by colour --> pearls
 //!                                                                                  \--> depth: the subject bulged, the faces on it
 //! ```
 
@@ -26,6 +26,7 @@ mod faces;
 mod head;
 #[cfg(feature = "see")]
 mod iris;
+#[cfg(feature = "see")]
 mod jewellery;
 #[cfg(feature = "see")]
 mod looking;

@@ -1,4 +1,4 @@
-//! Teeth as one light shape: the gaps between them, which marks would make strings of beads of, are rubbed out but for a trace.
+//! Teeth as one light shape: the gaps between them, which marks would make strings of beads of, are rubbed out by half.
 
 use super::solids::inside_outlines;
 use crate::raster::{Raster, fast_gaussian, fast_gaussian_within};
@@ -9,10 +9,10 @@ const REACH: f64 = 0.016;
 const BORDER: f64 = 0.004;
 /// Mean ink of teeth, and that above which a place is none: with more the dark of open mouths is grey.
 const TOOTH: [f32; 2] = [0.3, 0.45];
-/// What stays of a gap: without it teeth are a blank strip (portraits 01 and 06), with all of it beads.
-const TRACE: f32 = 0.5;
+/// The share of a gap that stays: without it teeth are a blank strip (portraits 01 and 06), with all of it beads.
+const KEPT: f32 = 0.5;
 
-/// Ink with a trace of the gaps between teeth.
+/// Ink with fainter gaps between teeth.
 pub(super) fn with_whole_teeth(portrait: &Portrait, ink: Raster<f32>) -> Raster<f32> {
     let Some(widest) = portrait.faces.iter().map(Landmarks::width).reduce(f64::max) else { return ink };
     let mouths = inside_outlines(&portrait.faces, [&outlines::MOUTH, &outlines::MOUTH], (ink.width(), ink.height()));
@@ -23,7 +23,7 @@ pub(super) fn with_whole_teeth(portrait: &Portrait, ink: Raster<f32>) -> Raster<
     let teeth = mouths.zip_map(&around, |inside, around| inside * ((TOOTH[1] - around) / (TOOTH[1] - TOOTH[0])).clamp(0.0, 1.0));
     let soft = fast_gaussian(&teeth, (BORDER * widest) as f32);
     let darker = ink.zip_map(&around, |ink, around| (ink - around).max(0.0));
-    ink.zip_map(&darker.zip_map(&soft, |darker, tooth| darker * tooth * (1.0 - TRACE)), |ink, less| ink - less)
+    ink.zip_map(&darker.zip_map(&soft, |darker, tooth| darker * tooth * (1.0 - KEPT)), |ink, less| ink - less)
 }
 
 #[cfg(test)]
@@ -32,7 +32,7 @@ mod tests {
     use crate::style::form::mean_portrait;
 
     #[test]
-    fn gaps_between_teeth_go_and_an_open_mouth_stays_dark() {
+    fn gaps_between_teeth_fade_and_an_open_mouth_stays_dark() {
         let portrait = mean_portrait(6.0, 0.0, |_| 140);
         let face = &portrait.faces[0];
         let middle = face.point(outlines::MOUTH[0]).midpoint(face.point(outlines::MOUTH[10]));

@@ -34,6 +34,10 @@ const BLUR: f32 = 1.2;
 
 /// True if most profiles show bare skin on the crown; false if too little of the crown is in the picture.
 pub(super) fn is_bald(plate: &Plate) -> bool {
+    if plate.is_grey && is_wide(plate) {
+        return false;
+    }
+    let tells = if plate.is_grey { Tells::Texture } else { Tells::Colour };
     let planes = |of: &(dyn Fn([f32; 3]) -> [f32; 3] + Sync), from: &Raster<[f32; 3]>| {
         let from = from.map(of);
         [0, 1, 2].map(|k| gaussian_blur(&from.map(|c| c[k]), BLUR))
@@ -44,12 +48,9 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
     let mut evidence: Vec<f32> = (0..PROFILES)
         .filter_map(|i| {
             let u = middle + ASIDE * (2.0 * i as f64 / (PROFILES - 1) as f64 - 1.0);
-            profile(plate, u, &lab, &light).map(|spots| hairiness(&spots))
+            profile(plate, u, &lab, &light).map(|spots| hairiness(&spots, tells))
         })
         .collect();
-    if plate.is_grey && is_wide(plate) {
-        return false;
-    }
     evidence.sort_unstable_by(f32::total_cmp);
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
 }
@@ -83,6 +84,10 @@ const HIGHEST: f64 = 1.15;
 
 /// Colours from the forehead up to just below the silhouette.
 fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 3]) -> Option<Vec<Spot>> {
+    // Texture spreads over the silhouette by so many working pixels.
+    const SPREAD: f64 = 10.0;
+    let apart = STEP * plate.head.height * plate.scale;
+    let margin = if plate.is_grey { ((SPREAD / apart) as usize).max(MARGIN) } else { MARGIN };
     let mut spots = Vec::with_capacity(MOST);
     for i in 0..MOST {
         let p = plate.head.place(u, FROM + i as f64 * STEP) - plate.part.origin();
@@ -94,8 +99,9 @@ fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 
         let texture = plate.features.get(x as usize, y as usize)[3];
         spots.push(Spot { lab: at(lab), light: at(light), texture });
     }
-    spots.truncate(spots.len().saturating_sub(MARGIN));
-    (spots.len() >= LEAST && FROM + spots.len() as f64 * STEP >= HIGHEST).then_some(spots)
+    let reached = FROM + spots.len().saturating_sub(MARGIN) as f64 * STEP;
+    spots.truncate(spots.len().saturating_sub(margin));
+    (spots.len() >= LEAST && reached >= HIGHEST).then_some(spots)
 }
 
 /// Samples on either side of a step, whose means are compared: a tenth of the face's height.
@@ -106,9 +112,9 @@ const END: usize = 8;
 const LEAST_CHROMA: f32 = 5.0;
 
 /// The strongest sign of hair on a profile; 1 is the threshold.
-fn hairiness(spots: &[Spot]) -> f32 {
+fn hairiness(spots: &[Spot], tells: Tells) -> f32 {
     let usual = mean(&spots[..LEAST]).lab[0];
-    let steps = (HALF..=spots.len() - HALF).map(|i| step(&spots[i - HALF..i], &spots[i..i + HALF], usual));
+    let steps = (HALF..=spots.len() - HALF).map(|i| step([&spots[i - HALF..i], &spots[i..i + HALF]], usual, tells));
     let step = steps.fold(0.0, f32::max);
     let (first, last) = (mean(&spots[..END]), mean(&spots[spots.len() - END..]));
     let has_hue = chroma(first) > LEAST_CHROMA && chroma(last) > LEAST_CHROMA;
@@ -119,22 +125,30 @@ fn hairiness(spots: &[Spot]) -> f32 {
 /// A lamp's reflection on a bare scalp only adds white, until the photograph clips: from this L* on colour loss is ignored.
 const SHINE: f32 = 92.0;
 
-/// In black and white, below this colourfulness, hair is darker than the forehead, or rougher by this texture.
-const GREY: f32 = 1e-4;
+/// In black and white hair is darker than the forehead, or rougher by this texture.
 const ROUGHER: f32 = 6.0;
+
+/// What tells hair from skin besides darkness.
+#[derive(Clone, Copy)]
+enum Tells {
+    Colour,
+    Texture,
+}
 
 /// How much the change from one stretch to the next resembles a hairline. `usual` is the forehead's L*: the fall from a
 /// reflection back to plain skin above it does not count.
-fn step(below: &[Spot], above: &[Spot], usual: f32) -> f32 {
+fn step([below, above]: [&[Spot]; 2], usual: f32, tells: Tells) -> f32 {
     let is_shine = below.iter().chain(above).any(|spot| spot.lab[0] > SHINE);
     let (below, above) = (mean(below), mean(above));
     let darker = (below.lab[0].min(usual) - above.lab[0]) / DARKER;
-    if colourfulness(below) < GREY {
-        return darker.max((above.texture - below.texture) / ROUGHER);
-    }
+    let rougher = (above.texture - below.texture) / ROUGHER;
     let shade = (above.light[1] / below.light[1].max(1e-4)).min(1.0);
     let kept = colourfulness(above) / (colourfulness(below) * shade).max(0.002);
-    if is_shine { darker } else { darker.max((1.0 - kept) / PALER) }
+    match tells {
+        _ if is_shine => darker,
+        Tells::Texture => darker.max(rougher),
+        Tells::Colour => darker.max((1.0 - kept) / PALER),
+    }
 }
 
 fn mean(spots: &[Spot]) -> Spot {
@@ -176,9 +190,9 @@ mod tests {
     #[test]
     fn shade_and_shine_are_skin_and_a_hairline_is_hair() {
         let skin = [0.5, 0.3, 0.2];
-        assert!(hairiness(&spots(|t| skin.map(|v| v * (1.0 - 0.6 * t)))) < 1.0);
-        assert!(hairiness(&spots(|t| skin.map(|v| v + 0.5 * t))) < 1.0);
-        assert!(hairiness(&spots(|t| if t < 0.5 { skin } else { [0.05, 0.03, 0.02] })) > 1.5);
-        assert!(hairiness(&spots(|t| if t < 0.5 { skin } else { [0.6, 0.58, 0.57] })) > 1.5);
+        assert!(hairiness(&spots(|t| skin.map(|v| v * (1.0 - 0.6 * t))), Tells::Colour) < 1.0);
+        assert!(hairiness(&spots(|t| skin.map(|v| v + 0.5 * t)), Tells::Colour) < 1.0);
+        assert!(hairiness(&spots(|t| if t < 0.5 { skin } else { [0.05, 0.03, 0.02] }), Tells::Colour) > 1.5);
+        assert!(hairiness(&spots(|t| if t < 0.5 { skin } else { [0.6, 0.58, 0.57] }), Tells::Colour) > 1.5);
     }
 }

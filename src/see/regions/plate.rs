@@ -72,7 +72,7 @@ impl Plate {
             (share > SOLID || oval.get(x, y)) && owner(heads, grid.middle(x, y)) == Some(which)
         });
         let lab = colours.map(|encoded| lab(encoded.map(srgb_to_linear)));
-        let is_grey = is_monochrome(&lab);
+        let is_grey = is_monochrome(&lab, &oval);
         let (lab, colours) = if is_grey {
             (lab.map(|c| [c[0], 0.0, 0.0]), colours.map(|[r, g, b]| [(r + g + b) / 3.0; 3]))
         } else {
@@ -149,21 +149,29 @@ impl Plate {
 }
 
 /// True if colour follows from lightness: grey, or toned as a whole.
-fn is_monochrome(lab: &Raster<[f32; 3]>) -> bool {
-    /// Steps of L*, the distance in a* and b* from the step's mean up to which a pixel has its colour, and the least share of those: on sixteen
-    /// portraits in colour it is at most 0.69.
-    const STEPS: usize = 10;
+fn is_monochrome(lab: &Raster<[f32; 3]>, face: &Raster<bool>) -> bool {
+    /// The distance in a* and b* from a step's mean up to which a pixel has its colour, and the least share of those: on sixteen portraits
+    /// in colour it is at most 0.69. In a face the same, where dull skin before black might pass.
     const SAME: f32 = 4.0;
     const MOST: f32 = 0.98;
+    const SAME_IN_FACE: f32 = 1.5;
+    const MOST_IN_FACE: f32 = 0.9;
+    let in_face: Vec<[f32; 3]> = lab.pixels().iter().zip(face.pixels()).filter(|(_, is)| **is).map(|(c, _)| *c).collect();
+    share_of_usual(lab.pixels(), SAME) >= MOST && share_of_usual(&in_face, SAME_IN_FACE) >= MOST_IN_FACE
+}
+
+/// The share of pixels whose a* and b* lie within `same` of the mean of those as light; L*, a*, b*.
+fn share_of_usual(lab: &[[f32; 3]], same: f32) -> f32 {
+    const STEPS: usize = 10;
     let step = |l: f32| ((l / 100.0 * STEPS as f32) as usize).min(STEPS - 1);
     let mut sums = [[0.0_f64; 3]; STEPS];
-    for [l, a, b] in lab.pixels() {
+    for [l, a, b] in lab {
         let sum = &mut sums[step(*l)];
         *sum = [sum[0] + f64::from(*a), sum[1] + f64::from(*b), sum[2] + 1.0];
     }
     let means = sums.map(|[a, b, count]| [(a / count.max(1.0)) as f32, (b / count.max(1.0)) as f32]);
-    let is_usual = |[l, a, b]: &[f32; 3]| (a - means[step(*l)][0]).hypotenuse(b - means[step(*l)][1]) < SAME;
-    lab.pixels().iter().filter(|pixel| is_usual(pixel)).count() as f32 >= MOST * lab.len() as f32
+    let is_usual = |[l, a, b]: &[f32; 3]| (a - means[step(*l)][0]).hypotenuse(b - means[step(*l)][1]) < same;
+    lab.iter().filter(|pixel| is_usual(pixel)).count() as f32 / lab.len().max(1) as f32
 }
 
 /// The index of the head that is nearest in widths of its face.
@@ -241,9 +249,13 @@ mod tests {
     #[test]
     fn toned_photographs_are_monochrome_and_a_face_before_grey_is_not() {
         let light = |x: usize| 5.0 + 90.0 * x as f32 / 99.0;
-        assert!(is_monochrome(&Raster::from_fn(100, 50, |x, _| [light(x), 0.0, 0.0])));
-        assert!(is_monochrome(&Raster::from_fn(100, 50, |x, _| [light(x), 0.05 * light(x), 0.2 * light(x)])));
         let is_face = |x: usize, y: usize| (30..60).contains(&x) && (10..30).contains(&y);
-        assert!(!is_monochrome(&Raster::from_fn(100, 50, |x, y| [light(x), 0.0, if is_face(x, y) { 12.0 } else { 0.0 }])));
+        let face = Raster::from_fn(100, 50, is_face);
+        assert!(is_monochrome(&Raster::from_fn(100, 50, |x, _| [light(x), 0.0, 0.0]), &face));
+        assert!(is_monochrome(&Raster::from_fn(100, 50, |x, _| [light(x), 0.02 * light(x), 0.1 * light(x)]), &face));
+        let before_grey = |x, y| [light(x), 0.0, if is_face(x, y) { 12.0 } else { 0.0 }];
+        assert!(!is_monochrome(&Raster::from_fn(100, 50, before_grey), &face));
+        let before_black = |x, y| if is_face(x, y) { [50.0, if y > 25 { 14.0 } else { 6.0 }, 9.0] } else { [5.0, 0.0, 0.0] };
+        assert!(!is_monochrome(&Raster::from_fn(100, 50, before_black), &face));
     }
 }

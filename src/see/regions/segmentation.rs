@@ -138,7 +138,7 @@ impl<'a> Segmentation<'a> {
         let edge = dilate(&outside, (0.12 * plate.face_width) as usize);
         let seeds = plate.pixels_where(|[u, v], i| {
             let (f, a) = (plate.features.pixels()[i], u.abs());
-            // In black and white the places alone tell.
+            // In black and white places tell, where a pixel is not all like skin.
             let is_no_skin = self.from_skin.pixels()[i] > NO_SKIN
                 || (plate.is_grey && self.from_skin.pixels()[i] > 3.0 && !self.is_bald && v > 0.8 && a.max(v - 0.5) > 0.62);
             let is_blush = f[1].hypotenuse(f[2]) > 40.0 && f[1] > 30.0;

@@ -8,7 +8,7 @@ use super::regions::Regions;
 use super::strokes::pressure_for;
 use crate::drawing::Mark;
 use crate::geometry::{Point, Vec2};
-use crate::raster::{Raster, gaussian_blur, paper_texture};
+use crate::raster::{Raster, fast_gaussian_within, gaussian_blur, paper_texture};
 use crate::source::Landmarks;
 
 /// Distance over which the background falls away from a subject without a face, in sheet widths; and from the middle of a head, in widths
@@ -158,7 +158,8 @@ impl Drawer<'_> {
     fn hatched(&self, regions: &Regions, pressure: &Raster<f32>) -> Raster<f32> {
         /// The pressure, and the range over which strokes set in.
         const FIRM: [f32; 2] = [0.75, 0.25];
-        /// Blur in pitches that small patches do not outlast, and what is left of those that do: a stroke or two are scratches.
+        /// Blur in pitches, and the firm share of the background around a place from which there are strokes: a stroke or two are
+        /// scratches.
         const PATCH: f64 = 5.0;
         const LEFT: f32 = 0.7;
         let outside = regions.subject.map(|subject| 1.0 - subject);
@@ -166,7 +167,7 @@ impl Drawer<'_> {
             return pressure.zip_map(&outside, |p, outside| outside * (p / (0.5 * LEAST_BACKGROUND)).min(1.0));
         }
         let firm = pressure.zip_map(&outside, |p, outside| outside * ((p - FIRM[0]) / FIRM[1] + 0.5).clamp(0.0, 1.0));
-        let wide = gaussian_blur(&firm, self.pixels(PATCH * self.parameters.pitch) as f32);
+        let wide = fast_gaussian_within(&firm, &outside.map(|v| v + 1e-6), self.pixels(PATCH * self.parameters.pitch) as f32);
         firm.zip_map(&wide, |firm, wide| if wide > LEFT { firm } else { 0.0 })
     }
 

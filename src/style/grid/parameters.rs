@@ -130,7 +130,7 @@ parameters! {
             "how much closer dots and lines stand in dark regions: 0 is even everywhere, 0.5 is half the pitch at full ink",
             "Son 5.2, scale factor of the window";
         detail: Detail = "detail": Kind::Choice(Detail::WORDS),
-            "dots and lines in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto places them sqrt(3) times closer, so that there are three times as many dots; off leaves them as everywhere",
+            "dots and lines in detail regions (the detail mask, else the detected eyes, brows, noses, mouths and pearls): auto places them sqrt(3) times closer, so that there are three times as many dots; off leaves them as everywhere",
             "Son 5.2, scale factor of the window; Bruehl 4.3.2", needs [Need::With(MaskRole::Detail)];
         feature_rows: FeatureRows = "feature_rows": Kind::Choice(FeatureRows::WORDS),
             "rows nearest to a feature line: beside keeps them half a pitch away, on puts one on the line, free leaves them where they fall",

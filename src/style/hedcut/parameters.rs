@@ -125,7 +125,7 @@ parameters! {
             "width of an outline at its widest",
             "", needs [Need::Word("outline", &["on"])];
         detail: Detail = "detail": Kind::Choice(Detail::WORDS),
-            "lanes in detail regions (the detail mask, else the detected eyes, brows, noses and mouths): auto and even make them sqrt(3) times as dense, so that three times the dots stay in square cells; thesis makes them three times as dense; off leaves them as everywhere",
+            "lanes in detail regions (the detail mask, else the detected eyes, brows, noses, mouths and pearls): auto and even make them sqrt(3) times as dense, so that three times the dots stay in square cells; thesis makes them three times as dense; off leaves them as everywhere",
             "Bruehl 4.3.2, corrected", needs [Need::With(MaskRole::Detail)];
         parts: PartsRule = "parts": Kind::Choice(PartsRule::WORDS),
             "what is drawn in dots: auto draws hair, beards and brows in flowing strokes and clothing and hats in hatches, where they were detected or their masks are given; dots draws everything in dots",

@@ -24,7 +24,7 @@ pub(super) struct Parts {
     hair: Option<Raster<f32>>,
     /// Dark hair with a band around it, 0 to 1.
     dark_hair: Option<Raster<f32>>,
-    /// 1 in slivers of skin between hair and paper, which are wisps.
+    /// 1 in slivers of skin beside hair and paper, which are wisps.
     wisps: Option<Raster<f32>>,
     brows: Option<Brows>,
     /// Clothing and headwear, which often lie far apart.
@@ -60,7 +60,7 @@ impl Drawer<'_> {
         };
         let cloths: Vec<_> = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
         let brows = self.brows(hair.as_ref());
-        let dark_hair = hair.as_ref().map(|hair| self.dark(hair));
+        let dark_hair = masks.get(&MaskRole::Hair).map(|hair| self.dark(hair));
         let wisps = hair.as_ref().map(|hair| self.wisps(hair, &cloths));
         Parts { hair, dark_hair, wisps, brows, cloths }
     }
@@ -74,6 +74,8 @@ impl Drawer<'_> {
         /// The blur of the hair, in pitches, and the least share of it: wisps stand off.
         const HAIR_AROUND: f64 = 3.0;
         const LEAST_HAIR: f32 = 0.06;
+        /// The share of the subject around a place from which it is inside.
+        const INSIDE: f32 = 0.9;
         let rest =
             cloths.iter().fold(self.portrait.subject.zip_map(hair, |subject, hair| (subject - hair).max(0.0)), |rest, cloth| {
                 rest.zip_map(cloth, |rest, cloth| (rest - cloth).max(0.0))
@@ -81,18 +83,23 @@ impl Drawer<'_> {
         let around = |raster: &Raster<f32>, pitches: f64| fast_gaussian(raster, (pitches * self.pitch()) as f32);
         around(&rest, AROUND)
             .zip_map(&around(hair, HAIR_AROUND), |rest, hair| f32::from(u8::from(rest < SLIVER && hair > LEAST_HAIR)))
+            .zip_map(&around(&self.portrait.subject, AROUND), |wisp, subject| if subject < INSIDE { wisp } else { 0.0 })
     }
 
-    /// Where hair is dark, with a band around it.
+    /// Where the hair of a head is dark, with a band around it; nowhere if most of it is light, whose outline would be left in pieces.
     fn dark(&self, hair: &Raster<f32>) -> Raster<f32> {
-        /// Ink of hair whose strokes stand so close that they are its edge.
+        /// Ink of hair whose strokes stand so close that they are its edge, and the least share of the hair with so much.
         const DARK: f32 = 0.4;
+        const MOSTLY: f32 = 0.6;
         /// The blur of the ink, in pitches, and the share of hair around a place.
         const AROUND: f64 = 2.0;
         const LEAST_HAIR: f32 = 0.2;
         let around = |raster: &Raster<f32>| fast_gaussian(raster, (AROUND * self.pitch()) as f32);
         let ink = around(&self.portrait.ink().zip_map(hair, |ink, hair| ink * hair));
-        ink.zip_map(&around(hair), |ink, hair| f32::from(u8::from(hair > LEAST_HAIR && ink > DARK * hair)))
+        let dark = ink.zip_map(&around(hair), |ink, hair| f32::from(u8::from(hair > LEAST_HAIR && ink > DARK * hair)));
+        let share = |of: &dyn Fn(f32, f32) -> f32| dark.pixels().iter().zip(hair.pixels()).map(|(d, h)| of(*d, *h)).sum::<f32>();
+        let (within, all) = (share(&|dark, hair| dark * hair), share(&|_, hair| hair));
+        if within < MOSTLY * all { dark.map(|_| 0.0) } else { dark }
     }
 
     /// A mask as a part with a smooth border; none if it is too small.
@@ -212,7 +219,7 @@ impl Parts {
         self.hair.is_none() && self.brows.is_none() && self.cloths.is_empty()
     }
 
-    /// True if a place lies deep in another part, where a large cell at the border may have its dot.
+    /// True if a place lies deep in another part, where a large cell at the border may have its dot, or among wisps of hair.
     pub(super) fn hold(&self, p: Point) -> bool {
         /// From this value on a place is deep in a part.
         const DEEP: f32 = 0.95;

@@ -6,6 +6,7 @@ use crate::field::CoherentLine;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::Portrait;
+use crate::style::creases::share;
 
 /// The blur from which distances to the silhouette are read, in pixels: narrower finds no direction at a soft border, wider cuts corners.
 const BLUR: f32 = 3.0;
@@ -13,6 +14,8 @@ const BLUR: f32 = 3.0;
 const DEEPEST: f64 = 1.1;
 /// Share of a straight border's slope from which there is a direction inwards, and from which a point moves in full.
 const SLOPES: [f64; 2] = [0.1, 0.3];
+/// Share of a line along the silhouette from which it is that.
+const MOSTLY: f64 = 0.6;
 /// What stays free between a line and the silhouette, in pixels.
 const FREE: f64 = 0.6;
 
@@ -25,8 +28,11 @@ impl Silhouette {
         Self { blurred: gaussian_blur(&portrait.subject.map(|v| f32::from(u8::from(v >= 0.5))), BLUR) }
     }
 
-    /// The parts of a line, in working pixels, that do not run along the border of dark hair.
+    /// The parts of a line, in working pixels, that do not run along the border of dark hair; a line that only ends there stays whole.
     pub(super) fn beside_dark_hair(&self, line: &CoherentLine, parts: &Parts, least: f64) -> Vec<CoherentLine> {
+        if share(&line.curve, |p| self.is_near(p)) < MOSTLY {
+            return vec![line.clone()];
+        }
         let is_drawn: Vec<bool> = line.curve.points.iter().map(|p| !(self.is_near(*p) && parts.is_dark_hair(*p))).collect();
         let Some(first) = is_drawn.iter().position(|drawn| !drawn) else { return vec![line.clone()] };
         let mut line = line.clone();

@@ -42,6 +42,10 @@ impl Drawer<'_> {
         const HALF_TONES: [f64; 2] = [8.0, 24.0];
         let soft = gaussian_blur(skin, self.pitch() as f32).zip_map(skin, |soft, skin| (soft * 2.0 - 1.0).max(0.0).min(skin));
         let features = eyes_and_mouths(self.portrait, self.pitch());
+        // Details beside a face, as pearls, keep their lights too.
+        let faces = inside_outlines(&self.portrait.faces, [&outlines::OVAL, &outlines::OVAL], (ink.width(), ink.height()));
+        let beside = detail.zip_map(&faces, |detail, face| detail * (1.0 - face));
+        let features = features.zip_map(&beside, f32::max);
         let skin = soft.zip_map(&features, |skin, feature| skin * (1.0 - feature));
         let plain = skin.zip_map(detail, |skin, detail| skin * (1.0 - detail));
         HALF_TONES.iter().fold(self.even_skin(ink, &plain), |ink, reach| rubbed(&ink, &skin, (reach * self.pitch()) as f32))

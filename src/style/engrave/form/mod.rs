@@ -117,7 +117,7 @@ impl Drawer<'_> {
         let turn = |family: usize| TURNS[family].to_radians() * if surface == Surface::Hair { HAIR_TURN } else { 1.0 };
         let shares = match self.parameters.look {
             Look::Hatch => [ink.clone(), ink.map(|_| 0.0), ink.map(|_| 0.0)],
-            _ => shares::shares_of(ink, surface, self.pitch()),
+            _ => shares::shares_of(ink, surface, share, self.pitch()),
         };
         let families = self.families_over(surface, share, &shares[2], detail, &|family, extent, closeness| {
             let name = format!("{surface:?} {family}");

@@ -1,7 +1,7 @@
 //! How much ink each of three families of lines carries: the second and the third enter where it is darker, without a step.
 
 use crate::elementary::Elementary as _;
-use crate::raster::{Raster, fast_gaussian};
+use crate::raster::{Raster, fast_gaussian_within};
 use crate::style::form::Surface;
 
 /// From where to where in ink the second and the third family of lines enter, and their greatest ink. One that enters earlier makes
@@ -41,12 +41,16 @@ fn shares(ink: f32, entering: f32, surface: Surface) -> [f32; 3] {
     [first.clamp(0.0, 1.0), second, third]
 }
 
-/// The ink of each family, with pixels of a pitch. On skin lines cross in wide shadows alone: in one of a few pitches, as beside a nostril,
+/// The ink of each family over a region, 0 to 1; `pitch` in pixels. On skin lines cross in wide shadows alone: in one of a few pitches, as beside a nostril,
 /// they would be a comb of ticks.
-pub(super) fn shares_of(ink: &Raster<f32>, surface: Surface, pitch: f64) -> [Raster<f32>; 3] {
+pub(super) fn shares_of(ink: &Raster<f32>, surface: Surface, region: &Raster<f32>, pitch: f64) -> [Raster<f32>; 3] {
     /// The blur in pitches that narrow shadows do not outlast.
-    const NARROW: f64 = 2.0;
-    let entering = if surface == Surface::Skin { fast_gaussian(ink, (NARROW * pitch) as f32) } else { ink.clone() };
+    const NARROW: f64 = 2.5;
+    let entering = if surface == Surface::Skin {
+        fast_gaussian_within(ink, &region.map(|share| share + 1e-6), (NARROW * pitch) as f32)
+    } else {
+        ink.clone()
+    };
     [0, 1, 2].map(|family| ink.zip_map(&entering, |ink, entering| shares(ink, entering, surface)[family]))
 }
 
@@ -58,6 +62,17 @@ pub(super) fn part_of(ink: f32, share: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_cross_in_a_wide_shadow_and_not_in_a_narrow_one() {
+        let shadow = |width: usize| Raster::from_fn(200, 80, |x, _| if x.abs_diff(100) <= width { 0.7 } else { 0.2 });
+        let second = |width: usize| {
+            let [first, second, _] = shares_of(&shadow(width), Surface::Skin, &Raster::filled(200, 80, 1.0), 5.0);
+            (first.get(100, 40), second.get(100, 40))
+        };
+        assert!(second(50).1 > 0.3, "{:?}", second(50));
+        assert!(second(4).1 < 0.1 && (second(4).0 - 0.7).abs() < 0.1, "{:?}", second(4));
+    }
 
     #[test]
     fn what_is_left_white_is_the_tone() {
