@@ -194,22 +194,21 @@ fn on_strings(spots: &[Spot]) -> Vec<Spot> {
     spots.iter().filter(|spot| inner.contains(spot) || inner.iter().any(|other| are_next(spot, other))).copied().collect()
 }
 
+/// The pixels of a picture within a reach of a place, and how far away their middles are.
+fn pixels_within(reach: f64, of: Point, (width, height): (usize, usize)) -> impl Iterator<Item = (usize, usize, f64)> {
+    let range = move |at: f64, count: usize| ((at - reach).max(0.0) as usize)..((at + reach + 1.0).max(0.0) as usize).min(count);
+    let pixels = range(of.y, height).flat_map(move |y| range(of.x, width).map(move |x| (x, y)));
+    let away = move |(x, y): (usize, usize)| (x, y, of.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)));
+    pixels.map(away).filter(move |(_, _, away)| *away < reach)
+}
+
 /// The share of skin around a spot.
 fn skin_share(spot: &Spot, regions: &Regions) -> f64 {
     /// The radius looked at, in those of the pearl.
     const AROUND: f64 = 3.5;
-    let reach = AROUND * RADIUS * spot.scale;
     let skin = &regions.skin;
-    let range = |at: f64, count: usize| ((at - reach).max(0.0) as usize)..((at + reach + 1.0).max(0.0) as usize).min(count);
-    let (mut sum, mut count) = (0.0, 0.0);
-    for y in range(spot.centre.y, skin.height()) {
-        for x in range(spot.centre.x, skin.width()) {
-            if spot.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < reach {
-                sum += f64::from(skin.get(x, y)) / 255.0;
-                count += 1.0;
-            }
-        }
-    }
+    let around = pixels_within(AROUND * RADIUS * spot.scale, spot.centre, (skin.width(), skin.height()));
+    let (sum, count) = around.fold((0.0, 0.0), |(sum, count), (x, y, _)| (sum + f64::from(skin.get(x, y)) / 255.0, count + 1.0));
     sum / f64::max(count, 1.0)
 }
 
@@ -218,25 +217,18 @@ fn paint(regions: &mut Regions, subject: &Raster<u8>, pearl: Spot) {
     /// Radius of the detail and of the skin, in those of the pearl, and the soft edge, in pixels.
     const DETAIL: f64 = 1.25;
     const SOFT: f64 = 1.5;
-    let radius = RADIUS * pearl.scale;
-    let reach = DETAIL * radius + SOFT;
-    let range = |at: f64, count: usize| ((at - reach).max(0.0) as usize)..((at + reach + 1.0).max(0.0) as usize).min(count);
-    for y in range(pearl.centre.y, subject.height()) {
-        for x in range(pearl.centre.x, subject.width()) {
-            let away = pearl.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            let share = |radius: f64| ((radius - away) / SOFT + 0.5).clamp(0.0, 1.0);
-            let whole = subject.get(x, y);
-            let detail = (255.0 * share(DETAIL * radius)).round() as u8;
-            regions.detail.set(x, y, regions.detail.get(x, y).max(detail.min(whole)));
-            let kept = 1.0 - share(DETAIL * radius);
-            let mut given = 0;
-            for plane in [&mut regions.hair, &mut regions.clothing, &mut regions.headwear] {
-                let left = (kept * f64::from(plane.get(x, y))).round() as u8;
-                given += plane.get(x, y) - left;
-                plane.set(x, y, left);
-            }
-            regions.skin.set(x, y, regions.skin.get(x, y) + given);
+    let radius = DETAIL * RADIUS * pearl.scale;
+    for (x, y, away) in pixels_within(radius + SOFT, pearl.centre, (subject.width(), subject.height())) {
+        let share = ((radius - away) / SOFT + 0.5).clamp(0.0, 1.0);
+        let detail = (255.0 * share).round() as u8;
+        regions.detail.set(x, y, regions.detail.get(x, y).max(detail.min(subject.get(x, y))));
+        let mut given = 0;
+        for plane in [&mut regions.hair, &mut regions.clothing, &mut regions.headwear] {
+            let left = ((1.0 - share) * f64::from(plane.get(x, y))).round() as u8;
+            given += plane.get(x, y) - left;
+            plane.set(x, y, left);
         }
+        regions.skin.set(x, y, regions.skin.get(x, y) + given);
     }
 }
 
