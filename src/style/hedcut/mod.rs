@@ -4,6 +4,7 @@
 mod cost;
 mod features;
 mod highlights;
+mod locks;
 mod outline;
 mod parameters;
 mod parts;

@@ -137,7 +137,8 @@ impl Drawer<'_> {
     /// Hair in strokes.
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let mut marks = Vec::new();
-        if let Some((hair, portrait, _)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) {
+        if let Some((hair, mut portrait, _)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) {
+            portrait.tone = self.with_locks(&portrait.tone, &hair);
             let drawer = self.on(&portrait);
             marks = drawer.toned(charcoal::hair_strokes(&drawer, &hair)?, &hair)?;
         }
