@@ -102,18 +102,19 @@ pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Rast
     /// Strands to a pitch of the dots around them: at 1 locks, braids and earrings are lost in wide strands, below 0.6 hair is grey
     /// (portraits 03, 13 and 15).
     const FINER: f64 = 0.65;
-    /// Their length, and the smoothing of their direction, to those of charcoal: short strands are dashes, smooth ones cut across curls.
-    const LONGER: f64 = 1.5;
-    const LESS_SMOOTH: f64 = 0.8;
-    /// The window in which their direction is found is not finer: with a smaller one black hair has none, and holes (portrait 10).
-    const WINDOW: f64 = 1.0 / FINER;
     /// The least pitch of charcoal.
     const LEAST_PITCH: f64 = 0.1;
-    let pitch = Millimetres((FINER * drawer.parameters.pitch().0).max(LEAST_PITCH));
-    let mut strands = CharcoalParameters::new(&CARD.settings_at(pitch, &[])?);
-    strands.hair_length = strands.hair_length * LONGER;
-    strands.hough_radius = strands.hough_radius * WINDOW;
-    strands.hair_smoothing = strands.hair_smoothing * LESS_SMOOTH;
+    /// Their length, the smoothing of their direction and the window in which it is found, to those at the pitch of the dots: with
+    /// shorter ones hair is dashes, smooth ones cut across curls, and in a smaller window black hair has no direction, and holes
+    /// (portrait 10).
+    const LENGTH: f64 = 0.975;
+    const SMOOTH: f64 = 0.52;
+    let at = |pitch| CARD.settings_at(pitch, &[]).map(|settings| CharcoalParameters::new(&settings));
+    let pitch = drawer.parameters.pitch();
+    let (mut strands, dots) = (at(Millimetres((FINER * pitch.0).max(LEAST_PITCH)))?, at(pitch)?);
+    strands.hair_length = dots.hair_length * LENGTH;
+    strands.hair_smoothing = dots.hair_smoothing * SMOOTH;
+    strands.hough_radius = dots.hough_radius;
     Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Long))
 }
 
