@@ -65,7 +65,8 @@ impl<P: Pitched> Drawer<'_, P> {
             widest = widest.max(face.width());
         }
         let length = Millimetres(LENGTH * widest * self.portrait.placement.mm_per_pixel());
-        let sizes = Hairs { width: WIDTH * self.parameters.pitch(), length, turn: Radians(TURN.to_radians()) };
+        let pitch = self.parameters.pitch();
+        let sizes = Hairs { pitch, width: WIDTH * pitch, length, turn: Radians(TURN.to_radians()) };
         (!ridges.is_empty()).then(|| Brows { hairs: hairs(&region, &ridges), region, sizes })
     }
 

@@ -33,6 +33,8 @@ const ANGLES: usize = 36;
 /// Strokes of hair.
 #[derive(Clone, Copy)]
 pub(in crate::style) struct Hairs {
+    /// Distance from stroke to stroke.
+    pub pitch: Millimetres,
     /// Width at full pressure.
     pub width: Millimetres,
     /// Mean length.
@@ -50,8 +52,8 @@ struct Orientation {
 /// What strokes of hair are.
 #[derive(Clone, Copy)]
 pub(super) enum Strands {
-    /// Long lines everywhere.
-    Long,
+    /// Long lines everywhere, whose pitch and width are a share of the style's.
+    Long(f64),
     /// Hooks where hair is coiled.
     Curled,
 }
@@ -69,10 +71,15 @@ impl Drawer<'_> {
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
         let ink = ink.map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
-        let width = HAIR_WIDTH * self.parameters.stroke_width;
-        let sizes = Hairs { width, length: self.parameters.hair_length, turn: self.parameters.hair_turn };
+        let finer = if let Strands::Long(finer) = strands { finer } else { 1.0 };
+        let sizes = Hairs {
+            pitch: finer * self.parameters.pitch,
+            width: finer * HAIR_WIDTH * self.parameters.stroke_width,
+            length: self.parameters.hair_length,
+            turn: self.parameters.hair_turn,
+        };
         match strands {
-            Strands::Long => self.hairs(&field, hair, &ink, sizes),
+            Strands::Long(_) => self.hairs(&field, hair, &ink, sizes),
             Strands::Curled => {
                 // Light hair shows by the shade of its locks, which hooks would crumble.
                 let dark = 1.0 - lightness_of(levels[1]);
@@ -89,14 +96,14 @@ impl Drawer<'_> {
             length: self.pixels(hairs.length),
             length_spread: 0.6,
             turn: hairs.turn.0,
-            reach: self.pixels(0.9 * self.parameters.pitch),
+            reach: self.pixels(0.9 * hairs.pitch),
         };
-        let soft = gaussian_blur(ink, self.pixels(0.5 * self.parameters.pitch) as f32);
-        let touch = Touch { width: hairs.width, pressure: 1.0, taper: 0.35, node: 2.0 * self.parameters.pitch };
+        let soft = gaussian_blur(ink, self.pixels(0.5 * hairs.pitch) as f32);
+        let touch = Touch { width: hairs.width, pressure: 1.0, taper: 0.35, node: 2.0 * hairs.pitch };
         cover(field, region, ink, covering, &mut stream(self.seed, "hair", 0))
             .iter()
             .filter_map(|line| {
-                let line = smooth_polyline(line, Ring::Open, self.pitch(), 1.5);
+                let line = smooth_polyline(line, Ring::Open, self.pixels(hairs.pitch), 1.5);
                 self.stroke(&line, touch, |p| 0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0))
             })
             .collect()

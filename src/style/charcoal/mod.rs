@@ -30,7 +30,7 @@ use super::solids::{Solids, detail_zone};
 use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::field::OrientationField;
-use crate::geometry::{Millimetres, Rect};
+use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::{MaskRole, Portrait, Prepared};
 pub(super) use hair::Hairs;
@@ -102,20 +102,13 @@ pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Rast
     /// Strands to a pitch of the dots around them: at 1 locks, braids and earrings are lost in wide strands, below 0.6 hair is grey
     /// (portraits 03, 13 and 15).
     const FINER: f64 = 0.65;
-    /// The least pitch of charcoal.
-    const LEAST_PITCH: f64 = 0.1;
-    /// Their length, the smoothing of their direction and the window in which it is found, to those at the pitch of the dots: with
-    /// shorter ones hair is dashes, smooth ones cut across curls, and in a smaller window black hair has no direction, and holes
-    /// (portrait 10).
+    /// Their length and the smoothing of their direction to those of charcoal: shorter ones are dashes, smooth ones cut across curls.
     const LENGTH: f64 = 0.975;
     const SMOOTH: f64 = 0.52;
-    let at = |pitch| CARD.settings_at(pitch, &[]).map(|settings| CharcoalParameters::new(&settings));
-    let pitch = drawer.parameters.pitch();
-    let (mut strands, dots) = (at(Millimetres((FINER * pitch.0).max(LEAST_PITCH)))?, at(pitch)?);
-    strands.hair_length = dots.hair_length * LENGTH;
-    strands.hair_smoothing = dots.hair_smoothing * SMOOTH;
-    strands.hough_radius = dots.hough_radius;
-    Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Long))
+    let mut strands = CharcoalParameters::new(&CARD.settings_at(drawer.parameters.pitch(), &[])?);
+    strands.hair_length = LENGTH * strands.hair_length;
+    strands.hair_smoothing = SMOOTH * strands.hair_smoothing;
+    Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Long(FINER)))
 }
 
 /// Strokes along a field that make the ink inside a region, for a style of another kind at its pitch.

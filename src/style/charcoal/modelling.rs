@@ -121,6 +121,7 @@ impl Drawer<'_> {
         let field = OrientationField::new(angles.map(|angle| [(2.0 * angle).cosine(), (2.0 * angle).sine()]));
         let ink = soft.zip_map(&shade, |ink, shade| SHADE_SHARE * shade * ink);
         let sizes = Hairs {
+            pitch: self.parameters.pitch,
             width: WIDTH * self.parameters.stroke_width,
             length: LENGTH * self.parameters.pitch,
             turn: Radians(TURN.to_radians()),
