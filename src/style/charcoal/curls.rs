@@ -1,11 +1,11 @@
 //! Curls: where hair turns within a lock's width its direction is no course to follow. Strokes are short hooks there, as coils are drawn.
 
+use super::coherence::AROUND;
 use super::{Drawer, Hairs};
 use crate::drawing::Mark;
-use crate::elementary::Elementary as _;
 use crate::field::OrientationField;
 use crate::geometry::Millimetres;
-use crate::raster::{Raster, fast_gaussian_within, gaussian_blur};
+use crate::raster::{Raster, fast_gaussian_within};
 use crate::source::MaskRole;
 use crate::style::declaration::Radians;
 use crate::style::form::with_curls;
@@ -15,8 +15,6 @@ use crate::style::form::with_curls;
 /// to 0.88. And the ink from which a beard is dark.
 const COHERENCE: [f32; 2] = [0.56, 0.66];
 const DARK: f32 = 0.45;
-/// The reach over which that is averaged, in reaches of the direction's own smoothing.
-const AROUND: f64 = 2.5;
 /// Length of a hook as a share of a stroke's, and its greatest angle to the curls, in degrees.
 const LENGTH: f64 = 0.42;
 const TURN: f64 = 25.0;
@@ -28,22 +26,16 @@ const HOOKS: f32 = 0.5;
 impl Drawer<'_> {
     /// How far hair is coiled at each place, 0 to 1: a head of hair as a whole, and beards by their directions before and after smoothing.
     /// Directions drawn by hand are followed.
-    pub(super) fn coils(&self, hair: &Raster<f32>, raw: &OrientationField, smoothed: &OrientationField) -> Raster<f32> {
+    pub(super) fn coils(&self, hair: &Raster<f32>, coherence: &Raster<f32>) -> Raster<f32> {
         if self.drawn_directions().is_some() {
             return hair.map(|_| 0.0);
         }
         let of_heads = self.coiled_hair(&self.hair_of_heads(hair));
         let Some(beard) = self.portrait.masks.get(&MaskRole::FacialHair) else { return of_heads };
-        let sigma = self.pixels(self.parameters.hair_smoothing) as f32;
-        let length = |field: &OrientationField| field.doubled().map(|[x, y]| x.hypotenuse(y));
-        let all = gaussian_blur(&length(raw), sigma);
-        let left = length(smoothed).zip_map(&all, |left, all| left / all.max(1e-9));
-        // Where there are no lines there is nothing left and nothing to say.
-        let weight = hair.zip_map(&all, |hair, all| if all > 0.0 { hair } else { 0.0 } + 1e-6);
-        let mean = fast_gaussian_within(&left, &weight, (AROUND * self.pixels(self.parameters.hair_smoothing)) as f32);
-        let curly = mean.map(|left| ((COHERENCE[1] - left) / (COHERENCE[1] - COHERENCE[0])).clamp(0.0, 1.0));
+        let curly = coherence.map(|left| ((COHERENCE[1] - left) / (COHERENCE[1] - COHERENCE[0])).clamp(0.0, 1.0));
         // White hairs of a beard would be crumbs.
-        let ink = fast_gaussian_within(&self.darkness(), &weight, AROUND as f32 * sigma);
+        let around = AROUND as f32 * self.smoothing();
+        let ink = fast_gaussian_within(&self.darkness(), &hair.map(|hair| hair + 1e-6), around);
         let dark = ink.map(|ink| if ink > DARK { 1.0 } else { 0.0 });
         let of_beards = curly.zip_map(beard, |curly, beard| curly * beard).zip_map(&dark, |curly, dark| curly * dark);
         of_heads.zip_map(&of_beards, f32::max)
@@ -65,7 +57,7 @@ impl Drawer<'_> {
         let part = |of_coils: bool| hair.zip_map(coils, |hair, coil| if is_coil(coil) == of_coils { hair } else { 0.0 });
         let mut marks = self.hairs(field, &part(false), ink, sizes);
         let hooks = Hairs { length: Millimetres(LENGTH * sizes.length.0), turn: Radians(TURN.to_radians()), ..sizes };
-        let curls = with_curls(field, coils, self.pixels(CURL * self.parameters.pitch), self.seed);
+        let curls = with_curls(field, coils, self.pixels(CURL * sizes.pitch), self.seed);
         marks.extend(self.hairs(&curls, &part(true), ink, hooks));
         marks
     }

@@ -43,17 +43,17 @@ pub(in crate::style) struct Hairs {
     pub turn: Radians,
 }
 
-/// The direction of hair as it was detected, and as strokes follow it.
-struct Orientation {
-    raw: OrientationField,
-    field: OrientationField,
+/// The direction of hair as strokes follow it, and how far those around a place agree, 0 to 1.
+pub(super) struct Orientation {
+    pub field: OrientationField,
+    pub coherence: Raster<f32>,
 }
 
 /// What strokes of hair are.
 #[derive(Clone, Copy)]
 pub(super) enum Strands {
-    /// Long lines everywhere, whose pitch and width are a share of the style's.
-    Long(f64),
+    /// Long lines whose pitch and width are a share of the style's, and hooks on heads that are coiled all over.
+    Fine(f64),
     /// Hooks where hair is coiled.
     Curled,
 }
@@ -65,28 +65,26 @@ impl Drawer<'_> {
         if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
         }
-        let Orientation { raw, field } = self.hair_orientation(hair);
+        let Orientation { field, coherence } = self.hair_orientation(hair, strands);
         let darkness = self.darkness();
         let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
         let ink = ink.map(|ink| share * ink);
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
-        let finer = if let Strands::Long(finer) = strands { finer } else { 1.0 };
+        let finer = if let Strands::Fine(finer) = strands { finer } else { 1.0 };
         let sizes = Hairs {
             pitch: finer * self.parameters.pitch,
             width: finer * HAIR_WIDTH * self.parameters.stroke_width,
             length: self.parameters.hair_length,
             turn: self.parameters.hair_turn,
         };
-        match strands {
-            Strands::Long(_) => self.hairs(&field, hair, &ink, sizes),
-            Strands::Curled => {
-                // Light hair shows by the shade of its locks, which hooks would crumble.
-                let dark = 1.0 - lightness_of(levels[1]);
-                let coils = self.coils(hair, &raw, &field).map(|coil| dark * coil);
-                self.curled(&field, &coils, hair, &ink, sizes)
-            }
-        }
+        let coils = match strands {
+            Strands::Fine(_) => self.coiled_heads(hair, &coherence),
+            Strands::Curled => self.coils(hair, &coherence),
+        };
+        // Light hair shows by the shade of its locks, which hooks would crumble.
+        let dark = 1.0 - lightness_of(levels[1]);
+        self.curled(&field, &coils.map(|coil| dark * coil), hair, &ink, sizes)
     }
 
     /// Strokes along a field inside a region whose ink is as given.
@@ -110,7 +108,7 @@ impl Drawer<'_> {
     }
 
     /// Section 3.1.2: blur, lines, Hough filter, smoothing.
-    fn hair_orientation(&self, hair: &Raster<f32>) -> Orientation {
+    fn hair_orientation(&self, hair: &Raster<f32>, strands: Strands) -> Orientation {
         let blurred = gaussian_blur(&self.portrait.lightness, LINE_BLUR);
         let region = hair.map(|v| u8::from(v >= 0.5));
         let all = ridges(&blurred, 0.0);
@@ -121,7 +119,13 @@ impl Drawer<'_> {
         let radius = (self.pixels(self.parameters.hough_radius).round() as usize).max(2);
         let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
-        let found = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
+        let smoothed = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
+        let coherence = self.coherence(hair, &raw, &smoothed);
+        self.show("hair-coherence", &coherence.zip_map(hair, |coherence, hair| coherence * hair));
+        let found = match strands {
+            Strands::Fine(_) => self.calm(&raw, &smoothed, &coherence),
+            Strands::Curled => smoothed,
+        };
         let field = match self.drawn_directions() {
             Some(drawn) => OrientationField::new(drawn.over_doubled(found.doubled())),
             None => found,
@@ -129,7 +133,7 @@ impl Drawer<'_> {
         self.observer.picture("hair-orientation", &|| {
             Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.angle_over(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });
-        Orientation { raw, field }
+        Orientation { field, coherence }
     }
 
     /// The curvature at `LINE_QUANTILE` of the hair's pixels.

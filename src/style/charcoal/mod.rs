@@ -7,6 +7,7 @@
 //!
 //! The sum is the tone: the grain of the smudge adds, place by place, what the strokes leave of the ink that is asked for.
 
+mod coherence;
 mod cost;
 mod curls;
 mod edges;
@@ -108,7 +109,7 @@ pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Rast
     let mut strands = CharcoalParameters::new(&CARD.settings_at(drawer.parameters.pitch(), &[])?);
     strands.hair_length = LENGTH * strands.hair_length;
     strands.hair_smoothing = SMOOTH * strands.hair_smoothing;
-    Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Long(FINER)))
+    Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Fine(FINER)))
 }
 
 /// Strokes along a field that make the ink inside a region, for a style of another kind at its pitch.
