@@ -88,6 +88,36 @@ impl<'a> Face<'a> {
         self.plate.pixels_where(|_, i| light.pixels()[i] < OVER_LIPS)
     }
 
+    /// The pixels that have more colour than a full beard or are far lighter: cheek and neck in its shade, collars. None in grey
+    /// photographs.
+    fn beside_beard(&self, hairs: &Raster<bool>, chin: &Raster<bool>) -> Raster<bool> {
+        /// The most colour of a grey beard, and where between its colour and the cheeks' the neck's begins.
+        const GREY_BEARD: f32 = 0.8;
+        const BETWEEN: f32 = 0.5;
+        /// Where the neck's begins beside brown beards, at least and in shares of theirs: a shaded neck has 1.3 and more, a brown
+        /// beard in light about 1.1 (portraits 04 and 11). Inside the oval that counts beside grey beards alone.
+        const SHADED: f32 = 1.2;
+        const ABOVE: f32 = 1.1;
+        /// The lightness of collars, at least and in shares of the beard's: white beards differ less from place to place.
+        const COLLAR: f32 = 1.1;
+        const LIGHTER: f32 = 1.3;
+        let blurred = |plane: &Raster<f32>| gaussian_blur(plane, 0.012 * self.plate.face_width);
+        let (colour, light) = (blurred(&self.colour), blurred(&self.light));
+        let on_chin = hairs.zip_map(chin, |hair, chin| hair && chin);
+        let (Some(beard), Some(lightness)) = (median_in(&colour, &on_chin), median_in(&light, &on_chin)) else {
+            return hairs.map(|_| false);
+        };
+        let is_grey = beard < GREY_BEARD;
+        let inside = if is_grey { SHADED } else { f32::INFINITY };
+        let beside = if is_grey { beard + BETWEEN * (1.0 - beard) } else { SHADED.max(ABOVE * beard) };
+        let collar = COLLAR.max(LIGHTER * lightness);
+        self.plate.pixels_where(|_, i| {
+            let colour = colour.pixels()[i];
+            let is_beside = !self.plate.oval.pixels()[i] && (colour > beside || light.pixels()[i] > collar);
+            !self.plate.is_grey && (is_beside || colour > inside)
+        })
+    }
+
     /// The pixels that look like facial hair.
     fn hairs(&self) -> Raster<bool> {
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
@@ -134,6 +164,7 @@ impl Beard {
         let mouth = plate.hull(&MOUTH);
         let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
         let over_lips = face.over_lips();
+        let is_other = if is_full { face.beside_beard(&hairs, &chin) } else { hairs.map(|_| false) };
         let allowed = plate.pixels_where(|[u, v], i| {
             let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;
             let is_jaw = v < 0.44 && near_oval.pixels()[i] != 0;
@@ -141,6 +172,7 @@ impl Beard {
             let is_free = !face.lips.pixels()[i] || (over_lips.pixels()[i] && !mouth.pixels()[i]);
             plate.inside.pixels()[i]
                 && !nose.pixels()[i]
+                && !is_other.pixels()[i]
                 && is_free
                 && (on_lip || (is_full && (is_below || (is_jaw && v > -0.05))))
         });
@@ -150,6 +182,10 @@ impl Beard {
 
     /// Share of beard or moustache in each pixel; collars below the chin are excluded.
     pub(super) fn shares(&self, plate: &Plate, shares: &Raster<Shares>) -> Raster<f32> {
+        /// Half the width of what is left out of a beard as too thin, in widths of the face: spikes towards the ears, which begin so far
+        /// aside.
+        const THIN: f32 = 0.02;
+        const JAW: f32 = 0.28;
         let middle = chin_middle(plate);
         let found = plate.pixels_where(|_, i| {
             let (s, [u, v]) = (shares.pixels()[i], plate.at.pixels()[i]);
@@ -159,8 +195,10 @@ impl Beard {
                 && ((s[CLOTHING] > 0.5 && !is_under_chin) || (aside > 0.42 && (v < 0.05 || s[HAIR] < 0.5)));
             self.hairs.pixels()[i] && self.allowed.pixels()[i] && !is_worn
         });
-        let closed = dilate(&dilate(&found.map(u8::from), 1).map(|v| 1 - v), 1).map(|v| 1 - v);
-        let kept = large_pieces(&closed, &self.zones, 0.006 * plate.face_width * plate.face_width);
+        let hair = closed(&found, 1);
+        let wide = opened(&hair, (THIN * plate.face_width).round().max(1.0) as usize);
+        let whole = plate.pixels_where(|[u, _], i| wide.pixels()[i] || (hair.pixels()[i] && (u - middle).abs() < JAW));
+        let kept = large_pieces(&whole.map(u8::from), &self.zones, 0.006 * plate.face_width * plate.face_width);
         Guide::new(&plate.colours, 3, 1e-3).filtered(&kept)
     }
 }
@@ -168,6 +206,16 @@ impl Beard {
 /// The chin's position across the head, in `u`.
 fn chin_middle(plate: &Plate) -> f32 {
     plate.coordinates(plate.point(CHIN_END))[0]
+}
+
+/// A mask without its gaps, and without its thin parts, of up to two radii.
+fn closed(mask: &Raster<bool>, radius: usize) -> Raster<bool> {
+    let wide = dilate(&mask.map(u8::from), radius);
+    dilate(&wide.map(|v| 1 - v), radius).map(|v| v == 0)
+}
+
+fn opened(mask: &Raster<bool>, radius: usize) -> Raster<bool> {
+    closed(&mask.map(|is| !is), radius).map(|is| !is)
 }
 
 /// The pieces of more than `least` pixels that reach into the zones.
