@@ -18,6 +18,7 @@ mod catchlights;
 mod curve;
 mod ears;
 mod face;
+mod gums;
 mod irises;
 mod lights;
 mod mixing;
@@ -27,6 +28,7 @@ mod zones;
 use crate::raster::{Raster, box_blur, enlarge, reduce};
 use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
+use gums::with_gums;
 use irises::with_light_irises;
 
 /// The masks that are used besides the subject.
@@ -84,6 +86,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     if strength == 0.0 {
         return Some(tone);
     }
+    let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
     let tone = with_light_irises(tone, &portrait.lightness, &portrait.faces, strength);
     Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }

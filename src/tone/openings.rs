@@ -9,7 +9,7 @@ use crate::source::{Iris, Landmarks, outlines};
 
 /// Height over width of an opening: below the first it is closed, from the second on it is treated in full.
 pub(super) const EYE_OPEN: [f64; 2] = [0.12, 0.22];
-const MOUTH_OPEN: [f64; 2] = [0.04, 0.12];
+pub(super) const MOUTH_OPEN: [f64; 2] = [0.04, 0.12];
 /// Teeth are lighter than this share of the skin's median.
 const TEETH_ABOVE: f32 = 0.7;
 
