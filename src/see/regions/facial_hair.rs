@@ -26,6 +26,10 @@ const UNEVEN: f32 = 6.6;
 const PALE: f32 = 0.7;
 const BLACK: f32 = 18.0;
 const DARKEST: f32 = 0.45;
+/// Without colour, grey beards are as light as cheeks but rougher: up to this lightness of theirs, from this unevenness on. Shaded lips and
+/// noses of the sixteen portraits in grey that are no darker have at most 6.3.
+const ROUGH_LIGHT: f32 = 0.9;
+const ROUGH: f32 = 7.2;
 /// Lowest extent of a beard below the chin, in `v`: a longer beard is taken for clothing there; with a lower limit a shaded neck
 /// is taken for beard.
 const BELOW_CHIN: f32 = -0.25;
@@ -76,7 +80,8 @@ impl<'a> Face<'a> {
                 let is_dark = light < DARK && uneven > UNEVEN;
                 let is_pale = !self.plate.is_grey && colour < PALE && l > BLACK;
                 let is_darkest = light < DARKEST && uneven > 6.5 && colour < 1.3;
-                Some(is_dark || is_pale || is_darkest)
+                let is_rough = self.plate.is_grey && light < ROUGH_LIGHT && uneven > ROUGH;
+                Some(is_dark || is_pale || is_darkest || is_rough)
             })
             .collect();
         !halves.is_empty() && halves.into_iter().all(|is| is)
@@ -116,6 +121,14 @@ impl<'a> Face<'a> {
             let is_beside = !self.plate.oval.pixels()[i] && (colour > beside || light.pixels()[i] > collar);
             !self.plate.is_grey && (is_beside || colour > inside)
         })
+    }
+
+    /// With those of a full beard as light as the cheeks, where there is no colour to tell it by.
+    fn with_rough(&self, hairs: &Raster<bool>) -> Raster<bool> {
+        let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
+        let (light, uneven) = (blur(&self.light, 0.012), blur(&self.uneven, 0.02));
+        let is_rough = |i: usize| light.pixels()[i] < ROUGH_LIGHT && uneven.pixels()[i] > ROUGH;
+        self.plate.pixels_where(|_, i| hairs.pixels()[i] || (self.plate.is_grey && is_rough(i)))
     }
 
     /// The pixels that look like facial hair.
@@ -164,6 +177,7 @@ impl Beard {
         let mouth = plate.hull(&MOUTH);
         let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
         let over_lips = face.over_lips();
+        let hairs = if is_full { face.with_rough(&hairs) } else { hairs };
         let is_other = if is_full { face.beside_beard(&hairs, &chin) } else { hairs.map(|_| false) };
         let allowed = plate.pixels_where(|[u, v], i| {
             let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;
