@@ -4,7 +4,7 @@
 use super::Drawer;
 use crate::elementary::Elementary as _;
 use crate::field::OrientationField;
-use crate::raster::{Raster, components, fast_gaussian_within, gaussian_blur};
+use crate::raster::{Raster, components, fast_gaussian, fast_gaussian_within, gaussian_blur};
 
 /// The reach over which agreement is averaged, in reaches of the direction's own smoothing.
 pub(super) const AROUND: f64 = 2.5;
@@ -28,12 +28,11 @@ impl Drawer<'_> {
         const AGREEMENT: [f32; 2] = [0.6, 0.85];
         /// The wider reach in narrow ones.
         const WIDER: f32 = 3.0;
-        let sigma = self.smoothing();
-        let wide = unit_means(raw, &raw.smoothed(WIDER * sigma), WIDER * sigma);
-        let narrow = unit_means(raw, smoothed, sigma);
+        let reach = WIDER * self.smoothing();
+        let [x, y] = [0, 1].map(|i| fast_gaussian(&raw.doubled().map(|v| v[i]), reach));
         let share = coherence.map(|c| ((c - AGREEMENT[0]) / (AGREEMENT[1] - AGREEMENT[0])).clamp(0.0, 1.0));
-        let narrow = narrow.zip_map(&share, |[x, y], share| [share * x, share * y]);
-        let wide = wide.zip_map(&share, |[x, y], share| [(1.0 - share) * x, (1.0 - share) * y]);
+        let narrow = smoothed.doubled().zip_map(&share, |v, share| to_length(v, share));
+        let wide = x.zip_map(&y, |x, y| [x, y]).zip_map(&share, |v, share| to_length(v, 1.0 - share));
         OrientationField::new(narrow.zip_map(&wide, |[a, b], [c, d]| [a + c, b + d]))
     }
 
@@ -42,6 +41,8 @@ impl Drawer<'_> {
         /// The mean agreement of a head of hair below which it is coiled. Of the sixteen portraits one of coils has 0.58, white and curly
         /// heads 0.70 to 0.78, and the others up to 0.95.
         const COILED: f64 = 0.64;
+        /// The side of the least head of hair in pitches: smaller pieces have too few directions.
+        const LEAST: f64 = 8.0;
         if self.drawn_directions().is_some() {
             return hair.map(|_| 0.0);
         }
@@ -53,7 +54,9 @@ impl Drawer<'_> {
             *sum += f64::from(*coherence);
             *pixels += 1.0;
         }
-        labels.map(|label| if label > 0 && sums[label as usize].0 < COILED * sums[label as usize].1 { 1.0 } else { 0.0 })
+        let least = (LEAST * self.pixels(self.parameters.pitch)).powi(2);
+        let are_coiled = |(sum, pixels): (f64, f64)| pixels > least && sum < COILED * pixels;
+        labels.map(|label| if label > 0 && are_coiled(sums[label as usize]) { 1.0 } else { 0.0 })
     }
 
     /// Reach of the smoothing of hair's direction in pixels.
@@ -62,10 +65,9 @@ impl Drawer<'_> {
     }
 }
 
-/// Means of vectors as a share of the mean of their lengths.
-fn unit_means(raw: &OrientationField, mean: &OrientationField, sigma: f32) -> Raster<[f32; 2]> {
-    let all = gaussian_blur(&lengths(raw), sigma);
-    mean.doubled().zip_map(&all, |[x, y], all| [x / all.max(1e-9), y / all.max(1e-9)])
+fn to_length([x, y]: [f32; 2], length: f32) -> [f32; 2] {
+    let factor = length / x.hypotenuse(y).max(1e-9);
+    [factor * x, factor * y]
 }
 
 fn lengths(field: &OrientationField) -> Raster<f32> {
