@@ -31,7 +31,7 @@ impl Drawer<'_> {
         let reach = WIDER * self.smoothing();
         let [x, y] = [0, 1].map(|i| fast_gaussian(&raw.doubled().map(|v| v[i]), reach));
         let share = coherence.map(|c| ((c - AGREEMENT[0]) / (AGREEMENT[1] - AGREEMENT[0])).clamp(0.0, 1.0));
-        let narrow = smoothed.doubled().zip_map(&share, |v, share| to_length(v, share));
+        let narrow = smoothed.doubled().zip_map(&share, to_length);
         let wide = x.zip_map(&y, |x, y| [x, y]).zip_map(&share, |v, share| to_length(v, 1.0 - share));
         OrientationField::new(narrow.zip_map(&wide, |[a, b], [c, d]| [a + c, b + d]))
     }
@@ -72,4 +72,55 @@ fn to_length([x, y]: [f32; 2], length: f32) -> [f32; 2] {
 
 fn lengths(field: &OrientationField) -> Raster<f32> {
     field.doubled().map(|[x, y]| x.hypotenuse(y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Millimetres, Point};
+    use crate::raster::paper_texture;
+    use crate::source::MaskRole;
+    use crate::style::charcoal::{CARD, CharcoalParameters};
+    use crate::style::form::mean_portrait;
+    use crate::style::observer::Silent;
+    use std::f32::consts::PI;
+
+    /// Directions that turn by up to a quarter of a circle within a few pixels on the left, and run down on the right.
+    fn directions(width: usize, height: usize) -> OrientationField {
+        let noise = paper_texture(width, height, 6.0, 1);
+        OrientationField::new(Raster::from_fn(width, height, |x, y| {
+            let angle = if x < width / 2 { 0.5 * PI + 2.0 * PI * (noise.get(x, y) - 0.5) } else { 0.5 * PI };
+            [(2.0 * angle).cosine(), (2.0 * angle).sine()]
+        }))
+    }
+
+    #[test]
+    fn directions_that_do_not_agree_are_calm_and_others_are_kept() {
+        let mut portrait = mean_portrait(6.0, 0.0, |_| 100);
+        let (width, height) = (portrait.lightness.width(), portrait.lightness.height());
+        let hair = Raster::filled(width, height, 1.0_f32);
+        portrait.masks.insert(MaskRole::Hair, hair.clone());
+        let settings = CARD.settings_at(Millimetres(0.6), &[]).expect("a pitch in its range");
+        let mut parameters = CharcoalParameters::new(&settings);
+        parameters.hair_smoothing = 0.3 * parameters.hair_smoothing;
+        let drawer = Drawer { portrait: &portrait, parameters, seed: 0, observer: &Silent };
+        let raw = directions(width, height);
+        let smoothed = raw.smoothed(drawer.smoothing());
+        let coherence = drawer.coherence(&hair, &raw, &smoothed);
+        let at = |raster: &Raster<f32>, share: f64| raster.get((share * width as f64) as usize, height / 2);
+        assert!(at(&coherence, 0.75) > 0.9 && at(&coherence, 0.25) < 0.7, "{} {}", at(&coherence, 0.75), at(&coherence, 0.25));
+        let calm = drawer.calm(&raw, &smoothed, &coherence);
+        let turned = |field: &OrientationField, columns: std::ops::Range<usize>| {
+            let off = columns.map(|x| {
+                let at = Point::new(x as f64 + 0.5, 0.5 * height as f64 + 0.5);
+                field.angle(at.x, at.y).map_or(0.0, |angle| (0.5 * std::f64::consts::PI - angle.abs()).abs())
+            });
+            off.sum::<f64>() / (width as f64 / 4.0)
+        };
+        let (left, right) = (width / 8..3 * width / 8, 5 * width / 8..7 * width / 8);
+        assert!(turned(&calm, left.clone()) < 0.7 * turned(&smoothed, left), "whorls are left");
+        assert!(turned(&calm, right) < 0.01);
+        assert!(drawer.coiled_heads(&hair.map(|_| 1.0), &coherence.map(|_| 0.5)).get(width / 2, height / 2) == 1.0);
+        assert!(drawer.coiled_heads(&hair, &coherence.map(|_| 0.8)).get(width / 2, height / 2) == 0.0);
+    }
 }
