@@ -106,19 +106,28 @@ impl<'a> Face<'a> {
         /// The lightness of collars, at least and in shares of the beard's: white beards differ less from place to place.
         const COLLAR: f32 = 1.1;
         const LIGHTER: f32 = 1.3;
+        /// The distance of a garment's colour from the beard's in the plane of a* and b*: a blue shirt has 20, hairs of one beard up to 10.
+        /// In black hair beside a brown chin there is as much: garments are not darker than this share of the beard's lightness.
+        const OTHER_COLOUR: f32 = 15.0;
+        const LEAST_LIGHT: f32 = 0.8;
         let blurred = |plane: &Raster<f32>| gaussian_blur(plane, 0.012 * self.plate.face_width);
         let (colour, light) = (blurred(&self.colour), blurred(&self.light));
         let on_chin = hairs.zip_map(chin, |hair, chin| hair && chin);
         let (Some(beard), Some(lightness)) = (median_in(&colour, &on_chin), median_in(&light, &on_chin)) else {
             return hairs.map(|_| false);
         };
+        let [a, b] = [1, 2].map(|i| blurred(&self.plate.lab.map(|c| c[i])));
+        let [a_there, b_there] = [&a, &b].map(|plane| median_in(plane, &on_chin).unwrap_or(0.0));
+        let away = a.zip_map(&b, |a, b| (a - a_there).hypotenuse(b - b_there));
         let is_grey = beard < GREY_BEARD;
         let inside = if is_grey { SHADED } else { f32::INFINITY };
         let beside = if is_grey { beard + BETWEEN * (1.0 - beard) } else { SHADED.max(ABOVE * beard) };
         let collar = COLLAR.max(LIGHTER * lightness);
         self.plate.pixels_where(|_, i| {
             let colour = colour.pixels()[i];
-            let is_beside = !self.plate.oval.pixels()[i] && (colour > beside || light.pixels()[i] > collar);
+            let light = light.pixels()[i];
+            let is_garment = light > collar || (away.pixels()[i] > OTHER_COLOUR && light > LEAST_LIGHT * lightness);
+            let is_beside = !self.plate.oval.pixels()[i] && (colour > beside || is_garment);
             !self.plate.is_grey && (is_beside || colour > inside)
         })
     }
