@@ -24,8 +24,8 @@ impl Drawer<'_> {
     /// and strokes along them are false whorls.
     pub(super) fn calm(&self, raw: &OrientationField, smoothed: &OrientationField, coherence: &Raster<f32>) -> OrientationField {
         /// Agreement up to which the wider reach counts alone, and from which the narrow one does. Straight hair has 0.85 and more; noise
-        /// in the sixteen portraits 0.4 to 0.7. Lower ones leave whorls (02, 04, 16), higher ones comb curls (13, 15).
-        const AGREEMENT: [f32; 2] = [0.6, 0.85];
+        /// in the sixteen portraits 0.4 to 0.7. Lower ones leave whorls (14), higher ones comb waves and curls (05, 09, 13).
+        const AGREEMENT: [f32; 2] = [0.58, 0.8];
         /// The wider reach in narrow ones.
         const WIDER: f32 = 3.0;
         let reach = WIDER * self.smoothing();
@@ -38,11 +38,11 @@ impl Drawer<'_> {
 
     /// Where hair is coiled, 0 or 1: heads of hair as a whole whose directions agree nowhere. Directions drawn by hand are followed.
     pub(super) fn coiled_heads(&self, hair: &Raster<f32>, coherence: &Raster<f32>) -> Raster<f32> {
-        /// The mean agreement of a head of hair below which it is coiled. Of the sixteen portraits one of coils has 0.58, white and curly
-        /// heads 0.70 to 0.78, and the others up to 0.95.
-        const COILED: f64 = 0.64;
-        /// The side of the least head of hair in pitches: smaller pieces have too few directions.
-        const LEAST: f64 = 8.0;
+        /// The mean agreement of a head of hair below which it is coiled. Of the sixteen portraits those of coils have 0.58 and 0.70, curly
+        /// and slicked heads 0.75 to 0.79, and the others up to 0.95.
+        const COILED: f64 = 0.72;
+        /// The side of the least head of hair in pitches: smaller pieces, as beside an ear, have too few directions.
+        const LEAST: f64 = 25.0;
         if self.drawn_directions().is_some() {
             return hair.map(|_| 0.0);
         }
