@@ -2,13 +2,14 @@
 
 use super::openings::{MOUTH_OPEN, openness};
 use super::zones::polygon;
+use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, median};
 use crate::source::{Landmarks, outlines};
 
 /// Redness, the difference of red and green over their sum in linear light, by which lips must exceed teeth: below it there is no colour
 /// to go by.
 const LEAST_REDDER: f32 = 0.08;
-/// The redness of teeth, as a quantile of that between the lips.
+/// The redness of teeth, as a quantile of that between the lips: a throat and a tongue are redder.
 const TEETH: f64 = 0.25;
 /// Where gums begin between the teeth's redness and the lips', and from where they are in full.
 const GUMS: [f32; 2] = [0.25, 0.45];
@@ -22,7 +23,10 @@ const SOFT: f64 = 0.005;
 pub(super) fn with_gums(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: &[Landmarks], strength: f32) -> Raster<f32> {
     for face in faces {
         let open = openness(&face.line(&outlines::MOUTH), MOUTH_OPEN);
-        let Some((gums, [left, top])) = gums(light, face).filter(|_| open > 0.0) else { continue };
+        if open == 0.0 {
+            continue;
+        }
+        let Some((gums, [left, top])) = gums(light, face) else { continue };
         for y in 0..gums.height() {
             for x in 0..gums.width() {
                 let v = tone.get(left + x, top + y);
@@ -37,10 +41,17 @@ pub(super) fn with_gums(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: 
 /// Where the gums of a face are, 0 to 1, in a box around its lips, and the box's upper left corner.
 fn gums(light: &Raster<[f32; 3]>, face: &Landmarks) -> Option<(Raster<f32>, [usize; 2])> {
     let [outer, inner] = [&outlines::LIPS, &outlines::MOUTH].map(|line| face.line(line));
-    let whole = polygon(light.width(), light.height(), &outer).map(f32::from);
-    let [columns, rows] = whole.extent_above(0.5)?;
-    let inside = polygon(light.width(), light.height(), &inner).part(&columns, &rows);
-    let lips = whole.part(&columns, &rows).zip_map(&inside, |lips, inside| lips > 0.5 && inside == 0);
+    let corner = outer.iter().fold(outer[0], |a, p| Point::new(a.x.min(p.x), a.y.min(p.y)));
+    let far = outer.iter().fold(outer[0], |a, p| Point::new(a.x.max(p.x), a.y.max(p.y)));
+    let range = |from: f64, to: f64, size: usize| (from.max(0.0) as usize).min(size)..(to.max(0.0).ceil() as usize).min(size);
+    let [columns, rows] = [range(corner.x, far.x, light.width()), range(corner.y, far.y, light.height())];
+    if columns.is_empty() || rows.is_empty() {
+        return None;
+    }
+    let away = Point::new(columns.start as f64, rows.start as f64).to_vec2();
+    let in_box = |line: &[Point]| polygon(columns.len(), rows.len(), &line.iter().map(|p| *p - away).collect::<Vec<_>>());
+    let inside = in_box(&inner);
+    let lips = in_box(&outer).zip_map(&inside, |lips, inside| lips == 1 && inside == 0);
     let redness = light.part(&columns, &rows).map(|[r, g, _]| (r - g) / (r + g).max(0.01));
     let of = |is: &Raster<bool>| -> Vec<f32> {
         redness.pixels().iter().zip(is.pixels()).filter(|(_, is)| **is).map(|(redness, _)| *redness).collect()
@@ -61,7 +72,6 @@ fn gums(light: &Raster<[f32; 3]>, face: &Landmarks) -> Option<(Raster<f32>, [usi
 mod tests {
     use super::*;
     use crate::elementary::unit_at;
-    use crate::geometry::Point;
     use crate::source::{Iris, POINTS};
     use std::f64::consts::TAU;
 

@@ -106,7 +106,7 @@ impl<'a> Face<'a> {
         /// The lightness of collars, at least and in shares of the beard's: white beards differ less from place to place.
         const COLLAR: f32 = 1.1;
         const LIGHTER: f32 = 1.3;
-        /// The distance of a garment's colour from the beard's in the plane of a* and b*: a blue shirt has 20, hairs of one beard up to 10.
+        /// The distance of a garment's colour from a grey beard's in the plane of a* and b*: a blue shirt has 20, hairs of one beard up to 10.
         /// In black hair beside a brown chin there is as much: garments are not darker than this share of the beard's lightness.
         const OTHER_COLOUR: f32 = 15.0;
         const LEAST_LIGHT: f32 = 0.8;
@@ -120,13 +120,17 @@ impl<'a> Face<'a> {
         let [a_there, b_there] = [&a, &b].map(|plane| median_in(plane, &on_chin).unwrap_or(0.0));
         let away = a.zip_map(&b, |a, b| (a - a_there).hypotenuse(b - b_there));
         let is_grey = beard < GREY_BEARD;
-        let inside = if is_grey { SHADED } else { f32::INFINITY };
-        let beside = if is_grey { beard + BETWEEN * (1.0 - beard) } else { SHADED.max(ABOVE * beard) };
+        let [inside, beside] = match beard {
+            grey if grey < GREY_BEARD => [SHADED, grey + BETWEEN * (1.0 - grey)],
+            brown if brown < SHADED => [f32::INFINITY, SHADED.max(ABOVE * brown)],
+            // Red beards have more colour than any neck.
+            _ => [f32::INFINITY; 2],
+        };
         let collar = COLLAR.max(LIGHTER * lightness);
         self.plate.pixels_where(|_, i| {
             let colour = colour.pixels()[i];
             let light = light.pixels()[i];
-            let is_garment = light > collar || (away.pixels()[i] > OTHER_COLOUR && light > LEAST_LIGHT * lightness);
+            let is_garment = light > collar || (is_grey && away.pixels()[i] > OTHER_COLOUR && light > LEAST_LIGHT * lightness);
             let is_beside = !self.plate.oval.pixels()[i] && (colour > beside || is_garment);
             !self.plate.is_grey && (is_beside || colour > inside)
         })
@@ -134,10 +138,13 @@ impl<'a> Face<'a> {
 
     /// With those of a full beard as light as the cheeks, where there is no colour to tell it by.
     fn with_rough(&self, hairs: &Raster<bool>) -> Raster<bool> {
+        if !self.plate.is_grey {
+            return hairs.clone();
+        }
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
         let (light, uneven) = (blur(&self.light, 0.012), blur(&self.uneven, 0.02));
         let is_rough = |i: usize| light.pixels()[i] < ROUGH_LIGHT && uneven.pixels()[i] > ROUGH;
-        self.plate.pixels_where(|_, i| hairs.pixels()[i] || (self.plate.is_grey && is_rough(i)))
+        self.plate.pixels_where(|_, i| hairs.pixels()[i] || is_rough(i))
     }
 
     /// The pixels that look like facial hair.
@@ -195,9 +202,8 @@ impl Beard {
             let is_free = !face.lips.pixels()[i] || (over_lips.pixels()[i] && !mouth.pixels()[i]);
             plate.inside.pixels()[i]
                 && !nose.pixels()[i]
-                && !is_other.pixels()[i]
                 && is_free
-                && (on_lip || (is_full && (is_below || (is_jaw && v > -0.05))))
+                && (on_lip || (is_full && !is_other.pixels()[i] && (is_below || (is_jaw && v > -0.05))))
         });
         let zones = plate.pixels_where(|_, i| moustache.pixels()[i] || chin.pixels()[i] || jaw.pixels()[i]);
         Some(Self { hairs, allowed, zones, is_full })
@@ -219,7 +225,7 @@ impl Beard {
             self.hairs.pixels()[i] && self.allowed.pixels()[i] && !is_worn
         });
         let hair = closed(&found, 1);
-        let wide = opened(&hair, (THIN * plate.face_width).round().max(1.0) as usize);
+        let wide = opened(&hair, (THIN * plate.face_width).round() as usize);
         let whole = plate.pixels_where(|[u, _], i| wide.pixels()[i] || (hair.pixels()[i] && (u - middle).abs() < JAW));
         let kept = large_pieces(&whole.map(u8::from), &self.zones, 0.006 * plate.face_width * plate.face_width);
         Guide::new(&plate.colours, 3, 1e-3).filtered(&kept)
@@ -231,12 +237,13 @@ fn chin_middle(plate: &Plate) -> f32 {
     plate.coordinates(plate.point(CHIN_END))[0]
 }
 
-/// A mask without its gaps, and without its thin parts, of up to two radii.
+/// A mask without its gaps of up to two radii.
 fn closed(mask: &Raster<bool>, radius: usize) -> Raster<bool> {
     let wide = dilate(&mask.map(u8::from), radius);
     dilate(&wide.map(|v| 1 - v), radius).map(|v| v == 0)
 }
 
+/// A mask without its parts of up to two radii.
 fn opened(mask: &Raster<bool>, radius: usize) -> Raster<bool> {
     closed(&mask.map(|is| !is), radius).map(|is| !is)
 }

@@ -1,6 +1,6 @@
 //! Curls: where hair turns within a lock's width its direction is no course to follow. Strokes are short hooks there, as coils are drawn.
 
-use super::coherence::AROUND;
+use super::coherence::{AROUND, Coherence};
 use super::{Drawer, Hairs};
 use crate::drawing::Mark;
 use crate::field::OrientationField;
@@ -26,16 +26,16 @@ const HOOKS: f32 = 0.5;
 impl Drawer<'_> {
     /// How far hair is coiled at each place, 0 to 1: a head of hair as a whole, and beards by their directions before and after smoothing.
     /// Directions drawn by hand are followed.
-    pub(super) fn coils(&self, hair: &Raster<f32>, coherence: &Raster<f32>) -> Raster<f32> {
+    pub(super) fn coils(&self, hair: &Raster<f32>, raw: &OrientationField, smoothed: &OrientationField) -> Raster<f32> {
         if self.drawn_directions().is_some() {
             return hair.map(|_| 0.0);
         }
         let of_heads = self.coiled_hair(&self.hair_of_heads(hair));
         let Some(beard) = self.portrait.masks.get(&MaskRole::FacialHair) else { return of_heads };
-        let curly = coherence.map(|left| ((COHERENCE[1] - left) / (COHERENCE[1] - COHERENCE[0])).clamp(0.0, 1.0));
+        let Coherence { agreement, directed } = self.coherence(hair, raw, smoothed);
+        let curly = agreement.map(|left| ((COHERENCE[1] - left) / (COHERENCE[1] - COHERENCE[0])).clamp(0.0, 1.0));
         // White hairs of a beard would be crumbs.
-        let around = AROUND as f32 * self.smoothing();
-        let ink = fast_gaussian_within(&self.darkness(), &hair.map(|hair| hair + 1e-6), around);
+        let ink = fast_gaussian_within(&self.darkness(), &directed, AROUND * self.smoothing());
         let dark = ink.map(|ink| if ink > DARK { 1.0 } else { 0.0 });
         let of_beards = curly.zip_map(beard, |curly, beard| curly * beard).zip_map(&dark, |curly, dark| curly * dark);
         of_heads.zip_map(&of_beards, f32::max)

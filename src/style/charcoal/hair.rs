@@ -43,10 +43,10 @@ pub(in crate::style) struct Hairs {
     pub turn: Radians,
 }
 
-/// The direction of hair as strokes follow it, and how far those around a place agree, 0 to 1.
-pub(super) struct Orientation {
-    pub field: OrientationField,
-    pub coherence: Raster<f32>,
+/// The direction of hair as it was detected, and as strokes follow it.
+struct Orientation {
+    raw: OrientationField,
+    field: OrientationField,
 }
 
 /// What strokes of hair are.
@@ -65,7 +65,7 @@ impl Drawer<'_> {
         if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
         }
-        let Orientation { field, coherence } = self.hair_orientation(hair, strands);
+        let Orientation { raw, field } = self.hair_orientation(hair, strands);
         let darkness = self.darkness();
         let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
@@ -79,8 +79,8 @@ impl Drawer<'_> {
             turn: self.parameters.hair_turn,
         };
         let coils = match strands {
-            Strands::Fine(_) => self.coiled_heads(hair, &coherence),
-            Strands::Curled => self.coils(hair, &coherence),
+            Strands::Fine(_) => self.coiled_hair(&self.hair_of_heads(hair)),
+            Strands::Curled => self.coils(hair, &raw, &field),
         };
         // Light hair shows by the shade of its locks, which hooks would crumble.
         let dark = 1.0 - lightness_of(levels[1]);
@@ -119,11 +119,13 @@ impl Drawer<'_> {
         let radius = (self.pixels(self.parameters.hough_radius).round() as usize).max(2);
         let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
-        let smoothed = raw.smoothed(self.pixels(self.parameters.hair_smoothing) as f32);
-        let coherence = self.coherence(hair, &raw, &smoothed);
-        self.show("hair-coherence", &coherence.zip_map(hair, |coherence, hair| coherence * hair));
+        let smoothed = raw.smoothed(self.smoothing());
         let found = match strands {
-            Strands::Fine(_) => self.calm(&raw, &smoothed, &coherence),
+            Strands::Fine(_) => {
+                let agreement = self.coherence(hair, &raw, &smoothed).agreement;
+                self.observer.picture("hair-coherence", &|| Picture::Grey(agreement.zip_map(hair, |agree, hair| agree * hair)));
+                self.calm(&raw, &smoothed, &agreement)
+            }
             Strands::Curled => smoothed,
         };
         let field = match self.drawn_directions() {
@@ -133,7 +135,7 @@ impl Drawer<'_> {
         self.observer.picture("hair-orientation", &|| {
             Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.angle_over(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });
-        Orientation { field, coherence }
+        Orientation { raw, field }
     }
 
     /// The curvature at `LINE_QUANTILE` of the hair's pixels.

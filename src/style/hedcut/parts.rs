@@ -163,7 +163,7 @@ impl Drawer<'_> {
 
     /// A part and the portrait within the part's own box.
     fn boxed(&self, part: &Raster<f32>) -> Option<(Raster<f32>, Portrait, [Range<usize>; 2])> {
-        /// Room around a part in its own box, in pitches: the directions of its lines are smoothed over less.
+        /// Room around a part in its own box, in pitches: beyond it there is no hair to take directions from.
         const ROOM: f64 = 8.0;
         let room = (ROOM * self.pitch()).ceil() as usize;
         let [columns, rows] = part.extent_with_room(0.0, room)?;
