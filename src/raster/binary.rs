@@ -8,6 +8,21 @@ pub fn dilate(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     window_count(mask, radius).map(|count| u8::from(count > 0))
 }
 
+/// Shrinks the marked region by `radius` pixels; the raster's border is no edge of it.
+pub fn erode(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
+    window_count(&mask.map(|v| u8::from(v == 0)), radius).map(|count| u8::from(count == 0))
+}
+
+/// The marked region without its parts of up to `2 radius` pixels.
+pub fn open(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
+    dilate(&erode(mask, radius), radius)
+}
+
+/// The marked region with its gaps of up to `2 radius` pixels filled.
+pub fn close(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
+    erode(&dilate(mask, radius), radius)
+}
+
 /// The median of a binary raster: marked where more than half of the `(2r+1)^2` window is marked. Pixels outside the raster count
 /// as unmarked.
 pub fn majority(mask: &Raster<u8>, radius: usize) -> Raster<u8> {

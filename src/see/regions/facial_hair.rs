@@ -4,7 +4,7 @@ use super::plate::Plate;
 use super::segmentation::{CLOTHING, HAIR, Shares};
 use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
-use crate::raster::{Raster, components, dilate, gaussian_blur, median};
+use crate::raster::{Raster, close, components, dilate, gaussian_blur, median, open};
 use crate::source::outlines::{LIPS, MOUTH};
 
 /// Landmarks below the cheekbones, where no beard grows.
@@ -224,9 +224,9 @@ impl Beard {
                 && ((s[CLOTHING] > 0.5 && !is_under_chin) || (aside > 0.42 && (v < 0.05 || s[HAIR] < 0.5)));
             self.hairs.pixels()[i] && self.allowed.pixels()[i] && !is_worn
         });
-        let hair = closed(&found, 1);
-        let wide = opened(&hair, (THIN * plate.face_width).round() as usize);
-        let whole = plate.pixels_where(|[u, _], i| wide.pixels()[i] || (hair.pixels()[i] && (u - middle).abs() < JAW));
+        let hair = close(&found.map(u8::from), 1);
+        let wide = open(&hair, (THIN * plate.face_width).round() as usize);
+        let whole = plate.pixels_where(|[u, _], i| wide.pixels()[i] == 1 || (hair.pixels()[i] == 1 && (u - middle).abs() < JAW));
         let kept = large_pieces(&whole.map(u8::from), &self.zones, 0.006 * plate.face_width * plate.face_width);
         Guide::new(&plate.colours, 3, 1e-3).filtered(&kept)
     }
@@ -235,17 +235,6 @@ impl Beard {
 /// The chin's position across the head, in `u`.
 fn chin_middle(plate: &Plate) -> f32 {
     plate.coordinates(plate.point(CHIN_END))[0]
-}
-
-/// A mask without its gaps of up to two radii.
-fn closed(mask: &Raster<bool>, radius: usize) -> Raster<bool> {
-    let wide = dilate(&mask.map(u8::from), radius);
-    dilate(&wide.map(|v| 1 - v), radius).map(|v| v == 0)
-}
-
-/// A mask without its parts of up to two radii.
-fn opened(mask: &Raster<bool>, radius: usize) -> Raster<bool> {
-    closed(&mask.map(|is| !is), radius).map(|is| !is)
 }
 
 /// The pieces of more than `least` pixels that reach into the zones.

@@ -5,7 +5,7 @@ use super::plate::Plate;
 use super::segmentation::{HAIR, Shares, greatest};
 use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
-use crate::raster::{Raster, dilate, gaussian_blur};
+use crate::raster::{Raster, gaussian_blur, open};
 
 /// Farther from the middle of the head than this (in `u`), and above the mouth, hair is taken for brim.
 const BRIM: f32 = 0.66;
@@ -30,7 +30,7 @@ pub(super) fn headwear(plate: &Plate, shares: &Raster<Shares>) -> Option<Raster<
         };
         is_hair.pixels()[i] && (v > 0.86 || (v > 0.5 && u.abs() > BRIM) || is_like_top())
     });
-    let opened = dilate(&dilate(&marked.map(|v| u8::from(!v)), 1).map(|v| 1 - v), 1).map(f32::from);
+    let opened = open(&marked.map(u8::from), 1).map(f32::from);
     let smooth = Guide::new(&plate.colours, 4, 1e-3).filtered(&opened);
     Some(smooth.zip_map(shares, |v, s| v * s[HAIR]))
 }

@@ -7,7 +7,9 @@ use crate::elementary::Elementary as _;
 use crate::field::{CROWN, FaceExpectation, FaceFrame, find_face, hair_over_face};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster;
-use crate::raster::{Raster, components, dilate, flood_from_border, gaussian_blur, majority, remove_components, without_holes};
+use crate::raster::{
+    Raster, close, components, erode, flood_from_border, gaussian_blur, majority, remove_components, without_holes,
+};
 use crate::source::MaskRole;
 use crate::style::Picture;
 
@@ -236,7 +238,7 @@ impl Drawer<'_> {
         let size = frame.eye_distance;
         let broad = gaussian_blur(lightness, (STRAND * size) as f32);
         let texture = lightness.zip_map(&broad, |fine, broad| (fine - broad).abs() / broad.max(0.02));
-        let inside = dilate(&region.map(|v| 1 - v), (2.0 * STRAND * size).ceil() as usize).map(|v| 1 - v);
+        let inside = erode(region, (2.0 * STRAND * size).ceil() as usize);
         let mean = |weight: &dyn Fn(usize) -> bool| {
             let values: Vec<f32> = texture.pixels().iter().enumerate().filter(|(i, _)| weight(*i)).map(|(_, v)| *v).collect();
             f64::from(values.iter().sum::<f32>()) / values.len().max(1) as f64
@@ -366,7 +368,7 @@ fn without_partings(hair: &Raster<u8>, subject: &Raster<f32>, frame: &FaceFrame)
     /// Half the width of a gap in the crown that is closed: a lit parting is as light as skin.
     const CLOSED: f64 = 0.3;
     let gap = (CLOSED * frame.eye_distance).round() as usize;
-    let closed = dilate(&dilate(&majority(hair, 2), gap).map(|v| 1 - v), gap).map(|v| 1 - v);
+    let closed = close(&majority(hair, 2), gap);
     Raster::from_fn(hair.width(), hair.height(), |x, y| {
         let down = frame.relative(Point::new(x as f64 + 0.5, y as f64 + 0.5)).1;
         if down < CROWN && subject.get(x, y) >= 0.5 { closed.get(x, y) } else { hair.get(x, y) }
