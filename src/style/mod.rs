@@ -5,6 +5,7 @@
 
 mod brows;
 mod charcoal;
+mod columns;
 mod cost;
 mod coverage;
 mod creases;
@@ -20,6 +21,7 @@ mod guide_lines;
 mod head;
 mod hedcut;
 mod jaw;
+mod lids;
 mod mouth;
 mod need;
 mod observer;

@@ -7,15 +7,15 @@
 //!   found     lines that were found inside the lips go: creases of the lips, lights on teeth
 //! ```
 
+use super::columns::{COLUMNS, averaged, between, even, smoothed};
 use super::feature_line::feature_stroke;
 use crate::drawing::Mark;
-use crate::field::{CoherentLine, Curve};
-use crate::geometry::{Point, Region, Ring, Vec2, lengths_along, resample, smooth_polyline};
+use crate::field::CoherentLine;
+use crate::geometry::{Point, Region, Vec2};
 use crate::raster::{Raster, best_way, gaussian_blur};
 use crate::source::{Landmarks, MaskRole, Placement, Portrait, outlines};
 
-/// Columns across a mouth, and rows across a lip.
-const COLUMNS: usize = 96;
+/// Rows across a lip.
 const ROWS: usize = 41;
 /// Mean gap between the lips, in widths of the mouth, from which each lip has a line of its own.
 const OPEN: f64 = 0.045;
@@ -29,14 +29,12 @@ const IN_GAP: f64 = 0.4;
 const BESIDE: f64 = 0.035;
 const BLUR: f64 = 0.006;
 const BEND: f32 = 0.006;
-/// The width of a line, in widths of the mouth, at the contrast from which it is full; its least share of that; and the smoothing of widths and line, in columns.
+/// The width of a line, in widths of the mouth, at the contrast from which it is full; and its least share of that.
 const WIDEST: f64 = 0.022;
 const FULL: f64 = 0.16;
 const LEAST: f64 = 0.35;
 /// Width of the line along the lower lip of an open mouth, as a share: in full it is a ring around the teeth.
 const LOWER: f64 = 0.6;
-const SMOOTH: usize = 4;
-const SMOOTH_LINE: f64 = 3.5;
 /// Share of a line at each end over which it tapers.
 const TAPER: f64 = 0.15;
 /// Where found lines give way: so much of the way from the middle between the lips to their outer border.
@@ -166,39 +164,11 @@ impl Seen<'_> {
     }
 }
 
-/// `COLUMNS` points at even distances along a line; none if it has no length.
-fn even(line: &[Point]) -> Option<Vec<Point>> {
-    let length = lengths_along(line).last().copied().filter(|length| *length > 0.0)?;
-    let points = resample(line, length / (COLUMNS - 1) as f64);
-    (points.len() == COLUMNS).then_some(points)
-}
-
-fn between(a: &[Point], b: &[Point], share: f64) -> Vec<Point> {
-    a.iter().zip(b).map(|(a, b)| a.lerp(*b, share)).collect()
-}
-
-fn averaged(values: &[f64]) -> Vec<f64> {
-    let mean = |i: usize| {
-        let near = &values[i.saturating_sub(SMOOTH)..(i + SMOOTH + 1).min(values.len())];
-        near.iter().sum::<f64>() / near.len() as f64
-    };
-    (0..values.len()).map(mean).collect()
-}
-
-/// A line of even points some pixels apart, with the widths there.
-fn smoothed(points: &[Point], widths: &[f64]) -> CoherentLine {
-    let spacing = (lengths_along(points)[points.len() - 1] / points.len() as f64).max(1.0);
-    let smooth = smooth_polyline(points, Ring::Open, SMOOTH_LINE * spacing, spacing);
-    let last = smooth.len().max(2) - 1;
-    let width = |i: usize| widths[(i * (widths.len() - 1) + last / 2) / last];
-    let widths = (0..smooth.len()).map(width).collect();
-    CoherentLine { curve: Curve { points: smooth, closed: false }, widths, contrast: 1.0 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::elementary::unit_at;
+    use crate::field::Curve;
     use crate::source::Iris;
 
     /// A mouth of 100 by 40 pixels about (80, 60) whose lips meet, or are `gap` apart in the middle.

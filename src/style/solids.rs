@@ -1,6 +1,7 @@
 //! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
 
 use super::jaw::Jaws;
+use super::lids::Lids;
 use super::mouth::Mouths;
 use super::spectacles;
 use crate::drawing::{Area, Layer, Mark};
@@ -83,6 +84,12 @@ impl Solids {
     /// The solids with the lines of the mouths, whose widths count by `share`.
     pub(super) fn with_mouths(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
         self.lines.extend(Mouths::of(portrait, pitch).strokes(&portrait.placement, share));
+        self
+    }
+
+    /// The solids with the lines of the lids, whose widths count by `share`.
+    pub(super) fn with_lids(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
+        self.lines.extend(Lids::of(portrait, pitch).strokes(&portrait.placement, share));
         self
     }
 

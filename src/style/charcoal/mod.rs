@@ -123,8 +123,9 @@ pub(super) fn strokes_along(
     Ok(drawer.in_style(CharcoalParameters::new(&settings)).hairs(field, region, &drawer.portrait.ink(), hairs))
 }
 
-/// Widths of the mouth's lines, as a share: in full they are ink among charcoal.
+/// Widths of the lines of mouths and lids, as a share: in full they are ink among charcoal.
 const MOUTH: f64 = 0.72;
+const LIDS: f64 = 0.6;
 
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.
@@ -166,7 +167,8 @@ impl Drawer<'_> {
         face.extend(self.draw_features(&features));
         if self.parameters.has_features {
             let solids = Solids::of_darkest(self.portrait, &self.darkness(), self.pitch());
-            face.extend(solids.with_mouths(self.portrait, self.pitch(), MOUTH).layer().marks);
+            let solids = solids.with_mouths(self.portrait, self.pitch(), MOUTH);
+            face.extend(solids.with_lids(self.portrait, self.pitch(), LIDS).layer().marks);
         }
         let background = self.background(regions, &behind);
         let layers = [

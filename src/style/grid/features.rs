@@ -12,6 +12,7 @@ use crate::raster::Raster;
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::jaw::Jaws;
+use crate::style::lids::Lids;
 use crate::style::mouth::Mouths;
 
 /// The lines that steer the grid and their direction field, in working pixels.
@@ -25,6 +26,8 @@ pub(super) struct Features {
 
 /// Width of hand-drawn lines and of the subject's border, in pitches.
 const PLAIN_WIDTH: f64 = 0.25;
+/// Least length of what lids leave of a line, as a share of a line's: sides of irises are short.
+const OF_IRIS: f64 = 0.4;
 
 impl Drawer<'_> {
     pub(super) fn features(&self) -> Features {
@@ -100,7 +103,8 @@ impl Drawer<'_> {
         let lines = steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect();
         let least = self.pixels(parameters.line_least);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
-        Jaws::of(self.portrait, self.pitch()).redrawn(lines, least)
+        let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
+        Lids::of(self.portrait, self.pitch()).redrawn(&lines, OF_IRIS * least)
     }
 
     fn line_parameters(&self) -> LineParameters {

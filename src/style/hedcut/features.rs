@@ -10,6 +10,7 @@ use crate::raster::{Raster, bilateral};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::jaw::Jaws;
+use crate::style::lids::Lids;
 use crate::style::mouth::Mouths;
 
 /// The lines that steer the dots, in working pixels.
@@ -81,8 +82,11 @@ impl Drawer<'_> {
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
+        let lids = Lids::of(self.portrait, self.pitch());
+        let lines = lids.cut_from(&lines, least);
         let steering = self.pixels(self.parameters.edge_length);
-        let long = lines.iter().map(|line| &line.curve).filter(|curve| curve.length() >= steering).cloned().collect();
+        let steers = lines.iter().map(|line| &line.curve).cloned().chain(lids.curves());
+        let long = steers.filter(|curve| curve.length() >= steering).collect();
         let width = self.pixels(self.parameters.outline_width);
         let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| CoherentLine::plain(curve, width));
         let drawn = outline.chain(lines).collect();

@@ -68,7 +68,7 @@ impl Drawer<'_> {
         }
         let rest = self.without(&parts);
         let ink = self.portrait.ink();
-        let solids = Solids::new(self.portrait, &ink, self.pitch());
+        let solids = Solids::new(self.portrait, &ink, self.pitch()).with_lids(self.portrait, self.pitch(), 1.0);
         let mut drawing = match self.on(&rest).dots(&parts) {
             // All of it lies in the other parts.
             Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => {

@@ -42,9 +42,10 @@ use runs::{Course, Piece};
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
 /// In hair lines cross at half the angle: steeper ones look woven.
 const HAIR_TURN: f64 = 0.5;
-/// Widths of the lines of mouths and of jaws, as shares. A jaw of full width looks like a wire among the fine lines of skin (portraits 10, 12
+/// Widths of the lines of mouths, lids and jaws, as shares. A jaw of full width looks like a wire among the fine lines of skin (portraits 10, 12
 /// and 13).
 const MOUTH: f64 = 0.85;
+const LIDS: f64 = 0.8;
 const JAW: f64 = 0.5;
 /// Lines of hair stand this much closer.
 const HAIR_CLOSENESS: f32 = 1.08;
@@ -80,7 +81,9 @@ impl Drawer<'_> {
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
         let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair)));
         let solids = Solids::new(self.portrait, &ink, self.pitch());
-        let solids = solids.with_mouths(self.portrait, self.pitch(), MOUTH).with_jaws(self.portrait, self.pitch(), JAW).layer();
+        let (portrait, pitch) = (self.portrait, self.pitch());
+        let solids =
+            solids.with_mouths(portrait, pitch, MOUTH).with_lids(portrait, pitch, LIDS).with_jaws(portrait, pitch, JAW).layer();
         self.check()?;
         self.observer.begin("lines");
         let mut pieces: Pieces = Default::default();

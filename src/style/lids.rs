@@ -1,0 +1,238 @@
+//! Eyes as a draughtsman sets them: one firm line along the upper lid, a fine one along the lower.
+//!
+//! ```text
+//!   columns   from the outer corner to the inner, across either lid
+//!   lines     the way through the columns that is darkest against the skin beyond the lid
+//!   kept      where there is contrast, and where neither hair nor a hat covers the eye
+//!   found     lines that were found on the lids go: crumbs of lashes, bags and reflections on lenses
+//! ```
+
+use super::columns::{COLUMNS, averaged, even, smoothed};
+use super::feature_line::feature_stroke;
+use crate::drawing::Mark;
+use crate::field::{CoherentLine, Curve};
+use crate::geometry::{Point, Region, Vec2};
+use crate::raster::{Raster, best_way, gaussian_blur};
+use crate::source::{Landmarks, MaskRole, Placement, Portrait, outlines};
+
+/// Rows across a lid.
+const ROWS: usize = 31;
+/// An eye of fewer pitches is left to the dots.
+const LEAST_WIDTH: f64 = 5.0;
+/// The blur before anything is compared, and the distance at which the skin beyond a lid is compared with it, in widths of the eye.
+const BLUR: f64 = 0.012;
+const BESIDE: f64 = 0.07;
+/// How much the inside of the eye counts against the skin: an iris is as dark as the lashes.
+const INSIDE: f32 = 0.4;
+/// The price of a bend by one row, and of a line at the farthest row.
+const BEND: f32 = 0.006;
+const AWAY: f32 = 0.06;
+/// Share of a line at each end over which it tapers.
+const TAPER: f64 = 0.22;
+/// How far beyond the lids and within the eye lines that were found give way, in widths of the eye.
+const BEYOND: f64 = 0.1;
+const WITHIN: f64 = 0.07;
+/// Hair or a hat over a lid from which nothing is drawn.
+const COVERED: f32 = 0.5;
+
+/// How one of the lids is drawn; in widths of the eye.
+struct Lid {
+    /// How far the line may lie beyond the lid that was found, and inside the eye.
+    beyond: f64,
+    inside: f64,
+    /// Its width at the contrast from which it is full, its least share of that, and the contrast below which there is none.
+    widest: f64,
+    full: f64,
+    least: f64,
+    faintest: f64,
+}
+
+const UPPER: Lid = Lid { beyond: 0.05, inside: 0.06, widest: 0.055, full: 0.22, least: 0.5, faintest: 0.02 };
+const LOWER: Lid = Lid { beyond: 0.05, inside: 0.03, widest: 0.022, full: 0.2, least: 0.4, faintest: 0.035 };
+
+/// The lids of a portrait.
+pub(super) struct Lids {
+    regions: Vec<Region>,
+    lines: Vec<CoherentLine>,
+}
+
+impl Lids {
+    /// Of the faces that were found, in working pixels; `pitch` in these.
+    pub(super) fn of(portrait: &Portrait, pitch: f64) -> Self {
+        let eyes = portrait.faces.iter().flat_map(|face| {
+            [&outlines::RIGHT_EYE, &outlines::LEFT_EYE].into_iter().filter_map(|outline| Eye::of(face, outline))
+        });
+        let mut lids = Self { regions: Vec::new(), lines: Vec::new() };
+        for eye in eyes.filter(|eye| eye.width >= LEAST_WIDTH * pitch) {
+            lids.regions.extend(eye.lids());
+            lids.lines.extend(eye.lines(portrait));
+        }
+        lids
+    }
+
+    /// Where they run.
+    pub(super) fn curves(&self) -> Vec<Curve> {
+        self.lines.iter().map(|line| line.curve.clone()).collect()
+    }
+
+    /// Their strokes on the page, whose widths count by `share`.
+    pub(super) fn strokes(&self, placement: &Placement, share: f64) -> Vec<Mark> {
+        let scaled =
+            |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| share * w).collect(), ..line.clone() };
+        self.lines.iter().filter_map(|line| feature_stroke(&scaled(line), placement, TAPER * line.curve.length())).collect()
+    }
+
+    /// Lines that were found, with the lids' own in place of those on the lids.
+    pub(super) fn redrawn(&self, found: &[CoherentLine], least: f64) -> Vec<CoherentLine> {
+        self.cut_from(found, least).into_iter().chain(self.lines.iter().cloned()).collect()
+    }
+
+    /// Lines that were found, without what lies on the lids; what is left of one is at least `least` long.
+    pub(super) fn cut_from(&self, found: &[CoherentLine], least: f64) -> Vec<CoherentLine> {
+        let is_outside = |p: &Point| !self.regions.iter().any(|eye| eye.contains(*p));
+        found.iter().flat_map(|line| line.parts_where(is_outside, least)).collect()
+    }
+}
+
+/// One eye: its lids from the outer corner to the inner, each of [`COLUMNS`] points.
+struct Eye {
+    width: f64,
+    upper: Vec<Point>,
+    lower: Vec<Point>,
+    /// From the lower lid to the upper, of length 1.
+    up: Vec2,
+}
+
+impl Eye {
+    /// By the outline of its lids; none if it has no width.
+    fn of(face: &Landmarks, outline: &[usize; 16]) -> Option<Self> {
+        let lower = face.line(&outline[..=8]);
+        let upper: Vec<Point> = face.line(&outline[8..]).into_iter().chain([lower[0]]).rev().collect();
+        let across = lower[8] - lower[0];
+        let width = across.hypot();
+        let up = across.turn_90() / width.max(1e-9);
+        let up = if up.dot(face.point(10) - face.point(152)) < 0.0 { -up } else { up };
+        (width > 0.0).then_some(())?;
+        Some(Self { width, upper: even(&upper)?, lower: even(&lower)?, up })
+    }
+
+    /// The lids: the iris between them keeps its lines.
+    fn lids(&self) -> [Region; 2] {
+        let band = |lid: &[Point], out: Vec2| {
+            let beyond = lid.iter().map(|p| *p + out * (BEYOND * self.width));
+            Region::of_polygons(vec![beyond.chain(lid.iter().rev().map(|p| *p - out * (WITHIN * self.width))).collect()])
+        };
+        [band(&self.upper, self.up), band(&self.lower, -self.up)]
+    }
+
+    fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
+        let light = gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32);
+        let covers = [MaskRole::Hair, MaskRole::Headwear].map(|role| portrait.masks.get(&role));
+        let is_bare = |p: &Point| !covers.iter().flatten().any(|mask| mask.sample(p.x, p.y) > COVERED);
+        let lids = [(&self.upper, self.up, UPPER), (&self.lower, -self.up, LOWER)];
+        lids.into_iter().flat_map(|(points, out, lid)| self.lid(&light, points, out, &lid, &is_bare)).collect()
+    }
+
+    /// The line of one lid, in its parts; `out` points away from the eye.
+    fn lid(
+        &self,
+        light: &Raster<f32>,
+        points: &[Point],
+        out: Vec2,
+        lid: &Lid,
+        is_bare: &dyn Fn(&Point) -> bool,
+    ) -> Vec<CoherentLine> {
+        let off = |by: f64| points.iter().map(|p| *p + out * (by * self.width)).collect::<Vec<_>>();
+        let (from, to) = (off(lid.beyond), off(-lid.inside));
+        let place = |column: usize, row: usize| from[column].lerp(to[column], row as f64 / (ROWS - 1) as f64);
+        let contrast = |column: usize, row: usize| {
+            let (p, beside) = (place(column, row), out * (BESIDE * self.width));
+            let at = |p: Point| light.sample(p.x, p.y);
+            at(p + beside) - at(p) + INSIDE * (at(p - beside) - at(p)).max(0.0)
+        };
+        let middle = lid.beyond / (lid.beyond + lid.inside) * (ROWS - 1) as f64;
+        let away = |row: usize| AWAY * ((row as f64 - middle) / (ROWS - 1) as f64).powi(2) as f32;
+        let values = Raster::from_fn(ROWS, COLUMNS, |row, column| contrast(column, row));
+        let rows = best_way(&Raster::from_fn(ROWS, COLUMNS, |row, column| values.get(row, column) - away(row)), 2, BEND);
+        let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
+        let found: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(values.get(*row, column))).collect();
+        let found = averaged(&found);
+        let widths: Vec<f64> =
+            found.iter().map(|contrast| lid.widest * self.width * (contrast / lid.full).clamp(lid.least, 1.0)).collect();
+        let line = smoothed(&points, &widths);
+        let last = line.curve.points.len() - 1;
+        let is_seen = |i: usize| found[i * (COLUMNS - 1) / last.max(1)] > lid.faintest;
+        let kept: Vec<bool> = line.curve.points.iter().enumerate().map(|(i, p)| is_seen(i) && is_bare(p)).collect();
+        line.runs(&kept)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::{Iris, POINTS};
+
+    /// A face whose right eye is 60 by 20 pixels about (80, 60); the chin is below.
+    fn face() -> Landmarks {
+        let mut points = vec![[80.0, 60.0, 0.0]; POINTS];
+        (points[10], points[152]) = ([80.0, 0.0, 0.0], [80.0, 140.0, 0.0]);
+        for (i, index) in outlines::RIGHT_EYE.iter().enumerate() {
+            let across = if i <= 8 { i as f64 / 8.0 } else { (16 - i) as f64 / 8.0 };
+            let high = 40.0 * across * (1.0 - across) * if i <= 8 { 1.0 } else { -1.0 };
+            points[*index] = [50.0 + 60.0 * across, 60.0 + high, 0.0];
+        }
+        let irises = [80.0, 120.0].map(|x| Iris { centre: Point::new(x, 60.0), radius: 6.0 });
+        Landmarks { points, irises, spectacles: None }
+    }
+
+    fn eye() -> Eye {
+        Eye::of(&face(), &outlines::RIGHT_EYE).expect("it has a width")
+    }
+
+    /// Skin with a dark line two pixels above the upper lid that was found, and a dark iris below it.
+    fn skin(depth: f32) -> Raster<f32> {
+        Raster::from_fn(160, 120, |x, y| {
+            let (across, y) = ((x as f64 + 0.5 - 50.0) / 60.0, y as f64 + 0.5);
+            let lid = 58.0 - 40.0 * across * (1.0 - across);
+            let is_lash = (0.0..1.0).contains(&across) && (y - lid).abs() < 1.0;
+            let is_iris = (x as f64 + 0.5 - 80.0).hypot(y - 58.0) < 6.0;
+            if is_lash || is_iris { 0.7 - depth } else { 0.7 }
+        })
+    }
+
+    fn upper(light: &Raster<f32>, is_bare: &dyn Fn(&Point) -> bool) -> Vec<CoherentLine> {
+        let eye = eye();
+        eye.lid(light, &eye.upper, eye.up, &UPPER, is_bare)
+    }
+
+    #[test]
+    fn the_upper_lids_line_lies_on_the_lashes_and_is_firmer_where_they_are_darker() {
+        let [faint, firm] = [0.08, 0.5].map(|depth| upper(&skin(depth), &|_| true));
+        let [faint, firm] = [&faint[0], &firm[0]];
+        for p in firm.curve.points.iter().filter(|p| (60.0..100.0).contains(&p.x)) {
+            let across = (p.x - 50.0) / 60.0;
+            assert!((p.y - (58.0 - 40.0 * across * (1.0 - across))).abs() < 1.5, "{p:?}");
+        }
+        let middle = |line: &CoherentLine| line.widths[line.widths.len() / 2];
+        assert!(middle(firm) > 1.3 * middle(faint) && middle(firm) <= UPPER.widest * 60.0 + 1e-9);
+    }
+
+    #[test]
+    fn an_eye_without_contrast_or_under_hair_has_no_line() {
+        assert!(upper(&skin(0.0), &|_| true).is_empty());
+        let half = upper(&skin(0.5), &|p| p.x < 80.0);
+        assert!(half.iter().flat_map(|line| &line.curve.points).all(|p| p.x < 80.0) && !half.is_empty());
+    }
+
+    #[test]
+    fn crumbs_of_lashes_go_and_the_lines_of_an_iris_stay() {
+        let lids = Lids { regions: eye().lids().into(), lines: Vec::new() };
+        let line = |from: (f64, f64), to: (f64, f64)| {
+            let points: Vec<Point> = (0..=10).map(|i| Point::from(from).lerp(Point::from(to), f64::from(i) / 10.0)).collect();
+            CoherentLine::plain(Curve { points, closed: false }, 1.0)
+        };
+        let kept = lids.cut_from(&[line((70.0, 51.0), (90.0, 51.0)), line((76.0, 58.0), (76.0, 62.0))], 5.0);
+        assert_eq!(kept.len(), 1);
+        assert_eq!(kept[0].curve.points[0], Point::new(76.0, 58.0));
+    }
+}
