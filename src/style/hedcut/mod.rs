@@ -8,6 +8,7 @@ mod locks;
 mod outline;
 mod parameters;
 mod parts;
+mod rim;
 mod seeds;
 mod silhouette;
 mod size;

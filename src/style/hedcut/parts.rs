@@ -9,6 +9,7 @@
 
 use super::Drawer;
 use super::parameters::PartsRule;
+use super::rim::with_rim;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::OrientationField;
 use crate::geometry::Point;
@@ -22,8 +23,8 @@ use std::ops::Range;
 /// Where the parts lie, each 0 to 1; they do not overlap.
 pub(super) struct Parts {
     hair: Option<Raster<f32>>,
-    /// Dark hair with a band around it, 0 to 1.
-    dark_hair: Option<Raster<f32>>,
+    /// The hair of heads with a band around it, 0 or 1.
+    beside_hair: Option<Raster<f32>>,
     /// 1 in slivers of skin beside hair and paper, which are wisps.
     wisps: Option<Raster<f32>>,
     brows: Option<Brows>,
@@ -41,7 +42,7 @@ impl Drawer<'_> {
     /// The parts that are not drawn in dots; none without their masks.
     pub(super) fn parts(&self) -> Parts {
         if self.parameters.parts == PartsRule::Dots {
-            return Parts { hair: None, dark_hair: None, wisps: None, brows: None, cloths: Vec::new() };
+            return Parts { hair: None, beside_hair: None, wisps: None, brows: None, cloths: Vec::new() };
         }
         let masks = &self.portrait.masks;
         let union = |roles: [MaskRole; 2]| {
@@ -60,9 +61,9 @@ impl Drawer<'_> {
         };
         let cloths: Vec<_> = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
         let brows = self.brows(hair.as_ref());
-        let dark_hair = masks.get(&MaskRole::Hair).map(|hair| self.dark(hair));
+        let beside_hair = masks.get(&MaskRole::Hair).map(|hair| self.beside(hair));
         let wisps = hair.as_ref().map(|hair| self.wisps(hair, &cloths));
-        Parts { hair, dark_hair, wisps, brows, cloths }
+        Parts { hair, beside_hair, wisps, brows, cloths }
     }
 
     /// Where hair is near and little else of the subject is.
@@ -86,20 +87,12 @@ impl Drawer<'_> {
             .zip_map(&around(&self.portrait.subject, AROUND), |wisp, subject| if subject < INSIDE { wisp } else { 0.0 })
     }
 
-    /// Where the hair of a head is dark, with a band around it; nowhere if most of it is light, whose outline would be left in pieces.
-    fn dark(&self, hair: &Raster<f32>) -> Raster<f32> {
-        /// Ink of hair whose strokes stand so close that they are its edge, and the least share of the hair with so much.
-        const DARK: f32 = 0.4;
-        const MOSTLY: f32 = 0.6;
-        /// The blur of the ink, in pitches, and the share of hair around a place.
+    /// The hair of a head with a band around it.
+    fn beside(&self, hair: &Raster<f32>) -> Raster<f32> {
+        /// The blur of the hair, in pitches, and the share of it around a place that is beside it.
         const AROUND: f64 = 2.0;
         const LEAST_HAIR: f32 = 0.2;
-        let around = |raster: &Raster<f32>| fast_gaussian(raster, (AROUND * self.pitch()) as f32);
-        let ink = around(&self.portrait.ink().zip_map(hair, |ink, hair| ink * hair));
-        let dark = ink.zip_map(&around(hair), |ink, hair| f32::from(u8::from(hair > LEAST_HAIR && ink > DARK * hair)));
-        let share = |of: &dyn Fn(f32, f32) -> f32| dark.pixels().iter().zip(hair.pixels()).map(|(d, h)| of(*d, *h)).sum::<f32>();
-        let (within, all) = (share(&|dark, hair| dark * hair), share(&|_, hair| hair));
-        if within < MOSTLY * all { dark.map(|_| 0.0) } else { dark }
+        fast_gaussian(hair, (AROUND * self.pitch()) as f32).map(|hair| f32::from(u8::from(hair > LEAST_HAIR)))
     }
 
     /// A mask as a part with a smooth border; none if it is too small.
@@ -138,7 +131,7 @@ impl Drawer<'_> {
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let mut marks = Vec::new();
         if let Some((hair, mut portrait, _)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) {
-            portrait.tone = self.with_locks(&portrait.tone, &hair);
+            portrait.tone = with_rim(&self.with_locks(&portrait.tone, &hair), &portrait.subject, self.pitch());
             let drawer = self.on(&portrait);
             marks = drawer.toned(charcoal::hair_strokes(&drawer, &hair)?, &hair)?;
         }
@@ -228,9 +221,9 @@ impl Parts {
             || self.wisps.as_ref().is_some_and(|wisps| wisps.sample(p.x, p.y) > 0.5)
     }
 
-    /// True beside or in dark hair.
-    pub(super) fn is_dark_hair(&self, p: Point) -> bool {
-        self.dark_hair.as_ref().is_some_and(|dark| dark.sample(p.x, p.y) > 0.5)
+    /// True in the hair of a head and beside it.
+    pub(super) fn are_beside_hair(&self, p: Point) -> bool {
+        self.beside_hair.as_ref().is_some_and(|beside| beside.sample(p.x, p.y) > 0.5)
     }
 
     /// How far a place lies in hair or in a brow, 0 to 1; in working pixels.

@@ -1,4 +1,4 @@
-//! Lines along the silhouette lie inside it, with the whole of their width: outside the paper stays bare. Dark hair has no line
+//! Lines along the silhouette lie inside it, with the whole of their width: outside the paper stays bare. Hair has no line
 //! around it: its strokes are its edge, and a line that follows every wisp is a wire with knots.
 
 use super::parts::Parts;
@@ -28,12 +28,12 @@ impl Silhouette {
         Self { blurred: gaussian_blur(&portrait.subject.map(|v| f32::from(u8::from(v >= 0.5))), BLUR) }
     }
 
-    /// The parts of a line, in working pixels, that do not run along the border of dark hair; a line that only ends there stays whole.
-    pub(super) fn beside_dark_hair(&self, line: &CoherentLine, parts: &Parts, least: f64) -> Vec<CoherentLine> {
+    /// The parts of a line, in working pixels, that do not run along the border of hair; a line that only ends there stays whole.
+    pub(super) fn without_hair(&self, line: &CoherentLine, parts: &Parts, least: f64) -> Vec<CoherentLine> {
         if share(&line.curve, |p| self.is_near(p)) < MOSTLY {
             return vec![line.clone()];
         }
-        let is_drawn: Vec<bool> = line.curve.points.iter().map(|p| !(self.is_near(*p) && parts.is_dark_hair(*p))).collect();
+        let is_drawn: Vec<bool> = line.curve.points.iter().map(|p| !(self.is_near(*p) && parts.are_beside_hair(*p))).collect();
         let Some(first) = is_drawn.iter().position(|drawn| !drawn) else { return vec![line.clone()] };
         let mut line = line.clone();
         let mut is_drawn = is_drawn;
