@@ -1,10 +1,11 @@
 //! The ink that marks lay down, on the working grid.
 
 use crate::drawing::{Dot, Mark};
-use crate::elementary::Elementary as _;
 use crate::geometry::{BezPath, Point, flatten};
+use crate::parallel::{mapped, shares};
 use crate::raster::{Raster, each_pixel_inside, reduce};
 use crate::source::Placement;
+use std::ops::Range;
 
 /// Working pixels are halved, so that a dot of one pixel has an area.
 const FINER: usize = 2;
@@ -18,52 +19,115 @@ pub(crate) fn covered<'a>(marks: impl IntoIterator<Item = &'a Mark>, placement: 
 
 /// How dark each working pixel is under marks that hide what they cover, by a grid twice as fine. Each comes with its darkness, 0 to 1.
 pub(super) fn darkened<'a>(marks: impl IntoIterator<Item = (&'a Mark, f32)>, placement: &Placement) -> Raster<f32> {
-    let mut fine = Raster::filled(FINER * placement.columns, FINER * placement.rows, 0.0_f32);
-    let scale = FINER as f64 / placement.mm_per_pixel();
-    for (mark, ink) in marks {
+    /// Fine rows that one thread covers at a time, in the order of the marks.
+    const BAND: usize = 64;
+    let marks: Vec<(&Mark, f32)> = marks.into_iter().collect();
+    let (columns, rows) = (FINER * placement.columns, FINER * placement.rows);
+    let shapes = mapped(&marks, &|(mark, _)| Shape::of(mark, placement));
+    let mut fine = Raster::filled(columns, rows, 0.0_f32);
+    shares(fine.pixels_mut(), BAND * columns, &|band, pixels| {
+        let mut band = Band { first: BAND * band, columns, pixels };
+        shapes.iter().zip(&marks).for_each(|(shape, (_, ink))| band.cover(shape, *ink));
+    });
+    reduce(&fine, FINER)
+}
+
+/// What a mark covers of the fine grid.
+enum Shape {
+    /// Discs along a stroke, or one: their middles in fine pixels and radii; and the rows that they reach.
+    Discs(Vec<(Point, f64)>, Range<f64>),
+    /// Runs of pixels: row and columns.
+    Runs(Vec<(usize, Range<usize>)>),
+}
+
+impl Shape {
+    fn of(mark: &Mark, placement: &Placement) -> Self {
+        let scale = FINER as f64 / placement.mm_per_pixel();
         match mark {
             Mark::Stroke(stroke) => {
                 let (points, widths) = stroke.sampled(1.0 / scale);
-                points.iter().zip(widths).for_each(|(p, width)| cover_disc(&mut fine, placement, (*p, 0.5 * width * scale), ink));
+                Self::discs(points.iter().zip(widths).map(|(p, width)| (on_fine(placement, *p), 0.5 * width * scale)).collect())
             }
             Mark::Dot(Dot { centre, radius, outline: None, .. }) => {
-                cover_disc(&mut fine, placement, (*centre, radius * scale), ink);
+                Self::discs(vec![(on_fine(placement, *centre), radius * scale)])
             }
-            Mark::Dot(dot) => cover_area(&mut fine, placement, &dot.path(), ink),
-            Mark::Area(area) => cover_area(&mut fine, placement, &area.outline, ink),
+            Mark::Dot(dot) => Self::runs(&dot.path(), placement),
+            Mark::Area(area) => Self::runs(&area.outline, placement),
         }
     }
-    reduce(&fine, FINER)
+
+    fn discs(discs: Vec<(Point, f64)>) -> Self {
+        let ends = |(from, to): (f64, f64), (p, radius): &(Point, f64)| (from.min(p.y - radius), to.max(p.y + radius));
+        let (from, to) = discs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        Self::Discs(discs, from..to)
+    }
+
+    fn runs(outline: &BezPath, placement: &Placement) -> Self {
+        let tolerance = TOLERANCE * placement.mm_per_pixel() / FINER as f64;
+        let corners = |(points, _): (Vec<Point>, bool)| {
+            points.into_iter().map(|p| on_fine(placement, p)).map(|p| [p.x, p.y]).collect::<Vec<_>>()
+        };
+        let polygons: Vec<Vec<[f64; 2]>> = flatten(outline, tolerance).into_iter().map(corners).collect();
+        let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
+        each_pixel_inside(FINER * placement.columns, FINER * placement.rows, &polygons, |x, y| match runs.last_mut() {
+            Some((row, columns)) if *row == y && columns.end == x => columns.end += 1,
+            _ => runs.push((y, x..x + 1)),
+        });
+        Self::Runs(runs)
+    }
+}
+
+/// Some rows of the fine grid.
+struct Band<'a> {
+    first: usize,
+    columns: usize,
+    pixels: &'a mut [f32],
+}
+
+impl Band<'_> {
+    fn end(&self) -> usize {
+        self.first + self.pixels.len() / self.columns.max(1)
+    }
+
+    fn cover(&mut self, shape: &Shape, ink: f32) {
+        match shape {
+            Shape::Discs(discs, rows) if rows.end >= self.first as f64 && rows.start <= self.end() as f64 => {
+                discs.iter().for_each(|(centre, radius)| self.cover_disc(*centre, *radius, ink));
+            }
+            Shape::Discs(..) => {}
+            Shape::Runs(runs) => {
+                let first = runs.partition_point(|(row, _)| *row < self.first);
+                let end = self.end();
+                runs[first..]
+                    .iter()
+                    .take_while(|(row, _)| *row < end)
+                    .for_each(|(row, columns)| self.fill(*row, columns.clone(), ink));
+            }
+        }
+    }
+
+    fn cover_disc(&mut self, centre: Point, radius: f64, ink: f32) {
+        let (x, y) = (centre.x - 0.5, centre.y - 0.5);
+        let from = (y - radius).ceil().max(self.first as f64) as usize;
+        let end = ((y + radius).floor() + 1.0).clamp(0.0, self.end() as f64) as usize;
+        for row in from..end {
+            let half = (radius * radius - (row as f64 - y).powi(2)).max(0.0).sqrt();
+            let from = (x - half).ceil().max(0.0) as usize;
+            let end = ((x + half).floor() + 1.0).clamp(0.0, self.columns as f64) as usize;
+            self.fill(row, from.min(end)..end, ink);
+        }
+    }
+
+    fn fill(&mut self, row: usize, columns: Range<usize>, ink: f32) {
+        let start = (row - self.first) * self.columns;
+        self.pixels[start + columns.start..start + columns.end].fill(ink);
+    }
 }
 
 /// The grid's point in fine pixels.
 fn on_fine(placement: &Placement, p: Point) -> Point {
     let p = placement.to_grid(p);
     Point::new(FINER as f64 * p.x, FINER as f64 * p.y)
-}
-
-fn cover_disc(fine: &mut Raster<f32>, placement: &Placement, (centre, radius): (Point, f64), ink: f32) {
-    let (columns, rows) = (fine.width(), fine.height());
-    let p = on_fine(placement, centre);
-    let (x, y) = (p.x - 0.5, p.y - 0.5);
-    let range = |at: f64, most: usize| {
-        ((at - radius).ceil().max(0.0) as usize)..((at + radius).floor() + 1.0).clamp(0.0, most as f64) as usize
-    };
-    for (row, column) in range(y, rows).flat_map(|row| range(x, columns).map(move |column| (row, column))) {
-        if (column as f64 - x).hypotenuse(row as f64 - y) <= radius {
-            fine.set(column, row, ink);
-        }
-    }
-}
-
-fn cover_area(fine: &mut Raster<f32>, placement: &Placement, outline: &BezPath, ink: f32) {
-    let tolerance = TOLERANCE * placement.mm_per_pixel() / FINER as f64;
-    let corners = |(points, _): (Vec<Point>, bool)| {
-        points.into_iter().map(|p| on_fine(placement, p)).map(|p| [p.x, p.y]).collect::<Vec<_>>()
-    };
-    let polygons: Vec<Vec<[f64; 2]>> = flatten(outline, tolerance).into_iter().map(corners).collect();
-    let (columns, rows) = (fine.width(), fine.height());
-    each_pixel_inside(columns, rows, &polygons, |x, y| fine.set(x, y, ink));
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::columns::{COLUMNS, averaged, even, smoothed};
 use super::feature_line::feature_stroke;
 use crate::drawing::Mark;
 use crate::field::{CoherentLine, Curve};
-use crate::geometry::{Point, Region, Vec2};
+use crate::geometry::{Point, Rect, Region, Vec2};
 use crate::raster::{Raster, best_way, gaussian_blur};
 use crate::source::{Landmarks, MaskRole, Placement, Portrait, outlines};
 
@@ -126,7 +126,7 @@ impl Eye {
     }
 
     fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
-        let light = gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32);
+        let Some(light) = Light::around(self, &portrait.lightness) else { return Vec::new() };
         let covers = [MaskRole::Hair, MaskRole::Headwear].map(|role| portrait.masks.get(&role));
         let is_bare = |p: &Point| !covers.iter().flatten().any(|mask| mask.sample(p.x, p.y) > COVERED);
         let lids = [(&self.upper, self.up, UPPER), (&self.lower, -self.up, LOWER)];
@@ -134,20 +134,13 @@ impl Eye {
     }
 
     /// The line of one lid, in its parts; `out` points away from the eye.
-    fn lid(
-        &self,
-        light: &Raster<f32>,
-        points: &[Point],
-        out: Vec2,
-        lid: &Lid,
-        is_bare: &dyn Fn(&Point) -> bool,
-    ) -> Vec<CoherentLine> {
+    fn lid(&self, light: &Light, points: &[Point], out: Vec2, lid: &Lid, is_bare: &dyn Fn(&Point) -> bool) -> Vec<CoherentLine> {
         let off = |by: f64| points.iter().map(|p| *p + out * (by * self.width)).collect::<Vec<_>>();
         let (from, to) = (off(lid.beyond), off(-lid.inside));
         let place = |column: usize, row: usize| from[column].lerp(to[column], row as f64 / (ROWS - 1) as f64);
         let contrast = |column: usize, row: usize| {
             let (p, beside) = (place(column, row), out * (BESIDE * self.width));
-            let at = |p: Point| light.sample(p.x, p.y);
+            let at = |p: Point| light.at(p);
             at(p + beside) - at(p) + INSIDE * (at(p - beside) - at(p)).max(0.0)
         };
         let middle = lid.beyond / (lid.beyond + lid.inside) * (ROWS - 1) as f64;
@@ -164,6 +157,32 @@ impl Eye {
         let is_seen = |i: usize| found[i * (COLUMNS - 1) / last.max(1)] > lid.faintest;
         let kept: Vec<bool> = line.curve.points.iter().enumerate().map(|(i, p)| is_seen(i) && is_bare(p)).collect();
         line.runs(&kept)
+    }
+}
+
+/// The photograph's lightness around an eye.
+struct Light {
+    blurred: Raster<f32>,
+    origin: Vec2,
+}
+
+impl Light {
+    /// None for an eye outside the picture.
+    fn around(eye: &Eye, lightness: &Raster<f32>) -> Option<Self> {
+        /// Room around the lids, in widths of the eye.
+        const ROOM: f64 = 0.3;
+        let lids =
+            eye.upper.iter().chain(&eye.lower).fold(Rect::from_points(eye.upper[0], eye.lower[0]), |lids, p| lids.union_pt(*p));
+        let wide = lids.inflate(ROOM * eye.width, ROOM * eye.width);
+        let range = |from: f64, to: f64, most: usize| (from.max(0.0) as usize).min(most)..(to.ceil().max(0.0) as usize).min(most);
+        let (columns, rows) = (range(wide.x0, wide.x1, lightness.width()), range(wide.y0, wide.y1, lightness.height()));
+        let origin = Vec2::new(columns.start as f64, rows.start as f64);
+        let is_in = !columns.is_empty() && !rows.is_empty();
+        is_in.then(|| Self { blurred: gaussian_blur(&lightness.part(&columns, &rows), (BLUR * eye.width) as f32), origin })
+    }
+
+    fn at(&self, p: Point) -> f32 {
+        self.blurred.sample(p.x - self.origin.x, p.y - self.origin.y)
     }
 }
 
@@ -202,7 +221,7 @@ mod tests {
 
     fn upper(light: &Raster<f32>, is_bare: &dyn Fn(&Point) -> bool) -> Vec<CoherentLine> {
         let eye = eye();
-        eye.lid(light, &eye.upper, eye.up, &UPPER, is_bare)
+        eye.lid(&Light::around(&eye, light).expect("it is in the picture"), &eye.upper, eye.up, &UPPER, is_bare)
     }
 
     #[test]

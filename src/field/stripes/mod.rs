@@ -14,6 +14,7 @@
 mod lattice;
 mod lines;
 mod relaxation;
+mod steps;
 
 pub use lattice::{StripeLattice, Wave};
 pub(crate) use lines::CellPhases;

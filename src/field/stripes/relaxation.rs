@@ -1,9 +1,9 @@
 //! Relaxation in rounds, from coarse to fine: each node becomes the prediction of its neighbourhood.
 
 use super::lattice::{MARGIN, StripeLattice, Wave, vector};
+use super::steps::{Edges, SHARE, relaxed_phases};
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Vec2};
-use crate::parallel::shares;
 use crate::raster::Raster;
 use std::f64::consts::TAU;
 
@@ -19,9 +19,6 @@ pub struct StripeParameters {
     /// Levels, each with nodes twice as far apart.
     pub levels: u32,
 }
-
-/// Share of each of the four neighbours in one small step; above 0.25 steps overshoot.
-const SHARE: f32 = 0.2;
 
 /// Initial phase of a node, in cycles, from its number, its place in pixels and its wave.
 pub type Start<'a> = &'a (dyn Fn(u64, Point, Wave) -> f32 + Sync);
@@ -58,8 +55,9 @@ pub fn stripes(
             Some(coarse) => refined(coarse, &finest, &waves, step),
         };
         let mut lattice = StripeLattice { step, margin, wave: waves, phase, angles: Raster::filled(0, 0, 0.0) };
-        let edges = Edges::new(&lattice, &finest);
-        relax(&mut lattice, &edges, parameters, if level == 0 { anchor } else { None });
+        let edges = Edges::new((lattice.wave.width(), lattice.wave.height()), |from, to| edge(&lattice, &finest, from, to));
+        let anchor = if level == 0 { anchor } else { None };
+        lattice.phase = relaxed_phases(&lattice.phase, &edges, small_steps(parameters), parameters.rounds, anchor);
         lattice
     };
     let coarsest = parameters.levels.max(1) - 1;
@@ -88,10 +86,13 @@ fn wave_at(wave: &Raster<Wave>, x: f64, y: f64) -> Wave {
     if length > 1e-12 { [sum[0] * wanted / length, sum[1] * wanted / length] } else { first }
 }
 
+/// Length of a straight path's pieces in the finest nodes' distances: shorter ones change no line that can be seen.
+const PIECE: f64 = 2.0;
+
 /// Phase gained along a straight path that begins with the wave `first`; and the wave at its end, with the sign carried there.
 fn gain_along(fine: &StripeLattice, from: Point, to: Point, first: Wave) -> (f64, Vec2) {
     let way = to - from;
-    let pieces = (way.hypot() / fine.step).ceil().max(1.0) as usize;
+    let pieces = (way.hypot() / (PIECE * fine.step)).ceil().max(1.0) as usize;
     let (mut sum, mut carried) = (0.0, vector(first));
     for piece in 0..pieces {
         let p = from + way * ((piece as f64 + 0.5) / pieces as f64);
@@ -109,7 +110,10 @@ fn short_gain(way: Vec2, first: Wave, last: Wave) -> (f64, Vec2) {
     (0.5 * TAU * (first + carried).dot(way), carried)
 }
 
-/// The start of a level: the prediction of the four coarser nodes around each node.
+/// Weight among the four coarser nodes around a node from which one counts: the farthest has a sixteenth.
+const LEAST_WEIGHT: f64 = 0.1;
+
+/// The start of a level: the prediction of the nearest coarser nodes around each node.
 fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, step: f64) -> Raster<[f32; 2]> {
     let is_finest = step == fine.step;
     Raster::from_fn(waves.width(), waves.height(), |i, j| {
@@ -121,10 +125,10 @@ fn refined(coarse: &StripeLattice, fine: &StripeLattice, waves: &Raster<Wave>, s
         let mut sum = [0.0_f32; 2];
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             let (cx, cy) = (x.floor() as isize + dx, y.floor() as isize + dy);
-            if !coarse.phase.contains(cx, cy) {
+            let weight = (1.0 - (x - cx as f64).abs()) * (1.0 - (y - cy as f64).abs());
+            if weight < LEAST_WEIGHT || !coarse.phase.contains(cx, cy) {
                 continue;
             }
-            let weight = (1.0 - (x - cx as f64).abs()) * (1.0 - (y - cy as f64).abs());
             let (cx, cy) = (cx as usize, cy as usize);
             let (from, first) = (coarse.position(cx, cy), coarse.wave.get(cx, cy));
             let (gain, carried) =
@@ -143,126 +147,25 @@ fn rotated([re, im]: [f32; 2], angle: f32) -> [f32; 2] {
 }
 
 /// Normalises to length 1; a value of zero length, which predicts nothing, becomes 1.
-fn unit([re, im]: [f32; 2]) -> [f32; 2] {
+pub(super) fn unit([re, im]: [f32; 2]) -> [f32; 2] {
     let length = re.hypotenuse(im);
     if length > 1e-20 { [re / length, im / length] } else { [1.0, 0.0] }
 }
 
-/// From a node to its right or lower neighbour: the turn of the phase, and -1 where the waves are opposite; 0 where one of both has no
-/// stripes.
-#[derive(Clone, Copy, Default)]
-struct Edge {
-    cos: f32,
-    sin: f32,
-    sign: f32,
-}
-
-impl Edge {
-    /// The far node's prediction for the near one.
-    fn back(self, [re, im]: [f32; 2]) -> [f32; 2] {
-        let im = self.sign * im;
-        [re * self.cos + im * self.sin, im * self.cos - re * self.sin]
+/// The phase gained from a node to its neighbour, and whether the waves are opposite; none where one of both has no stripes.
+fn edge(lattice: &StripeLattice, fine: &StripeLattice, from: (usize, usize), to: (usize, usize)) -> Option<(f64, bool)> {
+    if !lattice.is_striped(from.0, from.1) || !lattice.is_striped(to.0, to.1) {
+        return None;
     }
-
-    /// The near node's prediction for the far one.
-    fn ahead(self, [re, im]: [f32; 2]) -> [f32; 2] {
-        [re * self.cos - im * self.sin, self.sign * (re * self.sin + im * self.cos)]
+    if lattice.step == fine.step {
+        return Some(lattice.gain(from, to));
     }
+    let first = lattice.wave.get(from.0, from.1);
+    let (gain, carried) = gain_along(fine, lattice.position(from.0, from.1), lattice.position(to.0, to.1), first);
+    Some((gain, carried.dot(vector(lattice.wave.get(to.0, to.1))) < 0.0))
 }
 
-/// All edges of a lattice.
-struct Edges {
-    right: Raster<Edge>,
-    down: Raster<Edge>,
-}
-
-impl Edges {
-    fn new(lattice: &StripeLattice, fine: &StripeLattice) -> Self {
-        let (width, height) = (lattice.wave.width(), lattice.wave.height());
-        let is_finest = lattice.step == fine.step;
-        let edge = |i: usize, j: usize, di: usize, dj: usize| {
-            let (ni, nj) = (i + di, j + dj);
-            if ni >= width || nj >= height || !lattice.is_striped(i, j) || !lattice.is_striped(ni, nj) {
-                return Edge::default();
-            }
-            let (gain, turned) = if is_finest {
-                lattice.gain((i, j), (ni, nj))
-            } else {
-                let (from, to) = (lattice.position(i, j), lattice.position(ni, nj));
-                let (gain, carried) = gain_along(fine, from, to, lattice.wave.get(i, j));
-                (gain, carried.dot(vector(lattice.wave.get(ni, nj))) < 0.0)
-            };
-            let (sin, cos) = (gain as f32).sine_and_cosine();
-            Edge { cos, sin, sign: if turned { -1.0 } else { 1.0 } }
-        };
-        Self {
-            right: Raster::from_fn(width, height, |i, j| edge(i, j, 1, 0)),
-            down: Raster::from_fn(width, height, |i, j| edge(i, j, 0, 1)),
-        }
-    }
-}
-
-/// Rounds of small steps; each round ends by normalising every phase to length 1, so that no patch of stripes fades away.
-fn relax(lattice: &mut StripeLattice, edges: &Edges, parameters: StripeParameters, anchor: Option<&Raster<[f32; 2]>>) {
-    /// Least nodes of a share: a row of a small lattice takes less time than handing it to a thread.
-    const LEAST_NODES: usize = 2048;
-    // Each step adds 2 SHARE to the window's variance.
-    let steps = ((0.5 * parameters.window).powi(2) / f64::from(2.0 * SHARE)).round().max(1.0) as usize;
-    let width = lattice.phase.width().max(1);
-    let rows = (LEAST_NODES / width).max(1);
-    let mut next = lattice.phase.clone();
-    for _ in 0..parameters.rounds {
-        for step in 0..steps {
-            let small = SmallStep { lattice, edges, anchor, is_last: step + 1 == steps };
-            shares(next.pixels_mut(), rows * width, &|part, out| {
-                out.chunks_mut(width).enumerate().for_each(|(j, out)| small.row(rows * part + j, out));
-            });
-            std::mem::swap(&mut lattice.phase, &mut next);
-        }
-    }
-}
-
-/// One small step towards the four neighbours' predictions.
-struct SmallStep<'a> {
-    lattice: &'a StripeLattice,
-    edges: &'a Edges,
-    anchor: Option<&'a Raster<[f32; 2]>>,
-    /// Whether it ends a round.
-    is_last: bool,
-}
-
-impl SmallStep<'_> {
-    fn row(&self, j: usize, out: &mut [[f32; 2]]) {
-        let (phase, edges) = (&self.lattice.phase, self.edges);
-        let (row, right, down) = (phase.row(j), edges.right.row(j), edges.down.row(j));
-        let above = (j > 0).then(|| (phase.row(j - 1), edges.down.row(j - 1)));
-        let below = (j + 1 < phase.height()).then(|| phase.row(j + 1));
-        for (i, out) in out.iter_mut().enumerate().filter(|(i, _)| self.lattice.is_striped(*i, j)) {
-            let (mut sum, mut count) = ([0.0_f32; 2], 0.0_f32);
-            let mut add = |edge: Edge, [re, im]: [f32; 2]| {
-                sum = [sum[0] + re, sum[1] + im];
-                count += edge.sign.abs();
-            };
-            if i > 0 {
-                add(right[i - 1], right[i - 1].ahead(row[i - 1]));
-            }
-            if i + 1 < row.len() {
-                add(right[i], right[i].back(row[i + 1]));
-            }
-            if let Some((above, edges)) = above {
-                add(edges[i], edges[i].ahead(above[i]));
-            }
-            if let Some(below) = below {
-                add(down[i], down[i].back(below[i]));
-            }
-            let own = 1.0 - SHARE * count;
-            let [re, im] = row[i];
-            let mut value = [own * re + SHARE * sum[0], own * im + SHARE * sum[1]];
-            if let Some(anchor) = self.anchor {
-                let [re, im] = anchor.get(i, j);
-                value = [value[0] + re, value[1] + im];
-            }
-            *out = if self.is_last { unit(value) } else { value };
-        }
-    }
+/// Small steps of one round: each adds `2 SHARE` to the window's variance.
+fn small_steps(parameters: StripeParameters) -> usize {
+    ((0.5 * parameters.window).powi(2) / f64::from(2.0 * SHARE)).round().max(1.0) as usize
 }

@@ -2,7 +2,7 @@
 
 use super::super::Drawer;
 use super::super::parameters::EngraveParameters;
-use super::families::{Extent, Family};
+use super::families::{Closeness, Extent, FINE, Family};
 use crate::elementary::{Elementary as _, unit_at};
 use crate::geometry::{Millimetres, Point};
 use crate::raster::Raster;
@@ -57,7 +57,9 @@ fn lines_of_a_face_follow_its_directions_at_even_distances() {
         let extent = Extent::of(&surfaces.skin, 0.5, 0).unwrap();
         let pitch = portrait.placement.pixels(Millimetres(PITCH));
         for degrees in [0.0_f64, 60.0, -37.0] {
-            let family = drawer.even_lines(&extent, skin, degrees.to_radians(), &|_, _| 1.0, "test");
+            // As fine as on skin with eyes and a mouth.
+            let even = Closeness { at: &|_, _| 1.0, closest: 1.0 / (1.0 - FINE) };
+            let family = drawer.even_lines(&extent, skin, degrees.to_radians(), even, "test");
             let measures = measured(&family, skin, &portrait.faces[0], pitch, degrees.to_radians());
             let mean = measures.off.iter().sum::<f64>() / measures.off.len() as f64;
             let at = |share: f64| measures.spacing[(share * (measures.spacing.len() - 1) as f64) as usize];

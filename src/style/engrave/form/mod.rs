@@ -28,10 +28,10 @@ use super::Drawer;
 use super::parameters::Look;
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
-use crate::parallel::collected;
+use crate::parallel::{collected, mapped};
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
-use crate::style::form::{Directions, Surface};
+use crate::style::form::{Directions, Surface, Surfaces};
 use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
@@ -57,6 +57,36 @@ const LEAST_SHARE: f32 = 0.02;
 /// The pieces of the three families.
 type Pieces = [Vec<Piece>; 3];
 
+/// A surface with the ink of each of its families, and its hooks.
+struct Ground {
+    surface: Surface,
+    /// 0 to 1.
+    region: Raster<f32>,
+    shares: [Raster<f32>; 3],
+    hooks: Vec<Piece>,
+}
+
+impl Ground {
+    /// The angle from the directions to a family's lines, in radians.
+    fn turn(&self, family: usize) -> f64 {
+        TURNS[family].to_radians() * if self.surface == Surface::Hair { HAIR_TURN } else { 1.0 }
+    }
+
+    /// How much closer its lines stand, where they are finer by `detail`, 0 to 1.
+    fn closeness(&self, detail: f32) -> f32 {
+        let own = if self.surface == Surface::Hair { HAIR_CLOSENESS } else { 1.0 };
+        own / (1.0 - FINE * detail)
+    }
+
+    /// The same where they are finest.
+    fn closest(&self, detail: &Raster<f32>) -> f32 {
+        /// Share of the region from which lines are seen.
+        const SEEN: f32 = 0.3;
+        let seen = self.region.pixels().iter().zip(detail.pixels()).filter(|(share, _)| **share > SEEN);
+        self.closeness(seen.map(|(_, detail)| *detail).fold(0.0, f32::max))
+    }
+}
+
 impl Drawer<'_> {
     /// True if the lines follow the form: a face is known, and nothing asks for lines of another kind.
     pub(super) fn follows_form(&self) -> bool {
@@ -80,60 +110,90 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
         let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair)));
-        let solids = Solids::new(self.portrait, &ink, self.pitch());
-        let (portrait, pitch) = (self.portrait, self.pitch());
-        let solids =
-            solids.with_mouths(portrait, pitch, MOUTH).with_lids(portrait, pitch, LIDS).with_jaws(portrait, pitch, JAW).layer();
         self.check()?;
         self.observer.begin("lines");
+        let grounds = self.grounds(&surfaces, &directions, &ink);
+        self.check()?;
+        // Both at once: solids and contour take one thread.
+        let (of_grounds, [solids, contour]) =
+            rayon::join(|| self.lines_over(&grounds, &directions, &detail), || [self.solids(&ink), self.contour(&ink)]);
         let mut pieces: Pieces = Default::default();
-        let roots = self.roots(&surfaces, directions.of(Surface::Hair));
-        for surface in [Surface::Skin, Surface::Hair, Surface::Cloth] {
-            let (region, mut own) = (roots.region_of(surface, &surfaces), roots.ink_of(surface, &ink));
-            if surface == Surface::Hair {
-                let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
-                pieces[0].extend(self.hooks(&coils, &region, directions.of(surface), &own));
-                own = hooks::beneath(&own, &coils);
-            }
-            let own = self.lines_over(surface, &region, &directions, &detail, &own);
+        for (ground, own) in grounds.into_iter().zip(of_grounds) {
+            pieces[0].extend(ground.hooks);
             pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
-            self.check()?;
         }
+        self.check()?;
         specks::without_specks(&mut pieces, self.pitch());
         self.observer.begin("widths");
         for _ in 0..TONE_ROUNDS {
             self.correct(&mut pieces, &ink);
             self.check()?;
         }
-        Ok(self.form_drawing(&pieces, solids, &ink))
+        Ok(self.form_drawing(&pieces, [solids, contour]))
     }
 
-    /// The pieces of one surface's lines.
-    fn lines_over(
-        &self,
-        surface: Surface,
-        share: &Raster<f32>,
-        directions: &Directions,
-        detail: &Raster<f32>,
-        ink: &Raster<f32>,
-    ) -> Pieces {
-        let turn = |family: usize| TURNS[family].to_radians() * if surface == Surface::Hair { HAIR_TURN } else { 1.0 };
-        let shares = match self.parameters.look {
-            Look::Hatch => [ink.clone(), ink.map(|_| 0.0), ink.map(|_| 0.0)],
-            _ => shares::shares_of(ink, surface, share, self.pitch()),
-        };
-        let families = self.families_over(surface, share, &shares[2], detail, &|family, extent, closeness| {
-            let name = format!("{surface:?} {family}");
-            self.even_lines(extent, directions.of(surface), turn(family), closeness, &name)
+    /// Pupils, nostrils and spectacles, and the lines of mouths, lids and jaws.
+    fn solids(&self, ink: &Raster<f32>) -> Layer {
+        let (portrait, pitch) = (self.portrait, self.pitch());
+        let solids = Solids::new(portrait, ink, pitch).with_mouths(portrait, pitch, MOUTH);
+        solids.with_lids(portrait, pitch, LIDS).with_jaws(portrait, pitch, JAW).layer()
+    }
+
+    /// Skin, hair and cloth.
+    fn grounds(&self, surfaces: &Surfaces, directions: &Directions, ink: &Raster<f32>) -> Vec<Ground> {
+        let roots = self.roots(surfaces, directions.of(Surface::Hair));
+        let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
+        mapped(&[Surface::Skin, Surface::Hair, Surface::Cloth], &|&surface| {
+            let (region, own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
+            let (own, hooks) = match surface {
+                Surface::Hair => (hooks::beneath(&own, &coils), self.hooks(&coils, &region, directions.of(surface), &own)),
+                Surface::Skin | Surface::Cloth => (own, Vec::new()),
+            };
+            let shares = match self.parameters.look {
+                Look::Hatch => [own.clone(), own.map(|_| 0.0), own.map(|_| 0.0)],
+                _ => shares::shares_of(&own, surface, &region, self.pitch()),
+            };
+            Ground { surface, region, shares, hooks }
+        })
+    }
+
+    /// The pieces of the lines on each ground.
+    fn lines_over(&self, grounds: &[Ground], directions: &Directions, detail: &Raster<f32>) -> Vec<Pieces> {
+        // Lines run on a little beyond a ground's border, where they are cut.
+        let room = (ROOM * self.pitch()) as usize;
+        let near = mapped(grounds, &|ground| dilate(&ground.region.map(|share| u8::from(share > LEAST_SHARE)), room));
+        let closest = mapped(grounds, &|ground| ground.closest(detail));
+        // All at once: with three at a time threads wait for the largest.
+        let families = collected(3 * grounds.len(), &|i| {
+            let (ground, family) = (i / 3, i % 3);
+            let at = |x, y| if near[ground].get(x, y) == 0 { 0.0 } else { grounds[ground].closeness(detail.get(x, y)) };
+            self.family(&grounds[ground], family, directions, Closeness { at: &at, closest: closest[ground] })
         });
+        collected(grounds.len(), &|i| self.pieces(&grounds[i], &families[3 * i..3 * i + 3], directions))
+    }
+
+    /// The lines of one family, laid where it has ink; none if that is nowhere.
+    fn family(&self, ground: &Ground, family: usize, directions: &Directions, closeness: Closeness<'_>) -> Option<Family> {
+        let room = (ROOM * self.pitch()) as usize;
+        let extent = match family {
+            2 => Extent::of(&ground.shares[2].zip_map(&ground.region, f32::min), 0.0, room),
+            _ => Extent::of(&ground.region, LEAST_SHARE, room),
+        };
+        let name = format!("{:?} {family}", ground.surface);
+        extent.map(|extent| self.even_lines(&extent, directions.of(ground.surface), ground.turn(family), closeness, &name))
+    }
+
+    /// The pieces of a ground's lines; the second family also breaks the first in the lights.
+    fn pieces(&self, ground: &Ground, families: &[Option<Family>], directions: &Directions) -> Pieces {
         let pieces = |family: usize| {
             let Some(own) = &families[family] else { return Vec::new() };
+            let ink = &ground.shares[family];
             let course = Course {
                 family: own,
-                directions: directions.of(surface),
-                turn: turn(family),
-                ink: &shares[family],
-                region: share,
+                directions: directions.of(ground.surface),
+                turn: ground.turn(family),
+                ink,
+                region: &ground.region,
                 breaks: if family == 0 { families[1].as_ref() } else { None },
                 thinnest: self.parameters.thinnest / self.parameters.pitch,
                 dot_min: self.pixels(self.parameters.dot_min),
@@ -145,29 +205,7 @@ impl Drawer<'_> {
         [pieces(0), pieces(1), pieces(2)]
     }
 
-    /// The families of a surface, each laid where it has ink; the second also breaks the first in the lights.
-    fn families_over(
-        &self,
-        surface: Surface,
-        share: &Raster<f32>,
-        third: &Raster<f32>,
-        detail: &Raster<f32>,
-        lay: &(dyn Fn(usize, &Extent, &Closeness<'_>) -> Family + Sync),
-    ) -> Vec<Option<Family>> {
-        let room = (ROOM * self.pitch()) as usize;
-        // Lines run on a little beyond the surface's border, where they are cut.
-        let near = dilate(&share.map(|share| u8::from(share > LEAST_SHARE)), room);
-        let closer = if surface == Surface::Hair { HAIR_CLOSENESS } else { 1.0 };
-        let closeness = |x: usize, y: usize| if near.get(x, y) == 0 { 0.0 } else { closer / (1.0 - FINE * detail.get(x, y)) };
-        let extents = [
-            Extent::of(share, LEAST_SHARE, room),
-            Extent::of(share, LEAST_SHARE, room),
-            Extent::of(&third.zip_map(share, f32::min), 0.0, room),
-        ];
-        collected(3, &|family| extents[family].as_ref().map(|extent| lay(family, extent, &closeness)))
-    }
-
-    fn form_drawing(&self, pieces: &Pieces, solids: Layer, ink: &Raster<f32>) -> Drawing {
+    fn form_drawing(&self, pieces: &Pieces, own: [Layer; 2]) -> Drawing {
         let names = ["lines", "cross lines", "third lines"];
         let mut layers: Vec<Layer> = Vec::new();
         for (name, pieces) in names.into_iter().zip(pieces) {
@@ -175,8 +213,7 @@ impl Drawer<'_> {
             layer.marks = marks(pieces.iter(), &self.portrait.placement);
             layers.push(layer);
         }
-        layers.push(solids);
-        layers.push(self.contour(ink));
+        layers.extend(own);
         layers.retain(|layer| !layer.marks.is_empty());
         if self.parameters.has_outline {
             layers.push(self.outlines());
