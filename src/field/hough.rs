@@ -116,27 +116,47 @@ impl HoughFilter {
     /// The orientation of the lines around each pixel of `region`, as doubled-angle vectors whose length is the strength of the
     /// response; 0 outside the region and where there is no line. Time grows with the region and with its line pixels.
     pub fn orientations(&self, lines: &Raster<u8>, region: &Raster<u8>) -> OrientationField {
-        let width = lines.width();
-        let mut field = Raster::filled(width, lines.height(), [0.0_f32; 2]);
+        OrientationField::new(self.in_blocks(lines, region, 1))
+    }
+
+    /// As [`HoughFilter::orientations`], once for each two by two pixels: in a quarter of the time, for a field that is smoothed.
+    pub fn half_orientations(&self, lines: &Raster<u8>, region: &Raster<u8>) -> OrientationField {
+        let blocks = self.in_blocks(lines, region, 2);
+        OrientationField::new(Raster::from_fn(region.width(), region.height(), |x, y| {
+            if region.get(x, y) != 0 { blocks.get(x / 2, y / 2) } else { [0.0; 2] }
+        }))
+    }
+
+    /// The orientations at the first pixel of each block of `side` by `side` pixels in which there is any of the region.
+    fn in_blocks(&self, lines: &Raster<u8>, region: &Raster<u8>, side: usize) -> Raster<[f32; 2]> {
+        let (width, height) = (lines.width(), lines.height());
+        let columns = width.div_ceil(side);
+        let mut field = Raster::filled(columns, height.div_ceil(side), [0.0_f32; 2]);
         rows_with(
             field.pixels_mut(),
-            width,
+            columns,
             &|| (self.empty(), vec![0_u8; self.normals.len() * self.cells], vec![0_u32; RANKS]),
-            &|(accumulator, ranks, histogram), y, row| {
-                let wanted = |x: &usize| region.get(*x, y) != 0;
-                let (Some(first), Some(last)) = ((0..width).find(wanted), (0..width).rfind(wanted)) else { return };
-                self.fill(accumulator, lines, first, y);
-                for (x, vector) in row.iter_mut().enumerate().take(last + 1).skip(first) {
-                    if x > first {
-                        self.slide(accumulator, lines, x, y);
+            &|(accumulator, ranks, histogram), j, row| {
+                let y = side * j;
+                let wanted = |i: usize| {
+                    let mut rows = y..(y + side).min(height);
+                    rows.any(|y| region.row(y)[side * i..(side * i + side).min(width)].iter().any(|v| *v != 0))
+                };
+                let (Some(first), Some(last)) = ((0..columns).find(|i| wanted(*i)), (0..columns).rfind(|i| wanted(*i))) else {
+                    return;
+                };
+                self.fill(accumulator, lines, side * first, y);
+                for (i, vector) in row.iter_mut().enumerate().take(last + 1).skip(first) {
+                    if i > first {
+                        (side * (i - 1) + 1..=side * i).for_each(|x| self.slide(accumulator, lines, x, y));
                     }
-                    if wanted(&x) && accumulator.points > 1 {
-                        *vector = self.response(accumulator, x, y, ranks, histogram);
+                    if wanted(i) && accumulator.points > 1 {
+                        *vector = self.response(accumulator, side * i, y, ranks, histogram);
                     }
                 }
             },
         );
-        OrientationField::new(field)
+        field
     }
 
     /// The counts of the window around a pixel, angle by angle, as held by a window that slid there along its row.
@@ -297,6 +317,18 @@ mod tests {
             let form = if thesis { HoughForm::Thesis } else { HoughForm::Round };
             let filter = HoughFilter::new(form, 7, 24);
             prop_assert_eq!(filter.counts(&lines, x, y), plain_counts(&filter, &lines, x, y));
+        }
+    }
+
+    #[test]
+    fn half_orientations_are_those_of_every_other_pixel() {
+        let lines = crate::raster::paper_texture(51, 41, 3.0, 7).map(|v| u8::from(v > 0.7));
+        let region = Raster::from_fn(51, 41, |x, y| u8::from(x > 4 && (y > 9 || x > 30)));
+        let filter = HoughFilter::new(HoughForm::Round, 7, 24);
+        let (all, half) = (filter.orientations(&lines, &lines.map(|_| 1)), filter.half_orientations(&lines, &region));
+        for (x, y) in (0..41).flat_map(|y| (0..51).map(move |x| (x, y))) {
+            let expected = if region.get(x, y) == 1 { all.doubled().get(x & !1, y & !1) } else { [0.0; 2] };
+            assert_eq!(half.doubled().get(x, y), expected, "{x} {y}");
         }
     }
 

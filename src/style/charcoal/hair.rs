@@ -117,7 +117,7 @@ impl Drawer<'_> {
         let lines = if lines.pixels().iter().any(|v| *v != 0) { lines } else { all };
         self.observer.picture("hair-lines", &|| Picture::Mask(lines.clone()));
         let radius = (self.pixels(self.parameters.hough_radius).round() as usize).max(2);
-        let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).orientations(&lines, &region);
+        let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).half_orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
         let smoothed = raw.smoothed(self.smoothing());
         let found = match strands {
