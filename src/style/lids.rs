@@ -27,6 +27,9 @@ const INSIDE: f32 = 0.4;
 /// The price of a bend by one row, and of a line at the farthest row.
 const BEND: f32 = 0.006;
 const AWAY: f32 = 0.06;
+/// The openness from which lines have their whole width, and the least share of it: wide lines would close a narrow eye (04, 05, 14).
+const OPEN: f64 = 0.3;
+const NARROW: f64 = 0.5;
 /// Share of a line at each end over which it tapers.
 const TAPER: f64 = 0.22;
 /// How far beyond the lids and within the eye lines that were found give way, in widths of the eye.
@@ -47,11 +50,13 @@ struct Lid {
     faintest: f64,
 }
 
-const UPPER: Lid = Lid { beyond: 0.05, inside: 0.06, widest: 0.055, full: 0.22, least: 0.5, faintest: 0.02 };
+const UPPER: Lid = Lid { beyond: 0.05, inside: 0.03, widest: 0.055, full: 0.22, least: 0.5, faintest: 0.02 };
 const LOWER: Lid = Lid { beyond: 0.05, inside: 0.03, widest: 0.022, full: 0.2, least: 0.4, faintest: 0.035 };
 
 /// The lids of a portrait.
 pub(super) struct Lids {
+    /// Width of the widest eye.
+    pub width: f64,
     regions: Vec<Region>,
     lines: Vec<CoherentLine>,
 }
@@ -62,8 +67,9 @@ impl Lids {
         let eyes = portrait.faces.iter().flat_map(|face| {
             [&outlines::RIGHT_EYE, &outlines::LEFT_EYE].into_iter().filter_map(|outline| Eye::of(face, outline))
         });
-        let mut lids = Self { regions: Vec::new(), lines: Vec::new() };
+        let mut lids = Self { width: 0.0, regions: Vec::new(), lines: Vec::new() };
         for eye in eyes.filter(|eye| eye.width >= LEAST_WIDTH * pitch) {
+            lids.width = lids.width.max(eye.width);
             lids.regions.extend(eye.lids());
             lids.lines.extend(eye.lines(portrait));
         }
@@ -125,6 +131,12 @@ impl Eye {
         [band(&self.upper, self.up), band(&self.lower, -self.up)]
     }
 
+    /// Greatest height of the opening over its width.
+    fn openness(&self) -> f64 {
+        let heights = self.upper.iter().zip(&self.lower).map(|(upper, lower)| (*upper - *lower).dot(self.up));
+        heights.fold(0.0, f64::max) / self.width
+    }
+
     fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
         let Some(light) = Light::around(self, &portrait.lightness) else { return Vec::new() };
         let covers = [MaskRole::Hair, MaskRole::Headwear].map(|role| portrait.masks.get(&role));
@@ -150,8 +162,8 @@ impl Eye {
         let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
         let found: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(values.get(*row, column))).collect();
         let found = averaged(&found);
-        let widths: Vec<f64> =
-            found.iter().map(|contrast| lid.widest * self.width * (contrast / lid.full).clamp(lid.least, 1.0)).collect();
+        let widest = lid.widest * self.width * (self.openness() / OPEN).clamp(NARROW, 1.0);
+        let widths: Vec<f64> = found.iter().map(|contrast| widest * (contrast / lid.full).clamp(lid.least, 1.0)).collect();
         let line = smoothed(&points, &widths);
         let last = line.curve.points.len() - 1;
         let is_seen = |i: usize| found[i * (COLUMNS - 1) / last.max(1)] > lid.faintest;
@@ -245,7 +257,7 @@ mod tests {
 
     #[test]
     fn crumbs_of_lashes_go_and_the_lines_of_an_iris_stay() {
-        let lids = Lids { regions: eye().lids().into(), lines: Vec::new() };
+        let lids = Lids { width: 60.0, regions: eye().lids().into(), lines: Vec::new() };
         let line = |from: (f64, f64), to: (f64, f64)| {
             let points: Vec<Point> = (0..=10).map(|i| Point::from(from).lerp(Point::from(to), f64::from(i) / 10.0)).collect();
             CoherentLine::plain(Curve { points, closed: false }, 1.0)

@@ -31,6 +31,9 @@ const LINE_LENGTH: f32 = 3.0;
 /// Coherent lines shorter than this, in pitches, are specks; an eyelid is three long.
 const LEAST_LINE: f64 = 2.0;
 
+/// Length from which what lids leave of a line is kept, in widths of an eye: shorter are crow's feet and bags, as wires (12).
+const BEYOND_LIDS: f64 = 1.5;
+
 impl Drawer<'_> {
     pub(super) fn features(&self) -> Features {
         self.observer.begin("edges");
@@ -83,7 +86,7 @@ impl Drawer<'_> {
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lids = Lids::of(self.portrait, self.pitch());
-        let lines = lids.cut_from(&lines, least);
+        let lines = lids.cut_from(&lines, least.max(BEYOND_LIDS * lids.width));
         let steering = self.pixels(self.parameters.edge_length);
         let steers = lines.iter().map(|line| &line.curve).cloned().chain(lids.curves());
         let long = steers.filter(|curve| curve.length() >= steering).collect();
