@@ -226,7 +226,7 @@ mod tests {
             let (across, y) = ((x as f64 + 0.5 - 50.0) / 60.0, y as f64 + 0.5);
             let lid = 58.0 - 40.0 * across * (1.0 - across);
             let is_lash = (0.0..1.0).contains(&across) && (y - lid).abs() < 1.0;
-            let is_iris = (x as f64 + 0.5 - 80.0).hypot(y - 58.0) < 6.0;
+            let is_iris = Point::new(x as f64 + 0.5, y).distance(Point::new(80.0, 58.0)) < 6.0;
             if is_lash || is_iris { 0.7 - depth } else { 0.7 }
         })
     }

@@ -34,6 +34,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
         let capped =
             |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line.clone() };
         let longest = features.drawn.iter().filter(|line| is_outline(&line.curve)).flat_map(|line| creases.cut_from(line));
+        let longest = longest.flat_map(|line| silhouette.keeps(&line, least));
         let longest = longest.flat_map(|line| silhouette.without_hair(&line, parts, least));
         let strokes =
             longest.filter_map(|line| feature_stroke(&silhouette.holds(capped(&line)), &drawer.portrait.placement, taper));

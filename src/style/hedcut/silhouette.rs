@@ -16,6 +16,8 @@ const DEEPEST: f64 = 1.1;
 const SLOPES: [f64; 2] = [0.1, 0.3];
 /// Share of a line along the silhouette from which it is that.
 const MOSTLY: f64 = 0.6;
+/// Values of the blur between which a place is on the silhouette.
+const NEAR: [f32; 2] = [0.1, 0.9];
 /// What stays free between a line and the silhouette, in pixels.
 const FREE: f64 = 0.6;
 
@@ -26,6 +28,11 @@ pub(super) struct Silhouette {
 impl Silhouette {
     pub(super) fn of(portrait: &Portrait) -> Self {
         Self { blurred: gaussian_blur(&portrait.subject.map(|v| f32::from(u8::from(v >= 0.5))), BLUR) }
+    }
+
+    /// The parts of a line, in working pixels, that do not run outside: where the subject's border is soft, a line may be found beyond it.
+    pub(super) fn keeps(&self, line: &CoherentLine, least: f64) -> Vec<CoherentLine> {
+        line.parts_where(|p| self.blurred.sample(p.x, p.y) >= NEAR[0], least)
     }
 
     /// The parts of a line, in working pixels, that do not run along the border of hair; a line that only ends there stays whole.
@@ -49,7 +56,7 @@ impl Silhouette {
 
     /// True for a place on the silhouette.
     fn is_near(&self, p: Point) -> bool {
-        (0.1..=0.9).contains(&self.blurred.sample(p.x, p.y))
+        (NEAR[0]..=NEAR[1]).contains(&self.blurred.sample(p.x, p.y))
     }
 
     /// A line, in working pixels, moved inwards where it would reach over the silhouette.
@@ -79,6 +86,18 @@ impl Silhouette {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_beyond_the_border_goes_and_one_on_it_stays() {
+        let subject = Raster::from_fn(60, 40, |x, _| f32::from(u8::from(x < 30)));
+        let silhouette = Silhouette { blurred: gaussian_blur(&subject, BLUR) };
+        let line = |x: f64| {
+            let points = (0..30).map(|y| Point::new(x, 5.0 + f64::from(y))).collect();
+            CoherentLine::plain(crate::field::Curve { points, closed: false }, 1.0)
+        };
+        assert!(silhouette.keeps(&line(40.0), 5.0).is_empty());
+        assert_eq!(silhouette.keeps(&line(30.0), 5.0).len(), 1);
+    }
 
     #[test]
     fn a_line_on_a_straight_border_moves_inside_and_one_far_from_it_stays() {
