@@ -21,23 +21,33 @@ pub(crate) fn covered<'a>(marks: impl IntoIterator<Item = &'a Mark>, placement: 
 pub(super) fn darkened<'a>(marks: impl IntoIterator<Item = (&'a Mark, f32)>, placement: &Placement) -> Raster<f32> {
     /// Fine rows that one thread covers at a time, in the order of the marks.
     const BAND: usize = 64;
+    /// Marks whose shapes are held at a time.
+    const HELD: usize = 20_000;
     let marks: Vec<(&Mark, f32)> = marks.into_iter().collect();
     let (columns, rows) = (FINER * placement.columns, FINER * placement.rows);
-    let shapes = mapped(&marks, &|(mark, _)| Shape::of(mark, placement));
     let mut fine = Raster::filled(columns, rows, 0.0_f32);
-    shares(fine.pixels_mut(), BAND * columns, &|band, pixels| {
-        let mut band = Band { first: BAND * band, columns, pixels };
-        shapes.iter().zip(&marks).for_each(|(shape, (_, ink))| band.cover(shape, *ink));
-    });
+    for marks in marks.chunks(HELD) {
+        let shapes = mapped(marks, &|(mark, _)| Shape::of(mark, placement));
+        shares(fine.pixels_mut(), BAND * columns, &|band, pixels| {
+            let mut band = Band { first: BAND * band, columns, pixels };
+            shapes.iter().zip(marks).for_each(|(shape, (_, ink))| band.cover(shape, *ink));
+        });
+    }
     reduce(&fine, FINER)
 }
 
 /// What a mark covers of the fine grid.
 enum Shape {
-    /// Discs along a stroke, or one: their middles in fine pixels and radii; and the rows that they reach.
-    Discs(Vec<(Point, f64)>, Range<f64>),
+    /// Discs along a stroke, or one.
+    Discs(Vec<Discs>),
     /// Runs of pixels: row and columns.
     Runs(Vec<(usize, Range<usize>)>),
+}
+
+/// Some neighbouring discs: x, y and radius in fine pixels; and the rows that they reach.
+struct Discs {
+    discs: Vec<[f32; 3]>,
+    rows: Range<f64>,
 }
 
 impl Shape {
@@ -46,20 +56,24 @@ impl Shape {
         match mark {
             Mark::Stroke(stroke) => {
                 let (points, widths) = stroke.sampled(1.0 / scale);
-                Self::discs(points.iter().zip(widths).map(|(p, width)| (on_fine(placement, *p), 0.5 * width * scale)).collect())
+                let discs = points.iter().zip(widths).map(|(p, width)| (on_fine(placement, *p), 0.5 * width * scale));
+                Self::discs(&discs.collect::<Vec<_>>())
             }
-            Mark::Dot(Dot { centre, radius, outline: None, .. }) => {
-                Self::discs(vec![(on_fine(placement, *centre), radius * scale)])
-            }
+            Mark::Dot(Dot { centre, radius, outline: None, .. }) => Self::discs(&[(on_fine(placement, *centre), radius * scale)]),
             Mark::Dot(dot) => Self::runs(&dot.path(), placement),
             Mark::Area(area) => Self::runs(&area.outline, placement),
         }
     }
 
-    fn discs(discs: Vec<(Point, f64)>) -> Self {
-        let ends = |(from, to): (f64, f64), (p, radius): &(Point, f64)| (from.min(p.y - radius), to.max(p.y + radius));
-        let (from, to) = discs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
-        Self::Discs(discs, from..to)
+    fn discs(discs: &[(Point, f64)]) -> Self {
+        /// Discs that share their rows: a long line reaches into many bands.
+        const TOGETHER: usize = 32;
+        let some = |discs: &[(Point, f64)]| {
+            let ends = |(from, to): (f64, f64), (p, radius): &(Point, f64)| (from.min(p.y - radius), to.max(p.y + radius));
+            let (from, to) = discs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+            Discs { discs: discs.iter().map(|(p, radius)| [p.x as f32, p.y as f32, *radius as f32]).collect(), rows: from..to }
+        };
+        Self::Discs(discs.chunks(TOGETHER).map(some).collect())
     }
 
     fn runs(outline: &BezPath, placement: &Placement) -> Self {
@@ -91,10 +105,11 @@ impl Band<'_> {
 
     fn cover(&mut self, shape: &Shape, ink: f32) {
         match shape {
-            Shape::Discs(discs, rows) if rows.end >= self.first as f64 && rows.start <= self.end() as f64 => {
-                discs.iter().for_each(|(centre, radius)| self.cover_disc(*centre, *radius, ink));
+            Shape::Discs(all) => {
+                let (first, end) = (self.first as f64 - 1.0, self.end() as f64 + 1.0);
+                let near = all.iter().filter(|discs| discs.rows.end >= first && discs.rows.start <= end);
+                near.flat_map(|discs| &discs.discs).for_each(|disc| self.cover_disc(disc.map(f64::from), ink));
             }
-            Shape::Discs(..) => {}
             Shape::Runs(runs) => {
                 let first = runs.partition_point(|(row, _)| *row < self.first);
                 let end = self.end();
@@ -106,8 +121,8 @@ impl Band<'_> {
         }
     }
 
-    fn cover_disc(&mut self, centre: Point, radius: f64, ink: f32) {
-        let (x, y) = (centre.x - 0.5, centre.y - 0.5);
+    fn cover_disc(&mut self, [x, y, radius]: [f64; 3], ink: f32) {
+        let (x, y) = (x - 0.5, y - 0.5);
         let from = (y - radius).ceil().max(self.first as f64) as usize;
         let end = ((y + radius).floor() + 1.0).clamp(0.0, self.end() as f64) as usize;
         for row in from..end {

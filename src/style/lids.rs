@@ -24,7 +24,7 @@ const BLUR: f64 = 0.012;
 const BESIDE: f64 = 0.07;
 /// How much the inside of the eye counts against the skin: an iris is as dark as the lashes.
 const INSIDE: f32 = 0.4;
-/// The price of a bend by one row, and of a line at the farthest row.
+/// The price of a bend by one row, and of a line off the lid by all rows.
 const BEND: f32 = 0.006;
 const AWAY: f32 = 0.06;
 /// The openness from which lines have their whole width, and the least share of it: wide lines would close a narrow eye (04, 05, 14).
@@ -55,23 +55,30 @@ const LOWER: Lid = Lid { beyond: 0.05, inside: 0.03, widest: 0.022, full: 0.2, l
 
 /// The lids of a portrait.
 pub(super) struct Lids {
-    /// Width of the widest eye.
-    pub width: f64,
     regions: Vec<Region>,
+    /// Width of the eye of each region.
+    widths: Vec<f64>,
     lines: Vec<CoherentLine>,
 }
 
 impl Lids {
+    /// No lids.
+    pub(super) const fn none() -> Self {
+        Self { regions: Vec::new(), widths: Vec::new(), lines: Vec::new() }
+    }
+
     /// Of the faces that were found, in working pixels; `pitch` in these.
     pub(super) fn of(portrait: &Portrait, pitch: f64) -> Self {
         let eyes = portrait.faces.iter().flat_map(|face| {
             [&outlines::RIGHT_EYE, &outlines::LEFT_EYE].into_iter().filter_map(|outline| Eye::of(face, outline))
         });
-        let mut lids = Self { width: 0.0, regions: Vec::new(), lines: Vec::new() };
+        let mut lids = Self::none();
         for eye in eyes.filter(|eye| eye.width >= LEAST_WIDTH * pitch) {
-            lids.width = lids.width.max(eye.width);
-            lids.regions.extend(eye.lids());
-            lids.lines.extend(eye.lines(portrait));
+            for (region, lines) in eye.lids().into_iter().zip(eye.lines(portrait)).filter(|(_, lines)| !lines.is_empty()) {
+                lids.regions.push(region);
+                lids.widths.push(eye.width);
+                lids.lines.extend(lines);
+            }
         }
         lids
     }
@@ -90,13 +97,18 @@ impl Lids {
 
     /// Lines that were found, with the lids' own in place of those on the lids.
     pub(super) fn redrawn(&self, found: &[CoherentLine], least: f64) -> Vec<CoherentLine> {
-        self.cut_from(found, least).into_iter().chain(self.lines.iter().cloned()).collect()
+        self.cut_from(found, |_| least).into_iter().chain(self.lines.iter().cloned()).collect()
     }
 
-    /// Lines that were found, without what lies on the lids; what is left of one is at least `least` long.
-    pub(super) fn cut_from(&self, found: &[CoherentLine], least: f64) -> Vec<CoherentLine> {
-        let is_outside = |p: &Point| !self.regions.iter().any(|eye| eye.contains(*p));
-        found.iter().flat_map(|line| line.parts_where(is_outside, least)).collect()
+    /// Lines that were found, without what lies on the lids; what is left of one is at least as long as asked for an eye of that width.
+    pub(super) fn cut_from(&self, found: &[CoherentLine], least: impl Fn(f64) -> f64) -> Vec<CoherentLine> {
+        let cut = |line: &CoherentLine| {
+            let holds = |region: &Region| line.curve.points.iter().any(|p| region.contains(*p));
+            let on: Vec<usize> = (0..self.regions.len()).filter(|i| holds(&self.regions[*i])).collect();
+            let width = on.iter().map(|i| self.widths[*i]).fold(0.0, f64::max);
+            line.parts_where(|p| !on.iter().any(|i| self.regions[*i].contains(*p)), least(width))
+        };
+        found.iter().flat_map(cut).collect()
     }
 }
 
@@ -122,7 +134,7 @@ impl Eye {
         Some(Self { width, upper: even(&upper)?, lower: even(&lower)?, up })
     }
 
-    /// The lids: the iris between them keeps its lines.
+    /// The upper lid and the lower: an iris that is open keeps its lines.
     fn lids(&self) -> [Region; 2] {
         let band = |lid: &[Point], out: Vec2| {
             let beyond = lid.iter().map(|p| *p + out * (BEYOND * self.width));
@@ -137,12 +149,13 @@ impl Eye {
         heights.fold(0.0, f64::max) / self.width
     }
 
-    fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
-        let Some(light) = Light::around(self, &portrait.lightness) else { return Vec::new() };
+    /// The lines of the upper lid and of the lower.
+    fn lines(&self, portrait: &Portrait) -> [Vec<CoherentLine>; 2] {
+        let Some(light) = Light::around(self, &portrait.lightness) else { return Default::default() };
         let covers = [MaskRole::Hair, MaskRole::Headwear].map(|role| portrait.masks.get(&role));
         let is_bare = |p: &Point| !covers.iter().flatten().any(|mask| mask.sample(p.x, p.y) > COVERED);
         let lids = [(&self.upper, self.up, UPPER), (&self.lower, -self.up, LOWER)];
-        lids.into_iter().flat_map(|(points, out, lid)| self.lid(&light, points, out, &lid, &is_bare)).collect()
+        lids.map(|(points, out, lid)| self.lid(&light, points, out, &lid, &is_bare))
     }
 
     /// The line of one lid, in its parts; `out` points away from the eye.
@@ -257,12 +270,12 @@ mod tests {
 
     #[test]
     fn crumbs_of_lashes_go_and_the_lines_of_an_iris_stay() {
-        let lids = Lids { width: 60.0, regions: eye().lids().into(), lines: Vec::new() };
+        let lids = Lids { regions: eye().lids().into(), widths: vec![60.0; 2], lines: Vec::new() };
         let line = |from: (f64, f64), to: (f64, f64)| {
             let points: Vec<Point> = (0..=10).map(|i| Point::from(from).lerp(Point::from(to), f64::from(i) / 10.0)).collect();
             CoherentLine::plain(Curve { points, closed: false }, 1.0)
         };
-        let kept = lids.cut_from(&[line((70.0, 51.0), (90.0, 51.0)), line((76.0, 58.0), (76.0, 62.0))], 5.0);
+        let kept = lids.cut_from(&[line((70.0, 51.0), (90.0, 51.0)), line((76.0, 58.0), (76.0, 62.0))], |_| 5.0);
         assert_eq!(kept.len(), 1);
         assert_eq!(kept[0].curve.points[0], Point::new(76.0, 58.0));
     }

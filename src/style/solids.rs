@@ -1,4 +1,4 @@
-//! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, the line between the lips, frames of spectacles.
+//! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, lines of lips, lids and jaw, frames of spectacles.
 
 use super::jaw::Jaws;
 use super::lids::Lids;
@@ -58,7 +58,7 @@ pub(super) fn inside_outlines(faces: &[Landmarks], of: [&[usize]; 2], (columns, 
 pub(super) struct Solids {
     /// On the page; empty without faces.
     pub outline: BezPath,
-    /// Frames of spectacles that were found as lines, and lines of mouths.
+    /// Frames of spectacles that were found as lines, and lines of mouths, lids and jaws.
     pub lines: Vec<Mark>,
 }
 

@@ -45,29 +45,28 @@ impl Edges {
             });
             plane
         };
-        let mut edges = Self { width, height, right: plane(1, 0), down: plane(0, 1), own: vec![1.0; wide * (height + 2)] };
-        edges.count_neighbours();
-        edges
-    }
-
-    fn count_neighbours(&mut self) {
-        let (wide, width) = (self.width + 2, self.width);
-        let is_edge = |row: &[f32], i: usize| f32::from(u8::from(row[i] != 0.0 || row[wide + i] != 0.0));
-        for j in 1..=self.height {
-            let rows = |plane: &'_ [f32], j: usize| plane[PARTS * wide * j..PARTS * wide * (j + 1)].to_vec();
-            let (right, down, above) = (rows(&self.right, j), rows(&self.down, j), rows(&self.down, j - 1));
-            for i in 1..=width {
-                let count = is_edge(&right, i - 1) + is_edge(&right, i) + is_edge(&above, i) + is_edge(&down, i);
-                self.own[wide * j + i] = 1.0 - SHARE * count;
+        let (right, down) = (plane(1, 0), plane(0, 1));
+        let mut own = vec![1.0; wide * (height + 2)];
+        shares(&mut own[wide..wide * (height + 1)], wide, &|j, row| {
+            let at = |plane: &[f32], j: usize, i: usize| is_edge(&plane[PARTS * wide * j..], wide, i);
+            for (i, own) in row.iter_mut().enumerate().take(width + 1).skip(1) {
+                let sides = [at(&right, j + 1, i - 1), at(&right, j + 1, i), at(&down, j, i), at(&down, j + 1, i)];
+                *own = 1.0 - SHARE * sides.into_iter().filter(|is| *is).count() as f32;
             }
-        }
+        });
+        Self { width, height, right, down, own }
     }
 
-    /// The part `k` of the edges that begin in a row with its border, for `count` nodes from `first` on.
+    /// The part `k` of the edges that begin in a row with its border, for its nodes from `first` on.
     fn part<'a>(&self, plane: &'a [f32], j: usize, k: usize, first: usize) -> &'a [f32] {
         let wide = self.width + 2;
         &plane[(PARTS * j + k) * wide + first..][..self.width]
     }
+}
+
+/// True if there is an edge: its cosine and sine, the first two parts, are not both 0.
+fn is_edge(row: &[f32], wide: usize, i: usize) -> bool {
+    row[i] != 0.0 || row[wide + i] != 0.0
 }
 
 /// Phases after so many rounds of small steps towards the four neighbours' predictions; each round ends by normalising every phase to

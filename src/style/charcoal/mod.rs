@@ -98,8 +98,12 @@ struct ForPens {
 
 type Drawer<'a> = super::Drawer<'a, CharcoalParameters>;
 
-/// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch.
-pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Raster<f32>) -> Result<Vec<Mark>, StyleError> {
+/// The strokes of hair inside a region, 0 to 1, for a style of another kind at its pitch, with a least ink.
+pub(super) fn hair_strokes(
+    drawer: &super::Drawer<'_, impl Pitched>,
+    hair: &Raster<f32>,
+    least: &Raster<f32>,
+) -> Result<Vec<Mark>, StyleError> {
     /// Strands to a pitch of the dots around them: at 1 locks, braids and earrings are lost in wide strands, below 0.6 hair is grey
     /// (portraits 03, 13 and 15).
     const FINER: f64 = 0.65;
@@ -109,7 +113,7 @@ pub(super) fn hair_strokes(drawer: &super::Drawer<'_, impl Pitched>, hair: &Rast
     let mut strands = CharcoalParameters::new(&CARD.settings_at(drawer.parameters.pitch(), &[])?);
     strands.hair_length = LENGTH * strands.hair_length;
     strands.hair_smoothing = SMOOTH * strands.hair_smoothing;
-    Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Fine(FINER)))
+    Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Fine(FINER), Some(least)))
 }
 
 /// Strokes along a field that make the ink inside a region, for a style of another kind at its pitch.
@@ -136,7 +140,7 @@ impl Drawer<'_> {
         let shared = self.portrait.prepared.get::<ForPens>().map(|shared| shared.regions.clone());
         let regions = &*shared.unwrap_or_else(|| Arc::new(self.new_regions()));
         self.check()?;
-        let hair = self.hair(&regions.hair, HAIR_SHARE, Strands::Curled);
+        let hair = self.hair(&regions.hair, HAIR_SHARE, Strands::Curled, None);
         self.check()?;
         let features = self.features(regions);
         self.check()?;

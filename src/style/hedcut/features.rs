@@ -2,6 +2,7 @@
 
 use super::Drawer;
 use super::parameters::Lines;
+use super::parts::Parts;
 use crate::field::{
     CoherentLine, Curve, EdgeParameters, LineParameters, coherent_lines, detect_edges, detect_isophotes, distance_to_curves,
     edge_tangent_flow, flow_lines, lines_of,
@@ -35,13 +36,13 @@ const LEAST_LINE: f64 = 2.0;
 const BEYOND_LIDS: f64 = 1.5;
 
 impl Drawer<'_> {
-    pub(super) fn features(&self) -> Features {
+    pub(super) fn features(&self, parts: &Parts) -> Features {
         self.observer.begin("edges");
         // The background is removed first, so that the silhouette is an edge and nothing beyond it is.
         let lightness = self.portrait.on_white(&self.portrait.lightness);
         let (edges, drawn) = match self.portrait.masks.get(&MaskRole::Edges) {
             Some(mask) => (self.hand_made(mask, self.parameters.smoothing), Vec::new()),
-            None if self.parameters.lines == Lines::Coherent => self.coherent_edges(&lightness),
+            None if self.parameters.lines == Lines::Coherent => self.coherent_edges(&lightness, parts),
             None => (self.with_silhouette(self.found_edges(&lightness)), Vec::new()),
         };
         self.observer.begin("isophotes");
@@ -54,6 +55,16 @@ impl Drawer<'_> {
         };
         self.observer.picture("features", &|| Picture::Drawing(Box::new(self.line_drawing(&edges, &isophotes))));
         Features { edges, drawn, isophotes, smoothed }
+    }
+
+    /// True if lids are lines of their own: where all is dots, they are found lines as others.
+    pub(super) fn has_lids(&self, parts: &Parts) -> bool {
+        !parts.is_empty() && self.parameters.has_outline && self.has_coherent_lines()
+    }
+
+    /// True if edges are coherent lines, not Canny's and not drawn by hand.
+    pub(super) fn has_coherent_lines(&self) -> bool {
+        self.parameters.lines == Lines::Coherent && !self.portrait.masks.contains_key(&MaskRole::Edges)
     }
 
     fn found_edges(&self, lightness: &Raster<f32>) -> Vec<Curve> {
@@ -74,7 +85,7 @@ impl Drawer<'_> {
 
     /// Coherent lines instead of Canny's edges (suggested in Bruehl 2023, section 4.3.1): the lines long enough to steer, and all lines,
     /// of which the outline takes the longest.
-    fn coherent_edges(&self, lightness: &Raster<f32>) -> (Vec<Curve>, Vec<CoherentLine>) {
+    fn coherent_edges(&self, lightness: &Raster<f32>, parts: &Parts) -> (Vec<Curve>, Vec<CoherentLine>) {
         let width = self.pixels(self.parameters.line_width) as f32;
         let flow = edge_tangent_flow(lightness, FLOW_RADIUS, FLOW_ROUNDS);
         let parameters = LineParameters { width, length: LINE_LENGTH * width, contrast: 0.99, threshold: 0.5, rounds: 2 };
@@ -85,8 +96,8 @@ impl Drawer<'_> {
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
-        let lids = Lids::of(self.portrait, self.pitch());
-        let lines = lids.cut_from(&lines, least.max(BEYOND_LIDS * lids.width));
+        let lids = if self.has_lids(parts) { Lids::of(self.portrait, self.pitch()) } else { Lids::none() };
+        let lines = lids.cut_from(&lines, |eye| least.max(BEYOND_LIDS * eye));
         let steering = self.pixels(self.parameters.edge_length);
         let steers = lines.iter().map(|line| &line.curve).cloned().chain(lids.curves());
         let long = steers.filter(|curve| curve.length() >= steering).collect();

@@ -27,6 +27,8 @@ use std::borrow::Cow;
 
 /// Tolerance of solid shapes in millimetres.
 const SOLID_TOLERANCE: f64 = 0.01;
+/// Width of outlines in pitches with which lids have their own.
+const OUTLINE: f64 = 0.4;
 /// Ink below which a place in a feature is a light.
 const LIGHT: f32 = 0.06;
 
@@ -69,7 +71,14 @@ impl Drawer<'_> {
         }
         let rest = self.without(&parts);
         let ink = self.portrait.ink();
-        let solids = Solids::new(self.portrait, &ink, self.pitch()).with_lids(self.portrait, self.pitch(), 1.0);
+        let mut solids = Solids::new(self.portrait, &ink, self.pitch());
+        if self.has_lids(&parts) {
+            solids = solids.with_lids(
+                self.portrait,
+                self.pitch(),
+                self.parameters.outline_width.0 / (OUTLINE * self.parameters.pitch.0),
+            );
+        }
         let mut drawing = match self.on(&rest).dots(&parts) {
             // All of it lies in the other parts.
             Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => {
@@ -98,7 +107,7 @@ impl Drawer<'_> {
                 "the picture, or the part inside the subject mask, is white all over".to_owned(),
             ));
         }
-        let features = self.features();
+        let features = self.features(parts);
         let lanes = self.lanes(&features);
         let sites = seeds::relaxed_seeds(self, &lanes)?;
         let ink = highlights::fade_ink(self, &ink, &features);

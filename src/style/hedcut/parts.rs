@@ -9,7 +9,7 @@
 
 use super::Drawer;
 use super::parameters::PartsRule;
-use super::rim::with_rim;
+use super::rim::rim;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::OrientationField;
 use crate::geometry::Point;
@@ -50,18 +50,19 @@ impl Drawer<'_> {
             given.reduce(|a, b| a.zip_map(&b, f32::max))
         };
         let hair = union([MaskRole::Hair, MaskRole::FacialHair]).and_then(|hair| self.part(&hair));
-        let beside_hair = |cloth: &Raster<f32>| match &hair {
+        let without_hair = |cloth: &Raster<f32>| match &hair {
             Some(hair) => cloth.zip_map(hair, |cloth, hair| cloth.min(1.0 - hair)),
             None => cloth.clone(),
         };
-        let [clothing, headwear] = [MaskRole::Clothing, MaskRole::Headwear].map(|role| masks.get(&role).map(beside_hair));
+        let [clothing, headwear] = [MaskRole::Clothing, MaskRole::Headwear].map(|role| masks.get(&role).map(without_hair));
         let headwear = match (&clothing, headwear) {
             (Some(clothing), Some(headwear)) => Some(headwear.zip_map(clothing, |hat, cloth| hat.min(1.0 - cloth))),
             (_, headwear) => headwear,
         };
         let cloths: Vec<_> = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
         let brows = self.brows(hair.as_ref());
-        let beside_hair = masks.get(&MaskRole::Hair).map(|hair| self.beside(hair));
+        let drawn = masks.get(&MaskRole::Hair).filter(|own| hair.is_some() && self.part(own).is_some());
+        let beside_hair = drawn.map(|hair| self.beside(hair));
         let wisps = hair.as_ref().map(|hair| self.wisps(hair, &cloths));
         Parts { hair, beside_hair, wisps, brows, cloths }
     }
@@ -130,10 +131,12 @@ impl Drawer<'_> {
     /// Hair in strokes.
     pub(super) fn hair_layer(&self, parts: &Parts) -> Result<Option<Layer>, StyleError> {
         let mut marks = Vec::new();
-        if let Some((hair, mut portrait, _)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) {
-            portrait.tone = with_rim(&self.with_locks(&portrait.tone, &hair), &portrait.subject, self.pitch());
-            let drawer = self.on(&portrait);
-            marks = drawer.toned(charcoal::hair_strokes(&drawer, &hair)?, &hair)?;
+        if let Some((hair, mut portrait, at)) = parts.hair.as_ref().and_then(|hair| self.boxed(hair)) {
+            portrait.tone = self.with_locks(&portrait.tone, &hair);
+            let rim = self.rim_of(parts, &portrait.subject, &at);
+            let strokes = charcoal::hair_strokes(&self.on(&portrait), &hair, &rim)?;
+            portrait.tone = portrait.tone.zip_map(&rim, |tone, rim| tone.min(1.0 - rim));
+            marks = self.on(&portrait).toned(strokes, &hair)?;
         }
         if let Some(brows) = &parts.brows
             && let Some((region, mut portrait, [columns, rows])) = self.boxed(&brows.region)
@@ -144,6 +147,16 @@ impl Drawer<'_> {
             marks.extend(drawer.toned(charcoal::strokes_along(&drawer, &hairs, &region, brows.sizes)?, &region)?);
         }
         Ok(layer("hair", marks))
+    }
+
+    /// The ink of the hair's rim in its box, where it has no outline.
+    fn rim_of(&self, parts: &Parts, subject: &Raster<f32>, [columns, rows]: &[Range<usize>; 2]) -> Raster<f32> {
+        match &parts.beside_hair {
+            Some(beside) if self.has_coherent_lines() => {
+                rim(subject, self.pitch()).zip_map(&beside.part(columns, rows), |rim, beside| rim * beside)
+            }
+            _ => subject.map(|_| 0.0),
+        }
     }
 
     /// Strokes with the tone of their region.
@@ -221,8 +234,8 @@ impl Parts {
             || self.wisps.as_ref().is_some_and(|wisps| wisps.sample(p.x, p.y) > 0.5)
     }
 
-    /// True in the hair of a head and beside it.
-    pub(super) fn are_beside_hair(&self, p: Point) -> bool {
+    /// True for a place in the hair of a head or beside it.
+    pub(super) fn is_beside_hair(&self, p: Point) -> bool {
         self.beside_hair.as_ref().is_some_and(|beside| beside.sample(p.x, p.y) > 0.5)
     }
 

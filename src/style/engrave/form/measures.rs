@@ -56,9 +56,11 @@ fn lines_of_a_face_follow_its_directions_at_even_distances() {
         let skin = directions.of(Surface::Skin);
         let extent = Extent::of(&surfaces.skin, 0.5, 0).unwrap();
         let pitch = portrait.placement.pixels(Millimetres(PITCH));
-        for degrees in [0.0_f64, 60.0, -37.0] {
-            // As fine as on skin with eyes and a mouth.
-            let even = Closeness { at: &|_, _| 1.0, closest: 1.0 / (1.0 - FINE) };
+        // As on cloth, and as on skin with eyes and a mouth.
+        let closest = [1.0, 1.0 / (1.0 - FINE)];
+        for (degrees, closest) in [0.0_f64, 60.0, -37.0].into_iter().flat_map(|degrees| closest.map(|closest| (degrees, closest)))
+        {
+            let even = Closeness { at: &|_, _| 1.0, closest };
             let family = drawer.even_lines(&extent, skin, degrees.to_radians(), even, "test");
             let measures = measured(&family, skin, &portrait.faces[0], pitch, degrees.to_radians());
             let mean = measures.off.iter().sum::<f64>() / measures.off.len() as f64;

@@ -28,7 +28,7 @@ use super::Drawer;
 use super::parameters::Look;
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
-use crate::parallel::{collected, mapped};
+use crate::parallel::collected;
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
 use crate::style::form::{Directions, Surface, Surfaces};
@@ -42,8 +42,8 @@ use runs::{Course, Piece};
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
 /// In hair lines cross at half the angle: steeper ones look woven.
 const HAIR_TURN: f64 = 0.5;
-/// Widths of the lines of mouths, lids and jaws, as shares. A jaw of full width looks like a wire among the fine lines of skin (portraits 10, 12
-/// and 13).
+/// Widths of the lines of mouths, lids and jaws, as shares. A jaw of full width looks like a wire among the fine lines of skin
+/// (portraits 10, 12 and 13).
 const MOUTH: f64 = 0.85;
 const LIDS: f64 = 0.8;
 const JAW: f64 = 0.5;
@@ -57,13 +57,12 @@ const LEAST_SHARE: f32 = 0.02;
 /// The pieces of the three families.
 type Pieces = [Vec<Piece>; 3];
 
-/// A surface with the ink of each of its families, and its hooks.
+/// A surface with the ink of each of its families.
 struct Ground {
     surface: Surface,
     /// 0 to 1.
     region: Raster<f32>,
     shares: [Raster<f32>; 3],
-    hooks: Vec<Piece>,
 }
 
 impl Ground {
@@ -112,17 +111,10 @@ impl Drawer<'_> {
         let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair)));
         self.check()?;
         self.observer.begin("lines");
-        let grounds = self.grounds(&surfaces, &directions, &ink);
-        self.check()?;
         // Both at once: solids and contour take one thread.
-        let (of_grounds, [solids, contour]) =
-            rayon::join(|| self.lines_over(&grounds, &directions, &detail), || [self.solids(&ink), self.contour(&ink)]);
-        let mut pieces: Pieces = Default::default();
-        for (ground, own) in grounds.into_iter().zip(of_grounds) {
-            pieces[0].extend(ground.hooks);
-            pieces.iter_mut().zip(own).for_each(|(all, own)| all.extend(own));
-        }
-        self.check()?;
+        let (pieces, [solids, contour]) =
+            rayon::join(|| self.lines(&surfaces, &directions, &detail, &ink), || [self.solids(&ink), self.contour(&ink)]);
+        let mut pieces = pieces?;
         specks::without_specks(&mut pieces, self.pitch());
         self.observer.begin("widths");
         for _ in 0..TONE_ROUNDS {
@@ -139,37 +131,43 @@ impl Drawer<'_> {
         solids.with_lids(portrait, pitch, LIDS).with_jaws(portrait, pitch, JAW).layer()
     }
 
-    /// Skin, hair and cloth.
-    fn grounds(&self, surfaces: &Surfaces, directions: &Directions, ink: &Raster<f32>) -> Vec<Ground> {
+    /// The pieces of all lines on skin, hair and cloth, one after the other: their rasters together would take twice the memory.
+    fn lines(
+        &self,
+        surfaces: &Surfaces,
+        directions: &Directions,
+        detail: &Raster<f32>,
+        ink: &Raster<f32>,
+    ) -> Result<Pieces, StyleError> {
         let roots = self.roots(surfaces, directions.of(Surface::Hair));
-        let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
-        mapped(&[Surface::Skin, Surface::Hair, Surface::Cloth], &|&surface| {
-            let (region, own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
-            let (own, hooks) = match surface {
-                Surface::Hair => (hooks::beneath(&own, &coils), self.hooks(&coils, &region, directions.of(surface), &own)),
-                Surface::Skin | Surface::Cloth => (own, Vec::new()),
-            };
+        let mut pieces: Pieces = Default::default();
+        for surface in [Surface::Skin, Surface::Hair, Surface::Cloth] {
+            let (region, mut own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
+            if surface == Surface::Hair {
+                let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
+                pieces[0].extend(self.hooks(&coils, &region, directions.of(surface), &own));
+                own = hooks::beneath(&own, &coils);
+            }
             let shares = match self.parameters.look {
                 Look::Hatch => [own.clone(), own.map(|_| 0.0), own.map(|_| 0.0)],
                 _ => shares::shares_of(&own, surface, &region, self.pitch()),
             };
-            Ground { surface, region, shares, hooks }
-        })
+            let of_ground = self.lines_over(&Ground { surface, region, shares }, directions, detail);
+            pieces.iter_mut().zip(of_ground).for_each(|(all, own)| all.extend(own));
+            self.check()?;
+        }
+        Ok(pieces)
     }
 
-    /// The pieces of the lines on each ground.
-    fn lines_over(&self, grounds: &[Ground], directions: &Directions, detail: &Raster<f32>) -> Vec<Pieces> {
+    /// The pieces of the lines on one ground.
+    fn lines_over(&self, ground: &Ground, directions: &Directions, detail: &Raster<f32>) -> Pieces {
         // Lines run on a little beyond a ground's border, where they are cut.
         let room = (ROOM * self.pitch()) as usize;
-        let near = mapped(grounds, &|ground| dilate(&ground.region.map(|share| u8::from(share > LEAST_SHARE)), room));
-        let closest = mapped(grounds, &|ground| ground.closest(detail));
-        // All at once: with three at a time threads wait for the largest.
-        let families = collected(3 * grounds.len(), &|i| {
-            let (ground, family) = (i / 3, i % 3);
-            let at = |x, y| if near[ground].get(x, y) == 0 { 0.0 } else { grounds[ground].closeness(detail.get(x, y)) };
-            self.family(&grounds[ground], family, directions, Closeness { at: &at, closest: closest[ground] })
-        });
-        collected(grounds.len(), &|i| self.pieces(&grounds[i], &families[3 * i..3 * i + 3], directions))
+        let near = dilate(&ground.region.map(|share| u8::from(share > LEAST_SHARE)), room);
+        let at = |x, y| if near.get(x, y) == 0 { 0.0 } else { ground.closeness(detail.get(x, y)) };
+        let closeness = Closeness { at: &at, closest: ground.closest(detail) };
+        let families = collected(3, &|family| self.family(ground, family, directions, closeness));
+        self.pieces(ground, &families, directions)
     }
 
     /// The lines of one family, laid where it has ink; none if that is nowhere.
