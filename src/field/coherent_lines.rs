@@ -26,6 +26,12 @@ impl CoherentLine {
         Self { widths: vec![width; curve.points.len()], curve, contrast: 1.0 }
     }
 
+    /// The same line, its widths multiplied by a share.
+    #[must_use]
+    pub(crate) fn widened(&self, share: f64) -> Self {
+        Self { widths: self.widths.iter().map(|width| share * width).collect(), ..self.clone() }
+    }
+
     /// The runs of its points that are kept, with their widths; itself if all are.
     pub fn runs(&self, is_kept: &[bool]) -> Vec<Self> {
         if is_kept.iter().all(|&keep| keep) {

@@ -69,9 +69,7 @@ impl Jaws {
 
     /// Their strokes on the page, of a share of their widths.
     pub(super) fn strokes(&self, placement: &Placement, share: f64) -> Vec<Mark> {
-        let thinner =
-            |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| share * w).collect(), ..line.clone() };
-        self.lines.iter().filter_map(|line| feature_stroke(&thinner(line), placement, f64::INFINITY)).collect()
+        self.lines.iter().filter_map(|line| feature_stroke(&line.widened(share), placement, f64::INFINITY)).collect()
     }
 
     /// Lines that were found, with the jaws' own in place of those beside them; what is left of one is at least `least` long.

@@ -90,9 +90,8 @@ impl Lids {
 
     /// Their strokes on the page, whose widths count by `share`.
     pub(super) fn strokes(&self, placement: &Placement, share: f64) -> Vec<Mark> {
-        let scaled =
-            |line: &CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| share * w).collect(), ..line.clone() };
-        self.lines.iter().filter_map(|line| feature_stroke(&scaled(line), placement, TAPER * line.curve.length())).collect()
+        let stroke = |line: &CoherentLine| feature_stroke(&line.widened(share), placement, TAPER * line.curve.length());
+        self.lines.iter().filter_map(stroke).collect()
     }
 
     /// Lines that were found, with the lids' own in place of those on the lids.

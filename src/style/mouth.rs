@@ -62,11 +62,8 @@ impl Mouths {
 
     /// The mouths' own lines on the page, whose widths count by `share`.
     pub(super) fn strokes(&self, placement: &Placement, share: f64) -> Vec<Mark> {
-        let scaled = |line: &CoherentLine| CoherentLine {
-            widths: line.widths.iter().map(|width| share * width).collect(),
-            ..line.clone()
-        };
-        self.lines.iter().filter_map(|line| feature_stroke(&scaled(line), placement, TAPER * line.curve.length())).collect()
+        let stroke = |line: &CoherentLine| feature_stroke(&line.widened(share), placement, TAPER * line.curve.length());
+        self.lines.iter().filter_map(stroke).collect()
     }
 
     /// Lines that were found, with the mouths' own in place of those inside the lips; what is left of one is at least `least` long.
