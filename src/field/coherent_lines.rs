@@ -50,11 +50,19 @@ impl CoherentLine {
         out
     }
 
-    /// The parts of it at which `keep` is true; itself if it is everywhere, else those of at least `least` pixels.
+    /// The parts of it at which `keep` is true; itself if it is everywhere, else those of at least `least` pixels. A closed line ends only
+    /// where it is cut.
     pub(crate) fn parts_where(&self, keep: impl Fn(&Point) -> bool, least: f64) -> Vec<Self> {
-        let whole = self.curve.points.len();
-        let mut parts = self.runs(&self.curve.points.iter().map(keep).collect::<Vec<_>>());
-        parts.retain(|part| part.curve.points.len() == whole || part.curve.length() >= least);
+        let mut is_kept: Vec<bool> = self.curve.points.iter().map(keep).collect();
+        let Some(first) = is_kept.iter().position(|kept| !kept) else { return vec![self.clone()] };
+        let mut line = self.clone();
+        if line.curve.closed {
+            line.curve.points.rotate_left(first);
+            line.widths.rotate_left(first);
+            is_kept.rotate_left(first);
+        }
+        let mut parts = line.runs(&is_kept);
+        parts.retain(|part| part.curve.length() >= least);
         parts
     }
 }

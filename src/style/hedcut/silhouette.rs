@@ -32,7 +32,7 @@ impl Silhouette {
 
     /// The parts of a line, in working pixels, that do not run outside: where the subject's border is soft, a line may be found beyond it.
     pub(super) fn keeps(&self, line: &CoherentLine, least: f64) -> Vec<CoherentLine> {
-        parts_where(line, |p| self.blurred.sample(p.x, p.y) >= NEAR[0], least)
+        line.parts_where(|p| self.blurred.sample(p.x, p.y) >= NEAR[0], least)
     }
 
     /// The parts of a line, in working pixels, that do not run along the border of hair; a line that only ends there stays whole.
@@ -40,7 +40,7 @@ impl Silhouette {
         if share(&line.curve, |p| self.is_near(p)) < MOSTLY {
             return vec![line.clone()];
         }
-        parts_where(line, |p| !(self.is_near(*p) && parts.is_beside_hair(*p)), least)
+        line.parts_where(|p| !(self.is_near(*p) && parts.is_beside_hair(*p)), least)
     }
 
     /// True for a place on the silhouette.
@@ -70,21 +70,6 @@ impl Silhouette {
         let inside = (at(0.0, 0.0) - 0.5) / steepest;
         sure * (depth.min(DEEPEST * f64::from(BLUR)) - inside).max(0.0) / slope.hypot() * slope
     }
-}
-
-/// The parts of a line of a length; a closed one has no end but where it is cut.
-fn parts_where(line: &CoherentLine, is_drawn: impl Fn(&Point) -> bool, least: f64) -> Vec<CoherentLine> {
-    let mut is_drawn: Vec<bool> = line.curve.points.iter().map(is_drawn).collect();
-    let Some(first) = is_drawn.iter().position(|drawn| !drawn) else { return vec![line.clone()] };
-    let mut line = line.clone();
-    if line.curve.closed {
-        line.curve.points.rotate_left(first);
-        line.widths.rotate_left(first);
-        is_drawn.rotate_left(first);
-    }
-    let mut rest = line.runs(&is_drawn);
-    rest.retain(|part| part.curve.length() >= least);
-    rest
 }
 
 #[cfg(test)]
