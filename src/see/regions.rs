@@ -12,6 +12,8 @@
 
 mod baldness;
 mod facial_hair;
+mod falling;
+mod hair;
 mod head;
 mod headwear;
 mod lighting;
@@ -20,6 +22,7 @@ mod neck;
 mod path;
 mod pieces;
 mod plate;
+mod scores;
 mod segmentation;
 mod skin_model;
 mod smoothing;
@@ -63,9 +66,9 @@ pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[L
 
 fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads: &[Head], which: usize) -> Option<HeadRegions> {
     let plate = Plate::new(pixels, subject, face, heads, which)?;
-    let parting = Segmentation::learned(&plate);
-    let guides = REACHES.map(|radius| Guide::new(&plate.colours, radius, EPS));
     let beard = Beard::found(&plate);
+    let parting = Segmentation::learned(&plate, beard.as_ref());
+    let guides = REACHES.map(|radius| Guide::new(&plate.colours, radius, EPS));
     let shares = pieces::reassign_stray_pieces(&parting, &plate, parting.shares(&guides), beard.as_ref());
     let beard = beard.map(|beard| beard.shares(&plate, &shares));
     let shares = with_shaded_neck(&plate, shares, beard.as_ref());
@@ -161,9 +164,10 @@ fn apportioned(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elementary::Elementary as _;
+    use crate::elementary::{Elementary as _, unit_at};
     use crate::geometry::Point;
     use crate::source::Iris;
+    use crate::source::outlines::OVAL;
 
     /// A face `width` pixels wide, turned by `yaw` radians; only the landmarks that heads are measured by are in place.
     pub(in crate::see) fn face(centre: Point, width: f64, yaw: f64) -> Landmarks {
@@ -177,6 +181,21 @@ mod tests {
         put(234, -0.5, 0.0, 0.0);
         put(454, 0.5, 0.0, 0.0);
         Landmarks { points, irises: [Iris { centre, radius: 0.04 * width }; 2], spectacles: None }
+    }
+
+    /// The plate of an oval face, 80 by 100 pixels around (100, 70), the only landmarks in place but for the eyes' outer corners.
+    pub(super) fn plate(pixels: &Raster<[u8; 3]>) -> Plate {
+        let centre = Point::new(100.0, 70.0);
+        let mut points = vec![[centre.x, centre.y, 0.0]; 468];
+        for (i, &index) in OVAL.iter().enumerate() {
+            let out = unit_at(std::f64::consts::TAU * i as f64 / OVAL.len() as f64 - std::f64::consts::FRAC_PI_2);
+            points[index] = [centre.x + 40.0 * out.x, centre.y + 50.0 * out.y, 0.0];
+        }
+        (points[33], points[263]) = ([80.0, 65.0, 0.0], [120.0, 65.0, 0.0]);
+        let face = Landmarks { points, irises: [Iris { centre, radius: 3.0 }; 2], spectacles: None };
+        let heads = [Head::new(&face).expect("a head")];
+        let subject = pixels.map(|_| 255_u8);
+        Plate::new(pixels, &subject, &face, &heads, 0).expect("a plate")
     }
 
     #[test]

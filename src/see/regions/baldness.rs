@@ -34,7 +34,7 @@ const BLUR: f32 = 1.2;
 
 /// True if most profiles show bare skin on the crown; false if too little of the crown is in the picture.
 pub(super) fn is_bald(plate: &Plate) -> bool {
-    if plate.is_grey && is_wide(plate) {
+    if (plate.is_grey && is_wide(plate)) || is_curtained(plate) {
         return false;
     }
     let tells = if plate.is_grey { Tells::Texture } else { Tells::Colour };
@@ -55,24 +55,40 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
 }
 
+/// True if the person goes on beside the face from the temple to below the mouth, where only long hair hangs: fair hair in much light
+/// clips as a shining scalp does.
+fn is_curtained(plate: &Plate) -> bool {
+    /// Heights, in `v`, and where beside the head, in `u`; the least share of the person at each height. A bald head turned aside has 0.58 at one of
+    /// them, the heads with long hair on a side 1.
+    const HEIGHTS: [f32; 6] = [0.15, 0.3, 0.45, 0.6, 0.75, 0.9];
+    const BESIDE: [f32; 2] = [0.6, 0.8];
+    const LEAST: f32 = 0.95;
+    let is_filled = |side: f32, from: f32, to: f32| {
+        share_within(plate, &|u, v| (from..to).contains(&v) && (BESIDE[0]..BESIDE[1]).contains(&(side * u))) > LEAST
+    };
+    [-1.0, 1.0].iter().any(|side| HEIGHTS.windows(2).all(|band| is_filled(*side, band[0], band[1])))
+}
+
+/// The share of the person in a zone in `u` and `v`.
+fn share_within(plate: &Plate, zone: &dyn Fn(f32, f32) -> bool) -> f32 {
+    let (mut all, mut within) = (0_usize, 0_usize);
+    for (at, inside) in plate.at.pixels().iter().zip(plate.inside.pixels()) {
+        if zone(at[0], at[1]) {
+            all += 1;
+            within += usize::from(*inside);
+        }
+    }
+    within as f32 / all.max(1) as f32
+}
+
 /// True for a head too high or too wide for a bare one: in black and white the grey of a forehead and of white hair are one.
 fn is_wide(plate: &Plate) -> bool {
     /// The zones above the crown and beside the temples, in `u` and `v`, and the least share of the person in them: beside both temples
     /// (white curls have 0.87, a bald head turned aside 0.51), or above (white hair 1, bare heads 0.1).
     const ABOVE: f32 = 0.4;
     const BESIDE: f32 = 0.6;
-    let share = |zone: &dyn Fn(f32, f32) -> bool| {
-        let (mut all, mut within) = (0_usize, 0_usize);
-        for (at, inside) in plate.at.pixels().iter().zip(plate.inside.pixels()) {
-            if zone(at[0], at[1]) {
-                all += 1;
-                within += usize::from(*inside);
-            }
-        }
-        within as f32 / all.max(1) as f32
-    };
-    let beside = |sign: f32| share(&|u, v| (0.75..1.0).contains(&v) && (0.6..0.75).contains(&(sign * u)));
-    share(&|u, v| (1.45..1.6).contains(&v) && u.abs() < 0.3) > ABOVE || beside(-1.0).min(beside(1.0)) > BESIDE
+    let beside = |sign: f32| share_within(plate, &|u, v| (0.75..1.0).contains(&v) && (0.6..0.75).contains(&(sign * u)));
+    share_within(plate, &|u, v| (1.45..1.6).contains(&v) && u.abs() < 0.3) > ABOVE || beside(-1.0).min(beside(1.0)) > BESIDE
 }
 
 /// Profiles start at `FROM` (in `v`) and run upwards in steps of `STEP` to the person's silhouette, at most `MOST` steps.

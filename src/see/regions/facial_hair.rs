@@ -14,8 +14,6 @@ const MOUSTACHE: [usize; 8] = [98, 327, 2, 61, 291, 0, 37, 267];
 const UNDER_NOSE: [usize; 5] = [98, 97, 2, 326, 327];
 /// The chin below the lower lip.
 const CHIN: [usize; 12] = [17, 84, 314, 181, 405, 152, 148, 377, 176, 400, 149, 378];
-/// The lowest point of the chin.
-const CHIN_END: usize = 152;
 /// The middle of the upper lip.
 const PHILTRUM: usize = 2;
 /// A zone is covered if both of its halves (the nose's shadow falls on one) are covered: the median is below `DARK` times the
@@ -179,7 +177,7 @@ impl Beard {
         let under_nose = plate.round(&UNDER_NOSE, 0.035);
         let moustache = off_lips(plate.hull(&MOUSTACHE)).zip_map(&under_nose, |zone, nose| zone && !nose);
         let chin = off_lips(plate.hull(&CHIN));
-        let middle = chin_middle(plate);
+        let middle = plate.chin();
         let jaw = off_lips(plate.pixels_where(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
         let hairs = face.hairs();
         let has_moustache = face.is_covered(&moustache);
@@ -215,7 +213,7 @@ impl Beard {
         /// aside.
         const THIN: f32 = 0.02;
         const JAW: f32 = 0.28;
-        let middle = chin_middle(plate);
+        let middle = plate.chin();
         let found = plate.pixels_where(|_, i| {
             let (s, [u, v]) = (shares.pixels()[i], plate.at.pixels()[i]);
             let aside = (u - middle).abs();
@@ -230,11 +228,6 @@ impl Beard {
         let kept = large_pieces(&whole.map(u8::from), &self.zones, 0.006 * plate.face_width * plate.face_width);
         Guide::new(&plate.colours, 3, 1e-3).filtered(&kept)
     }
-}
-
-/// The chin's position across the head, in `u`.
-fn chin_middle(plate: &Plate) -> f32 {
-    plate.coordinates(plate.point(CHIN_END))[0]
 }
 
 /// The pieces of more than `least` pixels that reach into the zones.

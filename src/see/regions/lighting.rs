@@ -38,7 +38,12 @@ impl Lighting {
         let is_ear = v < 0.72 && v > 0.2;
         let texture = plate.features.pixels()[i][3];
         let is_smooth = (is_face && texture < SMOOTH) || (is_ear && texture < SMOOTH_EAR);
-        self.shadowed[usize::from(u > self.middle)] && self.with_ears.pixels()[i] && is_smooth
+        self.is_black(u) && self.with_ears.pixels()[i] && is_smooth
+    }
+
+    /// True if the side of the picture where `u` is lies in black shadow.
+    pub(super) fn is_black(&self, u: f32) -> bool {
+        self.shadowed[usize::from(u > self.middle)]
     }
 
     /// True for a pixel of an ear that light shines through.

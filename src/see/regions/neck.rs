@@ -111,23 +111,13 @@ fn has_collar(labels: &Raster<u32>, label: usize, is_cloth: &Raster<bool>, lab: 
 
 #[cfg(test)]
 mod tests {
-    use super::super::head::Head;
+    use super::super::tests::plate;
     use super::*;
-    use crate::elementary::unit_at;
-    use crate::geometry::Point;
-    use crate::source::{Iris, Landmarks, outlines};
 
     /// The share of skin below a chin of this colour above clothing of that one.
     fn skin_at_neck(neck: [u8; 3], cloth: [u8; 3]) -> f32 {
-        let centre = Point::new(100.0, 70.0);
-        let mut points = vec![[centre.x, centre.y, 0.0]; 468];
-        for (i, &index) in outlines::OVAL.iter().enumerate() {
-            let out = unit_at(std::f64::consts::TAU * i as f64 / outlines::OVAL.len() as f64 - std::f64::consts::FRAC_PI_2);
-            points[index] = [centre.x + 40.0 * out.x, centre.y + 50.0 * out.y, 0.0];
-        }
-        let face = Landmarks { points, irises: [Iris { centre, radius: 3.0 }; 2], spectacles: None };
         let pixels = Raster::from_fn(200, 200, |x, y| {
-            let (dx, dy) = ((x as f64 - centre.x) / 40.0, (y as f64 - centre.y) / 50.0);
+            let (dx, dy) = ((x as f64 - 100.0) / 40.0, (y as f64 - 70.0) / 50.0);
             if dx * dx + dy * dy < 1.0 {
                 [200, 140, 110]
             } else if y < 150 && (78..122).contains(&x) {
@@ -136,8 +126,7 @@ mod tests {
                 cloth
             }
         });
-        let heads = [Head::new(&face).expect("a head")];
-        let plate = Plate::new(&pixels, &Raster::filled(200, 200, 255_u8), &face, &heads, 0).expect("a plate");
+        let plate = plate(&pixels);
         let shares = plate.oval.map(|is_face| if is_face { [0.0, 1.0, 0.0, 0.0] } else { [0.0, 0.0, 0.0, 1.0] });
         let shares = with_shaded_neck(&plate, shares, None);
         let at = |v: f64, from: f64| ((v - from) * plate.scale) as usize;

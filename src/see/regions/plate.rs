@@ -104,6 +104,13 @@ impl Plate {
         self.head.coordinates(self.part.origin() + p.to_vec2() / self.scale)
     }
 
+    /// The chin's position across the head, in `u`.
+    pub(super) fn chin(&self) -> f32 {
+        /// The lowest point of the chin.
+        const CHIN_END: usize = 152;
+        self.coordinates(self.point(CHIN_END))[0]
+    }
+
     /// Whether a pixel lies below the lips.
     pub(super) fn is_below_lips(&self, i: usize) -> bool {
         /// The middle of the lower lip's lower border.

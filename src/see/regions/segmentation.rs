@@ -2,10 +2,13 @@
 //! known from the shape of heads.
 
 use super::baldness::is_bald;
-use super::lighting::{Lighting, is_reflection};
-use super::mixture::{Mixture, log_sum};
+use super::facial_hair::Beard;
+use super::falling::{falls_past_jaw, over_face};
+use super::hair::Hair;
+use super::lighting::Lighting;
+use super::mixture::Mixture;
 use super::path::path_from;
-use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
+use super::plate::{LIGHTNESS_WEIGHT, Plate};
 use super::skin_model::{BARE, BARE_REACH, LEAST_SEEDS, NO_SKIN, Place, Skin, apart, median, shadeless};
 use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
@@ -19,47 +22,16 @@ pub(super) const CLOTHING: usize = 3;
 
 /// What was learned about a head, from which its pixels are classified.
 pub(super) struct Segmentation<'a> {
-    plate: &'a Plate,
-    skin: Skin,
+    pub(super) plate: &'a Plate,
+    pub(super) skin: Skin,
     pub is_bald: bool,
     /// Squared deviation of each pixel from skin.
-    from_skin: Raster<f32>,
+    pub(super) from_skin: Raster<f32>,
     /// Cost of the colour path from the bare skin of the face.
-    path: Raster<f32>,
-    lighting: Lighting,
-    hair: Option<Hair>,
-    clothing: Option<Mixture>,
-}
-
-/// The appearance of hair, and where it hangs down.
-struct Hair {
-    mixture: Mixture,
-    middle: Feature,
-    /// Whether the clothing on the shoulders looks clearly different.
-    is_unlike_clothing: bool,
-    /// Fraction of the area beside the jaw that it covers: the picture's left, then right.
-    beside_jaw: [f32; 2],
-}
-
-impl Hair {
-    /// Distance of a pixel from the median hair, with lightness and texture weighted by `light` and `texture`.
-    fn distance(&self, f: Feature, light: f32, texture: f32) -> f32 {
-        let weights = [light, 1.0, 1.0, texture];
-        (0..4).map(|k| (weights[k] * (f[k] - self.middle[k])).powi(2)).sum::<f32>().sqrt()
-    }
-
-    /// True if hair hangs down on the side of `u`: hair that looks like the jacket must cover the area beside the jaw, of other
-    /// hair some is enough.
-    fn hangs(&self, u: f32) -> bool {
-        /// Chroma from which hair can be distinguished from jackets.
-        const COLOURED: f32 = 10.0;
-        let is_coloured = self.middle[1].hypotenuse(self.middle[2]) > COLOURED;
-        self.beside_jaw(u) > if is_coloured || self.is_unlike_clothing { 0.25 } else { 0.6 }
-    }
-
-    fn beside_jaw(&self, u: f32) -> f32 {
-        self.beside_jaw[usize::from(u > 0.0)]
-    }
+    pub(super) path: Raster<f32>,
+    pub(super) lighting: Lighting,
+    pub(super) hair: Option<Hair>,
+    pub(super) clothing: Option<Mixture>,
 }
 
 /// The middle of the forehead's upper border.
@@ -81,7 +53,7 @@ fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
 }
 
 impl<'a> Segmentation<'a> {
-    pub(super) fn learned(plate: &'a Plate) -> Self {
+    pub(super) fn learned(plate: &'a Plate, beard: Option<&Beard>) -> Self {
         /// Distance of the shoulders' median from the hair's from which they cannot be confused.
         const UNLIKE: f32 = 15.0;
         /// Squared deviation of pixels outside the person.
@@ -121,6 +93,7 @@ impl<'a> Segmentation<'a> {
         if let (Some(hair), Some(worn)) = (&mut parting.hair, median(&worn)) {
             hair.is_unlike_clothing = hair.distance(worn, 0.35, 0.6) > UNLIKE;
         }
+        parting.let_hair_fall(beard);
         parting.clothing = parting.clothing_learned();
         parting
     }
@@ -152,8 +125,14 @@ impl<'a> Segmentation<'a> {
         });
         let samples = plate.samples(&seeds);
         let middle = median(&samples).filter(|_| samples.len() > LEAST_SEEDS)?;
-        let mut hair =
-            Hair { mixture: Mixture::fitted(&samples, HAIRS)?, middle, is_unlike_clothing: false, beside_jaw: [0.0; 2] };
+        let mut hair = Hair {
+            mixture: Mixture::fitted(&samples, HAIRS)?,
+            middle,
+            is_unlike_clothing: false,
+            beside_jaw: [0.0; 2],
+            falls: [false; 2],
+            over_face: plate.oval.map(|_| false),
+        };
         let room = 0.09 * plate.head.width * plate.head.height * plate.scale * plate.scale;
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let is_it = |i: usize| {
@@ -170,6 +149,34 @@ impl<'a> Segmentation<'a> {
             hair.beside_jaw[side] = ((0..plate.at.len()).filter(|i| is_it(*i)).count() as f64 / room) as f32;
         }
         Some(hair)
+    }
+
+    /// Finds out where hair falls past the jaw, and over the face. A full beard looks the same beside the jaw.
+    fn let_hair_fall(&mut self, beard: Option<&Beard>) {
+        /// The squared deviation from skin above which a pixel of the face may be hair, and the distance from hair's median below which it is.
+        const COVERED: f32 = 20.0;
+        const LIKE: f32 = 24.0;
+        /// How much likelier hair is than skin, in natural logarithms, where hair is fair.
+        const SURE: f32 = 1.0;
+        let plate = self.plate;
+        let Some(hair) = &self.hair else { return };
+        let distance = |i: usize| hair.distance(plate.features.pixels()[i], 0.35, 0.6);
+        let is_no_skin = |i: usize| {
+            let far = self.from_skin.pixels()[i];
+            far > NO_SKIN || hair.mixture.log_density(plate.features.pixels()[i]) > -0.5 * far - self.skin.level() + SURE
+        };
+        let beside =
+            plate.pixels_where(|_, i| plate.inside.pixels()[i] && !plate.core.pixels()[i] && is_no_skin(i) && distance(i) < 22.0);
+        let is_short = self.is_bald || beard.is_some_and(|beard| beard.is_full);
+        let falls = [-1.0, 1.0].map(|side| !is_short && !self.lighting.is_black(side) && falls_past_jaw(plate, &beside, side));
+        let covering = plate.pixels_where(|_, i| {
+            let is_covered = self.from_skin.pixels()[i] > COVERED && !self.lighting.is_shadow(plate, i);
+            plate.inside.pixels()[i] && is_covered && distance(i) < LIKE
+        });
+        let over_face = over_face(plate, &covering, falls);
+        if let Some(hair) = &mut self.hair {
+            (hair.falls, hair.over_face) = (falls, over_face);
+        }
     }
 
     /// Where clothing certainly is: the shoulders, below the chin and along the picture's lower border, where there is no skin.
@@ -202,141 +209,6 @@ impl<'a> Segmentation<'a> {
         });
         let samples = Some(plate.samples(&without_hair)).filter(|s| s.len() > 60).unwrap_or_else(|| plate.samples(&seeds));
         if samples.len() > LEAST_SEEDS { Mixture::fitted(&samples, CLOTHS) } else { None }
-    }
-
-    /// Log score of each class at a pixel.
-    fn class_scores(&self, i: usize) -> [f32; 4] {
-        let plate = self.plate;
-        if !plate.inside.pixels()[i] {
-            return [30.0, -60.0, -60.0, -60.0];
-        }
-        let ([u, v], f, is_face) = (plate.at.pixels()[i], plate.features.pixels()[i], plate.oval.pixels()[i]);
-        [-60.0, self.skin_suits(i, u, v, f, is_face), self.hair_suits(i, u, v, f, is_face), self.clothing_suits(u, v, f)]
-    }
-
-    fn skin_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
-        let a = u.abs();
-        let (far, path) = (self.from_skin.pixels()[i], self.path.pixels()[i]);
-        let is_core = self.plate.core.pixels()[i] && v < 0.72;
-        let is_shadow = self.lighting.is_shadow(self.plate, i);
-        let most = if is_shadow {
-            8.0
-        } else if is_core {
-            24.0
-        } else {
-            40.0
-        };
-        let mut e = -0.5 * far.min(most) - self.skin.level();
-        if is_shadow {
-            e += 6.0;
-        }
-        if is_core {
-            e += 14.0;
-        } else if is_face {
-            // A fringe may cover the forehead.
-            e += 9.0 - 7.0 * ((v - 0.68) / 0.17).clamp(0.0, 1.0);
-        }
-        let is_near = path < 2.0 && far < 5.0;
-        if is_near && v > 0.7 && v < 1.3 {
-            e += 4.0;
-        }
-        if v < 0.1 {
-            // Shade connects the neck to the face; skin-coloured clothing begins at an edge.
-            e -= 0.8 * (path - 4.0).clamp(0.0, 6.0);
-        }
-        if a < 0.4 && v < 0.1 && v > -0.35 && self.from_skin.pixels()[i] < NO_SKIN {
-            e += 4.0;
-        }
-        if v > 1.04 && !self.is_bald && !is_near {
-            e -= 4.0;
-        }
-        let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0;
-        if self.plate.is_grey {
-            e -= self.unlikely_in_grey(u, v, is_face);
-        } else if is_bare {
-            // Necks, shoulders and arms.
-            e += 5.0;
-        } else if !((a < 0.6 && v > -0.8) || v > -0.1) {
-            e -= 2.5;
-        }
-        if self.is_bald && v > 0.9 && f[0] > self.skin.middle[0] - 25.0 * LIGHTNESS_WEIGHT {
-            e += 6.0;
-        }
-        e
-    }
-
-    /// What a place speaks against skin where no colour does: beside the neck, above the forehead and beyond the ears.
-    fn unlikely_in_grey(&self, u: f32, v: f32, is_face: bool) -> f32 {
-        /// Half the width of a neck and that of a head with its ears, in `u`; how far a neck reaches below the chin, in `v`; the slope of the
-        /// penalty and its most.
-        const NECK: f32 = 0.38;
-        const EARS: f32 = 0.56;
-        const COLLAR: f32 = 0.3;
-        const SLOPE: f32 = 40.0;
-        const MOST: f32 = 14.0;
-        let a = u.abs();
-        let beyond = if v < 0.1 {
-            (a - NECK).max(0.0) + (-v - COLLAR).max(0.0)
-        } else if is_face || self.is_bald {
-            0.0
-        } else {
-            (a - EARS).max(0.0) + (v - 0.8).max(0.0)
-        };
-        (SLOPE * beyond).min(MOST)
-    }
-
-    fn hair_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
-        let Some(hair) = &self.hair else { return -60.0 };
-        let a = u.abs();
-        let mut e = hair.mixture.log_density(f);
-        if (self.plate.core.pixels()[i] && v < 0.75) || self.lighting.is_shadow(self.plate, i) {
-            e -= 12.0;
-        } else if is_face && v < 0.78 {
-            e -= 6.0;
-        }
-        e -= (-v - 0.1).max(0.0) * if hair.hangs(u) { 2.0 } else { 9.0 };
-        e -= (a - 0.95).max(0.0) * 6.0;
-        let is_long = hair.beside_jaw(u) > 0.8 && a > 0.25;
-        if v < 0.0 && a < 0.45 {
-            e -= if is_long { 3.0 } else { 9.0 };
-        }
-        if v < 0.35 && a < 0.36 {
-            e -= if is_long { 3.0 } else { 7.0 };
-        }
-        let is_lit = self.lighting.is_glowing(v, f, i, hair.middle)
-            || is_reflection(v, f, self.path.pixels()[i], [self.skin.middle, hair.middle]);
-        if is_lit {
-            e -= 12.0;
-        }
-        if v > 1.12 && !self.is_bald && self.path.pixels()[i] > 2.0 {
-            e += 3.0;
-        }
-        if v < 0.12 && a < 0.62 && !is_long {
-            e -= 5.0;
-        }
-        e
-    }
-
-    fn clothing_suits(&self, u: f32, v: f32, f: Feature) -> f32 {
-        let a = u.abs();
-        let flat = -self.skin.level() - 12.5;
-        let colour = self.clothing.as_ref().map_or(flat, |c| log_sum([c.log_density(f), flat].into_iter()));
-        let hairy =
-            self.hair.as_ref().is_some_and(|hair| hair.hangs(u) && a < 1.3 && a > 0.4 && hair.distance(f, 0.25, 0.4) < 18.0);
-        let above = (v + 0.16 - 0.5 * (a - 0.6).clamp(0.0, 0.6)).max(0.0) * 12.0;
-        // Shoulders and collars rise beside a head that bends forward.
-        let mut e = colour - if a > 0.5 && v < 0.6 { above.min(6.0) } else { above };
-        if hairy {
-            if v > -0.8 {
-                e -= 4.0;
-            }
-        } else {
-            e += (-v - 0.35).clamp(0.0, 2.0) * 4.0;
-            if v < -0.05 && a > 0.75 {
-                e += 3.0;
-            }
-        }
-        e
     }
 
     /// The shares of each pixel, smoothed along the picture's edges.

@@ -1,0 +1,47 @@
+//! What is known of a head's hair.
+
+use super::mixture::Mixture;
+use super::plate::Feature;
+use crate::elementary::Elementary as _;
+use crate::raster::Raster;
+
+/// The appearance of hair, and where it hangs down.
+pub(super) struct Hair {
+    pub mixture: Mixture,
+    pub middle: Feature,
+    /// Whether the clothing on the shoulders looks clearly different.
+    pub is_unlike_clothing: bool,
+    /// Fraction of the area beside the jaw that it covers: the picture's left, then right.
+    pub beside_jaw: [f32; 2],
+    /// Whether it falls past the jaw without a gap, likewise.
+    pub falls: [bool; 2],
+    /// The pixels of the face that it covers.
+    pub over_face: Raster<bool>,
+}
+
+impl Hair {
+    /// Distance of a pixel from the median hair, with lightness and texture weighted by `light` and `texture`.
+    pub(super) fn distance(&self, f: Feature, light: f32, texture: f32) -> f32 {
+        let weights = [light, 1.0, 1.0, texture];
+        (0..4).map(|k| (weights[k] * (f[k] - self.middle[k])).powi(2)).sum::<f32>().sqrt()
+    }
+
+    /// True if hair hangs down on the side of `u`: it falls past the jaw, or covers the area beside it. Hair that looks like the
+    /// jacket must cover all of that, of other hair some is enough.
+    pub(super) fn hangs(&self, u: f32) -> bool {
+        /// Chroma from which hair can be distinguished from jackets.
+        const COLOURED: f32 = 10.0;
+        let is_coloured = self.middle[1].hypotenuse(self.middle[2]) > COLOURED;
+        self.falls(u) || self.beside_jaw(u) > if is_coloured || self.is_unlike_clothing { 0.25 } else { 0.6 }
+    }
+
+    /// True if it falls past the jaw without a gap on the side of `u`.
+    pub(super) fn falls(&self, u: f32) -> bool {
+        self.falls[usize::from(u > 0.0)]
+    }
+
+    /// Fraction of the area beside the jaw that it covers on the side of `u`.
+    pub(super) fn beside_jaw(&self, u: f32) -> f32 {
+        self.beside_jaw[usize::from(u > 0.0)]
+    }
+}

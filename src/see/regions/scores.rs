@@ -1,0 +1,171 @@
+//! How well skin, hair and clothing suit a pixel: its colour and texture, and its place on the head.
+
+use super::hair::Hair;
+use super::lighting::is_reflection;
+use super::mixture::log_sum;
+use super::plate::{Feature, LIGHTNESS_WEIGHT};
+use super::segmentation::Segmentation;
+use super::skin_model::NO_SKIN;
+
+impl Segmentation<'_> {
+    /// Log score of each class at a pixel.
+    pub(super) fn class_scores(&self, i: usize) -> [f32; 4] {
+        let plate = self.plate;
+        if !plate.inside.pixels()[i] {
+            return [30.0, -60.0, -60.0, -60.0];
+        }
+        let is_face = plate.oval.pixels()[i] && !self.is_covered(i);
+        let ([u, v], f) = (plate.at.pixels()[i], plate.features.pixels()[i]);
+        [-60.0, self.skin_suits(i, u, v, f, is_face), self.hair_suits(i, u, v, f, is_face), self.clothing_suits(u, v, f)]
+    }
+
+    fn skin_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
+        let a = u.abs();
+        let (far, path) = (self.from_skin.pixels()[i], self.path.pixels()[i]);
+        let is_core = is_face && self.plate.core.pixels()[i] && v < 0.72;
+        let is_shadow = self.lighting.is_shadow(self.plate, i);
+        let most = if is_shadow {
+            8.0
+        } else if is_core {
+            24.0
+        } else {
+            40.0
+        };
+        let mut e = -0.5 * far.min(most) - self.skin.level();
+        if is_shadow {
+            e += 6.0;
+        }
+        if is_core {
+            e += 14.0;
+        } else if is_face {
+            // A fringe may cover the forehead.
+            e += 9.0 - 7.0 * ((v - 0.68) / 0.17).clamp(0.0, 1.0);
+        }
+        let is_near = path < 2.0 && far < 5.0;
+        if is_near && v > 0.7 && v < 1.3 {
+            e += 4.0;
+        }
+        if v < 0.1 {
+            // Shade connects the neck to the face; skin-coloured clothing begins at an edge.
+            e -= 0.8 * (path - 4.0).clamp(0.0, 6.0);
+        }
+        if a < 0.4 && v < 0.1 && v > -0.35 && self.from_skin.pixels()[i] < NO_SKIN {
+            e += 4.0;
+        }
+        if v > 1.04 && !self.is_bald && !is_near {
+            e -= 4.0;
+        }
+        if !is_face && self.is_behind_hair(u, v) {
+            e -= 5.0;
+        }
+        let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0;
+        if self.plate.is_grey {
+            e -= self.unlikely_in_grey(u, v, is_face);
+        } else if is_bare {
+            // Necks, shoulders and arms.
+            e += 5.0;
+        } else if !((a < 0.6 && v > -0.8) || v > -0.1) {
+            e -= 2.5;
+        }
+        if self.is_bald && v > 0.9 && f[0] > self.skin.middle[0] - 25.0 * LIGHTNESS_WEIGHT {
+            e += 6.0;
+        }
+        e
+    }
+
+    /// What a place speaks against skin where no colour does: beside the neck, above the forehead and beyond the ears.
+    fn unlikely_in_grey(&self, u: f32, v: f32, is_face: bool) -> f32 {
+        /// Half the width of a neck and that of a head with its ears, in `u`; how far a neck reaches below the chin, in `v`; the slope of the
+        /// penalty and its most.
+        const NECK: f32 = 0.38;
+        const EARS: f32 = 0.56;
+        const COLLAR: f32 = 0.3;
+        const SLOPE: f32 = 40.0;
+        const MOST: f32 = 14.0;
+        let a = u.abs();
+        let beyond = if v < 0.1 {
+            (a - NECK).max(0.0) + (-v - COLLAR).max(0.0)
+        } else if is_face || self.is_bald {
+            0.0
+        } else {
+            (a - EARS).max(0.0) + (v - 0.8).max(0.0)
+        };
+        (SLOPE * beyond).min(MOST)
+    }
+
+    fn hair_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
+        let Some(hair) = &self.hair else { return -60.0 };
+        let a = u.abs();
+        let mut e = hair.mixture.log_density(f);
+        if (is_face && self.plate.core.pixels()[i] && v < 0.75) || self.lighting.is_shadow(self.plate, i) {
+            e -= 12.0;
+        } else if is_face && v < 0.78 {
+            e -= 6.0;
+        }
+        e -= (-v - 0.1).max(0.0) * if hair.hangs(u) { 2.0 } else { 9.0 };
+        e -= (a - 0.95).max(0.0) * 6.0;
+        let is_long = self.may_fall(hair, u) || (hair.beside_jaw(u) > 0.8 && a > 0.25);
+        if v < 0.0 && a < 0.45 {
+            e -= if is_long { 3.0 } else { 9.0 };
+        }
+        if v < 0.35 && a < 0.36 {
+            e -= if is_long { 3.0 } else { 7.0 };
+        }
+        let is_lit = self.lighting.is_glowing(v, f, i, hair.middle)
+            || is_reflection(v, f, self.path.pixels()[i], [self.skin.middle, hair.middle]);
+        if is_lit {
+            e -= 12.0;
+        }
+        if v > 1.12 && !self.is_bald && self.path.pixels()[i] > 2.0 {
+            e += 3.0;
+        }
+        if v < 0.12 && a < 0.62 && !is_long {
+            e -= 5.0;
+        }
+        e
+    }
+
+    fn clothing_suits(&self, u: f32, v: f32, f: Feature) -> f32 {
+        let a = u.abs();
+        let flat = -self.skin.level() - 12.5;
+        let colour = self.clothing.as_ref().map_or(flat, |c| log_sum([c.log_density(f), flat].into_iter()));
+        let hairy = self.hair.as_ref().is_some_and(|hair| {
+            let is_aside = a > 0.4 || self.may_fall(hair, u);
+            hair.hangs(u) && a < 1.3 && is_aside && hair.distance(f, 0.25, 0.4) < 18.0
+        });
+        let above = (v + 0.16 - 0.5 * (a - 0.6).clamp(0.0, 0.6)).max(0.0) * 12.0;
+        // Shoulders and collars rise beside a head that bends forward.
+        let mut e = colour - if a > 0.5 && v < 0.6 { above.min(6.0) } else { above };
+        if hairy {
+            if v > -0.8 {
+                e -= 4.0;
+            }
+        } else {
+            e += (-v - 0.35).clamp(0.0, 2.0) * 4.0;
+            if v < -0.05 && a > 0.75 {
+                e += 3.0;
+            }
+        }
+        e
+    }
+
+    /// True beside a head where hair falls: no cheek shows there, and hardly an ear.
+    fn is_behind_hair(&self, u: f32, v: f32) -> bool {
+        v > -0.2 && self.hair.as_ref().is_some_and(|hair| hair.falls(u)) && self.aside_of_chin(u) > 0.4
+    }
+
+    /// True where hair may fall in front of neck and shoulder.
+    fn may_fall(&self, hair: &Hair, u: f32) -> bool {
+        hair.falls(u) && self.aside_of_chin(u) > 0.25
+    }
+
+    /// The distance across from the chin, which a turned head carries to one side.
+    fn aside_of_chin(&self, u: f32) -> f32 {
+        (u - self.plate.chin()).abs()
+    }
+
+    /// True where hair covers the face.
+    fn is_covered(&self, i: usize) -> bool {
+        self.hair.as_ref().is_some_and(|hair| hair.over_face.pixels()[i])
+    }
+}
