@@ -29,6 +29,7 @@ mod parameter;
 mod places;
 mod random;
 mod reversed;
+mod rim;
 mod rubbing;
 mod settings;
 mod solids;

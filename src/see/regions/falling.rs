@@ -18,10 +18,9 @@ pub(super) fn falls_past_jaw(plate: &Plate, is_hair: &Raster<bool>, side: f32) -
     let mut counts = [0_usize; BANDS];
     for ([u, v], is) in plate.at.pixels().iter().zip(is_hair.pixels()) {
         let band = (FROM - v) / BAND;
-        if *is && band >= 0.0 && (ASIDE[0]..ASIDE[1]).contains(&(side * u)) {
-            if let Some(count) = counts.get_mut(band as usize) {
-                *count += 1;
-            }
+        let is_beside = band >= 0.0 && (ASIDE[0]..ASIDE[1]).contains(&(side * u));
+        if let Some(count) = counts.get_mut(band as usize).filter(|_| *is && is_beside) {
+            *count += 1;
         }
     }
     let height = f64::from(BAND) * plate.head.height * plate.scale;

@@ -8,7 +8,7 @@ use crate::drawing::Mark;
 use crate::elementary::Elementary as _;
 use crate::field::{Curve, EdgeParameters, contours, detect_edges, distance_to_curves, lines_of};
 use crate::geometry::{Point, Ring, Vec2, polyline_length, smooth_polyline};
-use crate::raster::{Raster, dilate, gaussian_blur, thin};
+use crate::raster::{Raster, dilate, thin};
 use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::creases::Creases;
@@ -159,11 +159,7 @@ impl Drawer<'_> {
         let least = self.pixels(self.parameters.edge_length);
         let smoothing = self.pixels(1.5 * self.parameters.pitch);
         let (width, height) = self.size();
-        let light_hair = self.light_hair(regions);
-        let is_hidden = |p: &Point| {
-            let (x, y) = (p.x as isize, p.y as isize);
-            hidden.clamped(x, y) != 0 && light_hair.clamped(x, y) == 0
-        };
+        let is_hidden = |p: &Point| hidden.clamped(p.x as isize, p.y as isize) != 0;
         let silhouette: Vec<Curve> = contours(&regions.subject, 0.5)
             .into_iter()
             .filter(|line| line.length() >= least)
@@ -177,17 +173,6 @@ impl Drawer<'_> {
         let apart = found.iter().flat_map(|line| open_pieces(line, beside)).filter(|piece| polyline_length(piece) >= least);
         let apart: Vec<Curve> = apart.map(|points| Curve { points, closed: false }).collect();
         silhouette.into_iter().chain(apart).collect()
-    }
-
-    /// 1 at hair so light that without a line at its border it would be open to the paper.
-    fn light_hair(&self, regions: &Regions) -> Raster<u8> {
-        /// Ink below which hair is light, and the blur of it in pitches.
-        const LIGHT: f32 = 0.16;
-        const BLUR: f64 = 3.0;
-        let sigma = self.pixels(BLUR * self.parameters.pitch) as f32;
-        let hair = gaussian_blur(&regions.hair, sigma);
-        let ink = gaussian_blur(&self.darkness().zip_map(&regions.hair, |ink, hair| ink * hair), sigma);
-        ink.zip_map(&hair, |ink, hair| u8::from(hair > 0.1 && ink < LIGHT * hair))
     }
 
     /// Pressure along an edge: by the step of tone at each point, with the wander of a hand.

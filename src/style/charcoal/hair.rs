@@ -59,8 +59,8 @@ pub(super) enum Strands {
 }
 
 impl Drawer<'_> {
-    /// Strokes inside a region, 0 to 1, that make a share of its ink, and at least an ink that is given.
-    pub(super) fn hair(&self, hair: &Raster<f32>, share: f32, strands: Strands, least: Option<&Raster<f32>>) -> Vec<Mark> {
+    /// Strokes inside a region, 0 to 1, that make a share of its ink, and at least an ink.
+    pub(super) fn hair(&self, hair: &Raster<f32>, share: f32, strands: Strands, least: &Raster<f32>) -> Vec<Mark> {
         self.observer.begin("hair");
         if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
@@ -69,8 +69,7 @@ impl Drawer<'_> {
         let darkness = self.darkness();
         let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
-        let ink = ink.map(|ink| share * ink);
-        let ink = least.map_or_else(|| ink.clone(), |least| ink.zip_map(least, f32::max));
+        let ink = ink.zip_map(least, |ink, least| (share * ink).max(least));
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
         let finer = if let Strands::Fine(finer) = strands { finer } else { 1.0 };
         let sizes = Hairs {

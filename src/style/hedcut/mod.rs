@@ -8,7 +8,6 @@ mod locks;
 mod outline;
 mod parameters;
 mod parts;
-mod rim;
 mod seeds;
 mod silhouette;
 mod size;
