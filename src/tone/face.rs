@@ -48,6 +48,9 @@ const LIGHT_HAIR: f32 = 0.68;
 const HELD: f32 = 0.4;
 const STRANDS: f32 = 2.2;
 const MOST_STRAND: f32 = 0.3;
+/// The same for beards, which are short: with the contrast of locks they are white splashes (14).
+const STRANDS_OF_BEARD: f32 = 0.6;
+const MOST_OF_BEARD: f32 = 0.16;
 /// How much the difference of eyes, brows and lips from the surrounding skin is raised.
 const FEATURES: f32 = 0.40;
 /// Large blacks below this tone are lightened; in the face the threshold is higher.
@@ -86,6 +89,7 @@ pub(super) struct Setting<'a> {
     pub subject: Raster<f32>,
     /// Hair, beards and headwear.
     pub hair: Option<Raster<f32>>,
+    pub facial_hair: Option<Raster<f32>>,
     pub clothing: Option<Raster<f32>>,
 }
 
@@ -104,7 +108,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
         tone = mixed(&tone, &cloth, &fast_gaussian(clothing, (0.012 * zones.width) as f32));
     }
     if let Some(hair) = &setting.hair {
-        tone = light_hair(&zones, face, &tone, hair, &setting.subject);
+        tone = light_hair(&zones, face, &tone, hair, setting);
     }
     let tone = raised_features(&zones, face, &tone, &setting.subject);
     let tone = with_ears(&zones, &tone, &skin_of(setting), heights(face));
@@ -166,7 +170,8 @@ fn curve_of(zones: &Zones, contrasted: &Raster<f32>, base: &Raster<f32>) -> Curv
 }
 
 /// Step 5: light hair gets strands instead of bare paper.
-fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster<f32>, setting: &Setting<'_>) -> Raster<f32> {
+    let subject = &setting.subject;
     let height = heights(face);
     let soft = fast_gaussian(hair, (0.015 * zones.width) as f32);
     let zone = Raster::from_fn(tone.width(), tone.height(), |x, y| {
@@ -174,9 +179,12 @@ fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster
     });
     let weight = zone.zip_map(subject, |zone, subject| zone + 1e-4 * subject + 1e-6);
     let mean = zones.over_skin(&tone.map(|v| v.clamp(0.0, 1.05)), &weight, 0.05);
-    let held = tone.zip_map(&mean, |tone, mean| {
+    let short = setting.facial_hair.as_ref().map_or_else(|| tone.map(|_| 0.0), Clone::clone);
+    let held = Raster::from_fn(tone.width(), tone.height(), |x, y| {
+        let (tone, mean, short) = (tone.get(x, y), mean.get(x, y), short.get(x, y));
         let (strand, light) = (tone - mean, ((mean - 0.5) / 0.3).clamp(0.0, 1.0));
-        let raised = MOST_STRAND * ((1.0 + STRANDS) * strand / MOST_STRAND).hyperbolic_tangent();
+        let most = MOST_STRAND + short * (MOST_OF_BEARD - MOST_STRAND);
+        let raised = most * ((1.0 + STRANDS + short * (STRANDS_OF_BEARD - STRANDS)) * strand / most).hyperbolic_tangent();
         let strand = strand + light * (raised - strand);
         mean.min(LIGHT_HAIR + HELD * (mean - LIGHT_HAIR).max(0.0)) + strand
     });

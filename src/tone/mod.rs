@@ -67,6 +67,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
         lightness: &lightness,
         subject: reduce(portrait.people(), factor).map(|v| ((v - 0.35) / 0.3).clamp(0.0, 1.0)),
         hair: hair.reduce(|a, b| a.zip_map(&b, f32::max)),
+        facial_hair: reduced(MaskRole::FacialHair),
         clothing: reduced(MaskRole::Clothing),
     };
     let scale = 1.0 / factor as f64;

@@ -145,6 +145,13 @@ impl<'a> Face<'a> {
         self.plate.pixels_where(|_, i| hairs.pixels()[i] || is_rough(i))
     }
 
+    /// The pixels of a zone that look like facial hair less surely: a white moustache is thin in places.
+    fn fainter(&self, zone: &Raster<bool>) -> Raster<bool> {
+        const FAINTER: f32 = 0.88;
+        let colour = gaussian_blur(&self.colour, 0.02 * self.plate.face_width);
+        self.plate.pixels_where(|_, i| zone.pixels()[i] && !self.plate.is_grey && colour.pixels()[i] < FAINTER)
+    }
+
     /// The pixels that look like facial hair.
     fn hairs(&self) -> Raster<bool> {
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
@@ -192,6 +199,7 @@ impl Beard {
         let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
         let over_lips = face.over_lips();
         let hairs = if is_full { face.with_rough(&hairs) } else { hairs };
+        let hairs = hairs.zip_map(&face.fainter(&moustache), |hair, fainter| hair || fainter);
         let is_other = if is_full { face.beside_beard(&hairs, &chin) } else { hairs.map(|_| false) };
         let allowed = plate.pixels_where(|[u, v], i| {
             let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;
