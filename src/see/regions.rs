@@ -5,9 +5,8 @@
 //! head, and the picture's own edges decide the rest.
 //!
 //! ```text
-//!   view, subject, points --> plate (face 110 px wide) --> is it bald? --> parting: skin, hair, clothing --> pieces that hang together, shaded necks
-//!                                                                             /             \
-//!                                                                       facial hair      headwear --> shares at the view's size
+//!   view, subject, points --> plate (face 110 px wide) --> a beard? is it bald? does hair fall past the jaw? --> parting: skin, hair, clothing
+//!                         --> pieces that hang together, shaded necks --> facial hair and headwear taken out --> shares at the view's size
 //! ```
 
 mod baldness;

@@ -48,7 +48,7 @@ const LIGHT_HAIR: f32 = 0.68;
 const HELD: f32 = 0.4;
 const STRANDS: f32 = 2.2;
 const MOST_STRAND: f32 = 0.3;
-/// The same for beards, which are short: with the contrast of locks they are white splashes (14).
+/// The same for beards, most of which are short: with the contrast of locks a white one is splashes of paper (14).
 const STRANDS_OF_BEARD: f32 = 0.6;
 const MOST_OF_BEARD: f32 = 0.16;
 /// How much the difference of eyes, brows and lips from the surrounding skin is raised.
@@ -89,6 +89,7 @@ pub(super) struct Setting<'a> {
     pub subject: Raster<f32>,
     /// Hair, beards and headwear.
     pub hair: Option<Raster<f32>>,
+    /// Beards and moustaches, which `hair` holds too.
     pub facial_hair: Option<Raster<f32>>,
     pub clothing: Option<Raster<f32>>,
 }
@@ -171,17 +172,22 @@ fn curve_of(zones: &Zones, contrasted: &Raster<f32>, base: &Raster<f32>) -> Curv
 
 /// Step 5: light hair gets strands instead of bare paper.
 fn light_hair(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, hair: &Raster<f32>, setting: &Setting<'_>) -> Raster<f32> {
+    /// Height, in heights of the face above the chin, at which hair counts no more, and over which its share falls: clothing in its place below is
+    /// likelier than a mistake.
+    const LOWEST: f64 = -1.3;
+    const FADE: f64 = 0.3;
     let subject = &setting.subject;
     let height = heights(face);
     let soft = fast_gaussian(hair, (0.015 * zones.width) as f32);
     let zone = Raster::from_fn(tone.width(), tone.height(), |x, y| {
-        soft.get(x, y) * subject.get(x, y) * ((height(x, y) + 0.3) / 0.3).clamp(0.0, 1.0) as f32
+        soft.get(x, y) * subject.get(x, y) * ((height(x, y) - LOWEST) / FADE).clamp(0.0, 1.0) as f32
     });
     let weight = zone.zip_map(subject, |zone, subject| zone + 1e-4 * subject + 1e-6);
     let mean = zones.over_skin(&tone.map(|v| v.clamp(0.0, 1.05)), &weight, 0.05);
-    let short = setting.facial_hair.as_ref().map_or_else(|| tone.map(|_| 0.0), Clone::clone);
+    let beard = setting.facial_hair.as_ref().map(|beard| fast_gaussian(beard, (0.015 * zones.width) as f32));
     let held = Raster::from_fn(tone.width(), tone.height(), |x, y| {
-        let (tone, mean, short) = (tone.get(x, y), mean.get(x, y), short.get(x, y));
+        let (tone, mean) = (tone.get(x, y), mean.get(x, y));
+        let short = beard.as_ref().map_or(0.0, |beard| beard.get(x, y));
         let (strand, light) = (tone - mean, ((mean - 0.5) / 0.3).clamp(0.0, 1.0));
         let most = MOST_STRAND + short * (MOST_OF_BEARD - MOST_STRAND);
         let raised = most * ((1.0 + STRANDS + short * (STRANDS_OF_BEARD - STRANDS)) * strand / most).hyperbolic_tangent();

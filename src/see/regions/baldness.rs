@@ -3,7 +3,7 @@
 
 use super::plate::Plate;
 use crate::elementary::Elementary as _;
-use crate::raster::{Raster, gaussian_blur};
+use crate::raster::{Raster, gaussian_blur, median};
 use crate::source::srgb_to_linear;
 
 /// Samples dropped before the silhouette, and the fewest that a profile needs.
@@ -55,16 +55,25 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
     evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
 }
 
-/// True if the person goes on beside the face from the temple to below the mouth, where only long hair hangs: fair hair in much light
-/// clips as a shining scalp does.
+/// True if something light goes on beside the face from the temple to below the mouth, where only long hair hangs: fair hair in much light
+/// clips as a shining scalp does, dark hair tells itself.
 fn is_curtained(plate: &Plate) -> bool {
     /// Heights, in `v`, and where beside the head, in `u`; the least share of the person at each height. A bald head turned aside has 0.58 at one of
     /// them, the heads with long hair on a side 1.
     const HEIGHTS: [f32; 6] = [0.15, 0.3, 0.45, 0.6, 0.75, 0.9];
     const BESIDE: [f32; 2] = [0.6, 0.8];
     const LEAST: f32 = 0.95;
+    /// Least median L* of the zone: fair hair has 80 and more.
+    const FAIR: f32 = 60.0;
+    let zone = |side: f32, from: f32, to: f32| {
+        plate.pixels_where(move |[u, v], _| (from..to).contains(&v) && (BESIDE[0]..BESIDE[1]).contains(&(side * u)))
+    };
     let is_filled = |side: f32, from: f32, to: f32| {
-        share_within(plate, &|u, v| (from..to).contains(&v) && (BESIDE[0]..BESIDE[1]).contains(&(side * u))) > LEAST
+        let zone = zone(side, from, to);
+        let inside = zone.pixels().iter().zip(plate.inside.pixels()).filter(|(zone, inside)| **zone && **inside).count();
+        let all = zone.pixels().iter().filter(|is| **is).count();
+        let light = plate.lab.pixels().iter().zip(zone.pixels()).filter(|(_, is)| **is).map(|(lab, _)| lab[0]);
+        inside as f32 > LEAST * all as f32 && median(light.collect()).is_some_and(|light| light > FAIR)
     };
     [-1.0, 1.0].iter().any(|side| HEIGHTS.windows(2).all(|band| is_filled(*side, band[0], band[1])))
 }

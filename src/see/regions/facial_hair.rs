@@ -16,12 +16,11 @@ const UNDER_NOSE: [usize; 5] = [98, 97, 2, 326, 327];
 const CHIN: [usize; 12] = [17, 84, 314, 181, 405, 152, 148, 377, 176, 400, 149, 378];
 /// The middle of the upper lip.
 const PHILTRUM: usize = 2;
-/// A zone is covered if both of its halves (the nose's shadow falls on one) are covered: the median is below `DARK` times the
-/// cheeks' lightness and above `UNEVEN`; or its colour is below `PALE` of the cheeks' and L* above `BLACK`; or its lightness is
-/// below `DARKEST`. Tuned on sixteen portraits, four with beards or moustaches; stubble and shadow reach 0.83 and 0.74.
+/// A zone is covered if both of its halves (the nose's shadow falls on one) are covered by the same sign: the median is below `DARK` times the
+/// cheeks' lightness, uneven enough and below `SHADED` of their colour, which shadow has more of; or its colour is pale and L* above `BLACK`; or
+/// its lightness is below `DARKEST`.
 const DARK: f32 = 0.8;
-const UNEVEN: f32 = 6.6;
-const PALE: f32 = 0.7;
+const SHADED: f32 = 1.35;
 const BLACK: f32 = 18.0;
 const DARKEST: f32 = 0.45;
 /// Without colour, grey beards are as light as cheeks but rougher: up to this lightness of theirs, from this unevenness on. Shaded lips and
@@ -31,6 +30,8 @@ const ROUGH: f32 = 7.2;
 /// Lowest extent of a beard below the chin, in `v`: a longer beard is taken for clothing there; with a lower limit a shaded neck
 /// is taken for beard.
 const BELOW_CHIN: f32 = -0.25;
+/// Least share of hairs on the jaw for a beard without a moustache: a white one in warm light has 0.33.
+const BEARDED_JAW: f32 = 0.3;
 /// Fewest pixels for which a half is measured.
 const LEAST_HALF: usize = 8;
 
@@ -38,6 +39,42 @@ const LEAST_HALF: usize = 8;
 const NOSE: [usize; 12] = [4, 45, 275, 48, 278, 64, 294, 98, 327, 2, 97, 326];
 /// A pixel between the lips' borders that is below this fraction of the cheeks' lightness is hair hanging over them.
 const OVER_LIPS: f32 = 0.55;
+
+/// How strict the limits are: of the portraits' beards as they are, and of those in much or coloured light, which are asked only where the first find
+/// no full beard. Tuned on sixteen portraits, four with beards or moustaches, as they are and lighter, darker, warmer and cooler, and on sixteen
+/// faces in company, which have none. There no zone is as dark with more than 3.9 of unevenness in both halves, beards have at least
+/// 5.5; in warm light a white beard has 0.71 of the cheeks' colour, shaven chins with a shine 0.81.
+#[derive(Clone, Copy)]
+enum Limits {
+    Sure,
+    Faint,
+}
+
+impl Limits {
+    /// The least unevenness of a dark zone.
+    const fn uneven(self) -> f32 {
+        match self {
+            Self::Sure => 6.6,
+            Self::Faint => 5.0,
+        }
+    }
+
+    /// The most colour of a pale zone, in shares of the cheeks'.
+    const fn pale(self) -> f32 {
+        match self {
+            Self::Sure => 0.7,
+            Self::Faint => 0.75,
+        }
+    }
+
+    /// Most lightness and least unevenness of dark hairs, and most colour of pale ones.
+    const fn hairs(self) -> [f32; 3] {
+        match self {
+            Self::Sure => [0.74, 5.5, 0.74],
+            Self::Faint => [0.78, 5.0, 0.76],
+        }
+    }
+}
 
 /// Lightness, colour and unevenness of each pixel relative to the cheeks.
 struct Face<'a> {
@@ -48,10 +85,11 @@ struct Face<'a> {
     colour: Raster<f32>,
     uneven: Raster<f32>,
     lips: Raster<bool>,
+    limits: Limits,
 }
 
 impl<'a> Face<'a> {
-    fn new(plate: &'a Plate) -> Option<Self> {
+    fn new(plate: &'a Plate, limits: Limits) -> Option<Self> {
         let cheeks = plate.round(&CHEEKS, 0.06);
         let light = plate.lab.map(|c| c[0]);
         let colour = plate.lab.map(|c| c[1].hypotenuse(c[2]) / (c[0] + 8.0));
@@ -60,29 +98,42 @@ impl<'a> Face<'a> {
         let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), 0.03 * plate.face_width);
         let uneven = energy.zip_map(&light, |e, l| 50.0 * e.max(0.0).sqrt() / (l + 8.0));
         let lips = dilate(&plate.hull(&LIPS).map(u8::from), 1).map(|v| v != 0);
-        Some(Self { plate, light: light.map(|v| v / light_there), colour: colour.map(|v| v / colour_there), uneven, lips })
+        Some(Self {
+            plate,
+            light: light.map(|v| v / light_there),
+            colour: colour.map(|v| v / colour_there),
+            uneven,
+            lips,
+            limits,
+        })
     }
 
-    /// True if both halves of a zone look covered with hair.
-    fn is_covered(&self, zone: &Raster<bool>) -> bool {
+    /// The halves of a zone on both sides of the lip's middle that are large enough to measure.
+    fn halves(&self, zone: &Raster<bool>) -> Vec<Raster<bool>> {
         let middle = self.plate.coordinates(self.plate.point(PHILTRUM))[0];
         let half = |sign: f32| self.plate.pixels_where(|[u, _], i| zone.pixels()[i] && sign * (u - middle) > 0.01);
-        let halves: Vec<bool> = [-1.0, 1.0]
-            .into_iter()
-            .map(half)
-            .filter(|half| half.pixels().iter().filter(|is| **is).count() >= LEAST_HALF)
-            .filter_map(|half| {
-                let (light, colour, uneven) =
-                    (median_in(&self.light, &half)?, median_in(&self.colour, &half)?, median_in(&self.uneven, &half)?);
-                let l = median_in(&self.plate.lab.map(|c| c[0]), &half)?;
-                let is_dark = light < DARK && uneven > UNEVEN;
-                let is_pale = !self.plate.is_grey && colour < PALE && l > BLACK;
-                let is_darkest = light < DARKEST && uneven > 6.5 && colour < 1.3;
-                let is_rough = self.plate.is_grey && light < ROUGH_LIGHT && uneven > ROUGH;
-                Some(is_dark || is_pale || is_darkest || is_rough)
-            })
-            .collect();
-        !halves.is_empty() && halves.into_iter().all(|is| is)
+        let is_measured = |half: &Raster<bool>| half.pixels().iter().filter(|is| **is).count() >= LEAST_HALF;
+        [-1.0, 1.0].into_iter().map(half).filter(is_measured).collect()
+    }
+
+    /// True if both halves of a zone look covered with hair, by the same sign: one in light and one in shade are skin.
+    fn is_covered(&self, zone: &Raster<bool>) -> bool {
+        let halves: Vec<Vec<bool>> = self.halves(zone).iter().filter_map(|half| self.signs(half)).map(Vec::from).collect();
+        !halves.is_empty() && (0..halves[0].len()).any(|sign| halves.iter().all(|half| half[sign]))
+    }
+
+    /// Whether hair covers a half of a zone: by its darkness, by its paleness, by black, by roughness where there is no colour.
+    fn signs(&self, half: &Raster<bool>) -> Option<[bool; 4]> {
+        let [light, colour, uneven] = [&self.light, &self.colour, &self.uneven].map(|plane| median_in(plane, half));
+        let (light, colour, uneven) = (light?, colour?, uneven?);
+        let l = median_in(&self.plate.lab.map(|c| c[0]), half)?;
+        let is_grey = self.plate.is_grey;
+        Some([
+            light < DARK && uneven > self.limits.uneven() && (is_grey || colour < SHADED),
+            !is_grey && colour < self.limits.pale() && l > BLACK,
+            light < DARKEST && uneven > 6.5 && colour < 1.3,
+            is_grey && light < ROUGH_LIGHT && uneven > ROUGH,
+        ])
     }
 
     /// The pixels too dark for lips.
@@ -145,21 +196,30 @@ impl<'a> Face<'a> {
         self.plate.pixels_where(|_, i| hairs.pixels()[i] || is_rough(i))
     }
 
-    /// The pixels of a zone that look like facial hair less surely: a white moustache is thin in places.
-    fn fainter(&self, zone: &Raster<bool>) -> Raster<bool> {
-        const FAINTER: f32 = 0.88;
+    /// The hairs with those of a white moustache that is thin in places: in its zone less colour is enough, where one half is surely white.
+    fn with_thin_moustache(&self, hairs: Raster<bool>, zone: &Raster<bool>) -> Raster<bool> {
+        /// The colour of thin places, in shares of the cheeks': 0.8 in portrait 14; bare lips beside red cheeks have 0.9 and more.
+        const THIN: f32 = 0.88;
+        let is_white = |half: &Raster<bool>| {
+            let [colour, light] = [&self.colour, &self.light].map(|plane| median_in(plane, half));
+            colour.is_some_and(|colour| colour < self.limits.pale()) && light.is_some_and(|light| light > DARK)
+        };
+        if self.plate.is_grey || !self.halves(zone).iter().any(is_white) {
+            return hairs;
+        }
         let colour = gaussian_blur(&self.colour, 0.02 * self.plate.face_width);
-        self.plate.pixels_where(|_, i| zone.pixels()[i] && !self.plate.is_grey && colour.pixels()[i] < FAINTER)
+        self.plate.pixels_where(|_, i| hairs.pixels()[i] || (zone.pixels()[i] && colour.pixels()[i] < THIN))
     }
 
     /// The pixels that look like facial hair.
     fn hairs(&self) -> Raster<bool> {
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
         let (light, colour, uneven) = (blur(&self.light, 0.012), blur(&self.colour, 0.012), blur(&self.uneven, 0.02));
+        let [dark, rough, pale] = self.limits.hairs();
         self.plate.pixels_where(|_, i| {
             let (l, c) = (light.pixels()[i], colour.pixels()[i]);
-            let is_dark = l < 0.74 && uneven.pixels()[i] > 5.5;
-            let is_pale = !self.plate.is_grey && c < 0.74;
+            let is_dark = l < dark && uneven.pixels()[i] > rough;
+            let is_pale = !self.plate.is_grey && c < pale;
             is_dark || is_pale || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
         })
     }
@@ -179,7 +239,16 @@ pub(super) struct Beard {
 impl Beard {
     /// The facial hair, if both halves of the upper lip or of the chin are covered.
     pub(super) fn found(plate: &Plate) -> Option<Self> {
-        let face = Face::new(plate)?;
+        let sure = Self::within(plate, Limits::Sure);
+        if sure.as_ref().is_some_and(|beard| beard.is_full) {
+            return sure;
+        }
+        let faint = Self::within(plate, Limits::Faint);
+        if faint.as_ref().is_some_and(|beard| beard.is_full) { faint } else { sure.or(faint) }
+    }
+
+    fn within(plate: &Plate, limits: Limits) -> Option<Self> {
+        let face = Face::new(plate, limits)?;
         let off_lips = |zone: Raster<bool>| zone.zip_map(&face.lips, |zone, lips| zone && !lips);
         let under_nose = plate.round(&UNDER_NOSE, 0.035);
         let moustache = off_lips(plate.hull(&MOUSTACHE)).zip_map(&under_nose, |zone, nose| zone && !nose);
@@ -188,7 +257,7 @@ impl Beard {
         let jaw = off_lips(plate.pixels_where(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
         let hairs = face.hairs();
         let has_moustache = face.is_covered(&moustache);
-        let is_full = face.is_covered(&chin) && (has_moustache || share_of(&hairs, &jaw) > 0.4);
+        let is_full = face.is_covered(&chin) && (has_moustache || share_of(&hairs, &jaw) > BEARDED_JAW);
         if !has_moustache && !is_full {
             return None;
         }
@@ -199,7 +268,7 @@ impl Beard {
         let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
         let over_lips = face.over_lips();
         let hairs = if is_full { face.with_rough(&hairs) } else { hairs };
-        let hairs = hairs.zip_map(&face.fainter(&moustache), |hair, fainter| hair || fainter);
+        let hairs = if is_full { face.with_thin_moustache(hairs, &moustache) } else { hairs };
         let is_other = if is_full { face.beside_beard(&hairs, &chin) } else { hairs.map(|_| false) };
         let allowed = plate.pixels_where(|[u, v], i| {
             let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;

@@ -13,6 +13,8 @@ pub(super) struct Hair {
     pub is_unlike_clothing: bool,
     /// Fraction of the area beside the jaw that it covers: the picture's left, then right.
     pub beside_jaw: [f32; 2],
+    /// Whether both shoulders, where no hair lies, look like it.
+    pub is_like_shoulders: bool,
     /// Whether it falls past the jaw without a gap, likewise.
     pub falls: [bool; 2],
     /// The pixels of the face that it covers.
@@ -26,13 +28,18 @@ impl Hair {
         (0..4).map(|k| (weights[k] * (f[k] - self.middle[k])).powi(2)).sum::<f32>().sqrt()
     }
 
-    /// True if hair hangs down on the side of `u`: it falls past the jaw, or covers the area beside it. Hair that looks like the
-    /// jacket must cover all of that, of other hair some is enough.
+    /// True if hair hangs down on the side of `u`: it falls past the jaw, or covers the area beside it, most of that if it looks like the
+    /// jacket, of other hair some.
     pub(super) fn hangs(&self, u: f32) -> bool {
         /// Chroma from which hair can be distinguished from jackets.
         const COLOURED: f32 = 10.0;
         let is_coloured = self.middle[1].hypotenuse(self.middle[2]) > COLOURED;
         self.falls(u) || self.beside_jaw(u) > if is_coloured || self.is_unlike_clothing { 0.25 } else { 0.6 }
+    }
+
+    /// How far from the middle of the head it may lie on the shoulders, in `u`: hair that looks like the jacket lies near the neck.
+    pub(super) fn widest(&self) -> f32 {
+        if self.is_like_shoulders { 0.8 } else { 1.3 }
     }
 
     /// True if it falls past the jaw without a gap on the side of `u`.

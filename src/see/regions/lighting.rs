@@ -41,6 +41,11 @@ impl Lighting {
         self.is_black(u) && self.with_ears.pixels()[i] && is_smooth
     }
 
+    /// True for a pixel of the face or near it at the height of ears.
+    pub(super) fn may_be_ear(&self, v: f32, i: usize) -> bool {
+        v < 0.75 && v > 0.2 && self.with_ears.pixels()[i]
+    }
+
     /// True if the side of the picture where `u` is lies in black shadow.
     pub(super) fn is_black(&self, u: f32) -> bool {
         self.shadowed[usize::from(u > self.middle)]

@@ -120,6 +120,9 @@ fn class_of_stray_skin(parting: &Segmentation, plate: &Plate, shares: &Raster<Sh
 
 /// Hair that is short beside the jaw does not continue below it.
 fn end_at_jaw(parting: &Segmentation, plate: &Plate, shares: &mut Raster<Shares>, sign: f32, with_beard: bool) {
+    if parting.falls(sign) {
+        return;
+    }
     // A full beard covers the area beside the jaw too; long hair shows farther out.
     let from = if with_beard { 0.65 } else { 0.5 };
     let (mut hair, mut all) = (0_usize, 0_usize);

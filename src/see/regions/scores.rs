@@ -24,17 +24,12 @@ impl Segmentation<'_> {
         let (far, path) = (self.from_skin.pixels()[i], self.path.pixels()[i]);
         let is_core = is_face && self.plate.core.pixels()[i] && v < 0.72;
         let is_shadow = self.lighting.is_shadow(self.plate, i);
-        let most = if is_shadow {
-            8.0
-        } else if is_core {
-            24.0
-        } else {
-            40.0
+        let (most, shade) = match (is_shadow, is_core) {
+            (true, _) => (8.0, 6.0),
+            (false, true) => (24.0, 0.0),
+            (false, false) => (40.0, 0.0),
         };
-        let mut e = -0.5 * far.min(most) - self.skin.level();
-        if is_shadow {
-            e += 6.0;
-        }
+        let mut e = -0.5 * far.min(most) - self.skin.level() + shade;
         if is_core {
             e += 14.0;
         } else if is_face {
@@ -55,7 +50,7 @@ impl Segmentation<'_> {
         if v > 1.04 && !self.is_bald && !is_near {
             e -= 4.0;
         }
-        if !is_face && self.is_behind_hair(u, v) {
+        if !is_face && self.is_behind_hair(u, v) && !self.lighting.may_be_ear(v, i) {
             e -= 5.0;
         }
         let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0;
@@ -131,7 +126,7 @@ impl Segmentation<'_> {
         let colour = self.clothing.as_ref().map_or(flat, |c| log_sum([c.log_density(f), flat].into_iter()));
         let hairy = self.hair.as_ref().is_some_and(|hair| {
             let is_aside = a > 0.4 || self.may_fall(hair, u);
-            hair.hangs(u) && a < 1.3 && is_aside && hair.distance(f, 0.25, 0.4) < 18.0
+            hair.hangs(u) && a < hair.widest() && is_aside && hair.distance(f, 0.25, 0.4) < 18.0
         });
         let above = (v + 0.16 - 0.5 * (a - 0.6).clamp(0.0, 0.6)).max(0.0) * 12.0;
         // Shoulders and collars rise beside a head that bends forward.
@@ -149,9 +144,9 @@ impl Segmentation<'_> {
         e
     }
 
-    /// True beside a head where hair falls: no cheek shows there, and hardly an ear.
+    /// True beside a face where hair falls: no skin shows there but ears.
     fn is_behind_hair(&self, u: f32, v: f32) -> bool {
-        v > -0.2 && self.hair.as_ref().is_some_and(|hair| hair.falls(u)) && self.aside_of_chin(u) > 0.4
+        (0.0..0.9).contains(&v) && self.falls(u) && self.aside_of_chin(u) > 0.4
     }
 
     /// True where hair may fall in front of neck and shoulder.

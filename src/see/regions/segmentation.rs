@@ -34,6 +34,9 @@ pub(super) struct Segmentation<'a> {
     pub(super) clothing: Option<Mixture>,
 }
 
+/// Distance from hair's median up to which a pixel beside the face is like it.
+const LIKE_HAIR: f32 = 22.0;
+
 /// The middle of the forehead's upper border.
 const TOP: usize = 10;
 /// L* from which a pixel may be a lamp's reflection, and the least fraction of a crown in other colours than skin that makes it
@@ -130,6 +133,7 @@ impl<'a> Segmentation<'a> {
             middle,
             is_unlike_clothing: false,
             beside_jaw: [0.0; 2],
+            is_like_shoulders: false,
             falls: [false; 2],
             over_face: plate.oval.map(|_| false),
         };
@@ -144,39 +148,61 @@ impl<'a> Segmentation<'a> {
                     && u * sign < 0.78
                     && self.is_out(i)
                     && self.from_skin.pixels()[i] > NO_SKIN
-                    && hair.distance(f, 0.35, 0.6) < 22.0
+                    && hair.distance(f, 0.35, 0.6) < LIKE_HAIR
             };
             hair.beside_jaw[side] = ((0..plate.at.len()).filter(|i| is_it(*i)).count() as f64 / room) as f32;
         }
         Some(hair)
     }
 
-    /// Finds out where hair falls past the jaw, and over the face. A full beard looks the same beside the jaw.
+    /// Finds out where hair falls past the jaw, and over the face. A full beard looks the same beside the jaw, and in black and white much does.
     fn let_hair_fall(&mut self, beard: Option<&Beard>) {
-        /// The squared deviation from skin above which a pixel of the face may be hair, and the distance from hair's median below which it is.
+        /// The squared deviation from skin above which a pixel of the face may be hair, and the distance from hair's median below which it is:
+        /// hair over cheeks has 20 to 80 and up to 24 in blue light, cheeks in shade of thirty heads up to 16 of deviation.
         const COVERED: f32 = 20.0;
         const LIKE: f32 = 24.0;
         /// How much likelier hair is than skin, in natural logarithms, where hair is fair.
         const SURE: f32 = 1.0;
         let plate = self.plate;
         let Some(hair) = &self.hair else { return };
+        if self.is_bald || plate.is_grey || beard.is_some_and(|beard| beard.is_full) {
+            return;
+        }
         let distance = |i: usize| hair.distance(plate.features.pixels()[i], 0.35, 0.6);
         let is_no_skin = |i: usize| {
             let far = self.from_skin.pixels()[i];
             far > NO_SKIN || hair.mixture.log_density(plate.features.pixels()[i]) > -0.5 * far - self.skin.level() + SURE
         };
-        let beside =
-            plate.pixels_where(|_, i| plate.inside.pixels()[i] && !plate.core.pixels()[i] && is_no_skin(i) && distance(i) < 22.0);
-        let is_short = self.is_bald || beard.is_some_and(|beard| beard.is_full);
-        let falls = [-1.0, 1.0].map(|side| !is_short && !self.lighting.is_black(side) && falls_past_jaw(plate, &beside, side));
+        let beside = plate
+            .pixels_where(|_, i| plate.inside.pixels()[i] && !plate.core.pixels()[i] && is_no_skin(i) && distance(i) < LIKE_HAIR);
+        let falls = falls_past_jaw(plate, &beside);
+        let falls = [-1.0, 1.0].map(|side| !self.lighting.is_black(side) && falls[usize::from(side > 0.0)]);
+        if falls == [false; 2] {
+            return;
+        }
         let covering = plate.pixels_where(|_, i| {
             let is_covered = self.from_skin.pixels()[i] > COVERED && !self.lighting.is_shadow(plate, i);
             plate.inside.pixels()[i] && is_covered && distance(i) < LIKE
         });
         let over_face = over_face(plate, &covering, falls);
+        let is_like_shoulders = [-1.0, 1.0].iter().all(|side| self.is_like_shoulder(hair, *side));
         if let Some(hair) = &mut self.hair {
-            (hair.falls, hair.over_face) = (falls, over_face);
+            (hair.falls, hair.over_face, hair.is_like_shoulders) = (falls, over_face, is_like_shoulders);
         }
+    }
+
+    /// True if a shoulder, farther out than hair lies, looks like it.
+    fn is_like_shoulder(&self, hair: &Hair, side: f32) -> bool {
+        /// Where shoulders are, in `u` and `v`, and the least share of them.
+        const ASIDE: [f32; 2] = [0.95, 1.8];
+        const BELOW: f32 = -0.35;
+        const MOST: f32 = 0.5;
+        let plate = self.plate;
+        let shoulder =
+            plate.pixels_where(|[u, v], i| plate.inside.pixels()[i] && v < BELOW && (ASIDE[0]..ASIDE[1]).contains(&(side * u)));
+        let samples = plate.samples(&shoulder);
+        let like = samples.iter().filter(|f| hair.distance(**f, 0.25, 0.4) < 18.0).count();
+        samples.len() > LEAST_SEEDS && like as f32 > MOST * samples.len() as f32
     }
 
     /// Where clothing certainly is: the shoulders, below the chin and along the picture's lower border, where there is no skin.
@@ -202,7 +228,7 @@ impl<'a> Segmentation<'a> {
             seeds.pixels()[i]
                 && !self.hair.as_ref().is_some_and(|hair| {
                     let f = plate.features.pixels()[i];
-                    let is_long = hair.hangs(u) && u.abs() < 1.3;
+                    let is_long = hair.hangs(u) && u.abs() < hair.widest();
                     (hair.distance(f, 0.35, 0.6) < 9.0 && v > -0.35)
                         || (hair.distance(f, 0.25, 0.4) < 18.0 && v > -0.85 && is_long)
                 })
@@ -238,6 +264,11 @@ impl<'a> Segmentation<'a> {
     /// Mean squared deviation of a piece from skin.
     pub(super) fn mean_from_skin(&self, pixels: &[usize]) -> f32 {
         pixels.iter().map(|&i| self.from_skin.pixels()[i].min(40.0)).sum::<f32>() / pixels.len().max(1) as f32
+    }
+
+    /// Whether hair falls past the jaw on the side of `u`.
+    pub(super) fn falls(&self, u: f32) -> bool {
+        self.hair.as_ref().is_some_and(|hair| hair.falls(u))
     }
 
     /// Whether hair hangs beside the jaw on the side of `u`.

@@ -1,15 +1,18 @@
 //! Step 2: hair (sections 3.1.2, 4 and 6.3.3).
 
 use super::Drawer;
+use super::regions::Regions;
 use super::strokes::Touch;
 use crate::drawing::Mark;
 use crate::elementary::{Elementary as _, unit_at};
 use crate::field::{Covering, HoughFilter, HoughForm, OrientationField, cover};
 use crate::geometry::{Millimetres, Point, Ring, Vec2, smooth_polyline};
-use crate::raster::{Raster, gaussian_blur, ridges};
+use crate::raster::{Raster, fast_gaussian, gaussian_blur, ridges};
+use crate::source::MaskRole;
 use crate::style::Picture;
 use crate::style::declaration::Radians;
 use crate::style::random::stream;
+use crate::style::rim::rim;
 
 /// Blur before line detection, in pixels (section 3.1.2).
 const LINE_BLUR: f32 = 2.0;
@@ -85,6 +88,27 @@ impl Drawer<'_> {
         // Light hair shows by the shade of its locks, which hooks would crumble.
         let dark = 1.0 - lightness_of(levels[1]);
         self.curled(&field, &coils.map(|coil| dark * coil), hair, &ink, sizes)
+    }
+
+    /// The least ink of light hair, at the silhouette: without it hair would be open to the paper, and a line is a wire. None where no lines are
+    /// wanted, as of all pens but one.
+    pub(super) fn rim_of_light_hair(&self, regions: &Regions) -> Raster<f32> {
+        /// Ink at the silhouette: with 0.4 it is a row of stitches around white hair (portraits 12, 13, 15). How far it reaches inside, as a blur in pitches: with 1.5
+        /// its strokes are ticks.
+        const RIM: f32 = 0.25;
+        const REACH: f64 = 3.0;
+        /// Ink below which hair is light, that from which it is not, and the blur of it in pitches.
+        const LIGHT: (f32, f32) = (0.16, 0.3);
+        const BLUR: f64 = 3.0;
+        if self.portrait.masks.get(&MaskRole::Edges).is_some_and(|lines| lines.pixels().iter().all(|v| *v == 0.0)) {
+            return regions.hair.map(|_| 0.0);
+        }
+        let sigma = self.pixels(BLUR * self.parameters.pitch) as f32;
+        let hair = fast_gaussian(&regions.hair, sigma);
+        let ink = fast_gaussian(&self.darkness().zip_map(&regions.hair, |ink, hair| ink * hair), sigma);
+        let is_light = ink.zip_map(&hair, |ink, hair| ((LIGHT.1 - ink / hair.max(1e-3)) / (LIGHT.1 - LIGHT.0)).clamp(0.0, 1.0));
+        let rim = rim(&regions.subject, REACH * self.pitch(), RIM);
+        self.portrait.opened(rim.zip_map(&is_light, |rim, is_light| rim * is_light))
     }
 
     /// Strokes along a field inside a region whose ink is as given.

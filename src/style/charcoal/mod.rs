@@ -27,7 +27,6 @@ mod tone;
 
 use super::coverage::covered;
 use super::drawer::Pitched;
-use super::rim::rim;
 use super::solids::{Solids, detail_zone};
 use super::{Cost, Observer, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark};
@@ -131,10 +130,6 @@ pub(super) fn strokes_along(
 /// Widths of the lines of mouths and lids, as a share: in full they are ink among charcoal.
 const MOUTH: f64 = 0.72;
 const LIDS: f64 = 0.6;
-/// Ink of light hair at the silhouette: with 0.6 it is a fringe of lashes (portraits 12, 13, 15).
-const RIM: f32 = 0.4;
-/// How far that shade reaches inside, as a blur in pitches.
-const RIM_REACH: f64 = 3.0;
 
 impl Drawer<'_> {
     /// The five steps of the thesis in the order of section 3.1, then its layers in the order of section 6.3.
@@ -145,8 +140,7 @@ impl Drawer<'_> {
         let shared = self.portrait.prepared.get::<ForPens>().map(|shared| shared.regions.clone());
         let regions = &*shared.unwrap_or_else(|| Arc::new(self.new_regions()));
         self.check()?;
-        let rim = rim(&regions.subject, RIM_REACH * self.pitch(), RIM);
-        let hair = self.hair(&regions.hair, HAIR_SHARE, Strands::Curled, &rim);
+        let hair = self.hair(&regions.hair, HAIR_SHARE, Strands::Curled, &self.rim_of_light_hair(regions));
         self.check()?;
         let features = self.features(regions);
         self.check()?;
