@@ -65,17 +65,15 @@ fn is_curtained(plate: &Plate) -> bool {
     const LEAST: f32 = 0.95;
     /// Least median L* of the zone: fair hair has 80 and more.
     const FAIR: f32 = 60.0;
-    let zone = |side: f32, from: f32, to: f32| {
-        plate.pixels_where(move |[u, v], _| (from..to).contains(&v) && (BESIDE[0]..BESIDE[1]).contains(&(side * u)))
+    let is_beside = |side: f32, u: f32| (BESIDE[0]..BESIDE[1]).contains(&(side * u));
+    let is_filled =
+        |side: f32, from: f32, to: f32| share_within(plate, &|u, v| (from..to).contains(&v) && is_beside(side, u)) > LEAST;
+    let is_fair = |side: f32| {
+        let zone = |[u, v]: [f32; 2]| (HEIGHTS[0]..HEIGHTS[HEIGHTS.len() - 1]).contains(&v) && is_beside(side, u);
+        let light = plate.lab.pixels().iter().zip(plate.at.pixels()).filter(|(_, at)| zone(**at)).map(|(lab, _)| lab[0]);
+        median(light.collect()).is_some_and(|light| light > FAIR)
     };
-    let is_filled = |side: f32, from: f32, to: f32| {
-        let zone = zone(side, from, to);
-        let inside = zone.pixels().iter().zip(plate.inside.pixels()).filter(|(zone, inside)| **zone && **inside).count();
-        let all = zone.pixels().iter().filter(|is| **is).count();
-        let light = plate.lab.pixels().iter().zip(zone.pixels()).filter(|(_, is)| **is).map(|(lab, _)| lab[0]);
-        inside as f32 > LEAST * all as f32 && median(light.collect()).is_some_and(|light| light > FAIR)
-    };
-    [-1.0, 1.0].iter().any(|side| HEIGHTS.windows(2).all(|band| is_filled(*side, band[0], band[1])))
+    [-1.0, 1.0].iter().any(|side| is_fair(*side) && HEIGHTS.windows(2).all(|band| is_filled(*side, band[0], band[1])))
 }
 
 /// The share of the person in a zone in `u` and `v`.
