@@ -44,14 +44,20 @@ const CORNERS: [usize; 2] = [33, 263];
 /// head the hair begins at the corner.
 const BESIDE_EYES: f32 = 0.04;
 const BELOW: f32 = 0.85;
+/// The height where the hair of temples ends, in `v`: below it a cheek in shade is as dark.
+const SIDEBURNS: f32 = 0.35;
 /// Half the width in working pixels of what is too narrow for hair: frames of spectacles.
 const THIN: usize = 2;
 
-/// The pixels of the face that hair covers which falls beside it, on the sides (left, right) where it does.
+/// The pixels of the face that hair covers: hair that falls beside it, on the sides (left, right) where it does, and on the others the hair of
+/// temples, which a turned head brings into the face's outline, down to the sideburns.
 pub(super) fn over_face(plate: &Plate, is_hair: &Raster<bool>, sides: [bool; 2]) -> Raster<bool> {
     let corners = CORNERS.map(|corner| plate.coordinates(plate.point(corner))[0]);
-    let is_beside = |u: f32| (sides[0] && u < corners[0] - BESIDE_EYES) || (sides[1] && u > corners[1] + BESIDE_EYES);
-    let covered = plate.pixels_where(|[u, v], i| is_hair.pixels()[i] && (!plate.oval.pixels()[i] || (v < BELOW && is_beside(u))));
+    let lowest = sides.map(|falls| if falls { f32::MIN } else { SIDEBURNS });
+    let is_beside =
+        |u: f32, v: f32| (u < corners[0] - BESIDE_EYES && v > lowest[0]) || (u > corners[1] + BESIDE_EYES && v > lowest[1]);
+    let covered =
+        plate.pixels_where(|[u, v], i| is_hair.pixels()[i] && (!plate.oval.pixels()[i] || (v < BELOW && is_beside(u, v))));
     let covered = open(&covered.map(u8::from), THIN);
     let (labels, count) = components(&covered);
     let mut reaches_out = vec![false; count + 1];

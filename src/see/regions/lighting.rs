@@ -9,6 +9,8 @@ use crate::raster::{Raster, dilate};
 pub(super) struct Lighting {
     /// Sides of the face in black shadow, where colour is meaningless: the picture's left, then right.
     shadowed: [bool; 2],
+    /// L* below which a pixel on either side is darker than skin in that shadow: hair.
+    blackest: [f32; 2],
     /// Where the right side begins, in `u`.
     middle: f32,
     /// The face's oval with the ears beside it.
@@ -20,8 +22,10 @@ impl Lighting {
         /// Between the eyes.
         const BETWEEN_EYES: usize = 6;
         let reach = (0.2 * plate.face_width) as usize;
+        let cheeks = cheeks(plate);
         Self {
-            shadowed: shadowed(plate),
+            shadowed: shadowed(cheeks),
+            blackest: cheeks.map(|light| BLACKEST * light),
             middle: plate.coordinates(plate.point(BETWEEN_EYES))[0],
             with_ears: dilate(&plate.oval.map(u8::from), reach).map(|v| v != 0),
         }
@@ -33,12 +37,17 @@ impl Lighting {
         /// portrait an ear in black shadow has 15 to 17, the hair about it 22.
         const SMOOTH: f32 = 14.0;
         const SMOOTH_EAR: f32 = 18.0;
+        /// Lightness, as a multiple of the least, from which it is skin of any texture.
+        const LIGHT: f32 = 1.3;
         let [u, v] = plate.at.pixels()[i];
-        let is_face = v < 0.97 && u.abs() < 0.44;
+        let is_aside = u.abs() >= 0.44;
         let is_ear = v < 0.72 && v > 0.2;
         let texture = plate.features.pixels()[i][3];
-        let is_smooth = (is_face && texture < SMOOTH) || (is_ear && texture < SMOOTH_EAR);
-        self.is_black(u) && self.with_ears.pixels()[i] && is_smooth
+        let light = plate.lab.pixels()[i][0] / self.blackest[self.side(u)].max(0.1);
+        let is_light = light > LIGHT;
+        let is_face = !is_aside && ((v < 0.97 && texture < SMOOTH) || (v < 1.12 && is_light));
+        let is_skin = is_face || (is_ear && (texture < SMOOTH_EAR || is_light));
+        self.is_black(u) && self.with_ears.pixels()[i] && is_skin && light > 1.0
     }
 
     /// True for a pixel of the face or near it at the height of ears.
@@ -48,7 +57,12 @@ impl Lighting {
 
     /// True if the side of the picture where `u` is lies in black shadow.
     pub(super) fn is_black(&self, u: f32) -> bool {
-        self.shadowed[usize::from(u > self.middle)]
+        self.shadowed[self.side(u)]
+    }
+
+    /// The side of the picture where `u` is: 0 left, 1 right.
+    fn side(&self, u: f32) -> usize {
+        usize::from(u > self.middle)
     }
 
     /// True for a pixel of an ear that light shines through.
@@ -79,10 +93,17 @@ const SHADOW: f32 = 0.45;
 /// It does if it is also darker than this L*.
 const DARK_CHEEK: f32 = 35.0;
 
-/// The sides whose cheek is nearly black compared with the other.
-fn shadowed(plate: &Plate) -> [bool; 2] {
-    let light = CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(0.0, |f| f[0]));
-    let is_black = |own: f32, other: f32| own < SHADOW * other && own < DARK_CHEEK * LIGHTNESS_WEIGHT;
+/// The fraction of a shadowed cheek's L* below which hair is: in one portrait the cheek has 10 to 16, its ear 5 to 9 and the hair 1 to 4.
+const BLACKEST: f32 = 0.27;
+
+/// L* of the cheeks.
+fn cheeks(plate: &Plate) -> [f32; 2] {
+    CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(0.0, |f| f[0] / LIGHTNESS_WEIGHT))
+}
+
+/// The sides whose cheek, of L* `light`, is nearly black compared with the other.
+fn shadowed(light: [f32; 2]) -> [bool; 2] {
+    let is_black = |own: f32, other: f32| own < SHADOW * other && own < DARK_CHEEK;
     [is_black(light[0], light[1]), is_black(light[1], light[0])]
 }
 

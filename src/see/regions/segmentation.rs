@@ -177,9 +177,6 @@ impl<'a> Segmentation<'a> {
             .pixels_where(|_, i| plate.inside.pixels()[i] && !plate.core.pixels()[i] && is_no_skin(i) && distance(i) < LIKE_HAIR);
         let falls = falls_past_jaw(plate, &beside);
         let falls = [-1.0, 1.0].map(|side| !self.lighting.is_black(side) && falls[usize::from(side > 0.0)]);
-        if falls == [false; 2] {
-            return;
-        }
         let covering = plate.pixels_where(|_, i| {
             let is_covered = self.from_skin.pixels()[i] > COVERED && !self.lighting.is_shadow(plate, i);
             plate.inside.pixels()[i] && is_covered && distance(i) < LIKE
