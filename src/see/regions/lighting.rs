@@ -55,6 +55,11 @@ impl Lighting {
         v < 0.75 && v > 0.2 && self.with_ears.pixels()[i]
     }
 
+    /// True within an ear's width of the face.
+    pub(super) fn is_near_face(&self, i: usize) -> bool {
+        self.with_ears.pixels()[i]
+    }
+
     /// True if the side of the picture where `u` is lies in black shadow.
     pub(super) fn is_black(&self, u: f32) -> bool {
         self.shadowed[self.side(u)]
