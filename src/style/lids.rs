@@ -30,6 +30,8 @@ const AWAY: f32 = 0.06;
 /// The openness from which lines have their whole width, and the least share of it: wide lines would close a narrow eye (04, 05, 14).
 const OPEN: f64 = 0.3;
 const NARROW: f64 = 0.5;
+/// Behind lenses, whose reflections veil the eye: how much contrast counts more, and the least share of the width (11, 14).
+const BEHIND_LENSES: [f64; 2] = [2.0, 0.8];
 /// Share of a line at each end over which it tapers.
 const TAPER: f64 = 0.22;
 /// How far beyond the lids and within the eye lines that were found give way, in widths of the eye.
@@ -118,6 +120,9 @@ struct Eye {
     lower: Vec<Point>,
     /// From the lower lid to the upper, of length 1.
     up: Vec2,
+    /// How much a line's contrast counts, and the least share of its width.
+    counts: f64,
+    narrow: f64,
 }
 
 impl Eye {
@@ -130,7 +135,8 @@ impl Eye {
         let up = across.turn_90() / width.max(1e-9);
         let up = if up.dot(face.point(10) - face.point(152)) < 0.0 { -up } else { up };
         (width > 0.0).then_some(())?;
-        Some(Self { width, upper: even(&upper)?, lower: even(&lower)?, up })
+        let [counts, narrow] = if face.spectacles.is_some() { BEHIND_LENSES } else { [1.0, NARROW] };
+        Some(Self { width, upper: even(&upper)?, lower: even(&lower)?, up, counts, narrow })
     }
 
     /// The upper lid and the lower: an iris that is open keeps its lines.
@@ -172,9 +178,10 @@ impl Eye {
         let values = Raster::from_fn(ROWS, COLUMNS, |row, column| contrast(column, row));
         let rows = best_way(&Raster::from_fn(ROWS, COLUMNS, |row, column| values.get(row, column) - away(row)), 2, BEND);
         let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
-        let found: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(values.get(*row, column))).collect();
+        let found: Vec<f64> =
+            rows.iter().enumerate().map(|(column, row)| self.counts * f64::from(values.get(*row, column))).collect();
         let found = averaged(&found);
-        let widest = lid.widest * self.width * (self.openness() / OPEN).clamp(NARROW, 1.0);
+        let widest = lid.widest * self.width * (self.openness() / OPEN).clamp(self.narrow, 1.0);
         let widths: Vec<f64> = found.iter().map(|contrast| widest * (contrast / lid.full).clamp(lid.least, 1.0)).collect();
         let line = smoothed(&points, &widths);
         let last = line.curve.points.len() - 1;

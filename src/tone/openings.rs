@@ -38,18 +38,21 @@ pub(super) fn openness(outline: &[Point], [closed, open]: [f64; 2]) -> f32 {
 const EYE_DEPTH: f32 = 0.5;
 const MOST_GAIN: f32 = 2.2;
 const LEAST_DEPTH: f32 = 0.06;
+/// The same gain and difference behind lenses, whose reflections veil the eye (portraits 11 and 14).
+const BEHIND_LENSES: [f32; 2] = [3.6, 0.03];
 const WITH_LIDS: f64 = 0.015;
 
 /// Eyes that differ little from the skin around them, behind lenses or in shade, are raised until their irises do; `round` is the tone of
 /// that skin.
 pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, round: &Raster<f32>) -> Raster<f32> {
+    let [most, least] = if face.spectacles.is_some() { BEHIND_LENSES } else { [MOST_GAIN, LEAST_DEPTH] };
     eyes(face).into_iter().fold(tone.clone(), |tone, (lids, iris)| {
         let below = round.zip_map(&tone, |round, v| round - v);
         let disc = Raster::from_fn(tone.width(), tone.height(), |x, y| {
             f32::from(u8::from(iris.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 0.8 * iris.radius))
         });
-        let Some(depth) = median(&below, &disc).filter(|depth| *depth > LEAST_DEPTH) else { return tone };
-        let gain = (EYE_DEPTH / depth).clamp(1.0, MOST_GAIN) - 1.0;
+        let Some(depth) = median(&below, &disc).filter(|depth| *depth > least) else { return tone };
+        let gain = (EYE_DEPTH / depth).clamp(1.0, most) - 1.0;
         let hull = polygon(tone.width(), tone.height(), &convex_hull(lids));
         let around = dilate(&hull, (WITH_LIDS * zones.width).round().max(1.0) as usize).map(f32::from);
         let soft = fast_gaussian(&around, (WITH_LIDS * zones.width) as f32);
