@@ -23,6 +23,31 @@ pub fn close(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     erode(&dilate(mask, radius), radius)
 }
 
+/// The marked region without what a disc of a radius in pixels does not fit into. Pixels outside the raster count as those at its border.
+pub fn open_round(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
+    let gap = grown_round(&mask.map(|v| u8::from(v == 0)), radius);
+    grown_round(&gap.map(|v| 1 - v), radius)
+}
+
+/// Grows the marked region by `radius` pixels, by Euclidean distance.
+fn grown_round(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
+    let (width, height) = (mask.width(), mask.height());
+    let mut before = Raster::filled(width + 1, height, 0_u32);
+    shares(before.pixels_mut(), width + 1, &|y, before| {
+        for (x, v) in mask.row(y).iter().enumerate() {
+            before[x + 1] = before[x] + u32::from(*v);
+        }
+    });
+    let half = |dy: usize| (radius * radius - dy * dy).isqrt();
+    Raster::from_fn(width, height, |x, y| {
+        let holds = |row: usize| {
+            let half = half(row.abs_diff(y));
+            before.get((x + half + 1).min(width), row) > before.get(x.saturating_sub(half), row)
+        };
+        u8::from((y.saturating_sub(radius)..(y + radius + 1).min(height)).any(holds))
+    })
+}
+
 /// The median of a binary raster: marked where more than half of the `(2r+1)^2` window is marked. Pixels outside the raster count
 /// as unmarked.
 pub fn majority(mask: &Raster<u8>, radius: usize) -> Raster<u8> {

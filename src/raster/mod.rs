@@ -31,7 +31,7 @@ pub(crate) use best_way::best_way;
 #[doc(hidden)]
 pub use bilateral::bilateral;
 #[doc(hidden)]
-pub use binary::{close, components, dilate, erode, majority, open, remove_components};
+pub use binary::{close, components, dilate, erode, majority, open, open_round, remove_components};
 #[doc(hidden)]
 pub use blur::{box_blur, gaussian_blur};
 #[doc(hidden)]

@@ -3,6 +3,7 @@
 use super::SeeError;
 use super::depth::depth;
 use super::faces::{self, Found};
+use super::hat_outline::without_bumps_of_hats;
 use super::iris::irises;
 use super::jewellery::with_pearls;
 use super::mesh::mesh;
@@ -58,7 +59,9 @@ pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sig
     let step = view.step();
     let on_view = |p: Point| Point::new((p.x - view.part.x0) / step.x, (p.y - view.part.y0) / step.y);
     let landmarks: Vec<Landmarks> = faces.iter().map(|face| face.landmarks.placed(on_view, 1.0 / step.x)).collect();
-    let regions = with_pearls(&view.pixels, &subject, &landmarks, regions(&view.pixels, &subject, &landmarks));
+    let regions = regions(&view.pixels, &subject, &landmarks);
+    let (subject, regions) = without_bumps_of_hats(subject, regions, &landmarks);
+    let regions = with_pearls(&view.pixels, &subject, &landmarks, regions);
     sight.regions = Some(regions.map(|plane| turn.raster_back(plane)));
     sight.depth = Some(turn.raster_back(&depth(&subject, &view, &faces)));
     sight.subject = Some(turn.raster_back(&subject));

@@ -23,6 +23,8 @@ mod detail;
 #[cfg(feature = "see")]
 mod faces;
 #[cfg(feature = "see")]
+mod hat_outline;
+#[cfg(feature = "see")]
 mod head;
 #[cfg(feature = "see")]
 mod iris;

@@ -161,7 +161,7 @@ fn apportioned(whole: u8, shares: [f32; KINDS]) -> [u8; KINDS] {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::elementary::{Elementary as _, unit_at};
     use crate::geometry::Point;
