@@ -6,7 +6,7 @@
 use super::features::Features;
 use super::{Drawer, SizedDot};
 use crate::geometry::{Point, blue_noise_order};
-use crate::raster::{Raster, gaussian_blur};
+use crate::raster::{Raster, components, gaussian_blur};
 use std::borrow::Cow;
 
 /// Radius below which a fading dot is thinned out instead of shrunk, in pitches: 0.14 is 6 % ink. At 0.1 the fade ends in dust that
@@ -50,6 +50,40 @@ pub(super) fn thin_out(drawer: &Drawer<'_>, dots: Vec<SizedDot>, features: &Feat
         }
     }
     kept
+}
+
+/// Most dots of a group that stands alone in bare paper and looks like dirt on it; groups of darker dots, whose mean radius in pitches is above
+/// this, are moles and stay.
+const CRUMB: usize = 8;
+const MOLE: f64 = 0.36;
+
+/// Takes out the few dots that stand alone in a face's highlights: pores and fine folds.
+pub(super) fn without_crumbs(drawer: &Drawer<'_>, dots: Vec<SizedDot>) -> Vec<SizedDot> {
+    if !drawer.parameters.has_highlights || !drawer.portrait.has_portrait_tone() {
+        return dots;
+    }
+    let (pitch, grid) = (drawer.pitch(), &drawer.portrait.tone);
+    let cell = |p: Point| ((p.x / pitch).max(0.0) as isize, (p.y / pitch).max(0.0) as isize);
+    let (width, height) = cell(Point::new(grid.width() as f64, grid.height() as f64));
+    let mut marked = Raster::filled(width as usize + 1, height as usize + 1, 0_u8);
+    for (x, y) in dots.iter().map(|dot| cell(dot.centre)).filter(|(x, y)| *x <= width && *y <= height) {
+        marked.set(x as usize, y as usize, 1);
+    }
+    let (labels, count) = components(&marked);
+    let group = |dot: &SizedDot| {
+        let (x, y) = cell(dot.centre);
+        labels.clamped(x, y) as usize
+    };
+    let mut groups = vec![(0_usize, 0.0_f64); count + 1];
+    for dot in &dots {
+        let (dots, radii) = &mut groups[group(dot)];
+        (*dots, *radii) = (*dots + 1, *radii + dot.radius);
+    }
+    let is_crumb = |dot: &SizedDot| {
+        let (dots, radii) = groups[group(dot)];
+        dots <= CRUMB && radii < MOLE * pitch * dots as f64
+    };
+    dots.into_iter().filter(|dot| !is_crumb(dot)).collect()
 }
 
 /// The share of ink kept by lightness.

@@ -116,6 +116,7 @@ impl Drawer<'_> {
         };
         let mut dots = highlights::thin_out(self, dots, &features);
         dots.retain(|dot| !parts.hold(dot.centre));
+        dots = highlights::without_crumbs(self, dots);
         if dots.is_empty() && reversed.is_empty() {
             let why = "all of it is as light as the highlights, which stay bare";
             return Err(StyleError::NothingLeft { why, setting: "highlights=off" });
