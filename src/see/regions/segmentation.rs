@@ -86,7 +86,8 @@ impl<'a> Segmentation<'a> {
         let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
             let (d, [u, v]) = (from_skin.get(x, y), plate.at.get(x, y));
             let is_forehead = (0.9..1.15).contains(&v) && u.abs() < 0.6 && path.get(x, y) < 2.0;
-            if is_forehead { d.min(skin.shaded_distance(plate.features.get(x, y))) } else { d }
+            let f = plate.features.get(x, y);
+            if is_forehead { d.min(skin.shaded_distance(f)).min(skin.shine_distance(f)) } else { d }
         });
         let is_bald = is_bald(plate) && !has_another_crown(plate, &skin);
         let mut parting =

@@ -144,6 +144,15 @@ impl Skin {
         self.plain.iter().map(of).fold(f32::INFINITY, f32::min)
     }
 
+    /// Squared deviation from a lamp's light on a forehead, of any colour: it is lighter than the skin and as smooth. Fair hair has more texture.
+    pub(super) fn shine_distance(&self, f: Feature) -> f32 {
+        const SMOOTH: f32 = 5.0;
+        const EVEN: f32 = 13.0;
+        const SHINE: f32 = 4.0;
+        let is_shine = f[0] > self.middle[0] && f[3] < (self.middle[3] + SMOOTH).min(EVEN) && !self.is_grey;
+        if is_shine { SHINE } else { f32::INFINITY }
+    }
+
     pub(super) fn level(&self) -> f32 {
         self.plain.first().map_or(0.0, Gaussian::half_log_determinant)
     }
