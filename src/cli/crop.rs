@@ -3,7 +3,7 @@
 use super::arguments::{CropNumber, CropPart, PictureOptions};
 use super::failure::Failure;
 use crate::geometry::Rect;
-use crate::source::{Crop, Landmarks, Photograph, outlines};
+use crate::source::{Crop, Landmarks, Photograph, fill_box, outlines};
 
 /// Margin around a face for head and shoulders: `side` in face widths from the face's middle, `above` the forehead and `below` the
 /// chin in face heights. High hair takes 0.57 above the forehead; the box has the proportions of a newspaper's half column.
@@ -11,10 +11,45 @@ const HEAD: Room = Room { side: 1.1, above: 0.68, below: 0.57 };
 /// Margin for the face alone.
 const FACE: Room = Room { side: 0.66, above: 0.22, below: 0.12 };
 
+/// What `--fit cover` does not cut of a head, with its hair.
+const WHOLE: Room = Room { side: 0.62, above: 0.5, below: 0.1 };
+
 struct Room {
     side: f64,
     above: f64,
     below: f64,
+}
+
+impl Room {
+    /// The box of all faces with this margin around each.
+    fn round(&self, faces: &[Landmarks]) -> Option<Rect> {
+        let boxes = faces.iter().map(|face| {
+            let oval = face.line(&outlines::OVAL);
+            let upright = oval.iter().fold(Rect::from_points(oval[0], oval[0]), |all, p| all.union_pt(*p));
+            let (middle, width) = (upright.center().x, face.width().max(upright.width()));
+            Rect::new(
+                middle - self.side * width,
+                upright.y0 - self.above * upright.height(),
+                middle + self.side * width,
+                upright.y1 + self.below * upright.height(),
+            )
+        });
+        boxes.reduce(|a, b| a.union(b))
+    }
+}
+
+/// The part of a crop that fills a box of these proportions (`--fit cover`): its middle, moved as little as keeps the heads in it whole.
+pub(super) fn covering(crop: Crop, (width, height): (f64, f64), faces: &[Landmarks]) -> Crop {
+    let middle = fill_box(crop, width, height);
+    let Some(heads) = WHOLE.round(faces) else { return middle };
+    let moved = |at: f64, length: f64, [from, to]: [f64; 2], [first, last]: [f64; 2]| {
+        let (from, to) = (from.max(first), to.min(last));
+        let kept = if to - from > length { 0.5 * (from + to - length) } else { at.clamp(to - length, from) };
+        if from < to { kept.clamp(first, (last - length).max(first)) } else { at }
+    };
+    let x = moved(middle.x, middle.width, [heads.x0, heads.x1], [crop.x, crop.x + crop.width]);
+    let y = moved(middle.y, middle.height, [heads.y0, heads.y1], [crop.y, crop.y + crop.height]);
+    Crop { x, y, ..middle }
 }
 
 /// The part of the photograph that is drawn. It may exceed the photograph by 0.01 px, for percentages that do not quite add up.
@@ -70,18 +105,7 @@ fn round_faces(
     photograph: &Photograph,
     faces: &[Landmarks],
 ) -> Result<Crop, Failure> {
-    let boxes = faces.iter().map(|face| {
-        let oval = face.line(&outlines::OVAL);
-        let upright = oval.iter().fold(Rect::from_points(oval[0], oval[0]), |all, p| all.union_pt(*p));
-        let (middle, width) = (upright.center().x, face.width().max(upright.width()));
-        Rect::new(
-            middle - room.side * width,
-            upright.y0 - room.above * upright.height(),
-            middle + room.side * width,
-            upright.y1 + room.below * upright.height(),
-        )
-    });
-    let Some(all) = boxes.reduce(|a, b| a.union(b)) else {
+    let Some(all) = room.round(faces) else {
         return Err(Failure::Work(format!(
             "{}: no face is known in it, which --crop {name} needs; give the part with --crop X,Y,W,H",
             options.photo

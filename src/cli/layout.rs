@@ -1,12 +1,13 @@
 //! Sheets and boxes: the position of the picture on the page.
 
 use super::arguments::{Fit, PictureOptions, PlacingOptions};
+use super::crop::covering;
 use super::failure::Failure;
 use super::placing::{Turning, move_inside, requested_move};
 use crate::drawing::Page;
 use crate::geometry::{Rect, parse_drawn_size};
 use crate::plot::{Profile, mount};
-use crate::source::{Crop, fill_box};
+use crate::source::{Crop, Landmarks};
 
 /// Named sheets, portrait, in millimetres (ISO 216; ANSI/ASME Y14.1).
 const SHEETS: [(&str, f64, f64); 10] = [
@@ -75,14 +76,14 @@ impl Layout {
     }
 }
 
-/// Lays the picture out. `reach` gives the part of a page that a machine can draw; it limits the default box.
+/// Lays the picture out, a crop in which there are `faces`. `reach` gives the part of a page that a machine can draw; it limits the default box.
 pub(super) fn lay_out(
     options: &PictureOptions,
     placing: &PlacingOptions,
-    crop: Crop,
+    (crop, faces): (Crop, &[Landmarks]),
     reach: impl Fn(&Page) -> Option<Rect>,
 ) -> Result<Layout, Failure> {
-    let with = |turning: Turning| Sheet::new(options, placing, turning, &reach)?.lay_out(options, placing, crop);
+    let with = |turning: Turning| Sheet::new(options, placing, turning, &reach)?.lay_out(options, placing, (crop, faces));
     let upright = Turning { degrees: 0, is_mirrored: placing.mirror };
     let quarter_helps = || match (with(upright), with(Turning { degrees: 90, ..upright })) {
         (Ok(upright), Ok(turned)) => turned.picture.area() > 1.001 * upright.picture.area(),
@@ -154,9 +155,14 @@ impl Sheet {
         Ok(frame)
     }
 
-    fn lay_out(&self, options: &PictureOptions, placing: &PlacingOptions, crop: Crop) -> Result<Layout, Failure> {
+    fn lay_out(
+        &self,
+        options: &PictureOptions,
+        placing: &PlacingOptions,
+        (crop, faces): (Crop, &[Landmarks]),
+    ) -> Result<Layout, Failure> {
         let frame = self.frame(options)?;
-        let crop = if options.fit == Fit::Cover { fill_box(crop, frame.0, frame.1) } else { crop };
+        let crop = if options.fit == Fit::Cover { covering(crop, frame, faces) } else { crop };
         let scale = (frame.0 / crop.width).min(frame.1 / crop.height);
         let (width, height) = (crop.width * scale, crop.height * scale);
         if width < LEAST_SIDE || height < LEAST_SIDE {

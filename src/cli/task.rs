@@ -86,7 +86,7 @@ impl<'a> Task<'a> {
         // Marks on the picture's border extend beyond it by less than a pitch.
         let pitch = settings.pitch().unwrap_or(UNKNOWN_PITCH);
         let crop = crop::part(options, &photograph, size, &known.faces)?;
-        let layout = lay_out(options, placing, crop, |page| Some(reach(page)?.inset(-pitch)))?;
+        let layout = lay_out(options, placing, (crop, &known.faces), |page| Some(reach(page)?.inset(-pitch)))?;
         if style.card().leaves_out_background && !options.draft {
             known.notices.extend(eyes::eyes_notice(&known.faces, &layout, pitch, options.crop));
         }
@@ -99,7 +99,9 @@ impl<'a> Task<'a> {
     /// True if the picture with other options, including all its ink, would lie within the machine's reach.
     pub(super) fn would_fit(&self, picture: &PictureOptions, placing: &PlacingOptions, profile: &Profile) -> bool {
         let Ok(crop) = crop::part(picture, &self.photograph, self.size, &self.manner.known.faces) else { return false };
-        let Ok(layout) = lay_out(picture, placing, crop, reach_of(Some(profile))) else { return false };
+        let Ok(layout) = lay_out(picture, placing, (crop, &self.manner.known.faces), reach_of(Some(profile))) else {
+            return false;
+        };
         let (width, height) = layout.sheet();
         let page = Page { width, height, ..layout.page };
         let drawable = mount(profile, &page).map(|mounting| mounting.drawable(&page).inflate(0.01, 0.01));
