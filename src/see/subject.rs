@@ -44,7 +44,21 @@ pub(super) fn subject(
     let decided = without_unseen_black(&decided, &small, view.part, &heads);
     let guide = small.map(|colour| colour.map(|v| v / 255.0));
     let fine = guided_enlargement(&view.pixels, &guide, &decided, REACH, EPS).map(|v| (255.0 * v).round() as u8);
-    Ok(without_crumbs(&pieces_with_a_face(&fine, view, &heads)))
+    let person = without_crumbs(&pieces_with_a_face(&fine, view, &heads));
+    Ok(if is_face_alone(&person, view, &heads) { person.map(|_| u8::MAX) } else { person })
+}
+
+/// True if the network saw nobody around the faces, as in a picture that one face fills: a face that floats on paper is no portrait, and all of the
+/// picture is taken for the person.
+fn is_face_alone(person: &Raster<u8>, view: &View, heads: &[Head]) -> bool {
+    /// Least area of people in areas of their faces: of 50 portraits they have 1.9 and more, a face alone 1.
+    const LEAST: f64 = 1.4;
+    let (width, height) = (person.width(), person.height());
+    let faces = heads.iter().fold(Raster::filled(width, height, 0), |all, head| {
+        all.zip_map(&head.sure(view.part, width, height), |a: u8, b| a.max(b))
+    });
+    let count = |of: &Raster<u8>, from: u8| of.pixels().iter().filter(|v| **v >= from).count() as f64;
+    count(person, SOLID) < LEAST * count(&faces, 1)
 }
 
 /// Inputs of the decision, on the grid.
@@ -232,6 +246,15 @@ mod tests {
         let decision = Decision::new(Rect::new(0.0, 0.0, 300.0, 250.0), &heads, &[Rect::new(10.0, 110.0, 70.0, 170.0)], &looks);
         assert_eq!((decision.said.get(20, 68), decision.least.get(20, 68)), (0.0, 0.0));
         assert_eq!((decision.said.get(75, 55), decision.said.get(140, 20)), (1.0, 1.0));
+    }
+
+    #[test]
+    fn a_face_alone_is_no_portrait_and_a_head_is() {
+        let heads = [Head::new(&face(150.0, 110.0, 0.0))];
+        let view = View::new(Raster::filled(300, 250, [128_u8; 3]), Rect::new(0.0, 0.0, 300.0, 250.0));
+        let sure = heads[0].sure(view.part, 300, 250);
+        assert!(is_face_alone(&sure.map(|v| 255 * v), &view, &heads));
+        assert!(!is_face_alone(&dilate(&sure, 15).map(|v| 255 * v), &view, &heads));
     }
 
     #[test]
