@@ -114,3 +114,31 @@ fn round_faces(
     let part = Crop { x: all.x0.round(), y: all.y0.round(), width: all.width().round(), height: all.height().round() };
     part.within(photograph).map_err(|error| Failure::about(&options.photo)(&error))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::source::Iris;
+
+    /// A face 100 wide and 140 high about a point.
+    fn face(x: f64, y: f64) -> Landmarks {
+        let mut points = vec![[x, y, 0.0]; 468];
+        for (i, (dx, dy)) in [(10, (0.0, -70.0)), (152, (0.0, 70.0)), (234, (-50.0, 0.0)), (454, (50.0, 0.0))] {
+            points[i] = [x + dx, y + dy, 0.0];
+        }
+        Landmarks { points, irises: [Iris { centre: Point::new(x, y), radius: 4.0 }; 2], spectacles: None }
+    }
+
+    #[test]
+    fn a_box_that_is_filled_keeps_heads_whole_and_stays_in_the_crop() {
+        let all = Crop { x: 0.0, y: 0.0, width: 1000.0, height: 2000.0 };
+        let top = |faces: &[Landmarks]| covering(all, (100.0, 100.0), faces).y;
+        assert_eq!(top(&[]), 500.0, "the middle");
+        assert_eq!(top(&[face(500.0, 900.0)]), 500.0, "the head is in it");
+        assert_eq!(top(&[face(500.0, 400.0)]), 260.0, "hair above a forehead at 330");
+        assert_eq!(top(&[face(500.0, 60.0)]), 0.0, "not beyond the photograph");
+        assert_eq!(top(&[face(500.0, 1900.0)]), 984.0, "room below a chin at 1970");
+        assert_eq!(top(&[face(500.0, 300.0), face(500.0, 1700.0)]), 472.0, "too far apart: their middle");
+    }
+}

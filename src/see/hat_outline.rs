@@ -17,7 +17,7 @@ const SOLID: u8 = 127;
 
 /// The subject and its regions without the bumps of hats; `faces` in their pixels.
 pub(super) fn without_bumps_of_hats(subject: Raster<u8>, regions: Regions, faces: &[Landmarks]) -> (Raster<u8>, Regions) {
-    let width = faces.iter().map(|face| face.width()).fold(0.0, f64::max);
+    let width = faces.iter().map(Landmarks::width).fold(0.0, f64::max);
     let radius = (BUMP * width) as usize;
     if radius == 0 || regions.headwear.pixels().iter().all(|v| *v <= SOLID) {
         return (subject, regions);

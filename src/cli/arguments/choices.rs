@@ -74,7 +74,7 @@ words! { Handshake {
 pub(in crate::cli) enum Fit {
     /// The whole photograph fits inside the box.
     Contain,
-    /// The photograph fills the box and is cut at its border.
+    /// The photograph fills the box and is cut at its border, where no head is.
     Cover,
 }
 
