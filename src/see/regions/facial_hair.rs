@@ -23,6 +23,8 @@ const DARK: f32 = 0.8;
 const SHADED: f32 = 1.35;
 const BLACK: f32 = 18.0;
 const DARKEST: f32 = 0.45;
+/// A dark zone more uneven than this is hair of any colour: a red-brown moustache has 11 to 13, the shade below a nose at most 5.
+const BRISTLY: f32 = 9.0;
 /// Without colour, grey beards are as light as cheeks but rougher: up to this lightness of theirs, from this unevenness on. Shaded lips and
 /// noses of the sixteen portraits in grey that are no darker have at most 6.3.
 const ROUGH_LIGHT: f32 = 0.9;
@@ -131,9 +133,19 @@ impl<'a> Face<'a> {
         Some([
             light < DARK && uneven > self.limits.uneven() && (is_grey || colour < SHADED),
             !is_grey && colour < self.limits.pale() && l > BLACK,
-            light < DARKEST && uneven > 6.5 && colour < 1.3,
+            light < DARKEST && ((uneven > 6.5 && colour < 1.3) || uneven > BRISTLY),
             is_grey && light < ROUGH_LIGHT && uneven > ROUGH,
         ])
+    }
+
+    /// True if a chin is white in both halves and the upper lip in one, as under a white beard whose other half lies in coloured light.
+    fn is_white_goatee(&self, chin: &Raster<bool>, moustache: &Raster<bool>) -> bool {
+        /// The most colour of such a chin: white beards have 0.46 to 0.6, shaven chins with a shine 0.8, half of one in a poor photograph 0.63.
+        const WHITE: f32 = 0.61;
+        let is_pale = |half: &Raster<bool>, most: f32| median_in(&self.colour, half).is_some_and(|colour| colour < most);
+        let chin = self.halves(chin);
+        let is_chin = !chin.is_empty() && chin.iter().all(|half| is_pale(half, WHITE));
+        is_chin && self.halves(moustache).iter().any(|half| is_pale(half, Limits::Faint.pale())) && !self.plate.is_grey
     }
 
     /// The pixels too dark for lips.
@@ -257,7 +269,8 @@ impl Beard {
         let jaw = off_lips(plate.pixels_where(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
         let hairs = face.hairs();
         let has_moustache = face.is_covered(&moustache);
-        let is_full = face.is_covered(&chin) && (has_moustache || share_of(&hairs, &jaw) > BEARDED_JAW);
+        let is_bearded = has_moustache || share_of(&hairs, &jaw) > BEARDED_JAW || face.is_white_goatee(&chin, &moustache);
+        let is_full = face.is_covered(&chin) && is_bearded;
         if !has_moustache && !is_full {
             return None;
         }

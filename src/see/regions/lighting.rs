@@ -37,14 +37,16 @@ impl Lighting {
         /// portrait an ear in black shadow has 15 to 17, the hair about it 22.
         const SMOOTH: f32 = 14.0;
         const SMOOTH_EAR: f32 = 18.0;
-        /// Lightness, as a multiple of the least, from which it is skin of any texture.
+        /// Lightness, as a multiple of the least, from which it is skin of more texture.
         const LIGHT: f32 = 1.3;
+        /// Texture of hair in light, which is no skin: coils have 28.
+        const ROUGH: f32 = 24.0;
         let [u, v] = plate.at.pixels()[i];
         let is_aside = u.abs() >= 0.44;
         let is_ear = v < 0.72 && v > 0.2;
         let texture = plate.features.pixels()[i][3];
         let light = plate.lab.pixels()[i][0] / self.blackest[self.side(u)].max(0.1);
-        let is_light = light > LIGHT;
+        let is_light = light > LIGHT && texture < ROUGH;
         let is_face = !is_aside && ((v < 0.97 && texture < SMOOTH) || (v < 1.12 && is_light));
         let is_skin = is_face || (is_ear && (texture < SMOOTH_EAR || is_light));
         self.is_black(u) && self.with_ears.pixels()[i] && is_skin && light > 1.0

@@ -141,12 +141,12 @@ impl Segmentation<'_> {
         /// L* of the darkest hair of which shade is darker, the fraction of it that shade has at most, and its greatest path from the face.
         const LIGHT_HAIR: f32 = 20.0;
         const DARKER: f32 = 0.5;
-        const DARK: f32 = 18.0;
-        const NO_EDGE: f32 = 7.0;
+        const DARK: f32 = 13.0;
+        const NO_EDGE: f32 = 5.0;
         /// Least a* and b*: jackets have less.
         const WARM: f32 = 1.0;
         /// How much less texture than the hair it has, or it is darker.
-        const SMOOTHER: f32 = 6.0;
+        const SMOOTHER: f32 = 8.0;
         let Some(hair) = self.hair.as_ref().map(|hair| hair.middle) else { return false };
         let is_darker = f[0] < (DARKER * hair[0]).min(DARK * LIGHTNESS_WEIGHT) && hair[0] > LIGHT_HAIR * LIGHTNESS_WEIGHT;
         let is_smoother = f[3] < hair[3] - SMOOTHER;
