@@ -13,6 +13,9 @@ const FACE: Room = Room { side: 0.66, above: 0.22, below: 0.12 };
 
 /// What `--fit cover` does not cut of a head, with its hair.
 const WHOLE: Room = Room { side: 0.62, above: 0.5, below: 0.1 };
+/// The tip of the nose: a face is in a crop if it is. And the pixels by which lengths may differ that are the same.
+const NOSE: usize = 1;
+const ROUNDING: f64 = 1e-6;
 
 struct Room {
     side: f64,
@@ -21,34 +24,41 @@ struct Room {
 }
 
 impl Room {
-    /// The box of all faces with this margin around each.
-    fn round(&self, faces: &[Landmarks]) -> Option<Rect> {
-        let boxes = faces.iter().map(|face| {
-            let oval = face.line(&outlines::OVAL);
-            let upright = oval.iter().fold(Rect::from_points(oval[0], oval[0]), |all, p| all.union_pt(*p));
-            let (middle, width) = (upright.center().x, face.width().max(upright.width()));
-            Rect::new(
-                middle - self.side * width,
-                upright.y0 - self.above * upright.height(),
-                middle + self.side * width,
-                upright.y1 + self.below * upright.height(),
-            )
-        });
-        boxes.reduce(|a, b| a.union(b))
+    /// The box of a face with this margin around it.
+    fn round(&self, face: &Landmarks) -> Rect {
+        let oval = face.line(&outlines::OVAL);
+        let upright = oval.iter().fold(Rect::from_points(oval[0], oval[0]), |all, p| all.union_pt(*p));
+        let (middle, width) = (upright.center().x, face.width().max(upright.width()));
+        Rect::new(
+            middle - self.side * width,
+            upright.y0 - self.above * upright.height(),
+            middle + self.side * width,
+            upright.y1 + self.below * upright.height(),
+        )
     }
 }
 
-/// The part of a crop that fills a box of these proportions (`--fit cover`): its middle, moved as little as keeps the heads in it whole.
+/// The part of a crop that fills a box of these proportions (`--fit cover`): its middle, moved as little as keeps the heads in the crop whole,
+/// the largest ones where not all fit.
 pub(super) fn covering(crop: Crop, (width, height): (f64, f64), faces: &[Landmarks]) -> Crop {
     let middle = fill_box(crop, width, height);
-    let Some(heads) = WHOLE.round(faces) else { return middle };
+    let all = Rect::new(crop.x, crop.y, crop.x + crop.width, crop.y + crop.height);
+    let fits = |heads: Rect| heads.width() <= middle.width + ROUNDING && heads.height() <= middle.height + ROUNDING;
+    // Faces come in the order of their size.
+    let known = faces.iter().filter(|face| all.contains(face.point(NOSE)));
+    let heads = known.map(|face| WHOLE.round(face).intersect(all)).fold(None, |kept: Option<Rect>, head| match kept {
+        Some(kept) if fits(kept.union(head)) => Some(kept.union(head)),
+        Some(kept) => Some(kept),
+        None => Some(head),
+    });
+    let Some(heads) = heads else { return middle };
     let moved = |at: f64, length: f64, [from, to]: [f64; 2], [first, last]: [f64; 2]| {
-        let (from, to) = (from.max(first), to.min(last));
-        let kept = if to - from > length { 0.5 * (from + to - length) } else { at.clamp(to - length, from) };
-        if from < to { kept.clamp(first, (last - length).max(first)) } else { at }
+        // A head larger than the part keeps its middle.
+        let kept = if to - from > length { 0.5 * (from + to - length) } else { at.max(to - length).min(from) };
+        kept.min(last - length).max(first)
     };
-    let x = moved(middle.x, middle.width, [heads.x0, heads.x1], [crop.x, crop.x + crop.width]);
-    let y = moved(middle.y, middle.height, [heads.y0, heads.y1], [crop.y, crop.y + crop.height]);
+    let x = moved(middle.x, middle.width, [heads.x0, heads.x1], [all.x0, all.x1]);
+    let y = moved(middle.y, middle.height, [heads.y0, heads.y1], [all.y0, all.y1]);
     Crop { x, y, ..middle }
 }
 
@@ -105,7 +115,7 @@ fn round_faces(
     photograph: &Photograph,
     faces: &[Landmarks],
 ) -> Result<Crop, Failure> {
-    let Some(all) = room.round(faces) else {
+    let Some(all) = faces.iter().map(|face| room.round(face)).reduce(|a, b| a.union(b)) else {
         return Err(Failure::Work(format!(
             "{}: no face is known in it, which --crop {name} needs; give the part with --crop X,Y,W,H",
             options.photo
@@ -139,6 +149,19 @@ mod tests {
         assert_eq!(top(&[face(500.0, 400.0)]), 260.0, "hair above a forehead at 330");
         assert_eq!(top(&[face(500.0, 60.0)]), 0.0, "not beyond the photograph");
         assert_eq!(top(&[face(500.0, 1900.0)]), 984.0, "room below a chin at 1970");
-        assert_eq!(top(&[face(500.0, 300.0), face(500.0, 1700.0)]), 472.0, "too far apart: their middle");
+        assert_eq!(top(&[face(500.0, 300.0), face(500.0, 1700.0)]), 160.0, "too far apart: the first");
+    }
+
+    #[test]
+    fn faces_outside_a_crop_do_not_count_and_crops_inside_a_head_do_no_harm() {
+        let right = Crop { x: 600.0, y: 0.0, width: 400.0, height: 2000.0 };
+        let part = |faces: &[Landmarks]| covering(right, (100.0, 200.0), faces);
+        assert_eq!(part(&[face(100.0, 1900.0), face(800.0, 400.0)]), part(&[face(800.0, 400.0)]));
+        for percent in 1..200 {
+            let inside =
+                Crop { x: 20.48 * f64::from(percent) / 3.0, y: 7.13, width: 10.8 + f64::from(percent) / 7.0, height: 90.3 };
+            let part = covering(inside, (90.0, 110.0), &[face(inside.x + 3.0, 50.0)]);
+            assert!(part.x >= inside.x && part.x + part.width <= inside.x + inside.width + 1e-6);
+        }
     }
 }

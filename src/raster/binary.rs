@@ -23,7 +23,7 @@ pub fn close(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     erode(&dilate(mask, radius), radius)
 }
 
-/// The marked region without what a disc of a radius in pixels does not fit into. Pixels outside the raster count as those at its border.
+/// The marked region without what a disc of a radius in pixels does not fit into; the raster's border is no edge of it.
 pub fn open_round(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
     let gap = grown_round(&mask.map(|v| u8::from(v == 0)), radius);
     grown_round(&gap.map(|v| 1 - v), radius)
@@ -38,10 +38,10 @@ fn grown_round(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
             before[x + 1] = before[x] + u32::from(*v);
         }
     });
-    let half = |dy: usize| (radius * radius - dy * dy).isqrt();
+    let halves: Vec<usize> = (0..=radius).map(|dy| (radius * radius - dy * dy).isqrt()).collect();
     Raster::from_fn(width, height, |x, y| {
         let holds = |row: usize| {
-            let half = half(row.abs_diff(y));
+            let half = halves[row.abs_diff(y)];
             before.get((x + half + 1).min(width), row) > before.get(x.saturating_sub(half), row)
         };
         u8::from((y.saturating_sub(radius)..(y + radius + 1).min(height)).any(holds))

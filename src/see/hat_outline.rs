@@ -12,12 +12,13 @@ const OF_HAT: f64 = 0.5;
 const SIZE: [f64; 2] = [0.002, 0.025];
 /// Pixels around a bump that belong to its soft edge.
 const SOFT: usize = 3;
-/// From this value on a pixel of the subject is solid.
+/// Above this value a pixel of the subject is solid.
 const SOLID: u8 = 127;
 
 /// The subject and its regions without the bumps of hats; `faces` in their pixels.
 pub(super) fn without_bumps_of_hats(subject: Raster<u8>, regions: Regions, faces: &[Landmarks]) -> (Raster<u8>, Regions) {
-    let width = faces.iter().map(Landmarks::width).fold(0.0, f64::max);
+    // The smallest face's: wider bumps may be the bow of a child.
+    let width = faces.iter().map(Landmarks::width).reduce(f64::min).unwrap_or(0.0);
     let radius = (BUMP * width) as usize;
     if radius == 0 || regions.headwear.pixels().iter().all(|v| *v <= SOLID) {
         return (subject, regions);
@@ -29,7 +30,8 @@ pub(super) fn without_bumps_of_hats(subject: Raster<u8>, regions: Regions, faces
         &regions.headwear,
         SIZE.map(|size| size * width * width),
     );
-    let near = dilate(&bumps, SOFT).zip_map(&dilate(&opened, 1), |near, kept| near & (1 - kept));
+    let other = solid.zip_map(&bumps, |solid, bump| solid & (1 - bump));
+    let near = dilate(&bumps, SOFT).zip_map(&dilate(&opened, 1).zip_map(&other, |a, b| a | b), |near, kept| near & (1 - kept));
     let cut = |plane: &Raster<u8>| plane.zip_map(&near, |v, near| if near == 0 { v } else { 0 });
     (cut(&subject), regions.map(cut))
 }
@@ -62,8 +64,7 @@ mod tests {
         let is_knob = |x: usize, y: usize| (140..146).contains(&x) && (100..110).contains(&y);
         let subject =
             Raster::from_fn(200, 200, |x, y| if is_person(x, y) || is_star(x, y) || is_knob(x, y) { 255 } else { 0_u8 });
-        let headwear = subject.map(|v| v);
-        let headwear = Raster::from_fn(200, 200, |x, y| if y < 60 { headwear.get(x, y) } else { 0 });
+        let headwear = Raster::from_fn(200, 200, |x, y| if y < 60 { subject.get(x, y) } else { 0 });
         let none = subject.map(|_| 0_u8);
         let skin = subject.zip_map(&headwear, |subject, hat| subject - hat);
         let [hair, facial_hair, clothing, detail] = [0; 4].map(|_| none.clone());

@@ -51,14 +51,14 @@ pub(super) fn subject(
 /// True if the network saw nobody around the faces, as in a picture that one face fills: a face that floats on paper is no portrait, and all of the
 /// picture is taken for the person.
 fn is_face_alone(person: &Raster<u8>, view: &View, heads: &[Head]) -> bool {
-    /// Least area of people in areas of their faces: of 50 portraits they have 1.9 and more, a face alone 1.
+    /// Least area of people in areas of their faces without the rims: of 50 portraits they have 1.9 and more, a face alone 1.
     const LEAST: f64 = 1.4;
     let (width, height) = (person.width(), person.height());
     let faces = heads.iter().fold(Raster::filled(width, height, 0), |all, head| {
         all.zip_map(&head.sure(view.part, width, height), |a: u8, b| a.max(b))
     });
     let count = |of: &Raster<u8>, from: u8| of.pixels().iter().filter(|v| **v >= from).count() as f64;
-    count(person, SOLID) < LEAST * count(&faces, 1)
+    heads.iter().any(|head| head.is_close_up(view.part)) && count(person, SOLID) < LEAST * count(&faces, 1)
 }
 
 /// Inputs of the decision, on the grid.

@@ -74,7 +74,7 @@ words! { Handshake {
 pub(in crate::cli) enum Fit {
     /// The whole photograph fits inside the box.
     Contain,
-    /// The photograph fills the box and is cut at its border, where no head is.
+    /// The photograph fills the box and is cut at its border, beside the heads where it can be.
     Cover,
 }
 

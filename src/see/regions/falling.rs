@@ -103,6 +103,7 @@ mod tests {
         let hanging = hair(&plate, -0.5, 0.33);
         assert!(covered(&hanging, [false, true]) > 100);
         assert!(lowest(&hanging, [false, true]) < 0.3);
+        assert!(covered(&hanging, [true, false]) > 50);
         assert!(lowest(&hanging, [true, false]) > SIDEBURNS, "it does not fall on that side: only the temple's");
         let island = plate.pixels_where(|[u, v], _| u > 0.31 && u < 0.4 && (v - 0.5).abs() < 0.1);
         assert_eq!(covered(&island, [false, true]), 0, "it does not reach out of the face");

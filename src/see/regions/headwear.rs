@@ -50,6 +50,8 @@ const RANGE: f32 = 58.0;
 const OUTLIERS: f32 = 0.03;
 const SIDE_BY_SIDE: f32 = 0.115;
 const BORDER: f32 = 0.06;
+/// Fewest pixels that are asked.
+const LEAST: usize = 100;
 /// Blurs that leave out grain and make the surroundings, in widths of the face.
 const GRAIN: f32 = 0.02;
 const SURROUNDINGS: f32 = 0.08;
@@ -73,7 +75,7 @@ fn is_hat(plate: &Plate, is_hair: &Raster<bool>) -> bool {
 
 /// True if pixels are black and white side by side.
 fn is_black_and_white(plate: &Plate, pixels: &[usize]) -> bool {
-    if pixels.is_empty() {
+    if pixels.len() < LEAST {
         return false;
     }
     let light = gaussian_blur(&plate.lab.map(|c| c[0]), GRAIN * plate.face_width);

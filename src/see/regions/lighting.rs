@@ -39,6 +39,8 @@ impl Lighting {
         const SMOOTH_EAR: f32 = 18.0;
         /// Lightness, as a multiple of the least, from which it is skin of more texture.
         const LIGHT: f32 = 1.3;
+        /// And up to which: twice the cheek's. What is lighter lies in light, collars and grey hair.
+        const LIT: f32 = 2.0 / BLACKEST;
         /// Texture of hair in light, which is no skin: coils have 28.
         const ROUGH: f32 = 24.0;
         let [u, v] = plate.at.pixels()[i];
@@ -46,8 +48,8 @@ impl Lighting {
         let is_ear = v < 0.72 && v > 0.2;
         let texture = plate.features.pixels()[i][3];
         let light = plate.lab.pixels()[i][0] / self.blackest[self.side(u)].max(0.1);
-        let is_light = light > LIGHT && texture < ROUGH;
-        let is_face = !is_aside && ((v < 0.97 && texture < SMOOTH) || (v < 1.12 && is_light));
+        let is_light = light > LIGHT && light < LIT && texture < ROUGH;
+        let is_face = !is_aside && ((v < 0.97 && texture < SMOOTH) || ((0.1..1.12).contains(&v) && is_light));
         let is_skin = is_face || (is_ear && (texture < SMOOTH_EAR || is_light));
         self.is_black(u) && self.with_ears.pixels()[i] && is_skin && light > 1.0
     }
@@ -103,9 +105,9 @@ const DARK_CHEEK: f32 = 35.0;
 /// The fraction of a shadowed cheek's L* below which hair is: in one portrait the cheek has 10 to 16, its ear 5 to 9 and the hair 1 to 4.
 const BLACKEST: f32 = 0.27;
 
-/// L* of the cheeks.
+/// L* of the cheeks; one out of the picture is as light as can be.
 fn cheeks(plate: &Plate) -> [f32; 2] {
-    CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(0.0, |f| f[0] / LIGHTNESS_WEIGHT))
+    CHEEKS.map(|i| median(&plate.samples(&plate.round(&[i], BARE_REACH))).map_or(100.0, |f| f[0] / LIGHTNESS_WEIGHT))
 }
 
 /// The sides whose cheek, of L* `light`, is nearly black compared with the other.

@@ -5,7 +5,7 @@ use super::lighting::is_reflection;
 use super::mixture::log_sum;
 use super::plate::{Feature, LIGHTNESS_WEIGHT};
 use super::segmentation::Segmentation;
-use super::skin_model::{NO_SKIN, shadeless};
+use super::skin_model::{NO_SKIN, SHINING, shadeless};
 use crate::elementary::Elementary as _;
 
 impl Segmentation<'_> {
@@ -55,9 +55,7 @@ impl Segmentation<'_> {
             e -= 5.0;
         }
         let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0;
-        if self.is_neck_in_shade(i, v, f) || self.is_neck_of_deeper_colour(i, u, v, f) {
-            e += 16.0;
-        }
+        e += self.neck_suits(i, u, v, f);
         if self.plate.is_grey {
             e -= self.unlikely_in_grey(u, v, is_face);
         } else if is_bare {
@@ -92,16 +90,27 @@ impl Segmentation<'_> {
         (SLOPE * beyond).min(MOST)
     }
 
+    /// What speaks for the skin of a neck in a colour that a face does not have.
+    fn neck_suits(&self, i: usize, u: f32, v: f32, f: Feature) -> f32 {
+        /// More than hair suits shade, which is up to 15.
+        const NECK: f32 = 16.0;
+        if self.is_neck_in_shade(i, v, f) || self.is_neck_of_deeper_colour(i, u, v, f) { NECK } else { 0.0 }
+    }
+
     /// True below the chin where a colour of skin's hue, deeper than a face's in strong light, leads to the face without an edge.
     fn is_neck_of_deeper_colour(&self, i: usize, u: f32, v: f32, f: Feature) -> bool {
         /// Greatest difference of hue, in radians, and path from the face.
         const HUE: f32 = 0.4;
         const NO_EDGE: f32 = 7.0;
+        let is_below = (-0.6..0.1).contains(&v) && self.aside_of_chin(u).min(u.abs()) < 0.5;
+        let is_overlit = self.skin.middle[0] > SHINING * LIGHTNESS_WEIGHT;
+        if !(is_below && is_overlit && self.path.pixels()[i] < NO_EDGE) {
+            return false;
+        }
         let (own, skin) = (shadeless(f), shadeless(self.skin.middle));
         let turn = own[1].angle_over(own[0]) - skin[1].angle_over(skin[0]);
         let is_deeper = own[0].hypotenuse(own[1]) > skin[0].hypotenuse(skin[1]);
-        let is_below = (-0.6..0.1).contains(&v) && self.aside_of_chin(u).min(u.abs()) < 0.5;
-        is_below && is_deeper && turn.abs() < HUE && self.path.pixels()[i] < NO_EDGE && !self.plate.is_grey
+        is_deeper && turn.abs() < HUE
     }
 
     fn hair_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
@@ -136,7 +145,7 @@ impl Segmentation<'_> {
         e
     }
 
-    /// True below a jaw where shade, smoother than hair or darker, leads to the face without an edge.
+    /// True beside and below a jaw where shade, smoother than hair or darker, leads to the face without an edge.
     fn is_neck_in_shade(&self, i: usize, v: f32, f: Feature) -> bool {
         /// L* of the darkest hair of which shade is darker, the fraction of it that shade has at most, and its greatest path from the face.
         const LIGHT_HAIR: f32 = 20.0;
@@ -149,7 +158,7 @@ impl Segmentation<'_> {
         const SMOOTHER: f32 = 8.0;
         let Some(hair) = self.hair.as_ref().map(|hair| hair.middle) else { return false };
         let is_darker = f[0] < (DARKER * hair[0]).min(DARK * LIGHTNESS_WEIGHT) && hair[0] > LIGHT_HAIR * LIGHTNESS_WEIGHT;
-        let is_smoother = f[3] < hair[3] - SMOOTHER;
+        let is_smoother = f[3] < hair[3] - SMOOTHER && f[0] < self.skin.middle[0];
         let is_beside_jaw = (-0.05..0.4).contains(&v) && !self.plate.oval.pixels()[i] && self.lighting.is_near_face(i);
         let is_warm = f[1] > WARM && f[2] > WARM;
         (is_darker || is_smoother) && is_warm && is_beside_jaw && self.path.pixels()[i] < NO_EDGE

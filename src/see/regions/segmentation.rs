@@ -183,7 +183,7 @@ impl<'a> Segmentation<'a> {
             plate.inside.pixels()[i] && is_covered && distance(i) < LIKE
         });
         let over_face = over_face(plate, &covering, falls);
-        let is_like_shoulders = [-1.0, 1.0].iter().all(|side| self.is_like_shoulder(hair, *side));
+        let is_like_shoulders = falls != [false; 2] && [-1.0, 1.0].iter().all(|side| self.is_like_shoulder(hair, *side));
         if let Some(hair) = &mut self.hair {
             (hair.falls, hair.over_face, hair.is_like_shoulders) = (falls, over_face, is_like_shoulders);
         }

@@ -115,12 +115,12 @@ impl Drawer<'_> {
             parameters::SizeRule::Paper => size::paper(self, &sites, &ink),
         };
         let mut dots = highlights::thin_out(self, dots, &features);
-        dots.retain(|dot| !parts.hold(dot.centre));
-        dots = highlights::without_crumbs(self, dots);
-        if dots.is_empty() && reversed.is_empty() {
+        if !dots.iter().any(|dot| !parts.hold(dot.centre)) && reversed.is_empty() {
             let why = "all of it is as light as the highlights, which stay bare";
             return Err(StyleError::NothingLeft { why, setting: "highlights=off" });
         }
+        dots = highlights::without_crumbs(self, dots);
+        dots.retain(|dot| !parts.hold(dot.centre));
         let mut layer = self.dot_layer(&dots);
         layer.marks.extend(reversed);
         let mut drawing = Drawing { page: self.page(), layers: vec![layer] };
