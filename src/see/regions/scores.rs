@@ -5,7 +5,7 @@ use super::lighting::is_reflection;
 use super::mixture::log_sum;
 use super::plate::{Feature, LIGHTNESS_WEIGHT};
 use super::segmentation::Segmentation;
-use super::skin_model::{NO_SKIN, SHINING, shadeless};
+use super::skin_model::{NO_SKIN, shadeless};
 use crate::elementary::Elementary as _;
 
 impl Segmentation<'_> {
@@ -97,14 +97,16 @@ impl Segmentation<'_> {
         if self.is_neck_in_shade(i, v, f) || self.is_neck_of_deeper_colour(i, u, v, f) { NECK } else { 0.0 }
     }
 
-    /// True below the chin where a colour of skin's hue, deeper than a face's in strong light, leads to the face without an edge.
+    /// True below the chin where a colour of skin's hue, deeper than a face's that is in strong light, leads to the face without an edge.
     fn is_neck_of_deeper_colour(&self, i: usize, u: f32, v: f32, f: Feature) -> bool {
         /// Greatest difference of hue, in radians, and path from the face.
         const HUE: f32 = 0.4;
+        /// L* from which a face is in strong light; three heads with such necks have 71 to 80.
+        const LIT: f32 = 60.0;
         const NO_EDGE: f32 = 7.0;
         let is_below = (-0.6..0.1).contains(&v) && self.aside_of_chin(u).min(u.abs()) < 0.5;
-        let is_overlit = self.skin.middle[0] > SHINING * LIGHTNESS_WEIGHT;
-        if !(is_below && is_overlit && self.path.pixels()[i] < NO_EDGE) {
+        let is_lit = self.skin.middle[0] > LIT * LIGHTNESS_WEIGHT;
+        if !(is_below && is_lit && self.path.pixels()[i] < NO_EDGE) {
             return false;
         }
         let (own, skin) = (shadeless(f), shadeless(self.skin.middle));

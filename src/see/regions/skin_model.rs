@@ -20,7 +20,7 @@ const FOREHEAD: [usize; 7] = [9, 8, 151, 108, 337, 69, 299];
 const SAME_COLOUR: f32 = 0.1;
 const SAME_HUE: f32 = 0.2;
 /// L* of the median disc from which most of the face is a highlight.
-pub(super) const SHINING: f32 = 72.0;
+const SHINING: f32 = 72.0;
 /// Greatest difference of a forehead disc's shade-free colour from a cheek disc's, and of its features.
 const FOREHEAD_HUE: f32 = 0.07;
 const FOREHEAD_LIKE_CHEEKS: f32 = 40.0;
