@@ -54,11 +54,16 @@ fn is_face_alone(person: &Raster<u8>, view: &View, heads: &[Head]) -> bool {
     /// Least area of people in areas of their faces without the rims: of 50 portraits they have 1.9 and more, a face alone 1.
     const LEAST: f64 = 1.4;
     let (width, height) = (person.width(), person.height());
-    let faces = heads.iter().fold(Raster::filled(width, height, 0), |all, head| {
-        all.zip_map(&head.sure(view.part, width, height), |a: u8, b| a.max(b))
-    });
+    let faces = sure_faces(heads, view.part, width, height);
     let count = |of: &Raster<u8>, from: u8| of.pixels().iter().filter(|v| **v >= from).count() as f64;
     heads.iter().any(|head| head.is_close_up(view.part)) && count(person, SOLID) < LEAST * count(&faces, 1)
+}
+
+/// All faces without their rims, on a grid of `columns` by `rows` over a picture.
+fn sure_faces(heads: &[Head], picture: Rect, columns: usize, rows: usize) -> Raster<u8> {
+    heads
+        .iter()
+        .fold(Raster::filled(columns, rows, 0), |all, head| all.zip_map(&head.sure(picture, columns, rows), |a: u8, b| a.max(b)))
 }
 
 /// Inputs of the decision, on the grid.
@@ -77,9 +82,7 @@ impl Decision {
     fn new(picture: Rect, heads: &[Head], strangers: &[Rect], looks: &PersonMaps) -> Self {
         let (columns, rows) = (looks.least.width(), looks.least.height());
         let place = |x: usize, y: usize| on_view(picture, (columns, rows), (x, y));
-        let sure = heads.iter().fold(Raster::filled(columns, rows, 0), |sure, head| {
-            sure.zip_map(&head.sure(picture, columns, rows), |a: u8, b| a.max(b))
-        });
+        let sure = sure_faces(heads, picture, columns, rows);
         let expected = Raster::from_fn(columns, rows, |x, y| {
             heads.iter().map(|head| head.expectation_at(place(x, y)) as f32).fold(0.0, f32::max)
         });
