@@ -13,6 +13,9 @@ const LATER_NEIGHBOURS: usize = 6;
 /// Number of runs into which candidates are split by length before sorting, so that an interrupt is noticed between two runs.
 const RUNS: usize = 64;
 
+/// Candidates sorted into runs between two looks at the interrupt.
+const AT_ONCE: usize = 1 << 16;
+
 /// Maximum rounds; after them the remaining fragments are strung together in order. If most ends have the same few nearest
 /// partners, as with thousands of copies of one path drawn forwards only, a round joins next to nothing, and without a limit they
 /// would take n^2.
@@ -24,6 +27,9 @@ type Candidate = (u32, End, End);
 /// Orders all paths greedily and returns the end at which each is entered, beginning with the home path. About 14 % above the
 /// optimum on uniform dots; O(n log n). If interrupted, some paths are missing.
 pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours) -> Vec<End> {
+    if sites.interrupt().is_raised() {
+        return Vec::new();
+    }
     let mut fragments = Fragments::new(sites);
     let all = (0..sites.end_count() as End).into_par_iter();
     let candidates = all.flat_map_iter(|end| neighbours.of(end).iter().map(move |&other| candidate(sites, end, other)));
@@ -39,6 +45,9 @@ pub(super) fn greedy_tour(sites: &Sites, neighbours: &Neighbours) -> Vec<End> {
         let pairs = loose.iter().zip(&found).flat_map(|(&end, others)| others.iter().map(move |&other| (end, other)));
         fragments.join_shortest(pairs.map(|(end, other)| candidate(sites, end, other)).collect(), sites.interrupt());
     }
+    if sites.interrupt().is_raised() {
+        return Vec::new();
+    }
     fragments.string_together(sites);
     fragments.walk_from(sites.free_end())
 }
@@ -47,8 +56,9 @@ fn candidate(sites: &Sites, a: End, b: End) -> Candidate {
     ((sites.distance(a, b) as f32).to_bits(), a.min(b), a.max(b))
 }
 
-/// Splits candidates into runs of about equal size in ascending order; within a run they are unsorted.
-fn runs(candidates: Vec<Candidate>) -> Vec<Vec<Candidate>> {
+/// Splits candidates into runs of about equal size in ascending order; within a run they are unsorted. If interrupted, some
+/// candidates are missing.
+fn runs(candidates: Vec<Candidate>, interrupt: &Interrupt) -> Vec<Vec<Candidate>> {
     let step = candidates.len() / (16 * RUNS);
     if step == 0 {
         return vec![candidates];
@@ -57,8 +67,10 @@ fn runs(candidates: Vec<Candidate>) -> Vec<Vec<Candidate>> {
     sample.sort_unstable();
     let borders: Vec<Candidate> = sample.into_iter().skip(16).step_by(16).collect();
     let mut runs: Vec<Vec<Candidate>> = vec![Vec::new(); borders.len() + 1];
-    for candidate in candidates {
-        runs[borders.partition_point(|border| *border <= candidate)].push(candidate);
+    for some in candidates.chunks(AT_ONCE).take_while(|_| !interrupt.is_raised()) {
+        for &candidate in some {
+            runs[borders.partition_point(|border| *border <= candidate)].push(candidate);
+        }
     }
     runs
 }
@@ -95,7 +107,7 @@ impl Fragments {
     }
 
     fn join_shortest(&mut self, candidates: Vec<Candidate>, interrupt: &Interrupt) {
-        for mut run in runs(candidates).into_iter().take_while(|_| !interrupt.is_raised()) {
+        for mut run in runs(candidates, interrupt).into_iter().take_while(|_| !interrupt.is_raised()) {
             run.par_sort_unstable();
             self.join_all(&run);
         }

@@ -55,8 +55,10 @@ impl Workpiece {
             let all = 0..patch.sites.end_count() as End;
             settled(&patch.sites, &patch.neighbours, patch.tour(), all)
         });
-        let rim = self.ends_at_borders(&tiles);
-        self.settle_at(rim);
+        if !self.sites.interrupt().is_raised() {
+            let rim = self.ends_at_borders(&tiles);
+            self.settle_at(rim);
+        }
     }
 
     /// The ends with their link or a neighbour in another tile, in tour order.
@@ -98,7 +100,8 @@ impl Workpiece {
             });
             let links: Vec<[End; 2]> = links.collect::<Vec<_>>().concat();
             first += at_once;
-            if !links.is_empty() {
+            // Joining a long tour takes a while: once interrupted, the tour stays as it was.
+            if !links.is_empty() && !interrupt.is_raised() {
                 let (tour, joints) = Rings::with(&self.tour, links.into_iter()).joined(&self.sites, &self.neighbours);
                 self.tour = tour;
                 self.settle_at(joints);
