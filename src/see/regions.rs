@@ -70,6 +70,10 @@ fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads:
     let guides = REACHES.map(|radius| Guide::new(&plate.colours, radius, EPS));
     let shares = pieces::reassign_stray_pieces(&parting, &plate, parting.shares(&guides), beard.as_ref());
     let beard = beard.map(|beard| beard.shares(&plate, &shares));
+    let shares = match &beard {
+        Some(beard) => pieces::without_hair_under_beard(&plate, shares, beard),
+        None => shares,
+    };
     let shares = with_shaded_neck(&plate, shares, beard.as_ref());
     let hat = headwear(&plate, &shares);
     let kinds = kinds(&shares, beard.as_ref(), hat.as_ref());

@@ -61,6 +61,18 @@ pub(super) fn reassign_stray_pieces(
     shares
 }
 
+/// Gives to clothing the hair that only a beard joins to the head: jackets as dark as the beard above them.
+pub(super) fn without_hair_under_beard(plate: &Plate, mut shares: Raster<Shares>, beard: &Raster<f32>) -> Raster<Shares> {
+    let bare = shares.zip_map(beard, |s, b| if b > 0.5 { [1.0, 0.0, 0.0, 0.0] } else { s });
+    for piece in pieces(plate, &bare, HAIR) {
+        let is_on_head = piece.pixels.iter().any(|&i| plate.at.pixels()[i][1] > 0.5);
+        if !is_on_head && piece.middle < 0.2 && piece.aside > 0.5 {
+            give(&mut shares, &piece, HAIR, CLOTHING);
+        }
+    }
+    shares
+}
+
 fn is_brow(plate: &Plate, piece: &Piece) -> bool {
     let inside = piece.pixels.iter().filter(|i| plate.oval.pixels()[**i]).count() as f32;
     let size = piece.pixels.len() as f32;
