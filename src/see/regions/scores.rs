@@ -45,7 +45,8 @@ impl Segmentation<'_> {
             // Shade connects the neck to the face; skin-coloured clothing begins at an edge.
             e -= 0.8 * (path - 4.0).clamp(0.0, 6.0);
         }
-        if a < 0.4 && v < 0.1 && v > -0.35 && self.from_skin.pixels()[i] < NO_SKIN {
+        let may_be_hair = self.may_be_fallen_hair(i, u, f);
+        if a < 0.4 && v < 0.1 && v > -0.35 && far < NO_SKIN && !may_be_hair {
             e += 4.0;
         }
         if v > 1.04 && !self.is_bald && !is_near {
@@ -54,7 +55,10 @@ impl Segmentation<'_> {
         if !is_face && self.is_behind_hair(u, v) && !self.lighting.may_be_ear(v, i) {
             e -= 5.0;
         }
-        let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0;
+        if may_be_hair && v < 0.1 && !is_face {
+            e -= 3.0;
+        }
+        let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0 && !may_be_hair;
         e += self.neck_suits(i, u, v, f);
         if self.plate.is_grey {
             e -= self.unlikely_in_grey(u, v, is_face);
@@ -127,6 +131,7 @@ impl Segmentation<'_> {
         e -= (-v - 0.1).max(0.0) * if hair.hangs(u) { 2.0 } else { 9.0 };
         e -= (a - 0.95).max(0.0) * 6.0;
         let is_long = self.may_fall(hair, u) || (hair.beside_jaw(u) > 0.8 && a > 0.25);
+        let a = if self.may_fall(hair, u) { a.max(self.aside_of_chin(u)) } else { a };
         if v < 0.0 && a < 0.45 {
             e -= if is_long { 3.0 } else { 9.0 };
         }
@@ -198,6 +203,16 @@ impl Segmentation<'_> {
     /// True where hair may fall in front of neck and shoulder.
     fn may_fall(&self, hair: &Hair, u: f32) -> bool {
         hair.falls(u) && self.aside_of_chin(u) > 0.25
+    }
+
+    /// True where hair falls in a colour that suits it about as well as skin: brown hair beside brown skin.
+    fn may_be_fallen_hair(&self, i: usize, u: f32, f: Feature) -> bool {
+        /// How much likelier skin may be, in natural logarithms.
+        const ABOUT: f32 = 2.0;
+        self.hair.as_ref().is_some_and(|hair| {
+            let skin = -0.5 * self.from_skin.pixels()[i] - self.skin.level();
+            self.may_fall(hair, u) && hair.mixture.log_density(f) > skin - ABOUT
+        })
     }
 
     /// The distance across from the chin, which a turned head carries to one side.
