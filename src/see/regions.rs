@@ -10,6 +10,7 @@
 //! ```
 
 mod baldness;
+mod ears;
 mod facial_hair;
 mod falling;
 mod hair;

@@ -21,6 +21,8 @@ impl Segmentation<'_> {
     }
 
     fn skin_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
+        /// What speaks for skin at an ear in shade, whose colour is that of hair.
+        const EAR: f32 = 16.0;
         let a = u.abs();
         let (far, path) = (self.from_skin.pixels()[i], self.path.pixels()[i]);
         let is_core = is_face && self.plate.core.pixels()[i] && v < 0.72;
@@ -60,6 +62,9 @@ impl Segmentation<'_> {
         }
         let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0 && !may_be_hair;
         e += self.neck_suits(i, u, v, f);
+        if self.ears.pixels()[i] {
+            e += EAR;
+        }
         if self.plate.is_grey {
             e -= self.unlikely_in_grey(u, v, is_face);
         } else if is_bare {

@@ -2,6 +2,7 @@
 //! known from the shape of heads.
 
 use super::baldness::is_bald;
+use super::ears::ears_in_shade;
 use super::facial_hair::Beard;
 use super::falling::{falls_past_jaw, over_face};
 use super::hair::Hair;
@@ -32,6 +33,8 @@ pub(super) struct Segmentation<'a> {
     pub(super) lighting: Lighting,
     pub(super) hair: Option<Hair>,
     pub(super) clothing: Option<Mixture>,
+    /// Ears in shade, which look like hair.
+    pub(super) ears: Raster<bool>,
 }
 
 /// Distance from hair's median up to which a pixel beside the face is like it.
@@ -90,14 +93,26 @@ impl<'a> Segmentation<'a> {
             if is_forehead { d.min(skin.shaded_distance(f)).min(skin.shine_distance(f)) } else { d }
         });
         let is_bald = is_bald(plate) && !has_another_crown(plate, &skin);
-        let mut parting =
-            Self { plate, skin, is_bald, from_skin, path, lighting: Lighting::of(plate), hair: None, clothing: None };
+        let mut parting = Self {
+            plate,
+            skin,
+            is_bald,
+            from_skin,
+            path,
+            lighting: Lighting::of(plate),
+            hair: None,
+            clothing: None,
+            ears: plate.oval.map(|_| false),
+        };
         parting.hair = parting.hair_learned();
         let worn = plate.samples(&parting.shoulders());
         if let (Some(hair), Some(worn)) = (&mut parting.hair, median(&worn)) {
             hair.is_unlike_clothing = hair.distance(worn, 0.35, 0.6) > UNLIKE;
         }
         parting.let_hair_fall(beard);
+        if let Some(hair) = &parting.hair {
+            parting.ears = ears_in_shade(plate, hair);
+        }
         parting.clothing = parting.clothing_learned();
         parting
     }
