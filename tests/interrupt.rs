@@ -76,6 +76,7 @@ fn comb(teeth: usize) -> BezPath {
 fn an_order_of_a_million_dots_stops() {
     let sequence = Sequence { effort: Effort::Full, merge: 0.05, ..Sequence::default() };
     let dots = touches(1_000_000);
+    // From the search for neighbours to the first kicks; about 6 s in, tiles are joined.
     stops_at_once("order", &[0.2, 1.0, 2.5, 5.0, 6.2, 9.0], |interrupt| {
         dots.clone().put_in_order(Point::ORIGIN, &sequence, interrupt)
     });

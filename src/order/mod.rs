@@ -185,9 +185,7 @@ fn order_many(stops: &mut [Stop], effort: Effort, interrupt: &Interrupt, best: &
         }
         best.offer(visits(&work.sites, &numbering, &work.tour, stops), stops);
     };
-    if !interrupt.is_raised() {
-        work.kick(FAST_KICKS, 0);
-    }
+    work.kick(FAST_KICKS, 0);
     finish(&mut work, stops);
     if effort == Effort::Full {
         let kicks_per_path = (FULL_KICKS + LEAST_FULL_KICKS / stops.len() as f64) / f64::from(PARTS);

@@ -27,6 +27,9 @@ impl Workpiece {
     /// Kicks the tour `kicks_per_path` times the number of paths. A different `sequence` gives different kicks, in tiles with
     /// other borders.
     pub(super) fn kick(&mut self, kicks_per_path: f64, sequence: u32) {
+        if self.sites.interrupt().is_raised() {
+            return;
+        }
         let tiles = tiles(&self.sites, Some(sequence as usize));
         self.improve_in(&tiles, |patch, tile| {
             let mut random = SplitMix::new((u64::from(sequence) << 32) + tile as u64);
