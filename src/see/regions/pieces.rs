@@ -61,12 +61,17 @@ pub(super) fn reassign_stray_pieces(
     shares
 }
 
-/// Gives to clothing the hair that only a beard joins to the head: jackets as dark as the beard above them.
+/// Gives to clothing the hair that only a beard joins to the head: jackets as dark as the beard above them (04).
 pub(super) fn without_hair_under_beard(plate: &Plate, mut shares: Raster<Shares>, beard: &Raster<f32>) -> Raster<Shares> {
-    let bare = shares.zip_map(beard, |s, b| if b > 0.5 { [1.0, 0.0, 0.0, 0.0] } else { s });
+    /// Heights between the mouth and the eyes, in `v`: hair of the head reaches above them, and what is worn has its middle below the first.
+    const HEIGHTS: [f32; 2] = [0.2, 0.5];
+    /// Where shoulders begin beside the head, in `u`.
+    const ASIDE: f32 = 0.5;
+    const OUTSIDE: Shares = [1.0, 0.0, 0.0, 0.0];
+    let bare = shares.zip_map(beard, |s, b| if b > 0.5 { OUTSIDE } else { s });
     for piece in pieces(plate, &bare, HAIR) {
-        let is_on_head = piece.pixels.iter().any(|&i| plate.at.pixels()[i][1] > 0.5);
-        if !is_on_head && piece.middle < 0.2 && piece.aside > 0.5 {
+        let is_on_head = piece.pixels.iter().any(|&i| plate.at.pixels()[i][1] > HEIGHTS[1]);
+        if !is_on_head && piece.middle < HEIGHTS[0] && piece.aside > ASIDE {
             give(&mut shares, &piece, HAIR, CLOTHING);
         }
     }
@@ -157,5 +162,28 @@ fn end_at_jaw(parting: &Segmentation, plate: &Plate, shares: &mut Raster<Shares>
             share[if v < 0.0 || u.abs() > 0.6 { CLOTHING } else { SKIN }] += share[HAIR];
             share[HAIR] = 0.0;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::plate;
+    use super::*;
+
+    #[test]
+    fn hair_that_only_a_beard_joins_to_the_head_is_clothing() {
+        let plate = plate(&Raster::filled(200, 200, [120_u8; 3]));
+        let share = |class: usize| std::array::from_fn(|k| f32::from(u8::from(k == class)));
+        let shares: Raster<Shares> = Raster::from_fn(plate.width(), plate.height(), |x, y| {
+            let [u, v] = plate.at.get(x, y);
+            share(if (0.55..0.75).contains(&u) && v < 0.9 { HAIR } else { SKIN })
+        });
+        let beard = |heights: std::ops::Range<f32>| plate.at.map(|[_, v]| f32::from(u8::from(heights.contains(&v))));
+        let worn = |beard: &Raster<f32>| {
+            let shares = without_hair_under_beard(&plate, shares.clone(), beard);
+            shares.pixels().iter().filter(|s| s[CLOTHING] > 0.5).count()
+        };
+        assert!(worn(&beard(-0.1..0.3)) > 50, "the piece below the beard");
+        assert_eq!(worn(&beard(2.0..3.0)), 0, "long hair");
     }
 }

@@ -21,8 +21,6 @@ impl Segmentation<'_> {
     }
 
     fn skin_suits(&self, i: usize, u: f32, v: f32, f: Feature, is_face: bool) -> f32 {
-        /// What speaks for skin at an ear in shade, whose colour is that of hair.
-        const EAR: f32 = 16.0;
         let a = u.abs();
         let (far, path) = (self.from_skin.pixels()[i], self.path.pixels()[i]);
         let is_core = is_face && self.plate.core.pixels()[i] && v < 0.72;
@@ -47,7 +45,7 @@ impl Segmentation<'_> {
             // Shade connects the neck to the face; skin-coloured clothing begins at an edge.
             e -= 0.8 * (path - 4.0).clamp(0.0, 6.0);
         }
-        let may_be_hair = self.may_be_fallen_hair(i, u, f);
+        let may_be_hair = v < 0.1 && self.may_be_fallen_hair(i, u, f);
         if a < 0.4 && v < 0.1 && v > -0.35 && far < NO_SKIN && !may_be_hair {
             e += 4.0;
         }
@@ -57,14 +55,8 @@ impl Segmentation<'_> {
         if !is_face && self.is_behind_hair(u, v) && !self.lighting.may_be_ear(v, i) {
             e -= 5.0;
         }
-        if may_be_hair && v < 0.1 && !is_face {
-            e -= 3.0;
-        }
         let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0 && !may_be_hair;
-        e += self.neck_suits(i, u, v, f);
-        if self.ears.pixels()[i] {
-            e += EAR;
-        }
+        e += self.neck_suits(i, u, v, f) + self.ear_or_fallen_hair(i, may_be_hair && !is_face);
         if self.plate.is_grey {
             e -= self.unlikely_in_grey(u, v, is_face);
         } else if is_bare {
@@ -77,6 +69,17 @@ impl Segmentation<'_> {
             e += 6.0;
         }
         e
+    }
+
+    /// What speaks for skin at an ear in shade, whose colour is that of hair, and against it where hair falls beside the chin.
+    fn ear_or_fallen_hair(&self, i: usize, may_be_hair: bool) -> f32 {
+        /// More than hair suits an ear in shade (09).
+        const EAR: f32 = 16.0;
+        /// With more, necks beside hair that falls are hair; with less, brown hair beside brown skin is skin in patches. Tuned on three snapshots.
+        const FALLEN: f32 = 3.0;
+        let ear = if self.ears.pixels()[i] { EAR } else { 0.0 };
+        let fallen = if may_be_hair { FALLEN } else { 0.0 };
+        ear - fallen
     }
 
     /// What a place speaks against skin where no colour does: beside the neck, above the forehead and beyond the ears.
@@ -136,11 +139,12 @@ impl Segmentation<'_> {
         e -= (-v - 0.1).max(0.0) * if hair.hangs(u) { 2.0 } else { 9.0 };
         e -= (a - 0.95).max(0.0) * 6.0;
         let is_long = self.may_fall(hair, u) || (hair.beside_jaw(u) > 0.8 && a > 0.25);
-        let a = if self.may_fall(hair, u) { a.max(self.aside_of_chin(u)) } else { a };
-        if v < 0.0 && a < 0.45 {
+        // Beside the chin of a turned head, where hair falls, its place counts from there.
+        let aside = if self.may_fall(hair, u) { a.max(self.aside_of_chin(u)) } else { a };
+        if v < 0.0 && aside < 0.45 {
             e -= if is_long { 3.0 } else { 9.0 };
         }
-        if v < 0.35 && a < 0.36 {
+        if v < 0.35 && aside < 0.36 {
             e -= if is_long { 3.0 } else { 7.0 };
         }
         let is_lit = self.lighting.is_glowing(v, f, i, hair.middle)

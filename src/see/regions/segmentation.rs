@@ -58,40 +58,46 @@ fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
     crown.len() > LEAST_SEEDS && other as f32 > OTHER_CROWN * crown.len() as f32
 }
 
+/// The squared deviation of each pixel from skin, and the cost of its colour path from the bare skin of the face.
+fn away_from_skin(plate: &Plate, skin: &Skin) -> (Raster<f32>, Raster<f32>) {
+    /// Squared deviation of pixels outside the person.
+    const FARTHEST: f32 = 1000.0;
+    let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
+        if !plate.inside.get(x, y) {
+            return FARTHEST;
+        }
+        let [u, v] = plate.at.get(x, y);
+        let place = match (v < 0.12 && u.abs() < 0.62, plate.oval.get(x, y)) {
+            (_, true) => Place::Face,
+            (true, false) => Place::Neck,
+            (false, false) => Place::Elsewhere,
+        };
+        let f = plate.features.get(x, y);
+        let plain = skin.distance(f, place);
+        if v < 0.9 && v > -0.6 && u.abs() < 0.75 { plain.min(skin.shaded_distance(f)) } else { plain }
+    });
+    let smooth = [0, 1, 2].map(|k| gaussian_blur(&plate.lab.map(|c| c[k]), 1.0));
+    let smooth = Raster::from_fn(plate.width(), plate.height(), |x, y| {
+        let at = |k: usize| smooth[k].get(x, y);
+        [0.6 * at(0), at(1), at(2)]
+    });
+    let bare = plate.round(&BARE, BARE_REACH).zip_map(&from_skin, |is, d| is && d < NO_SKIN);
+    let path = path_from(&smooth, &plate.inside, &bare);
+    let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
+        let (d, [u, v]) = (from_skin.get(x, y), plate.at.get(x, y));
+        let is_forehead = (0.9..1.15).contains(&v) && u.abs() < 0.6 && path.get(x, y) < 2.0;
+        let f = plate.features.get(x, y);
+        if is_forehead { d.min(skin.shaded_distance(f)).min(skin.shine_distance(f)) } else { d }
+    });
+    (from_skin, path)
+}
+
 impl<'a> Segmentation<'a> {
     pub(super) fn learned(plate: &'a Plate, beard: Option<&Beard>) -> Self {
         /// Distance of the shoulders' median from the hair's from which they cannot be confused.
         const UNLIKE: f32 = 15.0;
-        /// Squared deviation of pixels outside the person.
-        const FARTHEST: f32 = 1000.0;
         let skin = Skin::learned(plate);
-        let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
-            if !plate.inside.get(x, y) {
-                return FARTHEST;
-            }
-            let [u, v] = plate.at.get(x, y);
-            let place = match (v < 0.12 && u.abs() < 0.62, plate.oval.get(x, y)) {
-                (_, true) => Place::Face,
-                (true, false) => Place::Neck,
-                (false, false) => Place::Elsewhere,
-            };
-            let f = plate.features.get(x, y);
-            let plain = skin.distance(f, place);
-            if v < 0.9 && v > -0.6 && u.abs() < 0.75 { plain.min(skin.shaded_distance(f)) } else { plain }
-        });
-        let smooth = [0, 1, 2].map(|k| gaussian_blur(&plate.lab.map(|c| c[k]), 1.0));
-        let smooth = Raster::from_fn(plate.width(), plate.height(), |x, y| {
-            let at = |k: usize| smooth[k].get(x, y);
-            [0.6 * at(0), at(1), at(2)]
-        });
-        let bare = plate.round(&BARE, BARE_REACH).zip_map(&from_skin, |is, d| is && d < NO_SKIN);
-        let path = path_from(&smooth, &plate.inside, &bare);
-        let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
-            let (d, [u, v]) = (from_skin.get(x, y), plate.at.get(x, y));
-            let is_forehead = (0.9..1.15).contains(&v) && u.abs() < 0.6 && path.get(x, y) < 2.0;
-            let f = plate.features.get(x, y);
-            if is_forehead { d.min(skin.shaded_distance(f)).min(skin.shine_distance(f)) } else { d }
-        });
+        let (from_skin, path) = away_from_skin(plate, &skin);
         let is_bald = is_bald(plate) && !has_another_crown(plate, &skin);
         let mut parting = Self {
             plate,
