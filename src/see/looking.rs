@@ -141,9 +141,10 @@ fn measured(
         if mesh.presence < PRESENCE {
             continue;
         }
-        let irises = irises(&irises_of, view, &mesh.points)?;
-        let spectacles = spectacles(view, &mesh.points, &irises);
-        let landmarks = Landmarks { points: mesh.points, irises, spectacles };
+        let mut points = mesh.points;
+        let irises = irises(&irises_of, view, &mut points)?;
+        let spectacles = spectacles(view, &points, &irises);
+        let landmarks = Landmarks { points, irises, spectacles };
         faces.push(Face { bounds: found.bounds, score: found.score, landmarks });
     }
     Ok(faces)

@@ -15,7 +15,7 @@ pub(super) const DETECTOR: Weights = Weights {
 /// Finds a face's 468 landmarks.
 pub(super) const MESH: Weights =
     Weights { name: "face_landmark", bytes: include_bytes!("../../models/face_landmark.onnx"), side: 192 };
-/// Finds an eye's iris.
+/// Finds an eye's lids and iris.
 pub(super) const IRIS: Weights =
     Weights { name: "iris_landmark", bytes: include_bytes!("../../models/iris_landmark.onnx"), side: 64 };
 /// Separates people from the background.

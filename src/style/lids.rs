@@ -37,6 +37,8 @@ const TAPER: f64 = 0.22;
 /// How far beyond the lids and within the eye lines that were found give way, in widths of the eye.
 const BEYOND: f64 = 0.1;
 const WITHIN: f64 = 0.07;
+/// And beyond the outer corner, in the same: a crow's foot that begins there is a wire (13).
+const CORNER: f64 = 0.12;
 /// Hair or a hat over a lid from which nothing is drawn.
 const COVERED: f32 = 0.5;
 
@@ -52,7 +54,8 @@ struct Lid {
     faintest: f64,
 }
 
-const UPPER: Lid = Lid { beyond: 0.05, inside: 0.03, widest: 0.055, full: 0.22, least: 0.5, faintest: 0.02 };
+/// Lashes lie above the upper lid that was found by up to 0.07 of the eye's width (05, 13).
+const UPPER: Lid = Lid { beyond: 0.08, inside: 0.03, widest: 0.055, full: 0.22, least: 0.5, faintest: 0.02 };
 const LOWER: Lid = Lid { beyond: 0.05, inside: 0.03, widest: 0.022, full: 0.2, least: 0.4, faintest: 0.035 };
 
 /// The lids of a portrait.
@@ -142,6 +145,8 @@ impl Eye {
     /// The upper lid and the lower: an iris that is open keeps its lines.
     fn lids(&self) -> [Region; 2] {
         let band = |lid: &[Point], out: Vec2| {
+            let corner = lid[0] + (lid[0] - lid[lid.len() - 1]) * CORNER;
+            let lid: Vec<Point> = std::iter::once(corner).chain(lid.iter().copied()).collect();
             let beyond = lid.iter().map(|p| *p + out * (BEYOND * self.width));
             Region::of_polygons(vec![beyond.chain(lid.iter().rev().map(|p| *p - out * (WITHIN * self.width))).collect()])
         };
