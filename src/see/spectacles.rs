@@ -88,15 +88,17 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
     let origin = right.midpoint(left) - across * MIDDLE.x - down * MIDDLE.y;
     let window = Window { origin, across: across * SIZE[0] as f64, down: down * SIZE[1] as f64 };
     let seen = view.resampled_to(&window, SIZE, Outside::Repeated);
-    let light = Light::of(seen.map(|rgb| lightness(luminance(rgb.map(|v| srgb_to_linear(v / 255.0))))));
     let ears = EARS.map(|ear| (Point::new(points[ear][0], points[ear][1]) - origin).dot(across) / across.hypot2());
     let in_window = |point: &usize| {
         let away = Point::new(points[*point][0], points[*point][1]) - origin;
         Point::new(away.dot(across) / across.hypot2(), away.dot(down) / down.hypot2())
     };
     let line = |of: &[usize]| of.iter().map(in_window).collect::<Vec<Point>>();
-    let corners: Vec<[f64; 2]> = line(&outlines::OVAL).iter().map(|p| [p.x, p.y]).collect();
-    let light = Light { face: filled_polygon(SIZE[0], SIZE[1], &corners), ..light };
+    let corners: Vec<[f64; 2]> = outlines::OVAL.iter().map(in_window).map(|p| [p.x, p.y]).collect();
+    let light = Light {
+        seen: seen.map(|rgb| lightness(luminance(rgb.map(|v| srgb_to_linear(v / 255.0))))),
+        face: filled_polygon(SIZE[0], SIZE[1], &corners),
+    };
     let eyes = [(&outlines::RIGHT_EYE, &BROWS[0]), (&outlines::LEFT_EYE, &BROWS[1])]
         .map(|(lids, brow)| Eye { lids: bounds(&line(lids)), brow: line(brow) });
     let found = frame(&light, ears, &eyes)?;
@@ -174,12 +176,6 @@ struct Light {
 }
 
 impl Light {
-    /// A face that fills the window.
-    fn of(seen: Raster<f32>) -> Self {
-        let face = seen.map(|_| 1);
-        Self { seen, face }
-    }
-
     fn at(&self, p: Point) -> f32 {
         self.seen.sample(p.x, p.y)
     }
@@ -349,14 +345,16 @@ mod tests {
     fn face(lines: &[Vec<Point>], width: f64) -> Light {
         let spots: Vec<Point> = lines.iter().flat_map(|line| resample(line, 1.0)).collect();
         let eyes = [-50.0, 50.0].map(|x| MIDDLE + Vec2::new(x, 0.0));
-        Light::of(Raster::from_fn(SIZE[0], SIZE[1], |x, y| {
+        let seen = Raster::from_fn(SIZE[0], SIZE[1], |x, y| {
             let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
             let is_eye = eyes.iter().any(|eye| ((p.x - eye.x) / 24.0).powi(2) + ((p.y - eye.y) / 9.0).powi(2) < 1.0);
             let is_brow = eyes.iter().any(|eye| (p.x - eye.x).abs() < 28.0 && (p.y - eye.y + 25.0).abs() < 4.0);
             let is_frame = spots.iter().any(|spot| spot.distance(p) < 0.5 * width);
             let skin = 0.65 + 0.1 * ((x as f32) / 320.0);
             if is_eye || is_brow || is_frame { 0.3 } else { skin }
-        }))
+        });
+        let face = seen.map(|_| 1);
+        Light { seen, face }
     }
 
     /// Eyes of the size drawn by `face`.

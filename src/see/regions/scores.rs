@@ -218,10 +218,9 @@ impl Segmentation<'_> {
     fn may_be_fallen_hair(&self, i: usize, u: f32, f: Feature) -> bool {
         /// How much likelier skin may be, in natural logarithms.
         const ABOUT: f32 = 2.0;
-        self.hair.as_ref().is_some_and(|hair| {
-            let skin = -0.5 * self.from_skin.pixels()[i] - self.skin.level();
-            self.may_fall(hair, u) && hair.mixture.log_density(f) > skin - ABOUT
-        })
+        self.hair
+            .as_ref()
+            .is_some_and(|hair| self.may_fall(hair, u) && hair.mixture.log_density(f) > self.skin_density(i) - ABOUT)
     }
 
     /// The distance across from the chin, which a turned head carries to one side.

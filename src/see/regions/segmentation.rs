@@ -123,6 +123,11 @@ impl<'a> Segmentation<'a> {
         parting
     }
 
+    /// Logarithm of the density of skin at a pixel.
+    pub(super) fn skin_density(&self, i: usize) -> f32 {
+        -0.5 * self.from_skin.pixels()[i] - self.skin.level()
+    }
+
     fn is_out(&self, i: usize) -> bool {
         self.plate.inside.pixels()[i] && !self.plate.oval.pixels()[i]
     }
@@ -193,7 +198,7 @@ impl<'a> Segmentation<'a> {
         let distance = |i: usize| hair.distance(plate.features.pixels()[i], 0.35, 0.6);
         let is_no_skin = |i: usize| {
             let far = self.from_skin.pixels()[i];
-            far > NO_SKIN || hair.mixture.log_density(plate.features.pixels()[i]) > -0.5 * far - self.skin.level() + SURE
+            far > NO_SKIN || hair.mixture.log_density(plate.features.pixels()[i]) > self.skin_density(i) + SURE
         };
         let beside = plate
             .pixels_where(|_, i| plate.inside.pixels()[i] && !plate.core.pixels()[i] && is_no_skin(i) && distance(i) < LIKE_HAIR);
