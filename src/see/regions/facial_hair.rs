@@ -46,10 +46,13 @@ const OVER_LIPS: f32 = 0.55;
 /// no full beard. Tuned on sixteen portraits, four with beards or moustaches, as they are and lighter, darker, warmer and cooler, and on sixteen
 /// faces in company, which have none. There no zone is as dark with more than 3.9 of unevenness in both halves, beards have at least
 /// 5.5; in warm light a white beard has 0.71 of the cheeks' colour, shaven chins with a shine 0.81.
+///
+/// Soft beards are brown or thin: neither rough nor grey enough, but lip and chin are both darker than the cheek of their own side.
 #[derive(Clone, Copy)]
 enum Limits {
     Sure,
     Faint,
+    Soft,
 }
 
 impl Limits {
@@ -57,7 +60,7 @@ impl Limits {
     const fn uneven(self) -> f32 {
         match self {
             Self::Sure => 6.6,
-            Self::Faint => 5.0,
+            Self::Faint | Self::Soft => 5.0,
         }
     }
 
@@ -65,7 +68,7 @@ impl Limits {
     const fn pale(self) -> f32 {
         match self {
             Self::Sure => 0.7,
-            Self::Faint => 0.75,
+            Self::Faint | Self::Soft => 0.75,
         }
     }
 
@@ -74,6 +77,7 @@ impl Limits {
         match self {
             Self::Sure => [0.74, 5.5, 0.74],
             Self::Faint => [0.78, 5.0, 0.76],
+            Self::Soft => [DARK, 2.8, 0.7],
         }
     }
 }
@@ -92,18 +96,20 @@ struct Face<'a> {
 
 impl<'a> Face<'a> {
     fn new(plate: &'a Plate, limits: Limits) -> Option<Self> {
-        let cheeks = plate.round(&CHEEKS, 0.06);
         let light = plate.lab.map(|c| c[0]);
         let colour = plate.lab.map(|c| c[1].hypotenuse(c[2]) / (c[0] + 8.0));
-        let (light_there, colour_there) = (median_in(&light, &cheeks)?.max(1.0), median_in(&colour, &cheeks)?.max(0.01));
+        let (light_there, colour_there) = match limits {
+            Limits::Sure | Limits::Faint => (cheeks_level(plate, &light, 1.0)?, cheeks_level(plate, &colour, 0.01)?),
+            Limits::Soft => (level_by_side(plate, &light, 1.0)?, level_by_side(plate, &colour, 0.01)?),
+        };
         let smooth = gaussian_blur(&light, 0.02 * plate.face_width);
         let energy = gaussian_blur(&light.zip_map(&smooth, |v, s| (v - s) * (v - s)), 0.03 * plate.face_width);
         let uneven = energy.zip_map(&light, |e, l| 50.0 * e.max(0.0).sqrt() / (l + 8.0));
         let lips = dilate(&plate.hull(&LIPS).map(u8::from), 1).map(|v| v != 0);
         Some(Self {
             plate,
-            light: light.map(|v| v / light_there),
-            colour: colour.map(|v| v / colour_there),
+            light: light.zip_map(&light_there, |v, there| v / there),
+            colour: colour.zip_map(&colour_there, |v, there| v / there),
             uneven,
             lips,
             limits,
@@ -136,6 +142,23 @@ impl<'a> Face<'a> {
             light < DARKEST && ((uneven > 6.5 && colour < 1.3) || uneven > BRISTLY),
             is_grey && light < ROUGH_LIGHT && uneven > ROUGH,
         ])
+    }
+
+    /// True if both halves of the upper lip and of the chin are darker than the cheek beside them, and not smooth.
+    ///
+    /// Tuned on 44 people beside the sixteen portraits: six brown or thin beards have at most 0.75 (lip) and 0.76 (chin), at least 3.9 and
+    /// 2.9 of unevenness; of those without one, none has both zones below 0.89 and 0.8 with more than 2.7.
+    fn is_soft_beard(&self, chin: &Raster<bool>, moustache: &Raster<bool>) -> bool {
+        const LIP: [f32; 2] = [0.84, 3.8];
+        const CHIN: [f32; 2] = [0.78, 2.8];
+        let is_dark = |zone: &Raster<bool>, [light, uneven]: [f32; 2]| {
+            let halves = self.halves(zone);
+            let is_hair = |half| {
+                median_in(&self.light, half).is_some_and(|l| l < light) && median_in(&self.uneven, half).is_some_and(|u| u > uneven)
+            };
+            halves.len() == 2 && halves.iter().all(is_hair)
+        };
+        is_dark(moustache, LIP) && is_dark(chin, CHIN)
     }
 
     /// True if a chin is white in both halves and the upper lip in one, as under a white beard whose other half lies in coloured light.
@@ -223,11 +246,16 @@ impl<'a> Face<'a> {
         self.plate.pixels_where(|_, i| hairs.pixels()[i] || (zone.pixels()[i] && colour.pixels()[i] < THIN))
     }
 
-    /// The pixels that look like facial hair.
-    fn hairs(&self) -> Raster<bool> {
+    /// The pixels that look like facial hair. In soft beards they are no nearer to the cheeks' lightness than to the chin's: shaded skin beside
+    /// them is darker than cheeks too.
+    fn hairs(&self, chin: &Raster<bool>) -> Raster<bool> {
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
         let (light, colour, uneven) = (blur(&self.light, 0.012), blur(&self.colour, 0.012), blur(&self.uneven, 0.02));
         let [dark, rough, pale] = self.limits.hairs();
+        let dark = match self.limits {
+            Limits::Soft => median_in(&self.light, chin).map_or(dark, |chin| dark.min(0.5 + 0.5 * chin)),
+            Limits::Sure | Limits::Faint => dark,
+        };
         self.plate.pixels_where(|_, i| {
             let (l, c) = (light.pixels()[i], colour.pixels()[i]);
             let is_dark = l < dark && uneven.pixels()[i] > rough;
@@ -235,6 +263,25 @@ impl<'a> Face<'a> {
             is_dark || is_pale || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
         })
     }
+}
+
+/// The cheeks' median everywhere.
+fn cheeks_level(plate: &Plate, plane: &Raster<f32>, least: f32) -> Option<Raster<f32>> {
+    let level = median_in(plane, &plate.round(&CHEEKS, 0.06))?.max(least);
+    Some(plane.map(|_| level))
+}
+
+/// The median of the cheek of each side, and between them what lies between: light from one side makes no half darker.
+fn level_by_side(plate: &Plate, plane: &Raster<f32>, least: f32) -> Option<Raster<f32>> {
+    let across = plate.at.map(|[u, _]| u);
+    let (right, left) = CHEEKS.split_at(CHEEKS.len() / 2);
+    let level = |cheek: &[usize]| {
+        let zone = plate.round(cheek, 0.06);
+        Some([median_in(&across, &zone)?, median_in(plane, &zone)?.max(least)])
+    };
+    let ([from, first], [to, last]) = (level(right)?, level(left)?);
+    let width = if (to - from).abs() > 0.05 { to - from } else { 1.0 };
+    Some(across.map(|u| first + ((u - from) / width).clamp(0.0, 1.0) * (last - first)))
 }
 
 /// A beard, a moustache or both.
@@ -246,6 +293,8 @@ pub(super) struct Beard {
     zones: Raster<bool>,
     /// Whether it covers the chin.
     pub is_full: bool,
+    /// Whether it covers the chin so densely that it and long hair cannot be told apart.
+    pub is_dense: bool,
 }
 
 impl Beard {
@@ -256,7 +305,7 @@ impl Beard {
             return sure;
         }
         let faint = Self::within(plate, Limits::Faint);
-        if faint.as_ref().is_some_and(|beard| beard.is_full) { faint } else { sure.or(faint) }
+        if faint.as_ref().is_some_and(|beard| beard.is_full) { faint } else { Self::within(plate, Limits::Soft).or(sure).or(faint) }
     }
 
     fn within(plate: &Plate, limits: Limits) -> Option<Self> {
@@ -267,10 +316,11 @@ impl Beard {
         let chin = off_lips(plate.hull(&CHIN));
         let middle = plate.chin();
         let jaw = off_lips(plate.pixels_where(|[u, v], i| plate.oval.pixels()[i] && v < 0.42 && (u - middle).abs() > 0.28));
-        let hairs = face.hairs();
-        let has_moustache = face.is_covered(&moustache);
+        let hairs = face.hairs(&chin);
+        let is_soft = matches!(limits, Limits::Soft);
+        let has_moustache = if is_soft { face.is_soft_beard(&chin, &moustache) } else { face.is_covered(&moustache) };
         let is_bearded = has_moustache || share_of(&hairs, &jaw) > BEARDED_JAW || face.is_white_goatee(&chin, &moustache);
-        let is_full = face.is_covered(&chin) && is_bearded;
+        let is_full = if is_soft { has_moustache } else { face.is_covered(&chin) && is_bearded };
         if !has_moustache && !is_full {
             return None;
         }
@@ -294,7 +344,7 @@ impl Beard {
                 && (on_lip || (is_full && !is_other.pixels()[i] && (is_below || (is_jaw && v > -0.05))))
         });
         let zones = plate.pixels_where(|_, i| moustache.pixels()[i] || chin.pixels()[i] || jaw.pixels()[i]);
-        Some(Self { hairs, allowed, zones, is_full })
+        Some(Self { hairs, allowed, zones, is_full, is_dense: is_full && !is_soft })
     }
 
     /// Share of beard or moustache in each pixel; collars below the chin are excluded.

@@ -56,7 +56,7 @@ pub(super) fn reassign_stray_pieces(
         }
     }
     for sign in [-1.0, 1.0] {
-        end_at_jaw(parting, plate, &mut shares, sign, beard.is_some_and(|beard| beard.is_full));
+        end_at_jaw(parting, plate, &mut shares, sign, beard.is_some_and(|beard| beard.is_dense));
     }
     shares
 }

@@ -192,7 +192,7 @@ impl<'a> Segmentation<'a> {
         const SURE: f32 = 1.0;
         let plate = self.plate;
         let Some(hair) = &self.hair else { return };
-        if self.is_bald || plate.is_grey || beard.is_some_and(|beard| beard.is_full) {
+        if self.is_bald || plate.is_grey || beard.is_some_and(|beard| beard.is_dense) {
             return;
         }
         let distance = |i: usize| hair.distance(plate.features.pixels()[i], 0.35, 0.6);
