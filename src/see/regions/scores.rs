@@ -78,7 +78,7 @@ impl Segmentation<'_> {
         /// With more, necks beside hair that falls are hair; with less, brown hair beside brown skin is skin in patches. Tuned on three snapshots.
         const FALLEN: f32 = 3.0;
         let ear = if self.ears.pixels()[i] { EAR } else { 0.0 };
-        let fallen = if may_be_hair { FALLEN } else { 0.0 };
+        let fallen = if may_be_hair { FALLEN + self.rougher(self.plate.features.pixels()[i]) } else { 0.0 };
         ear - fallen
     }
 
@@ -220,7 +220,15 @@ impl Segmentation<'_> {
         const ABOUT: f32 = 2.0;
         self.hair
             .as_ref()
-            .is_some_and(|hair| self.may_fall(hair, u) && hair.mixture.log_density(f) > self.skin_density(i) - ABOUT)
+            .is_some_and(|hair| self.may_fall(hair, u) && hair.mixture.log_density(f) > self.skin_density(i) - ABOUT - self.rougher(f))
+    }
+
+    /// What texture speaks for hair, where both have the same colour: strands are rougher than the face's skin.
+    fn rougher(&self, f: Feature) -> f32 {
+        /// How much more texture skin has at most, by its folds, and the most that counts.
+        const FOLDS: f32 = 5.0;
+        const MOST: f32 = 6.0;
+        (f[3] - self.skin.middle[3] - FOLDS).clamp(0.0, MOST)
     }
 
     /// The distance across from the chin, which a turned head carries to one side.
