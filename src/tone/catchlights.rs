@@ -23,7 +23,7 @@ const OWN_LIGHTER: f32 = 0.06;
 /// edge; and its distance from the lids.
 const ASIDE: f64 = 0.36;
 const UP: f64 = 0.34;
-const RADIUS: f64 = 0.24;
+const RADIUS: f64 = 0.2;
 const SOFT: f64 = 0.1;
 const FROM_LIDS: f64 = 0.15;
 

@@ -343,7 +343,7 @@ impl Beard {
                 && is_free
                 && (on_lip || (is_full && !is_other.pixels()[i] && (is_below || (is_jaw && v > -0.05))))
         });
-        let zones = plate.pixels_where(|_, i| moustache.pixels()[i] || chin.pixels()[i] || jaw.pixels()[i]);
+        let zones = plate.pixels_where(|_, i| moustache.pixels()[i] || chin.pixels()[i] || (jaw.pixels()[i] && !is_soft));
         Some(Self { hairs, allowed, zones, is_full, is_dense: is_full && !is_soft })
     }
 

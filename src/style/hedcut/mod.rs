@@ -4,6 +4,7 @@
 mod cost;
 mod features;
 mod highlights;
+mod lights;
 mod locks;
 mod outline;
 mod parameters;
@@ -28,8 +29,6 @@ use std::borrow::Cow;
 const SOLID_TOLERANCE: f64 = 0.01;
 /// Width of outlines in pitches with which lids have their own.
 const OUTLINE: f64 = 0.4;
-/// Ink below which a place in a feature is a light.
-const LIGHT: f32 = 0.06;
 
 /// The style.
 pub(super) struct Hedcut;
@@ -85,8 +84,9 @@ impl Drawer<'_> {
             }
             dots => dots?,
         };
+        let shapes = solids.outline.clone();
         set_solids(&mut drawing, solids);
-        self.clear_lights(&mut drawing, &ink);
+        self.clear_lights(&mut drawing, &shapes, &ink);
         drawing.layers.extend(self.hair_layer(&parts)?);
         drawing.layers.extend(self.clothing_layer(&parts)?);
         if drawing.layers.is_empty() {
@@ -129,18 +129,6 @@ impl Drawer<'_> {
             drawing.layers.push(outline::layer(self, &features, parts));
         }
         Ok(drawing)
-    }
-
-    /// Takes out dots that lie in the lights of features, which are smaller than a dot's cell: a catchlight is clean.
-    fn clear_lights(&self, drawing: &mut Drawing, ink: &Raster<f32>) {
-        let Some(detail) = self.portrait.masks.get(&MaskRole::Detail) else { return };
-        let is_light = |dot: &Dot| {
-            let p = self.portrait.placement.to_grid(dot.centre);
-            detail.sample(p.x, p.y) > 0.5 && ink.sample(p.x, p.y) < LIGHT
-        };
-        for layer in &mut drawing.layers {
-            layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if is_light(dot)));
-        }
     }
 
     /// Steps 3 and 4: distance maps and offset lanes.
