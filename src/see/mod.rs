@@ -40,8 +40,9 @@ mod mesh;
 mod networks;
 #[cfg(feature = "see")]
 mod regions;
-mod sight;
 #[cfg(feature = "see")]
+mod rims;
+mod sight;
 mod spectacles;
 #[cfg(feature = "see")]
 mod subject;

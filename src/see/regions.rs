@@ -10,6 +10,7 @@
 //! ```
 
 mod baldness;
+mod beard_signs;
 mod ears;
 mod facial_hair;
 mod falling;
@@ -189,6 +190,11 @@ pub(super) mod tests {
 
     /// The plate of an oval face, 80 by 100 pixels around (100, 70), the only landmarks in place but for the eyes' outer corners.
     pub(super) fn plate(pixels: &Raster<[u8; 3]>) -> Plate {
+        plate_with(pixels, &[])
+    }
+
+    /// The same with more landmarks, at places in the picture.
+    pub(super) fn plate_with(pixels: &Raster<[u8; 3]>, landmarks: &[(usize, [f64; 2])]) -> Plate {
         let centre = Point::new(100.0, 70.0);
         let mut points = vec![[centre.x, centre.y, 0.0]; 468];
         for (i, &index) in OVAL.iter().enumerate() {
@@ -196,6 +202,9 @@ pub(super) mod tests {
             points[index] = [centre.x + 40.0 * out.x, centre.y + 50.0 * out.y, 0.0];
         }
         (points[33], points[263]) = ([80.0, 65.0, 0.0], [120.0, 65.0, 0.0]);
+        for &(index, [x, y]) in landmarks {
+            points[index] = [x, y, 0.0];
+        }
         let face = Landmarks { points, irises: [Iris { centre, radius: 3.0 }; 2], spectacles: None };
         let heads = [Head::new(&face).expect("a head")];
         let subject = pixels.map(|_| 255_u8);

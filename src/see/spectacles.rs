@@ -9,57 +9,29 @@
 //! ```
 
 use super::networks::sixteenths;
+use super::rims::{Eye, rims};
 use super::view::{Outside, View, Window};
-use crate::elementary::{Elementary as _, unit_at};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, best_way, filled_polygon, median};
 use crate::source::{Iris, Spectacles, lightness, luminance, outlines, srgb_to_linear};
-use std::f64::consts::TAU;
 
 /// Distance of the eyes in the window, its size, and the place midway between the eyes.
-const APART: f64 = 100.0;
+pub(super) const APART: f64 = 100.0;
 const SIZE: [usize; 2] = [320, 160];
-const MIDDLE: Point = Point::new(160.0, 65.0);
+pub(super) const MIDDLE: Point = Point::new(160.0, 65.0);
 /// Least distance of the eyes in pixels of the view: below it a thin rim is lost.
 const LEAST_APART: f64 = 60.0;
-/// The lenses' mean shape: distance of its middle from the iris outward and down, half its width and height, and the power of its
-/// superellipse.
-const LENS_AT: Vec2 = Vec2::new(4.0, 7.0);
-const LENS: Vec2 = Vec2::new(44.0, 29.0);
-const SQUARE: f64 = 2.6;
-/// Other middles of a lens that are tried, from the mean one: about one alone, a rim that is cut off on one side may win. Tuned on five portraits and
-/// Grace Hopper: farther away hair's border is reached.
-const MIDDLES: [Vec2; 4] = [Vec2::new(-4.0, 0.0), Vec2::new(4.0, 0.0), Vec2::new(0.0, -4.0), Vec2::new(0.0, 4.0)];
-/// Sizes of a lens that are tried, as factors of the mean, their number, and the number of directions around the eye.
-const SCALES: [f64; 2] = [0.3, 1.4];
-const STEPS: usize = 74;
-const DIRECTIONS: usize = 96;
-/// Margins beside, above and below the opening between the lids, where lashes, folds and bags are no rims: with 6 above the upper rims of
-/// small spectacles are lost, with 16 below bags are the lower rims of those that have none there. And the least distance from the
-/// nose's middle.
-const LIDS: [f64; 3] = [5.5, 2.5, 22.0];
-const OFF_NOSE: f64 = 4.0;
 /// Distances at which a line is compared with its sides; those of a thick line, and the lightness below which it may be thick; and the limits of what one place counts: black rims on pale skin differ by ten
 /// times as much as wire ones.
 const BESIDE: [f64; 2] = [2.5, 5.0];
 const BESIDE_THICK: [f64; 2] = [6.0, 8.0];
 const BLACK: f32 = 0.2;
 const COUNTS: [f32; 2] = [-0.012, 0.093];
-/// Value of a place where no rim can be.
-const IMPOSSIBLE: f32 = -0.2;
 /// Rows that are searched for the bridge, per pixel and around the eyes; price of a bend of rims and bridge, and of each row between
 /// a rim's end and the bridge's.
 const ROWS_PER_PIXEL: f64 = 2.0;
 const BRIDGE_ROWS: [f64; 2] = [-28.0, 40.0];
-const RIM_BEND: f32 = 0.004;
-/// What a place counts at most in the search, where black brows would outweigh wire; and by how much more it counts on a larger rim, which is
-/// longer, per size of the mean lens above this one.
-const MOST_COUNTED: f32 = 0.07;
-const LONGER: f32 = 0.25;
-const MEAN_SCALE: f32 = 0.85;
-/// What a dark place above a brow's lower line or beyond the face counts, as a share: rims may cross brows, and the cheek of a turned head, but
-/// brows and the border of hair are no rims. And these lines of brows, from left to right in the window.
-const NO_RIM: f32 = 0.4;
+/// Lower lines of the brows, from left to right in the window.
 const BROWS: [[usize; 5]; 2] = [[46, 53, 52, 65, 55], [285, 295, 282, 283, 276]];
 const BRIDGE_BEND: f32 = 0.003;
 const OFF_END: f32 = 0.001;
@@ -109,34 +81,16 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
     Some(found.placed(place, across.hypot()))
 }
 
-/// What is around an eye in the window that is no spectacles.
-struct Eye {
-    /// Around the opening between the lids.
-    lids: Rect,
-    /// The lower line of the brow, from left to right.
-    brow: Vec<Point>,
-}
-
-impl Eye {
-    /// True between the lids and so near them that dark places are lashes, folds and bags.
-    fn holds(&self, p: Point) -> bool {
-        let away = p - self.lids.center();
-        let half = self.lids.size() / 2.0;
-        let down = half.height + if away.y > 0.0 { LIDS[2] } else { LIDS[1] };
-        (away.x / (half.width + LIDS[0])).powi(2) + (away.y / down).powi(2) < 1.0
-    }
-}
-
 fn bounds(points: &[Point]) -> Rect {
     points.iter().fold(Rect::from_points(points[0], points[0]), |bounds, p| bounds.union_pt(*p))
 }
 
 /// A line in the window, and its mean contrast to both its sides.
-struct Way {
-    points: Vec<Point>,
-    contrast: f32,
+pub(super) struct Way {
+    pub points: Vec<Point>,
+    pub contrast: f32,
     /// What its places count together, by which rims about several middles are compared.
-    counted: f32,
+    pub counted: f32,
 }
 
 impl Way {
@@ -148,7 +102,7 @@ impl Way {
 
 /// The frame in the window; `ears` are the columns where temples end.
 fn frame(light: &Light, ears: [f64; 2], eyes: &[Eye; 2]) -> Option<Spectacles> {
-    let [right, left] = [(-1.0, &eyes[0]), (1.0, &eyes[1])].map(|(side, eye)| light.rim(side, eye));
+    let [right, left] = rims(light, eyes);
     if right.contrast.min(left.contrast) < RIM_GATE {
         return None;
     }
@@ -168,7 +122,7 @@ fn frame(light: &Light, ears: [f64; 2], eyes: &[Eye; 2]) -> Option<Spectacles> {
 }
 
 /// What the window shows.
-struct Light {
+pub(super) struct Light {
     /// Lightness, 0 to 1.
     seen: Raster<f32>,
     /// Not 0 in the face's oval.
@@ -180,7 +134,7 @@ impl Light {
         self.seen.sample(p.x, p.y)
     }
 
-    fn is_in_face(&self, p: Point) -> bool {
+    pub(super) fn is_in_face(&self, p: Point) -> bool {
         let at = |v: f64, count: usize| (v.max(0.0) as usize).min(count - 1);
         self.face.get(at(p.x, self.face.width()), at(p.y, self.face.height())) != 0
     }
@@ -197,7 +151,7 @@ impl Light {
     }
 
     /// The same as the mean of two distances: rims are sharp, folds are darkest far from their sides. A black line may be thick.
-    fn sharp_contrast(&self, p: Point, across: Vec2) -> f32 {
+    pub(super) fn sharp_contrast(&self, p: Point, across: Vec2) -> f32 {
         let mean = |beside: [f64; 2]| {
             let [near, far] = beside.map(|away| self.below(p, across * away));
             f32::midpoint(near, far)
@@ -205,43 +159,6 @@ impl Light {
         let thin = mean(BESIDE);
         let contrast = if self.at(p) < BLACK { thin.max(mean(BESIDE_THICK)) } else { thin };
         contrast.clamp(COUNTS[0], COUNTS[1])
-    }
-
-    /// The darkest closed way around the eye on the left (-1) or on the right (1) in the window, about the best of several middles.
-    fn rim(&self, side: f64, eye: &Eye) -> Way {
-        let centre = MIDDLE + Vec2::new(side * (0.5 * APART + LENS_AT.x), LENS_AT.y);
-        let first = self.rim_about(centre, side, eye);
-        let others = MIDDLES.map(|away| self.rim_about(centre + away, side, eye));
-        others.into_iter().fold(first, |best, way| if way.counted > best.counted { way } else { best })
-    }
-
-    /// The darkest closed way about this middle.
-    fn rim_about(&self, centre: Point, side: f64, eye: &Eye) -> Way {
-        let place = |step: usize, direction: usize| centre + lens(direction) * scale(step);
-        let values = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
-            let p = place(step, direction);
-            if side * (p.x - MIDDLE.x) < OFF_NOSE || eye.holds(p) {
-                return IMPOSSIBLE;
-            }
-            self.sharp_contrast(p, lens_normal(direction))
-        });
-        let counted = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
-            let value = values.get(step, direction).min(MOST_COUNTED);
-            let p = place(step, direction);
-            let share = if is_above(&eye.brow, p) || !self.is_in_face(p) { NO_RIM } else { 1.0 };
-            if value > 0.0 { value * share * (1.0 + LONGER * (scale(step) as f32 - MEAN_SCALE)) } else { value }
-        });
-        // Once around before and once after, so that both ends meet.
-        let around = Raster::from_fn(STEPS, 3 * DIRECTIONS, |step, row| counted.get(step, row % DIRECTIONS));
-        let steps = best_way(&around, 2, RIM_BEND)[DIRECTIONS..2 * DIRECTIONS].to_vec();
-        let sum = |of: &Raster<f32>| steps.iter().enumerate().map(|(direction, step)| of.get(*step, direction)).sum::<f32>();
-        let contrast = sum(&values);
-        let smooth = |direction: usize| {
-            let around = [DIRECTIONS - 2, DIRECTIONS - 1, 0, 1, 2].map(|by| scale(steps[(direction + by) % DIRECTIONS]));
-            around.iter().sum::<f64>() / 5.0
-        };
-        let points = (0..DIRECTIONS).map(|direction| centre + lens(direction) * smooth(direction)).collect();
-        Way { points, contrast: contrast / DIRECTIONS as f32, counted: sum(&counted) }
     }
 
     /// The darkest way over the nose between the rims' inner ends; none if these meet.
@@ -310,34 +227,9 @@ impl Light {
     }
 }
 
-/// True above a line that runs from left to right, within its columns.
-fn is_above(line: &[Point], p: Point) -> bool {
-    line.windows(2).any(|w| {
-        let share = (p.x - w[0].x) / (w[1].x - w[0].x).max(1e-9);
-        (0.0..1.0).contains(&share) && p.y < w[0].lerp(w[1], share).y
-    })
-}
-
-/// The size of a lens in the search, as a factor of the mean.
-fn scale(step: usize) -> f64 {
-    SCALES[0] + (SCALES[1] - SCALES[0]) * step as f64 / (STEPS - 1) as f64
-}
-
-/// The border of the mean lens in a direction around its middle.
-fn lens(direction: usize) -> Vec2 {
-    let along = unit_at(TAU * direction as f64 / DIRECTIONS as f64);
-    let sum = (along.x.abs() / LENS.x).power(SQUARE) + (along.y.abs() / LENS.y).power(SQUARE);
-    along * sum.power(-1.0 / SQUARE)
-}
-
-/// The direction across the border of the mean lens.
-fn lens_normal(direction: usize) -> Vec2 {
-    let along = lens((direction + 1) % DIRECTIONS) - lens((direction + DIRECTIONS - 1) % DIRECTIONS);
-    Vec2::new(along.y, -along.x) / along.hypot()
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::rims::{DIRECTIONS, lens};
     use super::*;
     use crate::geometry::resample;
 

@@ -57,3 +57,42 @@ pub(super) fn ears_in_shade(plate: &Plate, hair: &Hair) -> Raster<bool> {
         |&(area, low, high): &(usize, f32, f32)| (AREA[0] * whole..AREA[1] * whole).contains(&(area as f32)) && high - low > TALL;
     plate.pixels_where(|[u, _], i| labels.pixels()[i] != 0 && !hair.falls(u) && is_ear(&sizes[labels.pixels()[i] as usize]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::mixture::Mixture;
+    use super::super::tests::plate_with;
+    use super::*;
+
+    /// The ear of a head with its chin on the picture's right, as red as asked for, beside black hair.
+    fn ears(red: u8, chin: f64) -> usize {
+        let is_ear = |x: usize, y: usize| (50..60).contains(&x) && (64..92).contains(&y);
+        let pixels = Raster::from_fn(200, 200, |x, y| match (x, y) {
+            (x, y) if is_ear(x, y) => [30 + red, 30, 30],
+            // Two hues of one lightness: it is no toned photograph.
+            (85..115, 60..90) => [110, 130, 200],
+            (65..135, 40..110) => [170, 120, 100],
+            _ => [25_u8; 3],
+        });
+        let plate = plate_with(&pixels, &[(152, [chin, 120.0]), (10, [chin, 20.0])]);
+        let middle = [plate.lab.get(5, 5)[0], 0.0, 0.0, 90.0];
+        let hair = Hair {
+            mixture: Mixture::fitted(&[middle; 4], 1).expect("a mixture"),
+            middle,
+            is_unlike_clothing: false,
+            beside_jaw: [0.0; 2],
+            is_like_shoulders: false,
+            falls: [false; 2],
+            over_face: plate.oval.map(|_| false),
+        };
+        ears_in_shade(&plate, &hair).pixels().iter().filter(|is| **is).count()
+    }
+
+    #[test]
+    fn the_red_ear_of_a_turned_head_is_found_and_no_other() {
+        assert!(ears(40, 120.0) > 100, "{}", ears(40, 120.0));
+        assert_eq!(ears(0, 120.0), 0, "hair");
+        assert_eq!(ears(40, 100.0), 0, "a head that is not turned");
+        assert_eq!(ears(40, 80.0), 0, "the far side");
+    }
+}

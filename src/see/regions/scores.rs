@@ -218,9 +218,9 @@ impl Segmentation<'_> {
     fn may_be_fallen_hair(&self, i: usize, u: f32, f: Feature) -> bool {
         /// How much likelier skin may be, in natural logarithms.
         const ABOUT: f32 = 2.0;
-        self.hair
-            .as_ref()
-            .is_some_and(|hair| self.may_fall(hair, u) && hair.mixture.log_density(f) > self.skin_density(i) - ABOUT - self.rougher(f))
+        self.hair.as_ref().is_some_and(|hair| {
+            self.may_fall(hair, u) && hair.mixture.log_density(f) > self.skin_density(i) - ABOUT - self.rougher(f)
+        })
     }
 
     /// What texture speaks for hair, where both have the same colour: strands are rougher than the face's skin.
