@@ -43,6 +43,7 @@ mod regions;
 #[cfg(feature = "see")]
 mod rims;
 mod sight;
+#[cfg(feature = "see")]
 mod spectacles;
 #[cfg(feature = "see")]
 mod subject;

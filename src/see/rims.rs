@@ -97,7 +97,7 @@ impl Light {
             self.sharp_contrast(p, lens_normal(direction))
         });
         let expected: Vec<Option<f64>> = (0..DIRECTIONS)
-            .map(|direction| lens(direction))
+            .map(lens)
             .map(|along| image.filter(|_| along.y.abs() > STEEP * LENS.y).and_then(|image| reach_towards(image, centre, along)))
             .collect();
         let counted = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
