@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   window   the eyes level, 100 pixels apart
-//!   rims     around each eye the closed way that is darkest against both its sides (dynamic programming in polar coordinates)
+//!   rims     around each eye the closed way that is darkest against both its sides (dynamic programming in polar coordinates), the two alike
+//!            above and below the eyes (`rims.rs`)
 //!   bridge   the darkest way from rim to rim
 //!   gate     lids, brows and folds close around no eye, or nothing crosses the nose
 //!   temples  from the rims outward, as far as they are dark
@@ -27,14 +28,14 @@ const BESIDE: [f64; 2] = [2.5, 5.0];
 const BESIDE_THICK: [f64; 2] = [6.0, 8.0];
 const BLACK: f32 = 0.2;
 const COUNTS: [f32; 2] = [-0.012, 0.093];
-/// Rows that are searched for the bridge, per pixel and around the eyes; price of a bend of rims and bridge, and of each row between
+/// Rows that are searched for the bridge, per pixel and around the eyes; price of a bend of bridge or temple, and of each row between
 /// a rim's end and the bridge's.
 const ROWS_PER_PIXEL: f64 = 2.0;
 const BRIDGE_ROWS: [f64; 2] = [-28.0, 40.0];
-/// Lower lines of the brows, from left to right in the window.
-const BROWS: [[usize; 5]; 2] = [[46, 53, 52, 65, 55], [285, 295, 282, 283, 276]];
 const BRIDGE_BEND: f32 = 0.003;
 const OFF_END: f32 = 0.001;
+/// Lower lines of the brows, from left to right in the window.
+const BROWS: [[usize; 5]; 2] = [[46, 53, 52, 65, 55], [285, 295, 282, 283, 276]];
 /// Least mean contrast of each rim and of the bridge. Of sixteen portraits the five with rims have at least 0.062 and 0.057, Grace Hopper 0.065 and
 /// 0.084; the fainter rim of the nine without spectacles has at most 0.038, of thirty other people 0.042. Two with lenses that have no rims fail
 /// at 0.022 and 0.025. Of the other people one wears spectacles, in a dark photograph: 0.063 and 0.043.
@@ -89,7 +90,7 @@ fn bounds(points: &[Point]) -> Rect {
 pub(super) struct Way {
     pub points: Vec<Point>,
     pub contrast: f32,
-    /// What its places count together, by which rims about several middles are compared.
+    /// What its places count together, by which rims are compared, with the price of being unlike the other.
     pub counted: f32,
 }
 

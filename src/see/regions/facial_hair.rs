@@ -28,13 +28,13 @@ pub(super) struct Beard {
     /// The zones that a piece of hair must reach.
     zones: Raster<bool>,
     /// Whether it covers the chin.
-    pub is_full: bool,
+    is_full: bool,
     /// Whether it covers the chin so densely that it and long hair cannot be told apart.
     pub is_dense: bool,
 }
 
 impl Beard {
-    /// The facial hair, if both halves of the upper lip or of the chin are covered.
+    /// The facial hair, if both halves of the upper lip or of the chin are covered; or of both, by the signs of a soft beard.
     pub(super) fn found(plate: &Plate) -> Option<Self> {
         let sure = Self::within(plate, Limits::Sure);
         if sure.as_ref().is_some_and(|beard| beard.is_full) {
@@ -42,10 +42,10 @@ impl Beard {
         }
         let faint = Self::within(plate, Limits::Faint);
         if faint.as_ref().is_some_and(|beard| beard.is_full) {
-            faint
-        } else {
-            Self::within(plate, Limits::Soft).or(sure).or(faint)
+            return faint;
         }
+        // Over a chin in shade a moustache that is sure is no beard.
+        sure.or_else(|| Self::within(plate, Limits::Soft)).or(faint)
     }
 
     fn within(plate: &Plate, limits: Limits) -> Option<Self> {
@@ -71,18 +71,20 @@ impl Beard {
         let near_oval = dilate(&plate.oval.map(u8::from), (0.06 * plate.face_width) as usize);
         let over_lips = face.over_lips();
         let hairs = if is_full { face.with_rough(&hairs) } else { hairs };
+        let hairs = if is_soft { without_gaps(&hairs, &face, plate) } else { hairs };
         let hairs = if is_full { face.with_thin_moustache(hairs, &moustache) } else { hairs };
         let is_other = if is_full { face.beside_beard(&hairs, &chin) } else { hairs.map(|_| false) };
         let allowed = plate.pixels_where(|[u, v], i| {
-            let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42;
+            let is_below = v < 0.06 && v > BELOW_CHIN && (u - middle).abs() < 0.42 && !(is_soft && v < 0.0 && face.is_smooth(i));
             let is_jaw = v < 0.44 && near_oval.pixels()[i] != 0;
             let on_lip = has_moustache && lip.pixels()[i] != 0 && !plate.is_below_lips(i);
-            let is_free = !face.lips.pixels()[i] || (over_lips.pixels()[i] && !mouth.pixels()[i]);
+            let is_free = !face.lips.pixels()[i] || (!is_soft && over_lips.pixels()[i] && !mouth.pixels()[i]);
             plate.inside.pixels()[i]
                 && !nose.pixels()[i]
                 && is_free
                 && (on_lip || (is_full && !is_other.pixels()[i] && (is_below || (is_jaw && v > -0.05))))
         });
+        // Of a soft beard shaded cheeks would be islands.
         let zones = plate.pixels_where(|_, i| moustache.pixels()[i] || chin.pixels()[i] || (jaw.pixels()[i] && !is_soft));
         Some(Self { hairs, allowed, zones, is_full, is_dense: is_full && !is_soft })
     }
@@ -108,6 +110,16 @@ impl Beard {
         let kept = large_pieces(&whole.map(u8::from), &self.zones, 0.006 * plate.face_width * plate.face_width);
         Guide::new(&plate.colours, 3, 1e-3).filtered(&kept)
     }
+}
+
+/// A soft beard without the gaps that light makes in it, and without its spikes, folds of the cheeks.
+fn without_gaps(hairs: &Raster<bool>, face: &Face<'_>, plate: &Plate) -> Raster<bool> {
+    /// Half the widths of gaps and of spikes, in widths of the face.
+    const GAP: f32 = 0.05;
+    const SPIKE: f32 = 0.035;
+    let pixels = |width: f32| (width * plate.face_width).round() as usize;
+    let off_lips = hairs.zip_map(&face.lips, |hair, lips| u8::from(hair && !lips));
+    open(&close(&off_lips, pixels(GAP)), pixels(SPIKE)).map(|v| v != 0)
 }
 
 /// The pieces of more than `least` pixels that reach into the zones.

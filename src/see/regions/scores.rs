@@ -75,7 +75,8 @@ impl Segmentation<'_> {
     fn ear_or_fallen_hair(&self, i: usize, may_be_hair: bool) -> f32 {
         /// More than hair suits an ear in shade (09).
         const EAR: f32 = 16.0;
-        /// With more, necks beside hair that falls are hair; with less, brown hair beside brown skin is skin in patches. Tuned on three snapshots.
+        /// Where texture says nothing. With more, necks beside hair that falls are hair; with less, brown hair beside brown skin is skin in patches.
+        /// Tuned on three snapshots.
         const FALLEN: f32 = 3.0;
         let ear = if self.ears.pixels()[i] { EAR } else { 0.0 };
         let fallen = if may_be_hair { FALLEN + self.rougher(self.plate.features.pixels()[i]) } else { 0.0 };
@@ -225,7 +226,8 @@ impl Segmentation<'_> {
 
     /// What texture speaks for hair, where both have the same colour: strands are rougher than the face's skin.
     fn rougher(&self, f: Feature) -> f32 {
-        /// How much more texture skin has at most, by its folds, and the most that counts.
+        /// How much more texture necks have at most, by their folds, and the most that counts: with more, lace is hair. Tuned on six people whose
+        /// hair falls and has the colour of their skin.
         const FOLDS: f32 = 5.0;
         const MOST: f32 = 6.0;
         (f[3] - self.skin.middle[3] - FOLDS).clamp(0.0, MOST)

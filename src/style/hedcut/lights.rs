@@ -9,7 +9,8 @@ use crate::source::MaskRole;
 /// Ink below which a place in a feature is a light.
 const LIGHT: f32 = 0.06;
 /// The widest hole of a solid that is a catchlight, in pitches, and the most ink of its middle: the ring of a light iris is a hole too, but
-/// with the pupil in its middle.
+/// with the pupil in its middle. Whites of small eyes and gaps between lips count too. Looked at on eight portraits: with 1.5 the largest
+/// catchlights keep ragged borders.
 const WIDEST: f64 = 2.0;
 const MOST_INK: f32 = 0.3;
 
@@ -31,7 +32,7 @@ impl Drawer<'_> {
     fn catchlights(&self, solids: &BezPath, ink: &Raster<f32>) -> Region {
         let most = (WIDEST * self.parameters.pitch.0).powi(2) * std::f64::consts::FRAC_PI_4;
         let rings: Vec<Vec<Point>> = flatten(solids, SOLID_TOLERANCE).into_iter().map(|(ring, _)| ring).collect();
-        let whole = Region::of_polygons(rings.clone());
+        let whole = Region::new(solids, SOLID_TOLERANCE);
         let is_catchlight = |ring: &Vec<Point>| {
             let middle = ring.iter().fold(Point::ZERO, |sum, p| sum + p.to_vec2() / ring.len() as f64);
             let at = self.portrait.placement.to_grid(middle);
