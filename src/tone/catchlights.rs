@@ -20,7 +20,7 @@ const OWN_WITHIN: f64 = 0.45;
 const OWN_DOWN: f64 = 0.1;
 const OWN_LIGHTER: f32 = 0.06;
 /// Place of the catchlight in radii of the iris where there is none: aside to where the light comes from, and up; its radius; that of its soft
-/// edge; and its distance from the lids. With a radius of 0.24 eyes glare at 90 mm (13); with less than 0.18 the light closes in print.
+/// edge; and its distance from the lids. With a radius of 0.24 eyes glare at 90 mm (13).
 const ASIDE: f64 = 0.36;
 const UP: f64 = 0.34;
 const RADIUS: f64 = 0.2;
