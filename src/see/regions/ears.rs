@@ -76,15 +76,8 @@ mod tests {
         });
         let plate = plate_with(&pixels, &[(152, [chin, 120.0]), (10, [chin, 20.0])]);
         let middle = [plate.lab.get(5, 5)[0], 0.0, 0.0, 90.0];
-        let hair = Hair {
-            mixture: Mixture::fitted(&[middle; 4], 1).expect("a mixture"),
-            middle,
-            is_unlike_clothing: false,
-            beside_jaw: [0.0; 2],
-            is_like_shoulders: false,
-            falls: [false; 2],
-            over_face: plate.oval.map(|_| false),
-        };
+        let mixture = Mixture::fitted(&[middle; 4], 1).expect("a mixture");
+        let hair = Hair::of(mixture, middle, (plate.width(), plate.height()));
         ears_in_shade(&plate, &hair).pixels().iter().filter(|is| **is).count()
     }
 

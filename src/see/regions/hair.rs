@@ -22,6 +22,19 @@ pub(super) struct Hair {
 }
 
 impl Hair {
+    /// Hair of an appearance on a plate of this size, which hangs nowhere as far as is known.
+    pub(super) fn of(mixture: Mixture, middle: Feature, (width, height): (usize, usize)) -> Self {
+        Self {
+            mixture,
+            middle,
+            is_unlike_clothing: false,
+            beside_jaw: [0.0; 2],
+            is_like_shoulders: false,
+            falls: [false; 2],
+            over_face: Raster::filled(width, height, false),
+        }
+    }
+
     /// Distance of a pixel from the median hair, with lightness and texture weighted by `light` and `texture`.
     pub(super) fn distance(&self, f: Feature, light: f32, texture: f32) -> f32 {
         let weights = [light, 1.0, 1.0, texture];

@@ -155,15 +155,7 @@ impl<'a> Segmentation<'a> {
         });
         let samples = plate.samples(&seeds);
         let middle = median(&samples).filter(|_| samples.len() > LEAST_SEEDS)?;
-        let mut hair = Hair {
-            mixture: Mixture::fitted(&samples, HAIRS)?,
-            middle,
-            is_unlike_clothing: false,
-            beside_jaw: [0.0; 2],
-            is_like_shoulders: false,
-            falls: [false; 2],
-            over_face: plate.oval.map(|_| false),
-        };
+        let mut hair = Hair::of(Mixture::fitted(&samples, HAIRS)?, middle, (plate.width(), plate.height()));
         let room = 0.09 * plate.head.width * plate.head.height * plate.scale * plate.scale;
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let is_it = |i: usize| {
