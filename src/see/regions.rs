@@ -18,6 +18,7 @@ mod hair;
 mod head;
 mod headwear;
 mod lighting;
+mod mane;
 mod mixture;
 mod neck;
 mod path;

@@ -17,6 +17,8 @@ pub(super) struct Hair {
     pub is_like_shoulders: bool,
     /// Whether it falls past the jaw without a gap, likewise.
     pub falls: [bool; 2],
+    /// Whether it stands out beside the ears in a colour like skin's, likewise.
+    pub stands_out: [bool; 2],
     /// The pixels of the face that it covers.
     pub over_face: Raster<bool>,
 }
@@ -31,6 +33,7 @@ impl Hair {
             beside_jaw: [0.0; 2],
             is_like_shoulders: false,
             falls: [false; 2],
+            stands_out: [false; 2],
             over_face: Raster::filled(width, height, false),
         }
     }
@@ -58,6 +61,11 @@ impl Hair {
     /// True if it falls past the jaw without a gap on the side of `u`.
     pub(super) fn falls(&self, u: f32) -> bool {
         self.falls[usize::from(u > 0.0)]
+    }
+
+    /// True if it stands out beside the ear on the side of `u`, in a colour like skin's.
+    pub(super) fn stands_out(&self, u: f32) -> bool {
+        self.stands_out[usize::from(u > 0.0)]
     }
 
     /// Fraction of the area beside the jaw that it covers on the side of `u`.

@@ -52,8 +52,8 @@ impl Segmentation<'_> {
         if v > 1.04 && !self.is_bald && !is_near {
             e -= 4.0;
         }
-        if !is_face && self.is_behind_hair(u, v) && !self.lighting.may_be_ear(v, i) {
-            e -= 5.0;
+        if !is_face && self.is_behind_hair(u, v) {
+            e -= self.against_skin_behind_hair(i, u, v, f);
         }
         let is_bare = v < 0.1 && far < NO_SKIN && path < 6.0 && !may_be_hair;
         e += self.neck_suits(i, u, v, f) + self.ear_or_fallen_hair(i, may_be_hair && !is_face);
@@ -107,7 +107,11 @@ impl Segmentation<'_> {
     fn neck_suits(&self, i: usize, u: f32, v: f32, f: Feature) -> f32 {
         /// More than hair suits shade, which is up to 15.
         const NECK: f32 = 16.0;
-        if self.is_neck_in_shade(i, v, f) || self.is_neck_of_deeper_colour(i, u, v, f) { NECK } else { 0.0 }
+        /// Half the width of a neck, in `u`, beside which hair that stands out is in shade.
+        const WIDE: f32 = 0.3;
+        let is_beside_hair = self.hair.as_ref().is_some_and(|hair| hair.stands_out(u)) && self.aside_of_chin(u) > WIDE;
+        let is_neck = self.is_neck_in_shade(i, v, f) || self.is_neck_of_deeper_colour(i, u, v, f);
+        if is_neck && !is_beside_hair { NECK } else { 0.0 }
     }
 
     /// True below the chin where a colour of skin's hue, deeper than a face's that is in strong light, leads to the face without an edge.
@@ -208,6 +212,17 @@ impl Segmentation<'_> {
     /// True beside a face where hair falls: no skin shows there but ears.
     fn is_behind_hair(&self, u: f32, v: f32) -> bool {
         (0.0..0.9).contains(&v) && self.falls(u) && self.aside_of_chin(u) > 0.4
+    }
+
+    /// What speaks against skin beside a face where hair falls. Ears show before it, but few before hair that stands out, and these are smooth.
+    fn against_skin_behind_hair(&self, i: usize, u: f32, v: f32, f: Feature) -> f32 {
+        const BEHIND: f32 = 5.0;
+        let stands_out = self.hair.as_ref().is_some_and(|hair| hair.stands_out(u));
+        match (self.lighting.may_be_ear(v, i), stands_out) {
+            (true, false) => 0.0,
+            (false, false) => BEHIND,
+            (_, true) => BEHIND + self.rougher(f),
+        }
     }
 
     /// True where hair may fall in front of neck and shoulder.

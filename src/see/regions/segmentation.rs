@@ -7,6 +7,7 @@ use super::facial_hair::Beard;
 use super::falling::{falls_past_jaw, over_face};
 use super::hair::Hair;
 use super::lighting::Lighting;
+use super::mane::manes;
 use super::mixture::Mixture;
 use super::path::path_from;
 use super::plate::{LIGHTNESS_WEIGHT, Plate};
@@ -139,6 +140,7 @@ impl<'a> Segmentation<'a> {
         let plate = self.plate;
         let outside = plate.inside.map(|is| u8::from(!is));
         let edge = dilate(&outside, (0.12 * plate.face_width) as usize);
+        let (manes, stand_out) = manes(plate, &self.skin, &self.from_skin);
         let seeds = plate.pixels_where(|[u, v], i| {
             let (f, a) = (plate.features.pixels()[i], u.abs());
             // In black and white places tell, where a pixel is not all like skin.
@@ -151,11 +153,12 @@ impl<'a> Segmentation<'a> {
             let is_dark = f[0] < self.skin.middle[0] - 25.0 * LIGHTNESS_WEIGHT
                 && self.path.pixels()[i] > 6.0
                 && (plate.is_grey || apart(shadeless(f), shadeless(self.skin.middle)) > 0.07);
-            self.is_out(i) && if self.is_bald { beside && is_dark } else { beside || crown }
+            self.is_out(i) && if self.is_bald { beside && is_dark } else { beside || crown || manes.pixels()[i] }
         });
         let samples = plate.samples(&seeds);
         let middle = median(&samples).filter(|_| samples.len() > LEAST_SEEDS)?;
         let mut hair = Hair::of(Mixture::fitted(&samples, HAIRS)?, middle, (plate.width(), plate.height()));
+        hair.stands_out = stand_out;
         let room = 0.09 * plate.head.width * plate.head.height * plate.scale * plate.scale;
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let is_it = |i: usize| {
@@ -195,7 +198,10 @@ impl<'a> Segmentation<'a> {
         let beside = plate
             .pixels_where(|_, i| plate.inside.pixels()[i] && !plate.core.pixels()[i] && is_no_skin(i) && distance(i) < LIKE_HAIR);
         let falls = falls_past_jaw(plate, &beside);
-        let falls = [-1.0, 1.0].map(|side| !self.lighting.is_black(side) && falls[usize::from(side > 0.0)]);
+        let falls = [-1.0, 1.0].map(|side| {
+            let which = usize::from(side > 0.0);
+            !self.lighting.is_black(side) && (falls[which] || hair.stands_out[which])
+        });
         let covering = plate.pixels_where(|_, i| {
             let is_covered = self.from_skin.pixels()[i] > COVERED && !self.lighting.is_shadow(plate, i);
             plate.inside.pixels()[i] && is_covered && distance(i) < LIKE
