@@ -22,6 +22,7 @@ mod head;
 mod hedcut;
 mod jaw;
 mod lids;
+mod lights;
 mod mouth;
 mod need;
 mod observer;

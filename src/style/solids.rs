@@ -26,6 +26,9 @@ const NODE: f64 = 0.35;
 const THIN: f64 = 0.03;
 const THIN_DARK: f32 = 0.16;
 const LONG: f64 = 0.09;
+/// Tolerance of solid shapes in millimetres.
+pub(super) const TOLERANCE: f64 = 0.01;
+
 /// Where details are finer, 0 to 1; `pitch` in working pixels.
 pub(super) fn detail_zone(portrait: &Portrait, pitch: f64) -> Raster<f32> {
     portrait.masks.get(&MaskRole::Detail).map_or_else(
@@ -81,6 +84,13 @@ impl Solids {
         Self { outline, lines: spectacles::frames(portrait, pitch) }
     }
 
+    /// The shapes of eyes, nostrils and mouths alone, for a style that draws lines and frames of its own.
+    pub(super) fn of_features(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
+        let has_faces = !portrait.faces.is_empty();
+        let outline = if has_faces { Darks { portrait, ink, pitch }.features(EYE_LIFT) } else { BezPath::new() };
+        Self { outline, lines: Vec::new() }
+    }
+
     /// The solids with the lines of the mouths, whose widths count by `share`.
     pub(super) fn with_mouths(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
         self.lines.extend(Mouths::of(portrait, pitch).strokes(&portrait.placement, share));
@@ -97,6 +107,21 @@ impl Solids {
     pub(super) fn with_jaws(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
         self.lines.extend(Jaws::of(portrait, pitch).strokes(&portrait.placement, share));
         self
+    }
+
+    /// Their layer, in place of the dots inside them.
+    pub(super) fn over(self, layers: &mut [Layer]) -> Layer {
+        let solids = self.layer();
+        let outlines = solids.marks.iter().filter_map(|mark| match mark {
+            Mark::Area(area) => Some(area.outline.clone()),
+            Mark::Stroke(stroke) => Some(stroke.ink_outline(TOLERANCE)),
+            Mark::Dot(_) => None,
+        });
+        let inside: Vec<Region> = outlines.map(|outline| Region::new(&outline, TOLERANCE)).collect();
+        for layer in layers {
+            layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.iter().any(|solid| solid.contains(dot.centre))));
+        }
+        solids
     }
 
     /// One area; no mark if there are no shapes.

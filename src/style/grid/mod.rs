@@ -19,6 +19,7 @@ use crate::drawing::{Drawing, Layer, Mark, Page};
 use crate::geometry::Rect;
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::MaskRole;
+use crate::style::solids::Solids;
 use cells::Cell;
 use darks::Darks;
 use parameters::{CARD, Detail, GridParameters, Primitive};
@@ -110,12 +111,23 @@ impl Drawer<'_> {
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         if self.parameters.has_lines {
-            layers.push(lines::layer(self, &features));
+            let mut drawn = lines::layer(self, &features);
+            drawn.marks.extend(self.solids(&mut layers, &ink));
+            layers.push(drawn);
         }
         for (layer, pen) in layers.iter_mut().zip(1..) {
             layer.pen = pen;
         }
         Ok(Drawing { page: self.portrait.page, layers })
+    }
+
+    /// Pupils, lashes and nostrils in place of the dots there, and clean lights: cells are too coarse for them.
+    fn solids(&self, layers: &mut [Layer], ink: &Raster<f32>) -> Vec<Mark> {
+        let solids = Solids::of_features(self.portrait, ink, self.pitch());
+        let outline = solids.outline.clone();
+        let marks = solids.over(layers).marks;
+        self.clear_lights(layers, &outline, ink);
+        marks
     }
 
     /// Section 6: lines and dots; reversed areas join the lines, or the dots if there are no lines.

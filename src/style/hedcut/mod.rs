@@ -4,7 +4,6 @@
 mod cost;
 mod features;
 mod highlights;
-mod lights;
 mod locks;
 mod outline;
 mod parameters;
@@ -16,7 +15,7 @@ mod size;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Dot, Drawing, Layer, Mark};
 use crate::field::{Curve, LaneParameters, Lanes, distance_to_curves, offset_lanes};
-use crate::geometry::{Point, Rect, Region, blob};
+use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
 use crate::source::MaskRole;
 use crate::style::solids::Solids;
@@ -25,8 +24,6 @@ use parameters::{CARD, HedcutParameters};
 use parts::Parts;
 use std::borrow::Cow;
 
-/// Tolerance of solid shapes in millimetres.
-const SOLID_TOLERANCE: f64 = 0.01;
 /// Width of outlines in pitches with which lids have their own.
 const OUTLINE: f64 = 0.4;
 
@@ -85,8 +82,9 @@ impl Drawer<'_> {
             dots => dots?,
         };
         let shapes = solids.outline.clone();
-        set_solids(&mut drawing, solids);
-        self.clear_lights(&mut drawing, &shapes, &ink);
+        let solids = solids.over(&mut drawing.layers);
+        drawing.layers.extend(Some(solids).filter(|layer| !layer.marks.is_empty()));
+        self.clear_lights(&mut drawing.layers, &shapes, &ink);
         drawing.layers.extend(self.hair_layer(&parts)?);
         drawing.layers.extend(self.clothing_layer(&parts)?);
         if drawing.layers.is_empty() {
@@ -183,22 +181,4 @@ impl Drawer<'_> {
     fn detail(&self) -> Option<&Raster<f32>> {
         self.portrait.masks.get(&MaskRole::Detail).filter(|_| self.parameters.detail_lanes().is_some())
     }
-}
-
-/// Adds the solid shapes of faces, in place of the dots inside them.
-fn set_solids(drawing: &mut Drawing, solids: Solids) {
-    let solids = solids.layer();
-    if solids.marks.is_empty() {
-        return;
-    }
-    let outlines = solids.marks.iter().filter_map(|mark| match mark {
-        Mark::Area(area) => Some(area.outline.clone()),
-        Mark::Stroke(stroke) => Some(stroke.ink_outline(SOLID_TOLERANCE)),
-        Mark::Dot(_) => None,
-    });
-    let inside: Vec<Region> = outlines.map(|outline| Region::new(&outline, SOLID_TOLERANCE)).collect();
-    for layer in &mut drawing.layers {
-        layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.iter().any(|solid| solid.contains(dot.centre))));
-    }
-    drawing.layers.push(solids);
 }

@@ -1,7 +1,8 @@
 //! The lights of features, which are smaller than a dot's cell, are clean: catchlights and lights on lips.
 
-use super::{Drawer, SOLID_TOLERANCE};
-use crate::drawing::{Dot, Drawing, Mark};
+use super::drawer::{Drawer, Pitched};
+use super::solids::TOLERANCE;
+use crate::drawing::{Dot, Layer, Mark};
 use crate::geometry::{BezPath, Point, Region, flatten, polygon_area};
 use crate::raster::Raster;
 use crate::source::MaskRole;
@@ -14,25 +15,25 @@ const LIGHT: f32 = 0.06;
 const WIDEST: f64 = 2.0;
 const MOST_INK: f32 = 0.3;
 
-impl Drawer<'_> {
+impl<P: Pitched> Drawer<'_, P> {
     /// Takes out dots that lie in the lights of features, and those that would reach into a catchlight from its soft edge.
-    pub(super) fn clear_lights(&self, drawing: &mut Drawing, solids: &BezPath, ink: &Raster<f32>) {
+    pub(super) fn clear_lights(&self, layers: &mut [Layer], solids: &BezPath, ink: &Raster<f32>) {
         let Some(detail) = self.portrait.masks.get(&MaskRole::Detail) else { return };
         let catchlights = self.catchlights(solids, ink);
         let is_light = |dot: &Dot| {
             let p = self.portrait.placement.to_grid(dot.centre);
             detail.sample(p.x, p.y) > 0.5 && (ink.sample(p.x, p.y) < LIGHT || catchlights.contains(dot.centre))
         };
-        for layer in &mut drawing.layers {
+        for layer in layers {
             layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if is_light(dot)));
         }
     }
 
     /// The small light holes of the solids.
     fn catchlights(&self, solids: &BezPath, ink: &Raster<f32>) -> Region {
-        let most = (WIDEST * self.parameters.pitch.0).powi(2) * std::f64::consts::FRAC_PI_4;
-        let rings: Vec<Vec<Point>> = flatten(solids, SOLID_TOLERANCE).into_iter().map(|(ring, _)| ring).collect();
-        let whole = Region::new(solids, SOLID_TOLERANCE);
+        let most = (WIDEST * self.parameters.pitch().0).powi(2) * std::f64::consts::FRAC_PI_4;
+        let rings: Vec<Vec<Point>> = flatten(solids, TOLERANCE).into_iter().map(|(ring, _)| ring).collect();
+        let whole = Region::new(solids, TOLERANCE);
         let is_catchlight = |ring: &Vec<Point>| {
             let middle = ring.iter().fold(Point::ZERO, |sum, p| sum + p.to_vec2() / ring.len() as f64);
             let at = self.portrait.placement.to_grid(middle);
