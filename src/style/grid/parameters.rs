@@ -67,7 +67,7 @@ parameters! {
             "space between neighbouring tiles",
             "Son 7.3, s", needs [Need::Word("primitive", &["tile", "tile-lines"])];
         has_lines: bool = "lines": ON,
-            "draw the feature lines on top",
+            "draw the feature lines on top, and pupils, lashes and nostrils of detected faces solid",
             "Son 3";
         line_width: Millimetres = "line_width": pitches(1.2 / 6.0, 0.01..=50.0),
             "width of the lines to detect: standard deviation across them",
