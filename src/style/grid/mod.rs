@@ -121,8 +121,11 @@ impl Drawer<'_> {
         Ok(Drawing { page: self.portrait.page, layers })
     }
 
-    /// Pupils, lashes and nostrils in place of the dots there, and clean lights: cells are too coarse for them.
+    /// Pupils, lashes and nostrils of faces in place of the dots there, and their clean lights: cells are too coarse for them.
     fn solids(&self, layers: &mut [Layer], ink: &Raster<f32>) -> Vec<Mark> {
+        if self.portrait.faces.is_empty() {
+            return Vec::new();
+        }
         let solids = Solids::of_features(self.portrait, ink, self.pitch());
         let outline = solids.outline.clone();
         let marks = solids.over(layers).marks;
