@@ -258,3 +258,22 @@ impl Segmentation<'_> {
         self.hair.as_ref().is_some_and(|hair| hair.over_face.pixels()[i])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::plate;
+    use super::*;
+    use crate::raster::Raster;
+
+    #[test]
+    fn strands_rougher_than_folds_of_skin_speak_for_hair_up_to_a_limit() {
+        let pixels = Raster::from_fn(200, 200, |x, _| if (60..140).contains(&x) { [150, 110, 90] } else { [60, 90, 160] });
+        let plate = plate(&pixels);
+        let parting = Segmentation::learned(&plate, None);
+        let skin = parting.skin.middle;
+        let of = |more: f32| parting.rougher([skin[0], skin[1], skin[2], skin[3] + more]);
+        assert_eq!((of(-3.0), of(4.0)), (0.0, 0.0), "skin and the folds of a neck");
+        assert!(of(8.0) > of(6.0) && of(6.0) > 0.0);
+        assert_eq!(of(30.0), of(60.0), "lace counts no more than hair");
+    }
+}
