@@ -65,7 +65,7 @@ impl Hair {
 
     /// True if it stands out beside the ear on the side of `u`, in a colour like skin's.
     pub(super) fn stands_out(&self, u: f32) -> bool {
-        self.stands_out[usize::from(u > 0.0)]
+        self.falls(u) && self.stands_out[usize::from(u > 0.0)]
     }
 
     /// Fraction of the area beside the jaw that it covers on the side of `u`.

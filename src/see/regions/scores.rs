@@ -107,7 +107,7 @@ impl Segmentation<'_> {
     fn neck_suits(&self, i: usize, u: f32, v: f32, f: Feature) -> f32 {
         /// More than hair suits shade, which is up to 15.
         const NECK: f32 = 16.0;
-        /// Half the width of a neck, in `u`, beside which hair that stands out is in shade.
+        /// Distance across from the chin, in `u`, from which shade lies on hair that stands out, not on a neck.
         const WIDE: f32 = 0.3;
         let is_beside_hair = self.hair.as_ref().is_some_and(|hair| hair.stands_out(u)) && self.aside_of_chin(u) > WIDE;
         let is_neck = self.is_neck_in_shade(i, v, f) || self.is_neck_of_deeper_colour(i, u, v, f);
@@ -214,7 +214,8 @@ impl Segmentation<'_> {
         (0.0..0.9).contains(&v) && self.falls(u) && self.aside_of_chin(u) > 0.4
     }
 
-    /// What speaks against skin beside a face where hair falls. Ears show before it, but few before hair that stands out, and these are smooth.
+    /// What speaks against skin beside a face where hair falls. Ears show before it; before hair that stands out few do, and what is
+    /// there is hair, the more the rougher it is.
     fn against_skin_behind_hair(&self, i: usize, u: f32, v: f32, f: Feature) -> f32 {
         const BEHIND: f32 = 5.0;
         let stands_out = self.hair.as_ref().is_some_and(|hair| hair.stands_out(u));

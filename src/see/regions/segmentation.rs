@@ -140,7 +140,7 @@ impl<'a> Segmentation<'a> {
         let plate = self.plate;
         let outside = plate.inside.map(|is| u8::from(!is));
         let edge = dilate(&outside, (0.12 * plate.face_width) as usize);
-        let (manes, stand_out) = manes(plate, &self.skin, &self.from_skin);
+        let (mane, stands_out) = manes(plate, &self.skin, &self.from_skin);
         let seeds = plate.pixels_where(|[u, v], i| {
             let (f, a) = (plate.features.pixels()[i], u.abs());
             // In black and white places tell, where a pixel is not all like skin.
@@ -153,12 +153,12 @@ impl<'a> Segmentation<'a> {
             let is_dark = f[0] < self.skin.middle[0] - 25.0 * LIGHTNESS_WEIGHT
                 && self.path.pixels()[i] > 6.0
                 && (plate.is_grey || apart(shadeless(f), shadeless(self.skin.middle)) > 0.07);
-            self.is_out(i) && if self.is_bald { beside && is_dark } else { beside || crown || manes.pixels()[i] }
+            self.is_out(i) && if self.is_bald { beside && is_dark } else { beside || crown || mane.pixels()[i] }
         });
         let samples = plate.samples(&seeds);
         let middle = median(&samples).filter(|_| samples.len() > LEAST_SEEDS)?;
         let mut hair = Hair::of(Mixture::fitted(&samples, HAIRS)?, middle, (plate.width(), plate.height()));
-        hair.stands_out = stand_out;
+        hair.stands_out = stands_out;
         let room = 0.09 * plate.head.width * plate.head.height * plate.scale * plate.scale;
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let is_it = |i: usize| {

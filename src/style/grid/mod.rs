@@ -121,7 +121,7 @@ impl Drawer<'_> {
         Ok(Drawing { page: self.portrait.page, layers })
     }
 
-    /// Pupils, lashes and nostrils of faces in place of the dots there, and their clean lights: cells are too coarse for them.
+    /// Pupils, lashes and nostrils of faces in place of the dots there, and no dots in their lights: cells are too coarse for them.
     fn solids(&self, layers: &mut [Layer], ink: &Raster<f32>) -> Vec<Mark> {
         if self.portrait.faces.is_empty() {
             return Vec::new();
