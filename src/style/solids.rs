@@ -79,16 +79,12 @@ impl Solids {
 
     /// The darkest places of features alone: neither rims of spectacles nor irises.
     pub(super) fn of_darkest(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
-        let has_faces = !portrait.faces.is_empty();
-        let outline = if has_faces { Darks { portrait, ink, pitch }.features(0.0) } else { BezPath::new() };
-        Self { outline, lines: spectacles::frames(portrait, pitch) }
+        Self { outline: Darks { portrait, ink, pitch }.features(0.0), lines: spectacles::frames(portrait, pitch) }
     }
 
     /// The shapes of eyes, nostrils and mouths alone, for a style that draws lines and frames of its own.
     pub(super) fn of_features(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
-        let has_faces = !portrait.faces.is_empty();
-        let outline = if has_faces { Darks { portrait, ink, pitch }.features(EYE_LIFT) } else { BezPath::new() };
-        Self { outline, lines: Vec::new() }
+        Self { outline: Darks { portrait, ink, pitch }.features(EYE_LIFT), lines: Vec::new() }
     }
 
     /// The solids with the lines of the mouths, whose widths count by `share`.
@@ -165,8 +161,11 @@ impl Darks<'_> {
     }
 
     /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips; eyes
-    /// count as darker by `eye_lift`.
+    /// count as darker by `eye_lift`. Empty without faces.
     fn features(&self, eye_lift: f32) -> BezPath {
+        if self.portrait.faces.is_empty() {
+            return BezPath::new();
+        }
         let pitch = self.pitch;
         let detail = detail_zone(self.portrait, pitch);
         let eyes = gaussian_blur(&self.inside([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
