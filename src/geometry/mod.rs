@@ -12,7 +12,7 @@ mod convex_hull;
 mod crossings;
 mod direct_search;
 mod disc;
-mod fewer_nodes;
+mod fewer_curves;
 mod graph;
 mod hand_shading;
 mod inset;
@@ -48,7 +48,7 @@ pub use crossings::{Crossings, crossings};
 #[doc(hidden)]
 pub use disc::{disc_area_in, radius_for_area};
 #[doc(hidden)]
-pub use fewer_nodes::with_fewer_nodes;
+pub use fewer_curves::with_fewer_curves;
 #[doc(hidden)]
 pub use graph::{FitTolerance, Graph, GraphNode};
 #[doc(hidden)]

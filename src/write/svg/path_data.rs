@@ -4,23 +4,35 @@ use crate::geometry::{BezPath, Point};
 use crate::write::number::decimal;
 use kurbo::PathEl;
 
-/// Digits of the unit in which places are counted, 0.0001 mm.
-const DIGITS: u32 = 4;
-const UNITS_PER_MM: f64 = 10_000.0;
+/// Places and radii are counted in 0.0001 mm.
+const COUNTED_PER_MM: f64 = 10_000.0;
 
-/// The grids of a file, in units of 0.0001 mm.
+/// The grids of a file, in 0.0001 mm, and its unit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     outlines: i64,
     radii: i64,
+    /// Digits of the file's unit that are counted: 4 if it is the millimetre, 2 if it is 0.01 mm.
+    digits: u32,
 }
 
 impl Grid {
     /// Of a sheet that a machine or a press reads: places to 0.001 mm, radii to 0.0001 mm, since 0.001 mm of a small dot's radius is a
     /// percent of its ink.
-    pub(crate) const SHEET: Self = Self { outlines: 10, radii: 1 };
-    /// Of a picture in a page: places to a pixel of a film at 2540 dpi, radii to a tenth of it.
-    pub(crate) const PAGE: Self = Self { outlines: 100, radii: 10 };
+    pub(crate) const SHEET: Self = Self { outlines: 10, radii: 1, digits: 4 };
+    /// Of a picture in a page: places to a pixel of a film at 2540 dpi, radii to a tenth of it. The unit is that pixel, 0.01 mm, so
+    /// that places are whole numbers: a decimal point less each is a quarter of the file.
+    pub(crate) const PAGE: Self = Self { outlines: 100, radii: 10, digits: 2 };
+
+    /// One of the file's units, as it is counted.
+    const fn unit(self) -> i64 {
+        10_i64.pow(self.digits)
+    }
+
+    /// The file's units in a millimetre.
+    pub(crate) fn units_per_mm(self) -> f64 {
+        COUNTED_PER_MM / self.unit() as f64
+    }
 }
 
 /// Path data of one outline, or of an open line, of a sheet.
@@ -60,14 +72,29 @@ impl<'a> PathData<'a> {
     pub(crate) fn disc(&mut self, centre: Point, radius: f64) {
         self.move_to(Point::new(centre.x - radius, centre.y));
         let radius = on_grid(radius, self.grid.radii);
-        let mut is_separated = self.command('a');
-        for across in [2 * radius, -2 * radius] {
-            for value in [radius, radius, 0, 0, 0, across, 0] {
-                self.number(value, is_separated);
-                is_separated = false;
-            }
-        }
+        let across = 2 * radius;
+        self.numbers('a', &[radius, radius, 0, 0, 0, across, 0, radius, radius, 0, 0, 0, -across, 0]);
         self.close();
+    }
+
+    /// Appends a disc as one arc that ends a step of the grid from its start, in three fifths of the text of two half circles. What
+    /// the closing line cuts off is less than a thousandth of a dot of 0.1 mm.
+    pub(crate) fn one_arc_disc(&mut self, centre: Point, radius: f64) {
+        let step = self.grid.outlines;
+        self.move_to(Point::new(centre.x, centre.y - radius));
+        let radius = on_grid(radius, self.grid.radii);
+        let large = self.grid.unit();
+        self.numbers('a', &[radius, radius, 0, large, 0, step, 0]);
+        self.close();
+    }
+
+    /// A command with these numbers.
+    fn numbers(&mut self, command: char, values: &[i64]) {
+        let mut is_separated = self.command(command);
+        for value in values {
+            self.number(*value, is_separated);
+            is_separated = false;
+        }
     }
 
     fn place(&self, p: Point) -> [i64; 2] {
@@ -117,11 +144,11 @@ impl<'a> PathData<'a> {
 
     /// A number, with a space before it unless a letter, its sign or its decimal point separates it from the one before.
     fn number(&mut self, value: i64, is_separated: bool) {
-        let has_point = value != 0 && value.abs() < UNITS_PER_MM as i64;
+        let has_point = value != 0 && value.abs() < self.grid.unit();
         if !is_separated && value >= 0 && !(has_point && ends_in_fraction(self.text)) {
             self.text.push(' ');
         }
-        decimal(self.text, value, DIGITS);
+        decimal(self.text, value, self.grid.digits);
     }
 
     fn close(&mut self) {
@@ -131,9 +158,9 @@ impl<'a> PathData<'a> {
     }
 }
 
-/// A length in units of 0.0001 mm, a multiple of `step` of them.
+/// A length in 0.0001 mm, a multiple of `step` of them.
 fn on_grid(mm: f64, step: i64) -> i64 {
-    (mm * UNITS_PER_MM / step as f64).round() as i64 * step
+    (mm * COUNTED_PER_MM / step as f64).round() as i64 * step
 }
 
 /// True if the last number written has a decimal point.
@@ -162,10 +189,25 @@ mod tests {
         data.disc(Point::new(3.0, 4.0), 0.5);
         data.outline(&BezPath::from_svg("M6,4 L6.5,4.125 L6,5 Z M1,1 L2,1").unwrap());
         data.outline(&BezPath::from_svg("M2,2 L2.25,3").unwrap());
-        assert_eq!(text, "M2.5 4a.5.5 0 0 0 1 0 .5.5 0 0 0-1 0zm3.5 0 .5.13-.5.87zm-5-3 1 0m0 1 .25 1",);
+        assert_eq!(text, "M250 400a50 50 0 0 0 100 0 50 50 0 0 0-100 0zm350 0 50 13-50 87zm-500-300 100 0m0 100 25 100",);
         let read = BezPath::from_svg(&text).unwrap();
         let parts: Vec<BezPath> = read.elements().split(|e| matches!(e, PathEl::MoveTo(_))).map(|_| BezPath::new()).collect();
         assert_eq!(parts.len(), 5, "four moves");
-        assert!((read.bounding_box().x1 - 6.5).abs() < 1e-9 && (read.bounding_box().y1 - 5.0).abs() < 1e-9);
+        assert!((read.bounding_box().x1 - 650.0).abs() < 1e-9 && (read.bounding_box().y1 - 500.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_disc_of_one_arc_is_a_disc() {
+        for radius in [0.05, 0.166, 0.4] {
+            let mut text = String::new();
+            PathData::new(&mut text, Grid::PAGE).one_arc_disc(Point::new(3.0, 4.0), radius);
+            let read = BezPath::from_svg(&text).unwrap();
+            let share = read.area().abs() / (std::f64::consts::PI * (100.0 * radius).powi(2));
+            assert!((share - 1.0).abs() < 0.003, "{text}: {share}");
+            assert!(read.bounding_box().center().distance(Point::new(300.0, 400.0)) < 0.8, "{text}");
+            let mut halves = String::new();
+            PathData::new(&mut halves, Grid::PAGE).disc(Point::new(3.0, 4.0), radius);
+            assert!(read.area() * BezPath::from_svg(&halves).unwrap().area() > 0.0, "they turn alike");
+        }
     }
 }

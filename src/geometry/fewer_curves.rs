@@ -1,0 +1,302 @@
+//! The same outline with fewer curves (after Schneider 1990, "An algorithm for automatically fitting digitized curves").
+
+use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
+
+/// Cosine of the least turn of an outline that is a corner, 26 degrees. At a smaller angle the short chords of a traced disc
+/// would be corners; at a larger one the tips of spindles would be rounded.
+const CORNER: f64 = 0.9;
+/// Distance of the places where an outline is followed, in tolerances, and their least number on a curve.
+const SPACING: f64 = 12.0;
+const LEAST_PLACES: usize = 4;
+/// Lengths of segments to this share of the spacing are enough to place them.
+const LENGTH_ACCURACY: f64 = 0.1;
+/// How often the places are moved along the curve to where it passes them, and what a deviation along it counts.
+const ROUNDS: usize = 24;
+const ALONG: f64 = 0.01;
+/// Longest handle, in lengths of the part that the curve stands for; longer ones make loops between the places.
+const LONGEST_HANDLE: f64 = 1.2;
+
+/// Outlines and lines with as few cubics and straight lines as keep within `tolerance` of them, in both directions. Corners stay;
+/// where the outline is smooth it stays smooth, with its own tangents. The curves are least squares, so that they lie on both
+/// sides of the outline and its area hardly changes.
+pub fn with_fewer_curves(path: &BezPath, tolerance: f64) -> BezPath {
+    let mut fewer = BezPath::new();
+    if !path.is_finite() || tolerance <= 0.0 {
+        return path.clone();
+    }
+    for elements in path.elements().chunk_by(|_, next| !matches!(next, PathEl::MoveTo(_))) {
+        let subpath: BezPath = elements.iter().copied().collect();
+        let is_closed = matches!(elements.last(), Some(PathEl::ClosePath));
+        match Course::of(&subpath, is_closed, tolerance) {
+            Some(course) => course.append_to(&mut fewer, tolerance),
+            None => fewer.extend(subpath),
+        }
+        if is_closed && !matches!(fewer.elements().last(), Some(PathEl::ClosePath)) {
+            fewer.close_path();
+        }
+    }
+    fewer
+}
+
+/// A place on an outline with the unit directions in which it arrives and leaves.
+#[derive(Clone, Copy)]
+struct Place {
+    at: Point,
+    arriving: Vec2,
+    leaving: Vec2,
+}
+
+impl Place {
+    fn is_corner(&self) -> bool {
+        self.arriving.dot(self.leaving) < CORNER
+    }
+
+    /// A smooth place has one direction.
+    fn smoothed(self) -> Self {
+        if self.is_corner() {
+            return self;
+        }
+        let mean = (self.arriving + self.leaving).normalize();
+        Self { arriving: mean, leaving: mean, ..self }
+    }
+}
+
+/// One outline or line as places along it; a closed one ends where it starts.
+struct Course {
+    places: Vec<Place>,
+}
+
+impl Course {
+    /// None for an outline that has no length.
+    fn of(subpath: &BezPath, is_closed: bool, tolerance: f64) -> Option<Self> {
+        let mut places: Vec<Place> = Vec::new();
+        for segment in subpath.segments() {
+            append(&mut places, segment, SPACING * tolerance);
+        }
+        let last = places.len().checked_sub(1).filter(|last| *last > 1)?;
+        if is_closed {
+            places[0].arriving = places[last].arriving;
+            places.pop();
+            if let Some(corner) = places.iter().position(Place::is_corner) {
+                places.rotate_left(corner);
+            }
+            places.push(places[0]);
+        }
+        Some(Self { places: places.into_iter().map(Place::smoothed).collect() })
+    }
+
+    fn append_to(&self, fewer: &mut BezPath, tolerance: f64) {
+        fewer.move_to(self.places[0].at);
+        let mut from = 0;
+        while from + 1 < self.places.len() {
+            let (to, part) = self.longest(from, tolerance);
+            match part {
+                PathSeg::Line(line) => fewer.line_to(line.p1),
+                PathSeg::Quad(quad) => fewer.quad_to(quad.p1, quad.p2),
+                PathSeg::Cubic(cubic) => fewer.curve_to(cubic.p1, cubic.p2, cubic.p3),
+            }
+            from = to;
+        }
+    }
+
+    /// The farthest place that one curve reaches from a place, and the curve: by steps that double, then halve.
+    fn longest(&self, from: usize, tolerance: f64) -> (usize, PathSeg) {
+        let next = from + 1;
+        let end = (next..self.places.len() - 1).find(|i| self.places[*i].is_corner()).unwrap_or(self.places.len() - 1);
+        let line = PathSeg::Line(kurbo::Line::new(self.places[from].at, self.places[next].at));
+        let mut best = (next, line);
+        let mut step = 1;
+        let mut is_growing = true;
+        while step > 0 {
+            let to = (best.0 + step).min(end);
+            let part = if to > best.0 { fitted(&self.places[from..=to], tolerance) } else { None };
+            match part {
+                Some(part) => best = (to, part),
+                None => is_growing = false,
+            }
+            step = if is_growing { 2 * step } else { step / 2 };
+        }
+        best
+    }
+}
+
+/// Appends places along a segment, its end among them.
+fn append(places: &mut Vec<Place>, segment: PathSeg, spacing: f64) {
+    let cubic = segment.to_cubic();
+    let length = cubic.arclen(LENGTH_ACCURACY * spacing);
+    let (Some(start), Some(end)) = (direction(&cubic, 0.0), direction(&cubic, 1.0)) else { return };
+    match places.last_mut() {
+        Some(last) => last.leaving = start,
+        None => places.push(Place { at: cubic.p0, arriving: start, leaving: start }),
+    }
+    let steps = ((length / spacing).ceil() as usize).max(LEAST_PLACES);
+    for step in 1..steps {
+        let t = step as f64 / steps as f64;
+        let along = direction(&cubic, t).unwrap_or(start);
+        places.push(Place { at: cubic.eval(t), arriving: along, leaving: along });
+    }
+    places.push(Place { at: cubic.p3, arriving: end, leaving: end });
+}
+
+/// A straight line or one cubic with the end tangents of these places that passes all of them.
+fn fitted(places: &[Place], tolerance: f64) -> Option<PathSeg> {
+    let (first, last) = (places.first()?, places.last()?);
+    let chord = kurbo::Line::new(first.at, last.at);
+    let lengths = lengths(places);
+    let whole = *lengths.last()?;
+    let is_straight = |place: &Place| {
+        let off = place.at - chord.p0;
+        let along = (chord.p1 - chord.p0) / whole.max(f64::MIN_POSITIVE);
+        off.cross(along).abs() <= 0.1 * tolerance && off.dot(along) >= 0.0
+    };
+    if places.iter().all(is_straight) {
+        return Some(PathSeg::Line(chord));
+    }
+    let mut passed: Vec<Passed> = lengths.iter().map(|length| Passed { at: length / whole, along: Vec2::ZERO }).collect();
+    for _ in 0..ROUNDS {
+        let cubic = least_squares(places, &passed, whole);
+        move_to_nearest(&cubic, places, &mut passed);
+        let is_near =
+            |(place, passed): (&Place, &Passed)| cubic.eval(passed.at).distance_squared(place.at) <= tolerance * tolerance;
+        if places.iter().zip(&passed).all(is_near) {
+            return Some(PathSeg::Cubic(cubic));
+        }
+    }
+    None
+}
+
+/// Where a cubic passes a place: its parameter and its unit tangent there.
+#[derive(Clone, Copy)]
+struct Passed {
+    at: f64,
+    along: Vec2,
+}
+
+impl Passed {
+    /// Product of two deviations: along the cubic they hardly count, since its parameters follow. (Plain distances need tens of
+    /// rounds to come as near.)
+    fn product(self, a: Vec2, b: Vec2) -> f64 {
+        a.dot(b) - (1.0 - ALONG) * a.dot(self.along) * b.dot(self.along)
+    }
+}
+
+/// Lengths along the chords to each place.
+fn lengths(places: &[Place]) -> Vec<f64> {
+    let steps = places.windows(2).map(|pair| pair[0].at.distance(pair[1].at));
+    std::iter::once(0.0)
+        .chain(steps.scan(0.0, |sum, step| {
+            *sum += step;
+            Some(*sum)
+        }))
+        .collect()
+}
+
+/// The cubic with the end tangents of the places that passes them closest.
+fn least_squares(places: &[Place], passed: &[Passed], length: f64) -> CubicBez {
+    let (first, last) = (places[0], places[places.len() - 1]);
+    let (start, end) = (first.leaving, -last.arriving);
+    let [mut c11, mut c12, mut c22, mut x1, mut x2] = [0.0; 5];
+    for (place, passed) in places.iter().zip(passed) {
+        let (s, t) = (1.0 - passed.at, passed.at);
+        let [b0, b1, b2, b3] = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let (a1, a2) = (start * b1, end * b2);
+        let rest = place.at.to_vec2() - first.at.to_vec2() * (b0 + b1) - last.at.to_vec2() * (b2 + b3);
+        c11 += passed.product(a1, a1);
+        c12 += passed.product(a1, a2);
+        c22 += passed.product(a2, a2);
+        x1 += passed.product(a1, rest);
+        x2 += passed.product(a2, rest);
+    }
+    let determinant = c11 * c22 - c12 * c12;
+    let [h1, h2] = [(x1 * c22 - x2 * c12) / determinant, (c11 * x2 - c12 * x1) / determinant];
+    // Where the places leave the handles open they are those of an arc.
+    let is_fair = |handle: &f64| (0.0..=LONGEST_HANDLE * length).contains(handle);
+    let is_told = determinant > 1e-9 * c11 * c22 && is_fair(&h1) && is_fair(&h2);
+    let [h1, h2] = if is_told { [h1, h2] } else { [length / 3.0; 2] };
+    CubicBez::new(first.at, first.at + start * h1, last.at + end * h2, last.at)
+}
+
+/// Moves each parameter to where the cubic is nearest to its place (a step of Newton's).
+fn move_to_nearest(cubic: &CubicBez, places: &[Place], passed: &mut [Passed]) {
+    let velocity = cubic.deriv();
+    let acceleration = velocity.deriv();
+    let inner = 1..places.len() - 1;
+    for (place, passed) in places[inner.clone()].iter().zip(&mut passed[inner]) {
+        let t = passed.at;
+        let (off, v, a) = (cubic.eval(t) - place.at, velocity.eval(t).to_vec2(), acceleration.eval(t).to_vec2());
+        let slope = v.dot(v) + off.dot(a);
+        if slope > 0.0 {
+            passed.at = (t - off.dot(v) / slope).clamp(0.0, 1.0);
+        }
+        passed.along = direction(cubic, passed.at).unwrap_or(Vec2::ZERO);
+    }
+}
+
+/// The unit tangent; none where the cubic stands still.
+fn direction(cubic: &CubicBez, t: f64) -> Option<Vec2> {
+    let tangent = cubic.deriv().eval(t).to_vec2();
+    let near_end = if t < 0.5 { cubic.p2 - cubic.p0 } else { cubic.p3 - cubic.p1 };
+    [tangent, near_end, cubic.p3 - cubic.p0].into_iter().find(|v| v.hypot() > 1e-9).map(Vec2::normalize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elementary::Elementary as _;
+    use crate::geometry::{Ends, Ring, catmull_rom, swelling_outline};
+    use kurbo::{ParamCurveNearest, Shape};
+
+    /// A waving stroke that tapers to both ends, with a node every 0.1 mm.
+    fn lock() -> BezPath {
+        let points: Vec<Point> = (0..60).map(|i| Point::new(0.1 * f64::from(i), 0.6 * (0.05 * f64::from(i)).sine())).collect();
+        let widths: Vec<f64> = (0..60).map(|i| 0.04 + 0.2 * (std::f64::consts::PI * f64::from(i) / 59.0).sine()).collect();
+        swelling_outline(&catmull_rom(&points, Ring::Open), &widths, Ends::Round, 0.002)
+    }
+
+    fn farthest(from: &BezPath, to: &BezPath) -> f64 {
+        let places = from.segments().flat_map(|segment| (0..16).map(move |i| segment.eval(f64::from(i) / 16.0)));
+        let distance = |p: Point| to.segments().map(|s| s.nearest(p, 1e-5).distance_sq).fold(f64::MAX, f64::min).sqrt();
+        places.map(distance).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_swelling_stroke_keeps_its_outline_and_its_ink_with_few_curves() {
+        let exact = lock();
+        let fewer = with_fewer_curves(&exact, 0.005);
+        let (before, after) = (exact.segments().count(), fewer.segments().count());
+        assert!(after * 10 < before, "{after} of {before}");
+        assert!(farthest(&exact, &fewer) < 0.006 && farthest(&fewer, &exact) < 0.006);
+        let change = fewer.area() / exact.area() - 1.0;
+        assert!(change.abs() < 0.006, "{change}");
+    }
+
+    #[test]
+    fn corners_and_straight_lines_stay() {
+        let square = BezPath::from_svg("M0,0 L2,0 L4,0 L4,4 L0,4 Z M1,1 L1,2 L2,2 Z").unwrap();
+        let fewer = with_fewer_curves(&square, 0.005);
+        assert_eq!(fewer.segments().count(), 7, "{}", fewer.to_svg());
+        assert!((fewer.area() - square.area()).abs() < 1e-9);
+        let open = BezPath::from_svg("M0,0 L4,0 L4,4").unwrap();
+        assert_eq!(with_fewer_curves(&open, 0.005), open);
+    }
+
+    #[test]
+    fn a_smooth_ring_without_corners_closes() {
+        let circle = kurbo::Circle::new((3.0, 3.0), 2.0).to_path(1e-6);
+        let fewer = with_fewer_curves(&circle, 0.005);
+        assert!(fewer.segments().count() <= 4, "{}", fewer.to_svg());
+        assert!(farthest(&circle, &fewer) < 0.006);
+    }
+
+    #[test]
+    fn what_has_no_length_or_no_number_stays() {
+        for text in ["M1,1 L1,1 Z", "M1,1", "M1,1 C1,1 1,1 1,1"] {
+            let path = BezPath::from_svg(text).unwrap();
+            assert_eq!(with_fewer_curves(&path, 0.005), path);
+        }
+        let mut wild = BezPath::new();
+        wild.move_to((0.0, f64::NAN));
+        wild.line_to((1.0, 1.0));
+        assert_eq!(with_fewer_curves(&wild, 0.005).elements().len(), 2);
+    }
+}
