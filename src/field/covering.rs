@@ -35,19 +35,20 @@ const LEAST_WIDTHS: f64 = 4.0;
 
 /// Strokes inside the region (at least 0.5) whose ink adds up to `ink` (0 to 1), in drawing order.
 ///
-/// Starting places are tried in random order, one per square of a stroke's width. Time grows with the region's area and with the total
+/// `looseness` is the share of the covering's turn at a stroke's start. Starting places are tried in random order, one per square of a stroke's width. Time grows with the region's area and with the total
 /// length of strokes times `reach` squared.
 pub fn cover(
     field: &OrientationField,
     region: &Raster<f32>,
     ink: &Raster<f32>,
     covering: Covering,
+    looseness: impl Fn(Point) -> f64,
     random: &mut impl Rng,
 ) -> Vec<Vec<Point>> {
     let mut bed = MissingInk { wanted: ink.clone(), splat: splat(covering), reach: splat_reach(covering) };
     let mut strokes = Vec::new();
     for start in starts(region, covering.width.max(1.5), random) {
-        let turn = if covering.turn > 0.0 { random.random_range(-covering.turn..covering.turn) } else { 0.0 };
+        let turn = if covering.turn > 0.0 { random.random_range(-covering.turn..covering.turn) * looseness(start) } else { 0.0 };
         let spread = covering.length_spread.clamp(0.0, 0.99);
         let length = covering.length * if spread > 0.0 { random.random_range(1.0 - spread..1.0 + spread) } else { 1.0 };
         if bed.left(start) < START * bed.of_one_pass() {
@@ -194,7 +195,7 @@ mod tests {
         let region = Raster::from_fn(300, 200, |_, y| f32::from(u8::from((20..180).contains(&y))));
         let ink = Raster::from_fn(300, 200, |x, _| if x < 150 { 0.3 } else { 0.6 });
         let covering = Covering { width: 2.0, length: 40.0, length_spread: 0.5, turn: 0.2, reach: 4.0 };
-        let strokes = cover(&field, &region, &ink, covering, &mut ChaCha8Rng::seed_from_u64(1));
+        let strokes = cover(&field, &region, &ink, covering, |_| 1.0, &mut ChaCha8Rng::seed_from_u64(1));
         let mut laid = [0.0, 0.0];
         for p in strokes.iter().flatten() {
             assert!((20.0..=180.0).contains(&p.y), "{p:?}");

@@ -56,7 +56,8 @@ impl Drawer<'_> {
         }
         let part = |of_coils: bool| hair.zip_map(coils, |hair, coil| if is_coil(coil) == of_coils { hair } else { 0.0 });
         let mut marks = self.hairs(field, &part(false), ink, sizes);
-        let hooks = Hairs { length: Millimetres(LENGTH * sizes.length.0), turn: Radians(TURN.to_radians()), ..sizes };
+        let hooks =
+            Hairs { length: Millimetres(LENGTH * sizes.length.0), turn: Radians(TURN.to_radians()), combed: 1.0, ..sizes };
         let curls = with_curls(field, coils, self.pixels(CURL * sizes.pitch), self.seed);
         marks.extend(self.hairs(&curls, &part(true), ink, hooks));
         marks

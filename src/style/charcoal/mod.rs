@@ -107,9 +107,10 @@ pub(super) fn hair_strokes(
     /// Strands to a pitch of the dots around them: at 1 locks, braids and earrings are lost in wide strands, below 0.6 hair is grey
     /// (portraits 03, 13 and 15).
     const FINER: f64 = 0.65;
-    /// Their length and the smoothing of their direction to those of charcoal: shorter ones are dashes, smooth ones cut across curls.
-    const LENGTH: f64 = 0.975;
-    const SMOOTH: f64 = 0.52;
+    /// Their length and the smoothing of their direction to those of charcoal: shorter ones are dashes, twice as long ones lose the
+    /// light and shade of waves (15); smooth ones cut across curls, less smooth ones make false whorls (13).
+    const LENGTH: f64 = 1.27;
+    const SMOOTH: f64 = 0.45;
     let mut strands = CharcoalParameters::new(&CARD.settings_at(drawer.parameters.pitch(), &[])?);
     strands.hair_length = LENGTH * strands.hair_length;
     strands.hair_smoothing = SMOOTH * strands.hair_smoothing;

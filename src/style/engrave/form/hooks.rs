@@ -43,7 +43,7 @@ impl Drawer<'_> {
         let field = with_curls(&along, coils, CURL * pitch, self.seed);
         let covering =
             Covering { width: WIDTH * pitch, length: LENGTH * pitch, length_spread: 0.5, turn: TURN.to_radians(), reach: pitch };
-        let lines = cover(&field, &region, &ink, covering, &mut stream(self.seed, "hooks", 0));
+        let lines = cover(&field, &region, &ink, covering, |_| 1.0, &mut stream(self.seed, "hooks", 0));
         mapped(&lines, &|line| hook(&smooth_polyline(line, Ring::Open, 0.5 * pitch, 0.5 * pitch), pitch))
     }
 }
