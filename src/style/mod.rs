@@ -35,6 +35,7 @@ mod rubbing;
 mod settings;
 mod solids;
 mod spectacles;
+mod strays;
 mod streaks;
 mod teeth;
 mod thick_frame;

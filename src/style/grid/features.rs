@@ -14,6 +14,7 @@ use crate::style::Picture;
 use crate::style::jaw::Jaws;
 use crate::style::lids::Lids;
 use crate::style::mouth::Mouths;
+use crate::style::strays::Strays;
 
 /// The lines that steer the grid and their direction field, in working pixels.
 pub(super) struct Features {
@@ -101,6 +102,7 @@ impl Drawer<'_> {
         let widest = self.pixels(parameters.line_widest);
         let capped = |line: CoherentLine| CoherentLine { widths: line.widths.iter().map(|w| w.min(widest)).collect(), ..line };
         let lines = steps.lines.into_iter().filter(|line| line.contrast >= parameters.draw_contrast).map(capped).collect();
+        let lines = Strays::of(self.portrait, lightness, self.pitch()).dropped_from(lines);
         let least = self.pixels(parameters.line_least);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);

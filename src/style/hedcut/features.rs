@@ -13,6 +13,7 @@ use crate::style::Picture;
 use crate::style::jaw::Jaws;
 use crate::style::lids::Lids;
 use crate::style::mouth::Mouths;
+use crate::style::strays::Strays;
 
 /// The lines that steer the dots, in working pixels.
 pub(super) struct Features {
@@ -94,6 +95,7 @@ impl Drawer<'_> {
         let least = LEAST_LINE * self.pitch();
         let mut lines = coherent_lines(&found, lightness, self.pixels(self.parameters.smoothing), least).lines;
         lines.retain(|line| line.contrast >= self.parameters.line_contrast);
+        let lines = Strays::of(self.portrait, lightness, self.pitch()).dropped_from(lines);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lids = if self.has_lids(parts) { Lids::of(self.portrait, self.pitch()) } else { Lids::none() };
