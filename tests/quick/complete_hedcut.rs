@@ -5,9 +5,9 @@ use crate::any_style::Order;
 use crate::common;
 
 use common::{png_of_light, rendered, sample, svg_of};
-use drypoint::drawing::{Drawing, Layer, Mark, Stroke, Width};
-use drypoint::geometry::Point;
-use drypoint::raster::Raster;
+use drypoint::drawing::{Colour, Drawing, Layer, Mark, Stroke, Width};
+use drypoint::geometry::{Point, Vec2, polyline_length};
+use drypoint::raster::{Raster, dilate, gaussian_blur, gaussian_gradient, structure_tensor};
 use drypoint::source::{MaskRole, Portrait};
 use std::sync::OnceLock;
 
@@ -31,19 +31,17 @@ struct Bust {
 /// The busts as they are drawn by default, once for all tests.
 fn outlined() -> &'static [Bust] {
     static DRAWN: OnceLock<Vec<Bust>> = OnceLock::new();
-    DRAWN.get_or_init(|| busts("on").collect())
+    DRAWN.get_or_init(|| BUSTS.map(|name| bust_with(name, &[])).into_iter().collect())
 }
 
-fn busts(outline: &str) -> impl Iterator<Item = Bust> {
-    BUSTS.into_iter().map(move |name| {
-        let photo = sample(name);
-        let masks = MASKS.map(|(role, file)| (role, sample(file)));
-        let image = image::load_from_memory(&photo).unwrap();
-        let height = 60.0 * f64::from(image.height()) / f64::from(image.width());
-        let mut order = Order::new("hedcut", &photo, (60.0, height), &[("pitch", "0.6mm"), ("outline", outline)]);
-        order.masks = masks.iter().map(|(role, bytes)| (*role, &bytes[..])).collect();
-        Bust { portrait: order.portrait(), drawing: order.draw() }
-    })
+fn bust_with(name: &str, set: &[(&str, &str)]) -> Bust {
+    let photo = sample(name);
+    let masks = MASKS.map(|(role, file)| (role, sample(file)));
+    let image = image::load_from_memory(&photo).unwrap();
+    let height = 60.0 * f64::from(image.height()) / f64::from(image.width());
+    let mut order = Order::new("hedcut", &photo, (60.0, height), &[&[("pitch", "0.6mm")], set].concat());
+    order.masks = masks.iter().map(|(role, bytes)| (*role, &bytes[..])).collect();
+    Bust { portrait: order.portrait(), drawing: order.draw() }
 }
 
 impl Bust {
@@ -86,6 +84,160 @@ fn dots_are_on_skin_strokes_in_hair_and_hatches_on_clothing() {
             let outside = nodes.iter().filter(|p| bust.is_deep(role, **p, 0.0)).count();
             assert!(outside * 200 <= nodes.len(), "{name}: {outside} of {} outside", nodes.len());
         }
+    }
+}
+
+/// The subject alone, in two tones: all ink is black, and none lies farther outside than half an outline's width.
+#[test]
+fn ink_is_black_and_on_the_subject_alone() {
+    for bust in outlined() {
+        assert!(bust.drawing.layers.iter().all(|layer| layer.ink.colour() == Colour::BLACK));
+        assert!(bust.drawing.marks().all(|mark| mark.colour().is_none()));
+        let white = rendered(&svg_of(&bust.drawing), PIXELS_PER_MM);
+        let scale = bust.portrait.placement.columns as f64 / 60.0 / PIXELS_PER_MM;
+        let person = bust.portrait.subject.map(|v| u8::from(v > 0.05));
+        let near = dilate(&person, (0.5 * PITCH * scale * PIXELS_PER_MM).ceil() as usize).map(f32::from);
+        let places = (0..white.height()).flat_map(|y| (0..white.width()).map(move |x| (x, y)));
+        let beside = places.filter(|(x, y)| near.sample(*x as f64 * scale, *y as f64 * scale) < 0.5 && white.get(*x, *y) < 0.9);
+        assert_eq!(beside.count(), 0, "inked pixels beside the person");
+    }
+}
+
+/// Tone by the size of dots and the width of lines: in the darkest third of each they are larger than in the lightest.
+#[test]
+fn darker_places_have_larger_dots_and_wider_lines() {
+    for bust in outlined() {
+        let ink = bust.portrait.ink();
+        let scale = bust.portrait.placement.columns as f64 / 60.0;
+        let growth = |mut sizes: Vec<(Point, f64)>| {
+            let tone = |p: Point| ink.sample(p.x * scale, p.y * scale);
+            sizes.sort_by(|a, b| tone(a.0).total_cmp(&tone(b.0)));
+            let mean = |part: &[(Point, f64)]| part.iter().map(|(_, size)| size).sum::<f64>() / part.len() as f64;
+            let third = sizes.len() / 3;
+            mean(&sizes[2 * third..]) / mean(&sizes[..third])
+        };
+        let is_skin = |p: Point| bust.at(MaskRole::Face, p) > 0.5 && bust.at(MaskRole::Detail, p) < 0.1;
+        let dot = |mark: &Mark| if let Mark::Dot(dot) = mark { Some((dot.centre, dot.radius)) } else { None };
+        let dots = growth(bust.drawing.marks().filter_map(dot).filter(|(p, _)| is_skin(*p)).collect());
+        let along = |name: &str| {
+            let sampled = strokes(bust.layer(name)).map(|stroke| stroke.sampled(0.3));
+            growth(sampled.flat_map(|(points, widths)| points.into_iter().zip(widths)).collect())
+        };
+        let [hair, clothing] = ["hair", "clothing"].map(along);
+        println!("dots {dots:.2}, hair {hair:.2}, clothing {clothing:.2} times as wide");
+        assert!(dots > 1.1 && hair > 1.0 && clothing > 1.15, "{dots:.2} {hair:.2} {clothing:.2}");
+    }
+}
+
+/// Dots in rows along the features: the nearest neighbour of a dot beside the silhouette lies along it.
+#[test]
+fn dots_lie_along_the_silhouette() {
+    for bust in outlined() {
+        let outlines: Vec<(Point, Vec2)> = strokes(bust.layer("outline"))
+            .flat_map(|stroke| {
+                let points = stroke.sampled(0.1).0;
+                points.windows(2).map(|pair| (pair[0], pair[1] - pair[0])).collect::<Vec<_>>()
+            })
+            .filter(|(_, along)| along.hypot() > 1e-6)
+            .collect();
+        let dots = bust.dots();
+        let nearest =
+            |p: Point| outlines.iter().min_by(|a, b| a.0.distance_squared(p).total_cmp(&b.0.distance_squared(p))).unwrap();
+        let (mut along, mut all) = (0, 0);
+        for p in &dots {
+            let (line, tangent) = nearest(*p);
+            let is_beside = bust.at(MaskRole::Face, *p) > 0.5 && bust.at(MaskRole::Detail, *p) < 0.1;
+            if is_beside && line.distance(*p) < 2.0 * PITCH {
+                let others = dots.iter().filter(|q| *q != p);
+                let next = others.min_by(|a, b| a.distance_squared(*p).total_cmp(&b.distance_squared(*p))).unwrap();
+                let step = *next - *p;
+                all += 1;
+                along += usize::from(step.dot(*tangent).abs() > 30.0_f64.to_radians().cos() * step.hypot() * tangent.hypot());
+            }
+        }
+        println!("{along} of {all} dots beside the outline follow it");
+        assert!(all > 50 && along * 2 > all, "{along} of {all}; a third by chance");
+    }
+}
+
+/// No dots in the highlights, here the lightest twentieth of each face, and dots in all other skin that is not black.
+#[test]
+fn highlights_are_bare() {
+    for (bust, name) in outlined().iter().zip(BUSTS) {
+        let scale = bust.portrait.placement.columns as f64 / 60.0;
+        let ink = gaussian_blur(&bust.portrait.ink(), (0.5 * PITCH * scale) as f32);
+        let rows = (0..ink.height()).step_by(4);
+        let places = rows.flat_map(|y| (0..ink.width()).step_by(4).map(move |x| Point::new(x as f64 / scale, y as f64 / scale)));
+        let is_skin = |p: &Point| bust.is_deep(MaskRole::Face, *p, 1.0) && bust.at(MaskRole::Detail, *p) < 0.1;
+        let mut skin: Vec<(f32, Point)> = places.filter(is_skin).map(|p| (ink.sample(p.x * scale, p.y * scale), p)).collect();
+        skin.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let bare = skin[skin.len() / 20].0;
+        // A step is a fiftieth of white to black.
+        let steps = format!("{}", 50.0 * bare);
+        let dots = bust_with(name, &[("levels", "50"), ("highlight_steps", &steps)]).dots();
+        let share = |part: &[(f32, Point)], reach: f64| {
+            let dotted = part.iter().filter(|(_, p)| dots.iter().any(|dot| dot.distance(*p) < reach)).count();
+            dotted as f64 / part.len() as f64
+        };
+        let from = skin.partition_point(|(ink, _)| *ink < bare + 0.15);
+        let to = skin.partition_point(|(ink, _)| *ink < 0.7);
+        let [light, rest] = [share(&skin[..skin.len() / 40], 0.3 * PITCH), share(&skin[from..to], PITCH)];
+        println!("{name}: below {bare:.2} {light:.2} of the places have dots, {rest:.2} of the others");
+        assert!(light < 0.03 && rest > 0.97, "{name}: {light} {rest}");
+    }
+}
+
+/// The outline in strokes that swell.
+#[test]
+fn outlines_swell() {
+    for bust in outlined() {
+        let swells = |stroke: &Stroke| {
+            let Width::Along(widths) = stroke.width() else { return false };
+            let [least, most] = [f64::min, f64::max].map(|of| widths.iter().copied().reduce(of).unwrap_or(0.0));
+            most > 1.5 * least
+        };
+        let length = |is_so: &dyn Fn(&Stroke) -> bool| {
+            let lines = strokes(bust.layer("outline")).filter(|stroke| is_so(stroke));
+            lines.map(|stroke| polyline_length(&stroke.sampled(0.2).0)).sum::<f64>()
+        };
+        let [swelling, all] = [length(&swells), length(&|_| true)];
+        println!("{swelling:.0} of {all:.0} mm of outline swell");
+        assert!(all > 50.0 && swelling > 0.8 * all, "{swelling} of {all}");
+    }
+}
+
+/// Along the locks that the photograph shows, where it shows any.
+#[test]
+fn hair_strokes_of_the_busts_follow_their_locks() {
+    for bust in outlined() {
+        let scale = bust.portrait.placement.columns as f64 / 60.0;
+        // Without the hair's own border, which is no lock.
+        let hair = &bust.portrait.masks[&MaskRole::Hair];
+        let blurred = |raster: &Raster<f32>| gaussian_blur(&raster.zip_map(hair, |v, hair| v * hair), (PITCH * scale) as f32);
+        let around = blurred(&bust.portrait.lightness).zip_map(&blurred(hair), |sum, hair| sum / hair.max(1e-6));
+        let locks = bust.portrait.lightness.zip_map(&around, |v, mean| v - mean).zip_map(hair, |v, hair| v * hair);
+        let tensor = structure_tensor(&[gaussian_gradient(&locks, (0.15 * PITCH * scale) as f32)]).unwrap();
+        let tensor = tensor.zip_map(hair, |t, hair| if hair > 0.9 { t } else { [0.0; 3] });
+        let sigma = (PITCH * scale) as f32;
+        let [xx, xy, yy] = [0, 1, 2].map(|i: usize| gaussian_blur(&tensor.map(|t| t[i]), sigma));
+        let (mut along, mut all) = (0.0, 0.0);
+        for stroke in strokes(bust.layer("hair")) {
+            for pair in stroke.sampled(0.3).0.windows(2) {
+                let middle = pair[0].midpoint(pair[1]);
+                let [xx, xy, yy] = [&xx, &xy, &yy].map(|plane| f64::from(plane.sample(middle.x * scale, middle.y * scale)));
+                let coherence = ((xx - yy).powi(2) + 4.0 * xy * xy).sqrt() / (xx + yy).max(1e-12);
+                if coherence < 0.5 || !bust.is_deep(MaskRole::Hair, middle, 1.0) {
+                    continue;
+                }
+                let across = 0.5 * (2.0 * xy).atan2(xx - yy);
+                let step = pair[1] - pair[0];
+                let off = (step.x * across.cos() + step.y * across.sin()).abs() / step.hypot().max(1e-12);
+                all += step.hypot();
+                along += if off.asin() <= 15_f64.to_radians() { step.hypot() } else { 0.0 };
+            }
+        }
+        println!("{along:.0} of {all:.0} mm of hair within 15 degrees of the locks");
+        assert!(all > 100.0 && along >= 0.9 * all, "{along:.0} of {all:.0} mm");
     }
 }
 
@@ -167,7 +319,7 @@ fn hatches_widen_with_the_ink() {
 #[test]
 fn borders_between_parts_keep_their_tone() {
     // Outlines are drawn over the tone.
-    for bust in busts("off") {
+    for bust in BUSTS.map(|name| bust_with(name, &[("outline", "off")])) {
         let white = rendered(&svg_of(&bust.drawing), PIXELS_PER_MM);
         for role in [MaskRole::Hair, MaskRole::Clothing] {
             let (asked, drawn) = band_means(&bust, role, &white);
