@@ -24,7 +24,6 @@ mod colour_sheet;
 mod colours;
 mod complete_hedcut;
 mod depth;
-mod flat_places;
 mod foreign;
 mod fuzzed;
 mod ink_box;

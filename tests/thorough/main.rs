@@ -32,6 +32,7 @@ mod ends_of_ranges;
 mod engrave;
 mod files_kept;
 mod flat_colours;
+mod flat_places;
 mod glass;
 mod grid;
 mod hedcut;
