@@ -35,7 +35,9 @@ const LEAST_WIDTHS: f64 = 4.0;
 
 /// Strokes inside the region (at least 0.5) whose ink adds up to `ink` (0 to 1), in drawing order.
 ///
-/// `looseness` is the share of the covering's turn at a stroke's start. Starting places are tried in random order, one per square of a stroke's width. Time grows with the region's area and with the total
+/// `looseness` is the share of the covering's turn at a stroke's start.
+///
+/// Starting places are tried in random order, one per square of a stroke's width. Time grows with the region's area and with the total
 /// length of strokes times `reach` squared.
 pub fn cover(
     field: &OrientationField,

@@ -11,10 +11,11 @@ use crate::source::{Landmarks, MaskRole, Portrait};
 /// necks combs of them, with 6 badges and the inside of ears are lost.
 const LEAST: f64 = 0.05;
 const TEXTURES: f64 = 4.0;
-/// Length in pitches at which a line's strength is its contrast, and the longest that counts, as a multiple of it.
+/// Length in pitches at which a line's strength is its contrast, the row of dots that a tick spans; and the longest that counts, as a
+/// multiple of it: a fold of faint cloth that long is seen.
 const LENGTH: f64 = 4.0;
 const LONGEST: f64 = 9.0;
-/// The surroundings that a place is compared with, and the reach over which its texture is averaged, in pitches; and the difference of
+/// Not tuned but chosen: the surroundings that a place is compared with, and the reach over which its texture is averaged, in pitches; and the difference of
 /// lightness from which a place is an edge and no texture.
 const AROUND: f64 = 0.5;
 const REACH: f64 = 3.0;
@@ -40,7 +41,8 @@ impl<'a> Strays<'a> {
         Self { portrait, pitch, texture: fast_gaussian(&off, (REACH * pitch) as f32) }
     }
 
-    /// The lines without strays. In hair, eyes, noses and mouths all are features.
+    /// The lines without strays. In eyes, noses and mouths all are features, and in hair where its mask is known, as it is with a tone made for
+    /// faces.
     pub(super) fn dropped_from(&self, lines: Vec<CoherentLine>) -> Vec<CoherentLine> {
         lines.into_iter().filter(|line| self.is_strong(line) || self.is_feature(&line.curve.points)).collect()
     }
@@ -53,7 +55,7 @@ impl<'a> Strays<'a> {
     fn is_feature(&self, points: &[Point]) -> bool {
         let roles = [MaskRole::Hair, MaskRole::FacialHair, MaskRole::Detail];
         let is_inside = |mask: &Raster<f32>| mean_along(mask, points) > INSIDE;
-        let middle = points[points.len() / 2];
+        let Some(middle) = points.get(points.len() / 2).copied() else { return false };
         let sees =
             |face: &Landmarks| face.irises.iter().any(|iris| iris.centre.distance(middle) < NEAR_IRIS * face.eye_distance());
         roles.iter().any(|role| self.portrait.masks.get(role).is_some_and(is_inside)) || self.portrait.faces.iter().any(sees)

@@ -87,7 +87,7 @@ fn dots_are_on_skin_strokes_in_hair_and_hatches_on_clothing() {
     }
 }
 
-/// The subject alone, in two tones: all ink is black, and none lies farther outside than half an outline's width.
+/// The subject alone, in two tones: all ink is black, and none lies farther outside than half a pitch.
 #[test]
 fn ink_is_black_and_on_the_subject_alone() {
     for bust in outlined() {
