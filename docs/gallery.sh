@@ -52,6 +52,7 @@ coloured() {
     name=$1 photo=$2 pens=$3
     shift 3
     "$D" draw "$photo" --quiet -o "$WORK/$name.svg" --colours "docs/$pens-pens.toml" "$@"
+    redone "$name"
     rsvg-convert -w 2400 -b white -o "$WORK/$name.png" "$WORK/$name.svg"
     convert "$WORK/$name.png" -colorspace RGB -resize 760x -colorspace sRGB -quality 85 "$OUT/$name.jpg"
 }

@@ -2,15 +2,17 @@
 
 use super::failure::Failure;
 use super::known::Known;
+use super::region::Flow;
 use super::regions::Region;
 use super::remedies::advised;
 use super::task::Task;
 use crate::drawing::{Drawing, Ink, Layer};
 use crate::geometry::Rect;
 use crate::raster::Raster;
-use crate::scene::{Border, Parts};
+use crate::scene::{Border, Parts, seen_alone};
 use crate::source::{Placement, Portrait, mask_on};
 use crate::style::{Observer, Settings, StyleError};
+use std::ops::Range;
 
 /// The finest grid of regions in pixels per millimetre, and the most pixels it has.
 const FINEST: f64 = 8.0;
@@ -49,9 +51,7 @@ impl Task<'_> {
             let ground = manner.style.draws_ground().then(|| portrait.subject.map(|_| 1.0));
             let drawn = ground.unwrap_or_else(|| whole(&portrait.subject));
             let Some([columns, rows]) = parts.extent(part, &drawn, &placement) else { continue };
-            let share = parts.drawn_share(part, &placement).part(&columns, &rows);
-            let mut portrait = portrait.part(&columns, &rows);
-            portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
+            let portrait = of_part(portrait, (&parts, part), &[columns, rows], region.map_or(Flow::Across, |region| region.flow));
             let drawing = match manner.style.draw(&portrait, settings, manner.seed, observer) {
                 Err(StyleError::NothingToDraw(_) | StyleError::NothingLeft { .. }) => continue,
                 drawn => drawn.map_err(|error| self.undrawn(&error))?,
@@ -86,6 +86,18 @@ impl Task<'_> {
         let of = |region: &&Region| layer.name.strip_prefix(&region.name).is_some_and(|rest| rest.starts_with('-'));
         self.regions.iter().filter(of).max_by_key(|region| region.name.len())?.ink.as_ref()
     }
+}
+
+/// The portrait of a part within its own box, white where the part is not drawn.
+fn of_part(portrait: &Portrait, (parts, part): (&Parts, usize), [columns, rows]: &[Range<usize>; 2], flow: Flow) -> Portrait {
+    let share = parts.drawn_share(part, &portrait.placement).part(columns, rows);
+    let own = parts.own(part, &portrait.placement).part(columns, rows);
+    let mut portrait = portrait.part(columns, rows);
+    if flow == Flow::Inside {
+        seen_alone(&mut portrait, &own);
+    }
+    portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
+    portrait
 }
 
 /// A subject whose most certain place counts in full: a faint one is drawn too.

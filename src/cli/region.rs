@@ -6,7 +6,7 @@ use crate::geometry::parse_length;
 use crate::scene::Border;
 
 /// The keys of a region and what each takes.
-pub(super) const KEYS: [(&str, &str); 9] = [
+pub(super) const KEYS: [(&str, &str); 10] = [
     ("mask", "the part: a role that is found or given by --mask, such as \"hair\", or a file, white inside"),
     ("style", "its style, the drawing's own if it is left out"),
     ("set", "parameters of its style, such as { pitch = 0.5 }"),
@@ -15,10 +15,20 @@ pub(super) const KEYS: [(&str, &str); 9] = [
     ("seed", "where its random choices start"),
     ("gap", "bare paper on its side of its border, a length"),
     ("fade", "the band in which its marks thin out towards its border, a length"),
+    ("flow", "\"across\" if marks follow lines on both sides of its border, \"inside\" if only those of the region"),
     ("name", "the first part of its layers' names"),
 ];
 /// The widest gap or fade in millimetres.
 const WIDEST: f64 = 100.0;
+
+/// Which lines steer a region's marks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flow {
+    /// Those on both sides of its border, and the border.
+    Across,
+    /// Its own.
+    Inside,
+}
 
 /// One region as given.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +40,7 @@ pub(super) struct RegionOption {
     pub ink: Option<Ink>,
     pub seed: Option<u64>,
     pub border: Border,
+    pub flow: Flow,
     pub name: Option<String>,
 }
 
@@ -45,6 +56,7 @@ pub(super) fn region(text: &str) -> Result<RegionOption, String> {
         ink: None,
         seed: None,
         border: Border::Butt,
+        flow: Flow::Across,
         name: None,
     };
     for (key, value) in &keys {
@@ -72,6 +84,13 @@ impl RegionOption {
             "style" => self.style = Some(text()?),
             "name" => self.name = Some(text()?),
             "ink" => self.ink = Some(text()?.parse().map_err(|_| refuse())?),
+            "flow" => {
+                self.flow = match value.as_str() {
+                    Some("across") => Flow::Across,
+                    Some("inside") => Flow::Inside,
+                    _ => return Err(refuse()),
+                }
+            }
             "pen" => {
                 let pen = value.as_integer().and_then(|n| u32::try_from(n).ok()).filter(|pen| (1..=1000).contains(pen));
                 self.pen = Some(pen.ok_or_else(refuse)?);
@@ -120,9 +139,10 @@ mod tests {
 
     #[test]
     fn regions_are_read_with_all_their_keys() {
-        let text = "mask = \"hair\", style = \"charcoal\", set = { pitch = 0.5, paper = true }, pen = 2, ink = \"navy\", seed = 3, gap = \"0.2cm\"";
+        let text = "mask = \"hair\", style = \"charcoal\", set = { pitch = 0.5, paper = true }, pen = 2, ink = \"navy\", seed = 3, gap = \"0.2cm\", flow = \"inside\"";
         let found = region(text).unwrap();
         assert_eq!((found.mask.as_str(), found.pen, found.seed, found.border), ("hair", Some(2), Some(3), Border::Gap(2.0)));
+        assert_eq!(found.flow, Flow::Inside);
         assert_eq!(found.set, [("paper".to_owned(), "on".to_owned()), ("pitch".to_owned(), "0.5".to_owned())]);
     }
 
@@ -132,6 +152,7 @@ mod tests {
         assert!(told("stile = \"x\"").contains("did you mean style?"));
         assert!(told("style = \"grid\"").contains("mask is missing"));
         assert!(told("mask = \"hair\", gap = 1, fade = 1").contains("not both"));
+        assert!(told("mask = \"hair\", flow = \"stop\"").contains("flow is not"));
         assert!(told("mask = \"hair\", gap = -1").contains("gap is not -1"));
         assert!(told("hair").contains("write it as"));
     }

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::known;
 use super::manner::{Manner, find_style, fineness, given, resolved};
 use super::masks::{RoleMask, mask};
-use super::region::RegionOption;
+use super::region::{Flow, RegionOption};
 use super::seen::Seen;
 use super::words::file_name;
 use crate::drawing::{Ink, Layer};
@@ -21,6 +21,7 @@ pub(super) struct Region {
     /// The mask's file for messages; the photograph's if it was found there.
     pub file: String,
     pub border: Border,
+    pub flow: Flow,
     pub pen: Option<u32>,
     pub ink: Option<Ink>,
     /// The first part of its layers' names.
@@ -62,6 +63,7 @@ pub(super) fn regions(
             mask,
             file,
             border: option.border,
+            flow: option.flow,
             pen: option.pen,
             ink: option.ink.clone(),
             name: name_of(option, &regions),

@@ -7,9 +7,11 @@
 //! ```
 
 mod confine;
+mod inside;
 mod parts;
 mod sheet;
 
+pub(crate) use inside::seen_alone;
 pub use parts::Parts;
 #[doc(hidden)]
 pub use sheet::{CropMarks, Grid, Piece, SheetError, scale_into};

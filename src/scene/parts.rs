@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// Blur of masks in millimetres: their pixels' steps vanish, corners of a collar stay.
 const SMOOTH: f64 = 0.25;
-/// How far a part is drawn beyond its border before it is cut there, in millimetres: flow and spacing of its marks do not know the
+/// How far a part is drawn beyond its border before it is cut there, in millimetres: the spacing of its marks does not know the
 /// border.
 const BEYOND: f64 = 2.5;
 /// Slivers, as between two masks that do not quite meet: at this blur in millimetres less than this share of a place is the part's, which is
@@ -118,8 +118,13 @@ impl Parts {
         let pixels = |reach: f64| placement.pixels(Millimetres(reach));
         let is_fading = self.borders.iter().any(|border| matches!(border, Border::Fade(_)));
         let least = if is_fading { LEAST_SHARE } else { LEAST_SUBSTANCE };
-        let own = self.on(&self.shares[part], placement).zip_map(drawn, |share, drawn| share * drawn);
+        let own = self.share_on(part, placement).zip_map(drawn, |share, drawn| share * drawn);
         gaussian_blur(&own, pixels(SLIVER) as f32).extent_with_room(least, pixels(BEYOND).ceil() as usize)
+    }
+
+    /// How much of each pixel of another grid is a part's own.
+    pub(super) fn share_on(&self, part: usize, placement: &Placement) -> Raster<f32> {
+        self.on(&self.shares[part], placement)
     }
 
     /// A raster of this grid on another one.

@@ -5,7 +5,7 @@ use crate::common;
 
 use assert_cmd::Command;
 use common::{mean_in, png_of_light, rendered, sample};
-use drypoint::drawing::Drawing;
+use drypoint::drawing::{Drawing, Mark};
 use drypoint::geometry::Rect;
 use image::{GrayImage, Luma};
 use std::fs;
@@ -251,6 +251,34 @@ fn borders_of_regions_are_drawn_once_and_without_white_strips() {
     }
 }
 
+/// With `flow="inside"` a region's marks are the same whatever lies beside it (a millimetre off, beyond the pixels that its border mixes).
+#[test]
+fn a_region_that_flows_inside_does_not_see_beyond_its_border() {
+    let folder = with_slope();
+    let beside = |light: f64| {
+        png_of_light(300, 200, move |x, y| {
+            let [dx, dy] = [f64::from(x) - 149.5, f64::from(y) - 99.5];
+            if dx.hypot(dy) < 66.0 { 0.15 + 0.5 * (0.05 * dx).sin().powi(2) } else { light }
+        })
+    };
+    fs::write(folder.path().join("dark.png"), beside(0.02)).unwrap();
+    fs::write(folder.path().join("light.png"), beside(0.8)).unwrap();
+    for style in ["hedcut", "grid"] {
+        let marks = |photo: &str, flow: &str| -> Vec<Mark> {
+            let region =
+                format!("mask = \"disc.png\", style = \"{style}\", name = \"disc\", flow = \"{flow}\", set = {{ pitch = 0.8 }}");
+            let plain = ["draw", photo, "--sight", "none", "--tone", "lightness", "--size", "60x40mm", "-q", "-o", "a.svg"];
+            runs(folder.path(), &[&plain[..], &["--style", "hedcut", "--pitch", "1.2", "--region", &region]].concat());
+            let drawing = drypoint::read::read_svg(&file(&folder, "a.svg")).unwrap().drawing();
+            let of_disc = drawing.layers.into_iter().filter(|layer| layer.name.contains("disc-"));
+            of_disc.flat_map(|layer| layer.marks).collect()
+        };
+        let inside = marks("dark.png", "inside");
+        assert!(inside.len() > 100 && inside == marks("light.png", "inside"), "{style}: {} marks", inside.len());
+        assert!(marks("dark.png", "across") != marks("light.png", "across"), "{style}");
+    }
+}
+
 #[test]
 fn a_mask_may_be_an_svg_of_shapes() {
     let folder = with_slope();
@@ -334,6 +362,30 @@ fn drawings_for_pages_are_small_tight_and_never_clash() {
     let (mine, others) = (ids(&embedded), ids(&other));
     assert!(mine.len() > 2 && mine.iter().all(|id| !others.contains(id)), "{mine:?} {others:?}");
     assert!(fails(folder.path(), 2, &["draw", "face.jpg", "--embed", "-o", "a.pdf"]).contains("--embed is for SVG"));
+}
+
+/// An embedded drawing has the ink of the sheet's, with white holes in the darks and with blobs.
+#[test]
+fn an_embedded_drawing_has_the_ink_of_the_sheet() {
+    let folder = with_slope();
+    fs::write(folder.path().join("ramp.png"), png_of_light(300, 100, |x, _| 0.02 + 0.4 * f64::from(x) / 300.0)).unwrap();
+    for set in ["blob=0", "blob=0.6"] {
+        let plain =
+            ["draw", "ramp.png", "--sight", "none", "--tone", "linear", "--size", "30x10mm", "--pitch", "0.6", "--set", set];
+        let ink = |more: &[&str]| {
+            runs(folder.path(), &[&plain[..], &["-q"], more].concat());
+            let svg = String::from_utf8(file(&folder, "a.svg")).unwrap().replace("currentColor", "#000");
+            let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
+            // The box of the ink in millimetres, of 96 pixels an inch.
+            let size = tree.size();
+            let mut pixels = resvg::tiny_skia::Pixmap::new(20 * size.width() as u32, 20 * size.height() as u32).unwrap();
+            resvg::render(&tree, resvg::tiny_skia::Transform::from_scale(20.0, 20.0), &mut pixels.as_mut());
+            pixels.pixels().iter().map(|p| f64::from(p.alpha()) / 255.0).sum::<f64>()
+        };
+        let [sheet, embedded] = [ink(&["-o", "a.svg"]), ink(&["-o", "a.svg", "--embed"])];
+        println!("{set}: {embedded:.0} of {sheet:.0}");
+        assert!((embedded / sheet - 1.0).abs() < 0.01, "{set}: {embedded} of {sheet}");
+    }
 }
 
 #[test]

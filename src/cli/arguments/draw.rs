@@ -65,7 +65,7 @@ pub(in crate::cli) struct PictureOptions {
     #[arg(long, value_name = "ROLE=FILE", value_parser = role_file, help = mask_roles())]
     pub mask: Vec<(String, String)>,
     /// A part of the picture in a style of its own, such as --region 'mask="hair", style="charcoal"'; once per part, later ones lie
-    /// over earlier ones. Keys: mask (a role or a file), style, set, pen, ink, seed, gap or fade, name.
+    /// over earlier ones. Keys: mask (a role or a file), style, set, pen, ink, seed, gap or fade, flow, name.
     #[arg(long, value_name = "KEYS", value_parser = region)]
     pub region: Vec<RegionOption>,
     /// Use the folder that `drypoint see` wrote, edited or not: each PNG is the mask of its role, unless --mask gives that role.
