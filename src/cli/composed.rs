@@ -9,7 +9,7 @@ use super::task::Task;
 use crate::drawing::{Drawing, Ink, Layer};
 use crate::geometry::Rect;
 use crate::raster::Raster;
-use crate::scene::{Border, Parts, seen_alone};
+use crate::scene::{Border, Parts};
 use crate::source::{Placement, Portrait, mask_on};
 use crate::style::{Observer, Settings, StyleError};
 use std::ops::Range;
@@ -91,11 +91,10 @@ impl Task<'_> {
 /// The portrait of a part within its own box, white where the part is not drawn.
 fn of_part(portrait: &Portrait, (parts, part): (&Parts, usize), [columns, rows]: &[Range<usize>; 2], flow: Flow) -> Portrait {
     let share = parts.drawn_share(part, &portrait.placement).part(columns, rows);
-    let own = parts.own(part, &portrait.placement).part(columns, rows);
-    let mut portrait = portrait.part(columns, rows);
-    if flow == Flow::Inside {
-        seen_alone(&mut portrait, &own);
-    }
+    let mut portrait = match flow {
+        Flow::Across => portrait.part(columns, rows),
+        Flow::Inside => parts.alone(part, portrait).part(columns, rows),
+    };
     portrait.tone = portrait.tone.zip_map(&share, |tone, share| 1.0 - (1.0 - tone) * share);
     portrait
 }

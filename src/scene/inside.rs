@@ -6,20 +6,22 @@ use crate::raster::{Raster, erode};
 use crate::source::{Placement, Portrait};
 
 impl Parts {
+    /// The portrait in which every place beyond a part looks like the nearest place inside, so that no edge lies on the part's border:
+    /// dots of a cheek do not follow the collar. Nothing changes if no place is inside. The border of the subject stays.
+    pub fn alone(&self, part: usize, portrait: &Portrait) -> Portrait {
+        let mut alone = portrait.clone();
+        let Some(nearest) = nearest_seed(&self.own(part, &portrait.placement)) else { return alone };
+        alone.tone = continued(&portrait.tone, &nearest);
+        alone.lightness = continued(&portrait.lightness, &nearest);
+        alone.light = continued(&portrait.light, &nearest);
+        alone.depth = portrait.depth.as_ref().map(|depth| continued(depth, &nearest));
+        alone
+    }
+
     /// The pixels of another grid that belong to a part, 1 inside, without those at its border, which show some of what is beyond.
-    pub(crate) fn own(&self, part: usize, placement: &Placement) -> Raster<u8> {
+    fn own(&self, part: usize, placement: &Placement) -> Raster<u8> {
         erode(&self.share_on(part, placement).map(|share| u8::from(share > 0.5)), 2)
     }
-}
-
-/// The portrait in which every place beyond a part (0) looks like the nearest place inside (1), so that no edge lies on the part's
-/// border: dots of a cheek do not follow the collar. Nothing changes if no place is inside. The border of the subject stays.
-pub(crate) fn seen_alone(portrait: &mut Portrait, own: &Raster<u8>) {
-    let Some(nearest) = nearest_seed(own) else { return };
-    portrait.tone = continued(&portrait.tone, &nearest);
-    portrait.lightness = continued(&portrait.lightness, &nearest);
-    portrait.light = continued(&portrait.light, &nearest);
-    portrait.depth = portrait.depth.take().map(|depth| continued(&depth, &nearest));
 }
 
 fn continued<T: Copy + Default + Send + Sync>(raster: &Raster<T>, nearest: &Raster<u32>) -> Raster<T> {

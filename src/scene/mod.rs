@@ -11,7 +11,6 @@ mod inside;
 mod parts;
 mod sheet;
 
-pub(crate) use inside::seen_alone;
 pub use parts::Parts;
 #[doc(hidden)]
 pub use sheet::{CropMarks, Grid, Piece, SheetError, scale_into};
