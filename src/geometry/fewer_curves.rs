@@ -1,7 +1,7 @@
 //! The same outline with fewer curves (after Schneider 1990, "An algorithm for automatically fitting digitized curves").
 
 use super::polyline::lengths_along;
-use super::swell::segment_length;
+use super::swell::{is_long, segment_length, tangent};
 use kurbo::{BezPath, CubicBez, Line, ParamCurve, ParamCurveArea, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
 
 /// Cosine of the least turn of an outline that is a corner, 26 degrees. At a smaller angle the short chords of a traced disc
@@ -137,8 +137,11 @@ impl Course {
 
 /// Appends places along a segment, its end among them.
 fn append(places: &mut Vec<Place>, segment: PathSeg, spacing: f64) {
+    if !is_long(&segment) {
+        return;
+    }
     let cubic = segment.to_cubic();
-    let (Some(start), Some(end)) = (direction(&cubic, 0.0), direction(&cubic, 1.0)) else { return };
+    let [start, end] = [0.0, 1.0].map(|t| tangent(&cubic, t));
     match places.last_mut() {
         Some(last) => last.leaving = start,
         None => places.push(Place { at: cubic.p0, arriving: start, leaving: start, swept: 0.0 }),
@@ -147,7 +150,7 @@ fn append(places: &mut Vec<Place>, segment: PathSeg, spacing: f64) {
     let steps = ((length / spacing).ceil() as usize).max(LEAST_PLACES);
     for step in 1..=steps {
         let [before, t] = [step - 1, step].map(|step| step as f64 / steps as f64);
-        let along = if step == steps { end } else { direction(&cubic, t).unwrap_or(start) };
+        let along = if step == steps { end } else { tangent(&cubic, t) };
         let swept = cubic.subsegment(before..t).signed_area();
         places.push(Place { at: cubic.eval(t), arriving: along, leaving: along, swept });
     }
@@ -255,15 +258,8 @@ fn move_to_nearest(cubic: &CubicBez, places: &[Place], passed: &mut [Passed]) {
         if slope > 0.0 {
             passed.at = (t - off.dot(v) / slope).clamp(0.0, 1.0);
         }
-        passed.along = direction(cubic, passed.at).unwrap_or(Vec2::ZERO);
+        passed.along = tangent(cubic, passed.at);
     }
-}
-
-/// The unit tangent; none where the cubic stands still.
-fn direction(cubic: &CubicBez, t: f64) -> Option<Vec2> {
-    let tangent = cubic.deriv().eval(t).to_vec2();
-    let near_end = if t < 0.5 { cubic.p2 - cubic.p0 } else { cubic.p3 - cubic.p1 };
-    [tangent, near_end, cubic.p3 - cubic.p0].into_iter().find(|v| v.hypot() > 1e-9).map(Vec2::normalize)
 }
 
 #[cfg(test)]

@@ -141,7 +141,7 @@ fn pieces(curve: &BezPath, widths: &[f64]) -> Vec<Swelling> {
 }
 
 /// True for a segment that is longer than nothing.
-fn is_long(segment: &PathSeg) -> bool {
+pub(super) fn is_long(segment: &PathSeg) -> bool {
     let cubic = segment.to_cubic();
     [(cubic.p0, cubic.p1), (cubic.p1, cubic.p2), (cubic.p2, cubic.p3)].into_iter().any(|(a, b)| (b - a).hypot() > 1e-9)
 }
@@ -185,7 +185,8 @@ fn width_slopes(segments: &[(CubicBez, f64)], widths: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-fn tangent(curve: &CubicBez, t: f64) -> Vec2 {
+/// The unit tangent; where a handle has no length, towards the nearest control point that differs.
+pub(super) fn tangent(curve: &CubicBez, t: f64) -> Vec2 {
     let d = curve.deriv().eval(t).to_vec2();
     if d.hypot() > 1e-9 {
         return d.normalize();

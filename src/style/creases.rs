@@ -12,6 +12,12 @@ const MOSTLY: f64 = 0.85;
 const MOST_IN_FEATURES: f64 = 0.2;
 const SPECTACLES: f64 = 0.55;
 
+/// True for a place as near an iris as lids, lashes and the rims of spectacles.
+pub(super) fn is_near_iris(portrait: &Portrait, p: Point) -> bool {
+    let reach = |face: &Landmarks| SPECTACLES * face.eye_distance();
+    portrait.faces.iter().any(|face| face.irises.iter().any(|iris| iris.centre.distance(p) < reach(face)))
+}
+
 /// The faces in which lines may be folds.
 pub(super) struct Creases<'a> {
     portrait: &'a Portrait,
@@ -69,9 +75,7 @@ impl<'a> Creases<'a> {
 
     /// True in eyes, brows, nose and mouth, and so near an iris as the rims of spectacles.
     fn is_feature(&self, detail: &Raster<f32>, p: Point) -> bool {
-        let reach = |face: &Landmarks| SPECTACLES * face.eye_distance();
-        detail.sample(p.x, p.y) >= 0.5
-            || self.portrait.faces.iter().any(|face| face.irises.iter().any(|iris| iris.centre.distance(p) < reach(face)))
+        detail.sample(p.x, p.y) >= 0.5 || is_near_iris(self.portrait, p)
     }
 
     /// True for a place where folds may be: inside a face, away from its border, or on a forehead above it.

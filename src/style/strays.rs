@@ -3,7 +3,8 @@
 use crate::field::CoherentLine;
 use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian};
-use crate::source::{Landmarks, MaskRole, Portrait};
+use crate::source::{MaskRole, Portrait};
+use crate::style::creases::is_near_iris;
 
 /// What a line's strength must exceed: this, and so many times the texture around it. Strength is the contrast, and grows with the
 /// root of the length, as the agreement of independent places does. Tuned on the necks, jackets and walls of Grace Hopper, plain and
@@ -22,8 +23,6 @@ const REACH: f64 = 3.0;
 const EDGE: f32 = 0.06;
 /// Mean of a mask along a line from which it lies there.
 const INSIDE: f64 = 0.3;
-/// Lines so near an iris are lids, lashes and rims of spectacles, in distances of the eyes.
-const NEAR_IRIS: f64 = 0.55;
 
 /// What tells strays from features.
 pub(super) struct Strays<'a> {
@@ -56,9 +55,7 @@ impl<'a> Strays<'a> {
         let roles = [MaskRole::Hair, MaskRole::FacialHair, MaskRole::Detail];
         let is_inside = |mask: &Raster<f32>| mean_along(mask, points) > INSIDE;
         let Some(middle) = points.get(points.len() / 2).copied() else { return false };
-        let sees =
-            |face: &Landmarks| face.irises.iter().any(|iris| iris.centre.distance(middle) < NEAR_IRIS * face.eye_distance());
-        roles.iter().any(|role| self.portrait.masks.get(role).is_some_and(is_inside)) || self.portrait.faces.iter().any(sees)
+        roles.iter().any(|role| self.portrait.masks.get(role).is_some_and(is_inside)) || is_near_iris(self.portrait, middle)
     }
 }
 
