@@ -16,7 +16,7 @@ MOST=0.02
 WORK=$(mktemp -d)
 if [ "$1" = --check ]; then
     OUT=$WORK/gallery
-    cp $S/*.jpg $S/*.png "$WORK"
+    cp $S/*.jpg $S/*.png docs/*-pens.toml "$WORK"
 fi
 mkdir -p "$OUT"
 

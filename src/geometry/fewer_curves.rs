@@ -1,8 +1,9 @@
 //! The same outline with fewer curves (after Schneider 1990, "An algorithm for automatically fitting digitized curves").
 
+use super::cubic_fit::{Passed, Place, arc, least_squares, move_to_nearest};
 use super::polyline::lengths_along;
 use super::swell::{is_long, segment_length, tangent};
-use kurbo::{BezPath, CubicBez, Line, ParamCurve, ParamCurveArea, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
+use kurbo::{BezPath, CubicBez, Line, ParamCurve, ParamCurveArea, PathEl, PathSeg, Point, Shape, Vec2};
 
 /// Cosine of the least turn of an outline that is a corner, 26 degrees. At a smaller angle the short chords of a traced disc
 /// would be corners; at a larger one the tips of spindles would be rounded.
@@ -15,17 +16,25 @@ const LEAST_PLACES: usize = 4;
 /// the last ones heads of hair get hardly smaller (portraits 01 and 15: 1 and 2 % between 8 rounds in all and 24).
 const LEAST_ROUNDS: usize = 4;
 const ROUNDS: usize = 24;
-/// What a deviation along the curve counts, to one across it. With 1, plain distances, 150 rounds come about as near as 8 with this.
-const ALONG: f64 = 0.01;
-/// Longest handle, in lengths of the part that the curve stands for; longer ones make loops between the places.
-const LONGEST_HANDLE: f64 = 1.2;
 /// Least chord of a part, as a share of its length: a ring needs two curves.
 const LEAST_CHORD: f64 = 0.3;
-/// Most of the tolerance by which a curve may lie to one side in the mean: the ink of a hair 0.1 mm wide is kept to 2 %.
-const MOST_BIAS: f64 = 0.1;
+/// By how much a curve may lie to one side in the mean: this share of the outline's mean width, so that its ink is kept to 2.5 %, but
+/// not less and not more than these shares of the tolerance. Without the first, thin hairs would have a curve for each bend of
+/// their noise; without the second, one side of a broad shape could lie off as a whole.
+const BIAS_OF_WIDTH: f64 = 0.0125;
+const LEAST_BIAS: f64 = 0.125;
+const MOST_BIAS: f64 = 0.3;
 /// A part is straight if its places lie within this share of the tolerance of its chord and its ends point along it, by their cosine.
 const STRAIGHT: f64 = 0.1;
 const ALIGNED: f64 = 0.9998;
+/// A curve whose handles lie within this share of the tolerance of its chord is written as a straight line: it passes the outline
+/// nearly as well, in a third of the text.
+const FLAT: f64 = 0.75;
+/// Parts shorter than this many tolerances may lie to one side: they are the tips of hairs, which hold next to no ink.
+const SMALL: f64 = 4.0;
+/// Steps of an outline that are shorter than this share of the tolerance are none: they are what is left where clipping and
+/// offsetting meet, and their directions would be corners.
+const SHORT: f64 = 0.3;
 
 /// Outlines and lines with as few cubics and straight lines as pass within `tolerance` of places on them, 12 tolerances apart at most.
 /// Corners stay; where the outline is smooth it stays smooth, with its own tangents, and its area hardly changes.
@@ -38,7 +47,7 @@ pub fn with_fewer_curves(path: &BezPath, tolerance: f64) -> BezPath {
         let subpath: BezPath = elements.iter().copied().collect();
         let is_closed = matches!(elements.last(), Some(PathEl::ClosePath));
         match Course::of(&subpath, is_closed, tolerance) {
-            Some(course) => course.append_to(&mut fewer, tolerance),
+            Some(course) => course.append_to(&mut fewer),
             None => fewer.extend(subpath),
         }
         if is_closed && !matches!(fewer.elements().last(), Some(PathEl::ClosePath)) {
@@ -46,16 +55,6 @@ pub fn with_fewer_curves(path: &BezPath, tolerance: f64) -> BezPath {
         }
     }
     fewer
-}
-
-/// A place on an outline with the unit directions in which it arrives and leaves.
-#[derive(Clone, Copy)]
-struct Place {
-    at: Point,
-    arriving: Vec2,
-    leaving: Vec2,
-    /// Area of the outline's step to here, towards the origin.
-    swept: f64,
 }
 
 impl Place {
@@ -76,6 +75,9 @@ impl Place {
 /// One outline or line as places along it; a closed one ends where it starts.
 struct Course {
     places: Vec<Place>,
+    tolerance: f64,
+    /// By how much a curve may lie to one side in the mean.
+    bias: f64,
 }
 
 impl Course {
@@ -83,7 +85,7 @@ impl Course {
     fn of(subpath: &BezPath, is_closed: bool, tolerance: f64) -> Option<Self> {
         let mut places: Vec<Place> = Vec::new();
         for segment in subpath.segments() {
-            append(&mut places, segment, SPACING * tolerance);
+            append(&mut places, segment, tolerance);
         }
         let last = places.len().checked_sub(1).filter(|last| *last > 1)?;
         if is_closed {
@@ -94,10 +96,12 @@ impl Course {
             }
             places.push(places[0]);
         }
-        Some(Self { places: places.into_iter().map(Place::smoothed).collect() })
+        let width = if is_closed { mean_width(subpath) } else { 0.0 };
+        let bias = (BIAS_OF_WIDTH * width).clamp(LEAST_BIAS * tolerance, MOST_BIAS * tolerance);
+        Some(Self { places: places.into_iter().map(Place::smoothed).collect(), tolerance, bias })
     }
 
-    fn append_to(&self, fewer: &mut BezPath, tolerance: f64) {
+    fn append_to(&self, fewer: &mut BezPath) {
         fewer.move_to(self.places[0].at);
         let last = self.places.len() - 1;
         let (mut from, mut corner) = (0, 0);
@@ -105,8 +109,8 @@ impl Course {
             if corner <= from {
                 corner = (from + 1..last).find(|i| self.places[*i].is_corner()).unwrap_or(last);
             }
-            let (to, part) = self.longest(from, corner, tolerance);
-            match part {
+            let (to, part) = self.longest(from, corner);
+            match self.flattened(part, &self.places[from..=to]) {
                 PathSeg::Line(line) => fewer.line_to(line.p1),
                 PathSeg::Quad(quad) => fewer.quad_to(quad.p1, quad.p2),
                 PathSeg::Cubic(cubic) => fewer.curve_to(cubic.p1, cubic.p2, cubic.p3),
@@ -116,15 +120,15 @@ impl Course {
     }
 
     /// The farthest place up to the next corner that one curve reaches from a place, and the curve: by steps that double, then halve.
-    fn longest(&self, from: usize, corner: usize, tolerance: f64) -> (usize, PathSeg) {
+    fn longest(&self, from: usize, corner: usize) -> (usize, PathSeg) {
         let next = &self.places[from..=from + 1];
-        let short = straight(next, tolerance).unwrap_or_else(|| PathSeg::Cubic(arc(next, next[0].at.distance(next[1].at))));
+        let short = straight(next, self.tolerance).unwrap_or_else(|| PathSeg::Cubic(arc(next, next[0].at.distance(next[1].at))));
         let mut best = (from + 1, short);
         let mut step = 1;
         let mut is_growing = true;
         while step > 0 {
             let to = (best.0 + step).min(corner);
-            let part = if to > best.0 { fitted(&self.places[from..=to], tolerance) } else { None };
+            let part = if to > best.0 { self.fitted(&self.places[from..=to]) } else { None };
             match part {
                 Some(part) => best = (to, part),
                 None => is_growing = false,
@@ -133,14 +137,66 @@ impl Course {
         }
         best
     }
+
+    /// A straight line or one cubic with the end tangents of these places that passes all of them.
+    fn fitted(&self, places: &[Place]) -> Option<PathSeg> {
+        if let Some(line) = straight(places, self.tolerance) {
+            return Some(line);
+        }
+        let (first, last) = (places.first()?, places.last()?);
+        let points: Vec<Point> = places.iter().map(|place| place.at).collect();
+        let lengths = lengths_along(&points);
+        let whole = *lengths.last()?;
+        if first.at.distance(last.at) < LEAST_CHORD * whole || whole <= 0.0 {
+            return None;
+        }
+        let mut passed: Vec<Passed> = lengths.iter().map(|length| Passed { at: length / whole, along: Vec2::ZERO }).collect();
+        for round in 1..=ROUNDS {
+            let cubic = least_squares(places, &passed, whole);
+            move_to_nearest(&cubic, places, &mut passed);
+            let is_near = |(place, passed): (&Place, &Passed)| {
+                cubic.eval(passed.at).distance_squared(place.at) <= self.tolerance * self.tolerance
+            };
+            let is_fair = self.is_fair(cubic.signed_area(), places, whole);
+            if round >= LEAST_ROUNDS && is_fair && places.iter().zip(&passed).all(is_near) {
+                return Some(PathSeg::Cubic(cubic));
+            }
+        }
+        None
+    }
+
+    /// A straight line in place of a curve that hardly bends.
+    fn flattened(&self, part: PathSeg, places: &[Place]) -> PathSeg {
+        let PathSeg::Cubic(cubic) = part else { return part };
+        let chord = Line::new(cubic.p0, cubic.p3);
+        let along = cubic.p3 - cubic.p0;
+        let length = along.hypot();
+        let is_flat = |handle: Point| (handle - cubic.p0).cross(along).abs() <= FLAT * self.tolerance * length;
+        let is_fair = length < SMALL * self.tolerance || self.is_fair(chord.signed_area(), places, length);
+        let is_line = is_fair && is_flat(cubic.p1) && is_flat(cubic.p2);
+        if is_line { PathSeg::Line(chord) } else { part }
+    }
+
+    /// True if a curve of this area and length does not lie to one side of these places.
+    fn is_fair(&self, area: f64, places: &[Place], length: f64) -> bool {
+        let swept: f64 = places[1..].iter().map(|place| place.swept).sum();
+        (area - swept).abs() <= self.bias * length
+    }
+}
+
+/// Width of a long shape with this outline.
+fn mean_width(outline: &BezPath) -> f64 {
+    let around = outline.perimeter(1e-3);
+    if around > 0.0 { 2.0 * outline.area().abs() / around } else { 0.0 }
 }
 
 /// Appends places along a segment, its end among them.
-fn append(places: &mut Vec<Place>, segment: PathSeg, spacing: f64) {
-    if !is_long(&segment) {
+fn append(places: &mut Vec<Place>, segment: PathSeg, tolerance: f64) {
+    let cubic = segment.to_cubic();
+    if !is_long(&segment) || places.last().is_some_and(|last| is_short(last.at, cubic, SHORT * tolerance)) {
         return;
     }
-    let cubic = segment.to_cubic();
+    let spacing = SPACING * tolerance;
     let [start, end] = [0.0, 1.0].map(|t| tangent(&cubic, t));
     match places.last_mut() {
         Some(last) => last.leaving = start,
@@ -154,6 +210,11 @@ fn append(places: &mut Vec<Place>, segment: PathSeg, spacing: f64) {
         let swept = cubic.subsegment(before..t).signed_area();
         places.push(Place { at: cubic.eval(t), arriving: along, leaving: along, swept });
     }
+}
+
+/// True if a curve and its end are less than this far from the last place.
+fn is_short(last: Point, cubic: CubicBez, least: f64) -> bool {
+    last.distance(cubic.p3) < least && segment_length(PathSeg::Cubic(cubic), 0.1 * least) < least
 }
 
 /// A straight line, if these places lie on one.
@@ -172,102 +233,12 @@ fn straight(places: &[Place], tolerance: f64) -> Option<PathSeg> {
     (is_aligned && places.iter().all(is_on_it)).then(|| PathSeg::Line(Line::new(first.at, last.at)))
 }
 
-/// A straight line or one cubic with the end tangents of these places that passes all of them.
-fn fitted(places: &[Place], tolerance: f64) -> Option<PathSeg> {
-    if let Some(line) = straight(places, tolerance) {
-        return Some(line);
-    }
-    let (first, last) = (places.first()?, places.last()?);
-    let points: Vec<Point> = places.iter().map(|place| place.at).collect();
-    let lengths = lengths_along(&points);
-    let whole = *lengths.last()?;
-    if first.at.distance(last.at) < LEAST_CHORD * whole || whole <= 0.0 {
-        return None;
-    }
-    let swept: f64 = places[1..].iter().map(|place| place.swept).sum();
-    let mut passed: Vec<Passed> = lengths.iter().map(|length| Passed { at: length / whole, along: Vec2::ZERO }).collect();
-    for round in 1..=ROUNDS {
-        let cubic = least_squares(places, &passed, whole);
-        move_to_nearest(&cubic, places, &mut passed);
-        let is_near =
-            |(place, passed): (&Place, &Passed)| cubic.eval(passed.at).distance_squared(place.at) <= tolerance * tolerance;
-        let is_fair = (cubic.signed_area() - swept).abs() <= MOST_BIAS * tolerance * whole;
-        if round >= LEAST_ROUNDS && is_fair && places.iter().zip(&passed).all(is_near) {
-            return Some(PathSeg::Cubic(cubic));
-        }
-    }
-    None
-}
-
-/// The cubic with the end tangents of the places whose handles are those of a flat arc.
-fn arc(places: &[Place], length: f64) -> CubicBez {
-    let (first, last) = (places[0], places[places.len() - 1]);
-    let reach = length / 3.0;
-    CubicBez::new(first.at, first.at + first.leaving * reach, last.at - last.arriving * reach, last.at)
-}
-
-/// Where a cubic passes a place: its parameter and its unit tangent there.
-#[derive(Clone, Copy)]
-struct Passed {
-    at: f64,
-    along: Vec2,
-}
-
-impl Passed {
-    /// Product of two deviations: along the cubic they hardly count, since its parameters follow.
-    fn product(self, a: Vec2, b: Vec2) -> f64 {
-        a.dot(b) - (1.0 - ALONG) * a.dot(self.along) * b.dot(self.along)
-    }
-}
-
-/// The cubic with the end tangents of the places that passes them closest.
-fn least_squares(places: &[Place], passed: &[Passed], length: f64) -> CubicBez {
-    let (first, last) = (places[0], places[places.len() - 1]);
-    let (start, end) = (first.leaving, -last.arriving);
-    let [mut c11, mut c12, mut c22, mut x1, mut x2] = [0.0; 5];
-    for (place, passed) in places.iter().zip(passed) {
-        let (s, t) = (1.0 - passed.at, passed.at);
-        let [b0, b1, b2, b3] = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
-        let (a1, a2) = (start * b1, end * b2);
-        let rest = place.at.to_vec2() - first.at.to_vec2() * (b0 + b1) - last.at.to_vec2() * (b2 + b3);
-        c11 += passed.product(a1, a1);
-        c12 += passed.product(a1, a2);
-        c22 += passed.product(a2, a2);
-        x1 += passed.product(a1, rest);
-        x2 += passed.product(a2, rest);
-    }
-    let determinant = c11 * c22 - c12 * c12;
-    let [h1, h2] = [(x1 * c22 - x2 * c12) / determinant, (c11 * x2 - c12 * x1) / determinant];
-    let is_fair = |handle: &f64| (0.0..=LONGEST_HANDLE * length).contains(handle);
-    let is_told = determinant > 1e-9 * c11 * c22 && is_fair(&h1) && is_fair(&h2);
-    if !is_told {
-        return arc(places, length);
-    }
-    CubicBez::new(first.at, first.at + start * h1, last.at + end * h2, last.at)
-}
-
-/// Moves each parameter to where the cubic is nearest to its place (a step of Newton's).
-fn move_to_nearest(cubic: &CubicBez, places: &[Place], passed: &mut [Passed]) {
-    let velocity = cubic.deriv();
-    let acceleration = velocity.deriv();
-    let inner = 1..places.len() - 1;
-    for (place, passed) in places[inner.clone()].iter().zip(&mut passed[inner]) {
-        let t = passed.at;
-        let (off, v, a) = (cubic.eval(t) - place.at, velocity.eval(t).to_vec2(), acceleration.eval(t).to_vec2());
-        let slope = v.dot(v) + off.dot(a);
-        if slope > 0.0 {
-            passed.at = (t - off.dot(v) / slope).clamp(0.0, 1.0);
-        }
-        passed.along = tangent(cubic, passed.at);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::elementary::Elementary as _;
     use crate::geometry::{Ends, Ring, catmull_rom, swelling_outline};
-    use kurbo::{ParamCurveNearest, Shape};
+    use kurbo::ParamCurveNearest;
 
     /// A waving stroke that tapers to both ends, with a node every 0.1 mm.
     fn lock() -> BezPath {
@@ -319,6 +290,16 @@ mod tests {
             assert!(change.abs() < 0.08, "{change}: {} for {}", fewer.to_svg(), shape.to_svg());
             assert!(farthest(&shape, &fewer) < 0.012 && fewer.segments().count() <= 12, "{}", fewer.to_svg());
         }
+    }
+
+    /// What clipping leaves of steps is shorter than any pixel, and turns any way.
+    #[test]
+    fn steps_of_no_length_are_no_corners() {
+        let clean = BezPath::from_svg("M0,0 C1,0.2 2,0.2 3,0 C2,-0.2 1,-0.2 0,0 Z").unwrap();
+        let torn = "M0,0 C1,0.2 2,0.2 3,0 l0.001,0.001 l0.001,-0.002 l-0.002,0.001 C2,-0.2 1,-0.2 0,0 l-0.001,0 l0.001,0 Z";
+        let fewer = with_fewer_curves(&BezPath::from_svg(torn).unwrap(), 0.01);
+        assert_eq!(fewer.segments().count(), with_fewer_curves(&clean, 0.01).segments().count(), "{}", fewer.to_svg());
+        assert!(farthest(&clean, &fewer) < 0.012);
     }
 
     #[test]

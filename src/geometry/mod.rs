@@ -10,6 +10,7 @@ mod bounded;
 mod clip;
 mod convex_hull;
 mod crossings;
+mod cubic_fit;
 mod direct_search;
 mod disc;
 mod fewer_curves;

@@ -14,15 +14,25 @@ pub(crate) struct Grid {
     radii: i64,
     /// Digits of the file's unit that are counted: 4 if it is the millimetre, 2 if it is 0.01 mm.
     digits: u32,
+    steps: Steps,
+}
+
+/// The steps of an outline that are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Steps {
+    /// All: a pen that goes nowhere draws a point.
+    All,
+    /// Those that are not nothing on the grid: filled shapes lose nothing.
+    Long,
 }
 
 impl Grid {
     /// Of a sheet that a machine or a press reads: places to 0.001 mm, radii to 0.0001 mm, since 0.001 mm of a small dot's radius is a
     /// percent of its ink.
-    pub(crate) const SHEET: Self = Self { outlines: 10, radii: 1, digits: 4 };
+    pub(crate) const SHEET: Self = Self { outlines: 10, radii: 1, digits: 4, steps: Steps::All };
     /// Of a picture in a page: places to a pixel of a film at 2540 dpi, radii to a tenth of it. The unit is that pixel, 0.01 mm, so
     /// that places are whole numbers: a decimal point less each is a quarter of the file.
-    pub(crate) const PAGE: Self = Self { outlines: 100, radii: 10, digits: 2 };
+    pub(crate) const PAGE: Self = Self { outlines: 100, radii: 10, digits: 2, steps: Steps::Long };
 
     /// One of the file's units, as it is counted.
     const fn unit(self) -> i64 {
@@ -123,8 +133,11 @@ impl<'a> PathData<'a> {
         (self.at, self.start) = (to, to);
     }
 
-    /// A command whose points are relative to where the pen is.
+    /// A command whose points are relative to where the pen is; none if they all are where it is.
     fn relative(&mut self, command: char, points: &[Point]) {
+        if self.grid.steps == Steps::Long && points.iter().all(|p| self.place(*p) == self.at) {
+            return;
+        }
         let mut is_separated = self.command(command);
         let mut end = self.at;
         for p in points {
@@ -185,6 +198,19 @@ mod tests {
         path_data(&mut text, &path);
         assert_eq!(text, "M1 2c.25.5.5 0 1.75 1.125l0 .875.5.5z");
         assert_eq!(BezPath::from_svg(&text).unwrap().elements().len(), path.elements().len());
+    }
+
+    /// A shape loses nothing without them; of a line with round ends they are its points.
+    #[test]
+    fn steps_of_no_length_are_left_out_of_shapes_alone() {
+        let path = BezPath::from_svg("M1,2 L2,2 L2.001,2 C2.001,2.001 2,2.002 2,2 L2,3 Z").unwrap();
+        let data = |grid: Grid| {
+            let mut text = String::new();
+            PathData::new(&mut text, grid).outline(&path);
+            text
+        };
+        assert_eq!(data(Grid::PAGE), "M100 200l100 0 0 100z");
+        assert!(data(Grid::SHEET).contains('c'), "{}", data(Grid::SHEET));
     }
 
     #[test]
