@@ -124,15 +124,20 @@ impl MissingInk {
     }
 
     fn lay(&mut self, p: Point) {
-        let (cx, cy) = (p.x.floor() as isize, p.y.floor() as isize);
+        let (width, height) = (self.wanted.width() as isize, self.wanted.height() as isize);
+        let (left, upper) = (p.x.floor() as isize - self.reach, p.y.floor() as isize - self.reach);
         let side = 2 * self.reach + 1;
-        for dy in -self.reach..=self.reach {
-            for dx in -self.reach..=self.reach {
-                if self.wanted.contains(cx + dx, cy + dy) {
-                    let (x, y) = ((cx + dx) as usize, (cy + dy) as usize);
-                    let taken = self.splat[((dy + self.reach) * side + dx + self.reach) as usize];
-                    self.wanted.set(x, y, self.wanted.get(x, y) - taken);
-                }
+        // The columns of the square that lie on the raster.
+        let (from, to) = ((-left).max(0), (width - left).min(side));
+        if from >= to {
+            return;
+        }
+        for row in (-upper).max(0)..(height - upper).min(side) {
+            let start = ((upper + row) * width + left + from) as usize;
+            let wanted = &mut self.wanted.pixels_mut()[start..start + (to - from) as usize];
+            let taken = &self.splat[(row * side + from) as usize..(row * side + to) as usize];
+            for (wanted, taken) in wanted.iter_mut().zip(taken) {
+                *wanted -= taken;
             }
         }
     }

@@ -26,6 +26,7 @@ mod by_hand;
 mod charcoal;
 mod colour_accuracy;
 mod colour_sheet;
+mod column;
 mod command_line;
 mod effects;
 mod ends_of_ranges;
