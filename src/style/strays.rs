@@ -60,7 +60,7 @@ impl<'a> Strays<'a> {
 }
 
 /// Mean of a raster along a line.
-fn mean_along(raster: &Raster<f32>, points: &[Point]) -> f64 {
+pub(super) fn mean_along(raster: &Raster<f32>, points: &[Point]) -> f64 {
     points.iter().map(|p| f64::from(raster.sample(p.x, p.y))).sum::<f64>() / points.len() as f64
 }
 

@@ -22,6 +22,7 @@ use crate::source::MaskRole;
 use crate::style::solids::Solids;
 use cells::Cell;
 use darks::Darks;
+use lines::Lines;
 use parameters::{CARD, Detail, GridParameters, Primitive};
 use structure::StructureGrid;
 
@@ -99,7 +100,8 @@ impl Drawer<'_> {
         self.check()?;
         let grid = self.structure(&features, &ink);
         self.check()?;
-        let cells = cells::cells(self, &grid, &ink, &features);
+        let lines = if self.parameters.has_lines { Lines::of(self, &features) } else { Lines::default() };
+        let cells = cells::cells(self, &grid, &ink, &lines);
         let mut layers = match self.parameters.primitive {
             Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink, ends),
             Primitive::Tile => vec![tiles::layer(self, &cells)],
@@ -111,7 +113,7 @@ impl Drawer<'_> {
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
         if self.parameters.has_lines {
-            let mut drawn = lines::layer(self, &features);
+            let mut drawn = lines::layer(self, &lines);
             drawn.marks.extend(self.solids(&mut layers, &ink));
             layers.push(drawn);
         }
