@@ -2,7 +2,7 @@
 
 use super::cubic_fit::{Passed, Place, arc, least_squares, move_to_nearest};
 use super::polyline::lengths_along;
-use super::swell::{is_long, segment_length, tangent};
+use super::swell::{curve_length, is_long, segment_length, tangent};
 use kurbo::{BezPath, CubicBez, Line, ParamCurve, ParamCurveArea, PathEl, PathSeg, Point, Shape, Vec2};
 
 /// Cosine of the least turn of an outline that is a corner, 26 degrees. At a smaller angle the short chords of a traced disc
@@ -36,17 +36,19 @@ const SMALL: f64 = 4.0;
 /// offsetting meet, and their directions would be corners.
 const SHORT: f64 = 0.3;
 
-/// Outlines and lines with as few cubics and straight lines as pass within `tolerance` of places on them, 12 tolerances apart at most.
-/// Corners stay; where the outline is smooth it stays smooth, with its own tangents, and its area hardly changes.
+/// Outlines and lines with as few cubics and straight lines as pass near places on them, 12 tolerances apart at most: curves within
+/// `tolerance`, straight lines within twice that. Corners stay; where the outline is smooth its curves are smooth, with its own tangents,
+/// but parts that hardly bend or are shorter than 4 tolerances may be straight. Its area hardly changes.
 pub fn with_fewer_curves(path: &BezPath, tolerance: f64) -> BezPath {
     if !path.is_finite() || tolerance.is_nan() || tolerance <= 0.0 {
         return path.clone();
     }
+    let bias = (BIAS_OF_WIDTH * mean_width(path)).clamp(LEAST_BIAS * tolerance, MOST_BIAS * tolerance);
     let mut fewer = BezPath::new();
     for elements in path.elements().chunk_by(|_, next| !matches!(next, PathEl::MoveTo(_))) {
         let subpath: BezPath = elements.iter().copied().collect();
         let is_closed = matches!(elements.last(), Some(PathEl::ClosePath));
-        match Course::of(&subpath, is_closed, tolerance) {
+        match Course::of(&subpath, is_closed, tolerance, bias) {
             Some(course) => course.append_to(&mut fewer),
             None => fewer.extend(subpath),
         }
@@ -82,22 +84,22 @@ struct Course {
 
 impl Course {
     /// None for an outline that has no length.
-    fn of(subpath: &BezPath, is_closed: bool, tolerance: f64) -> Option<Self> {
+    fn of(subpath: &BezPath, is_closed: bool, tolerance: f64, bias: f64) -> Option<Self> {
         let mut places: Vec<Place> = Vec::new();
         for segment in subpath.segments() {
             append(&mut places, segment, tolerance);
         }
         let last = places.len().checked_sub(1).filter(|last| *last > 1)?;
         if is_closed {
-            places[0] = Place { arriving: places[last].arriving, swept: places[last].swept, ..places[0] };
+            // A last step may have been too short: the one before it then ends here.
+            let rest = Line::new(places[last].at, places[0].at).signed_area();
+            places[0] = Place { arriving: places[last].arriving, swept: places[last].swept + rest, ..places[0] };
             places.pop();
             if let Some(corner) = places.iter().position(Place::is_corner) {
                 places.rotate_left(corner);
             }
             places.push(places[0]);
         }
-        let width = if is_closed { mean_width(subpath) } else { 0.0 };
-        let bias = (BIAS_OF_WIDTH * width).clamp(LEAST_BIAS * tolerance, MOST_BIAS * tolerance);
         Some(Self { places: places.into_iter().map(Place::smoothed).collect(), tolerance, bias })
     }
 
@@ -171,7 +173,10 @@ impl Course {
         let chord = Line::new(cubic.p0, cubic.p3);
         let along = cubic.p3 - cubic.p0;
         let length = along.hypot();
-        let is_flat = |handle: Point| (handle - cubic.p0).cross(along).abs() <= FLAT * self.tolerance * length;
+        let is_flat = |handle: Point| {
+            let off = handle - cubic.p0;
+            (0.0..=length * length).contains(&off.dot(along)) && off.cross(along).abs() <= FLAT * self.tolerance * length
+        };
         let is_fair = length < SMALL * self.tolerance || self.is_fair(chord.signed_area(), places, length);
         let is_line = is_fair && is_flat(cubic.p1) && is_flat(cubic.p2);
         if is_line { PathSeg::Line(chord) } else { part }
@@ -184,18 +189,20 @@ impl Course {
     }
 }
 
-/// Width of a long shape with this outline.
+/// Width of a long shape, or of a ring, with this outline.
 fn mean_width(outline: &BezPath) -> f64 {
-    let around = outline.perimeter(1e-3);
+    let around = curve_length(outline);
     if around > 0.0 { 2.0 * outline.area().abs() / around } else { 0.0 }
 }
 
 /// Appends places along a segment, its end among them.
 fn append(places: &mut Vec<Place>, segment: PathSeg, tolerance: f64) {
-    let cubic = segment.to_cubic();
+    let mut cubic = segment.to_cubic();
     if !is_long(&segment) || places.last().is_some_and(|last| is_short(last.at, cubic, SHORT * tolerance)) {
         return;
     }
+    // Steps that were too short leave no gap.
+    cubic.p0 = places.last().map_or(cubic.p0, |last| last.at);
     let spacing = SPACING * tolerance;
     let [start, end] = [0.0, 1.0].map(|t| tangent(&cubic, t));
     match places.last_mut() {
@@ -295,8 +302,9 @@ mod tests {
     /// What clipping leaves of steps is shorter than any pixel, and turns any way.
     #[test]
     fn steps_of_no_length_are_no_corners() {
-        let clean = BezPath::from_svg("M0,0 C1,0.2 2,0.2 3,0 C2,-0.2 1,-0.2 0,0 Z").unwrap();
-        let torn = "M0,0 C1,0.2 2,0.2 3,0 l0.001,0.001 l0.001,-0.002 l-0.002,0.001 C2,-0.2 1,-0.2 0,0 l-0.001,0 l0.001,0 Z";
+        let clean = BezPath::from_svg("M100,150 C101,150.2 102,150.2 103,150 C102,149.8 101,149.8 100,150 Z").unwrap();
+        let torn =
+            "M100,150 C101,150.2 102,150.2 103,150 l0.001,0.001 l0.001,-0.002 C102,149.8 101,149.8 100.002,150 l-0.001,0.001 Z";
         let fewer = with_fewer_curves(&BezPath::from_svg(torn).unwrap(), 0.01);
         assert_eq!(fewer.segments().count(), with_fewer_curves(&clean, 0.01).segments().count(), "{}", fewer.to_svg());
         assert!(farthest(&clean, &fewer) < 0.012);

@@ -13,10 +13,10 @@ use drypoint::source::{Landmarks, Limits, Photograph};
 use print::{Print, drawn};
 use std::path::Path;
 
-/// A newspaper's half column, and the pixels in which a reader's eye resolves it at arm's length.
+/// A newspaper's half column, and the pixels at which it is looked at: 300 to the inch.
 const COLUMN_MM: (f64, f64) = (38.0, 50.0);
 const PIXELS_PER_MM: f64 = 12.0;
-/// Mean displacement of the eyes that changes a likeness, as a share of the distance between the eyes.
+/// Most displacement of the eyes in the mean, as a share of the distance between them.
 const MOST: f64 = 0.05;
 
 fn only_face(photograph: &Photograph) -> Landmarks {

@@ -140,16 +140,19 @@ fn coverage<'a>(
     let mut covered = Raster::filled(width, height, 0.0_f32);
     for line in lines {
         let widths = tapered_widths(line, longest_taper);
-        for (piece, w) in line.curve.points.windows(2).zip(widths.windows(2)) {
-            let piece = Line::new(piece[0], piece[1]);
-            let reach = 0.25 * (w[0] + w[1]) + 0.5;
+        let closing = usize::from(line.curve.closed);
+        let count = widths.len();
+        for (i, j) in (0..(count + closing).saturating_sub(1)).map(|i| (i, (i + 1) % count)) {
+            let piece = Line::new(line.curve.points[i], line.curve.points[j]);
+            let wide = 0.5 * (widths[i] + widths[j]);
+            let reach = 0.5 * wide + 0.5;
             let near = piece.bounding_box().inflate(reach, reach);
             let (x0, x1) = (near.x0.max(0.0) as usize, (near.x1.max(0.0) as usize).min(width - 1));
             let (y0, y1) = (near.y0.max(0.0) as usize, (near.y1.max(0.0) as usize).min(height - 1));
             for y in y0..=y1 {
                 for x in x0..=x1 {
                     let away = piece.nearest(Point::new(x as f64 + 0.5, y as f64 + 0.5), 1e-3).distance_sq.sqrt();
-                    let share = (reach - away).clamp(0.0, 1.0) as f32;
+                    let share = (reach - away).clamp(0.0, wide.clamp(0.0, 1.0)) as f32;
                     covered.set(x, y, covered.get(x, y).max(share));
                 }
             }
@@ -162,6 +165,7 @@ fn coverage<'a>(
 mod tests {
     use super::*;
     use crate::drawing::Mark;
+    use crate::elementary::unit_at;
     use crate::field::Curve;
     use crate::source::Placement;
     use crate::style::feature_line::feature_stroke;
@@ -170,13 +174,17 @@ mod tests {
     #[test]
     fn a_line_covers_the_ink_of_its_tapering_stroke() {
         let points: Vec<Point> = (0..90).map(|i| Point::new(5.0 + f64::from(i), 20.0 + 0.1 * f64::from(i))).collect();
-        for width in [1.5, 4.0] {
-            let line = CoherentLine::plain(Curve { points: points.clone(), closed: false }, width);
+        let around = |i: u32| Point::new(60.0, 30.0) + 20.0 * unit_at(std::f64::consts::TAU * f64::from(i) / 120.0);
+        let ring: Vec<Point> = (0..120).map(around).collect();
+        let lines = [(points, false), (ring, true)];
+        for (width, (points, closed)) in [0.4, 1.5, 4.0].into_iter().flat_map(|width| lines.iter().map(move |line| (width, line)))
+        {
+            let line = CoherentLine::plain(Curve { points: points.clone(), closed: *closed }, width);
             let covered: f32 = coverage(std::iter::once(&line), 20.0, (120, 60)).pixels().iter().sum();
             let placement = Placement::new(Rect::new(0.0, 0.0, 120.0, 60.0), 1.0);
             let Some(Mark::Stroke(stroke)) = feature_stroke(&line, &placement, 20.0) else { panic!("a stroke") };
             let ink = stroke.ink_outline(1e-3).area().abs();
-            assert!((f64::from(covered) / ink - 1.0).abs() < 0.1, "{width}: {covered} for {ink}");
+            assert!((f64::from(covered) / ink - 1.0).abs() < 0.1, "{width} {closed}: {covered} for {ink}");
         }
     }
 }

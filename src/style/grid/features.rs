@@ -18,7 +18,7 @@ use crate::style::strays::Strays;
 
 /// The lines that steer the grid and their direction field, in working pixels.
 pub(super) struct Features {
-    /// Lines that are drawn.
+    /// Lines that were found, strong enough to be drawn.
     pub lines: Vec<CoherentLine>,
     /// Lines long and strong enough to steer the grid.
     pub guides: Vec<Curve>,

@@ -12,7 +12,7 @@ use crate::style::strays::mean_along;
 
 /// Maximum length of a line's taper, in pitches.
 pub(super) const LONGEST_TAPER: f64 = 4.0;
-/// Mean of the mask of beards along a line from which it is a strand of one.
+/// Mean of the mask of beards along a line from which it is a strand of one. Chosen, and looked at on five beards.
 const STRAND: f64 = 0.6;
 
 /// The lines that dots leave room for.
