@@ -24,33 +24,17 @@ pub(super) fn feature_stroke(line: &CoherentLine, placement: &Placement, longest
     let page: Vec<_> = picked.iter().map(|&i| placement.to_page(line.curve.points[i])).collect();
     let scale = placement.mm_per_pixel();
     let length = line.curve.length();
-    let taper = taper(length, longest_taper);
+    let taper = (TAPER * length).min(longest_taper);
     let mut widths: Vec<f64> = picked
         .iter()
         .map(|&i| {
             let along = length * i as f64 / (count - 1) as f64;
-            line.widths[i] * scale * share_of_width(line, along, length, taper)
+            let share = if line.curve.closed { 1.0 } else { (along.min(length - along) / taper).clamp(0.0, 1.0).sqrt() };
+            line.widths[i] * scale * share
         })
         .collect();
     if line.curve.closed {
         widths.push(widths[0]);
     }
     Stroke::swelling(catmull_rom(&page, line.curve.closed.into()), widths).map(Mark::Stroke)
-}
-
-/// Widths of the stroke of a line at the line's points, in its pixels.
-pub(super) fn tapered_widths(line: &CoherentLine, longest_taper: f64) -> Vec<f64> {
-    let length = line.curve.length();
-    let taper = taper(length, longest_taper);
-    let step = length / line.widths.len().saturating_sub(1).max(1) as f64;
-    let width = |(i, width): (usize, &f64)| width * share_of_width(line, step * i as f64, length, taper);
-    line.widths.iter().enumerate().map(width).collect()
-}
-
-fn taper(length: f64, longest: f64) -> f64 {
-    (TAPER * length).min(longest)
-}
-
-fn share_of_width(line: &CoherentLine, along: f64, length: f64, taper: f64) -> f64 {
-    if line.curve.closed { 1.0 } else { (along.min(length - along) / taper).clamp(0.0, 1.0).sqrt() }
 }

@@ -1,14 +1,13 @@
 //! The Voronoi cells of the crossings: outline, area and target ink.
 
 use super::Drawer;
-use super::lines::{LONGEST_TAPER, Lines};
 use super::structure::StructureGrid;
-use crate::field::{CoherentLine, Sites, cell_polygon};
+use crate::drawing::Mark;
+use crate::field::{Sites, cell_polygon};
 use crate::geometry::{Point, Rect, Vec2, polygon_area};
 use crate::parallel::collected;
 use crate::raster::Raster;
-use crate::style::feature_line::tapered_widths;
-use kurbo::{Line, ParamCurveNearest, Shape};
+use crate::style::coverage::covered;
 
 /// Maximum reach of a cell from its crossing, in pitches; cells are open at singular points and beyond the subject's border.
 const CELL_REACH: f64 = 1.5;
@@ -41,11 +40,9 @@ pub(super) struct Cell {
 }
 
 /// The cells of the grid's points, with less ink where lines are drawn.
-pub(super) fn cells(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>, lines: &Lines) -> Vec<Cell> {
+pub(super) fn cells(drawer: &Drawer<'_>, grid: &StructureGrid, ink: &Raster<f32>, lines: &[Mark]) -> Vec<Cell> {
     drawer.observer.begin("cells");
-    let (width, height) = drawer.size();
-    let covering = || lines.drawn.iter().chain(&lines.rims);
-    let covered = covering().next().is_some().then(|| coverage(covering(), LONGEST_TAPER * drawer.pitch(), (width, height)));
+    let covered = (!lines.is_empty()).then(|| covered(lines, &drawer.portrait.placement));
     cells_of(drawer, grid, &grid.crossings, grid.true_crossings, ink, covered.as_ref())
 }
 
@@ -76,7 +73,7 @@ pub(super) fn cells_of(
 struct Sum {
     pixels: f64,
     ink: f64,
-    /// Ink of the feature lines.
+    /// Under feature lines.
     covered: f64,
     light: [f64; 3],
     subject: f64,
@@ -129,62 +126,4 @@ fn sums(drawer: &Drawer<'_>, sites: &Sites<'_>, count: usize, ink: &Raster<f32>,
         }
     }
     sums
-}
-
-/// How much of each pixel the strokes of feature lines cover.
-fn coverage<'a>(
-    lines: impl Iterator<Item = &'a CoherentLine>,
-    longest_taper: f64,
-    (width, height): (usize, usize),
-) -> Raster<f32> {
-    let mut covered = Raster::filled(width, height, 0.0_f32);
-    for line in lines {
-        let widths = tapered_widths(line, longest_taper);
-        let closing = usize::from(line.curve.closed);
-        let count = widths.len();
-        for (i, j) in (0..(count + closing).saturating_sub(1)).map(|i| (i, (i + 1) % count)) {
-            let piece = Line::new(line.curve.points[i], line.curve.points[j]);
-            let wide = 0.5 * (widths[i] + widths[j]);
-            let reach = 0.5 * wide + 0.5;
-            let near = piece.bounding_box().inflate(reach, reach);
-            let (x0, x1) = (near.x0.max(0.0) as usize, (near.x1.max(0.0) as usize).min(width - 1));
-            let (y0, y1) = (near.y0.max(0.0) as usize, (near.y1.max(0.0) as usize).min(height - 1));
-            for y in y0..=y1 {
-                for x in x0..=x1 {
-                    let away = piece.nearest(Point::new(x as f64 + 0.5, y as f64 + 0.5), 1e-3).distance_sq.sqrt();
-                    let share = (reach - away).clamp(0.0, wide.clamp(0.0, 1.0)) as f32;
-                    covered.set(x, y, covered.get(x, y).max(share));
-                }
-            }
-        }
-    }
-    covered
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::drawing::Mark;
-    use crate::elementary::unit_at;
-    use crate::field::Curve;
-    use crate::source::Placement;
-    use crate::style::feature_line::feature_stroke;
-
-    /// What dots leave to a line is what its stroke lays.
-    #[test]
-    fn a_line_covers_the_ink_of_its_tapering_stroke() {
-        let points: Vec<Point> = (0..90).map(|i| Point::new(5.0 + f64::from(i), 20.0 + 0.1 * f64::from(i))).collect();
-        let around = |i: u32| Point::new(60.0, 30.0) + 20.0 * unit_at(std::f64::consts::TAU * f64::from(i) / 120.0);
-        let ring: Vec<Point> = (0..120).map(around).collect();
-        let lines = [(points, false), (ring, true)];
-        for (width, (points, closed)) in [0.4, 1.5, 4.0].into_iter().flat_map(|width| lines.iter().map(move |line| (width, line)))
-        {
-            let line = CoherentLine::plain(Curve { points: points.clone(), closed: *closed }, width);
-            let covered: f32 = coverage(std::iter::once(&line), 20.0, (120, 60)).pixels().iter().sum();
-            let placement = Placement::new(Rect::new(0.0, 0.0, 120.0, 60.0), 1.0);
-            let Some(Mark::Stroke(stroke)) = feature_stroke(&line, &placement, 20.0) else { panic!("a stroke") };
-            let ink = stroke.ink_outline(1e-3).area().abs();
-            assert!((f64::from(covered) / ink - 1.0).abs() < 0.1, "{width} {closed}: {covered} for {ink}");
-        }
-    }
 }

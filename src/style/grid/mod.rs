@@ -22,7 +22,6 @@ use crate::source::MaskRole;
 use crate::style::solids::Solids;
 use cells::Cell;
 use darks::Darks;
-use lines::Lines;
 use parameters::{CARD, Detail, GridParameters, Primitive};
 use structure::StructureGrid;
 
@@ -100,8 +99,8 @@ impl Drawer<'_> {
         self.check()?;
         let grid = self.structure(&features, &ink);
         self.check()?;
-        let lines = if self.parameters.has_lines { Lines::of(self, &features) } else { Lines::default() };
-        let cells = cells::cells(self, &grid, &ink, &lines);
+        let lines = self.parameters.has_lines.then(|| lines::layer(self, &features));
+        let cells = cells::cells(self, &grid, &ink, lines.as_ref().map_or(&[], |lines| &lines.marks));
         let mut layers = match self.parameters.primitive {
             Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink, ends),
             Primitive::Tile => vec![tiles::layer(self, &cells)],
@@ -112,10 +111,9 @@ impl Drawer<'_> {
             let why = "the subject is smaller than one dot; use a smaller pitch or a whiter mask";
             return Err(StyleError::NothingToDraw(why.to_owned()));
         }
-        if self.parameters.has_lines {
-            let mut drawn = lines::layer(self, &lines);
-            drawn.marks.extend(self.solids(&mut layers, &ink));
-            layers.push(drawn);
+        if let Some(mut lines) = lines {
+            lines.marks.extend(self.solids(&mut layers, &ink));
+            layers.push(lines);
         }
         for (layer, pen) in layers.iter_mut().zip(1..) {
             layer.pen = pen;
