@@ -16,7 +16,7 @@ mod tiles;
 use super::drawer::Pitched;
 use super::{Cost, Picture, Request, Settings, Style, StyleCard, StyleError};
 use crate::drawing::{Drawing, Layer, Mark, Page};
-use crate::geometry::Rect;
+use crate::geometry::{Millimetres, Rect};
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::MaskRole;
 use crate::style::solids::Solids;
@@ -68,12 +68,28 @@ enum LineEnds {
 }
 
 /// Settings with which all ink lies in hatches along the features.
-const HATCHES: &[(&str, &str)] = &[("size_max", "0mm"), ("hatching", "along"), ("lines", "off"), ("reversed_from", "1")];
+const HATCHES: &[(&str, &str)] =
+    &[("size_max", "0mm"), ("hatching", "along"), ("lines", "off"), ("reversed_from", "1"), ("isophotes", "0")];
+/// Hatches run long and nearly parallel, as an engraver's: least length of the lines that steer them, the field's finest cell and its
+/// calming, in pitches; and the lines' least contrast. Chosen on the suits of sixteen portraits: with the grid's own values rows ring
+/// around every pocket and lapel, with twice these they cross edges of lapels and collars.
+const STEERING_LEAST: f64 = 8.0;
+const FINEST: f64 = 4.0;
+const CALM: f64 = 8.0;
+const STEERING_CONTRAST: f64 = 0.1;
 
 /// Hatches along the features with the tone's width, for a style of another kind at its pitch.
 pub(super) fn hatches(drawer: &super::Drawer<'_, impl Pitched>) -> Result<Vec<Mark>, StyleError> {
-    let settings = CARD.settings_at(drawer.parameters.pitch(), HATCHES)?;
-    match drawer.in_style(GridParameters::new(&settings)).draw(LineEnds::Pointed) {
+    let pitch = drawer.parameters.pitch();
+    let pitches = |count: f64| Millimetres(count * pitch.0);
+    let parameters = GridParameters {
+        steer_least: pitches(STEERING_LEAST),
+        field_detail: pitches(FINEST),
+        field_calm: pitches(CALM),
+        steer_contrast: STEERING_CONTRAST,
+        ..GridParameters::new(&CARD.settings_at(pitch, HATCHES)?)
+    };
+    match drawer.in_style(parameters).draw(LineEnds::Pointed) {
         // Single dots fill holes of the hatching.
         Ok(drawing) => {
             Ok(drawing.layers.into_iter().flat_map(|layer| layer.marks).filter(|m| !matches!(m, Mark::Dot(_))).collect())
