@@ -2,6 +2,7 @@
 
 use super::b_spline::{Datum, multilevel_b_spline};
 use super::curve::Curve;
+use super::distance::distance_within;
 use crate::elementary::Elementary as _;
 use crate::geometry::{Point, resample};
 use crate::raster::{Raster, gaussian_blur};
@@ -43,6 +44,8 @@ pub struct FieldParameters {
     pub finest: f64,
     /// Standard deviation of the calming: where lines disagree, the direction turns over this length instead of abruptly.
     pub calm: f64,
+    /// Distance from the lines within which there is less calming, so that the direction follows them; 0 calms everywhere alike.
+    pub beside: f64,
 }
 
 /// Nodes per finest cell at which the field is evaluated; between them it is bilinear.
@@ -66,9 +69,11 @@ pub fn direction_field(guides: &[Guides<'_>], width: usize, height: usize, param
         unit([a - c, 2.0 * b])
     });
     if parameters.calm > 0.0 {
+        let found = nodes.clone();
         for _ in 0..CALM_ROUNDS {
             nodes = calmed(&nodes, (parameters.calm / step) as f32);
         }
+        nodes = with_found_beside(guides, (width, height), (step, parameters.beside), (&found, nodes));
     }
     let mut singularities = singularities(&nodes, 2);
     for found in &mut singularities {
@@ -92,6 +97,27 @@ fn unit([x, y]: [f32; 2]) -> [f32; 2] {
 fn calmed(nodes: &Raster<[f32; 2]>, sigma: f32) -> Raster<[f32; 2]> {
     let plane = |c: usize| gaussian_blur(&nodes.map(|d| d[c]), sigma);
     plane(0).zip_map(&plane(1), |x, y| unit([x, y]))
+}
+
+/// The calmed directions, and beside the lines those that were found: on the lines in full, `beside` pixels away not at all.
+fn with_found_beside(
+    guides: &[Guides<'_>],
+    (width, height): (usize, usize),
+    (step, beside): (f64, f64),
+    (found, calmed): (&Raster<[f32; 2]>, Raster<[f32; 2]>),
+) -> Raster<[f32; 2]> {
+    if beside <= 0.0 {
+        return calmed;
+    }
+    let curves: Vec<Curve> = guides.iter().flat_map(|guide| guide.curves.iter().cloned()).collect();
+    let Some(lines) = distance_within(&curves, width, height, beside) else { return calmed };
+    Raster::from_fn(calmed.width(), calmed.height(), |i, j| {
+        let away = lines.distance.clamped((i as f64 * step) as isize, (j as f64 * step) as isize);
+        let near = (1.0 - away / beside as f32).clamp(0.0, 1.0);
+        let share = near * near * (3.0 - 2.0 * near);
+        let ([x0, y0], [x1, y1]) = (calmed.get(i, j), found.get(i, j));
+        unit([x0 + share * (x1 - x0), y0 + share * (y1 - y0)])
+    })
 }
 
 /// The unit tangent's tensor along a line.
@@ -162,8 +188,12 @@ mod tests {
     fn rings_make_a_field_of_circles_with_one_turn_at_the_centre() {
         let centre = Point::new(80.0, 70.0);
         let rings = [15.0, 35.0, 60.0].map(|r| circle(centre, r));
-        let field =
-            direction_field(&[Guides { curves: &rings, weight: 1.0 }], 160, 140, FieldParameters { finest: 6.0, calm: 3.0 });
+        let field = direction_field(
+            &[Guides { curves: &rings, weight: 1.0 }],
+            160,
+            140,
+            FieldParameters { finest: 6.0, calm: 3.0, beside: 0.0 },
+        );
         for y in (5..135).step_by(10) {
             for x in (5..155).step_by(10) {
                 let away = Point::new(x as f64 + 0.5, y as f64 + 0.5) - centre;
@@ -179,8 +209,23 @@ mod tests {
     }
 
     #[test]
+    fn beside_a_line_much_calming_leaves_its_direction() {
+        let post = Curve { points: (0..30).map(|i| Point::new(80.0, 55.0 + f64::from(i))).collect(), closed: false };
+        let level = |y: f64| Curve { points: (0..160).map(|i| Point::new(f64::from(i), y)).collect(), closed: false };
+        let lines = [post, level(20.0), level(120.0)];
+        let upright = |beside: f64, x: usize| {
+            let parameters = FieldParameters { finest: 6.0, calm: 30.0, beside };
+            let field = direction_field(&[Guides { curves: &lines, weight: 1.0 }], 160, 140, parameters);
+            field.tangent.get(x, 70)[1].abs()
+        };
+        assert!(upright(0.0, 80) < 0.5, "{}", upright(0.0, 80));
+        assert!(upright(10.0, 80) > 0.95, "{}", upright(10.0, 80));
+        assert!((upright(10.0, 100) - upright(0.0, 100)).abs() < 1e-3, "farther away all is calmed");
+    }
+
+    #[test]
     fn without_lines_it_is_the_diagonal() {
-        let field = direction_field(&[], 30, 20, FieldParameters { finest: 6.0, calm: 3.0 });
+        let field = direction_field(&[], 30, 20, FieldParameters { finest: 6.0, calm: 3.0, beside: 0.0 });
         assert!(field.tangent.pixels().iter().all(|t| (t[0] - t[1]).abs() < 1e-6));
         assert!(field.singularities.is_empty());
     }

@@ -82,6 +82,7 @@ impl Drawer<'_> {
         FieldParameters {
             finest: self.pixels(self.parameters.field_detail).max(2.0),
             calm: self.pixels(self.parameters.field_calm),
+            beside: self.pixels(self.parameters.field_beside),
         }
     }
 

@@ -70,12 +70,14 @@ enum LineEnds {
 /// Settings with which all ink lies in hatches along the features.
 const HATCHES: &[(&str, &str)] =
     &[("size_max", "0mm"), ("hatching", "along"), ("lines", "off"), ("reversed_from", "1"), ("isophotes", "0")];
-/// Hatches run long and nearly parallel, as an engraver's: least length of the lines that steer them, the field's finest cell and its
-/// calming, in pitches; and the lines' least contrast. Chosen on the suits of sixteen portraits: with the grid's own values rows ring
-/// around every pocket and lapel, with twice these they cross edges of lapels and collars.
+/// Hatches run long and nearly parallel, as an engraver's, and along the edges of lapels: least length of the lines that steer them, the
+/// field's finest cell, its calming and the distance from the lines with less of it, in pitches; and the lines' least contrast. Chosen on the
+/// clothing of sixteen portraits and two samples: with the grid's own values rows ring around every pocket and lapel. Calmed up to the lines
+/// they cross the edges of lapels, badges and microphones, whose borders are frayed; calmed from four pitches off on, rows ring again.
 const STEERING_LEAST: f64 = 8.0;
 const FINEST: f64 = 4.0;
 const CALM: f64 = 8.0;
+const BESIDE: f64 = 2.0;
 const STEERING_CONTRAST: f64 = 0.1;
 
 /// Hatches along the features with the tone's width, for a style of another kind at its pitch.
@@ -86,6 +88,7 @@ pub(super) fn hatches(drawer: &super::Drawer<'_, impl Pitched>) -> Result<Vec<Ma
         steer_least: pitches(STEERING_LEAST),
         field_detail: pitches(FINEST),
         field_calm: pitches(CALM),
+        field_beside: pitches(BESIDE),
         steer_contrast: STEERING_CONTRAST,
         ..GridParameters::new(&CARD.settings_at(pitch, HATCHES)?)
     };

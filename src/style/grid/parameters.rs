@@ -120,6 +120,9 @@ parameters! {
         field_calm: Millimetres = "field_calm": pitches(2.0, 0.0..=1000.0),
             "length over which the field turns where lines disagree; 0 leaves abrupt borders there",
             "";
+        field_beside: Millimetres = "field_beside": pitches(0.0, 0.0..=1000.0),
+            "distance from feature lines within which the field is calmed less, so that rows run along them; 0 calms it everywhere alike",
+            "", needs [Need::Above("field_calm", 0.0)];
         window: Millimetres = "window": pitches(2.0, 0.1..=100.0),
             "reach of the window in which the stripes are made regular; at most 20 pitches",
             "Son 5.2, r";
