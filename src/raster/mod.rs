@@ -17,6 +17,7 @@ mod gradient;
 mod guided;
 mod lattice_gaussian;
 mod local_laplacian;
+mod opening;
 mod paper;
 mod polygon;
 mod pyramid;
@@ -54,6 +55,7 @@ pub use lattice_gaussian::fast_gaussian;
 pub(crate) use lattice_gaussian::fast_gaussian_within;
 #[doc(hidden)]
 pub use local_laplacian::{Remapping, local_laplacian};
+pub(crate) use opening::opening;
 #[doc(hidden)]
 pub use paper::paper_texture;
 #[doc(hidden)]

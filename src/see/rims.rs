@@ -1,4 +1,5 @@
-//! The rims of spectacles: around each eye the closed way that is darkest against both its sides, the two alike above and below the eyes.
+//! The rims of spectacles: around each eye the closed way that is darkest against both its sides, the two alike above and below the eyes. The
+//! edges of lenses without a frame, in the same way, are light lines.
 
 use super::spectacles::{APART, Light, MIDDLE, Way};
 use crate::elementary::{Elementary as _, unit_at};
@@ -23,6 +24,9 @@ pub(super) const DIRECTIONS: usize = 96;
 /// nose's middle.
 const LIDS: [f64; 3] = [5.5, 2.5, 22.0];
 const OFF_NOSE: f64 = 4.0;
+/// The margin below the opening for a lens without a frame, which is lower than most frames: with the other one its edge is taken for a fold
+/// farther down (02); with 9 the lid's own light is.
+const BELOW_EDGE: f64 = 12.0;
 /// Value of a place where no rim can be.
 const IMPOSSIBLE: f32 = -0.2;
 /// Price of a bend of a rim.
@@ -54,17 +58,30 @@ pub(super) struct Eye {
 
 impl Eye {
     /// True between the lids and so near them that dark places are lashes, folds and bags.
-    fn holds(&self, p: Point) -> bool {
+    fn holds(&self, p: Point, kind: Rim) -> bool {
         let away = p - self.lids.center();
         let half = self.lids.size() / 2.0;
-        let down = half.height + if away.y > 0.0 { LIDS[2] } else { LIDS[1] };
+        let below = if kind == Rim::Dark { LIDS[2] } else { BELOW_EDGE };
+        let down = half.height + if away.y > 0.0 { below } else { LIDS[1] };
         (away.x / (half.width + LIDS[0])).powi(2) + (away.y / down).powi(2) < 1.0
     }
 }
 
+/// What a rim is told by.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Rim {
+    /// A frame, darker than both its sides.
+    Dark,
+    /// The edge of a lens without a frame, or with one above alone.
+    Edge,
+}
+
 /// The rims around the eyes on the left and on the right in the window: one is free and the other near its image, in the order that counts more.
-pub(super) fn rims(light: &Light, eyes: &[Eye; 2]) -> [Way; 2] {
-    let rim = |side: usize, other: Option<&Way>| light.rim([-1.0, 1.0][side], &eyes[side], other.map(Way::mirrored).as_deref());
+pub(super) fn rims(light: &Light, eyes: &[Eye; 2], kind: Rim) -> [Way; 2] {
+    let rim = |side: usize, other: Option<&Way>| {
+        let around = Around { side: [-1.0, 1.0][side], eye: &eyes[side], kind };
+        light.rim(around, other.map(Way::mirrored).as_deref())
+    };
     let [left, right] = [rim(0, None), rim(1, None)];
     let (as_right, as_left) = (rim(0, Some(&right)), rim(1, Some(&left)));
     if as_right.counted + right.counted > left.counted + as_left.counted { [as_right, right] } else { [left, as_left] }
@@ -77,25 +94,32 @@ impl Way {
     }
 }
 
+/// What is searched around an eye on the left (-1) or on the right (1) in the window.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    side: f64,
+    eye: &'a Eye,
+    kind: Rim,
+}
+
 impl Light {
-    /// The darkest closed way around the eye on the left (-1) or on the right (1) in the window, about the best of several middles; near the
-    /// image of the other rim if that is given.
-    fn rim(&self, side: f64, eye: &Eye, image: Option<&[Point]>) -> Way {
-        let centre = MIDDLE + Vec2::new(side * (0.5 * APART + LENS_AT.x), LENS_AT.y);
-        let first = self.rim_about(centre, side, eye, image);
-        let others = MIDDLES.map(|away| self.rim_about(centre + away, side, eye, image));
+    /// The closed way around the eye that is most a rim, about the best of several middles; near the image of the other rim if that is given.
+    fn rim(&self, around: Around<'_>, image: Option<&[Point]>) -> Way {
+        let centre = MIDDLE + Vec2::new(around.side * (0.5 * APART + LENS_AT.x), LENS_AT.y);
+        let first = self.rim_about(centre, around, image);
+        let others = MIDDLES.map(|away| self.rim_about(centre + away, around, image));
         others.into_iter().fold(first, |best, way| if way.counted > best.counted { way } else { best })
     }
 
-    /// The darkest closed way about this middle.
-    fn rim_about(&self, centre: Point, side: f64, eye: &Eye, image: Option<&[Point]>) -> Way {
+    /// The closed way about this middle that is most a rim.
+    fn rim_about(&self, centre: Point, Around { side, eye, kind }: Around<'_>, image: Option<&[Point]>) -> Way {
         let place = |step: usize, direction: usize| centre + lens(direction) * scale(step);
         let values = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
             let p = place(step, direction);
-            if side * (p.x - MIDDLE.x) < OFF_NOSE || eye.holds(p) {
+            if side * (p.x - MIDDLE.x) < OFF_NOSE || eye.holds(p, kind) {
                 return IMPOSSIBLE;
             }
-            self.sharp_contrast(p, lens_normal(direction))
+            self.counts(p, direction, kind)
         });
         let expected: Vec<Option<f64>> = (0..DIRECTIONS)
             .map(lens)
@@ -119,6 +143,19 @@ impl Light {
         };
         let points = (0..DIRECTIONS).map(|direction| centre + lens(direction) * smooth(direction)).collect();
         Way { points, contrast: contrast / DIRECTIONS as f32, counted: sum(&counted) }
+    }
+}
+
+impl Light {
+    /// How much a place looks like a rim in a direction around the eye. Lenses may have a dark upper frame; below they have a light edge,
+    /// and what is dark there are folds.
+    fn counts(&self, p: Point, direction: usize, kind: Rim) -> f32 {
+        let across = lens_normal(direction);
+        match kind {
+            Rim::Dark => self.sharp_contrast(p, across),
+            Rim::Edge if lens(direction).y > 0.0 => self.light_contrast(p, across),
+            Rim::Edge => self.sharp_contrast(p, across).max(self.light_contrast(p, across)),
+        }
     }
 }
 

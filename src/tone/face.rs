@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::ears::with_ears;
-use super::lights::rubbed;
+use super::lights::{rubbed, with_half_tones};
 use super::mixing::mixed;
 use super::openings::{dark_of_mouth, eyes_at_least, firm_eyes, opened};
 use super::zones::Zones;
@@ -112,11 +112,13 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
         tone = light_hair(&zones, face, &tone, hair, setting);
     }
     let tone = raised_features(&zones, face, &tone, &setting.subject);
-    let tone = with_ears(&zones, &tone, &skin_of(setting), heights(face));
+    let skin = skin_of(setting);
+    let tone = with_ears(&zones, &tone, &skin, heights(face));
     let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, face, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
+    let tone = with_half_tones(&zones, &tone, &skin);
     let tone = eyes_at_least(&zones, face, &tone, setting.lightness);
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }
