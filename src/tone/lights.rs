@@ -44,6 +44,8 @@ const BLUR: f64 = 0.02;
 /// The ink around a place, from and to which it is less and less blurred: up to the second there are half tones. With 0.3 cheeks still
 /// end in borders (12), with more noses flatten.
 const BLURRED: [f32; 2] = [0.12, 0.4];
+/// The share of it that lightens what is dark beside a light: with all of it the sides of noses, wings and folds are lost (03 04 07 14).
+const LIGHTENED: f32 = 0.4;
 /// Tones so far above paper count, so that the middle of a strong light stays bare.
 const ABOVE_PAPER: f32 = 0.08;
 /// Dark lines up to twice as wide are furrows, which stay, in widths of the face; and the softness with which fainter ones, pores, go.
@@ -63,7 +65,8 @@ pub(super) fn with_half_tones(zones: &Zones, tone: &Raster<f32>, skin: &Raster<f
         let (ink, broad, mean) = (ink.get(x, y), broad.get(x, y), mean.get(x, y));
         let light = ((BLURRED[1] - mean) / (BLURRED[1] - BLURRED[0])).clamp(0.0, 1.0);
         let share = soft.get(x, y).min(skin.get(x, y)) * light * light * (3.0 - 2.0 * light);
-        share * (mean + soft_rise(ink - broad, PORE) - ink)
+        let change = mean + soft_rise(ink - broad, PORE) - ink;
+        share * if change < 0.0 { LIGHTENED * change } else { change }
     });
     tone.zip_map(&more, |tone, more| tone - more)
 }
@@ -87,7 +90,7 @@ mod tests {
         let soft = with_half_tones(&zones, &tone, &skin);
         let row: Vec<f32> = (0..SIDE).map(|x| soft.get(x, 120)).collect();
         let steepest = (60..100).map(|x| (row[x + 1] - row[x]).abs()).fold(0.0, f32::max);
-        assert!(steepest < 0.06, "the border of the light: {steepest}");
+        assert!(steepest < 0.15, "the border of the light: {steepest}");
         assert!((row[40] - 0.75).abs() < 0.01 && row[120] > 1.0, "far from the border: {} and {}", row[40], row[120]);
         assert!(row[150] < 0.82 && row[160] > 0.98, "the furrow: {} beside {}", row[150], row[160]);
         assert!((220..SIDE).all(|x| row[x] == 0.75), "a feature");
