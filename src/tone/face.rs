@@ -2,6 +2,7 @@
 
 use super::curve::Curve;
 use super::ears::with_ears;
+use super::lenses::with_clear_lenses;
 use super::lights::{rubbed, with_half_tones};
 use super::mixing::mixed;
 use super::openings::{dark_of_mouth, eyes_at_least, firm_eyes, opened};
@@ -119,6 +120,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
     let tone = with_half_tones(&zones, &tone, &skin);
+    let tone = with_clear_lenses(&zones, face, tone);
     let tone = eyes_at_least(&zones, face, &tone, setting.lightness);
     Some(mixed(setting.lightness, &tone, &setting.subject))
 }

@@ -9,7 +9,7 @@
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
-//!   -> half tones around lights -> eyes at least as dark as in the photograph -> gums -> light irises -> catchlights
+//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> light irises -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
@@ -20,6 +20,7 @@ mod ears;
 mod face;
 mod gums;
 mod irises;
+mod lenses;
 mod lights;
 mod mixing;
 mod openings;
