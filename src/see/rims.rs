@@ -24,8 +24,8 @@ pub(super) const DIRECTIONS: usize = 96;
 /// nose's middle.
 const LIDS: [f64; 3] = [5.5, 2.5, 22.0];
 const OFF_NOSE: f64 = 4.0;
-/// The margin below the opening for a lens without a frame, which is lower than most frames: with the other one its edge is taken for a fold
-/// farther down (02); with 9 the lid's own light is.
+/// The margin below the opening for the edge of a lens without a frame, which may lie nearer. With 22 a fold farther down is taken for it (02),
+/// with 9 the light along the lower lid.
 const BELOW_EDGE: f64 = 12.0;
 /// Value of a place where no rim can be.
 const IMPOSSIBLE: f32 = -0.2;
@@ -144,9 +144,7 @@ impl Light {
         let points = (0..DIRECTIONS).map(|direction| centre + lens(direction) * smooth(direction)).collect();
         Way { points, contrast: contrast / DIRECTIONS as f32, counted: sum(&counted) }
     }
-}
 
-impl Light {
     /// How much a place looks like a rim in a direction around the eye. Lenses may have a dark upper frame; below they have a light edge,
     /// and what is dark there are folds.
     fn counts(&self, p: Point, direction: usize, kind: Rim) -> f32 {

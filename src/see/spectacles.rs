@@ -135,7 +135,7 @@ fn frame(light: &Light, ears: [f64; 2], eyes: &[Eye; 2]) -> Option<Spectacles> {
 /// Rims with a dark frame, if both are dark enough.
 fn framed(light: &Light, eyes: &[Eye; 2]) -> Option<([Way; 2], Rim)> {
     let rims = rims(light, eyes, Rim::Dark);
-    (rims.iter().all(|rim| rim.contrast >= RIM_GATE)).then_some((rims, Rim::Dark))
+    rims.iter().all(|rim| rim.contrast >= RIM_GATE).then_some((rims, Rim::Dark))
 }
 
 /// The edges of lenses without a dark frame all around, below a bridge that is dark by itself.
@@ -144,7 +144,7 @@ fn frameless(light: &Light, eyes: &[Eye; 2]) -> Option<([Way; 2], Rim)> {
         return None;
     }
     let rims = rims(light, eyes, Rim::Edge);
-    (rims.iter().all(|rim| rim.contrast >= EDGE_GATE)).then_some((rims, Rim::Edge))
+    rims.iter().all(|rim| rim.contrast >= EDGE_GATE).then_some((rims, Rim::Edge))
 }
 
 /// What the window shows.
@@ -291,13 +291,10 @@ mod tests {
             let is_brow = eyes.iter().any(|eye| (p.x - eye.x).abs() < 28.0 && (p.y - eye.y + 25.0).abs() < 4.0);
             let is_frame = spots.iter().any(|spot| spot.distance(p) < 0.5 * width);
             let skin = 0.65 + 0.1 * ((x as f32) / 320.0);
-            let dark = is_eye || is_brow;
-            if is_frame {
-                light
-            } else if dark {
-                0.3
-            } else {
-                skin
+            match (is_frame, is_eye || is_brow) {
+                (true, _) => light,
+                (false, true) => 0.3,
+                (false, false) => skin,
             }
         });
         let face = seen.map(|_| 1);

@@ -44,7 +44,7 @@ const BLUR: f64 = 0.02;
 /// The ink around a place, from and to which it is less and less blurred: up to the second there are half tones. With 0.3 cheeks still
 /// end in borders (12), with more noses flatten.
 const BLURRED: [f32; 2] = [0.12, 0.4];
-/// The share of it that lightens what is dark beside a light: with all of it the sides of noses, wings and folds are lost (03 04 07 14).
+/// The share of the blur that lightens what is dark beside a light: with all of it the sides of noses, wings and folds are lost (03 04 07 14).
 const LIGHTENED: f32 = 0.4;
 /// Tones so far above paper count, so that the middle of a strong light stays bare.
 const ABOVE_PAPER: f32 = 0.08;
@@ -53,7 +53,7 @@ const FURROW: f64 = 0.015;
 const PORE: f32 = 0.02;
 
 /// Half tones around the lights of the skin: the curve is steep there, and without them lights are white patches with hard edges beside even
-/// dots, which every editor named. Furrows stay as deep as they are. Tuned on eight of sixteen portraits and on a wrinkled face.
+/// dots, which every editor named. Furrows lose little of their depth. Tuned on eight of sixteen portraits and on a wrinkled face.
 pub(super) fn with_half_tones(zones: &Zones, tone: &Raster<f32>, skin: &Raster<f32>) -> Raster<f32> {
     let skin = skin.zip_map(&zones.features, |skin, feature| skin * (1.0 - feature));
     let tone = tone.map(|v| v.min(1.0 + ABOVE_PAPER));
