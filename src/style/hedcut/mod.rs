@@ -1,6 +1,7 @@
 //! The hedcut: dots in rows along the features, sized so that their ink is exactly the tone (Bruehl 2023, after Kim et al.
 //! 2008 and 2010).
 
+mod contest;
 mod cost;
 mod features;
 mod highlights;

@@ -8,6 +8,7 @@
 //! ```
 
 use super::Drawer;
+use super::contest::contest;
 use super::parameters::PartsRule;
 use crate::drawing::{Layer, Mark, Stroke, Width};
 use crate::field::OrientationField;
@@ -25,7 +26,7 @@ pub(super) struct Parts {
     hair: Option<Raster<f32>>,
     /// The hair of heads with a band around it, 0 or 1.
     beside_hair: Option<Raster<f32>>,
-    /// 1 in slivers of skin beside hair and paper, which are wisps.
+    /// 1 in slivers of skin beside hair and paper, which are wisps, and beside cloth, which are seams.
     wisps: Option<Raster<f32>>,
     brows: Option<Brows>,
     /// Clothing and headwear, which often lie far apart.
@@ -49,26 +50,20 @@ impl Drawer<'_> {
             let given = roles.into_iter().filter_map(|role| masks.get(&role).cloned());
             given.reduce(|a, b| a.zip_map(&b, f32::max))
         };
-        let hair = union([MaskRole::Hair, MaskRole::FacialHair]).and_then(|hair| self.part(&hair));
-        let without_hair = |cloth: &Raster<f32>| match &hair {
-            Some(hair) => cloth.zip_map(hair, |cloth, hair| cloth.min(1.0 - hair)),
-            None => cloth.clone(),
-        };
-        let [clothing, headwear] = [MaskRole::Clothing, MaskRole::Headwear].map(|role| masks.get(&role).map(without_hair));
-        let headwear = match (&clothing, headwear) {
-            (Some(clothing), Some(headwear)) => Some(headwear.zip_map(clothing, |hat, cloth| hat.min(1.0 - cloth))),
-            (_, headwear) => headwear,
-        };
-        let cloths: Vec<_> = [clothing, headwear].into_iter().flatten().filter_map(|cloth| self.part(&cloth)).collect();
+        let hair = union([MaskRole::Hair, MaskRole::FacialHair]);
+        let mut claims = [hair, masks.get(&MaskRole::Clothing).cloned(), masks.get(&MaskRole::Headwear).cloned()];
+        contest(&self.portrait.subject, &mut claims);
+        let [hair, clothing, headwear] = claims.map(|part| part.and_then(|part| self.part(&part)));
+        let cloths: Vec<_> = [clothing, headwear].into_iter().flatten().collect();
         let brows = self.brows(hair.as_ref());
         let drawn = masks.get(&MaskRole::Hair).filter(|own| hair.is_some() && self.part(own).is_some());
         let beside_hair = drawn.map(|hair| self.beside(hair));
-        let wisps = hair.as_ref().map(|hair| self.wisps(hair, &cloths));
+        let wisps = self.wisps(hair.as_ref(), &cloths);
         Parts { hair, beside_hair, wisps, brows, cloths }
     }
 
-    /// Where hair is near and little else of the subject is.
-    fn wisps(&self, hair: &Raster<f32>, cloths: &[Raster<f32>]) -> Raster<f32> {
+    /// Where hair is near and little else of the subject is, and seams of skin beside cloth.
+    fn wisps(&self, hair: Option<&Raster<f32>>, cloths: &[Raster<f32>]) -> Option<Raster<f32>> {
         /// The blur, in pitches: slivers are narrower. And the share of skin around a place up to which it is a sliver: at a
         /// straight border it is half.
         const AROUND: f64 = 1.0;
@@ -78,14 +73,24 @@ impl Drawer<'_> {
         const LEAST_HAIR: f32 = 0.06;
         /// The share of the subject around a place from which it is inside.
         const INSIDE: f32 = 0.9;
-        let rest =
-            cloths.iter().fold(self.portrait.subject.zip_map(hair, |subject, hair| (subject - hair).max(0.0)), |rest, cloth| {
-                rest.zip_map(cloth, |rest, cloth| (rest - cloth).max(0.0))
-            });
+        /// The share of cloth around a place from which a sliver is a seam: neck and collar meet in one that is hatched.
+        const LEAST_CLOTH: f32 = 0.25;
+        let parts = || hair.into_iter().chain(cloths);
+        parts().next()?;
+        let without = |rest: Raster<f32>, part: &Raster<f32>| rest.zip_map(part, |rest, part| (rest - part).max(0.0));
+        let rest = parts().fold(self.portrait.subject.clone(), without);
         let around = |raster: &Raster<f32>, pitches: f64| fast_gaussian(raster, (pitches * self.pitch()) as f32);
-        around(&rest, AROUND)
-            .zip_map(&around(hair, HAIR_AROUND), |rest, hair| f32::from(u8::from(rest < SLIVER && hair > LEAST_HAIR)))
-            .zip_map(&around(&self.portrait.subject, AROUND), |wisp, subject| if subject < INSIDE { wisp } else { 0.0 })
+        let subject = around(&self.portrait.subject, AROUND);
+        let edge = |near: Raster<f32>| {
+            near.zip_map(&subject, |hair, subject| f32::from(u8::from(hair > LEAST_HAIR && subject < INSIDE)))
+        };
+        let beside = hair.map(|hair| edge(around(hair, HAIR_AROUND)));
+        let beside = cloths
+            .iter()
+            .map(|cloth| around(cloth, AROUND).map(|cloth| f32::from(u8::from(cloth > LEAST_CLOTH))))
+            .chain(beside)
+            .reduce(|a, b| a.zip_map(&b, f32::max))?;
+        Some(around(&rest, AROUND).zip_map(&beside, |rest, beside| if rest < SLIVER { beside } else { 0.0 }))
     }
 
     /// The hair of a head with a band around it.
