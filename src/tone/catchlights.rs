@@ -92,7 +92,11 @@ fn lit(mut tone: Raster<f32>, iris: Iris, centre: Point) -> Raster<f32> {
 }
 
 /// The pixels whose centres lie within a distance of a place, and how far.
-pub(super) fn pixels_about(raster: &Raster<f32>, centre: Point, reach: f64) -> impl Iterator<Item = (usize, usize, f64)> + use<> {
+pub(super) fn pixels_about<T>(
+    raster: &Raster<T>,
+    centre: Point,
+    reach: f64,
+) -> impl Iterator<Item = (usize, usize, f64)> + use<T> {
     let range = |middle: f64, size: usize| {
         ((middle - reach).max(0.0) as usize).min(size)..((middle + reach).ceil().max(0.0) as usize).min(size)
     };

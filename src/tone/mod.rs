@@ -89,7 +89,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
         return Some(tone);
     }
     let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
-    let tone = with_light_irises(tone, &portrait.lightness, &portrait.faces, strength);
+    let tone = with_light_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);
     Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }
 
