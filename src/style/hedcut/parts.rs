@@ -26,8 +26,8 @@ pub(super) struct Parts {
     hair: Option<Raster<f32>>,
     /// The hair of heads with a band around it, 0 or 1.
     beside_hair: Option<Raster<f32>>,
-    /// 1 in slivers of skin beside hair and paper, which are wisps, and beside cloth, which are seams.
-    wisps: Option<Raster<f32>>,
+    /// 1 in slivers of skin, which get no dots: wisps of hair on paper, and seams beside cloth.
+    slivers: Option<Raster<f32>>,
     brows: Option<Brows>,
     /// Clothing and headwear, which often lie far apart.
     cloths: Vec<Raster<f32>>,
@@ -43,7 +43,7 @@ impl Drawer<'_> {
     /// The parts that are not drawn in dots; none without their masks.
     pub(super) fn parts(&self) -> Parts {
         if self.parameters.parts == PartsRule::Dots {
-            return Parts { hair: None, beside_hair: None, wisps: None, brows: None, cloths: Vec::new() };
+            return Parts { hair: None, beside_hair: None, slivers: None, brows: None, cloths: Vec::new() };
         }
         let masks = &self.portrait.masks;
         let union = |roles: [MaskRole; 2]| {
@@ -58,12 +58,12 @@ impl Drawer<'_> {
         let brows = self.brows(hair.as_ref());
         let drawn = masks.get(&MaskRole::Hair).filter(|own| hair.is_some() && self.part(own).is_some());
         let beside_hair = drawn.map(|hair| self.beside(hair));
-        let wisps = self.wisps(hair.as_ref(), &cloths);
-        Parts { hair, beside_hair, wisps, brows, cloths }
+        let slivers = self.slivers(hair.as_ref(), &cloths);
+        Parts { hair, beside_hair, slivers, brows, cloths }
     }
 
-    /// Where hair is near and little else of the subject is, and seams of skin beside cloth.
-    fn wisps(&self, hair: Option<&Raster<f32>>, cloths: &[Raster<f32>]) -> Option<Raster<f32>> {
+    /// Where little is left of the subject besides hair and cloth: wisps at the silhouette, and seams.
+    fn slivers(&self, hair: Option<&Raster<f32>>, cloths: &[Raster<f32>]) -> Option<Raster<f32>> {
         /// The blur, in pitches: slivers are narrower. And the share of skin around a place up to which it is a sliver: at a
         /// straight border it is half.
         const AROUND: f64 = 1.0;
@@ -236,12 +236,12 @@ impl Parts {
         self.hair.is_none() && self.brows.is_none() && self.cloths.is_empty()
     }
 
-    /// True if a place lies deep in another part, where a large cell at the border may have its dot, or among wisps of hair.
+    /// True if a place lies deep in another part, where a large cell at the border may have its dot, or in a sliver.
     pub(super) fn hold(&self, p: Point) -> bool {
         /// From this value on a place is deep in a part.
         const DEEP: f32 = 0.95;
         self.hair.iter().chain(&self.cloths).any(|part| part.sample(p.x, p.y) > DEEP)
-            || self.wisps.as_ref().is_some_and(|wisps| wisps.sample(p.x, p.y) > 0.5)
+            || self.slivers.as_ref().is_some_and(|slivers| slivers.sample(p.x, p.y) > 0.5)
     }
 
     /// True for a place in the hair of a head or beside it.
