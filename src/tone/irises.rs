@@ -17,9 +17,9 @@ const DARKER: f64 = 0.7;
 const LIGHT: f32 = 0.08;
 const GAIN: f32 = 1.6;
 const MOST: f32 = 0.5;
-/// Blue over red of the irises in linear light, and how many times the skin's that is, from which they are blue or grey. Of some 40 people, 16
-/// of them the portraits, six with such eyes have 0.98 and more, all others at most 0.75; in black and white, and in blue light, skin has as
-/// much.
+/// Blue over red of the irises in linear light, and how many times the skin's that is, from which they are blue or grey. Of some 40 faces,
+/// the 16 portraits' among them, those with such eyes have 0.98 and more, the others at most 0.75; in black and white, and in blue light,
+/// skin has as much.
 const BLUE: f32 = 0.9;
 const BLUER_THAN_SKIN: f32 = 1.7;
 /// Where the skin's colour is taken: the middles of the cheeks, and the radius around them in widths of the face.

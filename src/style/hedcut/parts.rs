@@ -75,21 +75,17 @@ impl Drawer<'_> {
         const INSIDE: f32 = 0.9;
         /// The share of cloth around a place from which a sliver is a seam: neck and collar meet in one that is hatched.
         const LEAST_CLOTH: f32 = 0.25;
-        let parts = || hair.into_iter().chain(cloths);
-        parts().next()?;
-        let without = |rest: Raster<f32>, part: &Raster<f32>| rest.zip_map(part, |rest, part| (rest - part).max(0.0));
-        let rest = parts().fold(self.portrait.subject.clone(), without);
         let around = |raster: &Raster<f32>, pitches: f64| fast_gaussian(raster, (pitches * self.pitch()) as f32);
         let subject = around(&self.portrait.subject, AROUND);
         let edge = |near: Raster<f32>| {
             near.zip_map(&subject, |hair, subject| f32::from(u8::from(hair > LEAST_HAIR && subject < INSIDE)))
         };
-        let beside = hair.map(|hair| edge(around(hair, HAIR_AROUND)));
-        let beside = cloths
-            .iter()
-            .map(|cloth| around(cloth, AROUND).map(|cloth| f32::from(u8::from(cloth > LEAST_CLOTH))))
-            .chain(beside)
-            .reduce(|a, b| a.zip_map(&b, f32::max))?;
+        let beside_hair = hair.map(|hair| edge(around(hair, HAIR_AROUND)));
+        let beside_cloths =
+            cloths.iter().map(|cloth| around(cloth, AROUND).map(|cloth| f32::from(u8::from(cloth > LEAST_CLOTH))));
+        let beside = beside_cloths.chain(beside_hair).reduce(|a, b| a.zip_map(&b, f32::max))?;
+        let without = |rest: Raster<f32>, part: &Raster<f32>| rest.zip_map(part, |rest, part| (rest - part).max(0.0));
+        let rest = hair.into_iter().chain(cloths).fold(self.portrait.subject.clone(), without);
         Some(around(&rest, AROUND).zip_map(&beside, |rest, beside| if rest < SLIVER { beside } else { 0.0 }))
     }
 
