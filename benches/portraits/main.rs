@@ -47,7 +47,7 @@ fn main() {
     let place = tempfile::tempdir().expect("a folder for the drawings");
     let count = |skin: Skin| sitters.iter().filter(|sitter| sitter.skin() == skin).count();
     println!(
-        "{} portraits; skin by its median L*: {} light (60 and more), {} brown, {} dark (below 45)\n",
+        "{} portraits; complexions: {} light, {} brown, {} dark\n",
         sitters.len(),
         count(Skin::Light),
         count(Skin::Brown),

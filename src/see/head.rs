@@ -23,6 +23,7 @@ fn through_corners<const N: usize>(corners: [(f64, f64); N], x: f64) -> f64 {
 }
 
 /// The pose of a head, in pixels of the upright picture.
+#[derive(Clone)]
 pub(super) struct Head {
     oval: Vec<Point>,
     /// The midpoint between the ears.

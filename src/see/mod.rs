@@ -44,6 +44,8 @@ mod regions;
 mod rims;
 mod sight;
 #[cfg(feature = "see")]
+mod small_people;
+#[cfg(feature = "see")]
 mod spectacles;
 #[cfg(feature = "see")]
 mod subject;

@@ -6,6 +6,7 @@ use super::colours::Colours;
 use super::head::Head;
 use super::looks::PersonMaps;
 use super::networks::Network;
+use super::small_people::with_small_people;
 use super::unseen_black::without_unseen_black;
 use super::view::{Outside, View, Window, on_view};
 use crate::elementary::Elementary as _;
@@ -35,17 +36,23 @@ pub(super) fn subject(
     strangers: &[Rect],
 ) -> Result<Raster<u8>, SeeError> {
     let heads: Vec<Head> = faces.iter().map(|points| Head::new(points)).collect();
+    let whole = everybody(network, view, &heads, strangers)?;
+    let fine = with_small_people(whole, view, &heads, |view, heads| everybody(network, view, heads, strangers))?;
+    let person = without_crumbs(&pieces_with_a_face(&fine, view, &heads));
+    Ok(if is_face_alone(&person, view, &heads) { person.map(|_| u8::MAX) } else { person })
+}
+
+/// Share of each pixel of a view that belongs to anybody who looks like these people.
+fn everybody(network: &Network, view: &View, heads: &[Head], strangers: &[Rect]) -> Result<Raster<u8>, SeeError> {
     let longest = view.pixels.width().max(view.pixels.height());
     let share = |length: usize| (length * GRID.min(longest)).div_ceil(longest);
     let size = [share(view.pixels.width()), share(view.pixels.height())];
     let small = view.resampled_to(&Window::stretched(view.part), size, Outside::Repeated);
-    let looks = PersonMaps::new(network, view, &heads, size)?;
-    let decided = Decision::new(view.part, &heads, strangers, &looks).made(&Colours::new(&small));
-    let decided = without_unseen_black(&decided, &small, view.part, &heads);
+    let looks = PersonMaps::new(network, view, heads, size)?;
+    let decided = Decision::new(view.part, heads, strangers, &looks).made(&Colours::new(&small));
+    let decided = without_unseen_black(&decided, &small, view.part, heads);
     let guide = small.map(|colour| colour.map(|v| v / 255.0));
-    let fine = guided_enlargement(&view.pixels, &guide, &decided, REACH, EPS).map(|v| (255.0 * v).round() as u8);
-    let person = without_crumbs(&pieces_with_a_face(&fine, view, &heads));
-    Ok(if is_face_alone(&person, view, &heads) { person.map(|_| u8::MAX) } else { person })
+    Ok(guided_enlargement(&view.pixels, &guide, &decided, REACH, EPS).map(|v| (255.0 * v).round() as u8))
 }
 
 /// True if the network saw nobody around the faces, as in a picture that one face fills: a face that floats on paper is no portrait, and all of the
