@@ -9,7 +9,7 @@
 //!   photograph --1024 px--> detector --box--> mesh, three times --corners of the eyes--> irises --> spectacles
 //!                   \           \               \--oval, width--v
 //!                    \           \--unsure ones: strangers--v
-//!                     \----> person, three looks --> colours of both sides --> guided filter --> what hangs together with a face
+//!                     \----> person, small ones from closer --> colours of both sides --> guided filter --> what hangs together with a face
 //!                                                                                  \--> skin, hair, headwear, clothing by colour --> pearls
 //!                                                                                  \--> depth: the subject bulged, the faces on it
 //! ```

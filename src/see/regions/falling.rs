@@ -70,6 +70,22 @@ pub(super) fn over_face(plate: &Plate, is_hair: &Raster<bool>, sides: [bool; 2])
     })
 }
 
+/// Height of a fringe, in `v`: from above the brows. And where hair is without doubt, from which it hangs.
+const ABOVE_BROWS: f32 = 0.8;
+const CROWN: f32 = 1.05;
+
+/// The pixels of a fringe over the forehead, among those that may be one: in one piece with what may be hair on the crown.
+pub(super) fn fringe(plate: &Plate, may_be: &Raster<bool>) -> Raster<bool> {
+    let low = plate.pixels_where(|[_, v], i| may_be.pixels()[i] && v > ABOVE_BROWS);
+    let low = open(&low.map(u8::from), THIN);
+    let (labels, count) = components(&low);
+    let mut hangs = vec![false; count + 1];
+    for ([_, v], label) in plate.at.pixels().iter().zip(labels.pixels()) {
+        hangs[*label as usize] |= *label != 0 && *v > CROWN;
+    }
+    labels.map(|label| hangs[label as usize])
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::tests::plate;
@@ -107,5 +123,19 @@ mod tests {
         assert!(lowest(&hanging, [true, false]) > SIDEBURNS, "it does not fall on that side: only the temple's");
         let island = plate.pixels_where(|[u, v], _| u > 0.31 && u < 0.4 && (v - 0.5).abs() < 0.1);
         assert_eq!(covered(&island, [false, true]), 0, "it does not reach out of the face");
+    }
+
+    #[test]
+    fn a_fringe_hangs_from_the_crown_and_shade_on_a_forehead_does_not() {
+        let plate = plate(&Raster::filled(200, 200, [120_u8; 3]));
+        let count = |may_be: &Raster<bool>, from: f32, to: f32| {
+            let fringe = fringe(&plate, may_be);
+            plate.at.pixels().iter().zip(fringe.pixels()).filter(|([_, v], is)| **is && (from..to).contains(v)).count()
+        };
+        let fringe = plate.pixels_where(|[u, v], _| u.abs() < 0.3 && v > 0.6 && v < 1.2);
+        assert!(count(&fringe, 0.85, 1.0) > 100);
+        assert_eq!(count(&fringe, 0.0, ABOVE_BROWS), 0, "brows");
+        let shade = plate.pixels_where(|[u, v], _| u.abs() < 0.3 && v > 0.85 && v < 1.0);
+        assert_eq!(count(&shade, 0.0, 2.0), 0, "it has skin above it");
     }
 }

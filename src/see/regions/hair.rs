@@ -21,6 +21,8 @@ pub(super) struct Hair {
     pub stands_out: [bool; 2],
     /// The pixels of the face that it covers.
     pub over_face: Raster<bool>,
+    /// The pixels of a fringe in a colour like skin's.
+    pub fringe: Raster<bool>,
 }
 
 impl Hair {
@@ -35,6 +37,7 @@ impl Hair {
             falls: [false; 2],
             stands_out: [false; 2],
             over_face: Raster::filled(width, height, false),
+            fringe: Raster::filled(width, height, false),
         }
     }
 

@@ -8,6 +8,9 @@ use super::segmentation::Segmentation;
 use super::skin_model::{NO_SKIN, shadeless};
 use crate::elementary::Elementary as _;
 
+/// What speaks against skin in a fringe, whose colour says nothing.
+const FRINGE: f32 = 6.0;
+
 impl Segmentation<'_> {
     /// Log score of each class at a pixel.
     pub(super) fn class_scores(&self, i: usize) -> [f32; 4] {
@@ -15,7 +18,7 @@ impl Segmentation<'_> {
         if !plate.inside.pixels()[i] {
             return [30.0, -60.0, -60.0, -60.0];
         }
-        let is_face = plate.oval.pixels()[i] && !self.is_covered(i);
+        let is_face = plate.oval.pixels()[i] && !self.is_covered(i) && !self.is_fringe(i);
         let ([u, v], f) = (plate.at.pixels()[i], plate.features.pixels()[i]);
         [-60.0, self.skin_suits(i, u, v, f, is_face), self.hair_suits(i, u, v, f, is_face), self.clothing_suits(u, v, f)]
     }
@@ -31,13 +34,8 @@ impl Segmentation<'_> {
             (false, false) => (40.0, 0.0),
         };
         let mut e = -0.5 * far.min(most) - self.skin.level() + shade;
-        if is_core {
-            e += 14.0;
-        } else if is_face {
-            // A fringe may cover the forehead.
-            e += 9.0 - 7.0 * ((v - 0.68) / 0.17).clamp(0.0, 1.0);
-        }
-        let is_near = path < 2.0 && far < 5.0;
+        e += self.face_suits(i, v, is_face, is_core);
+        let is_near = path < 2.0 && far < 5.0 && !self.is_fringe(i);
         if is_near && v > 0.7 && v < 1.3 {
             e += 4.0;
         }
@@ -69,6 +67,17 @@ impl Segmentation<'_> {
             e += 6.0;
         }
         e
+    }
+
+    /// What speaks for skin in a face, the more the surer its place, and against it in a fringe.
+    fn face_suits(&self, i: usize, v: f32, is_face: bool, is_core: bool) -> f32 {
+        match (is_core, is_face) {
+            _ if self.is_fringe(i) => -FRINGE,
+            (true, _) => 14.0,
+            // A fringe may cover the forehead.
+            (false, true) => 9.0 - 7.0 * ((v - 0.68) / 0.17).clamp(0.0, 1.0),
+            (false, false) => 0.0,
+        }
     }
 
     /// What speaks for skin at an ear in shade, whose colour is that of hair, and against it where hair falls beside the chin.
@@ -252,6 +261,11 @@ impl Segmentation<'_> {
     /// The distance across from the chin, which a turned head carries to one side.
     fn aside_of_chin(&self, u: f32) -> f32 {
         (u - self.plate.chin()).abs()
+    }
+
+    /// True in a fringe that has skin's colour.
+    fn is_fringe(&self, i: usize) -> bool {
+        self.hair.as_ref().is_some_and(|hair| hair.fringe.pixels()[i])
     }
 
     /// True where hair covers the face.

@@ -4,14 +4,14 @@
 use super::baldness::is_bald;
 use super::ears::ears_in_shade;
 use super::facial_hair::Beard;
-use super::falling::{falls_past_jaw, over_face};
+use super::falling::{falls_past_jaw, fringe, over_face};
 use super::hair::Hair;
 use super::lighting::Lighting;
 use super::mane::manes;
 use super::mixture::Mixture;
 use super::path::path_from;
 use super::plate::{LIGHTNESS_WEIGHT, Plate};
-use super::skin_model::{BARE, BARE_REACH, LEAST_SEEDS, NO_SKIN, Place, Skin, apart, median, shadeless};
+use super::skin_model::{BARE, BARE_REACH, FOREHEAD, LEAST_SEEDS, NO_SKIN, Place, Skin, apart, median, shadeless};
 use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
 use crate::raster::{Raster, dilate, gaussian_blur};
@@ -59,6 +59,10 @@ fn has_another_crown(plate: &Plate, skin: &Skin) -> bool {
     crown.len() > LEAST_SEEDS && other as f32 > OTHER_CROWN * crown.len() as f32
 }
 
+/// How much darker than the skin, in L*, a place on the forehead may be a fringe of its colour: nothing is known to be bare there. Fringes of
+/// two heads are 20 to 37 darker; of sixteen portraits at most 0.15 % of the picture changes.
+const FRINGE: f32 = 20.0;
+
 /// The squared deviation of each pixel from skin, and the cost of its colour path from the bare skin of the face.
 fn away_from_skin(plate: &Plate, skin: &Skin) -> (Raster<f32>, Raster<f32>) {
     /// Squared deviation of pixels outside the person.
@@ -82,7 +86,13 @@ fn away_from_skin(plate: &Plate, skin: &Skin) -> (Raster<f32>, Raster<f32>) {
         let at = |k: usize| smooth[k].get(x, y);
         [0.6 * at(0), at(1), at(2)]
     });
-    let bare = plate.round(&BARE, BARE_REACH).zip_map(&from_skin, |is, d| is && d < NO_SKIN);
+    let forehead = plate.round(&FOREHEAD, BARE_REACH);
+    let darkest = skin.middle[0] - FRINGE * LIGHTNESS_WEIGHT;
+    let bare = plate.round(&BARE, BARE_REACH);
+    let bare = plate.pixels_where(|_, i| {
+        let may_be_fringe = forehead.pixels()[i] && plate.features.pixels()[i][0] < darkest;
+        bare.pixels()[i] && from_skin.pixels()[i] < NO_SKIN && !may_be_fringe
+    });
     let path = path_from(&smooth, &plate.inside, &bare);
     let from_skin = Raster::from_fn(plate.width(), plate.height(), |x, y| {
         let (d, [u, v]) = (from_skin.get(x, y), plate.at.get(x, y));
@@ -117,6 +127,7 @@ impl<'a> Segmentation<'a> {
             hair.is_unlike_clothing = hair.distance(worn, 0.35, 0.6) > UNLIKE;
         }
         parting.let_hair_fall(beard);
+        parting.let_fringe_hang();
         if let Some(hair) = &parting.hair {
             parting.ears = ears_in_shade(plate, hair);
         }
@@ -210,6 +221,34 @@ impl<'a> Segmentation<'a> {
         let is_like_shoulders = falls != [false; 2] && [-1.0, 1.0].iter().all(|side| self.is_like_shoulder(hair, *side));
         if let Some(hair) = &mut self.hair {
             (hair.falls, hair.over_face, hair.is_like_shoulders) = (falls, over_face, is_like_shoulders);
+        }
+    }
+
+    /// Finds a fringe that only its darkness tells from the forehead. Black hair has a colour of its own.
+    fn let_fringe_hang(&mut self) {
+        /// L* of the darkest hair that may have the colour of skin.
+        const LIGHT: f32 = 22.0;
+        /// Distance from hair's median below which a pixel may be hair, and its least path from bare skin: it begins at an edge. Fringes of two
+        /// heads have 9 to 26, and 0.6 to 5.
+        const LIKE: f32 = 26.0;
+        const EDGE: f32 = 0.6;
+        let plate = self.plate;
+        let Some(hair) = &self.hair else { return };
+        if self.is_bald || plate.is_grey || hair.middle[0] < LIGHT * LIGHTNESS_WEIGHT {
+            return;
+        }
+        let darkest = self.skin.middle[0] - FRINGE * LIGHTNESS_WEIGHT;
+        let may_be = plate.pixels_where(|_, i| {
+            let f = plate.features.pixels()[i];
+            plate.inside.pixels()[i]
+                && f[0] < darkest
+                && self.path.pixels()[i] > EDGE
+                && hair.distance(f, 0.35, 0.6) < LIKE
+                && !self.lighting.is_shadow(plate, i)
+        });
+        let fringe = fringe(plate, &may_be);
+        if let Some(hair) = &mut self.hair {
+            hair.fringe = fringe;
         }
     }
 

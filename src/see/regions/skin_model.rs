@@ -15,7 +15,7 @@ pub(super) const BARE: [usize; 20] = [50, 101, 205, 123, 36, 280, 330, 425, 352,
 pub(super) const BARE_REACH: f32 = 0.045;
 /// Landmarks below the eyes, in light or shade, and those of the forehead, where a fringe may hang.
 const CHEEKS_AND_NOSE: [usize; 13] = [50, 101, 205, 123, 36, 280, 330, 425, 352, 266, 6, 197, 195];
-const FOREHEAD: [usize; 7] = [9, 8, 151, 108, 337, 69, 299];
+pub(super) const FOREHEAD: [usize; 7] = [9, 8, 151, 108, 337, 69, 299];
 /// Greatest difference of a disc's shade-free colour from the median disc's; and of its hue, in radians, if its colour is deeper.
 const SAME_COLOUR: f32 = 0.1;
 const SAME_HUE: f32 = 0.2;
