@@ -3,7 +3,7 @@
 
 use super::SeeError;
 use super::head::Head;
-use super::view::View;
+use super::view::{View, on_view};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::Raster;
 
@@ -68,9 +68,9 @@ fn closer<'a>(
 /// The people of the whole, and those of each closer look near its head. What one of them sees is a person: a closer look does not know a
 /// neighbour's body from the ground.
 fn joined(whole: &Raster<u8>, view: &View, closer: &[Closer<'_>]) -> Raster<u8> {
-    let step = view.step();
-    Raster::from_fn(whole.width(), whole.height(), |x, y| {
-        let place = view.part.origin() + Vec2::new((x as f64 + 0.5) * step.x, (y as f64 + 0.5) * step.y);
+    let (columns, rows) = (whole.width(), whole.height());
+    Raster::from_fn(columns, rows, |x, y| {
+        let place = on_view(view.part, (columns, rows), (x, y));
         let near = closer.iter().filter_map(|look| {
             let [column, row] = [x.checked_sub(look.first[0])?, y.checked_sub(look.first[1])?];
             let is_inside = column < look.people.width() && row < look.people.height();
