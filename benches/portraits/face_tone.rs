@@ -14,6 +14,8 @@ const BLACK: f32 = 0.85;
 /// Standard deviation of the blur for measuring ink, and width of the halo, in pitches.
 const BLUR: f64 = 2.0;
 const HALO: f64 = 2.0;
+/// Radius, in pitches, up to which a gap in the soft edge of hair is not outside: single pixels between two hairs are no halo.
+const GAP: f64 = 0.25;
 /// Width of the skin around a feature that it is compared with, in widths of the face.
 const ROUND: f64 = 0.08;
 /// Contrast of the photograph, in L*/100, below which its sign is unreliable.
@@ -132,7 +134,10 @@ impl<'a> Weighed<'a> {
     fn halo(&self) -> f64 {
         let person = self.portrait.subject.map(|v| u8::from(v >= 0.5));
         let near = dilate(&person, (HALO * self.pitch()).round() as usize);
-        let ring = near.zip_map(&self.portrait.subject, |near, subject| near * u8::from(subject < 0.01));
+        let gap = (GAP * self.pitch()).round() as usize;
+        let person = dilate(&self.portrait.subject.map(|v| u8::from(v >= 0.01)), gap);
+        let outside = dilate(&person.map(|v| 1 - v), gap);
+        let ring = near.zip_map(&outside, |near, outside| near * outside);
         mean_in(&self.ink, &ring)
     }
 }
