@@ -16,6 +16,15 @@ const DARKER: f32 = 15.0;
 const PALER: f32 = 0.25;
 const LESS_RED: f32 = 0.2;
 
+/// What is on a crown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Crown {
+    Hair,
+    /// Hair of a few millimetres: skin by all signs but its border.
+    Cropped,
+    Bare,
+}
+
 /// One sample of a profile.
 #[derive(Clone, Copy)]
 struct Spot {
@@ -32,10 +41,10 @@ const ASIDE: f64 = 0.3;
 /// Blur in working pixels, to suppress single hairs and grain.
 const BLUR: f32 = 1.2;
 
-/// True if most profiles show bare skin on the crown; false if too little of the crown is in the picture.
-pub(super) fn is_bald(plate: &Plate) -> bool {
+/// What most profiles show on the crown; hair if too little of it is in the picture.
+pub(super) fn crown(plate: &Plate) -> Crown {
     if (plate.is_grey && is_wide(plate)) || is_curtained(plate) {
-        return false;
+        return Crown::Hair;
     }
     let tells = if plate.is_grey { Tells::Texture } else { Tells::Colour };
     let planes = |of: &(dyn Fn([f32; 3]) -> [f32; 3] + Sync), from: &Raster<[f32; 3]>| {
@@ -45,14 +54,18 @@ pub(super) fn is_bald(plate: &Plate) -> bool {
     let lab = planes(&|c| c, &plate.lab);
     let light = planes(&|c| c.map(srgb_to_linear), &plate.colours);
     let middle = f64::from(plate.coordinates(plate.point(TOP))[0]);
-    let mut evidence: Vec<f32> = (0..PROFILES)
-        .filter_map(|i| {
-            let u = middle + ASIDE * (2.0 * i as f64 / (PROFILES - 1) as f64 - 1.0);
-            profile(plate, u, &lab, &light).map(|spots| hairiness(&spots, tells))
-        })
+    let profiles: Vec<Vec<Spot>> = (0..PROFILES)
+        .filter_map(|i| profile(plate, middle + ASIDE * (2.0 * i as f64 / (PROFILES - 1) as f64 - 1.0), &lab, &light))
         .collect();
-    evidence.sort_unstable_by(f32::total_cmp);
-    evidence.get(evidence.len() / 2).is_some_and(|middle| *middle < 1.0)
+    let most = |sign: &dyn Fn(&[Spot]) -> f32| median(profiles.iter().map(|spots| sign(spots)).collect());
+    let is = |sign: &dyn Fn(&[Spot]) -> f32| most(sign).is_none_or(|sign| sign >= 1.0);
+    if is(&|spots| hairiness(spots, tells)) {
+        Crown::Hair
+    } else if is(&|spots| hairline(spots) / HAIRLINE) {
+        Crown::Cropped
+    } else {
+        Crown::Bare
+    }
 }
 
 /// True if something light goes on beside the face from the temple to below the mouth, where only long hair hangs: fair hair in much light
@@ -129,6 +142,10 @@ fn profile(plate: &Plate, u: f64, lab: &[Raster<f32>; 3], light: &[Raster<f32>; 
 
 /// Samples on either side of a step, whose means are compared: a tenth of the face's height.
 const HALF: usize = 5;
+/// Samples on either side of the border of cropped hair, and the least fall of L* there: one cropped head has 5 to 8, on three that are bare
+/// (one by a lamp, one in shade) nothing falls.
+const SHARP: usize = 2;
+const HAIRLINE: f32 = 4.5;
 /// Samples at either end, whose hues are compared.
 const END: usize = 8;
 /// Below this chroma hue is unreliable.
@@ -156,6 +173,17 @@ const ROUGHER: f32 = 6.0;
 enum Tells {
     Colour,
     Texture,
+}
+
+/// The fall of L* at the sharpest border into the dark, which stays dark beyond it: a furrow of the forehead does not, and shade falls slowly.
+fn hairline(spots: &[Spot]) -> f32 {
+    let usual = mean(&spots[..LEAST]).lab[0];
+    let fall = |i: usize| {
+        let below = mean(&spots[i - SHARP..i]).lab[0].min(usual);
+        let [above, beyond] = [0, HALF - SHARP].map(|from| mean(&spots[i + from..i + from + SHARP]).lab[0]);
+        below - above.max(beyond)
+    };
+    (HALF..=spots.len() - HALF).map(fall).fold(0.0, f32::max)
 }
 
 /// How much the change from one stretch to the next resembles a hairline. `usual` is the forehead's L*: the fall from a
@@ -208,6 +236,16 @@ mod tests {
             Spot { lab: [l, 15.0, 15.0], light, texture: 0.0 }
         };
         (0..30).map(spot).collect()
+    }
+
+    #[test]
+    fn cropped_hair_has_a_border_that_shade_and_furrows_have_not() {
+        let skin = [0.3, 0.18, 0.12];
+        let dark = |share: f32| skin.map(|v| v * share);
+        assert!(hairline(&spots(|t| dark(1.0 - 0.6 * t))) < 0.8 * HAIRLINE, "shade");
+        assert!(hairline(&spots(|t| dark(if (0.4..0.47).contains(&t) { 0.7 } else { 1.0 }))) < HAIRLINE, "a furrow");
+        let cropped = spots(|t| dark(if t < 0.5 { 1.0 } else { 0.75 }));
+        assert!(hairline(&cropped) > HAIRLINE && hairiness(&cropped, Tells::Colour) < 1.0);
     }
 
     #[test]

@@ -11,6 +11,11 @@ use crate::elementary::Elementary as _;
 /// What speaks against skin in a fringe, whose colour says nothing.
 const FRINGE: f32 = 6.0;
 
+/// The distance from hair's median from which a pixel is no cropped hair, and what speaks against it from there on: hair of one head has up to 12,
+/// its forehead in shade 15 to 30.
+const CROPPED: f32 = 12.0;
+const CROPPED_SLOPE: f32 = 1.5;
+
 impl Segmentation<'_> {
     /// Log score of each class at a pixel.
     pub(super) fn class_scores(&self, i: usize) -> [f32; 4] {
@@ -165,6 +170,9 @@ impl Segmentation<'_> {
             || is_reflection(v, f, self.path.pixels()[i], [self.skin.middle, hair.middle]);
         if is_lit {
             e -= 12.0;
+        }
+        if self.is_cropped {
+            e -= CROPPED_SLOPE * (hair.distance(f, 0.35, 0.6) - CROPPED).clamp(0.0, CROPPED);
         }
         if v > 1.12 && !self.is_bald && self.path.pixels()[i] > 2.0 {
             e += 3.0;

@@ -1,7 +1,7 @@
 //! Segmentation into skin, hair and clothing: the appearance of each is learned where it certainly is, and its likely places are
 //! known from the shape of heads.
 
-use super::baldness::is_bald;
+use super::baldness::{Crown, crown};
 use super::ears::ears_in_shade;
 use super::facial_hair::Beard;
 use super::falling::{falls_past_jaw, fringe, over_face};
@@ -27,6 +27,8 @@ pub(super) struct Segmentation<'a> {
     pub(super) plate: &'a Plate,
     pub(super) skin: Skin,
     pub is_bald: bool,
+    /// Whether hair is cropped so short that skin in shade is nearly its colour.
+    pub is_cropped: bool,
     /// Squared deviation of each pixel from skin.
     pub(super) from_skin: Raster<f32>,
     /// Cost of the colour path from the bare skin of the face.
@@ -109,11 +111,15 @@ impl<'a> Segmentation<'a> {
         const UNLIKE: f32 = 15.0;
         let skin = Skin::learned(plate);
         let (from_skin, path) = away_from_skin(plate, &skin);
-        let is_bald = is_bald(plate) && !has_another_crown(plate, &skin);
+        let crown = match crown(plate) {
+            Crown::Cropped | Crown::Bare if has_another_crown(plate, &skin) => Crown::Hair,
+            crown => crown,
+        };
         let mut parting = Self {
             plate,
             skin,
-            is_bald,
+            is_bald: crown == Crown::Bare,
+            is_cropped: crown == Crown::Cropped,
             from_skin,
             path,
             lighting: Lighting::of(plate),
