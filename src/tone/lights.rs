@@ -117,6 +117,7 @@ pub(super) fn least(is_enough: impl Fn(f32) -> bool) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::Elementary as _;
 
     #[test]
     fn a_face_with_next_to_no_paper_is_opened_where_it_is_lightest_but_for_its_furrows() {
@@ -125,7 +126,7 @@ mod tests {
         let features = Raster::from_fn(SIDE, SIDE, |_, y| if y < 20 { 1.0 } else { 0.0 });
         let zones = Zones { counted: oval.clone(), oval, skin: skin.clone(), features, median: 0.5, width: 200.0 };
         // A light like a hill, with a furrow across.
-        let hill = |x: usize| 0.5 + 0.4 * (-((x as f32 - 100.0) / 30.0).powi(2)).exp();
+        let hill = |x: usize| 0.5 + 0.4 * (-((x as f32 - 100.0) / 30.0).powi(2)).exponential();
         let face = |most: f32| Raster::from_fn(SIDE, SIDE, |x, y| if y == 100 { 0.6 } else { hill(x) * most / 0.9 });
         let seen = |tone: &Raster<f32>| fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), 6.0);
         let opened = opened_lights(&zones, &face(0.9), &skin, seen);
