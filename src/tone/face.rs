@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::ears::with_ears;
 use super::lenses::with_clear_lenses;
-use super::lights::{least, opened_lights, rubbed, with_half_tones};
+use super::lights::{rubbed, with_half_tones};
 use super::mixing::mixed;
 use super::openings::{dark_of_mouth, eyes_at_least, firm_eyes, opened};
 use super::zones::Zones;
@@ -79,6 +79,7 @@ const MOST_SPREAD: f64 = 80.0;
 const WIDE: f32 = 0.8;
 /// What is darker than the light around it by more than this is a furrow.
 const PORES: f32 = 0.04;
+const HALVINGS: usize = 5;
 /// Width of the transition, in widths of the face, from raised lights inside the face to the unchanged tone outside.
 const FACE_EDGE: f64 = 0.05;
 
@@ -119,7 +120,6 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
     let tone = with_half_tones(&zones, &tone, &skin);
-    let tone = opened_lights(&zones, &tone, &skin, |tone| seen(&zones, tone));
     let tone = with_clear_lenses(&zones, face, tone);
     let tone = eyes_at_least(&zones, face, &tone, setting.lightness);
     Some(mixed(setting.lightness, &tone, &setting.subject))
@@ -267,6 +267,16 @@ fn lights_to_paper(zones: &Zones, tone: &Raster<f32>, hair: Option<&Raster<f32>>
         let is_spread = |tone: &Raster<f32>| zones.percentile(tone, MOST_SPREAD) >= NEARLY_PAPER;
         lower(least(|share| is_spread(&lower(share)) || reaches(lower(share), LEAST_BARE, NEARLY_PAPER)))
     }
+}
+
+/// The least share that is enough, or 1.
+fn least(is_enough: impl Fn(f32) -> bool) -> f32 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_enough(middle) { high = middle } else { low = middle }
+    }
+    high
 }
 
 /// A tone as it is seen at the viewing distance of a print.

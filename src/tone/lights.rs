@@ -1,5 +1,5 @@
 //! Step 10: a face whose lights are large keeps only their middles as paper; its half tones run into the rest. Step 11: lights end in half
-//! tones, not in borders. Step 12: a face that would still show next to no paper is opened where it is lightest.
+//! tones, not in borders.
 
 use super::zones::Zones;
 use crate::raster::{Raster, fast_gaussian, opening, soft_rise};
@@ -30,7 +30,12 @@ pub(super) fn rubbed(zones: &Zones, tone: &Raster<f32>, seen: impl Fn(&Raster<f3
         let rub = mean.zip_map(&soft, |mean, skin| share * mean * skin);
         tone.zip_map(&rub, |tone, rub| tone.min(1.0) - soft_rise(rub - (1.0 - tone).max(0.0), SOFT))
     };
-    with(MOST * least(|share| !is_bare(&with(MOST * share))))
+    let (mut low, mut high) = (0.0, MOST);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_bare(&with(middle)) { low = middle } else { high = middle }
+    }
+    with(high)
 }
 
 /// Blur of the half tones around a light, in widths of the face: about a pitch and a half at 90 mm. At 0.03 and more the light on a nose's
@@ -66,76 +71,9 @@ pub(super) fn with_half_tones(zones: &Zones, tone: &Raster<f32>, skin: &Raster<f
     tone.zip_map(&more, |tone, more| tone - more)
 }
 
-/// The percentile of the counted skin that tells how much of a face is paper, the tone as seen in print below which that is too little, and the
-/// tone that it gets: of sixteen portraits one is below (0.91; it printed with 0.6 % of bare paper), all others are at 0.957 and more (2.8 %).
-const PAPER_AT: f64 = 94.2;
-const TOO_LITTLE: f32 = 0.945;
-const ENOUGH: f32 = 0.97;
-/// The lowest percentile from which lights are opened, the tone that they are opened to, and the difference over which this begins: with a
-/// third of it the white has a border.
-const OPENED_FROM: f64 = 60.0;
-const OPEN: f32 = 1.03;
-const OPENING: f32 = 0.12;
-/// What is darker than the light around it by this much begins to be a furrow, by twice as much it stays.
-const FURROWED: f32 = 0.08;
-
-/// Opens the lightest places of a face, as seen in print, until enough of it is paper; furrows and features stay.
-pub(super) fn opened_lights(
-    zones: &Zones,
-    tone: &Raster<f32>,
-    skin: &Raster<f32>,
-    seen: impl Fn(&Raster<f32>) -> Raster<f32>,
-) -> Raster<f32> {
-    let light = seen(tone);
-    if zones.percentile(&light, PAPER_AT) >= TOO_LITTLE {
-        return tone.clone();
-    }
-    let skin = skin.zip_map(&zones.features, |skin, feature| skin * (1.0 - feature));
-    let open = Raster::from_fn(tone.width(), tone.height(), |x, y| {
-        let (tone, light) = (tone.get(x, y), light.get(x, y));
-        let furrow = ((light - tone - FURROWED) / FURROWED).clamp(0.0, 1.0);
-        skin.get(x, y) * (1.0 - furrow) * (OPEN - tone).max(0.0)
-    });
-    let with = |share: f32| {
-        let from = zones.percentile(&light, PAPER_AT + f64::from(share) * (OPENED_FROM - PAPER_AT));
-        let opened = light.zip_map(&open, |light, open| open * ((light - from) / OPENING + 0.5).clamp(0.0, 1.0));
-        tone.zip_map(&opened, |tone, opened| tone + opened)
-    };
-    with(least(|share| zones.percentile(&seen(&with(share)), PAPER_AT) >= ENOUGH))
-}
-
-/// The least share that is enough, or 1.
-pub(super) fn least(is_enough: impl Fn(f32) -> bool) -> f32 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if is_enough(middle) { high = middle } else { low = middle }
-    }
-    high
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elementary::Elementary as _;
-
-    #[test]
-    fn a_face_with_next_to_no_paper_is_opened_where_it_is_lightest_but_for_its_furrows() {
-        const SIDE: usize = 200;
-        let (oval, skin) = (Raster::filled(SIDE, SIDE, 1_u8), Raster::filled(SIDE, SIDE, 1.0_f32));
-        let features = Raster::from_fn(SIDE, SIDE, |_, y| if y < 20 { 1.0 } else { 0.0 });
-        let zones = Zones { counted: oval.clone(), oval, skin: skin.clone(), features, median: 0.5, width: 200.0 };
-        // A light like a hill, with a furrow across.
-        let hill = |x: usize| 0.5 + 0.4 * (-((x as f32 - 100.0) / 30.0).powi(2)).exponential();
-        let face = |most: f32| Raster::from_fn(SIDE, SIDE, |x, y| if y == 100 { 0.6 } else { hill(x) * most / 0.9 });
-        let seen = |tone: &Raster<f32>| fast_gaussian(&tone.map(|v| v.clamp(0.0, 1.0)), 6.0);
-        let opened = opened_lights(&zones, &face(0.9), &skin, seen);
-        let white = opened.pixels().iter().filter(|v| **v >= 0.97).count() as f64 / (SIDE * SIDE) as f64;
-        assert!((0.05..0.25).contains(&white), "share of paper: {white}");
-        assert!(opened.get(100, 100) < 0.65, "the furrow: {}", opened.get(100, 100));
-        assert_eq!((opened.get(100, 5), opened.get(20, 150)), (hill(100), hill(20)), "a feature, and shade");
-        assert_eq!(opened_lights(&zones, &face(1.1), &skin, seen), face(1.1), "a face with paper enough");
-    }
 
     #[test]
     fn a_light_ends_in_half_tones_and_furrows_and_features_stay() {

@@ -9,8 +9,7 @@
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
-//!   -> half tones around lights -> lights opened where next to nothing is paper -> lenses cleared -> eyes at least as dark as
-//!      in the photograph -> gums -> light irises -> catchlights
+//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> light irises -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
