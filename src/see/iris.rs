@@ -179,6 +179,21 @@ mod tests {
     }
 
     #[test]
+    fn a_squeezed_eye_is_looked_for_outwards_until_its_iris_is_large_enough() {
+        let corners = [Point::new(100.0, 50.0), Point::new(110.0, 50.0)];
+        let other = [Point::new(150.0, 50.0), Point::new(190.0, 50.0)];
+        // Irises are seen from 99 to the left alone.
+        let look = |[a, b]: [Point; 2]| {
+            let centre = a.midpoint(b);
+            let radius = if centre.x < 99.0 { 8.0 } else { 2.0 };
+            Ok(Eye { iris: Iris { centre, radius }, around: Vec::new() })
+        };
+        let found = seen_again(look, corners, other, 0, 6.0).expect("no network fails").expect("an eye");
+        assert!((found.iris.centre.x - 97.0).abs() < 1e-9, "{:?}", found.iris);
+        assert!(seen_again(look, corners, other, 1, 6.0).expect("no network fails").is_none(), "the left eye lies to the right");
+    }
+
+    #[test]
     fn each_landmark_around_an_eye_is_moved_once() {
         let all: std::collections::BTreeSet<usize> = LANDMARKS.concat().into_iter().collect();
         assert!(all.len() == 2 * MOVED && all.iter().all(|i| *i < POINTS));
