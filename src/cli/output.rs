@@ -7,6 +7,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::fs;
 use std::io::{self, Read, Write};
+use std::num::NonZeroU64;
 use std::path::Path;
 
 /// Maximum size of a TOML file in bytes: about 2000 keys; a machine's profile has 50. Limited because the search for each key's line
@@ -61,10 +62,22 @@ pub(super) fn write(name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     if is_compressed { write_compressed(name, &mut fill) } else { write_plain(name, &mut fill) }
 }
 
+/// Longest text in bytes that is compressed as well as gzip's format allows, in about a second: what stands in a page of the web is
+/// shorter. Longer sheets are compressed fast, a fifteenth larger.
+const MOST_PACKED: usize = 1 << 20;
+/// Rounds of it: with 5 embedded portraits are up to 0.1 % larger, with 15 no smaller.
+const PACKING_ROUNDS: NonZeroU64 = NonZeroU64::MIN.saturating_add(7);
+
 fn write_compressed(name: &str, fill: Filling<'_>) -> Result<(), Failure> {
     write_plain(name, &mut |out| {
+        let mut text = Vec::new();
+        fill(&mut text)?;
+        if text.len() <= MOST_PACKED {
+            let options = zopfli::Options { iteration_count: PACKING_ROUNDS, ..zopfli::Options::default() };
+            return zopfli::compress(options, zopfli::Format::Gzip, text.as_slice(), out);
+        }
         let mut compressed = GzEncoder::new(out, Compression::best());
-        fill(&mut compressed)?;
+        compressed.write_all(&text)?;
         compressed.finish().map(drop)
     })
 }

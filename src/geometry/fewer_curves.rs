@@ -3,7 +3,7 @@
 use super::cubic_fit::{Passed, Place, arc, least_squares, move_to_nearest};
 use super::polyline::lengths_along;
 use super::swell::{curve_length, is_long, segment_length, tangent};
-use kurbo::{BezPath, CubicBez, Line, ParamCurve, ParamCurveArea, PathEl, PathSeg, Point, Shape, Vec2};
+use kurbo::{BezPath, CubicBez, Line, ParamCurve, ParamCurveArea, PathEl, PathSeg, Point, QuadBez, Shape, Vec2};
 
 /// Cosine of the least turn of an outline that is a corner, 26 degrees. At a smaller angle the short chords of a traced disc
 /// would be corners; at a larger one the tips of spindles would be rounded.
@@ -30,14 +30,16 @@ const ALIGNED: f64 = 0.9998;
 /// A curve whose handles lie within this share of the tolerance of its chord is written as a straight line: it passes the outline
 /// nearly as well, in a third of the text.
 const FLAT: f64 = 0.75;
+/// A cubic that lies within this share of the tolerance of a quadratic is written as one: four numbers in place of six.
+const QUADRATIC: f64 = 0.75;
 /// Parts shorter than this many tolerances may lie to one side: they are the tips of hairs, which hold next to no ink.
 const SMALL: f64 = 4.0;
 /// Steps of an outline that are shorter than this share of the tolerance are none: they are what is left where clipping and
 /// offsetting meet, and their directions would be corners.
 const SHORT: f64 = 0.3;
 
-/// Outlines and lines with as few cubics and straight lines as pass near places on them, 12 tolerances apart at most: curves within
-/// `tolerance`, straight lines within twice that. Corners stay; where the outline is smooth its curves are smooth, with its own tangents,
+/// Outlines and lines with as few cubics, quadratics and straight lines as pass near places on them, 12 tolerances apart at most: cubics
+/// within `tolerance`, the others within twice that. Corners stay; where the outline is smooth its curves are smooth, with its own tangents,
 /// but parts that hardly bend or are shorter than 4 tolerances may be straight. Its area hardly changes.
 pub fn with_fewer_curves(path: &BezPath, tolerance: f64) -> BezPath {
     if !path.is_finite() || tolerance.is_nan() || tolerance <= 0.0 {
@@ -112,7 +114,7 @@ impl Course {
                 corner = (from + 1..last).find(|i| self.places[*i].is_corner()).unwrap_or(last);
             }
             let (to, part) = self.longest(from, corner);
-            match self.flattened(part, &self.places[from..=to]) {
+            match self.simpler(part, &self.places[from..=to]) {
                 PathSeg::Line(line) => fewer.line_to(line.p1),
                 PathSeg::Quad(quad) => fewer.quad_to(quad.p1, quad.p2),
                 PathSeg::Cubic(cubic) => fewer.curve_to(cubic.p1, cubic.p2, cubic.p3),
@@ -167,19 +169,17 @@ impl Course {
         None
     }
 
-    /// A straight line in place of a curve that hardly bends.
-    fn flattened(&self, part: PathSeg, places: &[Place]) -> PathSeg {
+    /// A straight line in place of a curve that hardly bends, or a quadratic in place of one that bends evenly.
+    fn simpler(&self, part: PathSeg, places: &[Place]) -> PathSeg {
         let PathSeg::Cubic(cubic) = part else { return part };
         let chord = Line::new(cubic.p0, cubic.p3);
-        let along = cubic.p3 - cubic.p0;
-        let length = along.hypot();
-        let is_flat = |handle: Point| {
-            let off = handle - cubic.p0;
-            (0.0..=length * length).contains(&off.dot(along)) && off.cross(along).abs() <= FLAT * self.tolerance * length
-        };
-        let is_fair = length < SMALL * self.tolerance || self.is_fair(chord.signed_area(), places, length);
-        let is_line = is_fair && is_flat(cubic.p1) && is_flat(cubic.p2);
-        if is_line { PathSeg::Line(chord) } else { part }
+        let length = (cubic.p3 - cubic.p0).hypot();
+        let is_fair = |area: f64| length < SMALL * self.tolerance || self.is_fair(area, places, length);
+        if is_flat(&cubic, FLAT * self.tolerance) && is_fair(chord.signed_area()) {
+            return PathSeg::Line(chord);
+        }
+        let (quad, apart) = like_quadratic(&cubic);
+        if apart <= QUADRATIC * self.tolerance && is_fair(quad.signed_area()) { PathSeg::Quad(quad) } else { part }
     }
 
     /// True if a curve of this area and length does not lie to one side of these places.
@@ -187,6 +187,32 @@ impl Course {
         let swept: f64 = places[1..].iter().map(|place| place.swept).sum();
         (area - swept).abs() <= self.bias * length
     }
+}
+
+/// True if a curve's handles lie beside its chord, within this distance of it.
+fn is_flat(cubic: &CubicBez, within: f64) -> bool {
+    let along = cubic.p3 - cubic.p0;
+    let length = along.hypot();
+    [cubic.p1, cubic.p2].iter().all(|handle| {
+        let off = *handle - cubic.p0;
+        (0.0..=length * length).contains(&off.dot(along)) && off.cross(along).abs() <= within * length
+    })
+}
+
+/// The quadratic between a cubic's ends that is near it and sweeps as much, and how far they are apart at most: by the cubic's third
+/// difference, which a quadratic does not have, and by how far its handle was moved for its area.
+fn like_quadratic(cubic: &CubicBez) -> (QuadBez, f64) {
+    /// Largest difference of a cubic with a third difference of 1 from its nearest quadratic: the square root of 3, by 36.
+    const LARGEST: f64 = 0.048_112_522;
+    let [a, b, c, d] = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
+    let third = d - 3.0 * c + 3.0 * b - a;
+    let handle = ((3.0 * (b + c) - a - d) / 4.0).to_point();
+    let near = QuadBez::new(cubic.p0, handle, cubic.p3);
+    let along = d - a;
+    // A handle that moves by this much across the chord sweeps a third of it along the whole chord.
+    let across = 3.0 * (cubic.signed_area() - near.signed_area()) / along.hypot2().max(f64::MIN_POSITIVE);
+    let moved = Vec2::new(along.y, -along.x) * across;
+    (QuadBez { p1: handle + moved, ..near }, LARGEST * third.hypot() + 0.5 * moved.hypot())
 }
 
 /// Width of a long shape, or of a ring, with this outline.
@@ -269,6 +295,16 @@ mod tests {
         assert!(farthest(&exact, &fewer) < 0.006 && farthest(&fewer, &exact) < 0.006);
         let change = fewer.area() / exact.area() - 1.0;
         assert!(change.abs() < 0.006, "{change}");
+    }
+
+    #[test]
+    fn a_curve_that_bends_evenly_is_a_quadratic_that_sweeps_as_much() {
+        let even = BezPath::from_svg("M0,0 C1,0.4 2,0.41 3,0 Z").unwrap();
+        let fewer = with_fewer_curves(&even, 0.01);
+        assert!(fewer.elements().iter().any(|element| matches!(element, PathEl::QuadTo(..))), "{}", fewer.to_svg());
+        assert!((fewer.area() / even.area() - 1.0).abs() < 1e-3 && farthest(&even, &fewer) < 0.01);
+        let bent = BezPath::from_svg("M0,0 C0.1,0.8 2,0.4 3,0 Z").unwrap();
+        assert!(with_fewer_curves(&bent, 0.01).elements().iter().all(|element| !matches!(element, PathEl::QuadTo(..))));
     }
 
     #[test]
