@@ -1,13 +1,11 @@
 //! Gums: as light as teeth in most photographs, but as red as lips. White, they make a slab of a laughing mouth.
 
+use super::mouth_box::MouthBox;
 use super::openings::{MOUTH_OPEN, openness};
-use super::zones::polygon;
-use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, median};
 use crate::source::{Landmarks, outlines};
 
-/// Redness, the difference of red and green over their sum in linear light, by which lips must exceed teeth: below it there is no colour
-/// to go by.
+/// Redness by which lips must exceed teeth: below it there is no colour to go by.
 const LEAST_REDDER: f32 = 0.08;
 /// The redness of teeth, as a quantile of that between the lips: a throat and a tongue are redder.
 const TEETH: f64 = 0.25;
@@ -26,7 +24,9 @@ pub(super) fn with_gums(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: 
         if open == 0.0 {
             continue;
         }
-        let Some((gums, [left, top])) = gums(light, face) else { continue };
+        let Some(mouth) = MouthBox::of(face, light, 0.0) else { continue };
+        let Some(gums) = gums(&mouth, face.width()) else { continue };
+        let (left, top) = (mouth.columns.start, mouth.rows.start);
         for y in 0..gums.height() {
             for x in 0..gums.width() {
                 let v = tone.get(left + x, top + y);
@@ -38,60 +38,30 @@ pub(super) fn with_gums(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: 
     tone
 }
 
-/// Where the gums of a face are, 0 to 1, in a box around its lips, and the box's upper left corner.
-fn gums(light: &Raster<[f32; 3]>, face: &Landmarks) -> Option<(Raster<f32>, [usize; 2])> {
-    let [outer, inner] = [&outlines::LIPS, &outlines::MOUTH].map(|line| face.line(line));
-    let corner = outer.iter().fold(outer[0], |a, p| Point::new(a.x.min(p.x), a.y.min(p.y)));
-    let far = outer.iter().fold(outer[0], |a, p| Point::new(a.x.max(p.x), a.y.max(p.y)));
-    let range = |from: f64, to: f64, size: usize| (from.max(0.0) as usize).min(size)..(to.max(0.0).ceil() as usize).min(size);
-    let [columns, rows] = [range(corner.x, far.x, light.width()), range(corner.y, far.y, light.height())];
-    if columns.is_empty() || rows.is_empty() {
-        return None;
-    }
-    let away = Point::new(columns.start as f64, rows.start as f64).to_vec2();
-    let in_box = |line: &[Point]| polygon(columns.len(), rows.len(), &line.iter().map(|p| *p - away).collect::<Vec<_>>());
-    let inside = in_box(&inner);
-    let lips = in_box(&outer).zip_map(&inside, |lips, inside| lips == 1 && inside == 0);
-    let redness = light.part(&columns, &rows).map(|[r, g, _]| (r - g) / (r + g).max(0.01));
-    let of = |is: &Raster<bool>| -> Vec<f32> {
-        redness.pixels().iter().zip(is.pixels()).filter(|(_, is)| **is).map(|(redness, _)| *redness).collect()
-    };
-    let mut between = of(&inside.map(|inside| inside == 1));
-    between.sort_unstable_by(f32::total_cmp);
+/// Where the gums of a face are, 0 to 1, in the box around its lips.
+fn gums(mouth: &MouthBox, width: f64) -> Option<Raster<f32>> {
+    let between = mouth.sorted_redness(&mouth.inner.map(|inside| inside == 1));
     let teeth = *between.get((TEETH * between.len() as f64) as usize)?;
-    let redder = median(of(&lips))? - teeth;
+    let redder = median(mouth.sorted_redness(&mouth.lips()))? - teeth;
     if redder < LEAST_REDDER {
         return None;
     }
-    let share = redness.map(|red| (((red - teeth) / redder - GUMS[0]) / (GUMS[1] - GUMS[0])).clamp(0.0, 1.0));
-    let gums = share.zip_map(&inside, |share, inside| share * f32::from(inside));
-    Some((fast_gaussian(&gums, (SOFT * face.width()) as f32), [columns.start, rows.start]))
+    let share = mouth.redness.map(|red| (((red - teeth) / redder - GUMS[0]) / (GUMS[1] - GUMS[0])).clamp(0.0, 1.0));
+    let gums = share.zip_map(&mouth.inner, |share, inside| share * f32::from(inside));
+    Some(fast_gaussian(&gums, (SOFT * width) as f32))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::mouth_box::tests::with_mouth;
+    use super::super::zones::polygon;
     use super::*;
-    use crate::elementary::unit_at;
-    use crate::source::{Iris, POINTS};
-    use std::f64::consts::TAU;
-
-    const MIDDLE: Point = Point::new(60.0, 30.0);
-
-    fn laughing() -> Landmarks {
-        let mut points = vec![[0.0; 3]; POINTS];
-        for (outline, size) in [(&outlines::LIPS, [50.0, 25.0]), (&outlines::MOUTH, [40.0, 16.0])] {
-            for (i, point) in outline.iter().enumerate() {
-                let along = unit_at(TAU * i as f64 / outline.len() as f64);
-                points[*point] = [MIDDLE.x + size[0] * along.x, MIDDLE.y + size[1] * along.y, 0.0];
-            }
-        }
-        let iris = Iris { centre: MIDDLE, radius: 1.0 };
-        Landmarks { points, irises: [iris; 2], spectacles: None }
-    }
+    use crate::geometry::Point;
+    use crate::source::outlines;
 
     #[test]
     fn gums_are_darker_than_teeth_in_colour_and_as_they_are_in_grey() {
-        let face = laughing();
+        let face = with_mouth(Point::new(60.0, 30.0));
         let mouth = polygon(120, 60, &face.line(&outlines::MOUTH));
         let light = Raster::from_fn(120, 60, |x, y| match (mouth.get(x, y) == 1, y < 22) {
             (true, true) => [0.8, 0.5, 0.5],

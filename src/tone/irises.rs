@@ -28,6 +28,8 @@ const CHEEK: f64 = 0.06;
 /// The least tone of the ring of blue eyes: in shade, whites are dark too, and a share of them makes black discs (13). With 0.4 iris and white
 /// are one grey.
 const BLUE_TONE: f32 = 0.3;
+/// Where the raised ring begins, in radii of the iris: from the pupil on, eyes stare from wide white rings (13).
+const RAISED: f64 = 0.44;
 /// Soft edge of the ring in radii of the iris.
 const SOFT: f64 = 0.12;
 /// Openness of a face's eyes below which light irises stay as dark as they are, and from which they are raised in full: between narrow lids
@@ -119,7 +121,7 @@ fn raised(mut tone: Raster<f32>, opening: &Raster<u8>, iris: Iris, more: f32) ->
     let ring: Vec<(usize, usize, f64)> = pixels_about(&tone, iris.centre, iris.radius).collect();
     for (x, y, away) in ring.into_iter().filter(|(x, y, _)| opening.get(*x, *y) == 1) {
         let away = away / iris.radius;
-        let share = ((away - PUPIL) / SOFT).min((RING[1] + 0.5 * SOFT - away) / SOFT).clamp(0.0, 1.0) as f32;
+        let share = ((away - RAISED) / SOFT).min((RING[1] + 0.5 * SOFT - away) / SOFT).clamp(0.0, 1.0) as f32;
         let v = tone.get(x, y);
         // Lights of the iris are light already.
         tone.set(x, y, v + share * more * (1.0 - v).clamp(0.0, 1.0));

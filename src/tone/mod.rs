@@ -9,7 +9,7 @@
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
-//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> light irises -> catchlights
+//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> light irises -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
@@ -23,7 +23,9 @@ mod irises;
 mod lenses;
 mod lights;
 mod mixing;
+mod mouth_box;
 mod openings;
+mod red_lips;
 mod zones;
 
 use crate::raster::{Raster, box_blur, enlarge, reduce};
@@ -31,6 +33,7 @@ use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
 use gums::with_gums;
 use irises::with_light_irises;
+use red_lips::with_red_lips;
 
 /// The masks that are used besides the subject.
 pub const ROLES: &[MaskRole] = &[MaskRole::Hair, MaskRole::FacialHair, MaskRole::Headwear, MaskRole::Clothing];
@@ -89,6 +92,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
         return Some(tone);
     }
     let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
+    let tone = with_red_lips(tone, &portrait.light, portrait.masks.get(&MaskRole::FacialHair), &portrait.faces, strength);
     let tone = with_light_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);
     Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }

@@ -1,0 +1,84 @@
+//! What surrounds a face's mouth, cut out of the picture: its outlines as zones, and how red it is.
+
+use super::zones::polygon;
+use crate::geometry::Point;
+use crate::raster::Raster;
+use crate::source::{Landmarks, outlines};
+use std::ops::Range;
+
+/// A box around a face's lips.
+pub(super) struct MouthBox {
+    pub columns: Range<usize>,
+    pub rows: Range<usize>,
+    /// 1 inside the outer line of the lips, and inside their inner line.
+    pub outer: Raster<u8>,
+    pub inner: Raster<u8>,
+    /// The difference of red and green over their sum in linear light: the same in light and shade.
+    pub redness: Raster<f32>,
+}
+
+impl MouthBox {
+    /// The box that extends beyond the lips by a share of their size; none outside the picture.
+    pub(super) fn of(face: &Landmarks, light: &Raster<[f32; 3]>, beyond: f64) -> Option<Self> {
+        let [outer, inner] = [&outlines::LIPS, &outlines::MOUTH].map(|line| face.line(line));
+        let corner = outer.iter().fold(outer[0], |a, p| Point::new(a.x.min(p.x), a.y.min(p.y)));
+        let far = outer.iter().fold(outer[0], |a, p| Point::new(a.x.max(p.x), a.y.max(p.y)));
+        let more = (far - corner) * beyond;
+        let (corner, far) = (corner - more, far + more);
+        let range = |from: f64, to: f64, size: usize| (from.max(0.0) as usize).min(size)..(to.max(0.0).ceil() as usize).min(size);
+        let [columns, rows] = [range(corner.x, far.x, light.width()), range(corner.y, far.y, light.height())];
+        if columns.is_empty() || rows.is_empty() {
+            return None;
+        }
+        let away = Point::new(columns.start as f64, rows.start as f64).to_vec2();
+        let in_box = |line: &[Point]| polygon(columns.len(), rows.len(), &line.iter().map(|p| *p - away).collect::<Vec<_>>());
+        let redness = light.part(&columns, &rows).map(|[r, g, _]| (r - g) / (r + g).max(0.01));
+        Some(Self { outer: in_box(&outer), inner: in_box(&inner), redness, columns, rows })
+    }
+
+    /// True on the lips themselves.
+    pub(super) fn lips(&self) -> Raster<bool> {
+        self.outer.zip_map(&self.inner, |outer, inner| outer == 1 && inner == 0)
+    }
+
+    /// The redness where it is asked for, from the least to the most.
+    pub(super) fn sorted_redness(&self, of: &Raster<bool>) -> Vec<f32> {
+        let inside = self.redness.pixels().iter().zip(of.pixels()).filter(|(_, is)| **is);
+        let mut values: Vec<f32> = inside.map(|(redness, _)| *redness).collect();
+        values.sort_unstable_by(f32::total_cmp);
+        values
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::elementary::unit_at;
+    use crate::source::{Iris, POINTS};
+    use std::f64::consts::TAU;
+
+    /// A face that is a laughing mouth alone: lips 100 by 50 pixels about a place, and an opening of 80 by 32.
+    pub(in crate::tone) fn with_mouth(middle: Point) -> Landmarks {
+        let mut points = vec![[0.0; 3]; POINTS];
+        for (outline, size) in [(&outlines::LIPS, [50.0, 25.0]), (&outlines::MOUTH, [40.0, 16.0])] {
+            for (i, point) in outline.iter().enumerate() {
+                let along = unit_at(TAU * i as f64 / outline.len() as f64);
+                points[*point] = [middle.x + size[0] * along.x, middle.y + size[1] * along.y, 0.0];
+            }
+        }
+        let iris = Iris { centre: middle, radius: 1.0 };
+        Landmarks { points, irises: [iris; 2], spectacles: None }
+    }
+
+    #[test]
+    fn the_box_holds_the_lips_and_their_redness() {
+        let face = with_mouth(Point::new(60.0, 30.0));
+        let light = Raster::filled(120, 60, [0.3, 0.1, 0.1]);
+        let mouth = MouthBox::of(&face, &light, 0.0).expect("a mouth");
+        assert_eq!((mouth.columns.clone(), mouth.rows.clone()), (10..110, 5..55));
+        let lips = mouth.sorted_redness(&mouth.lips());
+        assert!((lips.len() as f64 / (TAU * 0.5 * (50.0 * 25.0 - 40.0 * 16.0)) - 1.0).abs() < 0.05, "{}", lips.len());
+        assert!(lips.iter().all(|red| (red - 0.5).abs() < 1e-6));
+        assert!(MouthBox::of(&with_mouth(Point::new(-200.0, 30.0)), &light, 0.0).is_none());
+    }
+}
