@@ -105,6 +105,15 @@ impl Head {
         (from.dot(self.across), from.dot(Vec2::new(-self.across.y, self.across.x)))
     }
 
+    /// True beside the jaw and the neck.
+    pub(super) fn is_at_neck(&self, place: Point) -> bool {
+        /// From the ears to the shoulders below the face's middle, and to either side of it, in widths of the face.
+        const DOWN: [f64; 2] = [0.1, 0.95];
+        const ASIDE: f64 = 0.95;
+        let (across, down) = self.relative(place);
+        across.abs() < ASIDE && (DOWN[0]..DOWN[1]).contains(&down)
+    }
+
     /// True above the shoulders and beyond a head with short hair.
     pub(super) fn is_beside(&self, place: Point) -> bool {
         /// Short hair and ears beside the oval, in widths of the face, and how much a head with short hair narrows to the chin.

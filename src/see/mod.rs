@@ -42,6 +42,8 @@ mod networks;
 mod regions;
 #[cfg(feature = "see")]
 mod rims;
+#[cfg(feature = "see")]
+mod shaded_gaps;
 mod sight;
 #[cfg(feature = "see")]
 mod small_people;

@@ -6,6 +6,7 @@ use super::colours::Colours;
 use super::head::Head;
 use super::looks::PersonMaps;
 use super::networks::Network;
+use super::shaded_gaps::with_shaded_gaps;
 use super::small_people::with_small_people;
 use super::unseen_black::without_unseen_black;
 use super::view::{Outside, View, Window, on_view};
@@ -39,6 +40,7 @@ pub(super) fn subject(
     let whole = everybody(network, view, &heads, strangers)?;
     let fine = with_small_people(whole, view, &heads, |view, heads| everybody(network, view, heads, strangers))?;
     let person = without_crumbs(&pieces_with_a_face(&fine, view, &heads));
+    let person = with_shaded_gaps(person, view, &heads);
     Ok(if is_face_alone(&person, view, &heads) { person.map(|_| u8::MAX) } else { person })
 }
 

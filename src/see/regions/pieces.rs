@@ -4,7 +4,8 @@
 use super::facial_hair::Beard;
 use super::plate::Plate;
 use super::segmentation::{CLOTHING, HAIR, SKIN, Segmentation, Shares, greatest};
-use crate::raster::{Raster, components};
+use crate::raster::{Raster, components, dilate};
+use crate::source::outlines;
 
 /// Smaller pieces, in working pixels, are not kept as pieces of their own.
 const LEAST: usize = 50;
@@ -31,6 +32,7 @@ pub(super) fn reassign_stray_pieces(
 ) -> Raster<Shares> {
     let width = plate.width();
     let at = |i: usize| plate.at.pixels()[i];
+    clear_eyes(plate, &mut shares);
     for piece in pieces(plate, &shares, HAIR) {
         let is_on_head = piece.pixels.iter().any(|&i| at(i)[1] > 0.5 && at(i)[0].abs() < 0.95);
         if !is_on_head || piece.pixels.len() < LEAST {
@@ -59,6 +61,17 @@ pub(super) fn reassign_stray_pieces(
         end_at_jaw(parting, plate, &mut shares, sign, beard.is_some_and(|beard| beard.is_dense));
     }
     shares
+}
+
+/// Gives to skin what is hair between the lids: the far eye of a turned head lies beside its outline, and is as dark as hair (16).
+fn clear_eyes(plate: &Plate, shares: &mut Raster<Shares>) {
+    /// How far around the lids, in widths of the face: lashes and their shade.
+    const AROUND: f32 = 0.03;
+    for eye in [&outlines::LEFT_EYE, &outlines::RIGHT_EYE] {
+        let eye = dilate(&plate.hull(eye).map(u8::from), (AROUND * plate.face_width) as usize);
+        let pixels = (0..eye.pixels().len()).filter(|i| eye.pixels()[*i] == 1).collect();
+        give(shares, &Piece { pixels, middle: 0.0, aside: 0.0 }, HAIR, SKIN);
+    }
 }
 
 /// Gives to clothing the hair that only a beard joins to the head: jackets as dark as the beard above them (04).
@@ -167,8 +180,26 @@ fn end_at_jaw(parting: &Segmentation, plate: &Plate, shares: &mut Raster<Shares>
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::plate;
+    use super::super::tests::{plate, plate_with};
     use super::*;
+    use crate::elementary::unit_at;
+
+    #[test]
+    fn what_is_between_the_lids_is_no_hair() {
+        let lids = |i: usize| {
+            let along = unit_at(std::f64::consts::TAU * i as f64 / outlines::LEFT_EYE.len() as f64);
+            [125.0 + 10.0 * along.x, 60.0 + 5.0 * along.y]
+        };
+        let landmarks: Vec<(usize, [f64; 2])> =
+            outlines::LEFT_EYE.iter().enumerate().map(|(i, point)| (*point, lids(i))).collect();
+        let plate = plate_with(&Raster::filled(200, 200, [120_u8; 3]), &landmarks);
+        let mut shares = Raster::filled(plate.width(), plate.height(), [0.0, 0.0, 1.0, 0.0]);
+        clear_eyes(&plate, &mut shares);
+        let eye = plate.point(outlines::LEFT_EYE[0]).midpoint(plate.point(outlines::LEFT_EYE[outlines::LEFT_EYE.len() / 2]));
+        let at = |x: f64, y: f64| shares.get((eye.x + x) as usize, (eye.y + y) as usize);
+        assert_eq!((at(0.0, 0.0)[SKIN], at(0.0, 0.0)[HAIR]), (1.0, 0.0));
+        assert_eq!(at(0.0, -20.0)[HAIR], 1.0, "above the eye");
+    }
 
     #[test]
     fn hair_that_only_a_beard_joins_to_the_head_is_clothing() {
