@@ -13,7 +13,8 @@ const OF_LIPS: f64 = 0.04;
 /// How much redder than the skin around them lips are where they begin to count, and where they count in full.
 const REDDER: [f32; 2] = [0.03, 0.09];
 /// By how much such lips are darker than the skin around them, and by how much more for each unit of redness; and how much of their
-/// own lights is left. Without lights painted lips are slabs (07, 12), and with all of them streaks (15). Natural lips are 0.1 to 0.2 redder than skin, painted ones 0.2 to 0.4.
+/// own lights is left. Without lights painted lips are slabs (07, 12), and with all of them streaks (15). Of the sixteen portraits
+/// thirteen have lips 0.06 to 0.3 redder in the median, and three, in beards, none.
 const DARKER: f32 = 0.12;
 const BY_REDNESS: f32 = 0.6;
 const LIGHTS: f32 = 0.6;
