@@ -37,9 +37,9 @@ pub(super) fn reassign_stray_pieces(
         let is_on_head = piece.pixels.iter().any(|&i| at(i)[1] > 0.5 && at(i)[0].abs() < 0.95);
         if !is_on_head || piece.pixels.len() < LEAST {
             let is_worn = piece.middle < -0.12 || piece.aside > 0.55;
-            give(&mut shares, &piece, HAIR, if is_worn { CLOTHING } else { SKIN });
+            give(&mut shares, &piece.pixels, HAIR, if is_worn { CLOTHING } else { SKIN });
         } else if is_brow(plate, &piece) {
-            give(&mut shares, &piece, HAIR, SKIN);
+            give(&mut shares, &piece.pixels, HAIR, SKIN);
         }
     }
     let is_at_border = |i: usize| {
@@ -49,12 +49,12 @@ pub(super) fn reassign_stray_pieces(
     for piece in pieces(plate, &shares, CLOTHING) {
         let is_low = piece.pixels.iter().any(|&i| at(i)[1] < -0.25 || (at(i)[1] < -0.05 && is_at_border(i)));
         if !is_low || piece.pixels.len() < LEAST {
-            give(&mut shares, &piece, CLOTHING, if piece.middle > 0.3 && parting.has_hair() { HAIR } else { SKIN });
+            give(&mut shares, &piece.pixels, CLOTHING, if piece.middle > 0.3 && parting.has_hair() { HAIR } else { SKIN });
         }
     }
     for piece in pieces(plate, &shares, SKIN) {
         if let Some(to) = class_of_stray_skin(parting, plate, &shares, &piece) {
-            give(&mut shares, &piece, SKIN, to);
+            give(&mut shares, &piece.pixels, SKIN, to);
         }
     }
     for sign in [-1.0, 1.0] {
@@ -69,8 +69,8 @@ fn clear_eyes(plate: &Plate, shares: &mut Raster<Shares>) {
     const AROUND: f32 = 0.03;
     for eye in [&outlines::LEFT_EYE, &outlines::RIGHT_EYE] {
         let eye = dilate(&plate.hull(eye).map(u8::from), (AROUND * plate.face_width) as usize);
-        let pixels = (0..eye.pixels().len()).filter(|i| eye.pixels()[*i] == 1).collect();
-        give(shares, &Piece { pixels, middle: 0.0, aside: 0.0 }, HAIR, SKIN);
+        let pixels: Vec<usize> = (0..eye.pixels().len()).filter(|i| eye.pixels()[*i] == 1).collect();
+        give(shares, &pixels, HAIR, SKIN);
     }
 }
 
@@ -85,7 +85,7 @@ pub(super) fn without_hair_under_beard(plate: &Plate, mut shares: Raster<Shares>
     for piece in pieces(plate, &bare, HAIR) {
         let is_on_head = piece.pixels.iter().any(|&i| plate.at.pixels()[i][1] > HEIGHTS[1]);
         if !is_on_head && piece.middle < HEIGHTS[0] && piece.aside > ASIDE {
-            give(&mut shares, &piece, HAIR, CLOTHING);
+            give(&mut shares, &piece.pixels, HAIR, CLOTHING);
         }
     }
     shares
@@ -111,8 +111,8 @@ fn pieces(plate: &Plate, shares: &Raster<Shares>, class: usize) -> Vec<Piece> {
     pieces.into_iter().map(measured).collect()
 }
 
-fn give(shares: &mut Raster<Shares>, piece: &Piece, from: usize, to: usize) {
-    for &i in &piece.pixels {
+fn give(shares: &mut Raster<Shares>, pixels: &[usize], from: usize, to: usize) {
+    for &i in pixels {
         let share = &mut shares.pixels_mut()[i];
         share[to] += share[from];
         share[from] = 0.0;
