@@ -13,9 +13,10 @@
 use super::networks::sixteenths;
 use super::rims::{Eye, Rim, rims};
 use super::view::{Outside, View, Window};
+use crate::elementary::Elementary as _;
 use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, best_way, filled_polygon, median};
-use crate::source::{Iris, Spectacles, lightness, luminance, outlines, srgb_to_linear};
+use crate::source::{Iris, Spectacles, lab, lightness, luminance, outlines, srgb_to_linear};
 
 /// Distance of the eyes in the window, its size, and the place midway between the eyes.
 pub(super) const APART: f64 = 100.0;
@@ -49,6 +50,13 @@ const BRIDGE_GATE: f32 = 0.04;
 const NOSE: [f64; 2] = [16.0, -5.0];
 const LOWEST_BRIDGE: f64 = 24.0;
 const BRIDGE_ALONE: [f32; 2] = [0.065, 0.035];
+/// What the colourfulness (C* of CIELAB) of that bridge may be at most, as a share of the skin's above and below it, in photographs where that
+/// skin has some: in a fold light goes from skin to skin, and it is as colourful as the skin or more. Two bridges have 0.83 and 0.64, folds of
+/// eight people 1.0 to 1.09, one of them darker than the second bridge (0.078 and 0.064).
+const BRIDGE_COLOUR: f32 = 0.97;
+const COLOURLESS: f32 = 4.0;
+/// How far above and below the bridge the skin's colour is taken.
+const OFF_BRIDGE: f64 = 6.0;
 /// Least mean contrast of the edge of each lens below such a bridge: those two have at least 0.035 and 0.039.
 const EDGE_GATE: f32 = 0.025;
 /// Contrast that each pixel of a temple must have on average.
@@ -80,6 +88,7 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
     let corners: Vec<[f64; 2]> = outlines::OVAL.iter().map(in_window).map(|p| [p.x, p.y]).collect();
     let light = Light {
         seen: seen.map(|rgb| lightness(luminance(rgb.map(|v| srgb_to_linear(v / 255.0))))),
+        colour: seen.map(|rgb| chroma(rgb.map(|v| srgb_to_linear(v / 255.0)))),
         face: filled_polygon(SIZE[0], SIZE[1], &corners),
     };
     let eyes = [(&outlines::RIGHT_EYE, &BROWS[0]), (&outlines::LEFT_EYE, &BROWS[1])]
@@ -90,6 +99,12 @@ pub(super) fn spectacles(view: &View, points: &[[f64; 3]], irises: &[Iris; 2]) -
         Point::new(sixteenths(p.x), sixteenths(p.y))
     };
     Some(found.placed(place, across.hypot()))
+}
+
+/// C* of CIELAB of a linear colour.
+fn chroma(linear: [f32; 3]) -> f32 {
+    let [_, a, b] = lab(linear);
+    a.hypotenuse(b)
 }
 
 fn bounds(points: &[Point]) -> Rect {
@@ -151,6 +166,8 @@ fn frameless(light: &Light, eyes: &[Eye; 2]) -> Option<([Way; 2], Rim)> {
 pub(super) struct Light {
     /// Lightness, 0 to 1.
     seen: Raster<f32>,
+    /// C* of CIELAB.
+    colour: Raster<f32>,
     /// Not 0 in the face's oval.
     face: Raster<u8>,
 }
@@ -201,7 +218,14 @@ impl Light {
         let lowest = way.iter().fold(0.0, |lowest: f64, p| lowest.max(p.y - MIDDLE.y));
         let mean = contrasts.iter().sum::<f32>() / columns as f32;
         contrasts.sort_unstable_by(f32::total_cmp);
-        lowest < LOWEST_BRIDGE && mean >= BRIDGE_ALONE[0] && contrasts[columns / 5] >= BRIDGE_ALONE[1]
+        lowest < LOWEST_BRIDGE && mean >= BRIDGE_ALONE[0] && contrasts[columns / 5] >= BRIDGE_ALONE[1] && !self.is_fold(&way)
+    }
+
+    /// True if a dark line across the nose is as colourful as the skin above and below it.
+    fn is_fold(&self, way: &[Point]) -> bool {
+        let mean = |down: f64| way.iter().map(|p| self.colour.sample(p.x, p.y + down)).sum::<f32>() / way.len() as f32;
+        let skin = f32::midpoint(mean(-OFF_BRIDGE), mean(OFF_BRIDGE));
+        skin > COLOURLESS && mean(0.0) > BRIDGE_COLOUR * skin
     }
 
     /// The darkest way over the nose between the rims' inner ends; none if these meet.
@@ -298,7 +322,9 @@ mod tests {
             }
         });
         let face = seen.map(|_| 1);
-        Light { seen, face }
+        // As in a photograph of metal and skin.
+        let colour = seen.map(|light| if light > 0.5 { 30.0 } else { 10.0 });
+        Light { seen, colour, face }
     }
 
     /// Eyes of the size drawn by `face`.
@@ -344,6 +370,10 @@ mod tests {
         assert!(frame(&light, [20.0, 300.0], &eyes()).is_none(), "light lines without a bridge");
         for x in 138..182 {
             (68..71).for_each(|y| light.seen.set(x, y, 0.3));
+        }
+        assert!(frame(&light, [20.0, 300.0], &eyes()).is_none(), "a fold, of the skin's colour");
+        for x in 138..182 {
+            (68..71).for_each(|y| light.colour.set(x, y, 10.0));
         }
         let found = frame(&light, [20.0, 300.0], &eyes()).expect("spectacles");
         let off = |p: &Point| lines[0].iter().chain(&lines[1]).map(|q| p.distance(*q)).fold(f64::INFINITY, f64::min);
