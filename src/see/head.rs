@@ -22,6 +22,13 @@ fn through_corners<const N: usize>(corners: [(f64, f64); N], x: f64) -> f64 {
     if x1 > x0 { y0 + (y1 - y0) * ((x - x0) / (x1 - x0)).clamp(0.0, 1.0) } else { y1 }
 }
 
+/// Width of a head at a height, relative to that at the eyes: it narrows to the chin, beside which hair that ends at the ears leaves shadows
+/// on walls.
+fn narrowing(down: f64) -> f64 {
+    const JAW: f64 = 0.35;
+    through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down)
+}
+
 /// The pose of a head, in pixels of the upright picture.
 #[derive(Clone)]
 pub(super) struct Head {
@@ -39,6 +46,8 @@ pub(super) struct Head {
     sides: [f64; 2],
     /// The same of the expected head.
     reach: [f64; 2],
+    /// The same of the skull with its ears.
+    skull: [f64; 2],
 }
 
 impl Head {
@@ -51,6 +60,9 @@ impl Head {
         const FAR: f64 = 0.03;
         const TURNED: f64 = 0.3;
         const BACK: f64 = 0.8;
+        /// Ears beside the oval, and how far the oval of a turned face extends beyond its far cheek.
+        const EAR: f64 = 0.1;
+        const BEYOND: f64 = 0.083;
         let at = |i: usize| Point::new(points[i][0], points[i][1]);
         let (nose, forehead, chin, right, left) = (at(1), at(10), at(152), at(234), at(454));
         let up = forehead - chin;
@@ -67,7 +79,10 @@ impl Head {
         let most = |sign: f64| oval.iter().map(|p| sign * (*p - middle).dot(across)).fold(0.0, f64::max) / width;
         let sides = [most(-1.0), most(1.0)];
         let reach = [sides[0] + beside[0], sides[1] + beside[1]];
-        Self { oval, centre, forehead, width, crown: forehead.y + TOP * up.y, middle, across, sides, reach }
+        let far_ear = EAR - turned * (EAR + BEYOND);
+        let ears = if turn < 0.0 { [far_ear, EAR] } else { [EAR, far_ear] };
+        let skull = [sides[0] + ears[0], sides[1] + ears[1]];
+        Self { oval, centre, forehead, width, crown: forehead.y + TOP * up.y, middle, across, sides, reach, skull }
     }
 
     pub(super) fn is_close_up(&self, picture: Rect) -> bool {
@@ -116,27 +131,36 @@ impl Head {
 
     /// True above the shoulders and beyond a head with short hair.
     pub(super) fn is_beside(&self, place: Point) -> bool {
-        /// Short hair and ears beside the oval, in widths of the face, and how much a head with short hair narrows to the chin.
+        /// Short hair and ears beside the oval, in widths of the face.
         const SHORT: f64 = 0.1;
-        const SHORT_JAW: f64 = 0.35;
         const SHORT_HEIGHT: f64 = 1.15;
         /// Height of the shoulders below the face's middle, in widths of the face.
         const SHOULDERS: f64 = 0.55;
         let (across, down) = self.relative(place);
         let side = self.sides[usize::from(across >= 0.0)] + SHORT;
-        let reach = side * through_corners([(-0.2, 1.0), (0.6, 1.0 - SHORT_JAW)], down);
+        let reach = side * narrowing(down);
         let down_from_middle = down + RAISED;
         let height = if down_from_middle >= 0.0 { 1.0 } else { SHORT_HEIGHT };
         down <= SHOULDERS && (across / reach).hypotenuse(down_from_middle / height) >= 1.0
     }
 
+    /// How surely a point is in the skull or an ear: from 1 to 0. Below the ears it is 0, as collars and shadows are beside the jaw.
+    pub(super) fn skull_at(&self, place: Point) -> f64 {
+        /// Height of a skull with short hair above its middle, and the lobes' depth below the face's, in widths of the face.
+        const HEIGHT: f64 = 1.05;
+        const LOBES: f64 = 0.3;
+        let (across, down) = self.relative(place);
+        let reach = self.skull[usize::from(across >= 0.0)] * narrowing(down);
+        let down_from_middle = down + RAISED;
+        let height = if down_from_middle >= 0.0 { 1.0 } else { HEIGHT };
+        let skull = through_corners([(0.95, 1.0), (1.05, 0.0)], (across / reach).hypotenuse(down_from_middle / height));
+        if down > LOBES { 0.0 } else { skull }
+    }
+
     /// How much this person is expected at a point, whatever the hair or hat: from 1, in head and body, to 0.
     pub(super) fn expectation_at(&self, place: Point) -> f64 {
-        /// The expected head narrows by this fraction from eyes to chin: hair that ends at the ears leaves shadows on walls
-        /// beside the jaw.
-        const JAW: f64 = 0.35;
         let (across, down) = self.relative(place);
-        let reach = self.reach[usize::from(across >= 0.0)] * through_corners([(-0.2, 1.0), (0.6, 1.0 - JAW)], down);
+        let reach = self.reach[usize::from(across >= 0.0)] * narrowing(down);
         let down_from_middle = down + RAISED;
         let height = HEIGHTS[usize::from(down_from_middle >= 0.0)];
         let head = through_corners([(0.9, 1.0), (1.25, 0.0)], (across / reach).hypotenuse(down_from_middle / height));
@@ -173,6 +197,14 @@ pub(super) mod tests {
         for (x, y) in [(200.0, 180.0), (235.0, 255.0), (300.0, 20.0), (120.0, 260.0)] {
             assert!(head.expectation_at(Point::new(x, y)) < 0.5, "{x} {y}: {}", head.expectation_at(Point::new(x, y)));
         }
+    }
+
+    #[test]
+    fn ears_are_the_heads_and_the_far_one_of_a_turned_head_is_hidden() {
+        let (front, turned) = (Head::new(&face(300.0, 200.0, 0.0)), Head::new(&face(300.0, 200.0, -30.0)));
+        let at = |head: &Head, x: f64, y: f64| head.skull_at(Point::new(x, y));
+        assert_eq!([at(&front, 246.0, 190.0), at(&front, 354.0, 190.0), at(&turned, 354.0, 190.0)], [1.0; 3]);
+        assert_eq!([at(&turned, 246.0, 190.0), at(&front, 235.0, 190.0), at(&front, 257.0, 235.0)], [0.0; 3]);
     }
 
     #[test]

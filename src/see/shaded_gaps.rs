@@ -88,7 +88,7 @@ mod tests {
         let person = Raster::from_fn(300, 250, |x, y| if is_gap(x, y) || x > 260 { 0 } else { 255 });
         let pixels = Raster::from_fn(300, 250, |x, y| if is_gap(x, y) { [grey; 3] } else { [150; 3] });
         let view = View::new(pixels, Rect::new(0.0, 0.0, 300.0, 250.0));
-        with_shaded_gaps(person, &view, &heads).get(192, 150)
+        with_shaded_gaps(person, &view, &heads).get(192, 147)
     }
 
     #[test]

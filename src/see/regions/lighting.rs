@@ -84,15 +84,21 @@ impl Lighting {
     }
 }
 
-/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*.
+/// How much lighter than hair and skin a lamp's reflection on a forehead is, in L*; and how much lighter than either one on a forehead under
+/// dark hair is, and the share of the skin's chroma that it has left, as it is of the lamp's colour.
 const REFLECTION: f32 = 15.0;
+const UNDER_DARK_HAIR: [f32; 2] = [4.0, 35.0];
+const PALER: f32 = 0.6;
 /// Cost of the way from the bare skin of the face up to which a reflection lies on the forehead and not on hair.
 const ON_FOREHEAD: f32 = 4.0;
 
 /// True for a reflection on a forehead, `path` from the bare skin of the face; `medians` of skin and hair.
-pub(super) fn is_reflection(v: f32, f: Feature, path: f32, medians: [Feature; 2]) -> bool {
-    let lightest = medians[0][0].max(medians[1][0]) + REFLECTION * LIGHTNESS_WEIGHT;
-    v < 1.08 && path < ON_FOREHEAD && f[0] > lightest
+pub(super) fn is_reflection(v: f32, f: Feature, path: f32, [skin, hair]: [Feature; 2]) -> bool {
+    let chroma = |f: Feature| f[1].hypotenuse(f[2]);
+    let above = [f[0] - skin[0], f[0] - hair[0]].map(|light| light / LIGHTNESS_WEIGHT);
+    let is_glare = above[0].min(above[1]) > REFLECTION;
+    let is_pale = above[0] > UNDER_DARK_HAIR[0] && above[1] > UNDER_DARK_HAIR[1] && chroma(f) < PALER * chroma(skin);
+    v < 1.08 && path < ON_FOREHEAD && (is_glare || is_pale)
 }
 
 /// The cheek on the picture's left and on its right.
@@ -127,5 +133,8 @@ mod tests {
         assert!(is_reflection(0.95, spot, 2.9, [skin, hair]));
         assert!(!is_reflection(0.95, spot, 6.5, [skin, hair]), "gloss on hair lies beyond its border");
         assert!(!is_reflection(0.95, spot, 2.9, [skin, [210.0, 0.0, 10.0, 26.0]]), "white hair is as light");
+        let [pale, coloured] = [[122.0, 8.0, 10.0, 12.0], [122.0, 16.0, 25.0, 12.0]];
+        assert!(is_reflection(0.95, pale, 2.9, [skin, hair]) && !is_reflection(0.95, coloured, 2.9, [skin, hair]));
+        assert!(!is_reflection(0.95, pale, 2.9, [skin, [90.0, 2.0, 8.0, 26.0]]), "fair hair is nearly as light");
     }
 }
