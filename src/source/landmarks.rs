@@ -84,6 +84,10 @@ pub mod outlines {
     pub const LIPS: [usize; 20] = [61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 409, 270, 269, 267, 0, 37, 39, 40, 185];
     /// The border between the lips, closed.
     pub const MOUTH: [usize; 20] = [78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 415, 310, 311, 312, 13, 82, 81, 80, 191];
+    /// Around the person's left nostril.
+    pub const LEFT_NOSTRIL: [usize; 10] = [438, 457, 274, 461, 462, 326, 305, 460, 455, 439];
+    /// Around the person's right nostril.
+    pub const RIGHT_NOSTRIL: [usize; 10] = [218, 237, 44, 241, 242, 97, 75, 240, 235, 219];
     /// The ridge of the nose, from between the eyes to below its tip.
     pub const NOSE: [usize; 10] = [168, 6, 197, 195, 5, 4, 1, 19, 94, 2];
     /// The wings of the nose, across its ridge.

@@ -40,6 +40,7 @@ mod streaks;
 mod teeth;
 mod thick_frame;
 mod tone_error;
+mod under_eyes;
 
 pub use cost::Cost;
 #[cfg(feature = "cli")]

@@ -29,30 +29,53 @@ const SEEN: f64 = 0.17;
 const SOFT: f64 = 0.1;
 const FROM_LIDS: f64 = 0.15;
 
-/// The tone with the catchlights that are missing; `lightness` tells their places, or the side of the light.
+/// What is seen of an iris.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Seen {
+    /// The eye is closed, or its iris is light.
+    Enough,
+    /// It is dark and has a light.
+    Light,
+    /// It is black all over.
+    Black,
+}
+
+/// The tone with the catchlights that are missing; `lightness` tells their places, or the side of the light. If one of two dark eyes has none,
+/// both get one of the same size.
 pub(super) fn with_catchlights(tone: Raster<f32>, lightness: &Raster<f32>, faces: &[Landmarks]) -> Raster<f32> {
-    let all = faces.iter().flat_map(|face| {
+    faces.iter().fold(tone, |tone, face| {
         let aside = if face.lit_side(lightness) < 0.0 { -ASIDE } else { ASIDE };
-        eyes(face).map(|(lids, iris)| (iris, lids, aside))
-    });
-    all.fold(tone, |tone, (iris, lids, aside)| {
-        if openness(&lids, EYE_OPEN) < LEAST_OPEN || !is_black(&tone, &polygon(tone.width(), tone.height(), &lids), iris) {
+        let eyes = eyes(face).map(|(lids, iris)| (seen(&tone, &lids, iris), lids, iris));
+        if eyes.iter().all(|(seen, _, _)| *seen != Seen::Black) {
             return tone;
         }
-        let usual = iris.centre + Point::new(aside, -UP).to_vec2() * iris.radius;
-        lit(tone, iris, between(&lids, iris, own_light(lightness, iris).unwrap_or(usual)))
+        eyes.into_iter().filter(|(seen, _, _)| *seen != Seen::Enough).fold(tone, |tone, (_, lids, iris)| {
+            let usual = iris.centre + Point::new(aside, -UP).to_vec2() * iris.radius;
+            lit(tone, iris, between(&lids, iris, own_light(lightness, iris).unwrap_or(usual)))
+        })
     })
 }
 
-/// True for an iris without a light in the opening between its lids.
-fn is_black(tone: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> bool {
+/// What is seen of an iris in the opening between its lids.
+fn seen(tone: &Raster<f32>, lids: &[Point], iris: Iris) -> Seen {
+    if openness(lids, EYE_OPEN) < LEAST_OPEN {
+        return Seen::Enough;
+    }
+    seen_within(tone, &polygon(tone.width(), tone.height(), lids), iris)
+}
+
+fn seen_within(tone: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> Seen {
     let inside: Vec<f32> = pixels_about(tone, iris.centre, WITHIN * iris.radius)
         .filter(|(x, y, _)| opening.get(*x, *y) == 1)
         .map(|(x, y, _)| tone.get(x, y))
         .collect();
-    let Some(middle) = median(inside.clone()) else { return false };
+    let Some(middle) = median(inside.clone()) else { return Seen::Enough };
     let lights = inside.iter().filter(|v| **v > middle + LIGHTER).count() as f64;
-    middle < BLACK && lights < LEAST_SHARE * inside.len() as f64
+    match (middle < BLACK, lights < LEAST_SHARE * inside.len() as f64) {
+        (false, _) => Seen::Enough,
+        (true, false) => Seen::Light,
+        (true, true) => Seen::Black,
+    }
 }
 
 /// The lightest place in the iris, if it is a light.
@@ -116,11 +139,11 @@ mod tests {
         let iris = Iris { centre: Point::new(20.0, 20.0), radius: 10.0 };
         let black = Raster::from_fn(40, 40, |_, _| 0.05_f32);
         let opening = Raster::filled(40, 40, 1_u8);
-        assert!(is_black(&black, &opening, iris));
+        assert!(seen_within(&black, &opening, iris) == Seen::Black);
         let with = lit(black, iris, Point::new(16.4, 16.6));
-        assert!(!is_black(&with, &opening, iris));
+        assert!(seen_within(&with, &opening, iris) == Seen::Light);
         assert!(with.get(16, 16) > 0.95 && with.get(24, 16) < 0.06 && with.get(20, 24) < 0.06);
-        assert!(!is_black(&Raster::from_fn(40, 40, |_, _| 0.5_f32), &opening, iris), "a light iris needs none");
+        assert!(seen_within(&Raster::from_fn(40, 40, |_, _| 0.5_f32), &opening, iris) == Seen::Enough, "a light iris needs none");
     }
 
     #[test]

@@ -9,7 +9,8 @@
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
-//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> light irises -> catchlights
+//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> nostrils
+//!   -> light irises -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
@@ -24,6 +25,7 @@ mod lenses;
 mod lights;
 mod mixing;
 mod mouth_box;
+mod nostrils;
 mod openings;
 mod red_lips;
 mod zones;
@@ -33,6 +35,7 @@ use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
 use gums::with_gums;
 use irises::with_light_irises;
+use nostrils::with_nostrils;
 use red_lips::with_red_lips;
 
 /// The masks that are used besides the subject.
@@ -93,6 +96,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     }
     let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
     let tone = with_red_lips(tone, &portrait.light, portrait.masks.get(&MaskRole::FacialHair), &portrait.faces, strength);
+    let tone = with_nostrils(tone, &portrait.lightness, &portrait.faces, strength);
     let tone = with_light_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);
     Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }

@@ -14,6 +14,7 @@ use crate::style::jaw::Jaws;
 use crate::style::lids::Lids;
 use crate::style::mouth::Mouths;
 use crate::style::strays::Strays;
+use crate::style::under_eyes::without_folds_under_eyes;
 
 /// The lines that steer the dots, in working pixels.
 pub(super) struct Features {
@@ -105,7 +106,7 @@ impl Drawer<'_> {
         let long = steers.filter(|curve| curve.length() >= steering).collect();
         let width = self.pixels(self.parameters.outline_width);
         let outline = self.with_silhouette(Vec::new()).into_iter().map(|curve| CoherentLine::plain(curve, width));
-        let drawn = outline.chain(lines).collect();
+        let drawn = outline.chain(without_folds_under_eyes(self.portrait, lines, least)).collect();
         (self.with_silhouette(long), drawn)
     }
 
