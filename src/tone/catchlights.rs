@@ -133,6 +133,8 @@ pub(super) fn pixels_about<T>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
+    use crate::source::{POINTS, outlines};
 
     #[test]
     fn a_black_iris_gets_one_light_and_one_with_a_light_is_left() {
@@ -144,6 +146,29 @@ mod tests {
         assert!(seen_within(&with, &opening, iris) == Seen::Light);
         assert!(with.get(16, 16) > 0.95 && with.get(24, 16) < 0.06 && with.get(20, 24) < 0.06);
         assert!(seen_within(&Raster::from_fn(40, 40, |_, _| 0.5_f32), &opening, iris) == Seen::Enough, "a light iris needs none");
+    }
+
+    #[test]
+    fn two_dark_eyes_get_a_light_each_if_one_has_none() {
+        let mut points = vec![[0.0; 3]; POINTS];
+        let irises = [Point::new(60.0, 40.0), Point::new(160.0, 40.0)].map(|centre| Iris { centre, radius: 12.0 });
+        for (outline, iris) in [&outlines::RIGHT_EYE, &outlines::LEFT_EYE].into_iter().zip(irises) {
+            for (i, point) in outline.iter().enumerate() {
+                let p = unit_at(std::f64::consts::TAU * i as f64 / outline.len() as f64);
+                points[*point] = [iris.centre.x + 26.0 * p.x, iris.centre.y + 13.0 * p.y, 0.0];
+            }
+        }
+        let face = Landmarks { points, irises, spectacles: None };
+        let own = Point::new(164.0, 36.0);
+        let with_own =
+            |x: usize, y: usize| if own.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 2.8 { 0.8 } else { 0.05_f32 };
+        let lights = |tone: Raster<f32>| {
+            let tone = with_catchlights(tone.clone(), &tone, std::slice::from_ref(&face));
+            irises.map(|iris| pixels_about(&tone, iris.centre, iris.radius).filter(|(x, y, _)| tone.get(*x, *y) > 0.9).count())
+        };
+        let [made, matched] = lights(Raster::from_fn(220, 80, with_own));
+        assert!(made > 10 && made.abs_diff(matched) <= 4, "{made} {matched}");
+        assert_eq!(lights(Raster::filled(220, 80, 0.6)), [0, 0], "light eyes");
     }
 
     #[test]
