@@ -167,7 +167,7 @@ mod tests {
             irises.map(|iris| pixels_about(&tone, iris.centre, iris.radius).filter(|(x, y, _)| tone.get(*x, *y) > 0.9).count())
         };
         let [made, matched] = lights(Raster::from_fn(220, 80, with_own));
-        assert!(made > 10 && made.abs_diff(matched) <= 4, "{made} {matched}");
+        assert!(made > 10 && (made..2 * made).contains(&matched), "{made} {matched}");
         assert_eq!(lights(Raster::filled(220, 80, 0.6)), [0, 0], "light eyes");
     }
 
