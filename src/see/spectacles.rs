@@ -52,7 +52,7 @@ const LOWEST_BRIDGE: f64 = 24.0;
 const BRIDGE_ALONE: [f32; 2] = [0.065, 0.035];
 /// What the colourfulness (C* of CIELAB) of that bridge may be at most, as a share of the skin's above and below it, in photographs where that
 /// skin has some: in a fold light goes from skin to skin, and it is as colourful as the skin or more. Two bridges have 0.83 and 0.64, folds of
-/// eight people 1.0 to 1.09, one of them darker than the second bridge (0.078 and 0.064).
+/// eight people 1.0 to 1.09, one of them darker than the second bridge (0.078 and 0.064); that of a ninth, far too light for a bridge, has 0.84.
 const BRIDGE_COLOUR: f32 = 0.97;
 const COLOURLESS: f32 = 4.0;
 /// How far above and below the bridge the skin's colour is taken.

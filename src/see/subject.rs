@@ -140,7 +140,7 @@ impl Decision {
         /// Below this probability by the network colours cannot raise the odds.
         const NOBODY: f32 = 0.05;
         /// What is added to the log odds in the skull and its ears, which the network and colours lose before walls of their colour. On
-        /// 34 people: at 0 the ears of four are lost, at 3 the light above fair hair is hair.
+        /// 34 people: at 0 four ears of three of them are lost, at 3 the light above fair hair is hair.
         const SKULL: f32 = 1.5;
         Raster::from_fn(self.said.width(), self.said.height(), |x, y| {
             if self.sure.get(x, y) != 0 {
