@@ -1,7 +1,7 @@
 //! What surrounds a face's mouth, cut out of the picture: its outlines as zones, and how red it is.
 
-use super::zones::polygon;
-use crate::geometry::Point;
+use super::zones::{pixels_in, polygon};
+use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::source::{Landmarks, outlines};
 use std::ops::Range;
@@ -24,12 +24,7 @@ impl MouthBox {
         let corner = outer.iter().fold(outer[0], |a, p| Point::new(a.x.min(p.x), a.y.min(p.y)));
         let far = outer.iter().fold(outer[0], |a, p| Point::new(a.x.max(p.x), a.y.max(p.y)));
         let more = (far - corner) * beyond;
-        let (corner, far) = (corner - more, far + more);
-        let range = |from: f64, to: f64, size: usize| (from.max(0.0) as usize).min(size)..(to.max(0.0).ceil() as usize).min(size);
-        let [columns, rows] = [range(corner.x, far.x, light.width()), range(corner.y, far.y, light.height())];
-        if columns.is_empty() || rows.is_empty() {
-            return None;
-        }
+        let [columns, rows] = pixels_in(Rect::from_points(corner - more, far + more), (light.width(), light.height()))?;
         let away = Point::new(columns.start as f64, rows.start as f64).to_vec2();
         let in_box = |line: &[Point]| polygon(columns.len(), rows.len(), &line.iter().map(|p| *p - away).collect::<Vec<_>>());
         let redness = light.part(&columns, &rows).map(|[r, g, _]| (r - g) / (r + g).max(0.01));

@@ -1,7 +1,7 @@
 //! Nostrils as dark as they are: small and dark, they are greyed over by a tone made for the skin around them, and a nose without them has no
 //! base.
 
-use super::zones::polygon;
+use super::zones::{pixels_in, polygon};
 use crate::geometry::{Point, Rect, convex_hull};
 use crate::raster::{Raster, fast_gaussian, opening};
 use crate::source::{Landmarks, outlines};
@@ -35,12 +35,7 @@ pub(super) fn with_nostrils(mut tone: Raster<f32>, lightness: &Raster<f32>, face
 fn darken(tone: &mut Raster<f32>, lightness: &Raster<f32>, outline: &[Point], width: f64, strength: f32) {
     let reach = (NARROW * width).round().max(1.0);
     let around = outline.iter().fold(Rect::from_points(outline[0], outline[0]), |all, p| all.union_pt(*p)).inset(2.0 * reach);
-    let range = |from: f64, to: f64, size: usize| (from.max(0.0) as usize).min(size)..(to.max(0.0).ceil() as usize).min(size);
-    let columns = range(around.x0, around.x1, lightness.width());
-    let rows = range(around.y0, around.y1, lightness.height());
-    if columns.is_empty() || rows.is_empty() {
-        return;
-    }
+    let Some([columns, rows]) = pixels_in(around, (lightness.width(), lightness.height())) else { return };
     let away = Point::new(columns.start as f64, rows.start as f64).to_vec2();
     let corners: Vec<Point> = outline.iter().map(|p| *p - away).collect();
     let inside = fast_gaussian(&polygon(columns.len(), rows.len(), &corners).map(f32::from), (SOFT * width) as f32);

@@ -1,8 +1,9 @@
 //! The skin and the features of a face.
 
-use crate::geometry::{Point, convex_hull};
+use crate::geometry::{Point, Rect, convex_hull};
 use crate::raster::{Raster, dilate, fast_gaussian, fast_gaussian_within, filled_polygon};
 use crate::source::{Landmarks, outlines};
+use std::ops::Range;
 
 /// Distance of skin from the face's border and from its features, in widths of the face: lashes and shadows at the hair are not
 /// skin.
@@ -101,6 +102,13 @@ fn sorted_where(values: &Raster<f32>, mask: &Raster<u8>) -> Vec<f32> {
     let mut inside: Vec<f32> = inside.map(|(v, _)| *v).collect();
     inside.sort_unstable_by(f32::total_cmp);
     inside
+}
+
+/// The columns and rows of the pixels in a box, within a picture of this size; none outside it.
+pub(super) fn pixels_in(bounds: Rect, (width, height): (usize, usize)) -> Option<[Range<usize>; 2]> {
+    let range = |from: f64, to: f64, size: usize| (from.max(0.0) as usize).min(size)..(to.max(0.0).ceil() as usize).min(size);
+    let [columns, rows] = [range(bounds.x0, bounds.x1, width), range(bounds.y0, bounds.y1, height)];
+    (!columns.is_empty() && !rows.is_empty()).then_some([columns, rows])
 }
 
 /// The pixels inside a closed polygon.
