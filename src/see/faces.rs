@@ -28,6 +28,9 @@ const BESIDE: f64 = 0.7;
 /// A face narrower than this fraction of the longer side calls for a second pass: the detector misses half of those that fill
 /// 0.12 of its view and all below 0.08, so there may be others beside it.
 const SMALL: f64 = 0.15;
+/// A face narrower than this fraction may have companions that are missed: of four people whose faces fill 0.16 of a picture one is found, and
+/// all in its tiles. Larger faces leave little room for others, and tiles cut them.
+const MEDIUM: f64 = 0.25;
 /// Sides of the tiles of the second pass, in longer sides of the picture: finds faces down to 0.05 of it.
 const TILES: [f64; 2] = [0.5, 1.0 / 3.0];
 /// Least side of a tile in pixels of the picture, twice the detector's own; below it there is no further detail.
@@ -92,31 +95,61 @@ fn is_beside(a: Rect, b: Rect) -> bool {
     (between.x / half.width).hypotenuse(between.y / half.height) > BESIDE
 }
 
-/// True if there may be more faces than a pass over the whole picture finds.
-pub(super) fn needs_second_pass(found: &[Found], view: &View) -> bool {
-    let longest = view.part.width().max(view.part.height());
-    found.first().is_none_or(|largest| largest.bounds.width() < SMALL * longest)
-}
-
-/// The faces found in tiles that overlap by half, merged with the known ones, largest first.
-pub(super) fn find_small(
+/// The known faces and those that a pass over the whole picture misses: small ones, and others beside faces of medium size. Largest first.
+pub(super) fn with_missed(
     detector: &Network,
     view: &View,
     known: Vec<Found>,
     interrupt: &Interrupt,
 ) -> Result<Vec<Found>, SeeError> {
     let longest = view.part.width().max(view.part.height());
-    let mut found = known;
-    for side in TILES.map(|share| share * longest).into_iter().filter(|side| *side >= LEAST_TILE) {
-        for (x, y) in
-            tile_places(view.part.height(), side).flat_map(|y| tile_places(view.part.width(), side).map(move |x| (x, y)))
-        {
-            interrupt.check()?;
-            let centre = view.part.origin() + Vec2::new(x, y);
-            found.extend(candidates(detector, view, Window::square(centre, side, 0.0), Exposure::AsTaken)?);
+    let widest = known.first().map_or(0.0, |largest| largest.bounds.width());
+    if widest < SMALL * longest {
+        let mut found = known;
+        for share in TILES {
+            found.extend(in_tiles(detector, view, share * longest, interrupt)?);
         }
+        return Ok(joined(found, GATE));
     }
-    Ok(joined(found, GATE))
+    if widest < MEDIUM * longest {
+        let found = joined(in_tiles(detector, view, TILES[0] * longest, interrupt)?, GATE);
+        return Ok(with_companions(known, found));
+    }
+    Ok(known)
+}
+
+/// Candidates in tiles of a side in pixels of the picture that overlap by half; none if the tiles show no more than the whole.
+fn in_tiles(detector: &Network, view: &View, side: f64, interrupt: &Interrupt) -> Result<Vec<Found>, SeeError> {
+    let mut found = Vec::new();
+    if side < LEAST_TILE {
+        return Ok(found);
+    }
+    for (x, y) in tile_places(view.part.height(), side).flat_map(|y| tile_places(view.part.width(), side).map(move |x| (x, y))) {
+        interrupt.check()?;
+        let centre = view.part.origin() + Vec2::new(x, y);
+        found.extend(candidates(detector, view, Window::square(centre, side, 0.0), Exposure::AsTaken)?);
+    }
+    Ok(found)
+}
+
+/// The known faces, and of those found the ones beside them about as large: what is smaller is a stranger's, or no face. A known face that is
+/// much surer among those found is as it is there.
+fn with_companions(known: Vec<Found>, found: Vec<Found>) -> Vec<Found> {
+    /// How much higher its score is: by less, sound boxes would move.
+    const SURER: f64 = 0.1;
+    let surer = |face: Found| {
+        let same = found.iter().find(|other| !is_beside(other.bounds, face.bounds) && other.score > face.score + SURER);
+        same.cloned().unwrap_or(face)
+    };
+    let mut faces: Vec<Found> = known.into_iter().map(surer).collect();
+    let widest = faces.iter().map(|face| face.bounds.width()).fold(0.0, f64::max);
+    let is_companion = |other: &&Found| {
+        other.bounds.width() > SMALLER * widest && faces.iter().all(|known| is_beside(other.bounds, known.bounds))
+    };
+    let companions: Vec<Found> = found.iter().filter(is_companion).cloned().collect();
+    faces.extend(companions);
+    faces.sort_by(|a, b| b.bounds.area().total_cmp(&a.bounds.area()));
+    faces
 }
 
 /// Middles of tiles along a side: at most half a tile apart, the first and last tile flush with its ends.
@@ -208,6 +241,19 @@ mod tests {
         let known = Rect::new(177.0, 150.0, 540.0, 513.0);
         assert!(is_beside(Rect::new(26.0, 450.0, 216.0, 640.0), known));
         assert!(!is_beside(Rect::new(250.0, 300.0, 440.0, 490.0), known));
+    }
+
+    #[test]
+    fn a_face_as_large_beside_a_known_one_is_a_companions_and_a_smaller_one_is_not() {
+        let of_width = |x: f64, width: f64| Found { bounds: Rect::new(x, 0.0, x + width, width), ..found(x, 0.8) };
+        let others = vec![of_width(1.0, 11.0), of_width(40.0, 9.0), of_width(80.0, 5.0)];
+        let faces = with_companions(vec![of_width(0.0, 10.0)], others);
+        let places: Vec<f64> = faces.iter().map(|face| face.bounds.x0).collect();
+        assert_eq!(places, [0.0, 40.0]);
+        let wide = Found { score: 0.75, ..of_width(0.0, 20.0) };
+        let sure = Found { score: 0.9, ..of_width(5.0, 10.0) };
+        let faces = with_companions(vec![wide], vec![sure, of_width(40.0, 9.0)]);
+        assert_eq!(faces.iter().map(|face| face.bounds.width()).collect::<Vec<_>>(), [10.0, 9.0]);
     }
 
     #[test]

@@ -88,8 +88,7 @@ fn find(
             None => (upright, first, Vec::new()),
         }
     };
-    let found =
-        if faces::needs_second_pass(&found, &view) { faces::find_small(detector, &view, found, interrupt)? } else { found };
+    let found = faces::with_missed(detector, &view, found, interrupt)?;
     Ok((!found.is_empty()).then_some((turn, view, found)))
 }
 

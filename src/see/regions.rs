@@ -18,6 +18,7 @@ mod hair;
 mod head;
 mod headwear;
 mod lighting;
+mod limbs;
 mod mane;
 mod mixture;
 mod neck;
@@ -45,6 +46,9 @@ use smoothing::{Guide, Lines, value};
 /// Number of regions: skin, hair, facial hair, headwear, clothing.
 const KINDS: usize = 5;
 const LAST: usize = KINDS - 1;
+/// The places of skin and clothing among them.
+const SKIN_PLACE: usize = 0;
+const CLOTHING_PLACE: usize = LAST;
 /// Radii in working pixels of the filters that align shares with the picture's edges (the second also at the view's size), and
 /// their `eps`: at twice the radii fair hair blurs into the forehead.
 const REACHES: [usize; 2] = [5, 3];
@@ -61,7 +65,9 @@ pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[L
     let detail = detail(subject, faces);
     let (heads, faces): (Vec<Head>, Vec<&Landmarks>) = faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
     let told: Vec<Option<HeadRegions>> = (0..heads.len()).map(|i| told(pixels, subject, faces[i], &heads, i)).collect();
+    let is_in_colour = told.iter().flatten().all(|told| !told.plate.is_grey);
     let planes = at_full_size(pixels, subject, &heads, &told);
+    let planes = if is_in_colour { limbs::with_limbs(pixels, planes, &heads) } else { planes };
     let [skin, hair, facial_hair, headwear, clothing] = [0, 1, 2, 3, 4].map(|k| planes.map(|p| p[k]));
     Regions { skin, hair, facial_hair, headwear, clothing, detail }
 }

@@ -62,7 +62,7 @@ impl Plate {
         let scale = (FACE / head.width).min(LONGEST / part.width().max(part.height())).min(1.0);
         let count = |length: f64| ((length * scale).round() as usize).max(1);
         let (width, height) = (count(part.width()), count(part.height()));
-        let grid = Grid { part, x_step: part.width() / width as f64, y_step: part.height() / height as f64 };
+        let grid = Grid::new(part, width, height);
         let colours = Raster::from_fn(width, height, |x, y| grid.mean(pixels, x, y, |c| c.map(f32::from)).map(|v| v / 255.0));
         let points: Vec<Point> = face.points.iter().map(|p| grid.to_working_pixels(Point::new(p[0], p[1]))).collect();
         let corners: Vec<[f64; 2]> = OVAL.iter().map(|&i| [points[i].x, points[i].y]).collect();
@@ -201,15 +201,19 @@ fn surroundings(head: &Head, width: f64, height: f64) -> Option<Rect> {
 }
 
 /// The working pixels over a part of the view.
-struct Grid {
+pub(super) struct Grid {
     part: Rect,
     x_step: f64,
     y_step: f64,
 }
 
 impl Grid {
+    pub(super) fn new(part: Rect, width: usize, height: usize) -> Self {
+        Self { part, x_step: part.width() / width as f64, y_step: part.height() / height as f64 }
+    }
+
     /// The centre of a working pixel, in the view's pixels.
-    fn middle(&self, x: usize, y: usize) -> Point {
+    pub(super) fn middle(&self, x: usize, y: usize) -> Point {
         self.part.origin() + Vec2::new((x as f64 + 0.5) * self.x_step, (y as f64 + 0.5) * self.y_step)
     }
 
@@ -219,7 +223,13 @@ impl Grid {
     }
 
     /// The mean of the view's pixels whose centres are in a working pixel, at least one pixel.
-    fn mean<T: Copy + Send + Sync>(&self, raster: &Raster<T>, x: usize, y: usize, value: impl Fn(T) -> [f32; 3]) -> [f32; 3] {
+    pub(super) fn mean<T: Copy + Send + Sync>(
+        &self,
+        raster: &Raster<T>,
+        x: usize,
+        y: usize,
+        value: impl Fn(T) -> [f32; 3],
+    ) -> [f32; 3] {
         let range = |from: f64, step: f64, i: usize, count: usize| {
             let start = ((from + i as f64 * step).round() as usize).min(count - 1);
             start..((from + (i + 1) as f64 * step).round() as usize).clamp(start + 1, count.max(start + 1))
