@@ -98,8 +98,9 @@ impl Course<'_> {
             let (first, last) = (&run[0], &run[run.len() - 1]);
             let before = range.start.checked_sub(1).map(|i| readings[i]);
             let after = readings.get(range.end).copied();
-            let from = before.map_or(first.along, |b| crossing(&b, first));
-            let to = after.map_or(last.along, |a| crossing(last, &a));
+            let beyond = |end: &Reading, cut: bool| if !cut && is_own(end.place) { self.beyond(end) } else { 0.0 };
+            let from = before.map_or(first.along, |b| crossing(&b, first)) - beyond(first, before.is_some());
+            let to = after.map_or(last.along, |a| crossing(last, &a)) + beyond(last, after.is_some());
             let tapers = [before.is_some() || is_own(first.place), after.is_some() || is_own(last.place)];
             let least = if self.breaks.is_none() { TICK } else { CRUMB };
             if (self.breaks.is_none() || tapers == [false; 2]) && to - from < least * self.pitch {
@@ -108,6 +109,15 @@ impl Course<'_> {
             pieces.extend(self.piece(run, from, to, tapers));
         }
         pieces
+    }
+
+    /// How far a line goes on beyond its end: between its neighbours, which close up behind it, a slit would shine in the darks.
+    fn beyond(&self, end: &Reading) -> f64 {
+        /// In pitches, in black, and the share of the spacing that is white from which nothing shines.
+        const BEYOND: f64 = 1.6;
+        const WHITE: f64 = 0.7;
+        let white = 1.0 - end.width / end.spacing.max(1e-6);
+        BEYOND * self.pitch * (1.0 - white / WHITE).clamp(0.0, 1.0)
     }
 
     /// Where two lines end side by side the phase joins them in a hook; what turns away from the directions is not drawn.
