@@ -1,5 +1,5 @@
-//! Every command of the README and of `docs/` works when run as written.
-#![cfg(feature = "cli")]
+//! Every command of the README and of `docs/` works when run as written, by the whole program.
+#![cfg(all(feature = "cli", feature = "drive", feature = "see", feature = "studio"))]
 
 use rayon::prelude::*;
 use std::fs;

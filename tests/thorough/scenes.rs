@@ -84,7 +84,9 @@ fn a_scene_is_its_command_line_and_is_drawn_again_in_every_style() {
     assert!(file(&folder, "c.pdf") == file(&folder, "d.pdf"));
 }
 
+/// Some presets ask for the head, or for no background.
 #[test]
+#[cfg(feature = "see")]
 fn a_preset_is_its_scene() {
     let folder = with_portrait();
     let listed = runs(folder.path(), &["presets"]);
@@ -337,7 +339,9 @@ fn a_sheet_holds_scenes_and_drawings_with_one_layer_for_each_pen() {
     assert!(many.contains("5 drawings are more than the 4 cells") && many.contains("--grid"), "{many}");
 }
 
+/// The sizes are those of portraits.
 #[test]
+#[cfg(feature = "see")]
 fn drawings_for_pages_are_small_tight_and_never_clash() {
     let folder = with_portrait();
     let options = [&["draw", "face.jpg", "-q"], SIGHT].concat();
@@ -389,6 +393,7 @@ fn an_embedded_drawing_has_the_ink_of_the_sheet() {
 }
 
 #[test]
+#[cfg(feature = "drive")]
 fn the_schema_that_ships_is_the_programs() {
     let folder = tempfile::tempdir().unwrap();
     let shown = runs(folder.path(), &["schema"]);
