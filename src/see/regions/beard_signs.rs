@@ -240,20 +240,29 @@ impl<'a> Face<'a> {
         self.plate.pixels_where(|_, i| hairs.pixels()[i] || (zone.pixels()[i] && colour.pixels()[i] < THIN))
     }
 
-    /// The pixels that look like facial hair. In soft beards they are no nearer to the cheeks' lightness than to the chin's: shaded skin beside
+    /// The pixels that look like facial hair. Beside a dark chin a pale cheek is a light, no white hair. In soft beards they are no nearer to the cheeks' lightness than to the chin's: shaded skin beside
     /// them is darker than cheeks too.
     pub(super) fn hairs(&self, chin: &Raster<bool>) -> Raster<bool> {
+        /// The lightness of a pale place, in shares of the cheeks', from which it is a light.
+        const LIT: f32 = 0.95;
+        /// Where cheeks begin: aside from the chin, in `u`, and above it, in `v`.
+        const CHEEK: [f32; 2] = [0.25, 0.12];
         let blur = |plane: &Raster<f32>, width: f32| gaussian_blur(plane, width * self.plate.face_width);
         let (light, colour, uneven) = (blur(&self.light, 0.012), blur(&self.colour, 0.012), blur(&self.uneven, 0.02));
         let [dark, rough, pale] = self.limits.hairs();
+        let on_chin = median_in(&self.light, chin);
         let dark = match self.limits {
-            Limits::Soft => median_in(&self.light, chin).map_or(dark, |chin| dark.min(0.5 + 0.5 * chin)),
+            Limits::Soft => on_chin.map_or(dark, |chin| dark.min(0.5 + 0.5 * chin)),
             Limits::Sure | Limits::Faint => dark,
         };
+        let has_dark_chin = on_chin.is_some_and(|light| light < DARK);
+        let middle = self.plate.chin();
         self.plate.pixels_where(|_, i| {
             let (l, c) = (light.pixels()[i], colour.pixels()[i]);
             let is_dark = l < dark && uneven.pixels()[i] > rough;
-            let is_pale = !self.plate.is_grey && c < pale;
+            let [u, v] = self.plate.at.pixels()[i];
+            let is_lit_cheek = has_dark_chin && l > LIT && v > CHEEK[1] && (u - middle).abs() > CHEEK[0];
+            let is_pale = !self.plate.is_grey && c < pale && !is_lit_cheek;
             is_dark || is_pale || (l < 0.42 && self.colour.pixels()[i] < 1.35 && self.uneven.pixels()[i] > 3.5)
         })
     }
@@ -339,5 +348,26 @@ mod tests {
             |face: &Face<'_>| face.halves(&lip).iter().filter_map(|half| median_in(&face.light, half)).collect::<Vec<f32>>();
         assert!(halves(&of(Limits::Sure)).iter().any(|light| *light < 0.9));
         assert!(halves(&of(Limits::Soft)).iter().all(|light| (light - 1.0).abs() < 0.1), "{:?}", halves(&of(Limits::Soft)));
+    }
+
+    #[test]
+    fn a_pale_cheek_is_a_light_beside_a_dark_chin_and_white_hair_beside_a_light_one() {
+        let is_chin = |x: usize, y: usize| (85..115).contains(&x) && (100..116).contains(&y);
+        let is_pale = |x: usize, y: usize| (60..78).contains(&x) && (80..100).contains(&y);
+        let is_hair = |chin: f32| {
+            let pixels = Raster::from_fn(200, 200, |x, y| match (is_chin(x, y), is_pale(x, y)) {
+                (true, _) => [180.0, 144.0, 126.0].map(|v| (chin * v) as u8),
+                (_, true) => [205, 200, 195],
+                // A wall as light as the skin, so that the picture has colours.
+                _ if x < 50 => [110, 160, 150],
+                _ => [180, 144, 126],
+            });
+            let plate = plate_with(&pixels, &CHEEKS.map(|i| (i, [if i < 250 { 80.0 } else { 120.0 }, 60.0])));
+            let origin = plate.point(CHEEKS[0]) - crate::geometry::Point::new(80.0, 60.0);
+            let at = |v: usize, away: f64| (v as f64 + away).round() as usize;
+            let chin = Raster::from_fn(plate.width(), plate.height(), |x, y| is_chin(at(x, -origin.x), at(y, -origin.y)));
+            Face::new(&plate, Limits::Sure).expect("a face").hairs(&chin).get(at(69, origin.x), at(90, origin.y))
+        };
+        assert_eq!([is_hair(0.4), is_hair(1.0)], [false, true]);
     }
 }
