@@ -114,7 +114,7 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     }
     let tone = raised_features(&zones, face, &tone, &setting.subject);
     let skin = skin_of(setting);
-    let tone = with_ears(&zones, &tone, &skin, heights(face));
+    let tone = with_ears(&zones, &tone, &skin, face, heights(face));
     let tone = opened(&zones, face, &tone);
     let tone = opened_blacks(&zones, face, &tone, &setting.subject);
     let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
