@@ -70,3 +70,14 @@ fn every_command_of_the_pages_runs_as_written() {
     failures.extend(second.iter().filter_map(|command| run(folder.path(), command).err()));
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+#[test]
+fn the_schema_that_ships_is_the_programs() {
+    let output = Command::new(env!("CARGO_BIN_EXE_drypoint")).arg("schema").output().unwrap();
+    let shown = String::from_utf8(output.stdout).unwrap();
+    let path = root().join("docs/scene.schema.json");
+    if std::env::var_os("DRYPOINT_REFRESH").is_some() {
+        fs::write(&path, &shown).unwrap();
+    }
+    assert_eq!(fs::read_to_string(path).unwrap(), shown, "DRYPOINT_REFRESH=1 writes it anew");
+}

@@ -391,15 +391,3 @@ fn an_embedded_drawing_has_the_ink_of_the_sheet() {
         assert!((embedded / sheet - 1.0).abs() < 0.01, "{set}: {embedded} of {sheet}");
     }
 }
-
-#[test]
-#[cfg(feature = "drive")]
-fn the_schema_that_ships_is_the_programs() {
-    let folder = tempfile::tempdir().unwrap();
-    let shown = runs(folder.path(), &["schema"]);
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scene.schema.json");
-    if std::env::var_os("DRYPOINT_REFRESH").is_some() {
-        fs::write(&path, &shown).unwrap();
-    }
-    assert_eq!(fs::read_to_string(path).unwrap(), shown, "DRYPOINT_REFRESH=1 writes it anew");
-}
