@@ -168,7 +168,7 @@ fn is_monochrome(lab: &Raster<[f32; 3]>, face: &Raster<bool>) -> bool {
 }
 
 /// The share of pixels whose a* and b* lie within `same` of the mean of those as light; L*, a*, b*.
-fn share_of_usual(lab: &[[f32; 3]], same: f32) -> f32 {
+pub(super) fn share_of_usual(lab: &[[f32; 3]], same: f32) -> f32 {
     const STEPS: usize = 10;
     let step = |l: f32| ((l / 100.0 * STEPS as f32) as usize).min(STEPS - 1);
     let mut sums = [[0.0_f64; 3]; STEPS];
