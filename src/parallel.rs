@@ -66,6 +66,12 @@ pub(crate) fn mapped<T: Sync, U: Send>(items: &[T], value: &(impl Fn(&T) -> U + 
     collected_by(items.len(), &|i: usize| value(&items[i]))
 }
 
+/// The results of two works that do not need each other, done at the same time.
+#[cfg(feature = "see")]
+pub(crate) fn both<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    rayon::join(a, b)
+}
+
 /// Calls `work` with the number and the values of each share of `share` values (a row, some rows), in parallel.
 pub(crate) fn shares<T: Send>(values: &mut [T], share: usize, work: &(impl Fn(usize, &mut [T]) + Sync)) {
     shares_by(values, share, work);

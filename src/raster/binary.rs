@@ -1,16 +1,39 @@
 //! Binary rasters (0 or 1): dilation, majority, connected components.
 
 use super::Raster;
-use crate::parallel::shares;
+use crate::parallel::{rows_with, shares};
 
 /// Grows the marked region by `radius` pixels (a square, by chessboard distance).
 pub fn dilate(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
-    window_count(mask, radius).map(|count| u8::from(count > 0))
+    let rows = grown_along_rows(mask, radius).transposed();
+    grown_along_rows(&rows, radius).transposed()
 }
 
 /// Shrinks the marked region by `radius` pixels; the raster's border is no edge of it.
 pub fn erode(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
-    window_count(&mask.map(|v| u8::from(v == 0)), radius).map(|count| u8::from(count == 0))
+    dilate(&mask.map(|v| u8::from(v == 0)), radius).map(|v| 1 - v)
+}
+
+/// Marks what is marked up to `radius` pixels to the left or right, in steps that double the reach.
+fn grown_along_rows(mask: &Raster<u8>, radius: usize) -> Raster<u8> {
+    let width = mask.width();
+    let radius = radius.min(width);
+    let window = 2 * radius + 1;
+    let mut out = Raster::filled(width, mask.height(), 0_u8);
+    let scratch = || [0, 1].map(|_| vec![0_u8; width + 2 * radius]);
+    rows_with(out.pixels_mut(), width, &scratch, &|[from, to], y, out| {
+        from.fill(0);
+        from[radius..radius + width].iter_mut().zip(mask.row(y)).for_each(|(padded, v)| *padded = u8::from(*v != 0));
+        let mut reached = 1;
+        while reached < window {
+            let step = reached.min(window - reached);
+            to.iter_mut().zip(from.iter().zip(&from[step..])).for_each(|(to, (a, b))| *to = a | b);
+            std::mem::swap(from, to);
+            reached += step;
+        }
+        out.copy_from_slice(&from[..width]);
+    });
+    out
 }
 
 /// The marked region without its parts of up to `2 radius` pixels.
@@ -81,23 +104,45 @@ fn running_count(raster: &Raster<u32>, radius: usize) -> Raster<u32> {
 /// Labels the connected components of a mask (eight neighbours): 0 outside, then 1, 2, ... in row order of their first pixel.
 /// Returns the labels and the number of components.
 ///
-/// Two passes: the first takes a label from the neighbours above and to the left and records which labels meet there; the second
-/// renumbers the joined labels.
+/// Two passes over the runs of marked pixels in each row: the first takes a label from the runs above that touch it, and records which
+/// labels meet there; the second renumbers the joined labels.
 pub fn components(mask: &Raster<u8>) -> (Raster<u32>, usize) {
-    let mut labels = Raster::filled(mask.width(), mask.height(), 0_u32);
     let mut meets = LabelUnion(vec![0]);
+    let mut runs: Vec<(Run, u32)> = Vec::new();
+    let mut starts = vec![0];
     for y in 0..mask.height() {
-        for x in (0..mask.width()).filter(|&x| mask.get(x, y) != 0) {
-            let columns = x.saturating_sub(1)..(x + 2).min(mask.width());
-            let above = columns.filter(|_| y > 0).map(|x| labels.get(x, y - 1));
-            let left = (x > 0).then(|| labels.get(x - 1, y));
-            let joined = above.chain(left).filter(|&label| label != 0).reduce(|a, b| meets.join(a, b));
-            let label = joined.unwrap_or_else(|| meets.fresh());
-            labels.set(x, y, label);
+        let above = starts.len().checked_sub(2).map_or(0, |before| starts[before])..runs.len();
+        let mut next = above.start;
+        for run in runs_of(mask.row(y)) {
+            // Runs that end before this one touches them cannot touch a later one.
+            while next < above.end && runs[next].0.end < run.start {
+                next += 1;
+            }
+            let touching = runs[next..above.end].iter().take_while(|(other, _)| other.start <= run.end).map(|(_, label)| *label);
+            let joined = touching.reduce(|a, b| meets.join(a, b));
+            runs.push((run, joined.unwrap_or_else(|| meets.fresh())));
         }
+        starts.push(runs.len());
     }
     let (numbers, count) = meets.numbers();
-    (labels.map(|label| numbers[label as usize]), count)
+    let mut labels = Raster::filled(mask.width(), mask.height(), 0_u32);
+    shares(labels.pixels_mut(), mask.width(), &|y, out| {
+        runs[starts[y]..starts[y + 1]].iter().for_each(|(run, label)| out[run.clone()].fill(numbers[*label as usize]));
+    });
+    (labels, count)
+}
+
+/// Columns of a row from the first to behind the last.
+type Run = std::ops::Range<usize>;
+
+/// The runs of marked pixels of a row.
+fn runs_of(row: &[u8]) -> impl Iterator<Item = Run> {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        let start = from + row[from..].iter().position(|v| *v != 0)?;
+        from = row[start..].iter().position(|v| *v == 0).map_or(row.len(), |length| start + length);
+        Some(start..from)
+    })
 }
 
 /// Union-find: for each label a smaller one that it is joined to, or itself.

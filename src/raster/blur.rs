@@ -13,18 +13,72 @@ pub fn box_blur(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
     box_blur_rows(&rows, radius).transposed()
 }
 
+/// Rows whose sums run side by side: each waits for its own last sum alone.
+const TOGETHER: usize = 4;
+
 fn box_blur_rows(raster: &Raster<f32>, radius: usize) -> Raster<f32> {
     let width = raster.width();
     let mut out = Raster::filled(width, raster.height(), 0.0_f32);
-    let last = width - 1;
+    shares(out.pixels_mut(), TOGETHER * width, &|part, out| {
+        let first = part * TOGETHER;
+        if out.len() == TOGETHER * width {
+            running_means::<TOGETHER>(std::array::from_fn(|j| raster.row(first + j)), radius, out);
+        } else {
+            out.chunks_mut(width).enumerate().for_each(|(j, out)| running_means([raster.row(first + j)], radius, out));
+        }
+    });
+    out
+}
+
+/// The mean of the window around each pixel of some rows, which follow each other in `out`.
+fn running_means<const N: usize>(rows: [&[f32]; N], radius: usize, out: &mut [f32]) {
+    let width = rows[0].len();
+    let scale = 1.0 / (2 * radius + 1) as f64;
+    let at = |row: &[f32], x: isize| f64::from(row[x.clamp(0, width as isize - 1) as usize]);
+    let mut sums = rows.map(|row| (-(radius as isize)..=radius as isize).map(|x| at(row, x)).sum::<f64>());
+    for x in 0..width {
+        let (ahead, behind) = ((x + radius + 1).min(width - 1), x.saturating_sub(radius));
+        for (j, (sum, row)) in sums.iter_mut().zip(&rows).enumerate() {
+            out[j * width + x] = (*sum * scale) as f32;
+            *sum += f64::from(row[ahead]) - f64::from(row[behind]);
+        }
+    }
+}
+
+/// [`box_blur`] of each of some values: they share their way through the picture.
+#[cfg(feature = "see")]
+pub(crate) fn box_blur_each<const N: usize>(raster: &Raster<[f32; N]>, radius: usize) -> Raster<[f32; N]>
+where
+    [f32; N]: Default,
+{
+    if radius == 0 || raster.is_empty() {
+        return raster.clone();
+    }
+    let rows = box_blur_rows_of_each(raster, radius).transposed();
+    box_blur_rows_of_each(&rows, radius).transposed()
+}
+
+#[cfg(feature = "see")]
+fn box_blur_rows_of_each<const N: usize>(raster: &Raster<[f32; N]>, radius: usize) -> Raster<[f32; N]>
+where
+    [f32; N]: Default,
+{
+    let width = raster.width();
+    let mut out = raster.clone();
     let scale = 1.0 / (2 * radius + 1) as f64;
     shares(out.pixels_mut(), width, &|y, out| {
         let row = raster.row(y);
-        let at = |x: isize| f64::from(row[x.clamp(0, last as isize) as usize]);
-        let mut sum: f64 = (-(radius as isize)..=radius as isize).map(at).sum();
-        for x in 0..width as isize {
-            out[x as usize] = (sum * scale) as f32;
-            sum += at(x + radius as isize + 1) - at(x - radius as isize);
+        let at = |x: isize| row[x.clamp(0, width as isize - 1) as usize];
+        let mut sums = [0.0_f64; N];
+        for x in -(radius as isize)..=radius as isize {
+            sums.iter_mut().zip(at(x)).for_each(|(sum, v)| *sum += f64::from(v));
+        }
+        for (x, out) in out.iter_mut().enumerate() {
+            let (ahead, behind) = (row[(x + radius + 1).min(width - 1)], row[x.saturating_sub(radius)]);
+            for k in 0..N {
+                out[k] = (sums[k] * scale) as f32;
+                sums[k] += f64::from(ahead[k]) - f64::from(behind[k]);
+            }
         }
     });
     out

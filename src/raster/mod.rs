@@ -34,6 +34,8 @@ pub use bilateral::bilateral;
 #[doc(hidden)]
 pub use binary::{close, components, dilate, erode, majority, open, open_round, remove_components};
 #[doc(hidden)]
+#[cfg(feature = "see")]
+pub(crate) use blur::box_blur_each;
 pub use blur::{box_blur, gaussian_blur};
 #[doc(hidden)]
 pub use canny::{Thresholds, canny};
@@ -227,9 +229,21 @@ impl<T: Copy + Send + Sync> Raster<T> {
     where
         T: Default,
     {
-        Self::from_fn(self.height, self.width, |x, y| self.get(y, x))
+        let (width, height) = (self.height, self.width);
+        let mut data = vec![T::default(); self.len()];
+        shares(&mut data, BAND * width.max(1), &|band, out| {
+            let from = band * BAND;
+            for x in 0..width {
+                let pixels = &self.row(x)[from..(from + BAND).min(height)];
+                pixels.iter().enumerate().for_each(|(y, v)| out[y * width + x] = *v);
+            }
+        });
+        Self { width, height, data }
     }
 }
+
+/// Rows that are transposed together: their pixels share the lines of the processor's cache.
+const BAND: usize = 16;
 
 /// Pixels per parallel task: enough to outweigh the call, few enough to divide a small raster among threads.
 const SHARE: usize = 4096;

@@ -101,8 +101,11 @@ fn as_nearness(heights: &Raster<f32>, subject: &Raster<u8>, least_range: f64) ->
     let (lowest, highest) = inside().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
     let range = f64::from(highest - lowest).max(least_range).max(1e-6);
     heights.zip_map(subject, |height, subject| {
+        if subject < LEAST_SUBJECT {
+            return 0;
+        }
         let share = (1.0 - f64::from(highest - height) / range).clamp(0.0, 1.0);
         let nearness = FARTHEST + (1.0 - FARTHEST) * share.power(POWER);
-        if subject < LEAST_SUBJECT { 0 } else { (65535.0 * nearness).round() as u16 }
+        (65535.0 * nearness).round() as u16
     })
 }

@@ -6,6 +6,7 @@ use super::view::{Outside, View, Window};
 use crate::elementary::{Elementary as _, angle_of};
 use crate::geometry::{Point, Rect, Vec2};
 use crate::interrupt::Interrupt;
+use crate::parallel::mapped;
 
 /// Least score of a face. On sixteen portraits and the samples, faces with upright heads score 0.88 and more; cats, parrots, a
 /// raccoon and a cup score at most 0.60. At 0.6 animals become people, and their drawings lose the background; at 0.9 heads that
@@ -120,16 +121,19 @@ pub(super) fn with_missed(
 
 /// Candidates in tiles of a side in pixels of the picture that overlap by half; none if the tiles show no more than the whole.
 fn in_tiles(detector: &Network, view: &View, side: f64, interrupt: &Interrupt) -> Result<Vec<Found>, SeeError> {
-    let mut found = Vec::new();
     if side < LEAST_TILE {
-        return Ok(found);
+        return Ok(Vec::new());
     }
-    for (x, y) in tile_places(view.part.height(), side).flat_map(|y| tile_places(view.part.width(), side).map(move |x| (x, y))) {
+    let (width, height) = (view.part.width(), view.part.height());
+    let middles: Vec<(f64, f64)> =
+        tile_places(height, side).flat_map(|y| tile_places(width, side).map(move |x| (x, y))).collect();
+    let in_tile = |&(x, y): &(f64, f64)| {
         interrupt.check()?;
         let centre = view.part.origin() + Vec2::new(x, y);
-        found.extend(candidates(detector, view, Window::square(centre, side, 0.0), Exposure::AsTaken)?);
-    }
-    Ok(found)
+        candidates(detector, view, Window::square(centre, side, 0.0), Exposure::AsTaken)
+    };
+    let found: Vec<Vec<Found>> = mapped(&middles, &in_tile).into_iter().collect::<Result<_, SeeError>>()?;
+    Ok(found.concat())
 }
 
 /// The known faces, and of those found the ones beside them about as large: what is smaller is a stranger's, or no face. A known face that is

@@ -6,6 +6,7 @@ use super::networks::{Network, sixteenths};
 use super::view::{Outside, View, Window};
 use crate::elementary::{angle_of, unit_at};
 use crate::geometry::Point;
+use crate::parallel::both;
 use crate::source::Iris;
 
 /// Corners of the eyes: outer and inner of the right, inner and outer of the left, each from left to right on an upright face.
@@ -61,7 +62,8 @@ pub(super) fn irises(network: &Network, view: &View, points: &mut [[f64; 3]]) ->
         let window = Window::square(a.midpoint(b), ROOM * a.distance(b).max(1.0), angle_of(b - a));
         eye(network, view, if side == 0 { window } else { window.mirrored() })
     };
-    let mut eyes = [looked(0, corners[0])?, looked(1, corners[1])?];
+    let (right, left) = both(|| looked(0, corners[0]), || looked(1, corners[1]));
+    let mut eyes = [right?, left?];
     for (side, other) in [(0, 1), (1, 0)] {
         let least = ALIKE * eyes[other].iris.radius;
         let again = if eyes[side].iris.radius < DOUBTFUL * eyes[other].iris.radius {

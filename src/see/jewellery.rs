@@ -7,8 +7,8 @@
 use super::sight::Regions;
 use crate::geometry::{Point, Region, Vec2};
 use crate::parallel::collected;
-use crate::raster::{Raster, fast_gaussian, shares_of_bytes};
-use crate::source::{Landmarks, lightness, luminance, outlines, srgb_to_linear};
+use crate::raster::{Raster, fast_gaussian};
+use crate::source::{Landmarks, byte_to_linear, lightness, luminance, outlines};
 use std::ops::Range;
 
 /// Scales of the spots in widths of the face: a pearl has a radius of 1.41 scales.
@@ -100,8 +100,7 @@ impl<'a> Bust<'a> {
     fn spots(&self, pixels: &Raster<[u8; 3]>, subject: &Raster<u8>) -> Vec<Spot> {
         let Some([columns, rows]) = self.extent(pixels) else { return Vec::new() };
         let light = Raster::from_fn(columns.len(), rows.len(), |x, y| {
-            let colour = shares_of_bytes(pixels.get(columns.start + x, rows.start + y));
-            lightness(luminance(colour.map(srgb_to_linear)))
+            lightness(luminance(pixels.get(columns.start + x, rows.start + y).map(byte_to_linear)))
         });
         let scales: Vec<f64> = SCALES.into_iter().map(|scale| scale * self.width).filter(|s| *s >= LEAST_SCALE).collect();
         let mut found: Vec<Spot> = collected(scales.len(), &|i| spots_of(&light, scales[i])).into_iter().flatten().collect();

@@ -9,14 +9,16 @@ use super::jewellery::with_pearls;
 use super::mesh::mesh;
 use super::networks::{DETECTOR, Engine, IRIS, MESH, Network, PERSON};
 use super::regions::regions;
-use super::sight::{Face, Sight};
+use super::sight::{Face, Regions, Sight};
 use super::spectacles::spectacles;
 use super::subject::subject;
 use super::turn::Turn;
 use super::view::View;
 use crate::geometry::{Point, Rect};
 use crate::interrupt::Interrupt;
-use crate::source::{Landmarks, Photograph};
+use crate::parallel::both;
+use crate::raster::Raster;
+use crate::source::{Landmarks, Photograph, Spectacles};
 use std::f64::consts::FRAC_PI_2;
 
 /// Longer side in pixels of the view, and of the masks: a face that fills a fifth of it still has the mesh's 200 pixels, and a
@@ -48,25 +50,51 @@ pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sig
     let Some((turn, view, found)) = find(&detector, photograph, first, upright, interrupt)? else {
         return Ok(sight);
     };
-    let faces = measured(&engine, photograph, turn, &view, &found, interrupt)?;
+    let (measured, strangers) =
+        both(|| measured(&engine, photograph, turn, &view, &found, interrupt), || faces::strangers(&detector, &view, &found));
+    let (mut faces, closer) = measured?;
     if faces.is_empty() {
         return Ok(sight);
     }
     interrupt.check()?;
-    let points: Vec<Vec<[f64; 3]>> = faces.iter().map(|face| face.landmarks.points.clone()).collect();
-    let strangers = faces::strangers(&detector, &view, &found)?;
-    let subject = subject(&engine.load(&PERSON)?, &view, &points, &strangers)?;
-    let step = view.step();
-    let on_view = |p: Point| Point::new((p.x - view.part.x0) / step.x, (p.y - view.part.y0) / step.y);
-    let landmarks: Vec<Landmarks> = faces.iter().map(|face| face.landmarks.placed(on_view, 1.0 / step.x)).collect();
-    let regions = regions(&view.pixels, &subject, &landmarks);
-    let (subject, regions) = without_bumps_of_hats(subject, regions, &landmarks);
-    let regions = with_pearls(&view.pixels, &subject, &landmarks, regions);
+    let strangers = strangers?;
+    let (people, spectacles) = both(|| people(&engine, &view, &faces, &strangers), || worn(&view, &closer, &faces));
+    let People { subject, regions, depth } = people?;
+    faces.iter_mut().zip(spectacles).for_each(|(face, spectacles)| face.landmarks.spectacles = spectacles);
     sight.regions = Some(regions.map(|plane| turn.raster_back(plane)));
-    sight.depth = Some(turn.raster_back(&depth(&subject, &view, &faces)));
+    sight.depth = Some(turn.raster_back(&depth));
     sight.subject = Some(turn.raster_back(&subject));
     sight.faces = faces.iter().map(|face| turned_back(turn, face)).collect();
     Ok(sight)
+}
+
+/// The people on the view's grid.
+struct People {
+    subject: Raster<u8>,
+    regions: Regions,
+    depth: Raster<u16>,
+}
+
+/// Separates the people from the ground, and their regions from one another.
+fn people(engine: &Engine, view: &View, faces: &[Face], strangers: &[Rect]) -> Result<People, SeeError> {
+    let points: Vec<Vec<[f64; 3]>> = faces.iter().map(|face| face.landmarks.points.clone()).collect();
+    let subject = subject(&engine.load(&PERSON)?, view, &points, strangers)?;
+    let step = view.step();
+    let on_view = |p: Point| Point::new((p.x - view.part.x0) / step.x, (p.y - view.part.y0) / step.y);
+    let landmarks: Vec<Landmarks> = faces.iter().map(|face| face.landmarks.placed(on_view, 1.0 / step.x)).collect();
+    let (regions, near) = both(|| regions(&view.pixels, &subject, &landmarks), || depth(&subject, view, faces));
+    let (smooth, regions) = without_bumps_of_hats(subject.clone(), regions, &landmarks);
+    let regions = with_pearls(&view.pixels, &smooth, &landmarks, regions);
+    let depth = if smooth == subject { near } else { depth(&smooth, view, faces) };
+    Ok(People { subject: smooth, regions, depth })
+}
+
+/// The spectacles of each face, in its closer view if it has one.
+fn worn(view: &View, closer: &[Option<View>], faces: &[Face]) -> Vec<Option<Spectacles>> {
+    let own = |(face, closer): (&Face, &Option<View>)| {
+        spectacles(closer.as_ref().unwrap_or(view), &face.landmarks.points, &face.landmarks.irises)
+    };
+    faces.iter().zip(closer).map(own).collect()
 }
 
 /// Finds the faces, and the rotation and view in which they are upright.
@@ -114,7 +142,7 @@ fn find_turned(
     Ok(best.map(|(_, turn, found)| (turn, found)))
 }
 
-/// Landmarks and irises of each face, in pixels of the upright picture.
+/// Landmarks and irises of each face, in pixels of the upright picture, and the closer view of it if one was taken.
 fn measured(
     engine: &Engine,
     photograph: &Photograph,
@@ -122,9 +150,9 @@ fn measured(
     view: &View,
     found: &[Found],
     interrupt: &Interrupt,
-) -> Result<Vec<Face>, SeeError> {
+) -> Result<(Vec<Face>, Vec<Option<View>>), SeeError> {
     let (points_of, irises_of) = (engine.load(&MESH)?, engine.load(&IRIS)?);
-    let mut faces = Vec::new();
+    let (mut faces, mut views) = (Vec::new(), Vec::new());
     for found in found.iter().filter(|found| found.bounds.width() >= LEAST_FACE) {
         interrupt.check()?;
         let side = found.side();
@@ -142,11 +170,11 @@ fn measured(
         }
         let mut points = mesh.points;
         let irises = irises(&irises_of, view, &mut points)?;
-        let spectacles = spectacles(view, &points, &irises);
-        let landmarks = Landmarks { points, irises, spectacles };
+        let landmarks = Landmarks { points, irises, spectacles: None };
         faces.push(Face { bounds: found.bounds, score: found.score, landmarks });
+        views.push(closer);
     }
-    Ok(faces)
+    Ok((faces, views))
 }
 
 /// Maps a face of the upright picture to the photograph's grid.

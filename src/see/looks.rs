@@ -5,6 +5,7 @@ use super::head::Head;
 use super::networks::Network;
 use super::view::{Outside, View, Window};
 use crate::geometry::Rect;
+use crate::parallel::{both, mapped};
 use crate::raster::Raster;
 
 /// Side of the padded window in longer sides of the picture: the network expects the head away from the frame. The padding is
@@ -30,14 +31,16 @@ impl PersonMaps {
         let picture = view.part;
         if heads.first().is_some_and(|head| head.is_close_up(picture)) {
             // Each of these two loses pieces of a face that fills the frame, and neither adds any.
-            let whole = look.at(picture, Outside::Repeated, Tone::Own)?;
-            let padded = look.at(with_room(picture), Outside::Grey(GREY), Tone::Own)?;
-            let either = whole.zip_map(&padded, f32::max);
+            let whole = || look.at(picture, Outside::Repeated, Tone::Own);
+            let (whole, padded) = both(whole, || look.at(with_room(picture), Outside::Grey(GREY), Tone::Own));
+            let either = whole?.zip_map(&padded?, f32::max);
             return Ok(Self { middle: either.clone(), least: either });
         }
-        let brighter = look.at(picture, Outside::Repeated, Tone::Brighter)?;
-        let padded = look.at(with_room(picture), Outside::Grey(BLACK), Tone::Own)?;
-        let near = look.near(heads, &brighter)?;
+        let brighter = || look.at(picture, Outside::Repeated, Tone::Brighter);
+        let padded = || look.at(with_room(picture), Outside::Grey(BLACK), Tone::Own);
+        let ((brighter, padded), round) = both(|| both(brighter, padded), || look.round(heads));
+        let (brighter, padded) = (brighter?, padded?);
+        let near = look.near(&round?, &brighter);
         let least = near.zip_map(&padded, f32::min).zip_map(&brighter, f32::min);
         let pairs = near.zip_map(&padded, |a, b| [a.min(b), a.max(b)]);
         let middle = pairs.zip_map(&brighter, |[low, high], c| low.max(high.min(c)));
@@ -90,13 +93,20 @@ impl Look<'_> {
         }))
     }
 
-    /// Near each head the network's result for its surroundings (where these overlap, the maximum); elsewhere `beyond`.
-    fn near(&self, heads: &[Head], beyond: &Raster<f32>) -> Result<Raster<f32>, SeeError> {
+    /// The network's result for the surroundings of each head, with these.
+    fn round(&self, heads: &[Head]) -> Result<Vec<(Rect, Raster<f32>)>, SeeError> {
+        let one = |head: &Head| {
+            let part = head.surroundings(self.view.part);
+            Ok((part, self.at(part, Outside::Repeated, Tone::Own)?))
+        };
+        mapped(heads, &one).into_iter().collect()
+    }
+
+    /// Near each head what was seen in its surroundings (where these overlap, the maximum); elsewhere `beyond`.
+    fn near(&self, round: &[(Rect, Raster<f32>)], beyond: &Raster<f32>) -> Raster<f32> {
         let picture = self.view.part;
         let mut near: Raster<Option<f32>> = beyond.map(|_| None);
-        for head in heads {
-            let part = head.surroundings(picture);
-            let round = self.at(part, Outside::Repeated, Tone::Own)?;
+        for (part, round) in round {
             let columns = picture.width() / round.width() as f64;
             let rows = picture.height() / round.height() as f64;
             near = Raster::from_fn(near.width(), near.height(), |x, y| {
@@ -106,6 +116,6 @@ impl Look<'_> {
                 if is_inside { Some(before.unwrap_or(0.0).max(round.get(x, y))) } else { before }
             });
         }
-        Ok(near.zip_map(beyond, Option::unwrap_or))
+        near.zip_map(beyond, Option::unwrap_or)
     }
 }

@@ -12,9 +12,9 @@ use std::f64::consts::TAU;
 const LENS_AT: Vec2 = Vec2::new(4.0, 7.0);
 const LENS: Vec2 = Vec2::new(44.0, 29.0);
 const SQUARE: f64 = 2.6;
-/// Other middles of a lens that are tried, from the mean one: about one alone, a rim that is cut off on one side may win. Tuned on five portraits and
-/// Grace Hopper: farther away hair's border is reached.
-const MIDDLES: [Vec2; 4] = [Vec2::new(-4.0, 0.0), Vec2::new(4.0, 0.0), Vec2::new(0.0, -4.0), Vec2::new(0.0, 4.0)];
+/// Middles of a lens that are tried, from the mean one, which is the first: about one alone, a rim that is cut off on one side may win. Tuned on
+/// five portraits and Grace Hopper: farther away hair's border is reached.
+const MIDDLES: [Vec2; 5] = [Vec2::ZERO, Vec2::new(-4.0, 0.0), Vec2::new(4.0, 0.0), Vec2::new(0.0, -4.0), Vec2::new(0.0, 4.0)];
 /// Sizes of a lens that are tried, as factors of the mean, their number, and the number of directions around the eye.
 const SCALES: [f64; 2] = [0.3, 1.4];
 const STEPS: usize = 74;
@@ -78,10 +78,10 @@ pub(super) enum Rim {
 
 /// The rims around the eyes on the left and on the right in the window: one is free and the other near its image, in the order that counts more.
 pub(super) fn rims(light: &Light, eyes: &[Eye; 2], kind: Rim) -> [Way; 2] {
-    let rim = |side: usize, other: Option<&Way>| {
-        let around = Around { side: [-1.0, 1.0][side], eye: &eyes[side], kind };
-        light.rim(around, other.map(Way::mirrored).as_deref())
-    };
+    let directions = &Directions::new();
+    let around = |side: usize| Around { side: [-1.0, 1.0][side], eye: &eyes[side], kind, directions };
+    let looks = [0, 1].map(|side| light.looks(around(side)));
+    let rim = |side: usize, other: Option<&Way>| light.rim(&looks[side], around(side), other.map(Way::mirrored).as_deref());
     let [left, right] = [rim(0, None), rim(1, None)];
     let (as_right, as_left) = (rim(0, Some(&right)), rim(1, Some(&left)));
     if as_right.counted + right.counted > left.counted + as_left.counted { [as_right, right] } else { [left, as_left] }
@@ -100,34 +100,60 @@ struct Around<'a> {
     side: f64,
     eye: &'a Eye,
     kind: Rim,
+    directions: &'a Directions,
+}
+
+/// The lens and the direction across its border in each direction around a middle.
+struct Directions(Vec<(Vec2, Vec2)>);
+
+impl Directions {
+    fn new() -> Self {
+        Self((0..DIRECTIONS).map(|direction| (lens(direction), lens_normal(direction))).collect())
+    }
+}
+
+/// How much each place around a middle looks like a rim, by its size of the lens and its direction.
+struct Looks {
+    centre: Point,
+    values: Raster<f32>,
 }
 
 impl Light {
+    /// The places around an eye about each middle that is tried.
+    fn looks(&self, around: Around<'_>) -> [Looks; MIDDLES.len()] {
+        let mean = MIDDLE + Vec2::new(around.side * (0.5 * APART + LENS_AT.x), LENS_AT.y);
+        MIDDLES.map(|away| self.looks_about(mean + away, around))
+    }
+
+    fn looks_about(&self, centre: Point, Around { side, eye, kind, directions }: Around<'_>) -> Looks {
+        let values = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
+            let (along, across) = directions.0[direction];
+            let p = centre + along * scale(step);
+            if side * (p.x - MIDDLE.x) < OFF_NOSE || eye.holds(p, kind) {
+                return IMPOSSIBLE;
+            }
+            self.counts(p, along, across, kind)
+        });
+        Looks { centre, values }
+    }
+
     /// The closed way around the eye that is most a rim, about the best of several middles; near the image of the other rim if that is given.
-    fn rim(&self, around: Around<'_>, image: Option<&[Point]>) -> Way {
-        let centre = MIDDLE + Vec2::new(around.side * (0.5 * APART + LENS_AT.x), LENS_AT.y);
-        let first = self.rim_about(centre, around, image);
-        let others = MIDDLES.map(|away| self.rim_about(centre + away, around, image));
+    fn rim(&self, looks: &[Looks; MIDDLES.len()], around: Around<'_>, image: Option<&[Point]>) -> Way {
+        let [first, others @ ..] = looks.each_ref().map(|looks| self.rim_about(looks, around, image));
         others.into_iter().fold(first, |best, way| if way.counted > best.counted { way } else { best })
     }
 
     /// The closed way about this middle that is most a rim.
-    fn rim_about(&self, centre: Point, Around { side, eye, kind }: Around<'_>, image: Option<&[Point]>) -> Way {
-        let place = |step: usize, direction: usize| centre + lens(direction) * scale(step);
-        let values = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
-            let p = place(step, direction);
-            if side * (p.x - MIDDLE.x) < OFF_NOSE || eye.holds(p, kind) {
-                return IMPOSSIBLE;
-            }
-            self.counts(p, direction, kind)
-        });
+    fn rim_about(&self, looks: &Looks, Around { eye, directions, .. }: Around<'_>, image: Option<&[Point]>) -> Way {
+        let Looks { centre, values } = looks;
+        let lens = |direction: usize| directions.0[direction].0;
         let expected: Vec<Option<f64>> = (0..DIRECTIONS)
             .map(lens)
-            .map(|along| image.filter(|_| along.y.abs() > STEEP * LENS.y).and_then(|image| reach_towards(image, centre, along)))
+            .map(|along| image.filter(|_| along.y.abs() > STEEP * LENS.y).and_then(|image| reach_towards(image, *centre, along)))
             .collect();
         let counted = Raster::from_fn(STEPS, DIRECTIONS, |step, direction| {
             let value = values.get(step, direction).min(MOST_COUNTED);
-            let p = place(step, direction);
+            let p = *centre + lens(direction) * scale(step);
             let share = if is_above(&eye.brow, p) || !self.is_in_face(p) { NO_RIM } else { 1.0 };
             let value = if value > 0.0 { value * share * (1.0 + LONGER * (scale(step) as f32 - MEAN_SCALE)) } else { value };
             value - expected[direction].map_or(0.0, |reach| unlike(scale(step) * lens(direction).hypot() - reach))
@@ -136,22 +162,20 @@ impl Light {
         let around = Raster::from_fn(STEPS, 3 * DIRECTIONS, |step, row| counted.get(step, row % DIRECTIONS));
         let steps = best_way(&around, 2, RIM_BEND)[DIRECTIONS..2 * DIRECTIONS].to_vec();
         let sum = |of: &Raster<f32>| steps.iter().enumerate().map(|(direction, step)| of.get(*step, direction)).sum::<f32>();
-        let contrast = sum(&values);
         let smooth = |direction: usize| {
             let around = [DIRECTIONS - 2, DIRECTIONS - 1, 0, 1, 2].map(|by| scale(steps[(direction + by) % DIRECTIONS]));
             around.iter().sum::<f64>() / 5.0
         };
-        let points = (0..DIRECTIONS).map(|direction| centre + lens(direction) * smooth(direction)).collect();
-        Way { points, contrast: contrast / DIRECTIONS as f32, counted: sum(&counted) }
+        let points = (0..DIRECTIONS).map(|direction| *centre + lens(direction) * smooth(direction)).collect();
+        Way { points, contrast: sum(values) / DIRECTIONS as f32, counted: sum(&counted) }
     }
 
     /// How much a place looks like a rim in a direction around the eye. Lenses may have a dark upper frame; below they have a light edge,
     /// and what is dark there are folds.
-    fn counts(&self, p: Point, direction: usize, kind: Rim) -> f32 {
-        let across = lens_normal(direction);
+    fn counts(&self, p: Point, along: Vec2, across: Vec2, kind: Rim) -> f32 {
         match kind {
             Rim::Dark => self.sharp_contrast(p, across),
-            Rim::Edge if lens(direction).y > 0.0 => self.light_contrast(p, across),
+            Rim::Edge if along.y > 0.0 => self.light_contrast(p, across),
             Rim::Edge => self.sharp_contrast(p, across).max(self.light_contrast(p, across)),
         }
     }

@@ -4,7 +4,7 @@
 use super::head::Head;
 use super::view::{View, on_view};
 use crate::raster::{Raster, components, dilate};
-use crate::source::{lab, srgb_to_linear};
+use crate::source::{byte_to_linear, lab};
 use std::ops::Range;
 
 /// The widest gap, in widths of the face: beside a wider one the ground is seen.
@@ -70,7 +70,7 @@ fn gaps(person: &Raster<u8>, y: usize) -> Vec<Range<usize>> {
 
 /// Share of a person that a pixel of a gap has by its shade, 0 to 255.
 fn shade(pixel: [u8; 3]) -> u8 {
-    let light = lab(pixel.map(|v| srgb_to_linear(f32::from(v) / 255.0)))[0];
+    let light = lab(pixel.map(byte_to_linear))[0];
     (255.0 * ((SHADE[1] - light) / (SHADE[1] - SHADE[0])).clamp(0.0, 1.0)).round() as u8
 }
 

@@ -240,6 +240,9 @@ fn without_crumbs(person: &Raster<u8>) -> Raster<u8> {
     labels.pixels().iter().filter(|label| **label != 0).for_each(|label| areas[*label as usize] += 1);
     let least = areas.iter().max().map_or(0.0, |largest| CRUMB * *largest as f64);
     let is_large = |label: u32| label != 0 && areas[label as usize] as f64 >= least;
+    if (1..=count as u32).all(is_large) {
+        return person.clone();
+    }
     let beside = dilate(&labels.map(|label| u8::from(is_large(label))), SOFT);
     let mut is_crumb: Vec<bool> = (0..=count as u32).map(|label| label != 0 && !is_large(label)).collect();
     for (&label, &beside) in labels.pixels().iter().zip(beside.pixels()) {

@@ -1,10 +1,19 @@
 //! Light and lightness.
 
 use crate::elementary::Elementary as _;
+#[cfg(feature = "see")]
+use std::sync::LazyLock;
 
 /// The linear light (0 to 1) of an sRGB-encoded value (0 to 1), IEC 61966-2-1.
 pub fn srgb_to_linear(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).power(2.4) }
+}
+
+/// [`srgb_to_linear`] of a byte.
+#[cfg(feature = "see")]
+pub(crate) fn byte_to_linear(encoded: u8) -> f32 {
+    static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|v| srgb_to_linear(v as f32 / 255.0)));
+    LINEAR[usize::from(encoded)]
 }
 
 /// The sRGB encoding (0 to 1) of linear light (0 to 1), IEC 61966-2-1.

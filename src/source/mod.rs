@@ -26,6 +26,8 @@ mod spectacles;
 pub(crate) use encoded::grey_image;
 
 #[doc(hidden)]
+#[cfg(feature = "see")]
+pub(crate) use colour::byte_to_linear;
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
 #[cfg(feature = "cli")]
 pub(crate) use decode::hexadecimal;

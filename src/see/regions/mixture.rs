@@ -5,6 +5,8 @@ use crate::elementary::Elementary as _;
 
 /// Most samples that a mixture is fitted to: more give no visible change.
 const MOST_SAMPLES: usize = 4000;
+/// Most components of a mixture.
+const MOST_PARTS: usize = 6;
 /// Fewest samples per component.
 const LEAST_EACH: usize = 12;
 /// Rounds of k-means; later ones move no mean by more than one unit.
@@ -66,7 +68,7 @@ impl Mixture {
     pub(super) fn fitted(samples: &[Feature], count: usize) -> Option<Self> {
         let step = samples.len().div_ceil(MOST_SAMPLES).max(1);
         let samples: Vec<Feature> = samples.iter().step_by(step).copied().collect();
-        let count = count.min(samples.len() / LEAST_EACH).max(1);
+        let count = count.min(samples.len() / LEAST_EACH).clamp(1, MOST_PARTS);
         let (middles, nearest) = k_means(&samples, count)?;
         let total = samples.len() as f32;
         let parts = middles.iter().enumerate().filter_map(|(j, &middle)| {
@@ -82,8 +84,11 @@ impl Mixture {
     /// The logarithm of the density, without the constant of four-dimensional Gaussians.
     #[inline]
     pub(super) fn log_density(&self, f: Feature) -> f32 {
-        let logs = self.0.iter().map(|(share, part)| share - part.half_log_determinant - 0.5 * part.distance(f));
-        log_sum(logs)
+        let mut logs = [f32::NEG_INFINITY; MOST_PARTS];
+        for (log, (share, part)) in logs.iter_mut().zip(&self.0) {
+            *log = share - part.half_log_determinant - 0.5 * part.distance(f);
+        }
+        log_sum(&logs[..self.0.len()])
     }
 
     pub(super) fn parts(&self) -> impl Iterator<Item = &Gaussian> {
@@ -93,12 +98,12 @@ impl Mixture {
 
 /// The logarithm of a sum of exponentials.
 #[inline]
-pub(super) fn log_sum(logs: impl Iterator<Item = f32> + Clone) -> f32 {
-    let greatest = logs.clone().fold(f32::NEG_INFINITY, f32::max);
+pub(super) fn log_sum(logs: &[f32]) -> f32 {
+    let greatest = logs.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     if greatest == f32::NEG_INFINITY {
         greatest
     } else {
-        greatest + logs.map(|v| (v - greatest).exponential()).sum::<f32>().logarithm()
+        greatest + logs.iter().map(|v| (v - greatest).exponential()).sum::<f32>().logarithm()
     }
 }
 

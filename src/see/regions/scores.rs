@@ -205,7 +205,7 @@ impl Segmentation<'_> {
     fn clothing_suits(&self, u: f32, v: f32, f: Feature) -> f32 {
         let a = u.abs();
         let flat = -self.skin.level() - 12.5;
-        let colour = self.clothing.as_ref().map_or(flat, |c| log_sum([c.log_density(f), flat].into_iter()));
+        let colour = self.clothing.as_ref().map_or(flat, |c| log_sum(&[c.log_density(f), flat]));
         let hairy = self.hair.as_ref().is_some_and(|hair| {
             let is_aside = a > 0.4 || self.may_fall(hair, u);
             hair.hangs(u) && a < hair.widest() && is_aside && hair.distance(f, 0.25, 0.4) < 18.0

@@ -1,7 +1,7 @@
 //! Guided filtering of several planes by one picture (He, Sun and Tang 2010), also to a finer size (He and Sun 2015): the linear
 //! functions of colour are fitted on the small picture and evaluated at the large one's colours.
 
-use crate::raster::{Raster, box_blur};
+use crate::raster::{Raster, box_blur_each};
 
 /// For each pixel the least-squares slopes for red, green and blue, then the offset.
 pub(super) type Lines = Raster<[f32; 4]>;
@@ -18,16 +18,13 @@ pub(super) struct Guide<'a> {
 impl<'a> Guide<'a> {
     /// Colours are 0 to 1. Edges of a contrast well below the root of `eps` are ignored.
     pub(super) fn new(colours: &'a Raster<[f32; 3]>, radius: usize, eps: f32) -> Self {
-        let blur = |plane: Raster<f32>| box_blur(&plane, radius);
-        let means = [0, 1, 2].map(|k| blur(colours.map(|c| c[k])));
-        let means = joined(&means);
-        let squares = PAIRS.map(|(i, j)| blur(colours.map(|c| c[i] * c[j])));
-        let inverse = Raster::from_fn(colours.width(), colours.height(), |x, y| {
-            let m = means.get(x, y);
+        let means = box_blur_each(colours, radius);
+        let squares = box_blur_each(&colours.map(|c| PAIRS.map(|(i, j)| c[i] * c[j])), radius);
+        let inverse = means.zip_map(&squares, |m, squares| {
             let mut spread = [0.0; 6];
             for (k, (i, j)) in PAIRS.into_iter().enumerate() {
                 let own = if i == j { eps } else { 0.0 };
-                spread[k] = f64::from(squares[k].get(x, y) - m[i] * m[j] + own);
+                spread[k] = f64::from(squares[k] - m[i] * m[j] + own);
             }
             inverse(spread)
         });
@@ -36,25 +33,20 @@ impl<'a> Guide<'a> {
 
     /// The linear functions of colour closest to a plane, each averaged over the windows that contain the pixel.
     pub(super) fn lines(&self, plane: &Raster<f32>) -> Lines {
-        let blur = |plane: &Raster<f32>| box_blur(plane, self.radius);
-        let mean = blur(plane);
-        let with_colour = [0, 1, 2].map(|k| blur(&self.colours.zip_map(plane, |c, v| c[k] * v)));
+        let with_colour = box_blur_each(&self.colours.zip_map(plane, |[r, g, b], v| [r * v, g * v, b * v, v]), self.radius);
         let lines = Raster::from_fn(plane.width(), plane.height(), |x, y| {
             let (m, s) = (self.means.get(x, y), self.inverse.get(x, y));
-            let beyond_means = |k: usize| with_colour[k].get(x, y) - m[k] * mean.get(x, y);
+            let [.., mean] = with_colour.get(x, y);
+            let beyond_means = |k: usize| with_colour.get(x, y)[k] - m[k] * mean;
             let c = [beyond_means(0), beyond_means(1), beyond_means(2)];
             let slope = [
                 s[0] * c[0] + s[1] * c[1] + s[2] * c[2],
                 s[1] * c[0] + s[3] * c[1] + s[4] * c[2],
                 s[2] * c[0] + s[4] * c[1] + s[5] * c[2],
             ];
-            [slope[0], slope[1], slope[2], mean.get(x, y) - slope[0] * m[0] - slope[1] * m[1] - slope[2] * m[2]]
+            [slope[0], slope[1], slope[2], mean - slope[0] * m[0] - slope[1] * m[1] - slope[2] * m[2]]
         });
-        let smooth = [0, 1, 2, 3].map(|k| blur(&lines.map(|line| line[k])));
-        Raster::from_fn(plane.width(), plane.height(), |x, y| {
-            let line = |k: usize| smooth[k].get(x, y);
-            [line(0), line(1), line(2), line(3)]
-        })
+        box_blur_each(&lines, self.radius)
     }
 
     /// A plane of values 0 to 1, smoothed along the picture's edges.
@@ -71,10 +63,6 @@ pub(super) fn value(line: [f32; 4], colour: [f32; 3]) -> f32 {
 
 /// Rows and columns of a symmetric matrix's upper triangle.
 const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-
-fn joined(planes: &[Raster<f32>; 3]) -> Raster<[f32; 3]> {
-    Raster::from_fn(planes[0].width(), planes[0].height(), |x, y| [0, 1, 2].map(|k| planes[k].get(x, y)))
-}
 
 /// The upper triangle of the inverse of a symmetric matrix, from its upper triangle.
 fn inverse([rr, rg, rb, gg, gb, bb]: [f64; 6]) -> [f32; 6] {
