@@ -13,8 +13,8 @@ const SOFT: f64 = 0.08;
 /// Distances from the oval in widths of the face: its border is a cheek's shade, and farther away are hands and other people.
 const BESIDE: f64 = 0.02;
 const FARTHEST: f64 = 0.32;
-/// Nose and mouth stand out beside the oval of a turned face, with a border so wide, in widths of the face: they are no ears.
-const FRONT: [&[usize]; 3] = [&outlines::LIPS, &outlines::NOSE, &outlines::NOSE_WINGS];
+/// Eyes, nose and mouth stand out beside the oval of a turned face, with a border so wide, in widths of the face: they are no ears.
+const FRONT: [&[usize]; 5] = [&outlines::LIPS, &outlines::NOSE, &outlines::NOSE_WINGS, &outlines::LEFT_EYE, &outlines::RIGHT_EYE];
 const ROUND_FRONT: f64 = 0.08;
 /// The blurs that folds lie between, in widths of the face: narrower is grain, wider is the light on the whole ear.
 const FINEST: f64 = 0.008;

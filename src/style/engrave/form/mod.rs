@@ -28,7 +28,7 @@ use super::Drawer;
 use super::parameters::Look;
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
-use crate::parallel::collected;
+use crate::parallel::{collected, mapped};
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
 use crate::style::form::{Directions, Surface, Surfaces};
@@ -36,6 +36,7 @@ use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
 use correction::TONE_ROUNDS;
 use families::{Closeness, Extent, FINE, Family};
+use roots::Roots;
 use runs::{Course, Piece};
 
 /// The turns of the second and the third family in degrees. At -60 the third makes honeycombs with the second.
@@ -51,6 +52,8 @@ const JAW: f64 = 0.5;
 const HAIR_CLOSENESS: f32 = 1.08;
 /// How far lines are laid beyond a surface's border, in pitches, so that they are even at it.
 const ROOM: f64 = 3.0;
+/// Pixels of a picture up to which the lines of all surfaces are made together: one of 90 x 120 mm at the usual pitch has a third of them.
+const TOGETHER: usize = 4_000_000;
 /// Share of a surface from which it has lines.
 const LEAST_SHARE: f32 = 0.02;
 
@@ -131,7 +134,8 @@ impl Drawer<'_> {
         solids.with_lids(portrait, pitch, LIDS).with_jaws(portrait, pitch, JAW).layer()
     }
 
-    /// The pieces of all lines on skin, hair and cloth, one after the other: their rasters together would take twice the memory.
+    /// The pieces of all lines on skin, hair and cloth; in a large picture one after the other, as their rasters together would take twice the
+    /// memory.
     fn lines(
         &self,
         surfaces: &Surfaces,
@@ -140,23 +144,43 @@ impl Drawer<'_> {
         ink: &Raster<f32>,
     ) -> Result<Pieces, StyleError> {
         let roots = self.roots(surfaces, directions.of(Surface::Hair));
+        let on = |surface: &Surface| {
+            let (mut first, ground) = self.inked(*surface, surfaces, &roots, directions, ink);
+            let [one, two, three] = self.lines_over(&ground, directions, detail);
+            first.extend(one);
+            self.check().map(|()| [first, two, three])
+        };
+        let all = [Surface::Skin, Surface::Hair, Surface::Cloth];
+        let of_grounds: Vec<Result<Pieces, StyleError>> =
+            if ink.len() <= TOGETHER { mapped(&all, &on) } else { all.iter().map(on).collect() };
         let mut pieces: Pieces = Default::default();
-        for surface in [Surface::Skin, Surface::Hair, Surface::Cloth] {
-            let (region, mut own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
-            if surface == Surface::Hair {
-                let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
-                pieces[0].extend(self.hooks(&coils, &region, directions.of(surface), &own));
-                own = hooks::beneath(&own, &coils);
-            }
-            let shares = match self.parameters.look {
-                Look::Hatch => [own.clone(), own.map(|_| 0.0), own.map(|_| 0.0)],
-                _ => shares::shares_of(&own, surface, &region, self.pitch()),
-            };
-            let of_ground = self.lines_over(&Ground { surface, region, shares }, directions, detail);
-            pieces.iter_mut().zip(of_ground).for_each(|(all, own)| all.extend(own));
-            self.check()?;
+        for of_ground in of_grounds {
+            pieces.iter_mut().zip(of_ground?).for_each(|(all, own)| all.extend(own));
         }
         Ok(pieces)
+    }
+
+    /// A surface with the ink of its families, and the strokes of coiled hair over it.
+    fn inked(
+        &self,
+        surface: Surface,
+        surfaces: &Surfaces,
+        roots: &Roots,
+        directions: &Directions,
+        ink: &Raster<f32>,
+    ) -> (Vec<Piece>, Ground) {
+        let (region, mut own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
+        let mut hooks = Vec::new();
+        if surface == Surface::Hair {
+            let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));
+            hooks = self.hooks(&coils, &region, directions.of(surface), &own);
+            own = hooks::beneath(&own, &coils);
+        }
+        let shares = match self.parameters.look {
+            Look::Hatch => [own.clone(), own.map(|_| 0.0), own.map(|_| 0.0)],
+            _ => shares::shares_of(&own, surface, &region, self.pitch()),
+        };
+        (hooks, Ground { surface, region, shares })
     }
 
     /// The pieces of the lines on one ground.

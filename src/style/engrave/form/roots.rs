@@ -38,7 +38,7 @@ impl Drawer<'_> {
         let core = dilate(&is_skin.map(|skin| 1 - skin), rim).map(|out| 1 - out);
         let is_skin = dilate(&core, rim).zip_map(&is_skin, |near, skin| near & skin);
         let is_skin = is_skin.zip_map(&is_cloth, |skin, cloth| skin & (1 - cloth));
-        let (Some(to_hair), Some(to_skin)) = (distances(&is_hair), distances(&is_skin)) else {
+        let (Some(to_hair), Some(to_skin)) = rayon::join(|| distances(&is_hair), || distances(&is_skin)) else {
             return Roots { hair: is_hair.map(f32::from) };
         };
         let hair = Raster::from_fn(is_hair.width(), is_hair.height(), |x, y| {
@@ -80,6 +80,9 @@ impl Roots {
 
 /// The ink of a family that has a share of the darkness: where both families cross it is a part, else all or nothing.
 fn rooted(ink: f32, share: f32) -> f32 {
+    if share <= 0.0 || share >= 1.0 {
+        return if share > 0.0 { ink } else { 0.0 };
+    }
     let [own, other] = [share, 1.0 - share].map(|share| part_of(ink, share));
     if own >= LEAST && other >= LEAST {
         own
