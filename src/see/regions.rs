@@ -65,9 +65,7 @@ pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[L
     let detail = detail(subject, faces);
     let (heads, faces): (Vec<Head>, Vec<&Landmarks>) = faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
     let told: Vec<Option<HeadRegions>> = (0..heads.len()).map(|i| told(pixels, subject, faces[i], &heads, i)).collect();
-    let is_in_colour = told.iter().flatten().all(|told| !told.plate.is_grey);
-    let planes = at_full_size(pixels, subject, &heads, &told);
-    let planes = if is_in_colour { limbs::with_limbs(pixels, planes, &heads) } else { planes };
+    let planes = limbs::with_limbs(pixels, at_full_size(pixels, subject, &heads, &told), &heads);
     let [skin, hair, facial_hair, headwear, clothing] = [0, 1, 2, 3, 4].map(|k| planes.map(|p| p[k]));
     Regions { skin, hair, facial_hair, headwear, clothing, detail }
 }
