@@ -33,9 +33,9 @@ pub(crate) use best_way::best_way;
 pub use bilateral::bilateral;
 #[doc(hidden)]
 pub use binary::{close, components, dilate, erode, majority, open, open_round, remove_components};
-#[doc(hidden)]
 #[cfg(feature = "see")]
 pub(crate) use blur::box_blur_each;
+#[doc(hidden)]
 pub use blur::{box_blur, gaussian_blur};
 #[doc(hidden)]
 pub use canny::{Thresholds, canny};

@@ -25,9 +25,9 @@ mod spectacles;
 #[cfg(feature = "cli")]
 pub(crate) use encoded::grey_image;
 
-#[doc(hidden)]
 #[cfg(feature = "see")]
 pub(crate) use colour::byte_to_linear;
+#[doc(hidden)]
 pub use colour::{lab, lightness, linear_to_srgb, luminance, srgb_to_linear};
 #[cfg(feature = "cli")]
 pub(crate) use decode::hexadecimal;
