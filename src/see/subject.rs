@@ -99,8 +99,10 @@ impl Decision {
         };
         let (expected, skull) = (most(Head::expectation_at), most(Head::skull_at));
         // Known people take precedence over strangers.
+        let cheeks: Vec<Raster<u8>> = heads.iter().map(|head| head.with_cheeks(picture, columns, rows)).collect();
         let own = Raster::from_fn(columns, rows, |x, y| {
-            let is_strange = strangers.iter().any(|bounds| is_in_head(*bounds, place(x, y)));
+            let is_known = cheeks.iter().any(|cheeks| cheeks.get(x, y) != 0);
+            let is_strange = !is_known && strangers.iter().any(|bounds| is_in_head(*bounds, place(x, y)));
             if is_strange { expected.get(x, y) } else { 1.0 }
         });
         let least = looks.least.zip_map(&own, |v, own| v * own);
@@ -268,6 +270,16 @@ mod tests {
         let decision = Decision::new(Rect::new(0.0, 0.0, 300.0, 250.0), &heads, &[Rect::new(10.0, 110.0, 70.0, 170.0)], &looks);
         assert_eq!((decision.said.get(20, 68), decision.least.get(20, 68)), (0.0, 0.0));
         assert_eq!((decision.said.get(75, 55), decision.said.get(140, 20)), (1.0, 1.0));
+    }
+
+    #[test]
+    fn a_strangers_box_that_reaches_over_a_cheek_leaves_the_cheek() {
+        let heads = [Head::new(&face(150.0, 130.0, -30.0))];
+        let everywhere = || Raster::filled(150, 125, 1.0_f32);
+        let looks = PersonMaps { middle: everywhere(), least: everywhere() };
+        let decision = Decision::new(Rect::new(0.0, 0.0, 300.0, 250.0), &heads, &[Rect::new(20.0, 110.0, 110.0, 200.0)], &looks);
+        assert_eq!(decision.said.get(48, 66), 1.0, "beside the outline");
+        assert!(decision.said.get(20, 78) < 0.5, "the stranger");
     }
 
     #[test]
