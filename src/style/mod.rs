@@ -12,6 +12,7 @@ mod creases;
 mod declaration;
 mod drawer;
 mod drawn_directions;
+mod drawn_irises;
 mod engrave;
 mod feature_line;
 mod form;

@@ -1,5 +1,6 @@
 //! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, lines of lips, lids and jaw, frames of spectacles.
 
+use super::drawn_irises::{DrawnIris, light_irises};
 use super::jaw::Jaws;
 use super::lids::Lids;
 use super::mouth::Mouths;
@@ -63,28 +64,39 @@ pub(super) struct Solids {
     pub outline: BezPath,
     /// Frames of spectacles that were found as lines, and lines of mouths, lids and jaws.
     pub lines: Vec<Mark>,
+    /// Light irises: their ground on the page, and the spokes that take the place of dots there.
+    irises: (BezPath, Vec<Mark>),
 }
 
 impl Solids {
     /// By the ink wanted on the working grid; `pitch` in its pixels.
     pub(super) fn new(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         if portrait.faces.is_empty() {
-            return Self { outline: BezPath::new(), lines: Vec::new() };
+            return Self { outline: BezPath::new(), lines: Vec::new(), irises: Default::default() };
         }
         let darks = Darks { portrait, ink, pitch };
-        let mut outline = darks.features(EYE_LIFT);
-        outline.extend(darks.rims());
-        Self { outline, lines: spectacles::frames(portrait, pitch) }
+        let mut solids = Self::of_features(portrait, ink, pitch);
+        solids.outline.extend(darks.rims());
+        Self { lines: spectacles::frames(portrait, pitch), ..solids }
     }
 
     /// The darkest places of features alone: neither rims of spectacles nor irises.
     pub(super) fn of_darkest(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
-        Self { outline: Darks { portrait, ink, pitch }.features(0.0), lines: spectacles::frames(portrait, pitch) }
+        let darks = Darks { portrait, ink, pitch };
+        let outline = darks.shapes_of(&darks.darkness(0.0));
+        Self { outline, lines: spectacles::frames(portrait, pitch), irises: Default::default() }
     }
 
     /// The shapes of eyes, nostrils and mouths alone, for a style that draws lines and frames of its own.
     pub(super) fn of_features(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
-        Self { outline: Darks { portrait, ink, pitch }.features(EYE_LIFT), lines: Vec::new() }
+        let darks = Darks { portrait, ink, pitch };
+        let irises = light_irises(portrait, ink, pitch);
+        let mut dark = darks.darkness(EYE_LIFT);
+        irises.iter().for_each(|iris| iris.draw(&mut dark, ink));
+        let grounds = irises.iter().map(DrawnIris::ground).reduce(|all, each| all.zip_map(&each, f32::max));
+        let ground = grounds.map_or_else(BezPath::new, |ground| shapes(portrait, pitch, &ground, 0.5, |_| true));
+        let spokes = irises.iter().flat_map(|iris| iris.spokes(&portrait.placement, ink, pitch)).collect();
+        Self { outline: darks.shapes_of(&dark), lines: Vec::new(), irises: (ground, spokes) }
     }
 
     /// The solids with the lines of the mouths, whose widths count by `share`.
@@ -105,18 +117,20 @@ impl Solids {
         self
     }
 
-    /// Their layer, in place of the dots inside them.
-    pub(super) fn over(self, layers: &mut [Layer]) -> Layer {
-        let solids = self.layer();
+    /// Their layer, in place of the dots inside them, and the spokes of light irises in place of theirs.
+    pub(super) fn over(mut self, layers: &mut [Layer]) -> Layer {
+        let (ground, spokes) = std::mem::take(&mut self.irises);
+        let mut solids = self.layer();
         let outlines = solids.marks.iter().filter_map(|mark| match mark {
             Mark::Area(area) => Some(area.outline.clone()),
             Mark::Stroke(stroke) => Some(stroke.ink_outline(TOLERANCE)),
             Mark::Dot(_) => None,
         });
-        let inside: Vec<Region> = outlines.map(|outline| Region::new(&outline, TOLERANCE)).collect();
+        let inside: Vec<Region> = outlines.chain([ground]).map(|outline| Region::new(&outline, TOLERANCE)).collect();
         for layer in layers {
             layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.iter().any(|solid| solid.contains(dot.centre))));
         }
+        solids.marks.extend(spokes);
         solids
     }
 
@@ -160,19 +174,22 @@ impl Darks<'_> {
         })
     }
 
-    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips; eyes
-    /// count as darker by `eye_lift`. Empty without faces.
-    fn features(&self, eye_lift: f32) -> BezPath {
-        if self.portrait.faces.is_empty() {
-            return BezPath::new();
-        }
+    /// The ink of details, smoothed, with more in eyes.
+    fn darkness(&self, eye_lift: f32) -> Raster<f32> {
         let pitch = self.pitch;
         let detail = detail_zone(self.portrait, pitch);
         let eyes = gaussian_blur(&self.inside([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
         let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + eye_lift * (2.0 * eyes).min(1.0));
-        let dark =
-            gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32);
-        shapes(self.portrait, pitch, &dark, SOLID, |curve| polygon_area(curve).abs() >= (LEAST_SOLID * pitch).powi(2))
+        gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32)
+    }
+
+    /// The darkest places of eyes, nostrils and mouth as shapes with smooth borders: pupils, lashes, the line between the lips. Empty without faces.
+    fn shapes_of(&self, dark: &Raster<f32>) -> BezPath {
+        if self.portrait.faces.is_empty() {
+            return BezPath::new();
+        }
+        let least = (LEAST_SOLID * self.pitch).powi(2);
+        shapes(self.portrait, self.pitch, dark, SOLID, |curve| polygon_area(curve).abs() >= least)
     }
 
     /// Thin dark lines before eyes.

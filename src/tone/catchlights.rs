@@ -1,24 +1,19 @@
-//! Step 11: a catchlight in irises that are black all over: eyes without one are holes.
+//! Step 11: a catchlight in each open eye: without one it is a hole, with three it looks broken.
 
 use super::openings::{EYE_OPEN, eyes, openness};
-use super::zones::polygon;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, Vec2};
 use crate::raster::{Raster, median};
 use crate::source::{Iris, Landmarks};
 
-/// The part of an iris, in radii, that is surely iris: it is black if the median of its tone is below this, and has no light to be seen if less
-/// than a share of it is lighter by so much.
-const WITHIN: f64 = 0.7;
-const BLACK: f32 = 0.45;
-const LIGHTER: f32 = 0.35;
-const LEAST_SHARE: f64 = 0.035;
 /// Openness from which an eye gets a light.
-const LEAST_OPEN: f32 = 0.5;
+pub(super) const LEAST_OPEN: f32 = 0.5;
 /// The photograph's own light lies within this many radii of the iris, and not farther down, where the mean of a place as large as the catchlight is lighter than
 /// the iris by so much.
 const OWN_WITHIN: f64 = 0.45;
 const OWN_DOWN: f64 = 0.1;
 const OWN_LIGHTER: f32 = 0.06;
+/// Lights of one lamp lie at the same place of both irises: up to this distance, in radii, each stays where it is.
+const SAME_LAMP: f64 = 0.3;
 /// Place of the catchlight in radii of the iris where there is none: aside to where the light comes from, and up; its radius; that of its soft
 /// edge; and its distance from the lids. With a radius of 0.24 eyes glare at 90 mm (13).
 const ASIDE: f64 = 0.36;
@@ -29,57 +24,33 @@ const SEEN: f64 = 0.17;
 const SOFT: f64 = 0.1;
 const FROM_LIDS: f64 = 0.15;
 
-/// What is seen of an iris.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Seen {
-    /// The eye is closed, or its iris is light.
-    Enough,
-    /// It is dark and has a light.
-    Light,
-    /// It is black all over.
-    Black,
-}
+/// The photograph's light in an iris: its place in radii from the middle, and how much lighter it is.
+type OwnLight = (Vec2, f32);
 
-/// The tone with the catchlights that are missing; `lightness` tells their places, or the side of the light. If one of two dark eyes has none,
-/// both get one of the same size.
+/// The tone with one light in the iris of each open eye: where the photograph, or the other eye, has it, or at the side of the light.
 pub(super) fn with_catchlights(tone: Raster<f32>, lightness: &Raster<f32>, faces: &[Landmarks]) -> Raster<f32> {
     faces.iter().fold(tone, |tone, face| {
+        let open: Vec<(Vec<Point>, Iris)> =
+            eyes(face).into_iter().filter(|(lids, _)| openness(lids, EYE_OPEN) >= LEAST_OPEN).collect();
+        let own: Vec<Option<OwnLight>> = open.iter().map(|(_, iris)| own_light(lightness, *iris)).collect();
         let aside = if face.lit_side(lightness) < 0.0 { -ASIDE } else { ASIDE };
-        let eyes = eyes(face).map(|(lids, iris)| (seen(&tone, &lids, iris), lids, iris));
-        if eyes.iter().all(|(seen, _, _)| *seen != Seen::Black) {
-            return tone;
-        }
-        eyes.into_iter().filter(|(seen, _, _)| *seen != Seen::Enough).fold(tone, |tone, (_, lids, iris)| {
-            let usual = iris.centre + Point::new(aside, -UP).to_vec2() * iris.radius;
-            lit(tone, iris, between(&lids, iris, own_light(lightness, iris).unwrap_or(usual)))
-        })
+        let places = places(&own, Vec2::new(aside, -UP));
+        open.iter()
+            .zip(places)
+            .fold(tone, |tone, ((lids, iris), away)| lit(tone, *iris, between(lids, *iris, iris.centre + away * iris.radius)))
     })
 }
 
-/// What is seen of an iris in the opening between its lids.
-fn seen(tone: &Raster<f32>, lids: &[Point], iris: Iris) -> Seen {
-    if openness(lids, EYE_OPEN) < LEAST_OPEN {
-        return Seen::Enough;
-    }
-    seen_within(tone, &polygon(tone.width(), tone.height(), lids), iris)
+/// Where the lights of a face's eyes are, in radii from the middle of each iris: the clearer one's place if they are not of one lamp.
+fn places(own: &[Option<OwnLight>], usual: Vec2) -> Vec<Vec2> {
+    let clearest = own.iter().flatten().copied().reduce(|best, each| if each.1 > best.1 { each } else { best });
+    let Some((clearest, _)) = clearest else { return vec![usual; own.len()] };
+    let place = |own: &Option<OwnLight>| own.map_or(clearest, |(own, _)| own);
+    own.iter().map(place).map(|own| if (own - clearest).hypot() < SAME_LAMP { own } else { clearest }).collect()
 }
 
-fn seen_within(tone: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> Seen {
-    let inside: Vec<f32> = pixels_about(tone, iris.centre, WITHIN * iris.radius)
-        .filter(|(x, y, _)| opening.get(*x, *y) == 1)
-        .map(|(x, y, _)| tone.get(x, y))
-        .collect();
-    let Some(middle) = median(inside.clone()) else { return Seen::Enough };
-    let lights = inside.iter().filter(|v| **v > middle + LIGHTER).count() as f64;
-    match (middle < BLACK, lights < LEAST_SHARE * inside.len() as f64) {
-        (false, _) => Seen::Enough,
-        (true, false) => Seen::Light,
-        (true, true) => Seen::Black,
-    }
-}
-
-/// The lightest place in the iris, if it is a light.
-fn own_light(lightness: &Raster<f32>, iris: Iris) -> Option<Point> {
+/// The lightest place in the iris, if it is a light, and how much lighter it is than the iris.
+fn own_light(lightness: &Raster<f32>, iris: Iris) -> Option<OwnLight> {
     let mean = |p: Point| {
         let (sum, count) = pixels_about(lightness, p, SEEN * iris.radius)
             .fold((0.0, 0.0), |(sum, count), (x, y, _)| (sum + lightness.get(x, y), count + 1.0));
@@ -91,7 +62,7 @@ fn own_light(lightness: &Raster<f32>, iris: Iris) -> Option<Point> {
         places.map(|(x, y, _)| Point::new(x as f64 + 0.5, y as f64 + 0.5)).map(|p| (p, mean(p))).collect();
     let middle = median(means.iter().map(|(_, mean)| *mean).collect())?;
     let lightest = means.into_iter().reduce(|best, each| if each.1 > best.1 { each } else { best })?;
-    (lightest.1 > middle + OWN_LIGHTER).then_some(lightest.0)
+    (lightest.1 > middle + OWN_LIGHTER).then_some(((lightest.0 - iris.centre) / iris.radius, lightest.1 - middle))
 }
 
 /// The place moved down or up until a catchlight there lies between the lids.
@@ -136,20 +107,8 @@ mod tests {
     use crate::elementary::unit_at;
     use crate::source::{POINTS, outlines};
 
-    #[test]
-    fn a_black_iris_gets_one_light_and_one_with_a_light_is_left() {
-        let iris = Iris { centre: Point::new(20.0, 20.0), radius: 10.0 };
-        let black = Raster::from_fn(40, 40, |_, _| 0.05_f32);
-        let opening = Raster::filled(40, 40, 1_u8);
-        assert!(seen_within(&black, &opening, iris) == Seen::Black);
-        let with = lit(black, iris, Point::new(16.4, 16.6));
-        assert!(seen_within(&with, &opening, iris) == Seen::Light);
-        assert!(with.get(16, 16) > 0.95 && with.get(24, 16) < 0.06 && with.get(20, 24) < 0.06);
-        assert!(seen_within(&Raster::from_fn(40, 40, |_, _| 0.5_f32), &opening, iris) == Seen::Enough, "a light iris needs none");
-    }
-
-    #[test]
-    fn two_dark_eyes_get_a_light_each_if_one_has_none() {
+    /// Two open eyes 100 pixels apart, with irises of 12 pixels.
+    fn face() -> Landmarks {
         let mut points = vec![[0.0; 3]; POINTS];
         let irises = [Point::new(60.0, 40.0), Point::new(160.0, 40.0)].map(|centre| Iris { centre, radius: 12.0 });
         for (outline, iris) in [&outlines::RIGHT_EYE, &outlines::LEFT_EYE].into_iter().zip(irises) {
@@ -158,17 +117,22 @@ mod tests {
                 points[*point] = [iris.centre.x + 26.0 * p.x, iris.centre.y + 13.0 * p.y, 0.0];
             }
         }
-        let face = Landmarks { points, irises, spectacles: None };
-        let own = Point::new(164.0, 36.0);
+        Landmarks { points, irises, spectacles: None }
+    }
+
+    #[test]
+    fn each_eye_gets_one_light_at_the_place_of_the_photographs() {
+        let face = face();
+        let own = Point::new(164.0, 38.0);
         let with_own =
-            |x: usize, y: usize| if own.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 2.8 { 0.8 } else { 0.05_f32 };
-        let lights = |tone: Raster<f32>| {
-            let tone = with_catchlights(tone.clone(), &tone, std::slice::from_ref(&face));
-            irises.map(|iris| pixels_about(&tone, iris.centre, iris.radius).filter(|(x, y, _)| tone.get(*x, *y) > 0.9).count())
-        };
-        let [made, matched] = lights(Raster::from_fn(220, 80, with_own));
-        assert!(made > 10 && (made..2 * made).contains(&matched), "{made} {matched}");
-        assert_eq!(lights(Raster::filled(220, 80, 0.6)), [0, 0], "light eyes");
+            |x: usize, y: usize| if own.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 2.8 { 0.8 } else { 0.05 };
+        let lightness = Raster::from_fn(220, 80, with_own);
+        let tone = with_catchlights(Raster::filled(220, 80, 0.05), &lightness, std::slice::from_ref(&face));
+        let lights = face
+            .irises
+            .map(|iris| pixels_about(&tone, iris.centre, iris.radius).filter(|(x, y, _)| tone.get(*x, *y) > 0.9).count());
+        assert!(lights[0] > 6 && lights[0] == lights[1], "{lights:?}");
+        assert!(tone.get(164, 38) > 0.95 && tone.get(64, 38) > 0.95 && tone.get(56, 38) < 0.06, "at the same place of both");
     }
 
     #[test]
@@ -184,6 +148,7 @@ mod tests {
                 },
             );
         let own = own_light(&seen, iris).expect("a light");
+        let own = iris.centre + own.0 * iris.radius;
         assert!(own.distance(spot) < 1.6, "{own:?}");
         assert!(own_light(&Raster::filled(40, 40, 0.1), iris).is_none());
         let lids = [(5.0, 20.0), (20.0, 14.0), (35.0, 20.0), (20.0, 27.0)].map(Point::from);

@@ -1,4 +1,4 @@
-//! Light irises stay lighter than their pupils: as discs of black, blue and green eyes stare.
+//! Irises as they are drawn: brown ones black, light ones lighter than their pupils: as discs of black, blue and green eyes stare.
 
 use super::catchlights::pixels_about;
 use super::openings::{eyes, openness};
@@ -12,24 +12,27 @@ const PUPIL: f64 = 0.34;
 const RING: [f64; 2] = [0.45, 0.82];
 /// The part of the ring that is counted is its darker share: lights and lids are none of it.
 const DARKER: f64 = 0.7;
-/// A ring's lightness above its pupil, in shares of the white of the eye above the pupil, from which it is raised: below it is noise. Black
-/// eyes have 0.05, brown ones up to 0.2, blue and grey ones 0.2 and more. And how much of that it gets in the tone: eyes are small.
-const LIGHT: f32 = 0.08;
+/// A ring's lightness above its pupil, in shares of the white of the eye above the pupil, from which an iris is light if its colour is, and
+/// from which it is in black and white. Black eyes have 0.05, brown ones up to 0.2, blue, green and grey ones 0.16 to 0.3.
+const LIGHT: f32 = 0.1;
+const LIGHT_IN_GREY: f32 = 0.24;
+/// Green over red of the irises in linear light, in shares of the skin's, from which they are blue, green or grey: of sixteen portraits such
+/// eyes have 1.6 and more, brown ones that are light enough at most 1.2. In black and white all have 1.
+const GREENER_THAN_SKIN: f32 = 1.4;
+const GREY: f32 = 0.03;
+/// How much of its lightness a light ring gets in the tone, as eyes are small, and its least and most tone: in shade whites are dark too, and a
+/// share of them makes black discs (13).
 const GAIN: f32 = 1.6;
 const MOST: f32 = 0.5;
-/// Blue over red of the irises in linear light, and how many times the skin's that is, from which they are blue or grey. Of some 40 faces,
-/// the 16 portraits' among them, those with such eyes have 0.98 and more, the others at most 0.75; in black and white, and in blue light,
-/// skin has as much.
-const BLUE: f32 = 0.9;
-const BLUER_THAN_SKIN: f32 = 1.7;
+const LEAST: f32 = 0.3;
+/// The tone of a brown ring.
+const BLACK: f32 = 0.04;
 /// Where the skin's colour is taken: the middles of the cheeks, and the radius around them in widths of the face.
 const CHEEKS: [usize; 2] = [50, 280];
 const CHEEK: f64 = 0.06;
-/// The least tone of the ring of blue eyes: in shade, whites are dark too, and a share of them makes black discs (13). With 0.4 iris and white
-/// are one grey.
-const BLUE_TONE: f32 = 0.3;
-/// Where the raised ring begins, in radii of the iris: from the pupil on, eyes stare from wide white rings (13).
+/// Where the raised ring begins, in radii of the iris: from the pupil on, eyes stare from wide white rings (13). And where a darkened one ends.
 const RAISED: f64 = 0.44;
+const DARKENED: f64 = 0.95;
 /// Soft edge of the ring in radii of the iris.
 const SOFT: f64 = 0.12;
 /// Openness of a face's eyes below which light irises stay as dark as they are, and from which they are raised in full: between narrow lids
@@ -38,8 +41,8 @@ const WIDE: [f64; 2] = [0.155, 0.18];
 /// Irises of fewer pixels have no ring.
 const LEAST_RADIUS: f64 = 4.0;
 
-/// The tone with light irises, by the photograph's lightness and linear light; `strength` is that of the tone, 0 to 1.
-pub(super) fn with_light_irises(
+/// The tone with the irises' own colours, by the photograph's lightness and linear light; `strength` is that of the tone, 0 to 1.
+pub(super) fn with_irises(
     tone: Raster<f32>,
     lightness: &Raster<f32>,
     light: &Raster<[f32; 3]>,
@@ -53,17 +56,24 @@ pub(super) fn with_light_irises(
         // Both eyes of a face have one colour.
         let seen: Vec<f32> = eyes.iter().filter_map(|(opening, iris)| iris_light(lightness, opening, *iris)).collect();
         let above_pupil = seen.iter().sum::<f32>() / seen.len().max(1) as f32;
-        if above_pupil < LIGHT {
-            return tone;
-        }
-        let least = if is_blue(light, face, &eyes) { BLUE_TONE } else { 0.0 };
+        let is_light = is_light(above_pupil, greener_than_skin(light, face, &eyes));
         eyes.into_iter().fold(tone, |tone, (opening, iris)| {
             let Some(was) = Eye::of(&tone, &opening, iris) else { return tone };
+            if !is_light {
+                return darkened(tone, &opening, iris, strength * open * (1.0 - BLACK / was.ring.max(BLACK)));
+            }
             let more = (GAIN * above_pupil).min(MOST) * (was.white - was.pupil) - (was.ring - was.pupil);
-            let more = more.max((least - was.ring) / (1.0 - was.ring).max(0.1));
+            let more = more.max((LEAST - was.ring) / (1.0 - was.ring).max(0.1));
             raised(tone, &opening, iris, strength * open * more.max(0.0))
         })
     })
+}
+
+/// Whether irises are blue, green or grey: by their lightness above the pupil, and how much greener than the skin they are.
+fn is_light(above_pupil: f32, greener: Option<f32>) -> bool {
+    let is_coloured = greener.is_some_and(|greener| greener >= GREENER_THAN_SKIN);
+    let is_grey = greener.is_some_and(|greener| (greener - 1.0).abs() < GREY);
+    (is_coloured && above_pupil >= LIGHT) || (is_grey && above_pupil >= LIGHT_IN_GREY)
 }
 
 /// How light an iris is in the photograph, from 0, as its pupil, to 1, as the white of the eye. None if it is too small to tell.
@@ -72,22 +82,20 @@ fn iris_light(lightness: &Raster<f32>, opening: &Raster<u8>, iris: Iris) -> Opti
     Some(((seen.ring - seen.pupil) / (seen.white - seen.pupil).max(0.02)).clamp(0.0, 1.0))
 }
 
-/// True if both irises together are bluer than brown ones ever are.
-fn is_blue(light: &Raster<[f32; 3]>, face: &Landmarks, eyes: &[(Raster<u8>, Iris); 2]) -> bool {
-    let blue_over_red = |places: &[(usize, usize)]| {
-        let [red, blue] = [0, 2].map(|channel| median(places.iter().map(|(x, y)| light.get(*x, *y)[channel]).collect()));
-        Some(blue? / red?.max(1e-3))
+/// Green over red of both irises together, in shares of the skin's.
+fn greener_than_skin(light: &Raster<[f32; 3]>, face: &Landmarks, eyes: &[(Raster<u8>, Iris); 2]) -> Option<f32> {
+    let green_over_red = |places: &[(usize, usize)]| {
+        let [red, green] = [0, 1].map(|channel| median(places.iter().map(|(x, y)| light.get(*x, *y)[channel]).collect()));
+        Some(green? / red?.max(1e-3))
     };
     let ring = |(opening, iris): &(Raster<u8>, Iris)| {
         let near = pixels_about(light, iris.centre, RING[1] * iris.radius).filter(|(_, _, away)| *away >= RING[0] * iris.radius);
         let places: Vec<_> = near.filter(|(x, y, _)| opening.get(*x, *y) == 1).map(|(x, y, _)| (x, y)).collect();
-        blue_over_red(&places)
+        green_over_red(&places)
     };
     let cheeks = CHEEKS.into_iter().flat_map(|cheek| pixels_about(light, face.point(cheek), CHEEK * face.width()));
     let cheeks: Vec<_> = cheeks.map(|(x, y, _)| (x, y)).collect();
-    let [Some(right), Some(left), Some(skin)] = [ring(&eyes[0]), ring(&eyes[1]), blue_over_red(&cheeks)] else { return false };
-    let both = 0.5 * (right + left);
-    both >= BLUE && both >= BLUER_THAN_SKIN * skin
+    Some(0.5 * (ring(&eyes[0])? + ring(&eyes[1])?) / green_over_red(&cheeks)?)
 }
 
 /// Values of the three parts of an eye.
@@ -129,6 +137,16 @@ fn raised(mut tone: Raster<f32>, opening: &Raster<u8>, iris: Iris, more: f32) ->
     tone
 }
 
+/// The tone with an iris darker by a share of itself.
+fn darkened(mut tone: Raster<f32>, opening: &Raster<u8>, iris: Iris, less: f32) -> Raster<f32> {
+    let disc: Vec<(usize, usize, f64)> = pixels_about(&tone, iris.centre, DARKENED * iris.radius).collect();
+    for (x, y, away) in disc.into_iter().filter(|(x, y, _)| opening.get(*x, *y) == 1) {
+        let share = ((DARKENED - away / iris.radius) / SOFT).clamp(0.0, 1.0) as f32;
+        tone.set(x, y, tone.get(x, y) * (1.0 - share * less));
+    }
+    tone
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn blue_irises_are_light_and_brown_ones_are_not() {
+    fn how_light_an_iris_is_is_told_by_its_ring() {
         let of = |ring: f32| {
             let (eye, opening, iris) = eye(ring);
             iris_light(&eye, &opening, iris)
@@ -170,10 +188,18 @@ mod tests {
     }
 
     #[test]
-    fn irises_are_blue_by_their_own_colour_not_by_the_lights() {
+    fn a_brown_iris_is_made_black_and_the_white_is_not() {
+        let (tone, opening, iris) = eye(0.2);
+        let tone = darkened(tone, &opening, iris, 0.8);
+        assert!(tone.get(36, 20) < 0.05, "{}", tone.get(36, 20));
+        assert_eq!(tone.get(50, 20), 0.8);
+    }
+
+    #[test]
+    fn irises_are_light_by_their_own_colour_not_by_the_lights() {
         let iris = Iris { centre: Point::new(30.0, 20.0), radius: 10.0 };
         let (skin, lit) = ([0.3, 0.15, 0.1], [0.3, 0.3, 0.4]);
-        let is_blue = |skin: [f32; 3], ring: [f32; 3]| {
+        let is_light = |skin: [f32; 3], ring: [f32; 3], above_pupil: f32| {
             let mut points = vec![[150.0, 150.0, 0.0]; POINTS];
             [points[234], points[454]] = [[50.0, 150.0, 0.0], [250.0, 150.0, 0.0]];
             let face = Landmarks { points, irises: [iris; 2], spectacles: None };
@@ -181,11 +207,12 @@ mod tests {
                 if iris.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 10.0 { ring } else { skin }
             });
             let eyes = [0, 1].map(|_| (Raster::filled(300, 300, 1_u8), iris));
-            super::is_blue(&light, &face, &eyes)
+            super::is_light(above_pupil, greener_than_skin(&light, &face, &eyes))
         };
-        assert!(is_blue(skin, [0.009, 0.009, 0.014]), "dark blue");
-        assert!(!is_blue(skin, [0.05, 0.02, 0.01]), "brown");
-        assert!(!is_blue([0.2; 3], [0.1; 3]), "in black and white");
-        assert!(!is_blue(lit, [0.05, 0.05, 0.07]), "in blue light");
+        assert!(is_light(skin, [0.009, 0.009, 0.014], 0.16), "dark blue");
+        assert!(!is_light(skin, [0.009, 0.009, 0.014], 0.02), "black with the sky in it");
+        assert!(!is_light(skin, [0.05, 0.02, 0.01], 0.2), "brown");
+        assert!(!is_light([0.2; 3], [0.1; 3], 0.19) && is_light([0.2; 3], [0.1; 3], 0.3), "in black and white");
+        assert!(!is_light(lit, [0.05, 0.05, 0.07], 0.2), "in blue light");
     }
 }

@@ -10,7 +10,7 @@
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
 //!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> nostrils
-//!   -> light irises -> catchlights
+//!   -> irises without specks, brown ones black, light ones lighter than their pupils -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
@@ -28,15 +28,17 @@ mod mouth_box;
 mod nostrils;
 mod openings;
 mod red_lips;
+mod specks;
 mod zones;
 
 use crate::raster::{Raster, box_blur, enlarge, reduce};
 use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
 use gums::with_gums;
-use irises::with_light_irises;
+use irises::with_irises;
 use nostrils::with_nostrils;
 use red_lips::with_red_lips;
+use specks::without_specks;
 
 /// The masks that are used besides the subject.
 pub const ROLES: &[MaskRole] = &[MaskRole::Hair, MaskRole::FacialHair, MaskRole::Headwear, MaskRole::Clothing];
@@ -97,7 +99,8 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
     let tone = with_red_lips(tone, &portrait.light, portrait.masks.get(&MaskRole::FacialHair), &portrait.faces, strength);
     let tone = with_nostrils(tone, &portrait.lightness, &portrait.faces, strength);
-    let tone = with_light_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);
+    let tone = without_specks(tone, &portrait.faces, strength);
+    let tone = with_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);
     Some(with_catchlights(tone, &portrait.lightness, &portrait.faces))
 }
 
