@@ -3,17 +3,16 @@
 use super::plate::Plate;
 use super::segmentation::{CLOTHING, HAIR, SKIN, Shares, greatest};
 use super::skin_model::apart;
-use crate::elementary::Elementary as _;
 use crate::raster::{Raster, box_blur, components, dilate, median};
 
 /// Where necks are between chin and collar, in `u` and `v`.
-const ASIDE: f32 = 0.36;
-const HEIGHTS: [f32; 2] = [-0.6, 0.12];
+const ASIDE: f32 = 0.5;
+const HEIGHTS: [f32; 2] = [-0.6, 0.3];
 /// Where clothing is whose colour is sure.
 const CLOTH_BELOW: f32 = -0.5;
-/// A neck's shade-free colour lies nearer to the face's than this share of the face's distance from grey, and than this share of its distance
-/// from the clothing's; red and brown clothes are too near to tell.
-const FROM_GREY: f32 = 0.5;
+/// A neck's shade-free colour has at least this share of the face's, and lies nearer to it than this share of its distance from the clothing's, of
+/// which some falls on the neck (07); red and brown clothes are too near to tell.
+const COLOURED: f32 = 0.5;
 const FROM_CLOTH: f32 = 0.45;
 const TOLD_APART: f32 = 0.1;
 /// Darker places, in L*, have no colour.
@@ -57,7 +56,8 @@ fn shaded_neck(plate: &Plate, shares: &Raster<Shares>, beard: Option<&Raster<f32
     if apart(skin, cloth) < TOLD_APART {
         return None;
     }
-    let nearest = (FROM_GREY * skin[0].hypotenuse(skin[1])).min(FROM_CLOTH * apart(skin, cloth));
+    let nearest = FROM_CLOTH * apart(skin, cloth);
+    let is_coloured = |c: [f32; 2]| c[0] * skin[0] + c[1] * skin[1] > COLOURED * (skin[0] * skin[0] + skin[1] * skin[1]);
     let is_like = |i: usize| {
         let [u, v] = plate.at.pixels()[i];
         class.pixels()[i] == CLOTHING
@@ -65,6 +65,7 @@ fn shaded_neck(plate: &Plate, shares: &Raster<Shares>, beard: Option<&Raster<f32
             && u.abs() < ASIDE
             && (HEIGHTS[0]..HEIGHTS[1]).contains(&v)
             && lab[0].pixels()[i] > BLACK
+            && is_coloured(colour.pixels()[i])
             && apart(colour.pixels()[i], skin) < nearest
     };
     let like = Raster::from_fn(plate.width(), plate.height(), |x, y| u8::from(is_like(y * plate.width() + x)));
@@ -90,7 +91,28 @@ fn shaded_neck(plate: &Plate, shares: &Raster<Shares>, beard: Option<&Raster<f32
     // The edge of a chin, between it and the neck, is neither's colour.
     let edge = dilate(&neck, NEAR).zip_map(&near, |neck, above| neck == 1 && above == 1);
     let edge = edge.zip_map(&is_cloth, |edge, is_cloth| edge && is_cloth);
-    Some(neck.zip_map(&edge, |neck, edge| neck == 1 || edge))
+    let neck = neck.zip_map(&edge, |neck, edge| neck == 1 || edge);
+    let reflected = under_chin(plate, &is_cloth, &neck.zip_map(&class, |is, class| is || class == SKIN));
+    Some(neck.zip_map(&reflected, |neck, reflected| neck || reflected))
+}
+
+/// Cloth between a chin and the skin of its neck below: light that a collar throws up there, which has the collar's colour.
+fn under_chin(plate: &Plate, is_cloth: &Raster<bool>, is_skin: &Raster<bool>) -> Raster<bool> {
+    /// The most that lies between, in widths of the face, and how far aside in `u`.
+    const BETWEEN: f32 = 0.14;
+    const ASIDE: f32 = 0.3;
+    let most = (BETWEEN * plate.face_width) as usize;
+    let mut between = is_cloth.map(|_| false);
+    for x in 0..plate.width() {
+        let rows = (0..plate.height()).filter(|y| plate.oval.get(x, *y));
+        let Some(chin) = rows.max() else { continue };
+        let is_cloth_at = |y: &usize| is_cloth.get(x, *y) && plate.at.get(x, *y)[0].abs() < ASIDE;
+        let below = (chin + 1..plate.height()).take(most + 1).take_while(is_cloth_at).count();
+        if below <= most && chin + 1 + below < plate.height() && is_skin.get(x, chin + 1 + below) {
+            (chin + 1..=chin + below).for_each(|y| between.set(x, y, true));
+        }
+    }
+    between
 }
 
 /// True if a piece differs from the clothing around it, or there is none.
