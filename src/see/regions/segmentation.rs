@@ -10,7 +10,7 @@ use super::lighting::Lighting;
 use super::mane::manes;
 use super::mixture::Mixture;
 use super::path::path_from;
-use super::plate::{LIGHTNESS_WEIGHT, Plate};
+use super::plate::{Feature, LIGHTNESS_WEIGHT, Plate};
 use super::skin_model::{BARE, BARE_REACH, FOREHEAD, LEAST_SEEDS, NO_SKIN, Place, Skin, apart, median, shadeless};
 use super::smoothing::Guide;
 use crate::elementary::Elementary as _;
@@ -289,7 +289,13 @@ impl<'a> Segmentation<'a> {
     fn clothing_learned(&self) -> Option<Mixture> {
         /// Normal distributions in the mixture of clothing.
         const CLOTHS: usize = 5;
+        /// The least likelihood of curls in light, in natural logarithms, and how much less texture than the hair they have at most.
+        const LIKELY: f32 = -12.0;
+        const AS_ROUGH: f32 = 3.0;
         let plate = self.plate;
+        let is_curl = |hair: &Hair, f: Feature| {
+            !hair.is_like_shoulders && f[3] > hair.middle[3] - AS_ROUGH && hair.mixture.log_density(f) > LIKELY
+        };
         let seeds = self.shoulders();
         let without_hair = plate.pixels_where(|[u, v], i| {
             seeds.pixels()[i]
@@ -298,6 +304,7 @@ impl<'a> Segmentation<'a> {
                     let is_long = hair.hangs(u) && u.abs() < hair.widest();
                     (hair.distance(f, 0.35, 0.6) < 9.0 && v > -0.35)
                         || (hair.distance(f, 0.25, 0.4) < 18.0 && v > -0.85 && is_long)
+                        || (is_curl(hair, f) && v > -0.85 && hair.falls(u) && u.abs() < hair.widest())
                 })
         });
         let samples = Some(plate.samples(&without_hair)).filter(|s| s.len() > 60).unwrap_or_else(|| plate.samples(&seeds));
