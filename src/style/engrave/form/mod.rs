@@ -12,6 +12,7 @@
 //!   tone         widths corrected until the ink drawn is the ink wanted
 //! ```
 
+mod catchlights;
 mod contour;
 mod correction;
 mod families;
@@ -34,6 +35,7 @@ use crate::source::Placement;
 use crate::style::form::{Directions, Surface, Surfaces};
 use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
+use catchlights::open_catchlights;
 use correction::TONE_ROUNDS;
 use families::{Closeness, Extent, FINE, Family};
 use roots::Roots;
@@ -115,8 +117,10 @@ impl Drawer<'_> {
         self.check()?;
         self.observer.begin("lines");
         // Both at once: solids and contour take one thread.
-        let (pieces, [solids, contour]) =
-            rayon::join(|| self.lines(&surfaces, &directions, &detail, &ink), || [self.solids(&ink), self.contour(&ink)]);
+        let (pieces, [solids, contour]) = rayon::join(
+            || self.lines(&surfaces, &directions, &detail, &ink),
+            || [self.solids(&ink), self.contour(&ink, &surfaces, &directions)],
+        );
         let mut pieces = pieces?;
         specks::without_specks(&mut pieces, self.pitch());
         self.observer.begin("widths");
@@ -124,6 +128,7 @@ impl Drawer<'_> {
             self.correct(&mut pieces, &ink);
             self.check()?;
         }
+        open_catchlights(&mut pieces, &self.portrait.faces, &ink, self.pitch());
         Ok(self.form_drawing(&pieces, [solids, contour]))
     }
 
