@@ -22,6 +22,8 @@ const BORDER: f64 = 0.16;
 const SPOKE: [f64; 2] = [0.52, 0.8];
 const SPACING: f64 = 0.5;
 const FEWEST: f64 = 9.0;
+/// Smaller irises, in pitches, have none: a few spokes are splinters.
+const WITH_SPOKES: f64 = 1.5;
 const WIDTH: f32 = 0.65;
 /// Shade of the upper lid on the iris, in radii.
 const SHADE: f64 = 0.24;
@@ -91,6 +93,9 @@ impl DrawnIris {
 
     /// Spokes between pupil and rim, on the page, as wide as the ink there.
     pub(super) fn spokes(&self, placement: &Placement, ink: &Raster<f32>, pitch: f64) -> Vec<Mark> {
+        if self.iris.radius < WITH_SPOKES * pitch {
+            return Vec::new();
+        }
         let middle = f64::midpoint(SPOKE[0], SPOKE[1]) * self.iris.radius;
         let count = (std::f64::consts::TAU * middle / (SPACING * pitch)).round().max(FEWEST);
         let spacing = std::f64::consts::TAU * middle / count;

@@ -6,7 +6,7 @@ use crate::raster::{Raster, median};
 use crate::source::{Iris, Landmarks};
 
 /// Openness from which an eye gets a light.
-pub(super) const LEAST_OPEN: f32 = 0.5;
+pub(super) const LEAST_OPEN: f32 = 0.3;
 /// The photograph's own light lies within this many radii of the iris, and not farther down, where the mean of a place as large as the catchlight is lighter than
 /// the iris by so much.
 const OWN_WITHIN: f64 = 0.45;

@@ -60,7 +60,7 @@ pub(super) fn with_irises(
         eyes.into_iter().fold(tone, |tone, (opening, iris)| {
             let Some(was) = Eye::of(&tone, &opening, iris) else { return tone };
             if !is_light {
-                return darkened(tone, &opening, iris, strength * open * (1.0 - BLACK / was.ring.max(BLACK)));
+                return darkened(tone, &opening, iris, strength * (1.0 - BLACK / was.ring.max(BLACK)));
             }
             let more = (GAIN * above_pupil).min(MOST) * (was.white - was.pupil) - (was.ring - was.pupil);
             let more = more.max((LEAST - was.ring) / (1.0 - was.ring).max(0.1));
