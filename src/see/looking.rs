@@ -3,6 +3,7 @@
 use super::SeeError;
 use super::depth::depth;
 use super::faces::{self, Found};
+use super::far_side::without_stubs;
 use super::hat_outline::without_bumps_of_hats;
 use super::iris::irises;
 use super::jewellery::with_pearls;
@@ -82,6 +83,7 @@ fn people(engine: &Engine, view: &View, faces: &[Face], strangers: &[Rect]) -> R
     let step = view.step();
     let on_view = |p: Point| Point::new((p.x - view.part.x0) / step.x, (p.y - view.part.y0) / step.y);
     let landmarks: Vec<Landmarks> = faces.iter().map(|face| face.landmarks.placed(on_view, 1.0 / step.x)).collect();
+    let subject = without_stubs(subject, &landmarks);
     let (regions, near) = both(|| regions(&view.pixels, &subject, &landmarks), || depth(&subject, view, faces));
     let (smooth, regions) = without_bumps_of_hats(subject.clone(), regions, &landmarks);
     let regions = with_pearls(&view.pixels, &smooth, &landmarks, regions);

@@ -23,6 +23,8 @@ mod detail;
 #[cfg(feature = "see")]
 mod faces;
 #[cfg(feature = "see")]
+mod far_side;
+#[cfg(feature = "see")]
 mod hat_outline;
 #[cfg(feature = "see")]
 mod head;

@@ -22,9 +22,15 @@ const BORDER: f64 = 0.16;
 const SPOKE: [f64; 2] = [0.52, 0.8];
 const SPACING: f64 = 0.5;
 const FEWEST: f64 = 9.0;
+const MOST_WIDTH: f32 = 0.7;
 /// Smaller irises, in pitches, have none: a few spokes are splinters.
 const WITH_SPOKES: f64 = 1.5;
 const WIDTH: f32 = 0.65;
+/// How much wider they are by the ink of the eye's white: light irises in shade would glare (13). And where that lies, in radii, and which share of
+/// it is the white.
+const IN_SHADE: f32 = 1.0;
+const AROUND: [f64; 2] = [1.1, 1.9];
+const WHITE: f64 = 0.25;
 /// Shade of the upper lid on the iris, in radii.
 const SHADE: f64 = 0.24;
 /// The least of an iris that is seen between the lids: in narrower eyes it is the only dark.
@@ -97,6 +103,7 @@ impl DrawnIris {
             return Vec::new();
         }
         let middle = f64::midpoint(SPOKE[0], SPOKE[1]) * self.iris.radius;
+        let share = WIDTH + IN_SHADE * self.ink_of_white(ink);
         let count = (std::f64::consts::TAU * middle / (SPACING * pitch)).round().max(FEWEST);
         let spacing = std::f64::consts::TAU * middle / count;
         let spoke = |i: usize| {
@@ -105,13 +112,21 @@ impl DrawnIris {
                 [SPOKE[0] * self.iris.radius, middle, SPOKE[1] * self.iris.radius].map(|away| self.iris.centre + away * along);
             let at = |raster: &Raster<f32>, p: Point| raster.sample(p.x, p.y);
             let is_seen = [from, mid, to].iter().all(|p| at(&self.open, *p) > 0.5 && at(ink, *p) > LIGHT);
-            let width = f64::from(WIDTH * at(ink, mid)) * spacing * placement.mm_per_pixel();
+            let width = f64::from((share * at(ink, mid)).min(MOST_WIDTH)) * spacing * placement.mm_per_pixel();
             let mut line = BezPath::new();
             line.move_to(placement.to_page(from));
             line.line_to(placement.to_page(to));
             is_seen.then(|| Mark::Stroke(Stroke::even(line, width)))
         };
         (0..count as usize).filter_map(spoke).collect()
+    }
+
+    /// The ink of the eye's white, 0 if it is hidden.
+    fn ink_of_white(&self, ink: &Raster<f32>) -> f32 {
+        let around = self.pixels(ink, AROUND).into_iter().filter(|(x, y, _)| self.open.get(*x, *y) > 0.5);
+        let mut values: Vec<f32> = around.map(|(x, y, _)| ink.get(x, y)).collect();
+        values.sort_unstable_by(f32::total_cmp);
+        values.get((WHITE * values.len() as f64) as usize).copied().unwrap_or(0.0)
     }
 
     /// 1 on the iris between the lids, within its rim.
