@@ -3,7 +3,7 @@
 use super::solids::inside_outlines;
 use crate::drawing::{Mark, Stroke};
 use crate::elementary::unit_at;
-use crate::geometry::{BezPath, Point, Vec2};
+use crate::geometry::{BezPath, Point, Ring, Vec2, catmull_rom};
 use crate::raster::{Raster, median};
 use crate::source::{Iris, Landmarks, Placement, Portrait, outlines};
 
@@ -23,8 +23,6 @@ const SPOKE: [f64; 2] = [0.52, 0.8];
 const SPACING: f64 = 0.5;
 const FEWEST: f64 = 9.0;
 const MOST_WIDTH: f32 = 0.7;
-/// Smaller irises, in pitches, have none: a few spokes are splinters.
-const WITH_SPOKES: f64 = 1.5;
 const WIDTH: f32 = 0.65;
 /// How much wider they are by the ink of the eye's white: light irises in shade would glare (13). And where that lies, in radii, and which share of
 /// it is the white.
@@ -35,8 +33,8 @@ const WHITE: f64 = 0.25;
 const SHADE: f64 = 0.24;
 /// The least of an iris that is seen between the lids: in narrower eyes it is the only dark.
 const SEEN: f64 = 0.5;
-/// The least radius in pitches, and in pixels: smaller ones have no rim to see.
-const LEAST_RADIUS: f64 = 0.9;
+/// The least radius in pitches, and in pixels: smaller ones have no rim to see, and their few spokes are splinters.
+const LEAST_RADIUS: f64 = 1.5;
 const LEAST_PIXELS: f64 = 4.0;
 
 /// A light iris that is large enough to be drawn.
@@ -97,11 +95,8 @@ impl DrawnIris {
         bright.map(|(x, y, _)| Point::new(x as f64 + 0.5, y as f64 + 0.5)).collect()
     }
 
-    /// Spokes between pupil and rim, on the page, as wide as the ink there.
+    /// Spokes between pupil and rim, on the page, as wide as the ink there, and the rim.
     pub(super) fn spokes(&self, placement: &Placement, ink: &Raster<f32>, pitch: f64) -> Vec<Mark> {
-        if self.iris.radius < WITH_SPOKES * pitch {
-            return Vec::new();
-        }
         let middle = f64::midpoint(SPOKE[0], SPOKE[1]) * self.iris.radius;
         let share = WIDTH + IN_SHADE * self.ink_of_white(ink);
         let count = (std::f64::consts::TAU * middle / (SPACING * pitch)).round().max(FEWEST);
@@ -118,7 +113,26 @@ impl DrawnIris {
             line.line_to(placement.to_page(to));
             is_seen.then(|| Mark::Stroke(Stroke::even(line, width)))
         };
-        (0..count as usize).filter_map(spoke).collect()
+        (0..count as usize).filter_map(spoke).chain(self.rim(placement, ink)).collect()
+    }
+
+    /// The rim in strokes on the page, where lids and light leave it: in a small iris it is narrower than a pixel.
+    fn rim(&self, placement: &Placement, ink: &Raster<f32>) -> Vec<Mark> {
+        /// Places around it.
+        const PLACES: usize = 48;
+        let away = f64::midpoint(RIM[0], RIM[1]) * self.iris.radius;
+        let width = (RIM[1] - RIM[0]) * self.iris.radius * placement.mm_per_pixel();
+        let place = |i: usize| self.iris.centre + away * unit_at(std::f64::consts::TAU * i as f64 / PLACES as f64);
+        let is_seen = |p: &Point| self.open.sample(p.x, p.y) > 0.5 && ink.sample(p.x, p.y) > LIGHT;
+        // From a hidden place on, so that no run is cut where the count begins.
+        let first = (0..PLACES).find(|i| !is_seen(&place(*i))).unwrap_or(0);
+        let places: Vec<Point> = (first..=first + PLACES).map(place).collect();
+        let runs = places.chunk_by(|a, b| is_seen(a) == is_seen(b)).filter(|run| is_seen(&run[0]) && run.len() > 2);
+        let stroke = |run: &[Point]| {
+            let run: Vec<Point> = run.iter().map(|p| placement.to_page(*p)).collect();
+            Mark::Stroke(Stroke::even(catmull_rom(&run, Ring::Open), width))
+        };
+        runs.map(stroke).collect()
     }
 
     /// The ink of the eye's white, 0 if it is hidden.
@@ -201,7 +215,9 @@ mod tests {
         let (iris, ink) = eye(0.6);
         let placement = Placement::new(Rect::new(0.0, 0.0, 120.0, 80.0), 1.0);
         let spokes = iris.spokes(&placement, &ink, 10.0);
-        assert!((10..17).contains(&spokes.len()), "{}", spokes.len());
+        let (rims, spokes): (Vec<Mark>, Vec<Mark>) =
+            spokes.into_iter().partition(|mark| matches!(mark, Mark::Stroke(stroke) if stroke.curve().elements().len() > 3));
+        assert!((10..17).contains(&spokes.len()) && (1..4).contains(&rims.len()), "{} {}", spokes.len(), rims.len());
         let within = Rect::from_center_size((60.0, 40.0), (34.0, 34.0));
         assert!(
             spokes
