@@ -32,7 +32,7 @@ const CHEEKS: [usize; 2] = [50, 280];
 const CHEEK: f64 = 0.06;
 /// Where the raised ring begins, in radii of the iris: from the pupil on, eyes stare from wide white rings (13). And where a darkened one ends.
 const RAISED: f64 = 0.44;
-const DARKENED: f64 = 0.95;
+const DARKENED: f64 = 0.82;
 /// Soft edge of the ring in radii of the iris.
 const SOFT: f64 = 0.12;
 /// Openness of a face's eyes below which light irises stay as dark as they are, and from which they are raised in full: between narrow lids
