@@ -6,7 +6,7 @@ use crate::geometry::{Point, Ring, lengths_along, resample, smooth_polyline};
 /// Columns along a line.
 pub(super) const COLUMNS: usize = 96;
 /// The smoothing of widths and line, in columns.
-const SMOOTH: usize = 4;
+pub(super) const SMOOTH: usize = 4;
 const SMOOTH_LINE: f64 = 3.5;
 
 /// [`COLUMNS`] points at even distances along a line; none if it has no length.
@@ -21,10 +21,10 @@ pub(super) fn between(a: &[Point], b: &[Point], share: f64) -> Vec<Point> {
     a.iter().zip(b).map(|(a, b)| a.lerp(*b, share)).collect()
 }
 
-/// The mean over the columns around each.
-pub(super) fn averaged(values: &[f64]) -> Vec<f64> {
+/// The mean of each value and so many on either side.
+pub(super) fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     let mean = |i: usize| {
-        let near = &values[i.saturating_sub(SMOOTH)..(i + SMOOTH + 1).min(values.len())];
+        let near = &values[i.saturating_sub(reach)..(i + reach + 1).min(values.len())];
         near.iter().sum::<f64>() / near.len() as f64
     };
     (0..values.len()).map(mean).collect()

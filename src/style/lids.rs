@@ -7,7 +7,7 @@
 //!   found     lines that were found on the lids go: crumbs of lashes, bags and reflections on lenses
 //! ```
 
-use super::columns::{COLUMNS, averaged, even, smoothed};
+use super::columns::{COLUMNS, SMOOTH, averaged, even, smoothed};
 use super::feature_line::feature_stroke;
 use crate::drawing::Mark;
 use crate::field::{CoherentLine, Curve};
@@ -185,7 +185,7 @@ impl Eye {
         let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
         let found: Vec<f64> =
             rows.iter().enumerate().map(|(column, row)| self.counts * f64::from(values.get(*row, column))).collect();
-        let found = averaged(&found);
+        let found = averaged(&found, SMOOTH);
         let widest = lid.widest * self.width * (self.openness() / OPEN).clamp(self.narrow, 1.0);
         let widths: Vec<f64> = found.iter().map(|contrast| widest * (contrast / lid.full).clamp(lid.least, 1.0)).collect();
         let line = smoothed(&points, &widths);

@@ -7,7 +7,7 @@
 //!   found     lines that were found inside the lips go: creases of the lips, lights on teeth
 //! ```
 
-use super::columns::{COLUMNS, averaged, between, even, smoothed};
+use super::columns::{COLUMNS, SMOOTH, averaged, between, even, smoothed};
 use super::feature_line::feature_stroke;
 use crate::drawing::Mark;
 use crate::field::CoherentLine;
@@ -143,8 +143,10 @@ impl Seen<'_> {
         let rows = best_way(&values, 2, BEND);
         let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
         let contrasts: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(values.get(*row, column))).collect();
-        let widths: Vec<f64> =
-            averaged(&contrasts).iter().map(|contrast| widest * self.mouth.width * (contrast / FULL).clamp(LEAST, 1.0)).collect();
+        let widths: Vec<f64> = averaged(&contrasts, SMOOTH)
+            .iter()
+            .map(|contrast| widest * self.mouth.width * (contrast / FULL).clamp(LEAST, 1.0))
+            .collect();
         smoothed(&points, &widths)
     }
 

@@ -6,6 +6,7 @@ use crate::elementary::unit_at;
 use crate::field::contours;
 use crate::geometry::{Point, Ring, Vec2, catmull_rom, resample};
 use crate::raster::{Raster, gaussian_blur};
+use crate::style::columns::averaged;
 use crate::style::form::{Directions, Surface, Surfaces};
 
 /// Width of the contour in pitches where the subject is light, half dark and dark. In half tones the lines' ends show the silhouette, and
@@ -84,13 +85,4 @@ impl Drawer<'_> {
         let sine = along.cross(unit_at(f64::from(angle))).abs();
         ((sine - SINES[0]) / (SINES[1] - SINES[0])).clamp(0.0, 1.0)
     }
-}
-
-/// The mean of each value and so many on either side.
-fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
-    let mean = |i: usize| {
-        let near = &values[i.saturating_sub(reach)..(i + reach + 1).min(values.len())];
-        near.iter().sum::<f64>() / near.len() as f64
-    };
-    (0..values.len()).map(mean).collect()
 }
