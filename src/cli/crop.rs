@@ -137,7 +137,7 @@ mod tests {
         for (i, (dx, dy)) in [(10, (0.0, -70.0)), (152, (0.0, 70.0)), (234, (-50.0, 0.0)), (454, (50.0, 0.0))] {
             points[i] = [x + dx, y + dy, 0.0];
         }
-        Landmarks { points, irises: [Iris { centre: Point::new(x, y), radius: 4.0 }; 2], spectacles: None }
+        Landmarks { points, irises: [Iris { centre: Point::new(x, y), radius: 4.0 }; 2], spectacles: None, pearls: Vec::new() }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The overlay: what was found, drawn over the photograph.
 
-use crate::elementary::Elementary as _;
+use crate::elementary::unit_at;
 use crate::geometry::{Point, Rect, resample};
 use crate::raster::Raster;
 use crate::source::{Crop, Landmarks, Photograph, SourceError, Spectacles, outlines};
@@ -70,17 +70,21 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Overlaid<'_>, scale: f64) {
     for line in face.landmarks.spectacles.iter().flat_map(Spectacles::lines) {
         draw_line(pixels, &line, scale, [255, 128, 0]);
     }
+    for pearl in &face.landmarks.pearls {
+        draw_line(pixels, &circle(pearl.centre, pearl.radius), scale, [255, 255, 255]);
+    }
     for iris in face.landmarks.irises {
-        let round = |i: i32| {
-            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 32.0).sine_and_cosine();
-            Point::new(iris.centre.x + iris.radius * cos, iris.centre.y + iris.radius * sin)
-        };
-        draw_line(pixels, &(0..=32).map(round).collect::<Vec<_>>(), scale, [0, 255, 255]);
+        draw_line(pixels, &circle(iris.centre, iris.radius), scale, [0, 255, 255]);
         draw_line(pixels, &[iris.centre, iris.centre], scale, [0, 255, 255]);
     }
     let Some(b) = face.bounds else { return };
     let corners = [(b.x0, b.y0), (b.x1, b.y0), (b.x1, b.y1), (b.x0, b.y1), (b.x0, b.y0)].map(Point::from);
     draw_line(pixels, &corners, scale, [255, 255, 255]);
+}
+
+fn circle(centre: Point, radius: f64) -> Vec<Point> {
+    let place = |i: i32| centre + radius * unit_at(f64::from(i) * std::f64::consts::TAU / 32.0);
+    (0..=32).map(place).collect()
 }
 
 /// Draws a line given in pixels of the photograph.

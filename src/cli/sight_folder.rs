@@ -11,7 +11,7 @@ use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::see::{Face, Sight};
 use crate::source::grey_image;
-use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph, Spectacles};
+use crate::source::{Iris, Landmarks, MaskRole, POINTS, Pearl, Photograph, Spectacles};
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -129,6 +129,8 @@ struct WrittenFace {
     irises: WrittenIrises,
     points: Vec<[f64; 3]>,
     spectacles: Option<WrittenSpectacles>,
+    #[serde(default)]
+    pearls: Vec<WrittenRound>,
 }
 
 #[derive(Deserialize)]
@@ -141,12 +143,12 @@ struct WrittenSpectacles {
 
 #[derive(Deserialize)]
 struct WrittenIrises {
-    right: WrittenIris,
-    left: WrittenIris,
+    right: WrittenRound,
+    left: WrittenRound,
 }
 
 #[derive(Deserialize)]
-struct WrittenIris {
+struct WrittenRound {
     centre: [f64; 2],
     radius: f64,
 }
@@ -165,30 +167,41 @@ fn faces(name: &str, photograph: &Photograph) -> Result<Vec<Landmarks>, Failure>
             photograph.height()
         )));
     }
-    let iris = |iris: &WrittenIris| Iris { centre: Point::new(iris.centre[0], iris.centre[1]), radius: iris.radius };
     let placed = written.faces.iter().map(|face| {
-        let numbers = face.points.iter().flatten();
-        if face.points.len() != POINTS || numbers.into_iter().any(|v| !v.is_finite() || v.abs() > 1e6) {
-            return Err(Failure::Work(format!("{name}: each face must have {POINTS} points of three numbers")));
-        }
-        let irises = [iris(&face.irises.right), iris(&face.irises.left)];
-        let is_eye =
-            |iris: &Iris| [iris.centre.x, iris.centre.y, iris.radius].iter().all(|v| v.abs() <= 1e6) && iris.radius >= 0.0;
-        if !irises.iter().all(is_eye) {
-            return Err(Failure::Work(format!(
-                "{name}: irises must have a centre of two numbers and a radius of 0 or more, in pixels"
-            )));
-        }
-        let spectacles = face.spectacles.as_ref().map(spectacles);
-        if spectacles.as_ref().is_some_and(|spectacles| !is_sound(spectacles, width.max(height))) {
-            return Err(Failure::Work(format!(
-                "{name}: rims of spectacles must have three points or more, all of them in the picture, and a width above 0"
-            )));
-        }
-        let landmarks = Landmarks { points: face.points.clone(), irises, spectacles };
+        let landmarks = landmarks(face, name, width.max(height))?;
         Ok(landmarks.placed(|p| Point::new(p.x * x, p.y * y), (x * y).sqrt()))
     });
     placed.collect()
+}
+
+/// A face as it is written; `longest` is the longer side of its photograph.
+fn landmarks(face: &WrittenFace, name: &str, longest: f64) -> Result<Landmarks, Failure> {
+    let refused = |why: String| Err(Failure::Work(format!("{name}: {why}")));
+    if face.points.len() != POINTS || face.points.iter().flatten().any(|v| !v.is_finite() || v.abs() > 1e6) {
+        return refused(format!("each face must have {POINTS} points of three numbers"));
+    }
+    let centre = |round: &WrittenRound| Point::new(round.centre[0], round.centre[1]);
+    let irises = [&face.irises.right, &face.irises.left].map(|iris| Iris { centre: centre(iris), radius: iris.radius });
+    let is_eye = |iris: &Iris| [iris.centre.x, iris.centre.y, iris.radius].iter().all(|v| v.abs() <= 1e6) && iris.radius >= 0.0;
+    if !irises.iter().all(is_eye) {
+        return refused("irises must have a centre of two numbers and a radius of 0 or more, in pixels".to_owned());
+    }
+    let spectacles = face.spectacles.as_ref().map(spectacles);
+    if spectacles.as_ref().is_some_and(|spectacles| !is_sound(spectacles, longest)) {
+        return refused(
+            "rims of spectacles must have three points or more, all of them in the picture, and a width above 0".to_owned(),
+        );
+    }
+    let pearls: Vec<Pearl> =
+        face.pearls.iter().map(|pearl| Pearl { centre: centre(pearl), radius: pearl.radius }).collect();
+    let is_pearl = |pearl: &Pearl| {
+        let is_near = |v: f64| v.abs() <= 2.0 * longest;
+        is_near(pearl.centre.x) && is_near(pearl.centre.y) && (1e-3..=0.1 * longest).contains(&pearl.radius)
+    };
+    if !pearls.iter().all(is_pearl) {
+        return refused("pearls must have a centre in the picture and a radius above 0, in pixels".to_owned());
+    }
+    Ok(Landmarks { points: face.points.clone(), irises, spectacles, pearls })
 }
 
 /// `longest` is the photograph's longer side; a rim may reach beyond it.
@@ -235,13 +248,14 @@ fn spectacles_json(spectacles: &Spectacles) -> Value {
 
 fn face_json(face: &Face) -> Value {
     let Rect { x0, y0, .. } = face.bounds;
-    let [right, left] =
-        face.landmarks.irises.map(|Iris { centre: Point { x, y }, radius }| json!({ "centre": [x, y], "radius": radius }));
+    let round = |Point { x, y }: Point, radius: f64| json!({ "centre": [x, y], "radius": radius });
+    let [right, left] = face.landmarks.irises.map(|iris| round(iris.centre, iris.radius));
     json!({
         "box": [x0, y0, face.bounds.width(), face.bounds.height()],
         "score": face.score,
         "irises": { "right": right, "left": left },
         "spectacles": face.landmarks.spectacles.as_ref().map(spectacles_json),
+        "pearls": face.landmarks.pearls.iter().map(|pearl| round(pearl.centre, pearl.radius)).collect::<Vec<_>>(),
         "points": face.landmarks.points,
     })
 }

@@ -1,19 +1,20 @@
 //! Pearls: earrings and necklaces, which are small, bright and round. By colour they are taken for the collar or the hair beside them.
 //!
 //! ```text
-//!   ears and neck --> bright round spots at four sizes --> those on bare skin --> on strings, or firm ones below an ear
+//!   ears and neck --> bright round spots at four sizes --> those on bare skin --> on strings, or firm pale ones below an ear --> circles
 //! ```
 
+use super::pearl_shape::{seen, strung};
 use super::sight::Regions;
 use crate::geometry::{Point, Region, Vec2};
 use crate::parallel::collected;
-use crate::raster::{Raster, fast_gaussian};
-use crate::source::{Landmarks, byte_to_linear, lightness, luminance, outlines};
+use crate::raster::{Raster, fast_gaussian, median};
+use crate::source::{Landmarks, Pearl, byte_to_linear, lightness, luminance, outlines};
 use std::ops::Range;
 
 /// Scales of the spots in widths of the face: a pearl has a radius of 1.41 scales.
 const SCALES: [f64; 4] = [0.011, 0.015, 0.02, 0.027];
-const RADIUS: f64 = std::f64::consts::SQRT_2;
+pub(super) const RADIUS: f64 = std::f64::consts::SQRT_2;
 /// Narrower spots, in pixels, are grain.
 const LEAST_SCALE: f64 = 1.2;
 /// The least curvature of a spot, scaled, in lightness, and its least share of that across. On sixteen portraits pearls have 0.04 to 0.14;
@@ -26,12 +27,23 @@ const FIRM: f32 = 0.09;
 /// The least share of skin around a pearl. Around those of the portraits it is 0.2 and more; around dotted ties, ribbons and prints, 0.06.
 const LEAST_SKIN: f64 = 0.12;
 
-/// A pearl in pixels.
+/// Red over blue, as a share of red, of an earring, in those of the skin: lobes in light have more (1.2 to 2 where pearls have up to 0.6).
+/// Skin with less has no colour.
+const PALE: f64 = 0.8;
+const COLOURED: f64 = 0.06;
+
+/// A bright round spot in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Spot {
-    centre: Point,
-    scale: f64,
-    curved: f32,
+pub(super) struct Spot {
+    pub centre: Point,
+    pub scale: f64,
+    pub curved: f32,
+}
+
+/// The lightness of a part of the picture, and its upper left corner.
+struct Near {
+    light: Raster<f32>,
+    from: Vec2,
 }
 
 /// Where a face may wear pearls.
@@ -42,19 +54,37 @@ struct Bust<'a> {
     oval: Region,
 }
 
-/// Regions with the pearls as detail, and with skin in place of the cloth and hair there: neither hatches nor strands run over them.
-pub(super) fn with_pearls(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks], regions: Regions) -> Regions {
-    let busts: Vec<Bust<'_>> = faces.iter().filter_map(Bust::of).collect();
-    let is_face = |p: Point| busts.iter().any(|bust| bust.oval.contains(p));
-    let of_bust = |bust: &Bust<'_>| {
-        let mut spots = bust.spots(pixels, subject);
+/// Regions with the pearls as detail, and with skin in place of the cloth and hair there: neither hatches nor strands run over them. And the
+/// pearls of each face that are seen as circles.
+pub(super) fn with_pearls(
+    pixels: &Raster<[u8; 3]>,
+    subject: &Raster<u8>,
+    faces: &[Landmarks],
+    mut regions: Regions,
+) -> (Regions, Vec<Vec<Pearl>>) {
+    let busts: Vec<Option<Bust<'_>>> = faces.iter().map(Bust::of).collect();
+    let is_face = |p: Point| busts.iter().flatten().any(|bust| bust.oval.contains(p));
+    let worn_by = |bust: &Bust<'_>| {
+        let Some(near) = bust.near(pixels) else { return (Vec::new(), Vec::new()) };
+        let mut spots = bust.spots(&near, subject);
         spots.retain(|spot| !is_face(spot.centre) && skin_share(spot, &regions) > LEAST_SKIN);
-        bust.pearls(&spots)
+        bust.pearls(&spots, &near, pixels)
     };
-    let pearls: Vec<Spot> = busts.iter().flat_map(of_bust).collect();
-    let mut regions = regions;
-    pearls.into_iter().for_each(|pearl| paint(&mut regions, subject, pearl));
-    regions
+    let (spots, mut pearls): (Vec<Vec<Spot>>, Vec<Vec<Pearl>>) =
+        busts.iter().map(|bust| bust.as_ref().map_or_else(Default::default, worn_by)).unzip();
+    spots.into_iter().flatten().for_each(|spot| paint(&mut regions, subject, spot));
+    // People beside one another may be given the same pearl.
+    let mut taken: Vec<Pearl> = Vec::new();
+    for worn in &mut pearls {
+        worn.retain(|pearl| taken.iter().all(|other| other.centre.distance(pearl.centre) > other.radius));
+        taken.extend_from_slice(worn);
+    }
+    (regions, pearls)
+}
+
+/// True for two spots that are not one.
+fn is_apart(a: &Spot, b: &Spot) -> bool {
+    a.centre.distance(b.centre) > 1.2 * RADIUS * a.scale.max(b.scale)
 }
 
 impl<'a> Bust<'a> {
@@ -78,13 +108,29 @@ impl<'a> Bust<'a> {
         [from.cross(self.up), -from.dot(self.up)]
     }
 
-    /// Those of the spots that are pearls.
-    fn pearls(&self, spots: &[Spot]) -> Vec<Spot> {
-        let mut pearls = on_strings(spots);
-        let earrings = spots.iter().filter(|spot| self.is_earring(spot) && !pearls.contains(spot));
-        let earrings: Vec<Spot> = earrings.copied().collect();
-        pearls.extend(earrings);
-        pearls
+    /// Those of the spots that are pearls, and those of them that are seen as circles.
+    fn pearls(&self, spots: &[Spot], near: &Near, pixels: &Raster<[u8; 3]>) -> (Vec<Spot>, Vec<Pearl>) {
+        let mut string = on_strings(spots);
+        let red_of_skin = self.red_of_skin(pixels);
+        let is_pale = |spot: &Spot| red_of_skin < COLOURED || red_at(pixels, spot.centre, RADIUS * spot.scale) < PALE * red_of_skin;
+        let earrings: Vec<Spot> = spots
+            .iter()
+            .filter(|spot| self.is_earring(spot) && !string.contains(spot) && is_pale(spot))
+            .copied()
+            .collect();
+        let moved = |spot: &Spot| Spot { centre: spot.centre - near.from, ..*spot };
+        let mut pearls = strung(&near.light, &string.iter().map(moved).collect::<Vec<_>>(), self.width);
+        pearls.extend(earrings.iter().filter_map(|spot| seen(&near.light, &moved(spot), self.width)));
+        pearls.iter_mut().for_each(|pearl| pearl.centre += near.from);
+        string.extend(earrings);
+        (string, pearls)
+    }
+
+    /// How red the cheeks are.
+    fn red_of_skin(&self, pixels: &Raster<[u8; 3]>) -> f64 {
+        const CHEEKS: [usize; 4] = [50, 280, 205, 425];
+        const RADIUS: f64 = 0.015;
+        CHEEKS.iter().map(|cheek| red_at(pixels, self.face.point(*cheek), RADIUS * self.width)).sum::<f64>() / CHEEKS.len() as f64
     }
 
     /// True for a firm spot at the height of the lobes, beside the face.
@@ -96,21 +142,26 @@ impl<'a> Bust<'a> {
         spot.curved >= FIRM && HEIGHTS.contains(&-below) && BESIDE.contains(&beside.abs())
     }
 
-    /// Bright round spots beside the face and below it, each where it is roundest, the firmest first.
-    fn spots(&self, pixels: &Raster<[u8; 3]>, subject: &Raster<u8>) -> Vec<Spot> {
-        let Some([columns, rows]) = self.extent(pixels) else { return Vec::new() };
+    /// The lightness around a head and its neck.
+    fn near(&self, pixels: &Raster<[u8; 3]>) -> Option<Near> {
+        let [columns, rows] = self.extent(pixels)?;
         let light = Raster::from_fn(columns.len(), rows.len(), |x, y| {
             lightness(luminance(pixels.get(columns.start + x, rows.start + y).map(byte_to_linear)))
         });
+        Some(Near { light, from: Vec2::new(columns.start as f64, rows.start as f64) })
+    }
+
+    /// Bright round spots beside the face and below it, each where it is roundest, the firmest first.
+    fn spots(&self, near: &Near, subject: &Raster<u8>) -> Vec<Spot> {
+        let Near { light, from } = near;
         let scales: Vec<f64> = SCALES.into_iter().map(|scale| scale * self.width).filter(|s| *s >= LEAST_SCALE).collect();
-        let mut found: Vec<Spot> = collected(scales.len(), &|i| spots_of(&light, scales[i])).into_iter().flatten().collect();
-        found.iter_mut().for_each(|spot| spot.centre += Vec2::new(columns.start as f64, rows.start as f64));
+        let mut found: Vec<Spot> = collected(scales.len(), &|i| spots_of(light, scales[i])).into_iter().flatten().collect();
+        found.iter_mut().for_each(|spot| spot.centre += *from);
         found.retain(|spot| self.may_be_worn_at(spot.centre, subject));
         found.sort_by(|a, b| b.curved.total_cmp(&a.curved));
         let mut kept: Vec<Spot> = Vec::new();
         for spot in found {
-            let is_apart = |other: &Spot| other.centre.distance(spot.centre) > 1.2 * RADIUS * other.scale.max(spot.scale);
-            if kept.iter().all(is_apart) {
+            if kept.iter().all(|other| is_apart(other, &spot)) {
                 kept.push(spot);
             }
         }
@@ -199,6 +250,13 @@ fn pixels_within(reach: f64, of: Point, (width, height): (usize, usize)) -> impl
     let pixels = range(of.y, height).flat_map(move |y| range(of.x, width).map(move |x| (x, y)));
     let away = move |(x, y): (usize, usize)| (x, y, of.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)));
     pixels.map(away).filter(move |(_, _, away)| *away < reach)
+}
+
+/// How red a place is: its median red less blue, as a share of red.
+fn red_at(pixels: &Raster<[u8; 3]>, centre: Point, radius: f64) -> f64 {
+    let within = pixels_within(radius.max(1.0), centre, (pixels.width(), pixels.height()));
+    let red = within.map(|(x, y, _)| pixels.get(x, y)).map(|[r, _, b]| (f32::from(r) - f32::from(b)) / f32::from(r).max(1.0));
+    median(red.collect()).map_or(0.0, f64::from)
 }
 
 /// The share of skin around a spot.

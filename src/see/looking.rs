@@ -19,7 +19,7 @@ use crate::geometry::{Point, Rect};
 use crate::interrupt::Interrupt;
 use crate::parallel::both;
 use crate::raster::Raster;
-use crate::source::{Landmarks, Photograph, Spectacles};
+use crate::source::{Landmarks, Pearl, Photograph, Spectacles};
 use std::f64::consts::FRAC_PI_2;
 
 /// Longer side in pixels of the view, and of the masks: a face that fills a fifth of it still has the mesh's 200 pixels, and a
@@ -60,8 +60,11 @@ pub(super) fn look(photograph: &Photograph, interrupt: &Interrupt) -> Result<Sig
     interrupt.check()?;
     let strangers = strangers?;
     let (people, spectacles) = both(|| people(&engine, &view, &faces, &strangers), || worn(&view, &closer, &faces));
-    let People { subject, regions, depth } = people?;
-    faces.iter_mut().zip(spectacles).for_each(|(face, spectacles)| face.landmarks.spectacles = spectacles);
+    let People { subject, regions, depth, pearls } = people?;
+    for ((face, spectacles), pearls) in faces.iter_mut().zip(spectacles).zip(pearls) {
+        face.landmarks.spectacles = spectacles;
+        face.landmarks.pearls = pearls;
+    }
     sight.regions = Some(regions.map(|plane| turn.raster_back(plane)));
     sight.depth = Some(turn.raster_back(&depth));
     sight.subject = Some(turn.raster_back(&subject));
@@ -74,6 +77,8 @@ struct People {
     subject: Raster<u8>,
     regions: Regions,
     depth: Raster<u16>,
+    /// Of each face, in pixels of the upright picture.
+    pearls: Vec<Vec<Pearl>>,
 }
 
 /// Separates the people from the ground, and their regions from one another.
@@ -86,9 +91,14 @@ fn people(engine: &Engine, view: &View, faces: &[Face], strangers: &[Rect]) -> R
     let subject = without_stubs(subject, &landmarks);
     let (regions, near) = both(|| regions(&view.pixels, &subject, &landmarks), || depth(&subject, view, faces));
     let (smooth, regions) = without_bumps_of_hats(subject.clone(), regions, &landmarks);
-    let regions = with_pearls(&view.pixels, &smooth, &landmarks, regions);
+    let (regions, pearls) = with_pearls(&view.pixels, &smooth, &landmarks, regions);
+    let upright = |pearl: Pearl| {
+        let Point { x, y } = pearl.centre;
+        Pearl { centre: Point::new(view.part.x0 + step.x * x, view.part.y0 + step.y * y), radius: step.x * pearl.radius }
+    };
+    let pearls = pearls.into_iter().map(|worn| worn.into_iter().map(upright).collect()).collect();
     let depth = if smooth == subject { near } else { depth(&smooth, view, faces) };
-    Ok(People { subject: smooth, regions, depth })
+    Ok(People { subject: smooth, regions, depth, pearls })
 }
 
 /// The spectacles of each face, in its closer view if it has one.
@@ -172,7 +182,7 @@ fn measured(
         }
         let mut points = mesh.points;
         let irises = irises(&irises_of, view, &mut points)?;
-        let landmarks = Landmarks { points, irises, spectacles: None };
+        let landmarks = Landmarks { points, irises, spectacles: None, pearls: Vec::new() };
         faces.push(Face { bounds: found.bounds, score: found.score, landmarks });
         views.push(closer);
     }

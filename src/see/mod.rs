@@ -40,6 +40,7 @@ mod looks;
 mod mesh;
 #[cfg(feature = "see")]
 mod networks;
+mod pearl_shape;
 #[cfg(feature = "see")]
 mod regions;
 #[cfg(feature = "see")]

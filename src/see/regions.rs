@@ -190,7 +190,7 @@ pub(super) mod tests {
         put(152, 0.0, 0.6, -0.3);
         put(234, -0.5, 0.0, 0.0);
         put(454, 0.5, 0.0, 0.0);
-        Landmarks { points, irises: [Iris { centre, radius: 0.04 * width }; 2], spectacles: None }
+        Landmarks { points, irises: [Iris { centre, radius: 0.04 * width }; 2], spectacles: None, pearls: Vec::new() }
     }
 
     /// The plate of an oval face, 80 by 100 pixels around (100, 70), the only landmarks in place but for the eyes' outer corners.
@@ -210,7 +210,7 @@ pub(super) mod tests {
         for &(index, [x, y]) in landmarks {
             points[index] = [x, y, 0.0];
         }
-        let face = Landmarks { points, irises: [Iris { centre, radius: 3.0 }; 2], spectacles: None };
+        let face = Landmarks { points, irises: [Iris { centre, radius: 3.0 }; 2], spectacles: None, pearls: Vec::new() };
         let heads = [Head::new(&face).expect("a head")];
         let subject = pixels.map(|_| 255_u8);
         Plate::new(pixels, &subject, &face, &heads, 0).expect("a plate")

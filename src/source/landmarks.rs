@@ -15,6 +15,17 @@ pub struct Landmarks {
     pub irises: [Iris; 2],
     /// The spectacles before the eyes, if any were found.
     pub spectacles: Option<Spectacles>,
+    /// The pearls of earrings and necklaces that were found.
+    pub pearls: Vec<Pearl>,
+}
+
+/// One pearl.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pearl {
+    /// Its centre.
+    pub centre: Point,
+    /// Its radius.
+    pub radius: f64,
 }
 
 /// One iris.
@@ -61,7 +72,8 @@ impl Landmarks {
         });
         let irises = self.irises.map(|iris| Iris { centre: place(iris.centre), radius: iris.radius * scale });
         let spectacles = self.spectacles.as_ref().map(|spectacles| spectacles.placed(&place, scale));
-        Self { points: points.collect(), irises, spectacles }
+        let pearls = self.pearls.iter().map(|pearl| Pearl { centre: place(pearl.centre), radius: pearl.radius * scale });
+        Self { points: points.collect(), irises, spectacles, pearls: pearls.collect() }
     }
 }
 

@@ -43,7 +43,7 @@ mod tests {
             side.into_iter().for_each(|index| points[index] = [x, 50.0, 0.0]);
         }
         let iris = |x: f64| Iris { centre: Point::new(x, 40.0), radius: 3.0 };
-        let face = Landmarks { points, irises: [iris(35.0), iris(65.0)], spectacles: None };
+        let face = Landmarks { points, irises: [iris(35.0), iris(65.0)], spectacles: None, pearls: Vec::new() };
         let light = |left: f32, right: f32| Raster::from_fn(100, 100, move |x, _| if x < 50 { left } else { right });
         assert!((face.lit_side(&light(0.8, 0.5)) + 1.0).abs() < 1e-6);
         assert!((face.lit_side(&light(0.5, 0.575)) - 0.5).abs() < 1e-3);

@@ -213,7 +213,7 @@ mod tests {
             points[*index] = [x as f64, y, 0.0];
         }
         let irises = [40.0, 120.0].map(|x| Iris { centre: Point::new(x, 60.0), radius: 4.0 });
-        Landmarks { points, irises, spectacles: None }
+        Landmarks { points, irises, spectacles: None, pearls: Vec::new() }
     }
 
     #[test]

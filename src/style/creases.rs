@@ -1,7 +1,8 @@
 //! Folds of the skin: lines that steer marks and are not drawn as lines, which would look like scars or wires.
 
+use crate::elementary::Elementary as _;
 use crate::field::{CoherentLine, Curve};
-use crate::geometry::{Point, Region, Vec2};
+use crate::geometry::{Point, Region, Vec2, resample};
 use crate::raster::Raster;
 use crate::source::{Landmarks, MaskRole, Portrait, outlines};
 
@@ -40,6 +41,19 @@ impl<'a> Creases<'a> {
     pub(super) fn have(&self, line: &Curve) -> bool {
         let Some(detail) = self.portrait.masks.get(&MaskRole::Detail) else { return false };
         share(line, |p| self.are_in(p)) > MOSTLY && share(line, |p| self.is_feature(detail, p)) < MOST_IN_FEATURES
+    }
+
+    /// True for a line, in working pixels, that curls on a forehead: it is a lock that hangs before it, or its shadow.
+    pub(super) fn have_curl(&self, line: &Curve) -> bool {
+        /// Turns from which a line curls, and the length of the chords that are compared, in widths of the face.
+        const CURLED: f64 = 0.6;
+        const CHORD: f64 = 0.025;
+        let on_forehead = |(forehead, face): (&Region, &Landmarks)| {
+            let chords: Vec<Vec2> = resample(&line.points, CHORD * face.width()).windows(2).map(|w| w[1] - w[0]).collect();
+            let turned: f64 = chords.windows(2).map(|w| w[0].cross(w[1]).angle_over(w[0].dot(w[1]))).sum();
+            turned.abs() > CURLED * std::f64::consts::TAU && share(line, |p| forehead.contains(p)) > MOSTLY
+        };
+        self.foreheads.iter().zip(&self.portrait.faces).any(on_forehead)
     }
 
     /// What is left of a line, in working pixels, without the folds that it runs along.
@@ -105,13 +119,21 @@ fn middle_of(face: &Landmarks) -> Region {
     Region::of_polygons(vec![oval.iter().map(|p| centre.lerp(*p, FACE_MIDDLE)).collect()])
 }
 
-/// How far a forehead may go on above the face's outline, in heights of the face.
+/// How far a forehead may go on above the face's outline, in heights of the face, and how much wider than that it may be: a turned head
+/// goes on behind it (16).
 const FOREHEAD: f64 = 0.45;
+const WIDER: f64 = 1.25;
 
-/// A face's outline moved up over the forehead.
+/// A face's outline moved up over the forehead, and widened.
 fn forehead_of(face: &Landmarks) -> Region {
-    let up = FOREHEAD * (face.point(10) - face.point(152));
-    Region::of_polygons(vec![face.line(&outlines::OVAL).into_iter().map(|p| p + up).collect()])
+    let height = face.point(10) - face.point(152);
+    let oval: Vec<Point> = face.line(&outlines::OVAL).into_iter().map(|p| p + FOREHEAD * height).collect();
+    let (centre, up) = (middle(&oval), height / height.hypot().max(1e-9));
+    let widened = |p: Point| {
+        let off = p - centre;
+        centre + WIDER * off + (1.0 - WIDER) * off.dot(up) * up
+    };
+    Region::of_polygons(vec![oval.into_iter().map(widened).collect()])
 }
 
 fn middle(line: &[Point]) -> Point {

@@ -176,7 +176,7 @@ mod tests {
             points[*index] = [80.0 + 50.0 * turn.x, 70.0 + 60.0 * turn.y, 0.0];
         }
         let irises = [60.0, 100.0].map(|x| Iris { centre: Point::new(x, 50.0), radius: 4.0 });
-        Landmarks { points, irises, spectacles: None }
+        Landmarks { points, irises, spectacles: None, pearls: Vec::new() }
     }
 
     #[test]

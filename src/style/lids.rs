@@ -237,7 +237,7 @@ mod tests {
             points[*index] = [50.0 + 60.0 * across, 60.0 + high, 0.0];
         }
         let irises = [80.0, 120.0].map(|x| Iris { centre: Point::new(x, 60.0), radius: 6.0 });
-        Landmarks { points, irises, spectacles: None }
+        Landmarks { points, irises, spectacles: None, pearls: Vec::new() }
     }
 
     fn eye() -> Eye {

@@ -27,6 +27,7 @@ mod lights;
 mod mouth;
 mod need;
 mod observer;
+mod pearls;
 mod parameter;
 mod places;
 mod random;

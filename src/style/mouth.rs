@@ -182,7 +182,7 @@ mod tests {
         set(&outlines::LIPS, [50.0, 20.0]);
         set(&outlines::MOUTH, [45.0, 0.5 * gap]);
         let irises = [60.0, 100.0].map(|x| Iris { centre: Point::new(x, 20.0), radius: 4.0 });
-        Mouth::of(&Landmarks { points, irises, spectacles: None }).expect("it has a width")
+        Mouth::of(&Landmarks { points, irises, spectacles: None, pearls: Vec::new() }).expect("it has a width")
     }
 
     /// Lips with a dark line of a depth along `at`.

@@ -1,9 +1,11 @@
-//! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, lines of lips, lids and jaw, frames of spectacles.
+//! What is drawn solid in a face whatever the style's marks: pupils, lashes, nostrils, lines of lips, lids and jaw, frames of spectacles,
+//! pearls.
 
 use super::drawn_irises::{DrawnIris, light_irises};
 use super::jaw::Jaws;
 use super::lids::Lids;
 use super::mouth::Mouths;
+use super::pearls::Pearls;
 use super::spectacles;
 use crate::drawing::{Area, Layer, Mark};
 use crate::elementary::Elementary as _;
@@ -66,13 +68,14 @@ pub(super) struct Solids {
     pub lines: Vec<Mark>,
     /// Light irises: their ground on the page, and the spokes that take the place of dots there.
     irises: (BezPath, Vec<Mark>),
+    pearls: Pearls,
 }
 
 impl Solids {
     /// By the ink wanted on the working grid; `pitch` in its pixels.
     pub(super) fn new(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         if portrait.faces.is_empty() {
-            return Self { outline: BezPath::new(), lines: Vec::new(), irises: Default::default() };
+            return Self { outline: BezPath::new(), lines: Vec::new(), irises: Default::default(), pearls: Pearls::default() };
         }
         let darks = Darks { portrait, ink, pitch };
         let mut solids = Self::of_features(portrait, ink, pitch);
@@ -84,7 +87,8 @@ impl Solids {
     pub(super) fn of_darkest(portrait: &Portrait, ink: &Raster<f32>, pitch: f64) -> Self {
         let darks = Darks { portrait, ink, pitch };
         let outline = darks.shapes_of(&darks.darkness(0.0));
-        Self { outline, lines: spectacles::frames(portrait, pitch), irises: Default::default() }
+        let pearls = Pearls::of(portrait, pitch);
+        Self { outline, lines: spectacles::frames(portrait, pitch), irises: Default::default(), pearls }
     }
 
     /// The shapes of eyes, nostrils and mouths alone, for a style that draws lines and frames of its own.
@@ -96,7 +100,8 @@ impl Solids {
         let grounds = irises.iter().map(DrawnIris::ground).reduce(|all, each| all.zip_map(&each, f32::max));
         let ground = grounds.map_or_else(BezPath::new, |ground| shapes(portrait, pitch, &ground, 0.5, |_| true));
         let spokes = irises.iter().flat_map(|iris| iris.spokes(&portrait.placement, ink, pitch)).collect();
-        Self { outline: darks.shapes_of(&dark), lines: Vec::new(), irises: (ground, spokes) }
+        let pearls = Pearls::of(portrait, pitch);
+        Self { outline: darks.shapes_of(&dark), lines: Vec::new(), irises: (ground, spokes), pearls }
     }
 
     /// The solids with the lines of the mouths, whose widths count by `share`.
@@ -117,16 +122,17 @@ impl Solids {
         self
     }
 
-    /// Their layer, in place of the dots inside them, and the spokes of light irises in place of theirs.
+    /// Their layer, in place of the dots inside them and in pearls, and the spokes of light irises in place of theirs.
     pub(super) fn over(mut self, layers: &mut [Layer]) -> Layer {
-        let (ground, spokes) = std::mem::take(&mut self.irises);
+        let (irises, spokes) = std::mem::take(&mut self.irises);
+        let pearls = std::mem::take(&mut self.pearls.ground);
         let mut solids = self.layer();
         let outlines = solids.marks.iter().filter_map(|mark| match mark {
             Mark::Area(area) => Some(area.outline.clone()),
             Mark::Stroke(stroke) => Some(stroke.ink_outline(TOLERANCE)),
             Mark::Dot(_) => None,
         });
-        let inside: Vec<Region> = outlines.chain([ground]).map(|outline| Region::new(&outline, TOLERANCE)).collect();
+        let inside: Vec<Region> = outlines.chain([irises, pearls]).map(|outline| Region::new(&outline, TOLERANCE)).collect();
         for layer in layers {
             layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if inside.iter().any(|solid| solid.contains(dot.centre))));
         }
@@ -141,6 +147,7 @@ impl Solids {
             layer.marks.push(Mark::Area(Area { outline: self.outline, colour: None }));
         }
         layer.marks.extend(self.lines);
+        layer.marks.extend(self.pearls.marks);
         layer
     }
 }

@@ -4,7 +4,7 @@ use crate::field::CoherentLine;
 use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian};
 use crate::source::{MaskRole, Portrait};
-use crate::style::creases::is_near_iris;
+use crate::style::creases::{Creases, is_near_iris};
 
 /// What a line's strength must exceed: this, and so many times the texture around it. Strength is the contrast, and grows with the
 /// root of the length, as the agreement of independent places does. Tuned on the necks, jackets and walls of Grace Hopper, plain and
@@ -40,10 +40,13 @@ impl<'a> Strays<'a> {
         Self { portrait, pitch, texture: fast_gaussian(&off, (REACH * pitch) as f32) }
     }
 
-    /// The lines without strays. In eyes, noses and mouths all are features, and in hair where its mask is known, as it is with a tone made for
+    /// The lines without strays, and without curls on foreheads. In eyes, noses and mouths all are features, and in hair where its mask is known, as it is with a tone made for
     /// faces.
     pub(super) fn dropped_from(&self, lines: Vec<CoherentLine>) -> Vec<CoherentLine> {
-        lines.into_iter().filter(|line| self.is_strong(line) || self.is_feature(&line.curve.points)).collect()
+        let creases = Creases::of(self.portrait);
+        let is_curl = |line: &CoherentLine| !self.is_feature(&line.curve.points) && creases.have_curl(&line.curve);
+        let kept = lines.into_iter().filter(|line| self.is_strong(line) || self.is_feature(&line.curve.points));
+        kept.filter(|line| !is_curl(line)).collect()
     }
 
     fn is_strong(&self, line: &CoherentLine) -> bool {

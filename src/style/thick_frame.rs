@@ -91,7 +91,7 @@ mod tests {
             if lines.iter().map(away).fold(f64::INFINITY, f64::min) < 0.5 * width { dark } else { 0.7 }
         });
         let irises = [60.0, 120.0].map(|x| Iris { centre: Point::new(x, 60.0), radius: 4.0 });
-        let face = Landmarks { points: vec![[90.0, 60.0, 0.0]; POINTS], irises, spectacles: Some(frame) };
+        let face = Landmarks { points: vec![[90.0, 60.0, 0.0]; POINTS], irises, spectacles: Some(frame), pearls: Vec::new() };
         Some(thick_frame(&face, &light, None)?.pixels().iter().filter(|v| **v == 1).count())
     }
 

@@ -1,7 +1,7 @@
 //! Step 11: a catchlight in each open eye: without one it is a hole, with three it looks broken.
 
 use super::openings::{EYE_OPEN, eyes, openness};
-use crate::geometry::{Point, Rect, Vec2};
+use crate::geometry::{Point, Rect, Vec2, polygon_area};
 use crate::raster::{Raster, median};
 use crate::source::{Iris, Landmarks};
 
@@ -86,6 +86,13 @@ fn lit(mut tone: Raster<f32>, iris: Iris, centre: Point) -> Raster<f32> {
     tone
 }
 
+/// The part of an eye's opening that its catchlight covers, 0 to 1.
+pub(super) fn share_of_opening(lids: &[Point], iris: Iris) -> f32 {
+    let is_lit = openness(lids, EYE_OPEN) >= LEAST_OPEN;
+    let light = std::f64::consts::PI * (RADIUS * iris.radius).powi(2);
+    if is_lit { (light / polygon_area(lids).abs().max(light)) as f32 } else { 0.0 }
+}
+
 /// The pixels whose centres lie within a distance of a place, and how far.
 pub(super) fn pixels_about<T>(
     raster: &Raster<T>,
@@ -118,7 +125,7 @@ mod tests {
                 points[*point] = [iris.centre.x + 26.0 * p.x, iris.centre.y + 13.0 * p.y, 0.0];
             }
         }
-        Landmarks { points, irises, spectacles: None }
+        Landmarks { points, irises, spectacles: None, pearls: Vec::new() }
     }
 
     #[test]

@@ -74,7 +74,7 @@ mod tests {
         round(&mut points, &outlines::OVAL, middle, 50.0);
         let (ear, mouth) = (Point::new(60.0, 80.0), Point::new(180.0, 80.0));
         FRONT.iter().for_each(|line| round(&mut points, line, mouth, 8.0));
-        let face = Landmarks { points, irises: [Iris { centre: middle, radius: 1.0 }; 2], spectacles: None };
+        let face = Landmarks { points, irises: [Iris { centre: middle, radius: 1.0 }; 2], spectacles: None, pearls: Vec::new() };
         let is_fold = |p: Point, x: usize, y: usize| p.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 2.0;
         let tone = Raster::from_fn(260, 160, |x, y| if is_fold(ear, x, y) || is_fold(mouth, x, y) { 0.4 } else { 0.6 });
         let zones = Zones::new(&face, &tone).expect("skin");

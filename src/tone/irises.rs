@@ -202,7 +202,7 @@ mod tests {
         let is_light = |skin: [f32; 3], ring: [f32; 3], above_pupil: f32| {
             let mut points = vec![[150.0, 150.0, 0.0]; POINTS];
             [points[234], points[454]] = [[50.0, 150.0, 0.0], [250.0, 150.0, 0.0]];
-            let face = Landmarks { points, irises: [iris; 2], spectacles: None };
+            let face = Landmarks { points, irises: [iris; 2], spectacles: None, pearls: Vec::new() };
             let light = Raster::from_fn(300, 300, |x, y| {
                 if iris.centre.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 10.0 { ring } else { skin }
             });

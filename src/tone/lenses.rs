@@ -39,7 +39,7 @@ mod tests {
         let spectacles =
             Spectacles { rims: [rim(10.0), rim(60.0)], bridge: Vec::new(), temples: [Vec::new(), Vec::new()], width: 2.0 };
         let iris = Iris { centre: Point::new(25.0, 50.0), radius: 4.0 };
-        let bare = Landmarks { points: Vec::new(), irises: [iris; 2], spectacles: None };
+        let bare = Landmarks { points: Vec::new(), irises: [iris; 2], spectacles: None, pearls: Vec::new() };
         let face = Landmarks { spectacles: Some(spectacles), ..bare.clone() };
         let all = Raster::filled(SIDE, SIDE, 1_u8);
         let features = Raster::from_fn(SIDE, SIDE, |x, _| if x > 75 { 1.0 } else { 0.0 });

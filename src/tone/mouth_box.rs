@@ -62,7 +62,7 @@ pub(super) mod tests {
             }
         }
         let iris = Iris { centre: middle, radius: 1.0 };
-        Landmarks { points, irises: [iris; 2], spectacles: None }
+        Landmarks { points, irises: [iris; 2], spectacles: None, pearls: Vec::new() }
     }
 
     #[test]

@@ -83,7 +83,7 @@ mod tests {
             let p = middle + 10.0 * unit_at(TAU * i as f64 / outlines::RIGHT_NOSTRIL.len() as f64);
             points[*point] = [p.x, p.y, 0.0];
         }
-        let face = Landmarks { points, irises: [Iris { centre: middle, radius: 1.0 }; 2], spectacles: None };
+        let face = Landmarks { points, irises: [Iris { centre: middle, radius: 1.0 }; 2], spectacles: None, pearls: Vec::new() };
         let is_dark = |x: usize, y: usize| middle.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < radius;
         let lightness = Raster::from_fn(120, 80, |x, y| if is_dark(x, y) { light } else { 0.6 });
         with_nostrils(Raster::filled(120, 80, 0.5), &lightness, &[face], 1.0).get(50, 40)

@@ -1,6 +1,7 @@
 //! Eyes and open mouths, whose small forms the tone of skin would grey over: eyes keep at least the photograph's contrast, whites are
 //! lightened, irises darkened, catchlights left as paper, and the gaps between teeth kept.
 
+use super::catchlights::share_of_opening;
 use super::mixing::mixed;
 use super::zones::{Zones, polygon};
 use crate::geometry::{Point, convex_hull, polygon_area};
@@ -66,16 +67,18 @@ const COMPARED: f64 = 0.08;
 const SPARE: f32 = 0.075;
 const MOST_FIRMED: f32 = 0.2;
 
-/// Eyes that a tone made for the whole face has left with less contrast than in the photograph get it back; their lights are kept.
+/// Eyes that a tone made for the whole face has left with less contrast than in the photograph get it back, and what their catchlights
+/// will take; their lights are kept.
 pub(super) fn eyes_at_least(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, lightness: &Raster<f32>) -> Raster<f32> {
-    eyes(face).into_iter().fold(tone.clone(), |tone, (lids, _)| {
+    eyes(face).into_iter().fold(tone.clone(), |tone, (lids, iris)| {
+        let lit = share_of_opening(&lids, iris);
         let eye = polygon(tone.width(), tone.height(), &lids);
         let round = dilate(&eye, (COMPARED * zones.width).round().max(1.0) as usize);
         let round = round.zip_map(&zones.features, |near, feature| f32::from(u8::from(near == 1 && feature < 0.1)));
         let eye = eye.map(f32::from);
         let contrast = |of: &Raster<f32>| Some(mean(of, &round)? - mean(of, &eye)?);
         let (Some(wanted), Some(is)) = (contrast(lightness), contrast(&tone)) else { return tone };
-        let missing = (wanted + SPARE - is).clamp(0.0, MOST_FIRMED);
+        let missing = (wanted + SPARE + lit - is).clamp(0.0, MOST_FIRMED);
         if wanted <= 0.0 || missing == 0.0 {
             return tone;
         }

@@ -39,7 +39,7 @@ pub fn plain_face(x: f64, y: f64, width: f64) -> Landmarks {
         radius: 0.04 * width,
     };
     let irises = [eye(33, 133), eye(263, 362)];
-    Landmarks { points, irises, spectacles: None }
+    Landmarks { points, irises, spectacles: None, pearls: Vec::new() }
 }
 
 pub const WEDGE_MM: f64 = 60.0;

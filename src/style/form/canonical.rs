@@ -110,7 +110,7 @@ pub(in crate::style) mod tests {
             [middle.x + p.x * cos - p.y * sin, middle.y + p.x * sin + p.y * cos, 0.0]
         });
         let iris = Iris { centre: middle, radius: 1.0 };
-        Landmarks { points: points.collect(), irises: [iris; 2], spectacles: None }
+        Landmarks { points: points.collect(), irises: [iris; 2], spectacles: None, pearls: Vec::new() }
     }
 
     #[test]

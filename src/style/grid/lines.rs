@@ -7,6 +7,7 @@ use crate::field::CoherentLine;
 use crate::source::MaskRole;
 use crate::style::creases::Creases;
 use crate::style::feature_line::feature_stroke;
+use crate::style::pearls::are_lined_by;
 use crate::style::spectacles::{self, Frames};
 use crate::style::strays::mean_along;
 
@@ -25,7 +26,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features) -> Layer {
     layer
 }
 
-/// The features that are drawn as lines; those along rims of spectacles are in their frames.
+/// The features that are drawn as lines; those along rims of spectacles and pearls are in theirs.
 fn drawn(drawer: &Drawer<'_>, features: &Features) -> Vec<CoherentLine> {
     let frames = Frames::of(drawer.portrait);
     let creases = Creases::of(drawer.portrait);
@@ -36,5 +37,7 @@ fn drawn(drawer: &Drawer<'_>, features: &Features) -> Vec<CoherentLine> {
         _ if creases.have(&line.curve) => Vec::new(),
         _ => creases.cut_from(line),
     };
-    features.lines.iter().filter(|line| !frames.have(&line.curve)).flat_map(without_folds).collect()
+    let is_framed =
+        |line: &&CoherentLine| frames.have(&line.curve) || are_lined_by(drawer.portrait, drawer.pitch(), &line.curve);
+    features.lines.iter().filter(|line| !is_framed(line)).flat_map(without_folds).collect()
 }

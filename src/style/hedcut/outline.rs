@@ -11,6 +11,7 @@ use crate::field::{CoherentLine, Curve};
 use crate::geometry::{catmull_rom, resample};
 use crate::style::creases::{Creases, share};
 use crate::style::feature_line::feature_stroke;
+use crate::style::pearls::are_lined_by;
 use crate::style::spectacles::Frames;
 
 /// Distance of an outline's nodes in pitches: far enough for long smooth arcs, near enough for the corner of an eye.
@@ -25,8 +26,14 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
     let mut layer = Layer::new("outline", 1);
     let frames = Frames::of(drawer.portrait);
     let creases = Creases::of(drawer.portrait);
-    let is_outline =
-        |curve: &Curve| curve.length() >= least && !is_hair(curve, parts) && !creases.have(curve) && !frames.have(curve);
+    let is_of_pearl = |curve: &Curve| are_lined_by(drawer.portrait, drawer.pitch(), curve);
+    let is_outline = |curve: &Curve| {
+        curve.length() >= least
+            && !is_hair(curve, parts)
+            && !creases.have(curve)
+            && !frames.have(curve)
+            && !is_of_pearl(curve)
+    };
     if !features.drawn.is_empty() {
         let widest = drawer.pixels(drawer.parameters.outline_width);
         let taper = LONGEST_TAPER * drawer.pitch();
