@@ -4,6 +4,7 @@
 mod contest;
 mod cost;
 mod features;
+mod fringe;
 mod highlights;
 mod locks;
 mod outline;
@@ -19,6 +20,7 @@ use crate::field::{Curve, LaneParameters, Lanes, distance_to_curves, offset_lane
 use crate::geometry::{Point, Rect, blob};
 use crate::raster::Raster;
 use crate::source::MaskRole;
+use crate::style::coverage::covered;
 use crate::style::solids::Solids;
 use features::Features;
 use parameters::{CARD, HedcutParameters};
@@ -86,7 +88,9 @@ impl Drawer<'_> {
         let solids = solids.over(&mut drawing.layers);
         drawing.layers.extend(Some(solids).filter(|layer| !layer.marks.is_empty()));
         self.clear_lights(&mut drawing.layers, &shapes, &ink);
-        drawing.layers.extend(self.hair_layer(&parts)?);
+        let hair = self.hair_layer(&parts)?;
+        hair.iter().for_each(|hair| self.clear_dots_below(hair, &mut drawing.layers));
+        drawing.layers.extend(hair);
         drawing.layers.extend(self.clothing_layer(&parts)?);
         if drawing.layers.is_empty() {
             return Err(StyleError::NothingToDraw(
@@ -94,6 +98,18 @@ impl Drawer<'_> {
             ));
         }
         Ok(drawing)
+    }
+
+    /// Takes away the dots of skin that strands of hair run over.
+    fn clear_dots_below(&self, hair: &Layer, layers: &mut [Layer]) {
+        let strands = covered(&hair.marks, &self.portrait.placement);
+        let is_below = |p: Point| {
+            let p = self.portrait.placement.to_grid(p);
+            strands.sample(p.x, p.y) > 0.5
+        };
+        for layer in layers {
+            layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if is_below(dot.centre)));
+        }
     }
 
     /// The thesis' steps in order.

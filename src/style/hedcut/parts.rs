@@ -137,7 +137,7 @@ impl Drawer<'_> {
             let rim = self.rim_of(parts, &portrait.subject, &at);
             let strokes = charcoal::hair_strokes(&self.on(&portrait), &hair, &rim)?;
             portrait.tone = portrait.tone.zip_map(&rim, |tone, rim| tone.min(1.0 - rim));
-            marks = self.on(&portrait).toned(strokes, &hair)?;
+            marks = self.with_fringe(self.on(&portrait).toned(strokes, &hair)?, parts);
         }
         if let Some(brows) = &parts.brows
             && let Some((region, mut portrait, [columns, rows])) = self.boxed(&brows.region)
@@ -243,6 +243,11 @@ impl Parts {
     /// True for a place in the hair of a head or beside it.
     pub(super) fn is_beside_hair(&self, p: Point) -> bool {
         self.beside_hair.as_ref().is_some_and(|beside| beside.sample(p.x, p.y) > 0.5)
+    }
+
+    /// How far a place lies in clothing or headwear, 0 to 1; in working pixels.
+    pub(super) fn cloth_at(&self, p: Point) -> f32 {
+        self.cloths.iter().map(|cloth| cloth.sample(p.x, p.y)).fold(0.0, f32::max)
     }
 
     /// How far a place lies in hair or in a brow, 0 to 1; in working pixels.
