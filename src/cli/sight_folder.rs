@@ -192,8 +192,7 @@ fn landmarks(face: &WrittenFace, name: &str, longest: f64) -> Result<Landmarks, 
             "rims of spectacles must have three points or more, all of them in the picture, and a width above 0".to_owned(),
         );
     }
-    let pearls: Vec<Pearl> =
-        face.pearls.iter().map(|pearl| Pearl { centre: centre(pearl), radius: pearl.radius }).collect();
+    let pearls: Vec<Pearl> = face.pearls.iter().map(|pearl| Pearl { centre: centre(pearl), radius: pearl.radius }).collect();
     let is_pearl = |pearl: &Pearl| {
         let is_near = |v: f64| v.abs() <= 2.0 * longest;
         is_near(pearl.centre.x) && is_near(pearl.centre.y) && (1e-3..=0.1 * longest).contains(&pearl.radius)

@@ -66,7 +66,7 @@ fn paint(out: &mut Raster<u8>, region: &DetailRegion, soft: f64) {
 }
 
 /// Distance of a point from a convex polygon, negative inside.
-fn distance(outline: &[Point], p: Point) -> f64 {
+pub(super) fn distance(outline: &[Point], p: Point) -> f64 {
     let mut nearest = f64::INFINITY;
     let (mut left, mut right) = (false, false);
     for (a, b) in outline.iter().zip(outline.iter().cycle().skip(1)) {

@@ -112,12 +112,10 @@ impl<'a> Bust<'a> {
     fn pearls(&self, spots: &[Spot], near: &Near, pixels: &Raster<[u8; 3]>) -> (Vec<Spot>, Vec<Pearl>) {
         let mut string = on_strings(spots);
         let red_of_skin = self.red_of_skin(pixels);
-        let is_pale = |spot: &Spot| red_of_skin < COLOURED || red_at(pixels, spot.centre, RADIUS * spot.scale) < PALE * red_of_skin;
-        let earrings: Vec<Spot> = spots
-            .iter()
-            .filter(|spot| self.is_earring(spot) && !string.contains(spot) && is_pale(spot))
-            .copied()
-            .collect();
+        let is_pale =
+            |spot: &Spot| red_of_skin < COLOURED || red_at(pixels, spot.centre, RADIUS * spot.scale) < PALE * red_of_skin;
+        let earrings: Vec<Spot> =
+            spots.iter().filter(|spot| self.is_earring(spot) && !string.contains(spot) && is_pale(spot)).copied().collect();
         let moved = |spot: &Spot| Spot { centre: spot.centre - near.from, ..*spot };
         let mut pearls = strung(&near.light, &string.iter().map(moved).collect::<Vec<_>>(), self.width);
         pearls.extend(earrings.iter().filter_map(|spot| seen(&near.light, &moved(spot), self.width)));

@@ -20,6 +20,7 @@ mod colours;
 mod depth;
 #[cfg(feature = "see")]
 mod detail;
+mod ear_detail;
 #[cfg(feature = "see")]
 mod faces;
 #[cfg(feature = "see")]

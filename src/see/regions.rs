@@ -31,6 +31,7 @@ mod skin_model;
 mod smoothing;
 
 use super::detail::detail;
+use super::ear_detail::with_ears;
 use super::sight::Regions;
 use crate::parallel::shares;
 use crate::raster::{Raster, mean_of_corners, shares_of_bytes};
@@ -62,11 +63,12 @@ struct HeadRegions {
 
 /// The regions of the people in a view; the faces are in its pixels.
 pub(super) fn regions(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, faces: &[Landmarks]) -> Regions {
-    let detail = detail(subject, faces);
-    let (heads, faces): (Vec<Head>, Vec<&Landmarks>) = faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
-    let told: Vec<Option<HeadRegions>> = (0..heads.len()).map(|i| told(pixels, subject, faces[i], &heads, i)).collect();
+    let (heads, with_heads): (Vec<Head>, Vec<&Landmarks>) =
+        faces.iter().filter_map(|face| Some((Head::new(face)?, face))).unzip();
+    let told: Vec<Option<HeadRegions>> = (0..heads.len()).map(|i| told(pixels, subject, with_heads[i], &heads, i)).collect();
     let planes = limbs::with_limbs(pixels, at_full_size(pixels, subject, &heads, &told), &heads);
     let [skin, hair, facial_hair, headwear, clothing] = [0, 1, 2, 3, 4].map(|k| planes.map(|p| p[k]));
+    let detail = with_ears(detail(subject, faces), &skin, faces);
     Regions { skin, hair, facial_hair, headwear, clothing, detail }
 }
 

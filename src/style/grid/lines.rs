@@ -37,7 +37,6 @@ fn drawn(drawer: &Drawer<'_>, features: &Features) -> Vec<CoherentLine> {
         _ if creases.have(&line.curve) => Vec::new(),
         _ => creases.cut_from(line),
     };
-    let is_framed =
-        |line: &&CoherentLine| frames.have(&line.curve) || are_lined_by(drawer.portrait, drawer.pitch(), &line.curve);
+    let is_framed = |line: &&CoherentLine| frames.have(&line.curve) || are_lined_by(drawer.portrait, drawer.pitch(), &line.curve);
     features.lines.iter().filter(|line| !is_framed(line)).flat_map(without_folds).collect()
 }

@@ -28,11 +28,7 @@ pub(super) fn layer(drawer: &Drawer<'_>, features: &Features, parts: &Parts) -> 
     let creases = Creases::of(drawer.portrait);
     let is_of_pearl = |curve: &Curve| are_lined_by(drawer.portrait, drawer.pitch(), curve);
     let is_outline = |curve: &Curve| {
-        curve.length() >= least
-            && !is_hair(curve, parts)
-            && !creases.have(curve)
-            && !frames.have(curve)
-            && !is_of_pearl(curve)
+        curve.length() >= least && !is_hair(curve, parts) && !creases.have(curve) && !frames.have(curve) && !is_of_pearl(curve)
     };
     if !features.drawn.is_empty() {
         let widest = drawer.pixels(drawer.parameters.outline_width);
