@@ -10,6 +10,9 @@ use std::f64::consts::FRAC_PI_4;
 
 /// Ink below which a place in a feature is a light.
 const LIGHT: f32 = 0.06;
+/// The same in irises, which are solid but for their light, and how far these go, in radii: dots of the light's soft edge are crumbs in it.
+const IRIS_LIGHT: f32 = 0.6;
+const INSIDE: f64 = 0.85;
 /// The widest hole of a solid that is a catchlight, in pitches, and the most ink of its middle: the ring of a light iris is a hole too, but
 /// with the pupil in its middle. Whites of small eyes and gaps between lips count too. Looked at on eight portraits: with 1.5 the largest
 /// catchlights keep ragged borders.
@@ -28,11 +31,20 @@ impl<P: Pitched> Drawer<'_, P> {
         let catchlights = catchlights(solids, most, ink_at);
         let is_light = |dot: &Dot| {
             let p = self.portrait.placement.to_grid(dot.centre);
-            detail.sample(p.x, p.y) > 0.5 && (ink.sample(p.x, p.y) < LIGHT || catchlights.contains(dot.centre))
+            let most = if self.is_iris(p) { IRIS_LIGHT } else { LIGHT };
+            detail.sample(p.x, p.y) > 0.5 && (ink.sample(p.x, p.y) < most || catchlights.contains(dot.centre))
         };
         for layer in layers {
             layer.marks.retain(|mark| !matches!(mark, Mark::Dot(dot) if is_light(dot)));
         }
+    }
+}
+
+impl<P: Pitched> Drawer<'_, P> {
+    /// True for a place in an iris, in working pixels.
+    fn is_iris(&self, p: Point) -> bool {
+        let irises = self.portrait.faces.iter().flat_map(|face| &face.irises);
+        irises.into_iter().any(|iris| iris.centre.distance(p) < INSIDE * iris.radius)
     }
 }
 
