@@ -54,14 +54,14 @@ struct Bust<'a> {
     oval: Region,
 }
 
-/// Regions with the pearls as detail, and with skin in place of the cloth and hair there: neither hatches nor strands run over them. And the
+/// The subject with the pearls, and its regions with them as detail, and with skin in place of the cloth and hair there: neither hatches nor strands run over them. And the
 /// pearls of each face that are seen as circles.
 pub(super) fn with_pearls(
     pixels: &Raster<[u8; 3]>,
     subject: &Raster<u8>,
     faces: &[Landmarks],
     mut regions: Regions,
-) -> (Regions, Vec<Vec<Pearl>>) {
+) -> (Raster<u8>, Regions, Vec<Vec<Pearl>>) {
     let busts: Vec<Option<Bust<'_>>> = faces.iter().map(Bust::of).collect();
     let is_face = |p: Point| busts.iter().flatten().any(|bust| bust.oval.contains(p));
     let worn_by = |bust: &Bust<'_>| {
@@ -79,7 +79,17 @@ pub(super) fn with_pearls(
         worn.retain(|pearl| taken.iter().all(|other| other.centre.distance(pearl.centre) > other.radius));
         taken.extend_from_slice(worn);
     }
-    (regions, pearls)
+    // Those that hang beside the neck are part of the person.
+    let mut whole = subject.clone();
+    for pearl in &taken {
+        for (x, y, away) in pixels_within(pearl.radius + 1.0, pearl.centre, (subject.width(), subject.height())) {
+            let own = (255.0 * (pearl.radius - away + 0.5).clamp(0.0, 1.0)) as u8;
+            let more = own.saturating_sub(whole.get(x, y));
+            whole.set(x, y, whole.get(x, y) + more);
+            regions.skin.set(x, y, regions.skin.get(x, y).saturating_add(more));
+        }
+    }
+    (whole, regions, pearls)
 }
 
 /// True for two spots that are not one.

@@ -91,14 +91,14 @@ fn people(engine: &Engine, view: &View, faces: &[Face], strangers: &[Rect]) -> R
     let subject = without_stubs(subject, &landmarks);
     let (regions, near) = both(|| regions(&view.pixels, &subject, &landmarks), || depth(&subject, view, faces));
     let (smooth, regions) = without_bumps_of_hats(subject.clone(), regions, &landmarks);
-    let (regions, pearls) = with_pearls(&view.pixels, &smooth, &landmarks, regions);
+    let (whole, regions, pearls) = with_pearls(&view.pixels, &smooth, &landmarks, regions);
     let upright = |pearl: Pearl| {
         let Point { x, y } = pearl.centre;
         Pearl { centre: Point::new(view.part.x0 + step.x * x, view.part.y0 + step.y * y), radius: step.x * pearl.radius }
     };
     let pearls = pearls.into_iter().map(|worn| worn.into_iter().map(upright).collect()).collect();
     let depth = if smooth == subject { near } else { depth(&smooth, view, faces) };
-    Ok(People { subject: smooth, regions, depth, pearls })
+    Ok(People { subject: whole, regions, depth, pearls })
 }
 
 /// The spectacles of each face, in its closer view if it has one.

@@ -62,9 +62,9 @@ pub(super) fn firm_eyes(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, rou
 }
 
 /// The skin that an eye is compared with, in widths of the face; how much more than the photograph's its contrast is made, so that it is
-/// left after printing (with 0.05 an eye in shade beside a bright white loses it, 16); and the most that it is darkened.
+/// left after printing (with 0.075 an eye in shade beside a bright white loses it, 16); and the most that it is darkened.
 const COMPARED: f64 = 0.08;
-const SPARE: f32 = 0.075;
+const SPARE: f32 = 0.1;
 const MOST_FIRMED: f32 = 0.2;
 
 /// Eyes that a tone made for the whole face has left with less contrast than in the photograph get it back, and what their catchlights
