@@ -2,9 +2,12 @@
 //! not.
 
 use super::Drawer;
-use crate::elementary::Elementary as _;
+use crate::elementary::{Elementary as _, unit_at};
 use crate::field::OrientationField;
+use crate::geometry::Point;
 use crate::raster::{Raster, fast_gaussian, fast_gaussian_within, gaussian_blur};
+use crate::source::MaskRole;
+use crate::style::form::{Growth, growth_at};
 
 /// The reach over which agreement is averaged, in reaches of the direction's own smoothing.
 pub(super) const AROUND: f32 = 2.5;
@@ -28,22 +31,44 @@ impl Drawer<'_> {
         Coherence { agreement, directed }
     }
 
-    /// Directions over a wider reach where those over a narrow one do not agree: in slicked, short or bearded hair there they are noise,
-    /// and strokes along them are false whorls.
+    /// Directions over a wider reach where those over a narrow one do not agree, and in beards those of their growth: in slicked, short or
+    /// bearded hair narrow ones are noise, and strokes along them are false whorls.
     pub(super) fn calm(&self, raw: &OrientationField, smoothed: &OrientationField, agreement: &Raster<f32>) -> OrientationField {
         /// Agreement up to which the wider reach counts alone, and from which the narrow one does. Straight hair has 0.8 and more; noise
         /// in the sixteen portraits 0.4 to 0.7. Lower ones leave whorls (14), higher ones comb waves and curls (05, 09, 13).
         const AGREEMENT: [f32; 2] = [0.58, 0.8];
+        /// The same in beards, whose growth is known: what agrees by chance is a whorl (14).
+        const IN_BEARDS: [f32; 2] = [0.72, 0.95];
         /// The wider reach in narrow ones.
         const WIDER: f32 = 3.0;
         let reach = WIDER * self.smoothing();
         let [x, y] = [0, 1].map(|i| fast_gaussian(&raw.doubled().map(|v| v[i]), reach));
-        let share = agreement.zip_map(smoothed.doubled(), |c, [x, y]| {
-            if x == 0.0 && y == 0.0 { 0.0 } else { ((c - AGREEMENT[0]) / (AGREEMENT[1] - AGREEMENT[0])).clamp(0.0, 1.0) }
+        let beard = self.portrait.masks.get(&MaskRole::FacialHair);
+        let share = Raster::from_fn(agreement.width(), agreement.height(), |x, y| {
+            let is_beard = beard.is_some_and(|beard| beard.get(x, y) > 0.5);
+            let [least, full] = if is_beard { IN_BEARDS } else { AGREEMENT };
+            let is_known = smoothed.doubled().get(x, y) != [0.0, 0.0];
+            if is_known { ((agreement.get(x, y) - least) / (full - least)).clamp(0.0, 1.0) } else { 0.0 }
         });
         let narrow = smoothed.doubled().zip_map(&share, to_length);
-        let wide = x.zip_map(&y, |x, y| [x, y]).zip_map(&share, |v, share| to_length(v, 1.0 - share));
+        let wide = self.with_growth(x.zip_map(&y, |x, y| [x, y])).zip_map(&share, |v, share| to_length(v, 1.0 - share));
         OrientationField::new(narrow.zip_map(&wide, |[a, b], [c, d]| [a + c, b + d]))
+    }
+
+    /// Doubled directions, in beards as they grow.
+    fn with_growth(&self, doubled: Raster<[f32; 2]>) -> Raster<[f32; 2]> {
+        let Some(beard) = self.portrait.masks.get(&MaskRole::FacialHair) else { return doubled };
+        let growth: Vec<Growth> = self.portrait.faces.iter().map(Growth::of).collect();
+        if growth.is_empty() {
+            return doubled;
+        }
+        Raster::from_fn(doubled.width(), doubled.height(), |x, y| {
+            if beard.get(x, y) < 0.5 {
+                return doubled.get(x, y);
+            }
+            let way = unit_at(2.0 * growth_at(&growth, Point::new(x as f64 + 0.5, y as f64 + 0.5)));
+            [way.x as f32, way.y as f32]
+        })
     }
 
     /// Reach of the smoothing of hair's direction in pixels.
@@ -64,9 +89,8 @@ fn lengths(field: &OrientationField) -> Raster<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Millimetres, Point};
+    use crate::geometry::Millimetres;
     use crate::raster::paper_texture;
-    use crate::source::MaskRole;
     use crate::style::charcoal::{CARD, CharcoalParameters};
     use crate::style::form::mean_portrait;
     use crate::style::observer::Silent;

@@ -51,9 +51,10 @@ pub(in crate::style) struct Hairs {
     pub combed: f64,
 }
 
-/// The direction of hair as it was detected, and as strokes follow it.
+/// The direction of hair as it was detected, smoothed, and as strokes follow it.
 struct Orientation {
     raw: OrientationField,
+    smoothed: OrientationField,
     field: OrientationField,
 }
 
@@ -73,7 +74,7 @@ impl Drawer<'_> {
         if hair.pixels().iter().all(|v| *v < 0.5) {
             return Vec::new();
         }
-        let Orientation { raw, field } = self.hair_orientation(hair, strands);
+        let Orientation { raw, smoothed, field } = self.hair_orientation(hair, strands);
         let darkness = self.darkness();
         let levels = levels_inside(&darkness, hair, [0.03, 0.5, 0.97]);
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
@@ -89,7 +90,7 @@ impl Drawer<'_> {
         };
         let coils = match strands {
             Strands::Fine(_) => self.coiled_hair(&self.hair_of_heads(hair)),
-            Strands::Curled => self.coils(hair, &raw, &field),
+            Strands::Curled => self.coils(hair, &raw, &smoothed),
         };
         // Light hair shows by the shade of its locks, which hooks would crumble.
         let dark = 1.0 - lightness_of(levels[1]);
@@ -153,13 +154,19 @@ impl Drawer<'_> {
         let raw = HoughFilter::new(self.parameters.hough, radius, ANGLES).half_orientations(&lines, &region);
         let raw = if self.parameters.hough == HoughForm::Thesis { raw.squared() } else { raw };
         let smoothed = raw.smoothed(self.smoothing());
-        let found = match strands {
-            Strands::Fine(_) => {
+        let beard = self.portrait.masks.get(&MaskRole::FacialHair);
+        let found = match (strands, beard) {
+            (Strands::Curled, None) => smoothed.clone(),
+            (Strands::Curled, Some(beard)) => {
+                let calm = self.calm(&raw, &smoothed, &self.coherence(hair, &raw, &smoothed).agreement);
+                let of_beard = calm.doubled().zip_map(beard, |way, beard| (beard > 0.5).then_some(way));
+                OrientationField::new(smoothed.doubled().zip_map(&of_beard, |way, of_beard| of_beard.unwrap_or(way)))
+            }
+            (Strands::Fine(_), _) => {
                 let agreement = self.coherence(hair, &raw, &smoothed).agreement;
                 self.observer.picture("hair-coherence", &|| Picture::Grey(agreement.zip_map(hair, |agree, hair| agree * hair)));
                 self.calm(&raw, &smoothed, &agreement)
             }
-            Strands::Curled => smoothed,
         };
         let field = match self.drawn_directions() {
             Some(drawn) => OrientationField::new(drawn.over_doubled(found.doubled())),
@@ -168,7 +175,7 @@ impl Drawer<'_> {
         self.observer.picture("hair-orientation", &|| {
             Picture::Grey(field.doubled().map(|[x, y]| (0.5 * y.angle_over(x) / std::f32::consts::PI + 0.5).clamp(0.0, 1.0)))
         });
-        Orientation { raw, field }
+        Orientation { raw, smoothed, field }
     }
 
     /// The curvature at `LINE_QUANTILE` of the hair's pixels.

@@ -3,11 +3,13 @@
 //! ```text
 //!   skin    the mean face's directions at the mesh's points, spread; over the scalp and down the neck round arches
 //!   hair    the structure tensor's, spread by how clear they are, towards circles around the head where they are not
+//!   beard   the same, towards the way in which beards grow
 //!   cloth   slopes of shoulders, bent towards the folds where these are clear
 //! ```
 //! Each is one signed angle from the head's line between the ears, which interpolates as a plain number.
 
 use super::canonical;
+use super::growth::{Growth, growth_at};
 use super::surfaces::{Surface, Surfaces};
 use crate::elementary::Elementary as _;
 use crate::field::spread;
@@ -17,6 +19,7 @@ use crate::source::{Landmarks, Placement, outlines};
 use crate::style::Drawer;
 use crate::style::drawer::Pitched;
 use crate::style::head::Head;
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// How much coarser than the working grid texture is looked at.
@@ -26,6 +29,8 @@ const HALF: usize = 2;
 pub(in crate::style) struct Directions {
     skin: Raster<f32>,
     hair: Raster<f32>,
+    /// None without beards.
+    beard: Option<Raster<f32>>,
     cloth: Raster<f32>,
 }
 
@@ -34,8 +39,22 @@ impl Directions {
         match surface {
             Surface::Skin => &self.skin,
             Surface::Hair => &self.hair,
+            Surface::Beard => self.beard.as_ref().unwrap_or(&self.hair),
             Surface::Cloth => &self.cloth,
         }
+    }
+
+    fn map(self, change: impl Fn(&Raster<f32>) -> Raster<f32>) -> Self {
+        let [skin, hair, cloth] = [self.skin, self.hair, self.cloth].map(|found| change(&found));
+        Self { skin, hair, beard: self.beard.map(|found| change(&found)), cloth }
+    }
+
+    /// Those of hair, and of beards where there are some; where the two meet their sign may change.
+    pub(in crate::style) fn of_all_hair(&self, surfaces: &Surfaces) -> Cow<'_, Raster<f32>> {
+        let Some(beard) = &self.beard else { return Cow::Borrowed(&self.hair) };
+        let (hair, share) = (&self.hair, &surfaces.beard);
+        let at = |x, y| if share.get(x, y) > 0.5 { beard.get(x, y) } else { hair.get(x, y) };
+        Cow::Owned(Raster::from_fn(hair.width(), hair.height(), at))
     }
 }
 
@@ -117,6 +136,9 @@ impl Texture {
 const SKIN_BENDING: f32 = 6.0;
 const HAIR_BENDING: f32 = 2.0;
 const CLOTH_BENDING: f32 = 8.0;
+/// Weights of the guesses against clear texture: short beards have little that is clear.
+const HAIR_GUESS: f32 = 0.003;
+const BEARD_GUESS: f32 = 0.03;
 
 /// The head nearest to a place.
 fn nearest_head(heads: &[Head], p: Point) -> Head {
@@ -144,21 +166,27 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     pub(in crate::style) fn directions(&self, surfaces: &Surfaces) -> Directions {
         let (heads, cells) = self.heads();
         let nearest = |p: Point| nearest_head(&heads, p);
-        let ((skin, hair), cloth) = rayon::join(
+        let growth: Vec<Growth> = self.portrait.faces.iter().map(Growth::of).collect();
+        let grown = |p: Point| growth_at(&growth, p);
+        let has_beard = surfaces.beard.pixels().iter().any(|share| *share > 0.5);
+        let ((skin, cloth), (hair, beard)) = rayon::join(
             || {
                 rayon::join(
                     || self.skin_directions(&cells, &heads, &nearest),
-                    || self.hair_directions(&cells, surfaces, &nearest),
+                    || self.cloth_directions(&cells, surfaces, &nearest),
                 )
             },
-            || self.cloth_directions(&cells, surfaces, &nearest),
+            || {
+                rayon::join(
+                    || self.strand_directions(&cells, &surfaces.hair, &|p| around(&nearest(p), p), HAIR_GUESS),
+                    || has_beard.then(|| self.strand_directions(&cells, &surfaces.beard, &grown, BEARD_GUESS)),
+                )
+            },
         );
+        let found = Directions { skin, hair, beard, cloth };
         match self.drawn_directions() {
-            Some(drawn) => {
-                let [skin, hair, cloth] = [skin, hair, cloth].map(|found| drawn.over_angles(&found));
-                Directions { skin, hair, cloth }
-            }
-            None => Directions { skin, hair, cloth },
+            Some(drawn) => found.map(|found| drawn.over_angles(found)),
+            None => found,
         }
     }
 
@@ -185,29 +213,32 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
         self.fine(|x, y| cells.at(&angles[0], x, y))
     }
 
-    fn hair_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {
+    /// The directions of strands in a region, towards a guess of some weight.
+    fn strand_directions(
+        &self,
+        cells: &Cells,
+        region: &Raster<f32>,
+        guess: &(impl Fn(Point) -> f64 + Sync),
+        guess_weight: f32,
+    ) -> Raster<f32> {
         let unit = self.pitch() / 4.5;
         let texture = Texture::new(&self.portrait.lightness, 1.4 * unit, 5.0 * unit);
-        let clear = texture.clear(&reduce(&surfaces.hair, HALF)).map(|clear| 0.25 * clear);
-        let (half, hair) = (cells.on_half(), cells.mean(&surfaces.hair));
-        let around = |p: Point| {
-            let head = nearest(p);
-            let (u, v) = head.relative(p);
-            (v + 0.75).angle_over(u) + 0.5 * PI + head.roll()
-        };
+        let clear = texture.clear(&reduce(region, HALF)).map(|clear| 0.25 * clear);
+        let (half, inside) = (cells.on_half(), cells.mean(region));
         let double = |turn: fn(f32) -> f32| {
             let seen = clear.zip_map(&texture.along, |clear, along| clear * turn(2.0 * along));
-            let guess = cells.fill(|p| turn(2.0 * around(p) as f32));
-            let known =
-                half.mean(&seen).zip_map(&guess.zip_map(&hair, |g, h| (0.003 * h + 1e-5) * g), |seen, guess| seen + guess);
-            let weight = half.mean(&clear).zip_map(&hair, |clear, h| clear + 0.003 * h + 1e-5);
+            let guess = cells.fill(|p| turn(2.0 * guess(p) as f32));
+            let known = half
+                .mean(&seen)
+                .zip_map(&guess.zip_map(&inside, |g, inside| (guess_weight * inside + 1e-5) * g), |seen, guess| seen + guess);
+            let weight = half.mean(&clear).zip_map(&inside, |clear, inside| clear + guess_weight * inside + 1e-5);
             (known.zip_map(&weight, |k, w| k / w), weight)
         };
         let ((cos, weight), (sin, _)) = (double(f32::cosine), double(f32::sine));
         let planes = spread(&[cos, sin], &weight, HAIR_BENDING);
         self.fine(|x, y| {
             let angle = 0.5 * f64::from(cells.at(&planes[1], x, y)).angle_over(f64::from(cells.at(&planes[0], x, y)));
-            let way = around(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            let way = guess(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             (angle + PI * ((way - angle) / PI).round()) as f32
         })
     }
@@ -254,6 +285,12 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
         let (columns, rows) = self.size();
         Raster::from_fn(columns, rows, value)
     }
+}
+
+/// Round a head.
+fn around(head: &Head, p: Point) -> f64 {
+    let (u, v) = head.relative(p);
+    (v + 0.75).angle_over(u) + 0.5 * PI + head.roll()
 }
 
 /// Where the scalp begins and the neck, in heights of the face below the chin; how round lines are there; and the weights of these

@@ -3,10 +3,12 @@
 mod canonical;
 mod coils;
 mod directions;
+mod growth;
 mod surfaces;
 
 #[cfg(test)]
 pub(super) use canonical::tests::mean_portrait;
 pub(super) use coils::with_curls;
 pub(super) use directions::Directions;
+pub(super) use growth::{Growth, growth_at};
 pub(super) use surfaces::{Surface, Surfaces};

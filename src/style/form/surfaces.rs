@@ -17,8 +17,10 @@ const OVERLAP: f32 = 0.15;
 pub(in crate::style) enum Surface {
     /// Faces, necks, hands; whatever is neither hair nor cloth.
     Skin,
-    /// Hair and beards.
+    /// Hair.
     Hair,
+    /// Beards and moustaches.
+    Beard,
     /// Clothing and hats.
     Cloth,
 }
@@ -26,8 +28,17 @@ pub(in crate::style) enum Surface {
 /// Where each surface lies, 0 to 1; together they are the subject and a little more.
 pub(in crate::style) struct Surfaces {
     pub skin: Raster<f32>,
+    /// Beards included.
     pub hair: Raster<f32>,
+    pub beard: Raster<f32>,
     pub cloth: Raster<f32>,
+}
+
+impl Surface {
+    /// True for hair of heads and of faces.
+    pub(in crate::style) fn is_hair(self) -> bool {
+        matches!(self, Self::Hair | Self::Beard)
+    }
 }
 
 impl Surfaces {
@@ -35,6 +46,7 @@ impl Surfaces {
         match surface {
             Surface::Skin => &self.skin,
             Surface::Hair => &self.hair,
+            Surface::Beard => &self.beard,
             Surface::Cloth => &self.cloth,
         }
     }
@@ -45,15 +57,21 @@ impl<P: Pitched> Drawer<'_, P> {
     pub(in crate::style) fn surfaces(&self, cover: &Raster<f32>) -> Surfaces {
         let masks = &self.portrait.masks;
         let sigma = (SMOOTH * self.pitch()) as f32;
-        let union = |roles: [MaskRole; 2]| {
+        let union = |roles: &[MaskRole]| {
             let nothing = cover.map(|_| 0.0);
             let all = roles.iter().filter_map(|role| masks.get(role)).fold(nothing, |all, mask| all.zip_map(mask, f32::max));
             gaussian_blur(&all, sigma).map(|v| ((v - 0.5) * SHARP + 0.5).clamp(0.0, 1.0))
         };
-        let cloth = union([MaskRole::Clothing, MaskRole::Headwear]);
-        let hair = union([MaskRole::Hair, MaskRole::FacialHair]).zip_map(&cloth, |hair, cloth| hair.min(1.0 - cloth));
+        let cloth = union(&[MaskRole::Clothing, MaskRole::Headwear]);
+        let hair = union(&[MaskRole::Hair, MaskRole::FacialHair]).zip_map(&cloth, |hair, cloth| hair.min(1.0 - cloth));
+        let beard = union(&[MaskRole::FacialHair]).zip_map(&hair, f32::min);
         let within = |share: Raster<f32>| share.zip_map(cover, |share, cover| (share + OVERLAP).min(1.0) * cover);
         let skin = hair.zip_map(&cloth, |hair, cloth| 1.0 - hair - cloth);
-        Surfaces { skin: within(skin), hair: within(hair), cloth: within(cloth) }
+        Surfaces {
+            skin: within(skin),
+            hair: within(hair),
+            beard: beard.zip_map(cover, |beard, cover| beard * cover),
+            cloth: within(cloth),
+        }
     }
 }

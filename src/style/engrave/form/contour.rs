@@ -77,7 +77,7 @@ impl Drawer<'_> {
         let all = [Surface::Skin, Surface::Hair, Surface::Cloth];
         let shares = [p + aside, p - aside].into_iter().flat_map(|p| all.map(|s| (surfaces.of(s).sample(p.x, p.y), s, p)));
         let Some((_, surface, p)) = shares.reduce(|most, each| if each.0 > most.0 { each } else { most }) else { return 0.0 };
-        if surface == Surface::Hair {
+        if surface.is_hair() {
             return 0.0;
         }
         let angles = directions.of(surface);

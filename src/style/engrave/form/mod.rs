@@ -73,12 +73,12 @@ struct Ground {
 impl Ground {
     /// The angle from the directions to a family's lines, in radians.
     fn turn(&self, family: usize) -> f64 {
-        TURNS[family].to_radians() * if self.surface == Surface::Hair { HAIR_TURN } else { 1.0 }
+        TURNS[family].to_radians() * if self.surface.is_hair() { HAIR_TURN } else { 1.0 }
     }
 
     /// How much closer its lines stand, where they are finer by `detail`, 0 to 1.
     fn closeness(&self, detail: f32) -> f32 {
-        let own = if self.surface == Surface::Hair { HAIR_CLOSENESS } else { 1.0 };
+        let own = if self.surface.is_hair() { HAIR_CLOSENESS } else { 1.0 };
         own / (1.0 - FINE * detail)
     }
 
@@ -113,7 +113,7 @@ impl Drawer<'_> {
         let surfaces = self.surfaces(&self.portrait.subject);
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
-        let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, directions.of(Surface::Hair)));
+        let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, &directions.of_all_hair(&surfaces)));
         self.check()?;
         self.observer.begin("lines");
         // Both at once: solids and contour take one thread.
@@ -148,14 +148,14 @@ impl Drawer<'_> {
         detail: &Raster<f32>,
         ink: &Raster<f32>,
     ) -> Result<Pieces, StyleError> {
-        let roots = self.roots(surfaces, directions.of(Surface::Hair));
+        let roots = self.roots(surfaces, &directions.of_all_hair(surfaces));
         let on = |surface: &Surface| {
             let (mut first, ground) = self.inked(*surface, surfaces, &roots, directions, ink);
             let [one, two, three] = self.lines_over(&ground, directions, detail);
             first.extend(one);
             self.check().map(|()| [first, two, three])
         };
-        let all = [Surface::Skin, Surface::Hair, Surface::Cloth];
+        let all = [Surface::Skin, Surface::Hair, Surface::Beard, Surface::Cloth];
         let of_grounds: Vec<Result<Pieces, StyleError>> =
             if ink.len() <= TOGETHER { mapped(&all, &on) } else { all.iter().map(on).collect() };
         let mut pieces: Pieces = Default::default();

@@ -58,7 +58,7 @@ impl Roots {
     pub(super) fn ink_of(&self, surface: Surface, ink: &Raster<f32>) -> Raster<f32> {
         match surface {
             Surface::Skin => ink.zip_map(&self.hair, |ink, hair| rooted(ink, 1.0 - hair)),
-            Surface::Hair => ink.zip_map(&self.hair, rooted),
+            Surface::Hair | Surface::Beard => ink.zip_map(&self.hair, rooted),
             Surface::Cloth => ink.clone(),
         }
     }
@@ -72,7 +72,8 @@ impl Roots {
         };
         match surface {
             Surface::Skin => within(&|hair| 1.0 - hair),
-            Surface::Hair => within(&|hair| hair),
+            Surface::Hair => within(&|hair| hair).zip_map(&surfaces.beard, |hair, beard| if beard > 0.6 { 0.0 } else { hair }),
+            Surface::Beard => within(&|hair| hair).zip_map(&surfaces.beard, |hair, beard| if beard > 0.4 { hair } else { 0.0 }),
             Surface::Cloth => surfaces.cloth.clone(),
         }
     }

@@ -32,7 +32,7 @@ impl Entry {
 fn shares(ink: f32, entering: f32, surface: Surface) -> [f32; 3] {
     let [second, third] = match surface {
         Surface::Skin => SKIN,
-        Surface::Hair => HAIR,
+        Surface::Hair | Surface::Beard => HAIR,
         Surface::Cloth => CLOTH,
     };
     let entering = entering.min(ink);
