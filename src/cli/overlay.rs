@@ -71,7 +71,7 @@ fn draw_face(pixels: &mut Raster<[u8; 3]>, face: &Overlaid<'_>, scale: f64) {
         draw_line(pixels, &line, scale, [255, 128, 0]);
     }
     for pearl in &face.landmarks.pearls {
-        draw_line(pixels, &circle(pearl.centre, pearl.radius), scale, [255, 255, 255]);
+        draw_line(pixels, &circle(pearl.center, pearl.radius), scale, [255, 255, 255]);
     }
     for iris in face.landmarks.irises {
         draw_line(pixels, &circle(iris.centre, iris.radius), scale, [0, 255, 255]);

@@ -11,7 +11,8 @@ use crate::geometry::{Point, Rect};
 use crate::raster::Raster;
 use crate::see::{Face, Sight};
 use crate::source::grey_image;
-use crate::source::{Iris, Landmarks, MaskRole, POINTS, Pearl, Photograph, Spectacles};
+use crate::source::{Iris, Landmarks, MaskRole, POINTS, Photograph, Spectacles};
+use kurbo::Circle;
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -192,10 +193,10 @@ fn landmarks(face: &WrittenFace, name: &str, longest: f64) -> Result<Landmarks, 
             "rims of spectacles must have three points or more, all of them in the picture, and a width above 0".to_owned(),
         );
     }
-    let pearls: Vec<Pearl> = face.pearls.iter().map(|pearl| Pearl { centre: centre(pearl), radius: pearl.radius }).collect();
-    let is_pearl = |pearl: &Pearl| {
+    let pearls: Vec<Circle> = face.pearls.iter().map(|pearl| Circle::new(centre(pearl), pearl.radius)).collect();
+    let is_pearl = |pearl: &Circle| {
         let is_near = |v: f64| v.abs() <= 2.0 * longest;
-        is_near(pearl.centre.x) && is_near(pearl.centre.y) && (1e-3..=0.1 * longest).contains(&pearl.radius)
+        is_near(pearl.center.x) && is_near(pearl.center.y) && (1e-3..=0.1 * longest).contains(&pearl.radius)
     };
     if !pearls.iter().all(is_pearl) {
         return refused("pearls must have a centre in the picture and a radius above 0, in pixels".to_owned());
@@ -254,7 +255,7 @@ fn face_json(face: &Face) -> Value {
         "score": face.score,
         "irises": { "right": right, "left": left },
         "spectacles": face.landmarks.spectacles.as_ref().map(spectacles_json),
-        "pearls": face.landmarks.pearls.iter().map(|pearl| round(pearl.centre, pearl.radius)).collect::<Vec<_>>(),
+        "pearls": face.landmarks.pearls.iter().map(|pearl| round(pearl.center, pearl.radius)).collect::<Vec<_>>(),
         "points": face.landmarks.points,
     })
 }

@@ -100,11 +100,15 @@ mod tests {
     fn skin_beside_the_face_is_an_ear_and_a_seam_beside_hair_is_none() {
         let middle = Point::new(120.0, 100.0);
         let mut points = vec![[middle.x, middle.y, 0.0]; POINTS];
-        for (i, index) in outlines::OVAL.iter().enumerate() {
-            // From the middle of the forehead on.
-            let out = unit_at(TAU * (i as f64 / outlines::OVAL.len() as f64 - 0.25));
-            points[*index] = [middle.x + 50.0 * out.x, middle.y + 70.0 * out.y, 0.0];
-        }
+        let mut round = |line: &[usize], [x, y]: [f64; 2]| {
+            for (i, index) in line.iter().enumerate() {
+                // From the middle of the forehead on.
+                let out = unit_at(TAU * (i as f64 / line.len() as f64 - 0.25));
+                points[*index] = [middle.x + x * out.x, middle.y + y * out.y, 0.0];
+            }
+        };
+        round(&outlines::LIPS, [8.0, 8.0]);
+        round(&outlines::OVAL, [50.0, 70.0]);
         let face = Landmarks { points, irises: [Iris { centre: middle, radius: 2.0 }; 2], spectacles: None, pearls: Vec::new() };
         let is_skin = |x: usize, y: usize| (30..172).contains(&x) && (20..190).contains(&y);
         let skin = Raster::from_fn(240, 220, |x, y| if is_skin(x, y) { 255_u8 } else { 0 });

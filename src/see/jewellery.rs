@@ -9,7 +9,8 @@ use super::sight::Regions;
 use crate::geometry::{Point, Region, Vec2};
 use crate::parallel::collected;
 use crate::raster::{Raster, fast_gaussian, median};
-use crate::source::{Landmarks, Pearl, byte_to_linear, lightness, luminance, outlines};
+use crate::source::{Landmarks, byte_to_linear, lightness, luminance, outlines};
+use kurbo::Circle;
 use std::ops::Range;
 
 /// Scales of the spots in widths of the face: a pearl has a radius of 1.41 scales.
@@ -61,7 +62,7 @@ pub(super) fn with_pearls(
     subject: &Raster<u8>,
     faces: &[Landmarks],
     mut regions: Regions,
-) -> (Raster<u8>, Regions, Vec<Vec<Pearl>>) {
+) -> (Raster<u8>, Regions, Vec<Vec<Circle>>) {
     let busts: Vec<Option<Bust<'_>>> = faces.iter().map(Bust::of).collect();
     let is_face = |p: Point| busts.iter().flatten().any(|bust| bust.oval.contains(p));
     let worn_by = |bust: &Bust<'_>| {
@@ -70,19 +71,19 @@ pub(super) fn with_pearls(
         spots.retain(|spot| !is_face(spot.centre) && skin_share(spot, &regions) > LEAST_SKIN);
         bust.pearls(&spots, &near, pixels)
     };
-    let (spots, mut pearls): (Vec<Vec<Spot>>, Vec<Vec<Pearl>>) =
+    let (spots, mut pearls): (Vec<Vec<Spot>>, Vec<Vec<Circle>>) =
         busts.iter().map(|bust| bust.as_ref().map_or_else(Default::default, worn_by)).unzip();
     spots.into_iter().flatten().for_each(|spot| paint(&mut regions, subject, spot));
     // People beside one another may be given the same pearl.
-    let mut taken: Vec<Pearl> = Vec::new();
+    let mut taken: Vec<Circle> = Vec::new();
     for worn in &mut pearls {
-        worn.retain(|pearl| taken.iter().all(|other| other.centre.distance(pearl.centre) > other.radius));
+        worn.retain(|pearl| taken.iter().all(|other| other.center.distance(pearl.center) > other.radius));
         taken.extend_from_slice(worn);
     }
     // Those that hang beside the neck are part of the person.
     let mut whole = subject.clone();
     for pearl in &taken {
-        for (x, y, away) in pixels_within(pearl.radius + 1.0, pearl.centre, (subject.width(), subject.height())) {
+        for (x, y, away) in pixels_within(pearl.radius + 1.0, pearl.center, (subject.width(), subject.height())) {
             let own = (255.0 * (pearl.radius - away + 0.5).clamp(0.0, 1.0)) as u8;
             let more = own.saturating_sub(whole.get(x, y));
             whole.set(x, y, whole.get(x, y) + more);
@@ -119,7 +120,7 @@ impl<'a> Bust<'a> {
     }
 
     /// Those of the spots that are pearls, and those of them that are seen as circles.
-    fn pearls(&self, spots: &[Spot], near: &Near, pixels: &Raster<[u8; 3]>) -> (Vec<Spot>, Vec<Pearl>) {
+    fn pearls(&self, spots: &[Spot], near: &Near, pixels: &Raster<[u8; 3]>) -> (Vec<Spot>, Vec<Circle>) {
         let mut string = on_strings(spots);
         let red_of_skin = self.red_of_skin(pixels);
         let is_pale =
@@ -129,7 +130,7 @@ impl<'a> Bust<'a> {
         let moved = |spot: &Spot| Spot { centre: spot.centre - near.from, ..*spot };
         let mut pearls = strung(&near.light, &string.iter().map(moved).collect::<Vec<_>>(), self.width);
         pearls.extend(earrings.iter().filter_map(|spot| seen(&near.light, &moved(spot), self.width)));
-        pearls.iter_mut().for_each(|pearl| pearl.centre += near.from);
+        pearls.iter_mut().for_each(|pearl| pearl.center += near.from);
         string.extend(earrings);
         (string, pearls)
     }

@@ -19,7 +19,8 @@ use crate::geometry::{Point, Rect};
 use crate::interrupt::Interrupt;
 use crate::parallel::both;
 use crate::raster::Raster;
-use crate::source::{Landmarks, Pearl, Photograph, Spectacles};
+use crate::source::{Landmarks, Photograph, Spectacles};
+use kurbo::Circle;
 use std::f64::consts::FRAC_PI_2;
 
 /// Longer side in pixels of the view, and of the masks: a face that fills a fifth of it still has the mesh's 200 pixels, and a
@@ -78,7 +79,7 @@ struct People {
     regions: Regions,
     depth: Raster<u16>,
     /// Of each face, in pixels of the upright picture.
-    pearls: Vec<Vec<Pearl>>,
+    pearls: Vec<Vec<Circle>>,
 }
 
 /// Separates the people from the ground, and their regions from one another.
@@ -92,9 +93,9 @@ fn people(engine: &Engine, view: &View, faces: &[Face], strangers: &[Rect]) -> R
     let (regions, near) = both(|| regions(&view.pixels, &subject, &landmarks), || depth(&subject, view, faces));
     let (smooth, regions) = without_bumps_of_hats(subject.clone(), regions, &landmarks);
     let (whole, regions, pearls) = with_pearls(&view.pixels, &smooth, &landmarks, regions);
-    let upright = |pearl: Pearl| {
-        let Point { x, y } = pearl.centre;
-        Pearl { centre: Point::new(view.part.x0 + step.x * x, view.part.y0 + step.y * y), radius: step.x * pearl.radius }
+    let upright = |pearl: Circle| {
+        let Point { x, y } = pearl.center;
+        Circle::new((view.part.x0 + step.x * x, view.part.y0 + step.y * y), step.x * pearl.radius)
     };
     let pearls = pearls.into_iter().map(|worn| worn.into_iter().map(upright).collect()).collect();
     let depth = if smooth == subject { near } else { depth(&smooth, view, faces) };

@@ -4,7 +4,7 @@ use super::jewellery::{RADIUS, Spot};
 use crate::elementary::unit_at;
 use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, median};
-use crate::source::Pearl;
+use kurbo::Circle;
 use std::f64::consts::TAU;
 
 /// Radii that are tried, in those of the spot, how many, and the largest in widths of the face; and how far the centre is moved, in radii of
@@ -34,26 +34,26 @@ const NEAR: usize = 5;
 const OF_ONE: f64 = 0.7;
 
 /// A circle around a spot and the share of its border that is seen.
-struct Circle {
-    pearl: Pearl,
+struct Border {
+    pearl: Circle,
     share: f64,
 }
 
 /// The pearls of a string, each as large as its neighbours leave room for, and as they are; none if only a few are round. All in pixels of
 /// the lightness.
-pub(super) fn strung(light: &Raster<f32>, spots: &[Spot], width: f64) -> Vec<Pearl> {
+pub(super) fn strung(light: &Raster<f32>, spots: &[Spot], width: f64) -> Vec<Circle> {
     let spots = one_each(spots);
     let rooms = rooms(&spots);
-    let pearls: Vec<Pearl> = spots
+    let pearls: Vec<Circle> = spots
         .iter()
         .zip(&rooms)
         .filter_map(|(spot, room)| Some((seen(light, spot, width)?, room)))
-        .map(|(Pearl { centre, radius }, room)| Pearl { centre, radius: radius.clamp(LEAST_OF_ROOM * room, *room) })
+        .map(|(pearl, room)| Circle::new(pearl.center, pearl.radius.clamp(LEAST_OF_ROOM * room, *room)))
         .collect();
-    let even = |pearl: &Pearl| {
-        let near = nearest(&pearls, |other| other.centre.distance(pearl.centre));
+    let even = |pearl: &Circle| {
+        let near = nearest(&pearls, |other| other.center.distance(pearl.center));
         let radius = median(near.map(|other| other.radius as f32).collect()).map_or(pearl.radius, f64::from);
-        Pearl { radius, ..*pearl }
+        Circle { radius, ..*pearl }
     };
     if pearls.len() < STRING { Vec::new() } else { pearls.iter().map(even).collect() }
 }
@@ -90,7 +90,7 @@ fn nearest<T>(all: &[T], distance: impl Fn(&T) -> f64) -> impl Iterator<Item = &
 }
 
 /// The pearl around a spot; none if it has no round border.
-pub(super) fn seen(light: &Raster<f32>, spot: &Spot, width: f64) -> Option<Pearl> {
+pub(super) fn seen(light: &Raster<f32>, spot: &Spot, width: f64) -> Option<Circle> {
     let own = RADIUS * spot.scale;
     let most = (LARGEST * width).max(own).min(RADII[1] * own);
     let radii = (0..TRIED).map(|i| RADII[0] * own + (most - RADII[0] * own) * i as f64 / (TRIED - 1) as f64);
@@ -100,21 +100,21 @@ pub(super) fn seen(light: &Raster<f32>, spot: &Spot, width: f64) -> Option<Pearl
         .filter(|(x, y)| x * x + y * y <= (MOVED / STEP) * (MOVED / STEP))
         .map(|(x, y)| spot.centre + STEP * own * Point::new(x, y).to_vec2())
         .collect();
-    let circles = radii.flat_map(|radius| centres.iter().map(move |centre| Pearl { centre: *centre, radius }));
+    let circles = radii.flat_map(|radius| centres.iter().map(move |centre| Circle::new(*centre, radius)));
     let best = circles.map(|pearl| scored(light, pearl, own)).reduce(|best, each| if each.0 > best.0 { each } else { best })?;
-    let Circle { pearl, share } = best.1;
+    let Border { pearl, share } = best.1;
     let is_inside = |p: Point| {
         let (x, y) = (light.width() as f64, light.height() as f64);
         p.x >= pearl.radius && p.y >= pearl.radius && p.x <= x - pearl.radius && p.y <= y - pearl.radius
     };
-    (share >= LEAST_SHARE && pearl.radius >= LEAST_RADIUS && is_inside(pearl.centre)).then_some(pearl)
+    (share >= LEAST_SHARE && pearl.radius >= LEAST_RADIUS && is_inside(pearl.center)).then_some(pearl)
 }
 
 /// How well a circle lies on the border of a light disc.
-fn scored(light: &Raster<f32>, pearl: Pearl, own: f64) -> (f64, Circle) {
+fn scored(light: &Raster<f32>, pearl: Circle, own: f64) -> (f64, Border) {
     let half = (ACROSS * pearl.radius).max(LEAST_ACROSS);
     let at = |radius: f64, out: Vec2| {
-        let p = pearl.centre + radius * out;
+        let p = pearl.center + radius * out;
         light.sample(p.x, p.y)
     };
     let differences = (0..PLACES).map(|i| {
@@ -126,7 +126,7 @@ fn scored(light: &Raster<f32>, pearl: Pearl, own: f64) -> (f64, Circle) {
     });
     // Of two good circles the larger is the pearl, the other its highlight.
     let score = sum / PLACES as f64 * (pearl.radius / own).sqrt();
-    (score, Circle { pearl, share: seen as f64 / PLACES as f64 })
+    (score, Border { pearl, share: seen as f64 / PLACES as f64 })
 }
 
 #[cfg(test)]
@@ -150,7 +150,7 @@ mod tests {
         };
         let spot = |x: f64| Spot { centre: Point::new(x - 3.0, 27.0), scale: 4.0, curved: 0.1 };
         let pearl = seen(&discs(&[40.0]), &spot(40.0), 200.0).expect("a pearl");
-        assert!((pearl.radius - 9.0).abs() < 1.0 && pearl.centre.distance(Point::new(40.0, 30.0)) < 2.0, "{pearl:?}");
+        assert!((pearl.radius - 9.0).abs() < 1.0 && pearl.center.distance(Point::new(40.0, 30.0)) < 2.0, "{pearl:?}");
         assert!(seen(&Raster::from_fn(160, 60, |x, _| if x < 40 { 0.7 } else { 0.4 }), &spot(40.0), 200.0).is_none());
         let string = [30.0, 50.0, 70.0, 90.0, 110.0];
         let spots = string.map(spot);

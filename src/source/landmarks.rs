@@ -2,6 +2,7 @@
 
 use super::Spectacles;
 use crate::geometry::Point;
+use kurbo::Circle;
 
 /// Number of points in the mesh.
 pub const POINTS: usize = 468;
@@ -16,16 +17,7 @@ pub struct Landmarks {
     /// The spectacles before the eyes, if any were found.
     pub spectacles: Option<Spectacles>,
     /// The pearls of earrings and necklaces that were found.
-    pub pearls: Vec<Pearl>,
-}
-
-/// One pearl.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pearl {
-    /// Its centre.
-    pub centre: Point,
-    /// Its radius.
-    pub radius: f64,
+    pub pearls: Vec<Circle>,
 }
 
 /// One iris.
@@ -72,7 +64,7 @@ impl Landmarks {
         });
         let irises = self.irises.map(|iris| Iris { centre: place(iris.centre), radius: iris.radius * scale });
         let spectacles = self.spectacles.as_ref().map(|spectacles| spectacles.placed(&place, scale));
-        let pearls = self.pearls.iter().map(|pearl| Pearl { centre: place(pearl.centre), radius: pearl.radius * scale });
+        let pearls = self.pearls.iter().map(|pearl| Circle::new(place(pearl.center), pearl.radius * scale));
         Self { points: points.collect(), irises, spectacles, pearls: pearls.collect() }
     }
 }

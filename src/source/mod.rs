@@ -36,7 +36,7 @@ pub use decode::sha256;
 pub use decode::{Limits, Photograph, SourceInfo};
 pub use depth::DepthSense;
 pub use error::SourceError;
-pub use landmarks::{Iris, Landmarks, Pearl};
+pub use landmarks::{Iris, Landmarks};
 #[doc(hidden)]
 pub use landmarks::{LEAST_FACE_WIDTH, POINTS, outlines};
 pub use mask_role::MaskRole;

@@ -5,7 +5,8 @@ use crate::drawing::{Mark, Stroke};
 use crate::elementary::{angle_of, unit_at};
 use crate::field::Curve;
 use crate::geometry::{BezPath, Point, Ring, Vec2, catmull_rom};
-use crate::source::{Pearl, Portrait};
+use crate::source::Portrait;
+use kurbo::Circle;
 use std::f64::consts::TAU;
 
 /// Width of the ring in pitches, where the light comes from and opposite.
@@ -47,8 +48,8 @@ impl Pearls {
         let mut pearls = Self::default();
         for face in &portrait.faces {
             let shade = angle_of(Vec2::new(-face.lit_side(&portrait.lightness), 1.0));
-            for Pearl { centre, radius } in large(&face.pearls, pitch) {
-                let centre = portrait.placement.to_page(*centre);
+            for Circle { center, radius } in large(&face.pearls, pitch) {
+                let centre = portrait.placement.to_page(*center);
                 let round = Round { centre, radius: radius * scale, pitch: pitch * scale, shade };
                 pearls.ground.extend(round.circle());
                 pearls.marks.extend(round.ring());
@@ -63,13 +64,13 @@ impl Pearls {
 pub(super) fn are_lined_by(portrait: &Portrait, pitch: f64, line: &Curve) -> bool {
     let is_near = |p: Point| {
         let worn = portrait.faces.iter().flat_map(|face| large(&face.pearls, pitch));
-        worn.into_iter().any(|pearl| pearl.centre.distance(p) < OWN * pearl.radius)
+        worn.into_iter().any(|pearl| pearl.center.distance(p) < OWN * pearl.radius)
     };
     share(line, is_near) > 0.5
 }
 
 /// Those that are large enough to be drawn.
-fn large(pearls: &[Pearl], pitch: f64) -> impl Iterator<Item = &Pearl> {
+fn large(pearls: &[Circle], pitch: f64) -> impl Iterator<Item = &Circle> {
     pearls.iter().filter(move |pearl| pearl.radius >= LEAST_RADIUS * pitch)
 }
 
@@ -115,7 +116,7 @@ mod tests {
     fn a_large_pearl_is_a_ring_with_its_shade_and_a_small_one_is_none() {
         let mut portrait = mean_portrait(6.0, 0.0, |_| 100);
         let centre = Point::new(20.0, 20.0);
-        portrait.faces[0].pearls = vec![Pearl { centre, radius: 9.0 }, Pearl { centre: Point::new(50.0, 20.0), radius: 2.0 }];
+        portrait.faces[0].pearls = vec![Circle::new(centre, 9.0), Circle::new((50.0, 20.0), 2.0)];
         let pearls = Pearls::of(&portrait, 3.0);
         let strokes: Vec<&Stroke> =
             pearls.marks.iter().filter_map(|mark| if let Mark::Stroke(stroke) = mark { Some(stroke) } else { None }).collect();

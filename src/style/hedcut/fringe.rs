@@ -9,7 +9,7 @@ use crate::style::random::stream;
 use rand::RngExt;
 
 /// How far strands run out, at most, in pitches.
-const FARTHEST: f64 = 2.4;
+const FARTHEST: f64 = 2.0;
 /// Shorter ends are left as they are.
 const LEAST: f64 = 0.4;
 /// How far before its end a strand begins to taper anew, and how far beyond it lies what the strand runs into, in pitches.
