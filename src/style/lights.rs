@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_4;
 /// Ink below which a place in a feature is a light.
 const LIGHT: f32 = 0.06;
 /// The same in irises, which are solid but for their light, and how far these go, in radii: dots of the light's soft edge are crumbs in it.
-const IRIS_LIGHT: f32 = 0.6;
+const IRIS_LIGHT: f32 = 0.4;
 const INSIDE: f64 = 0.85;
 /// The widest hole of a solid that is a catchlight, in pitches, and the most ink of its middle: the ring of a light iris is a hole too, but
 /// with the pupil in its middle. Whites of small eyes and gaps between lips count too. Looked at on eight portraits: with 1.5 the largest

@@ -225,12 +225,16 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
         let texture = Texture::new(&self.portrait.lightness, 1.4 * unit, 5.0 * unit);
         let clear = texture.clear(&reduce(region, HALF)).map(|clear| 0.25 * clear);
         let (half, inside) = (cells.on_half(), cells.mean(region));
+        let (edge, edge_weight) = self.along_silhouette(region);
         let double = |turn: fn(f32) -> f32| {
             let seen = clear.zip_map(&texture.along, |clear, along| clear * turn(2.0 * along));
+            let edge = edge.zip_map(&edge_weight, |edge, weight| weight * turn(2.0 * edge));
+            let seen = seen.zip_map(&edge, |seen, edge| seen + edge);
             let guess = cells.fill(|p| turn(2.0 * guess(p) as f32));
             let known = half
                 .mean(&seen)
                 .zip_map(&guess.zip_map(&inside, |g, inside| (guess_weight * inside + 1e-5) * g), |seen, guess| seen + guess);
+            let clear = clear.zip_map(&edge_weight, |clear, edge| clear + edge);
             let weight = half.mean(&clear).zip_map(&inside, |clear, inside| clear + guess_weight * inside + 1e-5);
             (known.zip_map(&weight, |k, w| k / w), weight)
         };
@@ -241,6 +245,20 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
             let way = guess(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             (angle + PI * ((way - angle) / PI).round()) as f32
         })
+    }
+
+    /// The course of the silhouette near it inside a region, in radians, and its weight, on the grid of textures: lines of hair that end on it
+    /// side by side are a frayed edge.
+    fn along_silhouette(&self, region: &Raster<f32>) -> (Raster<f32>, Raster<f32>) {
+        /// Reach of the silhouette as a blur in pitches, and its weight.
+        const REACH: f64 = 1.6;
+        const WEIGHT: f32 = 0.12;
+        let sigma = (REACH * self.pitch() / HALF as f64) as f32;
+        let slope = gaussian_gradient(&reduce(&self.portrait.subject, HALF), sigma);
+        let along = slope.map(|[x, y]| y.angle_over(x) + 0.5 * PI as f32);
+        // At a straight border a blur's greatest slope is 0.4 per sigma.
+        let near = slope.map(|[x, y]| (2.5 * sigma * x.hypotenuse(y)).min(1.0).powi(2));
+        (along, near.zip_map(&reduce(region, HALF), |near, share| WEIGHT * near * share))
     }
 
     fn cloth_directions(&self, cells: &Cells, surfaces: &Surfaces, nearest: &(impl Fn(Point) -> Head + Sync)) -> Raster<f32> {

@@ -101,10 +101,10 @@ impl Drawer<'_> {
                 return seen;
             }
             let on = |surface| surfaces.of(surface).get(x, y);
-            let surface = [Surface::Hair, Surface::Cloth].into_iter().find(|surface| on(*surface) > 0.5);
+            let surface = [Surface::Beard, Surface::Hair, Surface::Cloth].into_iter().find(|surface| on(*surface) > 0.5);
             let along = f64::from(directions.of(surface.unwrap_or(Surface::Skin)).get(x, y));
             let form = unit_at(along + turn + f64::from(WANDER * wander.get(x, y)));
-            let usual = if surface == Some(Surface::Hair) { CLEAR_HAIR } else { CLEAR };
+            let usual = if surface.is_some_and(Surface::is_hair) { CLEAR_HAIR } else { CLEAR };
             let clear = slope.get(x, y).powi(2) / (slope.get(x, y).powi(2) + usual * usual);
             let weight = f64::from(share * (1.0 - clear));
             between(seen, form, weight)

@@ -2,7 +2,7 @@
 //! it where it is darker, dots in line where light breaks it.
 //!
 //! ```text
-//!   surfaces     skin, hair, cloth: each has lines of its own, which end at its border
+//!   surfaces     skin, hair, beard, cloth: each has lines of its own, which end at its border
 //!   roots        where hair begins among the lines of skin
 //!   directions   from the face's mesh, along locks, along folds
 //!   families     even lines along the directions, and turned from them
