@@ -20,6 +20,7 @@ mod colours;
 mod depth;
 #[cfg(feature = "see")]
 mod detail;
+#[cfg(feature = "see")]
 mod ear_detail;
 #[cfg(feature = "see")]
 mod faces;
@@ -41,6 +42,7 @@ mod looks;
 mod mesh;
 #[cfg(feature = "see")]
 mod networks;
+#[cfg(feature = "see")]
 mod pearl_shape;
 #[cfg(feature = "see")]
 mod regions;
