@@ -13,6 +13,7 @@ mod declaration;
 mod drawer;
 mod drawn_directions;
 mod drawn_irises;
+mod ears;
 mod engrave;
 mod feature_line;
 mod form;

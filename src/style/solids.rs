@@ -2,6 +2,7 @@
 //! pearls.
 
 use super::drawn_irises::{DrawnIris, light_irises};
+use super::ears::beside_faces;
 use super::jaw::Jaws;
 use super::lids::Lids;
 use super::mouth::Mouths;
@@ -184,7 +185,8 @@ impl Darks<'_> {
     /// The ink of details, smoothed, with more in eyes.
     fn darkness(&self, eye_lift: f32) -> Raster<f32> {
         let pitch = self.pitch;
-        let detail = detail_zone(self.portrait, pitch);
+        let ears = beside_faces(self.portrait, pitch);
+        let detail = detail_zone(self.portrait, pitch).zip_map(&ears, |detail, ear| detail * (1.0 - ear));
         let eyes = gaussian_blur(&self.inside([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
         let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + eye_lift * (2.0 * eyes).min(1.0));
         gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32)

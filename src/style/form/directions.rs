@@ -138,7 +138,7 @@ const HAIR_BENDING: f32 = 2.0;
 const CLOTH_BENDING: f32 = 8.0;
 /// Weights of the guesses against clear texture: short beards have little that is clear.
 const HAIR_GUESS: f32 = 0.003;
-const BEARD_GUESS: f32 = 0.03;
+const BEARD_GUESS: f32 = 0.012;
 
 /// The head nearest to a place.
 fn nearest_head(heads: &[Head], p: Point) -> Head {
@@ -252,7 +252,7 @@ impl<P: Pitched + Sync> Drawer<'_, P> {
     fn along_silhouette(&self, region: &Raster<f32>) -> (Raster<f32>, Raster<f32>) {
         /// Reach of the silhouette as a blur in pitches, and its weight.
         const REACH: f64 = 1.6;
-        const WEIGHT: f32 = 0.12;
+        const WEIGHT: f32 = 0.04;
         let sigma = (REACH * self.pitch() / HALF as f64) as f32;
         let slope = gaussian_gradient(&reduce(&self.portrait.subject, HALF), sigma);
         let along = slope.map(|[x, y]| y.angle_over(x) + 0.5 * PI as f32);

@@ -32,6 +32,7 @@ use crate::geometry::Rect;
 use crate::parallel::{collected, mapped};
 use crate::raster::{Raster, dilate};
 use crate::source::Placement;
+use crate::style::ears::beside_faces;
 use crate::style::form::{Directions, Surface, Surfaces};
 use crate::style::solids::{Solids, detail_zone};
 use crate::style::{Picture, StyleError};
@@ -101,7 +102,8 @@ impl Drawer<'_> {
     }
 
     pub(super) fn draw_form(&self) -> Result<Drawing, StyleError> {
-        let detail = detail_zone(self.portrait, self.pitch());
+        let ears = beside_faces(self.portrait, self.pitch());
+        let detail = detail_zone(self.portrait, self.pitch()).zip_map(&ears, |detail, ear| detail * (1.0 - ear));
         let firm = self.without_brows(&detail);
         let ink = self.form_ink(&firm);
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
