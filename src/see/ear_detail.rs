@@ -11,7 +11,6 @@ const HEIGHTS: [f64; 2] = [0.3, 0.76];
 const BESIDE: [f64; 2] = [0.01, 0.3];
 const SOFT: f64 = 0.03;
 /// Eyes, nose and mouth stand out beside the outline of a turned face: so near them there is no ear, in widths of the face.
-const FRONT: [&[usize]; 5] = [&outlines::LIPS, &outlines::NOSE, &outlines::NOSE_WINGS, &outlines::LEFT_EYE, &outlines::RIGHT_EYE];
 const ROUND_FRONT: f64 = 0.08;
 /// The least area of an ear in squared widths of the face: less is a seam between cheek and hair.
 const LEAST_AREA: f64 = 0.01;
@@ -50,7 +49,7 @@ impl Head {
     fn of(face: &Landmarks) -> Self {
         Self {
             oval: convex_hull(face.line(&outlines::OVAL)),
-            front: convex_hull(FRONT.iter().flat_map(|line| face.line(line)).collect()),
+            front: convex_hull(outlines::FRONT.iter().flat_map(|line| face.line(line)).collect()),
             chin: face.point(152),
             up: face.point(10) - face.point(152),
             width: face.width(),

@@ -76,6 +76,8 @@ pub mod outlines {
         10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152, 148, 176, 149, 150, 136,
         172, 58, 132, 93, 234, 127, 162, 21, 54, 103, 67, 109,
     ];
+    /// The lines of a face's front, which stand out beside its outline where it is turned.
+    pub const FRONT: [&[usize]; 5] = [&LIPS, &NOSE, &NOSE_WINGS, &LEFT_EYE, &RIGHT_EYE];
     /// The lids of the left eye, closed.
     pub const LEFT_EYE: [usize; 16] = [263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466];
     /// The lids of the right eye, closed.

@@ -10,15 +10,6 @@ use std::ops::Range;
 const HEIGHTS: Range<f64> = 0.24..0.82;
 const FARTHEST: f64 = 1.1;
 /// Eyes, nose and mouth stand out beside the outline of a turned face: so near them there is no ear, in widths of the face.
-const FRONT: [&[usize]; 7] = [
-    &outlines::LIPS,
-    &outlines::NOSE,
-    &outlines::NOSE_WINGS,
-    &outlines::LEFT_EYE,
-    &outlines::RIGHT_EYE,
-    &outlines::LEFT_BROW,
-    &outlines::RIGHT_BROW,
-];
 const ROUND_FRONT: f64 = 0.07;
 /// Pearls and what is so near them are none, in radii.
 const PEARL: f64 = 1.5;
@@ -30,7 +21,8 @@ pub(super) fn beside_faces(portrait: &Portrait, pitch: f64) -> Raster<f32> {
     let (columns, rows) = (portrait.subject.width(), portrait.subject.height());
     let inside = inside_outlines(&portrait.faces, [&outlines::OVAL, &outlines::OVAL], (columns, rows));
     let front = portrait.faces.iter().fold(inside.map(|_| 0_u8), |all, face| {
-        let hull = convex_hull(FRONT.iter().flat_map(|line| face.line(line)).collect());
+        let brows: [&[usize]; 2] = [&outlines::LEFT_BROW, &outlines::RIGHT_BROW];
+        let hull = convex_hull(outlines::FRONT.iter().chain(&brows).flat_map(|line| face.line(line)).collect());
         let corners: Vec<[f64; 2]> = hull.iter().map(|p| [p.x, p.y]).collect();
         let reach = (ROUND_FRONT * face.width()).round().max(1.0) as usize;
         all.zip_map(&dilate(&filled_polygon(columns, rows, &corners), reach), u8::max)

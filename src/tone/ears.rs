@@ -14,7 +14,6 @@ const SOFT: f64 = 0.08;
 const BESIDE: f64 = 0.02;
 const FARTHEST: f64 = 0.32;
 /// Eyes, nose and mouth stand out beside the oval of a turned face, with a border so wide, in widths of the face: they are no ears.
-const FRONT: [&[usize]; 5] = [&outlines::LIPS, &outlines::NOSE, &outlines::NOSE_WINGS, &outlines::LEFT_EYE, &outlines::RIGHT_EYE];
 const ROUND_FRONT: f64 = 0.08;
 /// The blurs that folds lie between, in widths of the face: narrower is grain, wider is the light on the whole ear.
 const FINEST: f64 = 0.008;
@@ -34,7 +33,8 @@ pub(super) fn with_ears(
     let pixels = |share: f64| (share * zones.width) as f32;
     let within = |reach: f64| dilate(&zones.oval, pixels(reach).round().max(1.0) as usize);
     let beside = within(FARTHEST).zip_map(&within(BESIDE), |near, face| near * (1 - face));
-    let front = polygon(tone.width(), tone.height(), &convex_hull(FRONT.iter().flat_map(|line| face.line(line)).collect()));
+    let front =
+        polygon(tone.width(), tone.height(), &convex_hull(outlines::FRONT.iter().flat_map(|line| face.line(line)).collect()));
     let front = dilate(&front, pixels(ROUND_FRONT).round().max(1.0) as usize);
     let beside = beside.zip_map(&front, |beside, front| f32::from(beside * (1 - front)));
     let ears = Raster::from_fn(tone.width(), tone.height(), |x, y| {
@@ -73,7 +73,7 @@ mod tests {
         };
         round(&mut points, &outlines::OVAL, middle, 50.0);
         let (ear, mouth) = (Point::new(60.0, 80.0), Point::new(180.0, 80.0));
-        FRONT.iter().for_each(|line| round(&mut points, line, mouth, 8.0));
+        outlines::FRONT.iter().for_each(|line| round(&mut points, line, mouth, 8.0));
         let face = Landmarks { points, irises: [Iris { centre: middle, radius: 1.0 }; 2], spectacles: None, pearls: Vec::new() };
         let is_fold = |p: Point, x: usize, y: usize| p.distance(Point::new(x as f64 + 0.5, y as f64 + 0.5)) < 2.0;
         let tone = Raster::from_fn(260, 160, |x, y| if is_fold(ear, x, y) || is_fold(mouth, x, y) { 0.4 } else { 0.6 });
