@@ -9,8 +9,7 @@
 //!              --                  --      continues inside at half its width
 //! ```
 //!
-//! A stroke stays a stroke, so that a pen still draws it in one pass. Swelling strokes with square ends, which are engraving
-//! lines, are cut by their centre lines only: their style ends and narrows them before the border.
+//! A stroke stays a stroke, so that a pen still draws it in one pass.
 
 use super::{Drawing, Mark, Stroke, Width};
 use crate::geometry::{BezPath, Ends, Point, Rect, Station, Stretch, Vec2, stations};
@@ -66,16 +65,10 @@ impl Mark {
 
     fn cut_to(self, rect: Rect) -> Vec<Self> {
         match self {
-            Self::Stroke(stroke) if !is_engraved(&stroke) => held_stroke(stroke, rect.inset(-RIM)),
+            Self::Stroke(stroke) => held_stroke(stroke, rect.inset(-RIM)),
             cut => cut.clipped(rect),
         }
     }
-}
-
-/// True for an engraving line. Its centre line is fitted with few nodes to keep a minimum distance from its neighbours', so it is
-/// neither moved nor cut into pieces; its style has left room for its width.
-fn is_engraved(stroke: &Stroke) -> bool {
-    stroke.ends == Ends::Flat && matches!(stroke.width(), Width::Along(_))
 }
 
 /// One point of a stroke kept inside the box; there is none if the cross-section lies outside.
@@ -298,6 +291,13 @@ mod tests {
         // A half disc at the lower end; at the border the corners beside another are lost.
         let expected = 10.0 + std::f64::consts::FRAC_PI_8 - 0.5 * (1.0 - std::f64::consts::FRAC_PI_4);
         assert!((round - expected).abs() < 0.02, "{round} of {expected}");
+    }
+
+    #[test]
+    fn an_engraving_line_is_cut_along_the_border() {
+        let slanting = Stroke::swelling(BezPath::from_svg("M5,-5 L15,5").unwrap(), vec![1.0, 1.0]).unwrap();
+        let ink = held_ink(Mark::Stroke(slanting.with_ends(Ends::Flat)));
+        assert!((ink - 50.0_f64.sqrt()).abs() < 0.02, "{ink}");
     }
 
     #[test]

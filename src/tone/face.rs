@@ -112,11 +112,11 @@ pub(super) fn tone(face: &Landmarks, setting: &Setting<'_>) -> Option<Raster<f32
     if let Some(hair) = &setting.hair {
         tone = light_hair(&zones, face, &tone, hair, setting);
     }
-    let tone = raised_features(&zones, face, &tone, &setting.subject);
+    let tone = raised_features(&zones, face, &tone, setting);
     let skin = skin_of(setting);
     let tone = with_ears(&zones, &tone, &skin, face, heights(face));
     let tone = opened(&zones, face, &tone);
-    let tone = opened_blacks(&zones, face, &tone, &setting.subject);
+    let tone = opened_blacks(&zones, face, &tone, setting);
     let tone = lights_to_paper(&zones, &tone, setting.hair.as_ref());
     let tone = rubbed(&zones, &tone, |tone| seen(&zones, tone), PAPER);
     let tone = with_half_tones(&zones, &tone, &skin);
@@ -210,26 +210,43 @@ fn skin_of(setting: &Setting<'_>) -> Raster<f32> {
     without(without(setting.subject.clone(), &setting.hair), &setting.clothing)
 }
 
+/// A share of the face that beards have none of: they are hair, and a black moustache among lips and skin would be mottled.
+fn without_beard(share: &Raster<f32>, setting: &Setting<'_>) -> Raster<f32> {
+    match &setting.facial_hair {
+        Some(beard) => share.zip_map(beard, |share, beard| share * (1.0 - beard)),
+        None => share.clone(),
+    }
+}
+
 /// Height of a pixel's middle above the chin, in heights of the face.
 fn heights(face: &Landmarks) -> impl Fn(usize, usize) -> f64 + Sync {
     let (chin, up) = (face.point(152), face.point(10) - face.point(152));
     move |x, y| (Point::new(x as f64 + 0.5, y as f64 + 0.5) - chin).dot(up) / up.hypot2().max(1e-9)
 }
 
-/// Step 6: eyes, brows and lips get more contrast against the surrounding skin.
-fn raised_features(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+/// Step 6: eyes, brows and lips get more contrast against the surrounding skin, and moustaches as a whole: with more contrast
+/// between its hairs, a black one is mottled (02).
+fn raised_features(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, setting: &Setting<'_>) -> Raster<f32> {
+    /// Blur of beards in widths of the face.
+    const WHOLE: f64 = 0.03;
+    let subject = &setting.subject;
     let weight = zones.skin.zip_map(subject, |skin, subject| (skin + 1e-4) * subject + 1e-6);
     let round = zones.over_skin(tone, &weight, 0.10);
-    let raised = tone.zip_map(&round, |tone, round| FEATURES * (tone - round));
+    let seen = match &setting.facial_hair {
+        Some(beard) => mixed(tone, &zones.over_skin(tone, &beard.map(|beard| beard + 1e-6), WHOLE), beard),
+        None => tone.clone(),
+    };
+    let raised = seen.zip_map(&round, |seen, round| FEATURES * (seen - round));
     let tone = tone.zip_map(&raised.zip_map(&zones.features, |raised, feature| raised * feature), |tone, more| tone + more);
     firm_eyes(zones, face, &tone, &round)
 }
 
 /// Step 8: hair, beards and cloth keep gaps of paper; thin dark lines stay.
-fn opened_blacks(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, subject: &Raster<f32>) -> Raster<f32> {
+fn opened_blacks(zones: &Zones, face: &Landmarks, tone: &Raster<f32>, setting: &Setting<'_>) -> Raster<f32> {
+    let subject = &setting.subject;
     let clamped = tone.map(|v| v.clamp(0.0, 1.0));
     let mean = fast_gaussian_within(&clamped, &subject.map(|v| v + 1e-6), (zones.width / 40.0) as f32);
-    let in_face = fast_gaussian(&zones.oval.map(f32::from), (0.03 * zones.width) as f32);
+    let in_face = without_beard(&fast_gaussian(&zones.oval.map(f32::from), (0.03 * zones.width) as f32), setting);
     let lift = mean.zip_map(&in_face, |mean, face| (0.45 + 0.2 * face) * (OPENED + OPENED_IN_FACE * face - mean).clamp(0.0, 1.0));
     let lift = lift.zip_map(&dark_of_mouth(zones, face, tone), |lift, mouth| lift * (1.0 - mouth));
     tone.zip_map(&lift, |tone, lift| tone + lift)

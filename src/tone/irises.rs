@@ -3,7 +3,7 @@
 use super::catchlights::pixels_about;
 use super::openings::{eyes, openness};
 use super::zones::polygon;
-
+use crate::geometry::{Point, Vec2};
 use crate::raster::{Raster, median};
 use crate::source::{Iris, Landmarks};
 
@@ -27,6 +27,14 @@ const MOST: f32 = 0.5;
 const LEAST: f32 = 0.3;
 /// The tone of a brown ring.
 const BLACK: f32 = 0.04;
+/// The part of a brown ring that glows, opposite the catchlight: the cosines of the angle from there at which it begins and is whole, its ring
+/// in radii, and its tone; and the lightness above the pupil from which it glows, and glows in full.
+const LOBE: [f64; 2] = [0.35, 0.75];
+const GLOW_RING: [f64; 2] = [0.5, 0.82];
+const GLOW: f32 = 0.34;
+const GLOWS: [f32; 2] = [0.04, 0.1];
+/// The least of it that is seen between the lids.
+const SEEN: f32 = 0.85;
 /// Where the skin's colour is taken: the middles of the cheeks, and the radius around them in widths of the face.
 const CHEEKS: [usize; 2] = [50, 280];
 const CHEEK: f64 = 0.06;
@@ -57,10 +65,13 @@ pub(super) fn with_irises(
         let seen: Vec<f32> = eyes.iter().filter_map(|(opening, iris)| iris_light(lightness, opening, *iris)).collect();
         let above_pupil = seen.iter().sum::<f32>() / seen.len().max(1) as f32;
         let is_light = is_light(above_pupil, greener_than_skin(light, face, &eyes));
+        let away_from_light = Vec2::new(if face.lit_side(lightness) < 0.0 { 1.0 } else { -1.0 }, 1.0).normalize();
         eyes.into_iter().fold(tone, |tone, (opening, iris)| {
             let Some(was) = Eye::of(&tone, &opening, iris) else { return tone };
             if !is_light {
-                return darkened(tone, &opening, iris, strength * (1.0 - BLACK / was.ring.max(BLACK)));
+                let tone = darkened(tone, &opening, iris, strength * (1.0 - BLACK / was.ring.max(BLACK)));
+                let brown = ((above_pupil - GLOWS[0]) / (GLOWS[1] - GLOWS[0])).clamp(0.0, 1.0);
+                return glowing(tone, &opening, iris, away_from_light, strength * open * brown);
             }
             let more = (GAIN * above_pupil).min(MOST) * (was.white - was.pupil) - (was.ring - was.pupil);
             let more = more.max((LEAST - was.ring) / (1.0 - was.ring).max(0.1));
@@ -147,10 +158,32 @@ fn darkened(mut tone: Raster<f32>, opening: &Raster<u8>, iris: Iris, less: f32) 
     tone
 }
 
+/// The tone with the part of a dark iris lighter where the light leaves it, opposite the catchlight: as a disc of black it is a button. Where
+/// a lid covers some of that part, what is left would be a slit.
+fn glowing(mut tone: Raster<f32>, opening: &Raster<u8>, iris: Iris, towards: Vec2, share: f32) -> Raster<f32> {
+    let glow = |(x, y, away): (usize, usize, f64)| {
+        let along = (Point::new(x as f64 + 0.5, y as f64 + 0.5) - iris.centre).dot(towards) / away.max(1e-6);
+        let lobe = ((along - LOBE[0]) / (LOBE[1] - LOBE[0])).clamp(0.0, 1.0);
+        let away = away / iris.radius;
+        let ring = ((away - GLOW_RING[0]) / SOFT).min((GLOW_RING[1] - away) / SOFT).clamp(0.0, 1.0);
+        (x, y, (lobe * ring) as f32)
+    };
+    let all: Vec<(usize, usize, f32)> = pixels_about(&tone, iris.centre, iris.radius).map(glow).collect();
+    let sum = |pixels: &mut dyn Iterator<Item = &(usize, usize, f32)>| pixels.map(|(.., glow)| glow).sum::<f32>();
+    let is_open = |(x, y, _): &&(usize, usize, f32)| opening.get(*x, *y) == 1;
+    if sum(&mut all.iter().filter(is_open)) < SEEN * sum(&mut all.iter()) {
+        return tone;
+    }
+    for (x, y, glow) in all.iter().filter(is_open) {
+        let v = tone.get(*x, *y);
+        tone.set(*x, *y, v + share * glow * (GLOW - v).max(0.0));
+    }
+    tone
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
     use crate::source::POINTS;
 
     fn eye(ring: f32) -> (Raster<f32>, Raster<u8>, Iris) {
@@ -193,6 +226,18 @@ mod tests {
         let tone = darkened(tone, &opening, iris, 0.8);
         assert!(tone.get(36, 20) < 0.05, "{}", tone.get(36, 20));
         assert_eq!(tone.get(50, 20), 0.8);
+    }
+
+    #[test]
+    fn a_brown_iris_glows_opposite_its_light() {
+        let (tone, opening, iris) = eye(0.04);
+        let tone = glowing(tone, &opening, iris, Vec2::new(-1.0, 1.0).normalize(), 1.0);
+        assert!(tone.get(25, 24) > 0.3, "{}", tone.get(25, 24));
+        assert_eq!(
+            [tone.get(34, 15), tone.get(30, 20), tone.get(34, 24)],
+            [0.04, 0.05, 0.04],
+            "beside the light, pupil and aside"
+        );
     }
 
     #[test]

@@ -18,8 +18,11 @@ const REDDER: [f32; 2] = [0.03, 0.09];
 const DARKER: f32 = 0.12;
 const BY_REDNESS: f32 = 0.6;
 const LIGHTS: f32 = 0.6;
-/// The darkest tone that a lip gets by this: below it lips and the line between them are one.
+/// The darkest tone that a lip gets by this: below it lips and the line between them are one. On dark skin it is by this darker than the skin, and
+/// at least the second: painted lips had the tone of the skin (01).
 const DARKEST: f32 = 0.3;
+const DARKER_THAN_DARK: f32 = 0.2;
+const LEAST: f32 = 0.22;
 /// Blur of redness, in which photographs are coarse, and of the lips' edge, in widths of the face.
 const COARSE: f64 = 0.012;
 const SOFT: f64 = 0.008;
@@ -48,10 +51,12 @@ pub(super) fn with_red_lips(
         for y in 0..part.height() {
             for x in 0..part.width() {
                 let (v, red, mean) = (part.get(x, y), redder.get(x, y), mean.get(x, y));
-                let wanted = (around.get(x, y) - DARKER - BY_REDNESS * red).max(DARKEST);
+                let around = around.get(x, y);
+                let darkest = DARKEST.min(around - DARKER_THAN_DARK).max(LEAST);
+                let wanted = (around - DARKER - BY_REDNESS * red).max(darkest);
                 let share = strength * ((red - REDDER[0]) / (REDDER[1] - REDDER[0])).clamp(0.0, 1.0);
                 let less =
-                    (mean - wanted).max(0.0).min((v - DARKEST).max(0.0)) + (1.0 - LIGHTS) * (v - mean.max(wanted)).max(0.0);
+                    (mean - wanted).max(0.0).min((v - darkest).max(0.0)) + (1.0 - LIGHTS) * (v - mean.max(wanted)).max(0.0);
                 tone.set(mouth.columns.start + x, mouth.rows.start + y, v - share * less);
             }
         }

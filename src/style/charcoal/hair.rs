@@ -21,6 +21,10 @@ const LINE_BLUR: f32 = 2.0;
 const LINE_QUANTILE: f64 = 0.5;
 /// Width of a strand at full pressure as a share of the stick's: at full width hair looks cut in wood.
 const HAIR_WIDTH: f64 = 0.7;
+/// By how much strands are thinner in light hair, as a share: as wide as in dark hair they are stitches along its silhouette (12 and 13).
+const THIN_IN_LIGHT: f64 = 0.45;
+/// By how much strands of cropped hair are shorter, as a share: long ones comb it (06).
+const SHORTER_IF_CROPPED: f64 = 0.8;
 /// Median darkness at which hair counts as fully light, and at which it no longer does: in the photograph's own tone light hair is bare
 /// paper (judged on white and blond hair).
 const LIGHT_HAIR: (f32, f32) = (0.25, 0.45);
@@ -49,6 +53,8 @@ pub(in crate::style) struct Hairs {
     pub turn: Radians,
     /// The share of it outside beards.
     pub combed: f64,
+    /// The share of the width in beards.
+    pub in_beards: f64,
 }
 
 /// The direction of hair as it was detected, smoothed, and as strokes follow it.
@@ -80,13 +86,21 @@ impl Drawer<'_> {
         let ink = self.along_locks(&self.hair_ink(&darkness, hair, levels), hair, lightness_of(levels[1]), &field);
         let ink = ink.zip_map(least, |ink, least| (share * ink).max(least));
         self.show("hair-ink", &ink.map(|ink| 1.0 - ink));
-        let finer = if let Strands::Fine(finer) = strands { finer } else { 1.0 };
+        let (finer, thinner) = match strands {
+            Strands::Fine(finer) => (finer, finer),
+            Strands::Curled => (1.0, 1.0 - THIN_IN_LIGHT * f64::from(lightness_of(levels[1]))),
+        };
         let sizes = Hairs {
             pitch: finer * self.parameters.pitch,
-            width: finer * HAIR_WIDTH * self.parameters.stroke_width,
-            length: self.parameters.hair_length,
+            width: thinner * HAIR_WIDTH * self.parameters.stroke_width,
+            length: (1.0 - SHORTER_IF_CROPPED * self.cropped(&self.hair_of_heads(hair))) * self.parameters.hair_length,
             turn: self.parameters.hair_turn,
             combed: if matches!(strands, Strands::Fine(_)) { COMBED } else { 1.0 },
+            in_beards: if matches!(strands, Strands::Fine(_)) {
+                1.0
+            } else {
+                1.0 - THIN_IN_LIGHT * self.lightness_of_beards(&darkness)
+            },
         };
         let coils = match strands {
             Strands::Fine(_) => self.coiled_hair(&self.hair_of_heads(hair)),
@@ -136,7 +150,8 @@ impl Drawer<'_> {
             .iter()
             .filter_map(|line| {
                 let line = smooth_polyline(line, Ring::Open, self.pixels(hairs.pitch), 1.5);
-                self.stroke(&line, touch, |p| 0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0))
+                let thin = |p: Point| if is_beard(p) { hairs.in_beards } else { 1.0 };
+                self.stroke(&line, touch, |p| thin(p) * (0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0)))
             })
             .collect()
     }
@@ -202,6 +217,12 @@ impl Drawer<'_> {
         }
         let locks = self.locks(hair).map(|lock| self.parameters.hair_ink * LOCK_INK * lock);
         plain.zip_map(&locks, |plain, lock| plain.max(is_light * lock))
+    }
+
+    /// How far beards count as light, 0 to 1.
+    fn lightness_of_beards(&self, darkness: &Raster<f32>) -> f64 {
+        let beard = self.portrait.masks.get(&MaskRole::FacialHair).filter(|beard| beard.pixels().iter().any(|v| *v >= 0.5));
+        beard.map_or(0.0, |beard| f64::from(lightness_of(levels_inside(darkness, beard, [0.03, 0.5, 0.97])[1])))
     }
 
     /// The ink of light hair smooth along its locks, so that its few strokes are long: short ones are crumbs.

@@ -117,15 +117,15 @@ pub(super) fn hair_strokes(
     Ok(drawer.in_style(strands).hair(hair, 1.0, Strands::Fine(FINER), least))
 }
 
-/// Strokes along a field that make the ink inside a region, for a style of another kind at its pitch.
+/// Strokes along a field that make an ink inside a region, for a style of another kind at its pitch.
 pub(super) fn strokes_along(
     drawer: &super::Drawer<'_, impl Pitched>,
     field: &OrientationField,
-    region: &Raster<f32>,
+    (region, ink): (&Raster<f32>, &Raster<f32>),
     hairs: Hairs,
 ) -> Result<Vec<Mark>, StyleError> {
     let settings = CARD.settings_at(drawer.parameters.pitch(), &[])?;
-    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hairs(field, region, &drawer.portrait.ink(), hairs))
+    Ok(drawer.in_style(CharcoalParameters::new(&settings)).hairs(field, region, ink, hairs))
 }
 
 /// Widths of the lines of mouths and lids, as a share: in full they are ink among charcoal.

@@ -2,6 +2,7 @@
 
 mod canonical;
 mod coils;
+mod cropped;
 mod directions;
 mod growth;
 mod surfaces;

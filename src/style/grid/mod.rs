@@ -118,7 +118,7 @@ impl Drawer<'_> {
         self.check()?;
         let grid = self.structure(&features, &ink);
         self.check()?;
-        let lines = self.parameters.has_lines.then(|| lines::layer(self, &features));
+        let lines = self.parameters.has_lines.then(|| lines::layer(self, &features)).transpose()?;
         let cells = cells::cells(self, &grid, &ink, lines.as_ref().map_or(&[], |lines| &lines.marks));
         let mut layers = match self.parameters.primitive {
             Primitive::Mixed => self.mixed_layers(&grid, &cells, &ink, ends),

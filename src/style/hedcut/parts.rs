@@ -145,7 +145,8 @@ impl Drawer<'_> {
             portrait.tone = portrait.tone.map(brows::tone_over_dots);
             let drawer = self.on(&portrait);
             let hairs = OrientationField::new(brows.hairs.doubled().part(&columns, &rows));
-            marks.extend(drawer.toned(charcoal::strokes_along(&drawer, &hairs, &region, brows.sizes)?, &region)?);
+            let strokes = charcoal::strokes_along(&drawer, &hairs, (&region, &portrait.ink()), brows.sizes)?;
+            marks.extend(drawer.toned(strokes, &region)?);
         }
         Ok(layer("hair", marks))
     }

@@ -87,6 +87,8 @@ impl Course<'_> {
         let mut readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along, stagger)).collect();
         self.cut_hooks(&mut readings);
         let is_own = |p: Point| own.iter().flatten().any(|end| end.distance(p) < self.pitch);
+        let [over_first, over_last] = self.over_the_border(&readings);
+        let end = readings.len();
         let mut pieces = Vec::new();
         let mut start = 0;
         for run in readings.chunk_by(|a, b| (a.excess > 0.0) == (b.excess > 0.0)) {
@@ -98,10 +100,16 @@ impl Course<'_> {
             let (first, last) = (&run[0], &run[run.len() - 1]);
             let before = range.start.checked_sub(1).map(|i| readings[i]);
             let after = readings.get(range.end).copied();
-            let beyond = |end: &Reading, cut: bool| if !cut && is_own(end.place) { self.beyond(end) } else { 0.0 };
-            let from = before.map_or(first.along, |b| crossing(&b, first)) - beyond(first, before.is_some());
-            let to = after.map_or(last.along, |a| crossing(last, &a)) + beyond(last, after.is_some());
-            let tapers = [before.is_some() || is_own(first.place), after.is_some() || is_own(last.place)];
+            let over = [over_first.filter(|_| range.start == 0), over_last.filter(|_| range.end == end)];
+            let beyond = |end: &Reading, cut: bool, over: Option<f64>| match over {
+                Some(over) => over,
+                None if !cut && is_own(end.place) => self.beyond(end),
+                None => 0.0,
+            };
+            let from = before.map_or(first.along, |b| crossing(&b, first)) - beyond(first, before.is_some(), over[0]);
+            let to = after.map_or(last.along, |a| crossing(last, &a)) + beyond(last, after.is_some(), over[1]);
+            let ends = |end: &Reading, cut: bool, over: Option<f64>| over.is_none() && (cut || is_own(end.place));
+            let tapers = [ends(first, before.is_some(), over[0]), ends(last, after.is_some(), over[1])];
             let least = if self.breaks.is_none() { TICK } else { CRUMB };
             if (self.breaks.is_none() || tapers == [false; 2]) && to - from < least * self.pitch {
                 continue;
@@ -118,6 +126,30 @@ impl Course<'_> {
         const WHITE: f64 = 0.7;
         let white = 1.0 - end.width / end.spacing.max(1e-6);
         BEYOND * self.pitch * (1.0 - white / WHITE).clamp(0.0, 1.0)
+    }
+
+    /// How far a line goes straight on beyond its first and its last reading, where it runs over the picture's border: until all of
+    /// its width is outside. The drawing is cut at the border.
+    fn over_the_border(&self, readings: &[Reading]) -> [Option<f64>; 2] {
+        /// Distance from the border, in pitches, within which a line runs over it, and the sine of the least angle: flatter ones run
+        /// along it.
+        const REACH: f64 = 1.0;
+        const FLATTEST: f64 = 0.25;
+        let [Some(first), Some(last)] = [readings.get(..2), readings.len().checked_sub(2).map(|i| &readings[i..])] else {
+            return [None; 2];
+        };
+        [[&first[1], &first[0]], [&last[0], &last[1]]].map(|[before, end]| {
+            let way = (end.place - before.place).normalize();
+            let Rect { x0, y0, x1, y1 } = self.picture;
+            let sides =
+                [(end.place.x - x0, -way.x), (x1 - end.place.x, way.x), (end.place.y - y0, -way.y), (y1 - end.place.y, way.y)];
+            // What ends before it, at the surface's own border, does not.
+            let is_surface = |p: Point| self.region.clamped(p.x as isize, p.y as isize) >= 0.5;
+            let over = sides.into_iter().filter(|(room, sine)| {
+                *room < REACH * self.pitch && *sine > FLATTEST && is_surface(end.place + way * (room.max(0.0) / sine))
+            });
+            over.map(|(room, sine)| (room.max(0.0) + 0.5 * end.spacing) / sine).reduce(f64::min)
+        })
     }
 
     /// Where two lines end side by side the phase joins them in a hook; what turns away from the directions is not drawn.
@@ -145,11 +177,7 @@ impl Course<'_> {
         const BREAKS: f64 = 0.3;
         const BEGINS: f64 = 0.07;
         let ink = f64::from(self.ink.sample(place.x, place.y));
-        // At the picture's border no wider than the paper.
-        let to_border =
-            [place.x - self.picture.x0, self.picture.x1 - place.x, place.y - self.picture.y0, self.picture.y1 - place.y];
-        let room = to_border.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
-        let spacing = self.family.spacing(place).min(2.0 * self.pitch).min(2.0 * room / WIDEST);
+        let spacing = self.family.spacing(place).min(2.0 * self.pitch);
         let thinnest = self.thinnest * (1.0 + BREAKS * stagger);
         let (width, excess) = match self.breaks {
             Some(breaks) if ink < thinnest => (thinnest, ink / thinnest - breaks.away(place)),
