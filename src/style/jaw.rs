@@ -40,26 +40,32 @@ const SMOOTHED: f64 = 4.0;
 
 /// A face of fewer pitches has no line of its own.
 const LEAST_WIDTH: f64 = 30.0;
-/// Distance within which a line that was found is the jaw's, in pitches.
+/// Distance within which a line that was found is the jaw's, in pitches; and below it, where it is no collar's, in widths of the face: shade
+/// under a chin ends in a second jaw (06).
 const BESIDE_JAW: f64 = 3.0;
+const SHADE_OF_JAW: f64 = 0.09;
+/// The side of a jaw's line on which the neck lies.
+const NECK: i8 = -1;
+/// Clothing below which a place is no collar's border.
+const NO_COLLAR: f32 = 0.1;
 /// The width of a line, in widths of the face, at the step from which it is full; and its least share of that.
 const WIDEST: f64 = 0.0065;
 const FULL: f64 = 0.15;
 const LEAST: f64 = 0.35;
 
 /// The jaws of a portrait.
-pub(super) struct Jaws {
+pub(super) struct Jaws<'a> {
+    portrait: &'a Portrait,
     pitch: f64,
-    size: (usize, usize),
     lines: Vec<CoherentLine>,
 }
 
-impl Jaws {
+impl<'a> Jaws<'a> {
     /// Of the faces that were found, in working pixels; `pitch` in these.
-    pub(super) fn of(portrait: &Portrait, pitch: f64) -> Self {
+    pub(super) fn of(portrait: &'a Portrait, pitch: f64) -> Self {
         let large = portrait.faces.iter().filter(|face| face.width() >= LEAST_WIDTH * pitch);
         let lines = large.filter_map(Jaw::of).flat_map(|jaw| jaw.lines(portrait)).collect();
-        Self { pitch, size: (portrait.subject.width(), portrait.subject.height()), lines }
+        Self { portrait, pitch, lines }
     }
 
     /// Where they run.
@@ -74,9 +80,18 @@ impl Jaws {
 
     /// Lines that were found, with the jaws' own in place of those beside them; what is left of one is at least `least` long.
     pub(super) fn redrawn(&self, found: Vec<CoherentLine>, least: f64) -> Vec<CoherentLine> {
-        let Some(field) = distance_to_curves(&self.curves(), self.size.0, self.size.1) else { return found };
+        let (width, height) = (self.portrait.subject.width(), self.portrait.subject.height());
+        let Some(field) = distance_to_curves(&self.curves(), width, height) else { return found };
         let reach = (BESIDE_JAW * self.pitch) as f32;
-        let is_apart = |p: &Point| field.distance.sample(p.x, p.y) >= reach;
+        let widest = self.portrait.faces.iter().map(Landmarks::width).fold(0.0, f64::max);
+        let below = reach.max((SHADE_OF_JAW * widest) as f32);
+        let cloth = self.portrait.masks.get(&MaskRole::Clothing);
+        let is_apart = |p: &Point| {
+            let distance = field.distance.sample(p.x, p.y);
+            let is_neck = field.side.clamped(p.x as isize, p.y as isize) == NECK
+                && cloth.is_none_or(|cloth| cloth.sample(p.x, p.y) < NO_COLLAR);
+            distance >= if is_neck { below } else { reach }
+        };
         let kept = found.iter().flat_map(|line| line.parts_where(is_apart, least));
         kept.chain(self.lines.iter().cloned()).collect()
     }
@@ -192,5 +207,20 @@ mod tests {
         let chin = jaw.place(steepest, COLUMNS / 2);
         assert!((chin.y - 133.0).abs() < 2.5 && (chin.x - 80.0).abs() < 1.5, "{chin:?}");
         assert!(jaw.outwards.iter().all(|way| way.y > 0.0), "outwards is down");
+    }
+
+    #[test]
+    fn the_shade_below_a_jaw_has_no_line() {
+        let portrait = crate::style::form::mean_portrait(6.0, 0.0, |_| 100);
+        let face = &portrait.faces[0];
+        let jaw = |down: f64| {
+            let points = face.line(&outlines::OVAL[JAW]).iter().map(|p| *p + Vec2::new(0.0, down * face.width())).collect();
+            CoherentLine::plain(Curve { points, closed: false }, 1.0)
+        };
+        let jaws = Jaws { portrait: &portrait, pitch: 1.0, lines: vec![jaw(0.0)] };
+        let lengths = |down: f64| jaws.redrawn(vec![jaw(down)], 1.0).iter().map(|line| line.curve.length()).sum::<f64>();
+        let own = jaw(0.0).curve.length();
+        assert!(lengths(0.06) < 1.2 * own, "{} of {own}", lengths(0.06));
+        assert!(lengths(-0.08) > 1.7 * own, "{} of {own}", lengths(-0.08));
     }
 }
