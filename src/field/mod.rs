@@ -3,6 +3,7 @@
 //! In: rasters and curves in working pixels. Out: one field each. This module knows nothing of styles, pages or files.
 
 mod b_spline;
+mod border;
 mod coherent_lines;
 mod contour;
 mod covering;
@@ -41,6 +42,7 @@ mod watershed;
 
 #[doc(hidden)]
 pub use b_spline::{BSpline, Datum, multilevel_b_spline};
+pub(crate) use border::over_the_border;
 #[doc(hidden)]
 pub use coherent_lines::{CoherentLine, CoherentLines, coherent_lines};
 #[doc(hidden)]

@@ -5,8 +5,8 @@ use super::mixing::Mixing;
 use super::structure::StructureGrid;
 use super::{Drawer, LineEnds};
 use crate::drawing::{Layer, Mark, Stroke};
-use crate::field::Curve;
-use crate::geometry::{Point, Ring, catmull_rom, resample};
+use crate::field::{Curve, over_the_border};
+use crate::geometry::{Ends, Point, Rect, Ring, catmull_rom, resample};
 use crate::parallel::mapped;
 use crate::raster::Raster;
 
@@ -45,9 +45,12 @@ fn strokes(
         points.push(points[0]);
     }
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
-    let (nodes, shares) = if line.closed || ends == LineEnds::Blunt { whole(nodes) } else { pointed(nodes) };
     // Blurred ink extends beyond the subject and would draw a hairline around it.
     let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
+    let (nodes, shares) = match ends {
+        LineEnds::Pointed if !line.closed => pointed(nodes, &|points| over(drawer, points, &is_bare)),
+        _ => whole(nodes),
+    };
     let wide = |p: Point| if is_bare(p) { 0.0 } else { width(grid, &mixing, p, ink) };
     let widths: Vec<f64> = nodes.iter().zip(shares).map(|(p, share)| share * wide(*p)).collect();
     let least = LEAST_WIDTH * drawer.pitch();
@@ -76,19 +79,43 @@ fn whole(nodes: Vec<Point>) -> (Vec<Point>, Vec<f64>) {
     (nodes, shares)
 }
 
+/// How far a line goes on over the picture's border, in nodes.
+fn over(drawer: &Drawer<'_>, [before, end]: [Point; 2], is_bare: &dyn Fn(Point) -> bool) -> Option<usize> {
+    /// Distance from the border within which a line runs over it, in pitches, and half of a line's most width.
+    const REACH: f64 = 1.0;
+    const HALF_WIDTH: f64 = 0.5;
+    let pitch = drawer.pitch();
+    let length = over_the_border([before, end], picture(drawer), (REACH * pitch, HALF_WIDTH * pitch), &|p| !is_bare(p))?;
+    Some((length / (NODE_SPACING * pitch)).ceil() as usize)
+}
+
+/// The picture in working pixels.
+fn picture(drawer: &Drawer<'_>) -> Rect {
+    let size = &drawer.portrait.subject;
+    Rect::new(0.0, 0.0, size.width() as f64, size.height() as f64)
+}
+
 /// An open line carried on beyond its ends, where its neighbours close up, and the share of its width that each node has: a line with
-/// blunt ends leaves white nicks in dark cloth. It loses as much ink before its end as it gains after it.
-fn pointed(nodes: Vec<Point>) -> (Vec<Point>, Vec<f64>) {
+/// blunt ends leaves white nicks in dark cloth. It loses as much ink before its end as it gains after it. Where it runs `over` the
+/// picture's border it is carried on with its whole width.
+fn pointed(nodes: Vec<Point>, over: &dyn Fn([Point; 2]) -> Option<usize>) -> (Vec<Point>, Vec<f64>) {
     let count = nodes.len();
     if count <= 2 * POINT_NODES {
         return whole(nodes);
     }
-    let on = |i: usize, end: Point, inner: Point| end + (end - inner) * i as f64;
-    let ahead = (1..=POINT_NODES).rev().map(|i| on(i, nodes[0], nodes[1]));
-    let after = (1..=POINT_NODES).map(|i| on(i, nodes[count - 1], nodes[count - 2]));
+    let ends = [[nodes[1], nodes[0]], [nodes[count - 2], nodes[count - 1]]];
+    let overs = ends.map(over);
+    let added = overs.map(|over| over.unwrap_or(POINT_NODES));
+    let on = |[inner, end]: [Point; 2], i: usize| end + (end - inner) * i as f64;
+    let ahead = (1..=added[0]).rev().map(|i| on(ends[0], i));
+    let after = (1..=added[1]).map(|i| on(ends[1], i));
     let longer: Vec<Point> = ahead.chain(nodes.iter().copied()).chain(after).collect();
-    let from_tip = |i: usize| (i + 1).min(longer.len() - i) as f64;
-    let shares = (0..longer.len()).map(|i| (from_tip(i) / (2 * POINT_NODES + 2) as f64).min(1.0)).collect();
+    let from_tips = |i: usize| [i + 1, longer.len() - i];
+    let share = |i: usize| {
+        let tips = from_tips(i).into_iter().zip(overs).filter(|(_, over)| over.is_none());
+        tips.map(|(from, _)| from as f64 / (2 * POINT_NODES + 2) as f64).fold(1.0, f64::min)
+    };
+    let shares = (0..longer.len()).map(share).collect();
     (longer, shares)
 }
 
@@ -119,5 +146,8 @@ fn stroke(drawer: &Drawer<'_>, nodes: &[Point], widths: Vec<f64>, ring: Ring) ->
     let page: Vec<Point> = nodes.iter().map(|p| placement.to_page(*p)).collect();
     let scale = placement.mm_per_pixel();
     let widths = widths.into_iter().map(|w| w * scale).collect();
-    Stroke::swelling(catmull_rom(&page, ring), widths).map(Mark::Stroke)
+    // What runs over the border is cut along it.
+    let is_over = [nodes.first(), nodes.last()].into_iter().flatten().any(|end| !picture(drawer).contains(*end));
+    let ends = if is_over { Ends::Flat } else { Ends::Round };
+    Stroke::swelling(catmull_rom(&page, ring), widths).map(|stroke| Mark::Stroke(stroke.with_ends(ends)))
 }

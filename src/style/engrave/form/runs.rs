@@ -3,7 +3,7 @@
 use super::families::Family;
 use crate::drawing::{Dot, Mark, Stroke};
 use crate::elementary::unit_at;
-use crate::field::pieces_inside;
+use crate::field::{over_the_border, pieces_inside};
 use crate::geometry::{Ends, Point, Rect, Ring, catmull_rom, lengths_along, resample};
 use crate::parallel::collected;
 use crate::raster::Raster;
@@ -131,24 +131,16 @@ impl Course<'_> {
     /// How far a line goes straight on beyond its first and its last reading, where it runs over the picture's border: until all of
     /// its width is outside. The drawing is cut at the border.
     fn over_the_border(&self, readings: &[Reading]) -> [Option<f64>; 2] {
-        /// Distance from the border, in pitches, within which a line runs over it, and the sine of the least angle: flatter ones run
-        /// along it.
+        /// Distance from the border, in pitches, within which a line runs over it.
         const REACH: f64 = 1.0;
-        const FLATTEST: f64 = 0.25;
         let [Some(first), Some(last)] = [readings.get(..2), readings.len().checked_sub(2).map(|i| &readings[i..])] else {
             return [None; 2];
         };
+        // What ends before it, at the surface's own border, does not.
+        let is_surface = |p: Point| self.region.clamped(p.x as isize, p.y as isize) >= 0.5;
         [[&first[1], &first[0]], [&last[0], &last[1]]].map(|[before, end]| {
-            let way = (end.place - before.place).normalize();
-            let Rect { x0, y0, x1, y1 } = self.picture;
-            let sides =
-                [(end.place.x - x0, -way.x), (x1 - end.place.x, way.x), (end.place.y - y0, -way.y), (y1 - end.place.y, way.y)];
-            // What ends before it, at the surface's own border, does not.
-            let is_surface = |p: Point| self.region.clamped(p.x as isize, p.y as isize) >= 0.5;
-            let over = sides.into_iter().filter(|(room, sine)| {
-                *room < REACH * self.pitch && *sine > FLATTEST && is_surface(end.place + way * (room.max(0.0) / sine))
-            });
-            over.map(|(room, sine)| (room.max(0.0) + 0.5 * end.spacing) / sine).reduce(f64::min)
+            let reach = (REACH * self.pitch, 0.5 * end.spacing);
+            over_the_border([before.place, end.place], self.picture, reach, &is_surface)
         })
     }
 
