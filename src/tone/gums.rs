@@ -1,6 +1,6 @@
 //! Gums: as light as teeth in most photographs, but as red as lips. White, they make a slab of a laughing mouth.
 
-use super::mouth_box::MouthBox;
+use super::mouth_box::{MouthBox, sorted};
 use super::openings::{MOUTH_OPEN, openness};
 use crate::raster::{Raster, fast_gaussian, median};
 use crate::source::{Landmarks, outlines};
@@ -40,9 +40,9 @@ pub(super) fn with_gums(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: 
 
 /// Where the gums of a face are, 0 to 1, in the box around its lips.
 fn gums(mouth: &MouthBox, width: f64) -> Option<Raster<f32>> {
-    let between = mouth.sorted_redness(&mouth.inner.map(|inside| inside == 1));
+    let between = sorted(&mouth.redness, &mouth.inner.map(|inside| inside == 1));
     let teeth = *between.get((TEETH * between.len() as f64) as usize)?;
-    let redder = median(mouth.sorted_redness(&mouth.lips()))? - teeth;
+    let redder = median(sorted(&mouth.redness, &mouth.lips()))? - teeth;
     if redder < LEAST_REDDER {
         return None;
     }

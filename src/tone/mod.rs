@@ -9,14 +9,15 @@
 //!                                                              on a base layer; its detail added back
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
-//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> nostrils
-//!   -> irises without specks, brown ones black, light ones lighter than their pupils -> catchlights
+//!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> dim teeth
+//!   -> nostrils   -> irises without specks, brown ones black, light ones lighter than their pupils -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
 
 mod catchlights;
 mod curve;
+mod dim_teeth;
 mod ears;
 mod face;
 mod gums;
@@ -34,6 +35,7 @@ mod zones;
 use crate::raster::{Raster, box_blur, enlarge, reduce};
 use crate::source::{MaskRole, Portrait};
 use catchlights::with_catchlights;
+use dim_teeth::with_dim_teeth;
 use gums::with_gums;
 use irises::with_irises;
 use nostrils::with_nostrils;
@@ -98,6 +100,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     }
     let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
     let tone = with_red_lips(tone, &portrait.light, portrait.masks.get(&MaskRole::FacialHair), &portrait.faces, strength);
+    let tone = with_dim_teeth(tone, &portrait.light, &portrait.faces, strength);
     let tone = with_nostrils(tone, &portrait.lightness, &portrait.faces, strength);
     let tone = without_specks(tone, &portrait.faces, strength);
     let tone = with_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);
