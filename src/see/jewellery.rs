@@ -29,7 +29,7 @@ const FIRM: f32 = 0.09;
 const LEAST_SKIN: f64 = 0.12;
 
 /// Red over blue, as a share of red, of an earring, in those of the skin: lobes in light have more (1.2 to 2 where pearls have up to 0.6).
-/// Skin with less has no colour.
+/// Skin with less has no colour: in black and white a lobe in light is as round and as bright.
 const PALE: f64 = 0.8;
 const COLOURED: f64 = 0.06;
 
@@ -124,7 +124,7 @@ impl<'a> Bust<'a> {
         let mut string = on_strings(spots);
         let red_of_skin = self.red_of_skin(pixels);
         let is_pale =
-            |spot: &Spot| red_of_skin < COLOURED || red_at(pixels, spot.centre, RADIUS * spot.scale) < PALE * red_of_skin;
+            |spot: &Spot| red_of_skin >= COLOURED && red_at(pixels, spot.centre, RADIUS * spot.scale) < PALE * red_of_skin;
         let earrings: Vec<Spot> =
             spots.iter().filter(|spot| self.is_earring(spot) && !string.contains(spot) && is_pale(spot)).copied().collect();
         let moved = |spot: &Spot| Spot { centre: spot.centre - near.from, ..*spot };

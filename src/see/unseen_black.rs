@@ -36,6 +36,8 @@ pub(super) fn without_unseen_black(decided: &Raster<f32>, picture: &Raster<[f32;
             let label = labels.get(x, y) as usize;
             if label != 0 {
                 pieces[label].area += 1;
+                let is_worn = y + 1 < rows && labels.get(x, y + 1) == 0 && is_person(x, y + 1) && light.get(x, y + 1) < BLACK;
+                pieces[label].on_clothing += usize::from(is_worn);
                 if rim.get(x, y) != 0 {
                     pieces[label].inner.push(light.get(x, y));
                 }
@@ -51,16 +53,22 @@ pub(super) fn without_unseen_black(decided: &Raster<f32>, picture: &Raster<[f32;
     Raster::from_fn(columns, rows, |x, y| if is_unseen[labels.get(x, y) as usize] { 0.0 } else { decided.get(x, y) })
 }
 
-/// A black piece beside a head: its area in pixels, and L* on either side of its outline.
+/// A black piece beside a head: its area in pixels, over how many of them it stands on black clothing, and L* on either side of its outline.
 #[derive(Clone, Default)]
 struct Piece {
     area: usize,
+    on_clothing: usize,
     inner: Vec<f32>,
     outer: Vec<f32>,
 }
 
 impl Piece {
     fn into_unseen(self, least: f64) -> bool {
+        // A raised collar stands on the jacket and meets the ground at its end alone; a shadow meets it along its side.
+        let along_ground = self.inner.len() / RIM;
+        if self.on_clothing > along_ground {
+            return false;
+        }
         let contrast = median(self.outer).zip(median(self.inner)).map(|(outer, inner)| outer - inner);
         self.area as f64 >= least && contrast.is_some_and(|contrast| contrast < VISIBLE)
     }
@@ -105,5 +113,17 @@ mod tests {
     #[test]
     fn black_on_black_goes_and_black_on_grey_is_hair() {
         assert_eq!((beside_the_cheek(8.0), beside_the_cheek(90.0)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn a_black_collar_that_stands_on_black_clothing_stays() {
+        let piece = |on_clothing: usize, along: usize| Piece {
+            area: 500,
+            on_clothing,
+            inner: vec![4.0; along * RIM],
+            outer: vec![5.0; along],
+        };
+        assert!(piece(0, 20).into_unseen(100.0), "a shadow on the wall");
+        assert!(!piece(40, 10).into_unseen(100.0));
     }
 }

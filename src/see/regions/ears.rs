@@ -1,7 +1,11 @@
-//! The ear of a turned head in shade: as dark as black hair, but red where that has no colour.
+//! Ears: hair is not learned from them, and what has their place and suits skin better is one. That of a turned head in shade is as dark as
+//! black hair, but red where that has no colour.
 
 use super::hair::Hair;
+use super::mixture::Mixture;
 use super::plate::Plate;
+use super::segmentation::{HAIR, SKIN, Segmentation};
+use super::skin_model::LEAST_SEEDS;
 use crate::elementary::Elementary as _;
 use crate::raster::{Raster, close, components, dilate, gaussian_blur, open};
 
@@ -58,9 +62,52 @@ pub(super) fn ears_in_shade(plate: &Plate, hair: &Hair) -> Raster<bool> {
     plate.pixels_where(|[u, _], i| labels.pixels()[i] != 0 && !hair.falls(u) && is_ear(&sizes[labels.pixels()[i] as usize]))
 }
 
+impl Segmentation<'_> {
+    /// The places where hair is learned without those beside the cheeks that suit the skin better than the hair above them: ears in shade.
+    pub(super) fn without_ears(&self, seeds: Raster<bool>) -> Raster<bool> {
+        /// Heights of ears in `v`.
+        const HEIGHTS: [f32; 2] = [0.2, 0.75];
+        /// How much likelier skin is, in natural logarithms.
+        const LIKELIER: f32 = 4.0;
+        /// Normal distributions in the mixture of the hair above the ears.
+        const HAIRS: usize = 3;
+        let plate = self.plate;
+        let above = plate.samples(&plate.pixels_where(|[_, v], i| seeds.pixels()[i] && v > HEIGHTS[1]));
+        let Some(hair) = Mixture::fitted(&above, HAIRS).filter(|_| above.len() > LEAST_SEEDS) else { return seeds };
+        plate.pixels_where(|[_, v], i| {
+            let may_be_ear = (HEIGHTS[0]..HEIGHTS[1]).contains(&v) && self.lighting.is_near_face(i);
+            let suits = hair.log_density(plate.features.pixels()[i]);
+            seeds.pixels()[i] && !(may_be_ear && self.skin_density(i) > suits + LIKELIER)
+        })
+    }
+
+    /// Whether a piece of skin that does not touch the face may be an ear: it is like the face's skin, or suits skin far better than
+    /// hair, in a size and at a place of ears, where no hair falls. The folds of ears have more texture than a face.
+    pub(super) fn may_be_ear(&self, pixels: &[usize]) -> bool {
+        /// Mean squared deviation from skin, and how much better skin suits, in natural logarithms.
+        const LIKE_SKIN: f32 = 6.0;
+        const BETTER: f32 = 6.0;
+        /// Least area in squared widths of the face, and the share of it that lies within an ear's width of the face.
+        const AREA: f32 = 0.01;
+        const NEAR: f32 = 0.7;
+        let mean = |of: &dyn Fn(usize) -> f32| pixels.iter().map(|&i| of(i)).sum::<f32>() / pixels.len().max(1) as f32;
+        if mean(&|i| self.from_skin.pixels()[i].min(40.0)) < LIKE_SKIN {
+            return true;
+        }
+        let better = |i: usize| {
+            let suits = self.class_scores(i);
+            suits[SKIN] - suits[HAIR]
+        };
+        let is_large = pixels.len() as f32 > AREA * self.plate.face_width * self.plate.face_width;
+        is_large
+            && !self.falls(mean(&|i| self.plate.at.pixels()[i][0]))
+            && mean(&|i| f32::from(u8::from(self.lighting.is_near_face(i)))) > NEAR
+            && mean(&better) > BETTER
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::mixture::Mixture;
     use super::super::tests::plate_with;
     use super::*;
 
@@ -87,5 +134,42 @@ mod tests {
         assert_eq!(ears(0, 120.0), 0, "hair");
         assert_eq!(ears(40, 100.0), 0, "a head that is not turned");
         assert_eq!(ears(40, 80.0), 0, "the far side");
+    }
+
+    /// A head with black hair and brown skin, whose ear on the picture's right is this many times as light as the cheeks.
+    fn with_ear(light: f32, see: impl FnOnce(&Segmentation<'_>, &Raster<bool>)) {
+        let is_ear = |x: usize, y: usize| (141..153).contains(&x) && (62..86).contains(&y);
+        let pixels = Raster::from_fn(200, 200, |x, y| match (x, y) {
+            (x, y) if is_ear(x, y) => [170.0, 120.0, 100.0].map(|v| (v * light) as u8),
+            (60..140, 30..110) => [170, 120, 100],
+            // The hair ends above the mouth.
+            (_, 88..) => [110, 130, 200],
+            _ => [25_u8 + (3 * x + 7 * y) as u8 % 9; 3],
+        });
+        let plate = plate_with(&pixels, &[]);
+        let parting = Segmentation::learned(&plate, None);
+        let scale = plate.scale as f32;
+        let ear = plate.pixels_where(|_, i| {
+            let (x, y) = ((i % plate.width()) as f32 / scale, (i / plate.width()) as f32 / scale);
+            is_ear((x + plate.part.x0 as f32) as usize, (y + plate.part.y0 as f32) as usize)
+        });
+        see(&parting, &ear);
+    }
+
+    #[test]
+    fn hair_is_not_learned_from_an_ear_and_an_ear_apart_from_the_face_is_skin() {
+        with_ear(0.75, |parting, ear| {
+            let all = parting.plate.oval.map(|is| !is);
+            let kept = parting.without_ears(all.clone());
+            let lost = |of: &Raster<bool>| of.pixels().iter().zip(kept.pixels()).filter(|(is, kept)| **is && !**kept).count();
+            let size = ear.pixels().iter().filter(|is| **is).count();
+            assert!(2 * lost(ear) > size, "{} of {size}", lost(ear));
+            let pixels: Vec<usize> = (0..ear.pixels().len()).filter(|i| ear.pixels()[*i]).collect();
+            assert!(parting.may_be_ear(&pixels));
+            let crown = parting.plate.pixels_where(|[_, v], _| v > 1.0);
+            let hair: Vec<usize> = (0..crown.pixels().len()).filter(|i| crown.pixels()[*i]).collect();
+            assert!(hair.len() > pixels.len());
+            assert!(!parting.may_be_ear(&hair));
+        });
     }
 }

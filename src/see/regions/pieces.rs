@@ -122,7 +122,7 @@ fn give(shares: &mut Raster<Shares>, pixels: &[usize], from: usize, to: usize) {
 /// The class of skin that does not touch the face: what surrounds it, hair above the brow, clothing far below; `None` if it is
 /// skin.
 fn class_of_stray_skin(parting: &Segmentation, plate: &Plate, shares: &Raster<Shares>, piece: &Piece) -> Option<usize> {
-    let is_ear = || piece.middle > 0.2 && piece.middle < 0.85 && parting.mean_from_skin(&piece.pixels) < 6.0;
+    let is_ear = || piece.middle > 0.2 && piece.middle < 0.85 && parting.may_be_ear(&piece.pixels);
     if piece.pixels.iter().any(|&i| plate.oval.pixels()[i]) || is_ear() {
         return None;
     }

@@ -172,7 +172,7 @@ impl<'a> Segmentation<'a> {
                 && (plate.is_grey || apart(shadeless(f), shadeless(self.skin.middle)) > 0.07);
             self.is_out(i) && if self.is_bald { beside && is_dark } else { beside || crown || mane.pixels()[i] }
         });
-        let samples = plate.samples(&seeds);
+        let samples = plate.samples(&self.without_ears(seeds));
         let middle = median(&samples).filter(|_| samples.len() > LEAST_SEEDS)?;
         let mut hair = Hair::of(Mixture::fitted(&samples, HAIRS)?, middle, (plate.width(), plate.height()));
         hair.stands_out = stands_out;
@@ -333,11 +333,6 @@ impl<'a> Segmentation<'a> {
     /// Whether there was hair to learn from.
     pub(super) const fn has_hair(&self) -> bool {
         self.hair.is_some()
-    }
-
-    /// Mean squared deviation of a piece from skin.
-    pub(super) fn mean_from_skin(&self, pixels: &[usize]) -> f32 {
-        pixels.iter().map(|&i| self.from_skin.pixels()[i].min(40.0)).sum::<f32>() / pixels.len().max(1) as f32
     }
 
     /// Whether hair falls past the jaw on the side of `u`.
