@@ -2,14 +2,18 @@
 //! them lighter.
 
 use super::mouth_box::{MouthBox, sorted};
-use super::openings::{MOUTH_OPEN, openness};
-use crate::raster::{Raster, fast_gaussian, median};
+use super::openings::openness;
+use crate::raster::{Raster, dilate, fast_gaussian, median};
 use crate::source::{Landmarks, outlines};
 
 /// By how much teeth are lighter than the lips, and the most that they are lightened by. On the sixteen portraits only those of 11, 13
 /// and 16 are darker than that; half of it does not tell them from lips, and more makes false teeth of them.
-const LIGHTER: f32 = 0.2;
-const MOST: f32 = 0.25;
+const LIGHTER: f32 = 0.3;
+const MOST: f32 = 0.35;
+/// Height over width of an opening between which teeth begin to count, and how far around it they are looked for, in widths of the face: the
+/// mesh takes them for a part of the lower lip (11, 13).
+const OPEN: [f64; 2] = [0.03, 0.07];
+const AROUND: f64 = 0.03;
 /// Pinkness by which lips must exceed teeth: below it there is no colour to go by. That of teeth is this quantile of what lies between
 /// the lips, and they end at these shares of the way to the lips' own.
 const LEAST_PINKER: f32 = 0.08;
@@ -24,9 +28,10 @@ const SOFT: f64 = 0.005;
 /// The tone with teeth lighter than the lips, by the photograph's linear light; `strength` is that of the tone, 0 to 1.
 pub(super) fn with_dim_teeth(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: &[Landmarks], strength: f32) -> Raster<f32> {
     for face in faces {
-        let open = openness(&face.line(&outlines::MOUTH), MOUTH_OPEN);
+        let open = openness(&face.line(&outlines::MOUTH), OPEN);
         let Some(mut mouth) = MouthBox::of(face, light, 0.0).filter(|_| open > 0.0) else { continue };
         mouth.pinkness = fast_gaussian(&mouth.pinkness, (COARSE * face.width()) as f32);
+        mouth.inner = dilate(&mouth.inner, (AROUND * face.width()) as usize).zip_map(&mouth.outer, u8::min);
         let part = tone.part(&mouth.columns, &mouth.rows);
         let Some(teeth) = teeth(&mouth, &part) else { continue };
         let of = |zone: &Raster<bool>| {

@@ -11,7 +11,7 @@ const REACH: f64 = 0.07;
 /// The blur of the tone of the lips themselves, in widths of the face: a lip's height.
 const OF_LIPS: f64 = 0.04;
 /// How much redder than the skin around them lips are where they begin to count, and where they count in full.
-const REDDER: [f32; 2] = [0.05, 0.14];
+const REDDER: [f32; 2] = [0.05, 0.22];
 /// By how much such lips are darker than the skin around them, and by how much more for each unit of redness; and how much of their
 /// own lights is left. Without lights painted lips are slabs (07, 12), and with all of them streaks (15). Of the sixteen portraits
 /// twelve have lips 0.2 to 0.36 pinker in the median; three in beards and one in half shade 0.07 to 0.08, and one, in a beard, none.
