@@ -47,13 +47,13 @@ fn strokes(
     let nodes = resample(&points, NODE_SPACING * drawer.pitch());
     // Blurred ink extends beyond the subject and would draw a hairline around it.
     let is_bare = |p: Point| darks.cover(p) || drawer.portrait.subject.sample(p.x, p.y) < 0.5;
+    let wide = |p: Point| if is_bare(p) { 0.0 } else { width(grid, &mixing, p, ink) };
+    let least = LEAST_WIDTH * drawer.pitch();
     let (nodes, shares) = match ends {
-        LineEnds::Pointed if !line.closed => pointed(nodes, &|points| over(drawer, points, &is_bare)),
+        LineEnds::Pointed if !line.closed => pointed(nodes, &|last| over(drawer, last, &|p| wide(p) > least)),
         _ => whole(nodes),
     };
-    let wide = |p: Point| if is_bare(p) { 0.0 } else { width(grid, &mixing, p, ink) };
     let widths: Vec<f64> = nodes.iter().zip(shares).map(|(p, share)| share * wide(*p)).collect();
-    let least = LEAST_WIDTH * drawer.pitch();
     let is_whole = line.closed && nodes.len() > 3 && widths.iter().all(|&w| w > least);
     if is_whole {
         return stroke(drawer, &nodes[..nodes.len() - 1], widths, Ring::Closed).into_iter().collect();
@@ -79,13 +79,16 @@ fn whole(nodes: Vec<Point>) -> (Vec<Point>, Vec<f64>) {
     (nodes, shares)
 }
 
-/// How far a line goes on over the picture's border, in nodes.
-fn over(drawer: &Drawer<'_>, [before, end]: [Point; 2], is_bare: &dyn Fn(Point) -> bool) -> Option<usize> {
+/// How far a line goes on over the picture's border, in nodes; `inner` is a place before its last two. One that has no ink there is a crumb.
+fn over(drawer: &Drawer<'_>, [inner, before, end]: [Point; 3], has_ink: &dyn Fn(Point) -> bool) -> Option<usize> {
     /// Distance from the border within which a line runs over it, in pitches, and half of a line's most width.
     const REACH: f64 = 1.0;
     const HALF_WIDTH: f64 = 0.5;
     let pitch = drawer.pitch();
-    let length = over_the_border([before, end], picture(drawer), (REACH * pitch, HALF_WIDTH * pitch), &|p| !is_bare(p))?;
+    if !has_ink(inner) {
+        return None;
+    }
+    let length = over_the_border([before, end], picture(drawer), (REACH * pitch, HALF_WIDTH * pitch), has_ink)?;
     Some((length / (NODE_SPACING * pitch)).ceil() as usize)
 }
 
@@ -98,15 +101,15 @@ fn picture(drawer: &Drawer<'_>) -> Rect {
 /// An open line carried on beyond its ends, where its neighbours close up, and the share of its width that each node has: a line with
 /// blunt ends leaves white nicks in dark cloth. It loses as much ink before its end as it gains after it. Where it runs `over` the
 /// picture's border it is carried on with its whole width.
-fn pointed(nodes: Vec<Point>, over: &dyn Fn([Point; 2]) -> Option<usize>) -> (Vec<Point>, Vec<f64>) {
+fn pointed(nodes: Vec<Point>, over: &dyn Fn([Point; 3]) -> Option<usize>) -> (Vec<Point>, Vec<f64>) {
     let count = nodes.len();
     if count <= 2 * POINT_NODES {
         return whole(nodes);
     }
-    let ends = [[nodes[1], nodes[0]], [nodes[count - 2], nodes[count - 1]]];
+    let ends = [[2 * POINT_NODES, 1, 0], [1 + 2 * POINT_NODES, 2, 1].map(|back| count - back)].map(|last| last.map(|i| nodes[i]));
     let overs = ends.map(over);
     let added = overs.map(|over| over.unwrap_or(POINT_NODES));
-    let on = |[inner, end]: [Point; 2], i: usize| end + (end - inner) * i as f64;
+    let on = |[_, before, end]: [Point; 3], i: usize| end + (end - before) * i as f64;
     let ahead = (1..=added[0]).rev().map(|i| on(ends[0], i));
     let after = (1..=added[1]).map(|i| on(ends[1], i));
     let longer: Vec<Point> = ahead.chain(nodes.iter().copied()).chain(after).collect();
