@@ -15,8 +15,8 @@ pub(super) struct MouthBox {
     pub inner: Raster<u8>,
     /// The difference of red and green over their sum in linear light: the same in light and shade.
     pub redness: Raster<f32>,
-    /// The redness less half of the yellowness, the like difference of green and blue: lips are less yellow than the skin around them,
-    /// and on seven of the sixteen portraits told by that rather than by their redness.
+    /// The redness less half of the yellowness, the like difference of green and blue: lips are less yellow than the skin around them.
+    /// On all of the sixteen portraits they differ from it by more of its deviations than in redness alone.
     pub pinkness: Raster<f32>,
 }
 

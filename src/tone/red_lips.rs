@@ -10,13 +10,13 @@ const AROUND: f64 = 0.35;
 const REACH: f64 = 0.07;
 /// The blur of the tone of the lips themselves, in widths of the face: a lip's height.
 const OF_LIPS: f64 = 0.04;
-/// How much redder than the skin around them lips are where they begin to count, and where they count in full.
-const REDDER: [f32; 2] = [0.05, 0.22];
+/// How much pinker than the skin around them lips are where they begin to count, and where they count in full.
+const REDDER: [f32; 2] = [0.1, 0.28];
 /// By how much such lips are darker than the skin around them, and by how much more for each unit of redness; and how much of their
 /// own lights is left. Without lights painted lips are slabs (07, 12), and with all of them streaks (15). Of the sixteen portraits
-/// twelve have lips 0.2 to 0.36 pinker in the median; three in beards and one in half shade 0.07 to 0.08, and one, in a beard, none.
+/// eleven have lips 0.2 to 0.36 pinker in the median, four, in beards or half shade, 0.07 to 0.08, and one, in a beard, none.
 const DARKER: f32 = 0.12;
-const BY_REDNESS: f32 = 0.4;
+const BY_REDNESS: f32 = 0.3;
 const LIGHTS: f32 = 0.6;
 /// The darkest tone that a lip gets by this: below it lips and the line between them are one. On dark skin it is by this darker than the skin, and
 /// at least the second: painted lips had the tone of the skin (01).
