@@ -66,8 +66,7 @@ impl<P: Pitched> Drawer<'_, P> {
         }
         let length = Millimetres(LENGTH * widest * self.portrait.placement.mm_per_pixel());
         let pitch = self.parameters.pitch();
-        let sizes =
-            Hairs { pitch, width: WIDTH * pitch, length, turn: Radians(TURN.to_radians()), combed: 1.0, light_beards: 0.0 };
+        let sizes = Hairs { pitch, width: WIDTH * pitch, length, turn: Radians(TURN.to_radians()), combed: 1.0, in_beards: 1.0 };
         (!ridges.is_empty()).then(|| Brows { hairs: hairs(&region, &ridges), region, sizes })
     }
 

@@ -23,8 +23,6 @@ const LINE_QUANTILE: f64 = 0.5;
 const HAIR_WIDTH: f64 = 0.7;
 /// By how much strands are thinner in light hair, as a share: as wide as in dark hair they are stitches along its silhouette (12 and 13).
 const THIN_IN_LIGHT: f64 = 0.45;
-/// By how many times more the strands of light beards turn from one another: side by side they are a fence (14).
-const LOOSE_IN_LIGHT: f64 = 1.4;
 /// By how much strands of cropped hair are shorter, as a share: long ones comb it (06).
 const SHORTER_IF_CROPPED: f64 = 0.8;
 /// Median darkness at which hair counts as fully light, and at which it no longer does: in the photograph's own tone light hair is bare
@@ -55,8 +53,8 @@ pub(in crate::style) struct Hairs {
     pub turn: Radians,
     /// The share of it outside beards.
     pub combed: f64,
-    /// How far beards count as light, 0 to 1: their strands are thinner and turn more.
-    pub light_beards: f64,
+    /// The share of the width in beards.
+    pub in_beards: f64,
 }
 
 /// The direction of hair as it was detected, smoothed, and as strokes follow it.
@@ -98,7 +96,11 @@ impl Drawer<'_> {
             length: (1.0 - SHORTER_IF_CROPPED * self.cropped(&self.hair_of_heads(hair))) * self.parameters.hair_length,
             turn: self.parameters.hair_turn,
             combed: if matches!(strands, Strands::Fine(_)) { COMBED } else { 1.0 },
-            light_beards: if matches!(strands, Strands::Fine(_)) { 0.0 } else { self.lightness_of_beards(&darkness) },
+            in_beards: if matches!(strands, Strands::Fine(_)) {
+                1.0
+            } else {
+                1.0 - THIN_IN_LIGHT * self.lightness_of_beards(&darkness)
+            },
         };
         let coils = match strands {
             Strands::Fine(_) => self.coiled_hair(&self.hair_of_heads(hair)),
@@ -143,12 +145,12 @@ impl Drawer<'_> {
         let touch = Touch { width: hairs.width, pressure: 1.0, taper: 0.35, node: 2.0 * hairs.pitch };
         let beard = self.portrait.masks.get(&MaskRole::FacialHair);
         let is_beard = |p: Point| beard.is_some_and(|beard| beard.sample(p.x, p.y) > 0.5);
-        let looseness = |p: Point| if is_beard(p) { 1.0 + LOOSE_IN_LIGHT * hairs.light_beards } else { hairs.combed };
+        let looseness = |p: Point| if is_beard(p) { 1.0 } else { hairs.combed };
         cover(field, region, ink, covering, looseness, &mut stream(self.seed, "hair", 0))
             .iter()
             .filter_map(|line| {
                 let line = smooth_polyline(line, Ring::Open, self.pixels(hairs.pitch), 1.5);
-                let thin = |p: Point| if is_beard(p) { 1.0 - THIN_IN_LIGHT * hairs.light_beards } else { 1.0 };
+                let thin = |p: Point| if is_beard(p) { hairs.in_beards } else { 1.0 };
                 self.stroke(&line, touch, |p| thin(p) * (0.25 + 0.75 * f64::from(soft.sample(p.x, p.y)).min(1.0)))
             })
             .collect()

@@ -126,7 +126,7 @@ impl Drawer<'_> {
             length: LENGTH * self.parameters.pitch,
             turn: Radians(TURN.to_radians()),
             combed: 1.0,
-            light_beards: 0.0,
+            in_beards: 1.0,
         };
         self.hairs(&field, &shade.map(|shade| (4.0 * shade).min(1.0)), &ink, sizes)
     }
