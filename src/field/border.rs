@@ -16,11 +16,10 @@ pub(crate) fn over_the_border(
     let way = (end - before).normalize();
     let Rect { x0, y0, x1, y1 } = picture;
     let sides = [(end.x - x0, -way.x), (x1 - end.x, way.x), (end.y - y0, -way.y), (y1 - end.y, way.y)];
-    let over = sides
-        .into_iter()
-        .map(|(room, sine)| (room.max(0.0), room < reach, sine))
-        .filter(|&(room, is_near, sine)| is_near && sine > FLATTEST && is_drawn(end + way * (room / sine)));
-    over.map(|(room, _, sine)| (room + half_width) / sine).reduce(f64::min)
+    let crossed =
+        sides.into_iter().filter(|&(room, sine)| room < reach && sine > FLATTEST).map(|(room, sine)| (room.max(0.0), sine));
+    let drawn = crossed.filter(|(room, sine)| is_drawn(end + way * (room / sine)));
+    drawn.map(|(room, sine)| (room + half_width) / sine).reduce(f64::min)
 }
 
 #[cfg(test)]

@@ -41,11 +41,7 @@ pub(super) fn with_dim_teeth(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, fa
         let (Some(lips), Some(is)) = (of(&mouth.lips()), of(&teeth.map(|share| share > 0.5))) else { continue };
         let more = strength * open * (lips + LIGHTER - is).clamp(0.0, MOST);
         let soft = fast_gaussian(&teeth, (SOFT * face.width()) as f32);
-        for y in 0..soft.height() {
-            for x in 0..soft.width() {
-                tone.set(mouth.columns.start + x, mouth.rows.start + y, part.get(x, y) + more * soft.get(x, y));
-            }
-        }
+        mouth.retone(&mut tone, |x, y, v| v + more * soft.get(x, y));
     }
     tone
 }

@@ -26,14 +26,10 @@ pub(super) fn with_gums(mut tone: Raster<f32>, light: &Raster<[f32; 3]>, faces: 
         }
         let Some(mouth) = MouthBox::of(face, light, 0.0) else { continue };
         let Some(gums) = gums(&mouth, face.width()) else { continue };
-        let (left, top) = (mouth.columns.start, mouth.rows.start);
-        for y in 0..gums.height() {
-            for x in 0..gums.width() {
-                let v = tone.get(left + x, top + y);
-                let less = (1.0 - LIGHTS) * (v - LIGHTEST).max(0.0);
-                tone.set(left + x, top + y, v - strength * open * gums.get(x, y) * less);
-            }
-        }
+        mouth.retone(&mut tone, |x, y, v| {
+            let less = (1.0 - LIGHTS) * (v - LIGHTEST).max(0.0);
+            v - strength * open * gums.get(x, y) * less
+        });
     }
     tone
 }

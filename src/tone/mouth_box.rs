@@ -37,6 +37,16 @@ impl MouthBox {
         Some(Self { outer: in_box(&outer), inner: in_box(&inner), redness, pinkness, columns, rows })
     }
 
+    /// Gives each place of the box a tone by its place in the box and its tone so far.
+    pub(super) fn retone(&self, tone: &mut Raster<f32>, to: impl Fn(usize, usize, f32) -> f32) {
+        for y in 0..self.rows.len() {
+            for x in 0..self.columns.len() {
+                let (column, row) = (self.columns.start + x, self.rows.start + y);
+                tone.set(column, row, to(x, y, tone.get(column, row)));
+            }
+        }
+    }
+
     /// True on the lips themselves.
     pub(super) fn lips(&self) -> Raster<bool> {
         self.outer.zip_map(&self.inner, |outer, inner| outer == 1 && inner == 0)
