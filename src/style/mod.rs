@@ -25,6 +25,7 @@ mod hedcut;
 mod jaw;
 mod lids;
 mod lights;
+mod lip_borders;
 mod mouth;
 mod need;
 mod observer;
@@ -43,6 +44,7 @@ mod streaks;
 mod teeth;
 mod thick_frame;
 mod tone_error;
+mod tooth_gaps;
 mod under_eyes;
 
 pub use cost::Cost;

@@ -3,12 +3,14 @@
 //! ```text
 //!   columns   from corner to corner, across both lips
 //!   lines     the darkest way through the columns: one where the mouth is closed, else one along each lip
-//!   teeth     columns between these that are darker than both their neighbours
+//!   teeth     lines in the gaps between them
 //!   found     lines that were found inside the lips go: creases of the lips, lights on teeth
 //! ```
 
 use super::columns::{COLUMNS, SMOOTH, averaged, between, even, smoothed};
 use super::feature_line::feature_stroke;
+use super::lip_borders::lip_border;
+use super::tooth_gaps::Teeth;
 use crate::drawing::Mark;
 use crate::field::CoherentLine;
 use crate::geometry::{Point, Region, Vec2};
@@ -46,24 +48,42 @@ const HAIR: f32 = 0.5;
 pub(super) struct Mouths {
     inside: Vec<Region>,
     lines: Vec<CoherentLine>,
+    gaps: Vec<CoherentLine>,
+    borders: Vec<CoherentLine>,
 }
 
 impl Mouths {
     /// Of the faces that were found, in working pixels; `pitch` in these.
     pub(super) fn of(portrait: &Portrait, pitch: f64) -> Self {
-        let mut mouths = Self { inside: Vec::new(), lines: Vec::new() };
+        let mut mouths = Self { inside: Vec::new(), lines: Vec::new(), gaps: Vec::new(), borders: Vec::new() };
+        let hair = [MaskRole::FacialHair, MaskRole::Hair].map(|role| portrait.masks.get(&role));
+        let is_bare = |p: &Point| !hair.iter().flatten().any(|mask| mask.sample(p.x, p.y) > HAIR);
         for face in &portrait.faces {
             let Some(mouth) = Mouth::of(face).filter(|mouth| mouth.width >= LEAST_WIDTH * pitch) else { continue };
             mouths.inside.push(mouth.inside());
-            mouths.lines.extend(mouth.lines(portrait));
+            let lips = mouth.lips(portrait);
+            let gaps = mouth.gaps(&portrait.lightness, &lips);
+            mouths.gaps.extend(gaps.into_iter().filter(|gap| gap.curve.points.iter().all(is_bare)));
+            let bare = |line: &CoherentLine| line.runs(&line.curve.points.iter().map(is_bare).collect::<Vec<_>>());
+            mouths.lines.extend(lips.iter().flat_map(bare));
+            mouths.borders.extend(mouth.borders(&portrait.lightness).iter().flat_map(bare));
         }
         mouths
     }
 
     /// The mouths' own lines on the page, whose widths count by `share`.
     pub(super) fn strokes(&self, placement: &Placement, share: f64) -> Vec<Mark> {
-        let stroke = |line: &CoherentLine| feature_stroke(&line.widened(share), placement, TAPER * line.curve.length());
-        self.lines.iter().filter_map(stroke).collect()
+        strokes(&self.lines.iter().map(|line| line.widened(share)).collect::<Vec<_>>(), placement)
+    }
+
+    /// The lines between teeth on the page.
+    pub(super) fn between_teeth(&self, placement: &Placement) -> Vec<Mark> {
+        strokes(&self.gaps, placement)
+    }
+
+    /// The lines along the lips' outer borders on the page.
+    pub(super) fn around_lips(&self, placement: &Placement) -> Vec<Mark> {
+        strokes(&self.borders, placement)
     }
 
     /// Lines that were found, with the mouths' own in place of those inside the lips; what is left of one is at least `least` long.
@@ -75,6 +95,10 @@ impl Mouths {
         let kept = found.iter().flat_map(|line| line.parts_where(is_outside, least));
         kept.chain(self.lines.iter().cloned()).collect()
     }
+}
+
+fn strokes(lines: &[CoherentLine], placement: &Placement) -> Vec<Mark> {
+    lines.iter().filter_map(|line| feature_stroke(line, placement, TAPER * line.curve.length())).collect()
 }
 
 /// One mouth: lines from the right corner to the left, each of `COLUMNS` points.
@@ -112,19 +136,35 @@ impl Mouth {
         gaps.sum::<f64>() / COLUMNS as f64 / self.width
     }
 
-    fn lines(&self, portrait: &Portrait) -> Vec<CoherentLine> {
+    /// One line where the lips meet, or one along each lip.
+    fn lips(&self, portrait: &Portrait) -> Vec<CoherentLine> {
         let seen = Seen { light: &gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32), mouth: self };
         let into = |lip: &[Vec<Point>; 2]| between(&lip[0], &lip[1], IN_LIP);
-        let found = if self.gap() < OPEN {
-            vec![seen.darkest(&into(&self.upper), &into(&self.lower), WIDEST)]
-        } else {
-            let [below, above] =
-                [(&self.upper, &self.lower), (&self.lower, &self.upper)].map(|(a, b)| between(&a[0], &b[0], IN_GAP));
-            vec![seen.darkest(&into(&self.upper), &below, WIDEST), seen.darkest(&above, &into(&self.lower), LOWER * WIDEST)]
-        };
-        let hair = [MaskRole::FacialHair, MaskRole::Hair].map(|role| portrait.masks.get(&role));
-        let is_bare = |p: &Point| !hair.iter().flatten().any(|mask| mask.sample(p.x, p.y) > HAIR);
-        found.iter().flat_map(|line| line.runs(&line.curve.points.iter().map(is_bare).collect::<Vec<_>>())).collect()
+        if self.gap() < OPEN {
+            return vec![seen.darkest(&into(&self.upper), &into(&self.lower), WIDEST)];
+        }
+        let [below, above] = [(&self.upper, &self.lower), (&self.lower, &self.upper)].map(|(a, b)| between(&a[0], &b[0], IN_GAP));
+        vec![seen.darkest(&into(&self.upper), &below, WIDEST), seen.darkest(&above, &into(&self.lower), LOWER * WIDEST)]
+    }
+
+    /// Lines in the gaps between teeth, if the lips are apart.
+    fn gaps(&self, light: &Raster<f32>, lips: &[CoherentLine]) -> Vec<CoherentLine> {
+        let [upper, lower] = lips else { return Vec::new() };
+        let [upper, lower] = [upper, lower].map(|line| line.curve.points.as_slice());
+        Teeth { light, lips: self.lightness_of_lips(light), upper, lower, width: self.width }.gaps()
+    }
+
+    /// The outer borders of both lips where they are seen.
+    fn borders(&self, light: &Raster<f32>) -> Vec<CoherentLine> {
+        let soft = gaussian_blur(light, (BLUR * self.width) as f32);
+        let border = |lip: &[Vec<Point>; 2]| lip_border(&soft, [&lip[0], &lip[1]], self.width);
+        [&self.upper, &self.lower].into_iter().flat_map(border).collect()
+    }
+
+    /// The mean lightness along the middles of both lips.
+    fn lightness_of_lips(&self, light: &Raster<f32>) -> f32 {
+        let middles = [&self.upper, &self.lower].map(|lip| between(&lip[0], &lip[1], 0.5));
+        middles.iter().flatten().map(|p| light.sample(p.x, p.y)).sum::<f32>() / (2 * COLUMNS) as f32
     }
 }
 
@@ -212,7 +252,7 @@ mod tests {
     fn creases_of_the_lips_go_and_lines_beyond_them_stay() {
         let mouth = mouth(20.0);
         assert!(mouth.gap() > OPEN);
-        let mouths = Mouths { inside: vec![mouth.inside()], lines: Vec::new() };
+        let mouths = Mouths { inside: vec![mouth.inside()], lines: Vec::new(), gaps: Vec::new(), borders: Vec::new() };
         let line = |x: f64, y: [f64; 2]| {
             let points: Vec<Point> = (0..=20).map(|i| Point::new(x, y[0] + (y[1] - y[0]) * f64::from(i) / 20.0)).collect();
             CoherentLine { widths: vec![1.0; points.len()], curve: Curve { points, closed: false }, contrast: 0.3 }

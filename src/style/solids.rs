@@ -111,6 +111,21 @@ impl Solids {
         self
     }
 
+    /// The solids with the lines between teeth.
+    pub(super) fn with_gaps_of_teeth(mut self, portrait: &Portrait, pitch: f64) -> Self {
+        self.lines.extend(Mouths::of(portrait, pitch).between_teeth(&portrait.placement));
+        self
+    }
+
+    /// The solids with all lines of the mouths: those of [`Self::with_mouths`], between teeth, and along the lips' outer borders.
+    pub(super) fn with_whole_mouths(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
+        let mouths = Mouths::of(portrait, pitch);
+        self.lines.extend(mouths.strokes(&portrait.placement, share));
+        self.lines.extend(mouths.between_teeth(&portrait.placement));
+        self.lines.extend(mouths.around_lips(&portrait.placement));
+        self
+    }
+
     /// The solids with the lines of the lids, whose widths count by `share`.
     pub(super) fn with_lids(mut self, portrait: &Portrait, pitch: f64, share: f64) -> Self {
         self.lines.extend(Lids::of(portrait, pitch).strokes(&portrait.placement, share));

@@ -20,6 +20,11 @@ const SAME_LAMP: f64 = 0.3;
 const ASIDE: f64 = 0.36;
 const UP: f64 = 0.34;
 const RADIUS: f64 = 0.25;
+/// In large irises it is smaller, down to this radius in pixels and in radii of the iris: at a quarter of them it is a button.
+const LARGEST: f64 = 3.3;
+const SMALLEST: f64 = 0.18;
+/// The least distance above an iris' middle of the photograph's own light, in its radii: in the middle it stares.
+const LEAST_UP: f64 = 0.24;
 /// Radius of the disc by whose mean the photograph's light is found.
 const SEEN: f64 = 0.17;
 const SOFT: f64 = 0.1;
@@ -47,7 +52,8 @@ fn places(own: &[Option<OwnLight>], usual: Vec2) -> Vec<Vec2> {
     let clearest = own.iter().flatten().copied().reduce(|best, each| if each.1 > best.1 { each } else { best });
     let Some((clearest, _)) = clearest else { return vec![usual; own.len()] };
     let place = |own: &Option<OwnLight>| own.map_or(clearest, |(own, _)| own);
-    own.iter().map(place).map(|own| if (own - clearest).hypot() < SAME_LAMP { own } else { clearest }).collect()
+    let places = own.iter().map(place).map(|own| if (own - clearest).hypot() < SAME_LAMP { own } else { clearest });
+    places.map(|place| Vec2::new(place.x, place.y.min(-LEAST_UP))).collect()
 }
 
 /// The lightest place in the iris, if it is a light, and how much lighter it is than the iris.
@@ -70,13 +76,19 @@ fn own_light(lightness: &Raster<f32>, iris: Iris) -> Option<OwnLight> {
 fn between(lids: &[Point], iris: Iris, p: Point) -> Point {
     let near = lids.iter().filter(|lid| (lid.x - iris.centre.x).abs() <= iris.radius);
     let Some(bounds) = near.map(|lid| Rect::from_points(*lid, *lid)).reduce(|all, lid| all.union(lid)) else { return p };
-    let (top, bottom) = (bounds.y0 + (RADIUS + FROM_LIDS) * iris.radius, bounds.y1 - (RADIUS + FROM_LIDS) * iris.radius);
+    let room = radius_in(iris) + FROM_LIDS * iris.radius;
+    let (top, bottom) = (bounds.y0 + room, bounds.y1 - room);
     Point::new(p.x, if top < bottom { p.y.clamp(top, bottom) } else { f64::midpoint(top, bottom) })
+}
+
+/// The radius of the light in an iris.
+fn radius_in(iris: Iris) -> f64 {
+    (RADIUS * iris.radius).min(LARGEST).max(SMALLEST * iris.radius)
 }
 
 /// The tone with a light at a place.
 fn lit(mut tone: Raster<f32>, iris: Iris, centre: Point) -> Raster<f32> {
-    let (radius, soft) = (RADIUS * iris.radius, SOFT * iris.radius);
+    let (radius, soft) = (radius_in(iris), SOFT * iris.radius);
     let spot: Vec<(usize, usize, f64)> = pixels_about(&tone, centre, radius + soft).collect();
     for (x, y, distance) in spot {
         let share = ((radius - distance) / soft.max(0.5) + 0.5).clamp(0.0, 1.0) as f32;
@@ -89,7 +101,7 @@ fn lit(mut tone: Raster<f32>, iris: Iris, centre: Point) -> Raster<f32> {
 /// The part of an eye's opening that its catchlight covers, 0 to 1.
 pub(super) fn share_of_opening(lids: &[Point], iris: Iris) -> f32 {
     let is_lit = openness(lids, EYE_OPEN) >= LEAST_OPEN;
-    let light = std::f64::consts::PI * (RADIUS * iris.radius).powi(2);
+    let light = std::f64::consts::PI * radius_in(iris).powi(2);
     if is_lit { (light / polygon_area(lids).abs().max(light)) as f32 } else { 0.0 }
 }
 

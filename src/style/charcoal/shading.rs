@@ -122,7 +122,7 @@ impl Drawer<'_> {
     pub(super) fn background(&self, regions: &Regions, pressure: &Raster<f32>) -> Vec<Mark> {
         /// Pressure of the background's strokes, and their width at it as a share of the full width: lighter than anything in the
         /// portrait.
-        const BACKGROUND_PRESSURE: f64 = 0.3;
+        const BACKGROUND_PRESSURE: [f64; 2] = [0.2, 0.3];
         const BACKGROUND_WIDTH: f64 = 0.44;
         /// Distance of the strokes over what their ink asks for, behind a person and else: the broad side of the stick makes the rest.
         const APART: [f64; 2] = [0.9, 1.3];
@@ -145,7 +145,7 @@ impl Drawer<'_> {
                 / self.parameters.background_ink,
             length: self.parameters.arc_length,
             orientation: self.parameters.arc_orient.0,
-            pressure: BACKGROUND_PRESSURE,
+            pressure: BACKGROUND_PRESSURE[usize::from(self.portrait.faces.is_empty())],
             inset: 0.5 * width,
             pressing: Pressing::Hatching,
             least: LEAST_BEHIND * self.parameters.arc_length,

@@ -13,7 +13,7 @@ use crate::raster::{Raster, fast_gaussian, gaussian_blur, paper_texture, self_gu
 use crate::source::{Landmarks, outlines};
 use crate::style::rubbing::rubbed;
 use crate::style::solids::{eyes_and_mouths, inside_outlines};
-use crate::style::teeth::with_whole_teeth;
+use crate::style::teeth::{Gaps, with_whole_teeth};
 use kurbo::{Line, ParamCurveNearest};
 use std::f32::consts::PI;
 
@@ -117,7 +117,7 @@ impl Drawer<'_> {
         const SMUDGED_STEP: f32 = 0.09 * 0.09;
         let gain = self.parameters.hair_ink - 1.0;
         let ink = self.darkness().zip_map(&regions.hair, |ink, hair| (self.washed(ink) * (1.0 + gain * hair)).clamp(0.0, 1.0));
-        let ink = with_whole_teeth(self.portrait, ink);
+        let ink = with_whole_teeth(self.portrait, ink, Gaps::Faint);
         let blur = self.pixels(self.parameters.smudge);
         let fine = self.pressed_features(&gaussian_blur(&ink, (FINE * blur) as f32), &regions.hair, detail);
         let smooth = self_guided(&ink, (1.4 * blur).round().max(1.0) as usize, SMUDGED_STEP);

@@ -20,6 +20,7 @@ use crate::geometry::{Millimetres, Rect};
 use crate::raster::{Raster, gaussian_blur};
 use crate::source::MaskRole;
 use crate::style::solids::Solids;
+use crate::style::teeth::{Gaps, with_whole_teeth};
 use cells::Cell;
 use darks::Darks;
 use parameters::{CARD, Detail, GridParameters, Primitive};
@@ -109,6 +110,7 @@ impl Drawer<'_> {
     /// The paper's steps in order.
     fn draw(&self, ends: LineEnds) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
+        let ink = if self.parameters.has_lines { with_whole_teeth(self.portrait, ink, Gaps::Drawn) } else { ink };
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
             let why = "the picture, or the part inside the subject mask, is white all over";
@@ -145,7 +147,7 @@ impl Drawer<'_> {
         if self.portrait.faces.is_empty() {
             return Vec::new();
         }
-        let solids = Solids::of_features(self.portrait, ink, self.pitch());
+        let solids = Solids::of_features(self.portrait, ink, self.pitch()).with_gaps_of_teeth(self.portrait, self.pitch());
         let outline = solids.outline.clone();
         let marks = solids.over(layers).marks;
         self.clear_lights(layers, &outline, ink);

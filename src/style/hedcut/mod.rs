@@ -22,6 +22,7 @@ use crate::raster::Raster;
 use crate::source::MaskRole;
 use crate::style::coverage::covered;
 use crate::style::solids::Solids;
+use crate::style::teeth::{Gaps, with_whole_teeth};
 use features::Features;
 use parameters::{CARD, HedcutParameters};
 use parts::Parts;
@@ -76,6 +77,7 @@ impl Drawer<'_> {
                 self.pitch(),
                 self.parameters.outline_width.0 / (OUTLINE * self.parameters.pitch.0),
             );
+            solids = solids.with_gaps_of_teeth(self.portrait, self.pitch());
         }
         let mut drawing = match self.on(&rest).dots(&parts) {
             // All of it lies in the other parts.
@@ -115,6 +117,7 @@ impl Drawer<'_> {
     /// The thesis' steps in order.
     fn dots(&self, parts: &Parts) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
+        let ink = if self.has_lids(parts) { with_whole_teeth(self.portrait, ink, Gaps::Drawn) } else { ink };
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
             return Err(StyleError::NothingToDraw(

@@ -8,7 +8,7 @@ use crate::raster::{Raster, fast_gaussian, gaussian_blur, self_guided};
 use crate::source::outlines;
 use crate::style::rubbing::rubbed;
 use crate::style::solids::{eyes_and_mouths, inside_outlines};
-use crate::style::teeth::with_whole_teeth;
+use crate::style::teeth::{Gaps, with_whole_teeth};
 
 impl Drawer<'_> {
     /// The detail without the brows: their hairs are finer than the lines, and sharpened they tear them.
@@ -32,7 +32,7 @@ impl Drawer<'_> {
         let sharp = ink.zip_map(&wide, |ink, wide| ink + SHARPEN * (ink - wide));
         let mixed = smooth.zip_map(&sharp, |smooth, sharp| (smooth, sharp));
         let mixed = mixed.zip_map(detail, |(smooth, sharp), detail| smooth + (sharp - smooth) * detail);
-        let mixed = with_whole_teeth(self.portrait, mixed);
+        let mixed = with_whole_teeth(self.portrait, mixed, Gaps::Drawn);
         mixed.zip_map(&self.portrait.subject, |ink, subject| if subject > LEAST_SHARE { ink.clamp(0.0, 1.0) } else { 0.0 })
     }
 

@@ -137,7 +137,7 @@ impl Drawer<'_> {
     /// Pupils, nostrils and spectacles, and the lines of mouths, lids and jaws.
     fn solids(&self, ink: &Raster<f32>) -> Layer {
         let (portrait, pitch) = (self.portrait, self.pitch());
-        let solids = Solids::new(portrait, ink, pitch).with_mouths(portrait, pitch, MOUTH);
+        let solids = Solids::new(portrait, ink, pitch).with_whole_mouths(portrait, pitch, MOUTH);
         solids.with_lids(portrait, pitch, LIDS).with_jaws(portrait, pitch, JAW).layer()
     }
 

@@ -1,0 +1,46 @@
+//! The outer borders of lips as thin lines, as firm as lips part from the skin there: marks a pitch apart blur them.
+
+use super::columns::{COLUMNS, SMOOTH, averaged, between, smoothed};
+use crate::field::CoherentLine;
+use crate::geometry::{Point, Vec2};
+use crate::raster::{Raster, best_way};
+
+/// Rows across a border.
+const ROWS: usize = 25;
+/// How far from the landmarks' border it is looked for, as a share of the lip.
+const WITHIN: f64 = 0.35;
+/// Distance on both sides in which lightness is compared, in widths of the mouth, and the price of a bend by one row.
+const BESIDE: f64 = 0.03;
+const BEND: f32 = 0.004;
+/// How much darker a lip is than the skin beside it where its line begins, and where it is in full; and that width in widths of the mouth.
+const LEAST: f64 = 0.05;
+const FULL: f64 = 0.2;
+const WIDEST: f64 = 0.01;
+/// Length of the shortest part that is drawn, in widths of the mouth: shorter ones are ticks beside a shadow.
+const SHORTEST: f64 = 0.25;
+
+/// The parts of a lip's border that are seen, between its inner and its outer line as the landmarks have them, each of [`COLUMNS`] points from
+/// corner to corner of a mouth of a width.
+pub(super) fn lip_border(light: &Raster<f32>, [inner, outer]: [&[Point]; 2], width: f64) -> Vec<CoherentLine> {
+    let [from, to] = [1.0 - WITHIN, 1.0 + WITHIN].map(|share| between(inner, outer, share));
+    let place = |column: usize, row: usize| from[column].lerp(to[column], row as f64 / (ROWS - 1) as f64);
+    let step = |row: usize, column: usize| {
+        let (p, out) = (place(column, row), outwards(&from, &to, column) * (BESIDE * width));
+        light.sample(p.x + out.x, p.y + out.y) - light.sample(p.x - out.x, p.y - out.y)
+    };
+    let steps = Raster::from_fn(ROWS, COLUMNS, step);
+    let rows = best_way(&steps, 2, BEND);
+    let points: Vec<Point> = rows.iter().enumerate().map(|(column, row)| place(column, *row)).collect();
+    let found: Vec<f64> = rows.iter().enumerate().map(|(column, row)| f64::from(steps.get(*row, column))).collect();
+    let share = |step: &f64| ((step - LEAST) / (FULL - LEAST)).clamp(0.0, 1.0);
+    let widths: Vec<f64> = averaged(&found, SMOOTH).iter().map(|step| WIDEST * width * share(step)).collect();
+    let line = smoothed(&points, &widths);
+    let is_seen: Vec<bool> = line.widths.iter().map(|width| *width > 0.0).collect();
+    line.runs(&is_seen).into_iter().filter(|run| run.curve.length() > SHORTEST * width).collect()
+}
+
+/// From a lip to the skin, of length 1.
+fn outwards(from: &[Point], to: &[Point], column: usize) -> Vec2 {
+    let across = to[column] - from[column];
+    across / across.hypot().max(1e-9)
+}
