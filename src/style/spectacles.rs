@@ -54,29 +54,60 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Rast
     let width = drawn_width(frame, pitch) * scale;
     let smooth = |line: &[Point], ring| smooth_polyline(line, ring, SMOOTH * frame.width, NODE * pitch);
     let on_page = |line: &[Point]| line.iter().map(|p| portrait.placement.to_page(*p)).collect::<Vec<Point>>();
+    let weights = |line: &[Point], ring| weights(line, ring, frame.width, &portrait.lightness);
     let rims = frame.rims.iter().filter_map(|rim| {
-        let nodes = on_page(&smooth(rim, Ring::Closed));
+        let line = smooth(rim, Ring::Closed);
+        let (nodes, weights) = (on_page(&line), weights(&line, Ring::Closed));
         if nodes.len() < 3 {
             return None;
         }
         let (top, bottom) = nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(t, b), p| (t.min(p.y), b.max(p.y)));
         let swelling = |p: &Point| 1.0 + SWELL * (2.0 * (p.y - top) / (bottom - top).max(1e-9) - 1.0);
-        let mut widths: Vec<f64> = nodes.iter().map(|p| width * swelling(p)).collect();
+        let mut widths: Vec<f64> = nodes.iter().zip(weights).map(|(p, weight)| width * weight * swelling(p)).collect();
         widths.push(widths[0]);
         Stroke::swelling(catmull_rom(&nodes, Ring::Closed), widths).map(Mark::Stroke)
     });
     let open = std::iter::once((&frame.bridge, false)).chain(frame.temples.iter().map(|temple| (temple, true)));
     let open = open.filter(|(line, _)| line.len() > 1 && !mask.is_some_and(|mask| is_largely_in(line, mask))).filter_map(
         |(line, tapers)| {
-            let nodes = on_page(&smooth(line, Ring::Open));
+            let line = smooth(line, Ring::Open);
+            let (nodes, weights) = (on_page(&line), weights(&line, Ring::Open));
             let last = (nodes.len() - 1) as f64;
             let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
-            let widths = (0..nodes.len()).map(|i| width * (0.2 + 0.8 * rest(i))).collect();
+            let widths = weights.iter().enumerate().map(|(i, weight)| width * weight * (0.2 + 0.8 * rest(i))).collect();
             let stroke = Stroke::swelling(catmull_rom(&nodes, Ring::Open), widths)?;
             Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
         },
     );
     rims.chain(open).collect()
+}
+
+/// Contrast of a frame from which its line is of full width, and the least share of that: clear plastic and the edges of lenses without rims are
+/// fine lines.
+const FIRM: f32 = 0.16;
+const FINE: f64 = 0.4;
+/// Where a line is sought, and with what it is compared, to either side in widths of the frame; and nodes over which that is evened out.
+const ON: f64 = 1.0;
+const BESIDE: f64 = 2.2;
+const EVEN: usize = 3;
+
+/// The width of a line at each of its nodes, as a share: as firm as the frame parts from what is around it.
+fn weights(line: &[Point], ring: Ring, width: f64, lightness: &Raster<f32>) -> Vec<f64> {
+    let count = line.len();
+    let around = |i: usize, by: isize| match ring {
+        Ring::Closed => (i as isize + by).rem_euclid(count as isize) as usize,
+        Ring::Open => (i as isize + by).clamp(0, count as isize - 1) as usize,
+    };
+    let contrast = |i: usize| {
+        let along = line[around(i, 1)] - line[around(i, -1)];
+        let across = along.turn_90() / along.hypot().max(1e-9) * width.max(1.0);
+        let at = |share: f64| lightness.sample(line[i].x + share * across.x, line[i].y + share * across.y);
+        let darkest = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|share| at(ON * share)).into_iter().fold(f32::INFINITY, f32::min);
+        f32::midpoint(at(BESIDE), at(-BESIDE)) - darkest
+    };
+    let shares: Vec<f64> = (0..count).map(|i| f64::from(contrast(i) / FIRM).clamp(FINE, 1.0)).collect();
+    let reach = EVEN as isize;
+    (0..count).map(|i| (-reach..=reach).map(|by| shares[around(i, by)]).sum::<f64>() / (2 * EVEN + 1) as f64).collect()
 }
 
 fn is_largely_in(line: &[Point], mask: &Raster<u8>) -> bool {
