@@ -44,3 +44,32 @@ fn outwards(from: &[Point], to: &[Point], column: usize) -> Vec2 {
     let across = to[column] - from[column];
     across / across.hypot().max(1e-9)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The border of a lower lip of 200 pixels between 20 and 40 that is so much darker than the skin below, left of `end`.
+    fn border(darker: f32, end: usize) -> Vec<CoherentLine> {
+        let light = Raster::from_fn(220, 80, |x, y| if y < 40 && x < end { 0.6 - darker } else { 0.6 });
+        let line = |y: f64| -> Vec<Point> {
+            (0..COLUMNS).map(|i| Point::new(10.0 + 200.0 * i as f64 / (COLUMNS - 1) as f64, y)).collect()
+        };
+        lip_border(&light, [&line(20.0), &line(42.0)], 200.0)
+    }
+
+    #[test]
+    fn a_border_runs_where_the_lip_is_darker_and_is_as_firm_as_it() {
+        let [faint, firm] = [0.1, 0.3].map(|darker| border(darker, 220));
+        for line in [&faint, &firm] {
+            assert_eq!(line.len(), 1);
+            assert!(line[0].curve.points.iter().all(|p| (p.y - 40.0).abs() < 3.0), "{:?}", line[0].curve.points);
+        }
+        assert!(firm[0].widths[20] > 1.5 * faint[0].widths[20]);
+    }
+
+    #[test]
+    fn a_lip_as_light_as_the_skin_and_a_tick_have_none() {
+        assert!(border(0.0, 220).is_empty() && border(0.3, 40).is_empty());
+    }
+}

@@ -16,7 +16,7 @@ const KEPT: f32 = 0.5;
 /// What becomes of the gaps between teeth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Gaps {
-    /// They are fainter.
+    /// They are fainter: in charcoal; and in grids, whose face finder's light, brown and dark faces are else unequally alike.
     Faint,
     /// They go: lines take their place.
     Drawn,

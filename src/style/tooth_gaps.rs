@@ -126,3 +126,32 @@ fn columns(distance: f64) -> usize {
 fn down(row: usize) -> f64 {
     SEEN[0] + (SEEN[1] - SEEN[0]) * row as f64 / (ROWS - 1) as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines between teeth in a mouth of 200 pixels, 40 high, whose gaps are so much darker than the teeth.
+    fn gaps(teeth: f32, gap: f32) -> Vec<CoherentLine> {
+        let is_gap = |x: usize| [60, 90, 120, 150].iter().any(|at| x.abs_diff(*at) < 2);
+        let light = Raster::from_fn(220, 80, |x, _| if is_gap(x) { teeth - gap } else { teeth });
+        let line = |y: f64| -> Vec<Point> { (0..=20).map(|i| Point::new(10.0 + 10.0 * f64::from(i), y)).collect() };
+        Teeth { light: &light, lips: 0.4, upper: &line(20.0), lower: &line(60.0), width: 200.0 }.gaps()
+    }
+
+    #[test]
+    fn each_gap_has_one_line_that_ends_in_a_point_before_the_lower_lip() {
+        let found = gaps(0.8, 0.2);
+        let places: Vec<f64> = found.iter().map(|line| line.curve.points[0].x).collect();
+        assert_eq!(found.len(), 4, "{places:?}");
+        for (line, at) in found.iter().zip([60.0, 90.0, 120.0, 150.0]) {
+            assert!(line.curve.points.iter().all(|p| (p.x - at).abs() < 4.0 && p.y < 50.0), "{at}: {places:?}");
+            assert!(line.widths[0] > 2.0 * line.widths[line.widths.len() - 1]);
+        }
+    }
+
+    #[test]
+    fn even_teeth_and_what_is_as_dark_as_lips_have_none() {
+        assert!(gaps(0.8, 0.01).is_empty() && gaps(0.35, 0.2).is_empty());
+    }
+}

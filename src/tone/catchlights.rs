@@ -21,8 +21,8 @@ const ASIDE: f64 = 0.36;
 const UP: f64 = 0.34;
 const RADIUS: f64 = 0.25;
 /// In large irises, where that is more pixels than this, it is smaller, down to this radius in radii of the iris: a quarter is a button.
-const LARGEST: f64 = 3.3;
-const SMALLEST: f64 = 0.18;
+const LARGEST: f64 = 2.2;
+const SMALLEST: f64 = 0.21;
 /// The least distance above a large iris' middle, in its radii: a light in the middle stares. In a newspaper's column, whose irises are small,
 /// faces of light skin are then less alike (3.0 % in place of 2.4 %).
 const LEAST_UP: f64 = 0.24;

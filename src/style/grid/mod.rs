@@ -110,7 +110,7 @@ impl Drawer<'_> {
     /// The paper's steps in order.
     fn draw(&self, ends: LineEnds) -> Result<Drawing, StyleError> {
         let ink = self.portrait.ink();
-        let ink = if self.parameters.has_lines { with_whole_teeth(self.portrait, ink, Gaps::Drawn) } else { ink };
+        let ink = if self.parameters.has_lines { with_whole_teeth(self.portrait, ink, Gaps::Faint) } else { ink };
         self.observer.picture("tone", &|| Picture::Grey(ink.map(|v| 1.0 - v)));
         if ink.pixels().iter().all(|&v| v <= 0.0) {
             let why = "the picture, or the part inside the subject mask, is white all over";
