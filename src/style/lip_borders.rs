@@ -9,8 +9,9 @@ use crate::raster::{Raster, best_way};
 const ROWS: usize = 25;
 /// How far from the landmarks' border it is looked for, as a share of the lip.
 const WITHIN: f64 = 0.35;
-/// Distance on both sides in which lightness is compared, in widths of the mouth, and the price of a bend by one row.
-const BESIDE: f64 = 0.03;
+/// Distances on both sides in which lightness is compared, in widths of the mouth: the wide one tells lips from skin, the narrow one where they
+/// part; and the price of a bend by one row.
+const BESIDE: [f64; 2] = [0.03, 0.01];
 const BEND: f32 = 0.004;
 /// How much darker a lip is than the skin beside it where its line begins, and where it is in full; and that width in widths of the mouth.
 const LEAST: f64 = 0.05;
@@ -25,8 +26,9 @@ pub(super) fn lip_border(light: &Raster<f32>, [inner, outer]: [&[Point]; 2], wid
     let [from, to] = [1.0 - WITHIN, 1.0 + WITHIN].map(|share| between(inner, outer, share));
     let place = |column: usize, row: usize| from[column].lerp(to[column], row as f64 / (ROWS - 1) as f64);
     let step = |row: usize, column: usize| {
-        let (p, out) = (place(column, row), outwards(&from, &to, column) * (BESIDE * width));
-        light.sample(p.x + out.x, p.y + out.y) - light.sample(p.x - out.x, p.y - out.y)
+        let (p, out) = (place(column, row), outwards(&from, &to, column) * width);
+        let at = |away: f64| light.sample(p.x + away * out.x, p.y + away * out.y);
+        BESIDE.iter().map(|away| 0.5 * (at(*away) - at(-away))).sum::<f32>()
     };
     let steps = Raster::from_fn(ROWS, COLUMNS, step);
     let rows = best_way(&steps, 2, BEND);

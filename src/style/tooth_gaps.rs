@@ -51,8 +51,9 @@ impl Teeth<'_> {
         let contrasts: Vec<f32> = (0..COLUMNS).map(|column| self.contrast(&profile, column)).collect();
         let apart = columns(APART);
         let is_gap = |column: &usize| {
-            let near = column.saturating_sub(apart)..(column + apart + 1).min(COLUMNS);
-            let darkest = near.fold(*column, |best, other| if contrasts[other] > contrasts[best] { other } else { best });
+            let first = column.saturating_sub(apart);
+            let near = first..(column + apart + 1).min(COLUMNS);
+            let darkest = near.fold(first, |best, other| if contrasts[other] > contrasts[best] { other } else { best });
             contrasts[*column] > LEAST && darkest == *column
         };
         (0..COLUMNS).filter(is_gap).map(|column| self.line(column, contrasts[column])).collect()

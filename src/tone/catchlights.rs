@@ -177,7 +177,7 @@ mod tests {
         assert!(own.distance(spot) < 1.6, "{own:?}");
         assert!(own_light(&Raster::filled(40, 40, 0.1), iris).is_none());
         let lids = [(5.0, 20.0), (20.0, 14.0), (35.0, 20.0), (20.0, 27.0)].map(Point::from);
-        let lowest = 14.0 + (RADIUS + FROM_LIDS) * iris.radius;
+        let lowest = 14.0 + radius_in(iris) + FROM_LIDS * iris.radius;
         assert_eq!(between(&lids, iris, own), Point::new(own.x, lowest));
     }
 }
