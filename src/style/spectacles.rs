@@ -52,6 +52,7 @@ const SMOOTH: f64 = 1.0;
 fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Raster<u8>>) -> Vec<Mark> {
     let scale = portrait.placement.mm_per_pixel();
     let width = drawn_width(frame, pitch) * scale;
+    let fine = |weight: f64| (width * weight).max(FINEST * pitch * scale);
     let smooth = |line: &[Point], ring| smooth_polyline(line, ring, SMOOTH * frame.width, NODE * pitch);
     let on_page = |line: &[Point]| line.iter().map(|p| portrait.placement.to_page(*p)).collect::<Vec<Point>>();
     let weights = |line: &[Point], ring| weights(line, ring, frame.width, &portrait.lightness);
@@ -63,7 +64,7 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Rast
         }
         let (top, bottom) = nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(t, b), p| (t.min(p.y), b.max(p.y)));
         let swelling = |p: &Point| 1.0 + SWELL * (2.0 * (p.y - top) / (bottom - top).max(1e-9) - 1.0);
-        let mut widths: Vec<f64> = nodes.iter().zip(weights).map(|(p, weight)| width * weight * swelling(p)).collect();
+        let mut widths: Vec<f64> = nodes.iter().zip(weights).map(|(p, weight)| fine(weight) * swelling(p)).collect();
         widths.push(widths[0]);
         Stroke::swelling(catmull_rom(&nodes, Ring::Closed), widths).map(Mark::Stroke)
     });
@@ -74,7 +75,7 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Rast
             let (nodes, weights) = (on_page(&line), weights(&line, Ring::Open));
             let last = (nodes.len() - 1) as f64;
             let rest = |i: usize| if tapers { ((last - i as f64) * NODE / TAPER).min(1.0) } else { 1.0 };
-            let widths = weights.iter().enumerate().map(|(i, weight)| width * weight * (0.2 + 0.8 * rest(i))).collect();
+            let widths = weights.iter().enumerate().map(|(i, weight)| fine(*weight) * (0.2 + 0.8 * rest(i))).collect();
             let stroke = Stroke::swelling(catmull_rom(&nodes, Ring::Open), widths)?;
             Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
         },
@@ -83,13 +84,14 @@ fn marks(frame: &Spectacles, portrait: &Portrait, pitch: f64, mask: Option<&Rast
 }
 
 /// Contrast of a frame from which its line is of full width, and the least share of that: clear plastic and the edges of lenses without rims are
-/// fine lines.
-const FIRM: f32 = 0.16;
+/// fine lines. The least width in pitches: among a hedcut's dots a finer rim is lost (portrait 02).
+const FIRM: f32 = 0.12;
 const FINE: f64 = 0.4;
+const FINEST: f64 = 0.28;
 /// Where a line is sought, and with what it is compared, to either side in widths of the frame; and nodes over which that is evened out.
 const ON: f64 = 1.0;
 const BESIDE: f64 = 2.2;
-const EVEN: usize = 3;
+const EVEN: usize = 6;
 
 /// The width of a line at each of its nodes, as a share: as firm as the frame parts from what is around it.
 fn weights(line: &[Point], ring: Ring, width: f64, lightness: &Raster<f32>) -> Vec<f64> {

@@ -24,8 +24,10 @@ const APART: f64 = 0.045;
 /// Contrast from which a gap is seen, and at which its line is widest.
 const LEAST: f32 = 0.02;
 const FULL: f32 = 0.12;
+/// How far down from the upper lip a line ends: longer ones are bars.
+const END: f64 = 0.58;
 /// Width of a line at full contrast, in widths of the mouth, the least share of it, and what is left of it at its lower end.
-const WIDEST: f64 = 0.0085;
+const WIDEST: f64 = 0.0075;
 const THINNEST: f64 = 0.5;
 const POINT: f64 = 0.3;
 /// How far the ends of a line may lie from its column, in widths of the mouth, and the places tried.
@@ -102,7 +104,7 @@ impl Teeth<'_> {
             .fold((f32::INFINITY, [middle; 2]), |best, each| if each.0 < best.0 { each } else { best });
         let full = WIDEST * self.width * f64::from(contrast / FULL).clamp(THINNEST, 1.0);
         let shares = (0..ROWS).map(|i| i as f64 / (ROWS - 1) as f64);
-        let points: Vec<Point> = shares.clone().map(|share| self.on(darkest.1, share * SEEN[1])).collect();
+        let points: Vec<Point> = shares.clone().map(|share| self.on(darkest.1, share * END)).collect();
         let widths: Vec<f64> = shares.map(|share| full * (1.0 - (1.0 - POINT) * share)).collect();
         smoothed(&points, &widths)
     }
