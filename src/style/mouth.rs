@@ -61,12 +61,13 @@ impl Mouths {
         for face in &portrait.faces {
             let Some(mouth) = Mouth::of(face).filter(|mouth| mouth.width >= LEAST_WIDTH * pitch) else { continue };
             mouths.inside.push(mouth.inside());
-            let lips = mouth.lips(portrait);
+            let soft = gaussian_blur(&portrait.lightness, (BLUR * mouth.width) as f32);
+            let lips = mouth.lips(&soft);
             let gaps = mouth.gaps(&portrait.lightness, &lips);
             mouths.gaps.extend(gaps.into_iter().filter(|gap| gap.curve.points.iter().all(is_bare)));
             let bare = |line: &CoherentLine| line.runs(&line.curve.points.iter().map(is_bare).collect::<Vec<_>>());
             mouths.lines.extend(lips.iter().flat_map(bare));
-            mouths.borders.extend(mouth.borders(&portrait.lightness).iter().flat_map(bare));
+            mouths.borders.extend(mouth.borders(&soft).iter().flat_map(bare));
         }
         mouths
     }
@@ -137,8 +138,8 @@ impl Mouth {
     }
 
     /// One line where the lips meet, or one along each lip.
-    fn lips(&self, portrait: &Portrait) -> Vec<CoherentLine> {
-        let seen = Seen { light: &gaussian_blur(&portrait.lightness, (BLUR * self.width) as f32), mouth: self };
+    fn lips(&self, light: &Raster<f32>) -> Vec<CoherentLine> {
+        let seen = Seen { light, mouth: self };
         let into = |lip: &[Vec<Point>; 2]| between(&lip[0], &lip[1], IN_LIP);
         if self.gap() < OPEN {
             return vec![seen.darkest(&into(&self.upper), &into(&self.lower), WIDEST)];
@@ -156,8 +157,7 @@ impl Mouth {
 
     /// The outer borders of both lips where they are seen.
     fn borders(&self, light: &Raster<f32>) -> Vec<CoherentLine> {
-        let soft = gaussian_blur(light, (BLUR * self.width) as f32);
-        let border = |lip: &[Vec<Point>; 2]| lip_border(&soft, [&lip[0], &lip[1]], self.width);
+        let border = |lip: &[Vec<Point>; 2]| lip_border(light, [&lip[0], &lip[1]], self.width);
         [&self.upper, &self.lower].into_iter().flat_map(border).collect()
     }
 
