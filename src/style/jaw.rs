@@ -126,7 +126,11 @@ impl Jaw {
         let way = best_way(&Raster::from_fn(ROWS, COLUMNS, |row, column| steps.get(row, column) - AWAY * away(row)), 1, BEND);
         let found: Vec<f64> = way.iter().enumerate().map(|(column, row)| f64::from(steps.get(*row, column))).collect();
         let line: Vec<Point> = way.iter().enumerate().map(|(column, row)| self.place(*row, column)).collect();
-        let is_drawn = |column: usize| mean(&found, column) > LEAST_STEP && self.has_skin_below(portrait, line[column], column);
+        let is_drawn = |column: usize| {
+            mean(&found, column) > LEAST_STEP
+                && self.has_skin_below(portrait, line[column], column)
+                && !self.is_bearded(portrait, line[column], column)
+        };
         let drawn: Vec<bool> = (0..COLUMNS).map(is_drawn).collect();
         let mut lines = Vec::new();
         let mut first = 0;
@@ -163,6 +167,13 @@ impl Jaw {
         let is_in = |mask: &Raster<f32>| mask.sample(below.x, below.y) > HALF;
         let others = [MaskRole::Hair, MaskRole::FacialHair, MaskRole::Clothing, MaskRole::Headwear];
         is_in(&portrait.subject) && !others.iter().filter_map(|role| portrait.masks.get(role)).any(is_in)
+    }
+
+    /// True where a beard covers the jaw, and ends a little above the neck.
+    fn is_bearded(&self, portrait: &Portrait, line: Point, column: usize) -> bool {
+        let above = line - self.outwards[column] * (BELOW * self.width);
+        let beard = portrait.masks.get(&MaskRole::FacialHair);
+        beard.is_some_and(|beard| [line, above].iter().any(|p| beard.sample(p.x, p.y) > HALF))
     }
 }
 
@@ -207,6 +218,21 @@ mod tests {
         let chin = jaw.place(steepest, COLUMNS / 2);
         assert!((chin.y - 133.0).abs() < 2.5 && (chin.x - 80.0).abs() < 1.5, "{chin:?}");
         assert!(jaw.outwards.iter().all(|way| way.y > 0.0), "outwards is down");
+    }
+
+    #[test]
+    fn a_jaw_under_a_beard_has_no_line() {
+        let mut portrait = crate::style::form::mean_portrait(6.0, 0.0, |_| 100);
+        let jaw = Jaw::of(&portrait.faces[0]).expect("it has a border");
+        let chin = jaw.points[COLUMNS / 2];
+        assert!(!jaw.is_bearded(&portrait, chin, COLUMNS / 2));
+        let (width, height) = (portrait.subject.width(), portrait.subject.height());
+        let mask = |end: f64| Raster::from_fn(width, height, |_, y| f32::from(u8::from((y as f64) < end)));
+        // A beard that ends at the chin, and a moustache.
+        portrait.masks.insert(MaskRole::FacialHair, mask(chin.y));
+        assert!(jaw.is_bearded(&portrait, chin, COLUMNS / 2));
+        portrait.masks.insert(MaskRole::FacialHair, mask(chin.y - 0.3 * jaw.width));
+        assert!(!jaw.is_bearded(&portrait, chin, COLUMNS / 2));
     }
 
     #[test]

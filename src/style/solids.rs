@@ -202,6 +202,13 @@ impl Darks<'_> {
         let pitch = self.pitch;
         let ears = beside_faces(self.portrait, pitch);
         let detail = detail_zone(self.portrait, pitch).zip_map(&ears, |detail, ear| detail * (1.0 - ear));
+        let detail = match self.portrait.masks.get(&MaskRole::FacialHair) {
+            Some(beard) => {
+                let hair = beard.zip_map(&self.inside([&outlines::LIPS, &outlines::MOUTH]), |beard, mouth| beard * (1.0 - mouth));
+                detail.zip_map(&hair, |detail, hair| detail * (1.0 - hair))
+            }
+            None => detail,
+        };
         let eyes = gaussian_blur(&self.inside([&outlines::LEFT_EYE, &outlines::RIGHT_EYE]), (0.5 * pitch) as f32);
         let lifted = self.ink.zip_map(&eyes, |ink, eyes| ink + eye_lift * (2.0 * eyes).min(1.0));
         gaussian_blur(&lifted.zip_map(&detail, |ink, detail| ink * (2.0 * detail).min(1.0)), (SOLID_BLUR * pitch) as f32)

@@ -10,7 +10,7 @@
 //!   -> clothing by a curve of its own -> light hair held back -> eyes, brows and lips raised
 //!   -> folds of ears raised -> eyes and mouths opened -> large blacks opened -> lights to paper -> large lights held
 //!   -> half tones around lights -> lenses cleared -> eyes at least as dark as in the photograph -> gums -> red lips -> dim teeth
-//!   -> nostrils   -> irises without specks, brown ones black, light ones lighter than their pupils -> catchlights
+//!   -> grooves of noses -> nostrils -> irises without specks, brown ones black, light ones lighter than their pupils -> catchlights
 //! ```
 //!
 //! Darker skin stays darker than lighter skin: the target tone of a face's median rises with the median.
@@ -26,6 +26,7 @@ mod lenses;
 mod lights;
 mod mixing;
 mod mouth_box;
+mod nose_wings;
 mod nostrils;
 mod openings;
 mod red_lips;
@@ -38,6 +39,7 @@ use catchlights::with_catchlights;
 use dim_teeth::with_dim_teeth;
 use gums::with_gums;
 use irises::with_irises;
+use nose_wings::with_nose_wings;
 use nostrils::with_nostrils;
 use red_lips::with_red_lips;
 use specks::without_specks;
@@ -101,6 +103,7 @@ pub fn portrait_tone(portrait: &Portrait, strength: f32) -> Option<Raster<f32>> 
     let tone = with_gums(tone, &portrait.light, &portrait.faces, strength);
     let tone = with_red_lips(tone, &portrait.light, portrait.masks.get(&MaskRole::FacialHair), &portrait.faces, strength);
     let tone = with_dim_teeth(tone, &portrait.light, &portrait.faces, strength);
+    let tone = with_nose_wings(tone, portrait.masks.get(&MaskRole::FacialHair), &portrait.faces, strength);
     let tone = with_nostrils(tone, &portrait.lightness, &portrait.faces, strength);
     let tone = without_specks(tone, &portrait.faces, strength);
     let tone = with_irises(tone, &portrait.lightness, &portrait.light, &portrait.faces, strength);

@@ -3,9 +3,10 @@
 use super::super::Drawer;
 use super::runs::Piece;
 use super::shares::part_of;
+use super::tapered::{Tapered, tapered};
 use crate::elementary::Elementary as _;
 use crate::field::{Covering, OrientationField, cover};
-use crate::geometry::{Point, Ring, smooth_polyline};
+use crate::geometry::{Ring, smooth_polyline};
 use crate::parallel::mapped;
 use crate::raster::Raster;
 use crate::style::form::with_curls;
@@ -20,9 +21,8 @@ const WIDTH: f64 = 0.34;
 const TURN: f64 = 25.0;
 /// How much wider than that hooks may become until their ink is the ink wanted.
 const WIDEST: f64 = 2.0;
-/// Share of a hook over which it tapers at each end, and the width of its tips.
-const TAPER: f64 = 0.4;
-const TIP: f64 = 0.2;
+/// A hook tapers at both ends.
+const SHAPE: Tapered = Tapered { width: WIDTH, taper: 0.4, tip: 0.2, widest: WIDEST };
 
 impl Drawer<'_> {
     /// Hooks in a region, 0 to 1, that make its ink.
@@ -44,22 +44,11 @@ impl Drawer<'_> {
         let covering =
             Covering { width: WIDTH * pitch, length: LENGTH * pitch, length_spread: 0.5, turn: TURN.to_radians(), reach: pitch };
         let lines = cover(&field, &region, &ink, covering, |_| 1.0, &mut stream(self.seed, "hooks", 0));
-        mapped(&lines, &|line| hook(&smooth_polyline(line, Ring::Open, 0.5 * pitch, 0.5 * pitch), pitch))
+        mapped(&lines, &|line| tapered(&smooth_polyline(line, Ring::Open, 0.5 * pitch, 0.5 * pitch), SHAPE, pitch))
     }
 }
 
 /// The ink of the lines beneath hooks.
 pub(super) fn beneath(ink: &Raster<f32>, coils: &Raster<f32>) -> Raster<f32> {
     ink.zip_map(coils, |ink, coil| if coil >= 0.5 { part_of(ink, 1.0 - SHARE) } else { ink })
-}
-
-fn hook(nodes: &[Point], pitch: f64) -> Piece {
-    let last = (nodes.len() - 1).max(1) as f64;
-    let width = |i: usize| {
-        let to_end = (i as f64 / last).min(1.0 - i as f64 / last);
-        WIDTH * pitch * (TIP + (1.0 - TIP) * (to_end / TAPER).min(1.0))
-    };
-    let widths: Vec<f64> = (0..nodes.len()).map(width).collect();
-    let ceilings = widths.iter().map(|width| WIDEST * width).collect();
-    Piece { nodes: nodes.to_vec(), widths, ceilings }
 }

@@ -9,6 +9,7 @@
 //!   shares       ink of each family for the tone
 //!   runs         pieces of lines with their widths
 //!   hooks        strokes of coiled hair
+//!   whiskers     strokes of beards over the lines of skin
 //!   tone         widths corrected until the ink drawn is the ink wanted
 //! ```
 
@@ -24,6 +25,8 @@ mod roots;
 mod runs;
 mod shares;
 mod specks;
+mod tapered;
+mod whiskers;
 
 use super::Drawer;
 use super::parameters::Look;
@@ -41,6 +44,7 @@ use correction::TONE_ROUNDS;
 use families::{Closeness, Extent, FINE, Family};
 use roots::Roots;
 use runs::{Course, Piece};
+use whiskers::Whiskers;
 
 /// The turns of the second and the third family in degrees. At -60 the third makes honeycombs with the second.
 const TURNS: [f64; 3] = [0.0, 60.0, -37.0];
@@ -151,8 +155,12 @@ impl Drawer<'_> {
         ink: &Raster<f32>,
     ) -> Result<Pieces, StyleError> {
         let roots = self.roots(surfaces, &directions.of_all_hair(surfaces));
+        let whiskers = self.whiskers(surfaces, directions.of(Surface::Beard), ink);
         let on = |surface: &Surface| {
-            let (mut first, ground) = self.inked(*surface, surfaces, &roots, directions, ink);
+            if *surface == Surface::Beard {
+                return Ok([self.hairs(&whiskers, directions.of(*surface), ink), Vec::new(), Vec::new()]);
+            }
+            let (mut first, ground) = self.inked(*surface, surfaces, (&roots, &whiskers), directions, ink);
             let [one, two, three] = self.lines_over(&ground, directions, detail);
             first.extend(one);
             self.check().map(|()| [first, two, three])
@@ -172,11 +180,14 @@ impl Drawer<'_> {
         &self,
         surface: Surface,
         surfaces: &Surfaces,
-        roots: &Roots,
+        (roots, whiskers): (&Roots, &Whiskers),
         directions: &Directions,
         ink: &Raster<f32>,
     ) -> (Vec<Piece>, Ground) {
         let (region, mut own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
+        if surface == Surface::Skin {
+            own = whiskers.beneath(&own);
+        }
         let mut hooks = Vec::new();
         if surface == Surface::Hair {
             let coils = self.coiled_hair(&self.hair_of_heads(&surfaces.hair));

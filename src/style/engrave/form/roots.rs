@@ -30,9 +30,11 @@ impl Drawer<'_> {
     pub(super) fn roots(&self, surfaces: &Surfaces, directions: &Raster<f32>) -> Roots {
         let streaks = Streaks::new(LOCK[0] * self.pitch(), LOCK[1] * self.pitch(), self.seed ^ 0x4007);
         let band = (BAND * self.pitch()) as f32;
-        let is_hair = surfaces.hair.zip_map(&surfaces.skin, |hair, skin| u8::from(hair > skin));
-        let is_cloth = surfaces.cloth.zip_map(&surfaces.skin, |cloth, skin| u8::from(cloth > skin));
-        let is_skin = surfaces.hair.zip_map(&surfaces.skin, |hair, skin| u8::from(skin >= hair && skin > 0.0));
+        // Beards grow over the lines of skin.
+        let skin = surfaces.skin.zip_map(&surfaces.beard, |skin, beard| if beard > 0.5 { 1.0 } else { skin });
+        let is_hair = surfaces.hair.zip_map(&skin, |hair, skin| u8::from(hair > skin));
+        let is_cloth = surfaces.cloth.zip_map(&skin, |cloth, skin| u8::from(cloth > skin));
+        let is_skin = surfaces.hair.zip_map(&skin, |hair, skin| u8::from(skin >= hair && skin > 0.0));
         // The rim of skin outside a head's hair is none.
         let rim = (RIM * self.pitch()).ceil() as usize;
         let core = dilate(&is_skin.map(|skin| 1 - skin), rim).map(|out| 1 - out);
@@ -72,8 +74,8 @@ impl Roots {
         };
         match surface {
             Surface::Skin => within(&|hair| 1.0 - hair),
-            Surface::Hair => within(&|hair| hair).zip_map(&surfaces.beard, |hair, beard| if beard > 0.6 { 0.0 } else { hair }),
-            Surface::Beard => within(&|hair| hair).zip_map(&surfaces.beard, |hair, beard| if beard > 0.4 { hair } else { 0.0 }),
+            Surface::Hair => within(&|hair| hair),
+            Surface::Beard => surfaces.beard.clone(),
             Surface::Cloth => surfaces.cloth.clone(),
         }
     }
