@@ -158,9 +158,10 @@ impl Drawer<'_> {
         let whiskers = self.whiskers(surfaces, directions.of(Surface::Beard), ink);
         let on = |surface: &Surface| {
             if *surface == Surface::Beard {
-                return Ok([self.hairs(&whiskers, directions.of(*surface), ink), Vec::new(), Vec::new()]);
+                let hairs = whiskers.as_ref().map(|whiskers| self.hairs(whiskers, directions.of(*surface), ink));
+                return Ok([hairs.unwrap_or_default(), Vec::new(), Vec::new()]);
             }
-            let (mut first, ground) = self.inked(*surface, surfaces, (&roots, &whiskers), directions, ink);
+            let (mut first, ground) = self.inked(*surface, surfaces, (&roots, whiskers.as_ref()), directions, ink);
             let [one, two, three] = self.lines_over(&ground, directions, detail);
             first.extend(one);
             self.check().map(|()| [first, two, three])
@@ -180,12 +181,12 @@ impl Drawer<'_> {
         &self,
         surface: Surface,
         surfaces: &Surfaces,
-        (roots, whiskers): (&Roots, &Whiskers),
+        (roots, whiskers): (&Roots, Option<&Whiskers>),
         directions: &Directions,
         ink: &Raster<f32>,
     ) -> (Vec<Piece>, Ground) {
         let (region, mut own) = (roots.region_of(surface, surfaces), roots.ink_of(surface, ink));
-        if surface == Surface::Skin {
+        if let (Surface::Skin, Some(whiskers)) = (surface, whiskers) {
             own = whiskers.beneath(&own);
         }
         let mut hooks = Vec::new();

@@ -20,8 +20,8 @@ const SHARE: [f32; 2] = [0.9, 1.0];
 const INK: [f32; 2] = [0.75, 0.5];
 /// Reach of the mean by which a beard is dark or light, in pitches.
 const AROUND: f64 = 6.0;
-/// Blur of a beard's border in pitches, and how far hairs begin before or behind it, as a share of that, in the mean; and width and length of the tufts that
-/// begin together, in pitches.
+/// Blur of a beard's border in pitches; how far hairs begin before or behind it, as a share of that, in the mean; and width and length of
+/// the tufts that begin together, in pitches.
 const BORDER: f64 = 1.6;
 const UNEVEN: f32 = 1.2;
 const TUFT: [f64; 2] = [1.6, 8.0];
@@ -52,11 +52,10 @@ pub(super) struct Whiskers {
 }
 
 impl Drawer<'_> {
-    /// Where the hairs of beards lie, and how much of the ink they make.
-    pub(super) fn whiskers(&self, surfaces: &Surfaces, directions: &Raster<f32>, ink: &Raster<f32>) -> Whiskers {
+    /// Where the hairs of beards lie, and how much of the ink they make; none without beards.
+    pub(super) fn whiskers(&self, surfaces: &Surfaces, directions: &Raster<f32>, ink: &Raster<f32>) -> Option<Whiskers> {
         if surfaces.beard.pixels().iter().all(|beard| *beard < 0.5) {
-            let none = surfaces.beard.map(|_| 0.0);
-            return Whiskers { share: none.clone(), over_skin: none.clone(), dark: none };
+            return None;
         }
         let pitch = self.pitch();
         let streaks = Streaks::new(TUFT[0] * pitch, TUFT[1] * pitch, self.seed ^ 0xbea2d);
@@ -75,16 +74,13 @@ impl Drawer<'_> {
                 ((inside - from) / (to - from)).clamp(0.0, 1.0) * (SHARE[1] + (SHARE[0] - SHARE[1]) * dark)
             })
         };
-        Whiskers { share: share(HAIRS), over_skin: share(SKIN), dark }
+        Some(Whiskers { share: share(HAIRS), over_skin: share(SKIN), dark })
     }
 
     /// The hairs themselves, along the directions.
     pub(super) fn hairs(&self, whiskers: &Whiskers, directions: &Raster<f32>, ink: &Raster<f32>) -> Vec<Piece> {
         let pitch = self.pitch();
         let region = whiskers.share.map(|share| f32::from(u8::from(share > 0.1)));
-        if region.pixels().iter().all(|share| *share < 0.5) {
-            return Vec::new();
-        }
         let ink = ink.zip_map(&whiskers.share, part_of);
         let field = OrientationField::new(directions.map(|angle| [(2.0 * angle).cosine(), (2.0 * angle).sine()]));
         let covering = Covering {
@@ -143,7 +139,7 @@ mod tests {
         // Hair grows straight down.
         let directions = beard.map(|_| std::f32::consts::FRAC_PI_2);
         let ink = beard.map(|_| ink);
-        let whiskers = drawer.whiskers(&surfaces, &directions, &ink);
+        let whiskers = drawer.whiskers(&surfaces, &directions, &ink).expect("a beard");
         (beard, whiskers.beneath(&ink), drawer.hairs(&whiskers, &directions, &ink))
     }
 
