@@ -28,6 +28,7 @@ mod plate;
 mod scores;
 mod segmentation;
 mod skin_model;
+mod slivers;
 mod smoothing;
 
 use super::detail::detail;
@@ -42,6 +43,7 @@ use headwear::headwear;
 use neck::with_shaded_neck;
 use plate::{Plate, owner};
 use segmentation::{CLOTHING, HAIR, SKIN, Segmentation, Shares};
+use slivers::without_slivers;
 use smoothing::{Guide, Lines, value};
 
 /// Number of regions: skin, hair, facial hair, headwear, clothing.
@@ -83,7 +85,7 @@ fn told(pixels: &Raster<[u8; 3]>, subject: &Raster<u8>, face: &Landmarks, heads:
         Some(beard) => pieces::without_hair_under_beard(&plate, shares, beard),
         None => shares,
     };
-    let shares = with_shaded_neck(&plate, shares, beard.as_ref());
+    let shares = with_shaded_neck(&plate, without_slivers(&plate, shares), beard.as_ref());
     let hat = headwear(&plate, &shares);
     let kinds = kinds(&shares, beard.as_ref(), hat.as_ref());
     let lines = [0, 1, 2, 3, 4].map(|k| {

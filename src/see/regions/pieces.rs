@@ -14,6 +14,10 @@ const LEAST: usize = 50;
 const BROW_HEIGHT: f32 = 0.85;
 const BROW_INSIDE: f32 = 0.8;
 const BROW_SIZE: f32 = 0.08;
+/// The far brow of a turned head lies beyond the outline (16): the share of a piece that lies on brows, and how far these reach, in widths of the
+/// face.
+const ON_BROW: f32 = 0.5;
+const AROUND_BROW: f32 = 0.05;
 
 /// A connected piece of a class: its pixel indices and its mean height.
 struct Piece {
@@ -35,11 +39,11 @@ pub(super) fn reassign_stray_pieces(
     clear_eyes(plate, &mut shares);
     for piece in pieces(plate, &shares, HAIR) {
         let is_on_head = piece.pixels.iter().any(|&i| at(i)[1] > 0.5 && at(i)[0].abs() < 0.95);
-        if !is_on_head || piece.pixels.len() < LEAST {
+        if is_brow(plate, &piece) {
+            give(&mut shares, &piece.pixels, HAIR, SKIN);
+        } else if !is_on_head || piece.pixels.len() < LEAST {
             let is_worn = piece.middle < -0.12 || piece.aside > 0.55;
             give(&mut shares, &piece.pixels, HAIR, if is_worn { CLOTHING } else { SKIN });
-        } else if is_brow(plate, &piece) {
-            give(&mut shares, &piece.pixels, HAIR, SKIN);
         }
     }
     let is_at_border = |i: usize| {
@@ -92,9 +96,14 @@ pub(super) fn without_hair_under_beard(plate: &Plate, mut shares: Raster<Shares>
 }
 
 fn is_brow(plate: &Plate, piece: &Piece) -> bool {
-    let inside = piece.pixels.iter().filter(|i| plate.oval.pixels()[**i]).count() as f32;
+    let count = |is: &dyn Fn(usize) -> bool| piece.pixels.iter().filter(|i| is(**i)).count() as f32;
     let size = piece.pixels.len() as f32;
-    piece.middle < BROW_HEIGHT && inside > BROW_INSIDE * size && size < BROW_SIZE * plate.face_width * plate.face_width
+    let inside = count(&|i| plate.oval.pixels()[i]);
+    let is_inside = piece.middle < BROW_HEIGHT && inside > BROW_INSIDE * size;
+    let brows = [&outlines::LEFT_BROW, &outlines::RIGHT_BROW]
+        .map(|brow| dilate(&plate.hull(brow).map(u8::from), (AROUND_BROW * plate.face_width) as usize));
+    let on_brow = count(&|i| brows.iter().any(|brow| brow.pixels()[i] == 1));
+    (is_inside || on_brow > ON_BROW * size) && size < BROW_SIZE * plate.face_width * plate.face_width
 }
 
 fn pieces(plate: &Plate, shares: &Raster<Shares>, class: usize) -> Vec<Piece> {
