@@ -120,6 +120,7 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
         let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, &directions.of_all_hair(&surfaces)));
+        let ink = self.with_open_tufts(&ink, &surfaces.beard);
         self.check()?;
         self.observer.begin("lines");
         // Both at once: solids and contour take one thread.

@@ -10,8 +10,10 @@ use crate::field::{Covering, OrientationField, cover};
 use crate::geometry::{Ring, smooth_polyline};
 use crate::parallel::mapped;
 use crate::raster::{Raster, fast_gaussian};
+use crate::source::outlines;
 use crate::style::form::Surfaces;
 use crate::style::random::stream;
+use crate::style::solids::inside_outlines;
 use crate::style::streaks::Streaks;
 
 /// The share of the darkness that hairs have over the lines of skin in dark beards, and in light ones, where lines of skin would be
@@ -25,8 +27,10 @@ const AROUND: f64 = 6.0;
 const BORDER: f64 = 1.6;
 const UNEVEN: f32 = 1.2;
 const TUFT: [f64; 2] = [1.6, 8.0];
-/// From where to where in the blurred border hairs take over, and lines of skin end.
+/// From where to where in the blurred border hairs take over, of dark beards and of light ones, and lines of skin end. Where light hairs begin
+/// among whole lines of skin, a beard has a dark upper edge (14).
 const HAIRS: [f32; 2] = [0.2, 0.7];
+const LIGHT_HAIRS: [f32; 2] = [0.33, 0.85];
 const SKIN: [f32; 2] = [0.5, 0.95];
 /// Length and greatest width of a hair in pitches, and its greatest angle to the directions in degrees. With 0.42 hairs are spines (14).
 const LENGTH: f64 = 13.0;
@@ -52,6 +56,16 @@ pub(super) struct Whiskers {
 }
 
 impl Drawer<'_> {
+    /// The ink with gaps in the darkest tufts of beards, which would be blots among the hairs (02); the mouth stays.
+    pub(super) fn with_open_tufts(&self, ink: &Raster<f32>, beard: &Raster<f32>) -> Raster<f32> {
+        /// Ink from which it is held back, and how much of the rest is kept. With 0.65 and 0.4 black beards are grey (02, 04).
+        const FROM: f32 = 0.75;
+        const KEPT: f32 = 0.5;
+        let mouths = inside_outlines(&self.portrait.faces, [&outlines::MOUTH; 2], (ink.width(), ink.height()));
+        let tufts = beard.zip_map(&mouths, |beard, mouth| beard * (1.0 - mouth));
+        ink.zip_map(&tufts, |ink, tuft| ink - tuft * (1.0 - KEPT) * (ink - FROM).max(0.0))
+    }
+
     /// Where the hairs of beards lie, and how much of the ink they make; none without beards.
     pub(super) fn whiskers(&self, surfaces: &Surfaces, directions: &Raster<f32>, ink: &Raster<f32>) -> Option<Whiskers> {
         if surfaces.beard.pixels().iter().all(|beard| *beard < 0.5) {
@@ -69,12 +83,13 @@ impl Drawer<'_> {
             let soft = soft.get(x, y);
             if soft < 0.02 { 0.0 } else { soft + 0.5 * UNEVEN * streaks.at(x, y, directions.get(x, y)) }
         });
-        let share = |[from, to]: [f32; 2]| {
+        let share = |of_dark: [f32; 2], of_light: [f32; 2]| {
             inside.zip_map(&dark, |inside, dark| {
+                let [from, to] = [0, 1].map(|k| of_light[k] + (of_dark[k] - of_light[k]) * dark);
                 ((inside - from) / (to - from)).clamp(0.0, 1.0) * (SHARE[1] + (SHARE[0] - SHARE[1]) * dark)
             })
         };
-        Some(Whiskers { share: share(HAIRS), over_skin: share(SKIN), dark })
+        Some(Whiskers { share: share(HAIRS, LIGHT_HAIRS), over_skin: share(SKIN, SKIN), dark })
     }
 
     /// The hairs themselves, along the directions.
