@@ -35,11 +35,17 @@ impl Drawer<'_> {
         let pitch = self.pitch();
         // The ink of the subject alone.
         let blur = |raster: &Raster<f32>, pitches: f64| gaussian_blur(raster, (pitches * pitch) as f32);
-        let dark = blur(ink, 1.0).zip_map(&blur(&self.portrait.subject, 1.0), |ink, subject| ink / subject.max(0.05));
+        let soft = blur(&self.portrait.subject, 1.0);
+        let dark = blur(ink, 1.0).zip_map(&soft, |ink, subject| ink / subject.max(0.05));
+        let hair = blur(surfaces.of(Surface::Hair), 1.0);
         let by_tone = |p: &Point| {
             let along = 2.0 * f64::from(dark.sample(p.x, p.y)).clamp(0.0, 0.999);
             let (i, t) = (along as usize, along.fract());
-            CONTOUR[i] + (CONTOUR[i + 1] - CONTOUR[i]) * t
+            let hair = f64::from(hair.sample(p.x, p.y) / soft.sample(p.x, p.y).max(0.05)).min(1.0);
+            // Strokes of dark hair end in tips, which a line would tie together.
+            let of_dark = CONTOUR[2] * (1.0 - hair);
+            let contour = [CONTOUR[0], CONTOUR[1], of_dark];
+            contour[i] + (contour[i + 1] - contour[i]) * t
         };
         let (columns, rows) = self.size();
         // At the picture's border the subject is cut, and ends without a line.

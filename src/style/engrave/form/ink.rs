@@ -85,6 +85,22 @@ impl Drawer<'_> {
         even.zip_map(&kept, |even, kept| even + kept)
     }
 
+    /// The ink with hair that grows thinner towards the silhouette: lines cut there at their full width are the teeth of a comb.
+    pub(super) fn with_hair_tips(&self, ink: &Raster<f32>, hair: &Raster<f32>) -> Raster<f32> {
+        /// Blur of the silhouette in pitches; from where to where in it hair is whole.
+        const REACH: f64 = 1.3;
+        const WHOLE: [f32; 2] = [0.5, 0.95];
+        /// Ink that lines keep up to their tips, and the share of the rest that goes.
+        const LEAST: f32 = 0.28;
+        const GOES: f32 = 0.8;
+        let soft = gaussian_blur(&self.portrait.subject, (REACH * self.pitch()) as f32);
+        Raster::from_fn(ink.width(), ink.height(), |x, y| {
+            let (ink, hair) = (ink.get(x, y), hair.get(x, y));
+            let inside = ((soft.get(x, y) - WHOLE[0]) / (WHOLE[1] - WHOLE[0])).clamp(0.0, 1.0);
+            ink - hair * GOES * (1.0 - inside) * (ink - LEAST).max(0.0)
+        })
+    }
+
     /// The ink of hair smooth along its locks and with more contrast between them; its mean stays.
     pub(super) fn with_locks(&self, ink: &Raster<f32>, hair: &Raster<f32>, directions: &Raster<f32>) -> Raster<f32> {
         /// How far ink is averaged along a lock to either side, in pitches, and by how many steps.

@@ -33,7 +33,7 @@ use super::parameters::Look;
 use crate::drawing::{Drawing, Layer, Mark};
 use crate::geometry::Rect;
 use crate::parallel::{collected, mapped};
-use crate::raster::{Raster, dilate};
+use crate::raster::{Raster, dilate, gaussian_blur};
 use crate::source::Placement;
 use crate::style::ears::beside_faces;
 use crate::style::form::{Directions, Surface, Surfaces};
@@ -120,7 +120,7 @@ impl Drawer<'_> {
         let directions = self.directions(&surfaces);
         let ink = self.with_half_tones(&ink, &surfaces.skin, &detail);
         let ink = self.portrait.opened(self.with_locks(&ink, &surfaces.hair, &directions.of_all_hair(&surfaces)));
-        let ink = self.with_open_tufts(&ink, &surfaces.beard);
+        let ink = self.with_open_tufts(&self.with_hair_tips(&ink, &surfaces.hair), &surfaces.beard);
         self.check()?;
         self.observer.begin("lines");
         // Both at once: solids and contour take one thread.
@@ -227,6 +227,7 @@ impl Drawer<'_> {
 
     /// The pieces of a ground's lines; the second family also breaks the first in the lights.
     fn pieces(&self, ground: &Ground, families: &[Option<Family>], directions: &Directions) -> Pieces {
+        let silhouette = ground.surface.is_hair().then(|| gaussian_blur(&self.portrait.subject, self.pitch() as f32));
         let pieces = |family: usize| {
             let Some(own) = &families[family] else { return Vec::new() };
             let ink = &ground.shares[family];
@@ -240,6 +241,7 @@ impl Drawer<'_> {
                 thinnest: self.parameters.thinnest / self.parameters.pitch,
                 dot_min: self.pixels(self.parameters.dot_min),
                 pitch: self.pitch(),
+                silhouette: silhouette.as_ref(),
                 picture: Rect::new(0.0, 0.0, ink.width() as f64, ink.height() as f64),
             };
             course.pieces()

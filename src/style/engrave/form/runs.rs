@@ -44,6 +44,19 @@ pub(super) struct Course<'a> {
     pub pitch: f64,
     /// The picture in working pixels.
     pub picture: Rect,
+    /// The soft silhouette on which strokes of hair end in tips; none for other lines.
+    pub silhouette: Option<&'a Raster<f32>>,
+}
+
+/// How a piece ends.
+#[derive(Clone, Copy, PartialEq)]
+enum End {
+    /// Cut by a border.
+    Cut,
+    /// Where the line or its family ends.
+    Thin,
+    /// As hair does.
+    Tip,
 }
 
 /// What is read at one place of a line.
@@ -82,6 +95,11 @@ impl Course<'_> {
         /// families at all: they are crumbs and ticks.
         const CRUMB: f64 = 1.5;
         const TICK: f64 = 4.5;
+        /// Strokes of hair on the silhouette that are shorter, in pitches, are crumbs beside it.
+        const LEAST_HAIR: f64 = 4.0;
+        /// How far a stroke of hair goes beyond the silhouette, in pitches, and by how much more or less from stroke to stroke.
+        const BEYOND_TIP: f64 = 0.3;
+        const UNEVEN_TIP: f64 = 0.8;
         let nodes = resample(points, READING * self.pitch);
         let along = lengths_along(&nodes);
         let mut readings: Vec<Reading> = nodes.iter().zip(&along).map(|(p, along)| self.read(*p, *along, stagger)).collect();
@@ -103,20 +121,33 @@ impl Course<'_> {
             let over = [over_first.filter(|_| range.start == 0), over_last.filter(|_| range.end == end)];
             let beyond = |end: &Reading, cut: bool, over: Option<f64>| match over {
                 Some(over) => over,
+                None if !cut && self.is_tip(end.place) => (BEYOND_TIP + UNEVEN_TIP * stagger) * self.pitch,
                 None if !cut && is_own(end.place) => self.beyond(end),
                 None => 0.0,
             };
             let from = before.map_or(first.along, |b| crossing(&b, first)) - beyond(first, before.is_some(), over[0]);
             let to = after.map_or(last.along, |a| crossing(last, &a)) + beyond(last, after.is_some(), over[1]);
-            let ends = |end: &Reading, cut: bool, over: Option<f64>| over.is_none() && (cut || is_own(end.place));
-            let tapers = [ends(first, before.is_some(), over[0]), ends(last, after.is_some(), over[1])];
+            let end_of = |end: &Reading, cut: bool, over: Option<f64>| match over {
+                None if !cut && self.is_tip(end.place) => End::Tip,
+                None if cut || is_own(end.place) => End::Thin,
+                _ => End::Cut,
+            };
+            let ends = [end_of(first, before.is_some(), over[0]), end_of(last, after.is_some(), over[1])];
             let least = if self.breaks.is_none() { TICK } else { CRUMB };
-            if (self.breaks.is_none() || tapers == [false; 2]) && to - from < least * self.pitch {
+            let is_short = (self.breaks.is_none() || ends == [End::Cut; 2]) && to - from < least * self.pitch;
+            if is_short || (ends.contains(&End::Tip) && to - from < LEAST_HAIR * self.pitch) {
                 continue;
             }
-            pieces.extend(self.piece(run, from, to, tapers));
+            pieces.extend(self.piece(run, from, to, ends));
         }
         pieces
+    }
+
+    /// True where a stroke of hair ends on the silhouette.
+    fn is_tip(&self, end: Point) -> bool {
+        /// The silhouette's share within a pitch of it.
+        const BESIDE: f32 = 0.85;
+        self.silhouette.is_some_and(|soft| soft.sample(end.x, end.y) < BESIDE)
     }
 
     /// How far a line goes on beyond its end: between its neighbours, which close up behind it, a slit would shine in the darks.
@@ -179,13 +210,16 @@ impl Course<'_> {
         Reading { place, along, width: width * spacing, spacing, excess }
     }
 
-    fn piece(&self, run: &[Reading], from: f64, to: f64, tapers: [bool; 2]) -> Option<Piece> {
+    fn piece(&self, run: &[Reading], from: f64, to: f64, ends: [End; 2]) -> Option<Piece> {
         /// Distance of a stroke's nodes in pitches.
         const NODE: f64 = 0.7;
         /// A line that ends of itself tapers over this many pitches to this share of its width; so does one where its family
         /// begins. A crossing line tapers over more.
         const TAPER: [f64; 2] = [1.5, 4.0];
         const TIP: f64 = 0.25;
+        /// The same where hair ends on the silhouette: cut at their full width, its strokes are the teeth of a comb.
+        const HAIR_TAPER: f64 = 4.0;
+        const HAIR_TIP: f64 = 0.08;
         /// Pieces shorter than this many widths are dots.
         const DOT: f64 = 1.6;
         let widest = run.iter().map(|r| r.width).fold(0.0, f64::max);
@@ -198,13 +232,18 @@ impl Course<'_> {
         }
         let count = (length / (NODE * self.pitch)).ceil().max(2.0) as usize;
         let taper = (TAPER[usize::from(self.breaks.is_none())] * self.pitch).min(0.45 * length);
+        let hair_taper = (HAIR_TAPER * self.pitch).min(0.45 * length);
         let mut piece = Piece { nodes: Vec::new(), widths: Vec::new(), ceilings: Vec::new() };
         for i in 0..=count {
             let at = from + length * i as f64 / count as f64;
             let reading = between(run, at);
-            let rise = |is_tapered: bool, away: f64| if is_tapered { TIP + (1.0 - TIP) * (away / taper).min(1.0) } else { 1.0 };
+            let rise = |end: End, away: f64| match end {
+                End::Cut => 1.0,
+                End::Thin => TIP + (1.0 - TIP) * (away / taper).min(1.0),
+                End::Tip => HAIR_TIP + (1.0 - HAIR_TIP) * (away / hair_taper).min(1.0),
+            };
             piece.nodes.push(reading.place);
-            piece.widths.push(reading.width * rise(tapers[0], at - from).min(rise(tapers[1], to - at)));
+            piece.widths.push(reading.width * rise(ends[0], at - from).min(rise(ends[1], to - at)));
             piece.ceilings.push(WIDEST * reading.spacing);
         }
         Some(piece)
@@ -240,5 +279,47 @@ impl Piece {
         let widths: Vec<f64> = self.widths.iter().map(|w| w * scale).collect();
         let stroke = Stroke::swelling(catmull_rom(&places, Ring::Open), widths)?;
         Some(Mark::Stroke(stroke.with_ends(Ends::Flat)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::Drawer;
+    use super::super::super::parameters::EngraveParameters;
+    use crate::geometry::Point;
+    use crate::raster::{Raster, gaussian_blur};
+    use crate::source::MaskRole;
+    use crate::style::form::mean_portrait;
+    use crate::style::{Settings, Silent};
+
+    #[test]
+    fn strokes_of_hair_end_on_the_silhouette_in_tips() {
+        let mut portrait = mean_portrait(10.0, 0.0, |_| 60);
+        let (brow, middle) = (portrait.faces[0].point(9).y, portrait.faces[0].point(4));
+        let radius = 0.6 * portrait.faces[0].width();
+        portrait.subject = Raster::from_fn(portrait.subject.width(), portrait.subject.height(), |x, y| {
+            f32::from(u8::from(middle.distance(Point::new(x as f64, y as f64)) < radius))
+        });
+        let hair = Raster::from_fn(portrait.subject.width(), portrait.subject.height(), |x, y| {
+            if (y as f64) < brow { portrait.subject.get(x, y) } else { 0.0 }
+        });
+        portrait.masks.insert(MaskRole::Hair, hair);
+        let parameters = crate::style::find("engrave").expect("a style").parameters();
+        let settings = Settings::resolve("engrave", parameters, &[]).expect("defaults");
+        let drawer = Drawer { portrait: &portrait, parameters: EngraveParameters::new(&settings), seed: 0, observer: &Silent };
+        let surfaces = drawer.surfaces(&portrait.subject);
+        let directions = drawer.directions(&surfaces);
+        let ink = portrait.subject.map(|subject| 0.8 * subject);
+        let [first, ..] = drawer.lines(&surfaces, &directions, &ink.map(|_| 0.0), &ink).expect("it is not cancelled");
+        let soft = gaussian_blur(&portrait.subject, drawer.pitch() as f32);
+        let ends = first.iter().filter(|piece| piece.nodes.len() > 4).flat_map(|piece| {
+            let last = piece.nodes.len() - 1;
+            let widest = piece.widths.iter().copied().fold(0.0, f64::max);
+            [0, last].map(|i| (piece.nodes[i], piece.widths[i] / widest))
+        });
+        let tips: Vec<f64> = ends.filter(|(p, _)| p.y < brow && soft.sample(p.x, p.y) < 0.6).map(|(_, width)| width).collect();
+        assert!(tips.len() > 5, "{}", tips.len());
+        let thin = tips.iter().filter(|width| **width < 0.1).count();
+        assert!(4 * thin >= 3 * tips.len(), "{tips:?}");
     }
 }
