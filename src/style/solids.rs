@@ -204,7 +204,7 @@ impl Darks<'_> {
         let detail = detail_zone(self.portrait, pitch).zip_map(&ears, |detail, ear| detail * (1.0 - ear));
         let detail = match self.portrait.masks.get(&MaskRole::FacialHair) {
             Some(beard) => {
-                let hair = beard.zip_map(&self.inside([&outlines::MOUTH; 2]), |beard, mouth| beard * (1.0 - mouth));
+                let hair = beard.zip_map(&self.inside([&outlines::LIPS, &outlines::MOUTH]), |beard, mouth| beard * (1.0 - mouth));
                 detail.zip_map(&hair, |detail, hair| detail * (1.0 - hair))
             }
             None => detail,
