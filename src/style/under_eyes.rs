@@ -3,8 +3,8 @@
 //! drawings, with them 2.5 %.
 
 use crate::field::CoherentLine;
-use crate::geometry::{Region, convex_hull};
-use crate::source::{Landmarks, Portrait};
+use crate::geometry::{Point, Region, convex_hull};
+use crate::source::{Landmarks, Portrait, outlines};
 
 /// Points of the mesh around the place between the lower lid and the middle of the cheek, beside the person's right eye and left eye.
 const PLACES: [[usize; 11]; 2] =
@@ -33,6 +33,32 @@ pub(super) fn with_thin_folds(portrait: &Portrait, lines: Vec<CoherentLine>) -> 
     lines.into_iter().map(thin).collect()
 }
 
+/// The lines without those within lenses of spectacles that are not lids: folds and reflections, which in a grid hide the eyes (05). What is left
+/// of one is at least so long.
+pub(super) fn without_lines_in_lenses(portrait: &Portrait, lines: &[CoherentLine], least: f64) -> Vec<CoherentLine> {
+    let rims = portrait.faces.iter().filter_map(|face| face.spectacles.as_ref()).flat_map(|frame| frame.rims.iter());
+    let lenses = Region::of_polygons(rims.map(|rim| convex_hull(rim.clone())).collect());
+    let is_kept = |p: &Point| !lenses.contains(*p) || is_near_lids(portrait, *p);
+    let kept = |line: &CoherentLine| {
+        let is_whole = line.curve.points.iter().all(is_kept);
+        if is_whole { vec![line.clone()] } else { line.parts_where(is_kept, least) }
+    };
+    lines.iter().flat_map(kept).collect()
+}
+
+/// True within the lids of an eye, or as near them as lashes are.
+fn is_near_lids(portrait: &Portrait, p: Point) -> bool {
+    /// In widths of the face.
+    const NEAR: f64 = 0.025;
+    portrait.faces.iter().any(|face| {
+        [&outlines::LEFT_EYE, &outlines::RIGHT_EYE].iter().any(|eye| {
+            let outline = face.line(*eye);
+            let near = outline.iter().any(|q| q.distance(p) < NEAR * face.width());
+            near || Region::of_polygons(vec![outline]).contains(p)
+        })
+    })
+}
+
 /// The lines without folds under eyes; what is left of one is at least so long.
 pub(super) fn without_folds_under_eyes(portrait: &Portrait, lines: Vec<CoherentLine>, least: f64) -> Vec<CoherentLine> {
     let hulls = portrait.faces.iter().flat_map(|face| PLACES.map(|place| convex_hull(face.line(&place))));
@@ -46,9 +72,33 @@ pub(super) fn without_folds_under_eyes(portrait: &Portrait, lines: Vec<CoherentL
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elementary::unit_at;
     use crate::field::Curve;
-    use crate::geometry::Point;
+    use crate::source::Spectacles;
     use crate::style::form::mean_portrait;
+
+    #[test]
+    fn within_a_lens_lids_stay_and_folds_go() {
+        let mut portrait = mean_portrait(6.0, 0.0, |_| 100);
+        let place = |i: usize| portrait.faces[0].point(i);
+        let (corner, inner, cheek, brow) = (place(263), place(362), place(330), place(334));
+        let middle = corner.midpoint(inner);
+        let radius = 1.2 * corner.distance(middle);
+        let rim = (0..24).map(|i| middle + radius * unit_at(std::f64::consts::TAU * f64::from(i) / 24.0)).collect();
+        let frame = Spectacles { rims: [rim, Vec::new()], bridge: Vec::new(), temples: [Vec::new(), Vec::new()], width: 2.0 };
+        let line = |from: Point, to: Point| {
+            let points = (0..=20).map(|i| from.lerp(to, f64::from(i) / 20.0)).collect();
+            CoherentLine::plain(Curve { points, closed: false }, 1.0)
+        };
+        let bag = line(middle.lerp(cheek, 0.55), corner.lerp(cheek, 0.55));
+        let all = [line(corner, inner), bag, line(cheek, cheek + (cheek - brow))];
+        assert_eq!(without_lines_in_lenses(&portrait, &all, 1.0).len(), 3, "no spectacles");
+        portrait.faces[0].spectacles = Some(frame);
+        let left = without_lines_in_lenses(&portrait, &all, 1.0);
+        let length = |line: &CoherentLine| line.curve.length();
+        assert_eq!(left.len(), 2, "the lid, and the line on the cheek");
+        assert!((length(&left[0]) - length(&all[0])).abs() < 1e-6 && (length(&left[1]) - length(&all[2])).abs() < 1e-6);
+    }
 
     #[test]
     fn a_faint_line_under_an_eye_goes_and_a_rim_or_one_beside_it_stays() {

@@ -14,7 +14,7 @@ use crate::style::feature_line::feature_stroke;
 use crate::style::pearls::are_lined_by;
 use crate::style::spectacles::{self, Frames};
 use crate::style::strays::mean_along;
-use crate::style::under_eyes::with_thin_folds;
+use crate::style::under_eyes::{with_thin_folds, without_lines_in_lenses};
 
 /// Maximum length of a line's taper, in pitches.
 const LONGEST_TAPER: f64 = 4.0;
@@ -57,6 +57,7 @@ fn drawn(drawer: &Drawer<'_>, features: &Features) -> Vec<CoherentLine> {
         _ => creases.cut_from(line),
     };
     let is_framed = |line: &&CoherentLine| frames.have(&line.curve) || are_lined_by(drawer.portrait, drawer.pitch(), &line.curve);
-    let lines = features.lines.iter().filter(|line| !is_framed(line)).flat_map(without_folds).collect();
+    let lines: Vec<CoherentLine> = features.lines.iter().filter(|line| !is_framed(line)).flat_map(without_folds).collect();
+    let lines = without_lines_in_lenses(drawer.portrait, &lines, drawer.pitch());
     with_thin_folds(drawer.portrait, lines)
 }
