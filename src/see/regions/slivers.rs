@@ -6,6 +6,8 @@ use crate::raster::{Raster, components, dilate, erode};
 
 /// Half the width of the widest shade, in widths of the face: under jaws it is up to 0.1 wide (03), a lock beside a neck is wider.
 const HALF_WIDTH: f32 = 0.05;
+/// The smallest piece in squared widths of the face: smaller ones are crumbs of its border.
+const LEAST: f32 = 0.004;
 /// How far from broad hair narrow hair is its edge, in working pixels.
 const EDGE: usize = 2;
 /// Where it lies, in `u` and `v`: beside and below the mouth. Its middle is not below the second height, where tips of locks lie in front of
@@ -53,6 +55,9 @@ fn narrow_hair(plate: &Plate, class: &Raster<usize>) -> Raster<u8> {
 /// True if a piece of narrow hair lies between skin and what is worn.
 fn is_shade(plate: &Plate, class: &Raster<usize>, piece: &Raster<u8>, beyond: &Raster<u8>) -> bool {
     let pixels: Vec<usize> = (0..piece.len()).filter(|i| piece.pixels()[*i] == 1).collect();
+    if (pixels.len() as f32) < LEAST * plate.face_width * plate.face_width {
+        return false;
+    }
     let ring = dilate(piece, 1).zip_map(piece, |around, piece| around - piece);
     let ring: Vec<usize> = (0..ring.len()).filter(|i| ring.pixels()[*i] == 1).collect();
     let share = |of: &[usize], is: &dyn Fn(usize) -> bool| of.iter().filter(|i| is(**i)).count() as f32 / of.len().max(1) as f32;
